@@ -1,0 +1,38 @@
+# Every dependency is a Debian package (see scripts/install_packages.sh); nothing is downloaded.
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(Boost 1.74 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(SUNDIALS 6 REQUIRED)
+find_package(BLAS REQUIRED)
+find_package(LAPACK REQUIRED)
+find_package(Threads REQUIRED)
+if(ANNULUS_BUILD_TESTS)
+  find_package(Boost 1.74 REQUIRED COMPONENTS unit_test_framework)
+endif()
+
+# gmsh and CHOLMOD ship no CMake files in Debian 12.
+find_path(GMSH_INCLUDE_DIR gmsh.h REQUIRED)
+find_library(GMSH_LIBRARY gmsh REQUIRED)
+add_library(annulus_gmsh INTERFACE)
+target_include_directories(annulus_gmsh SYSTEM INTERFACE ${GMSH_INCLUDE_DIR})
+target_link_libraries(annulus_gmsh INTERFACE ${GMSH_LIBRARY})
+
+find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+add_library(annulus_cholmod INTERFACE)
+target_include_directories(annulus_cholmod SYSTEM INTERFACE ${CHOLMOD_INCLUDE_DIR})
+target_link_libraries(annulus_cholmod INTERFACE ${CHOLMOD_LIBRARY} LAPACK::LAPACK BLAS::BLAS)
+
+# deal_ii_setup_target() would bring Debian's public debug flags and make every file slower to compile,
+# so the library is described here: headers as system headers, the release library, nothing else.
+find_package(deal.II 9.4 REQUIRED)
+add_library(annulus_dealii INTERFACE)
+target_include_directories(annulus_dealii SYSTEM INTERFACE ${DEAL_II_INCLUDE_DIRS})
+target_compile_definitions(annulus_dealii INTERFACE BOOST_NO_AUTO_PTR)
+find_library(DEAL_II_RELEASE_LIBRARY NAMES deal.ii deal_II HINTS ${DEAL_II_PATH}/lib REQUIRED)
+target_link_libraries(annulus_dealii INTERFACE ${DEAL_II_RELEASE_LIBRARY})

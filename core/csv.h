@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace annulus {
+
+/// Writes `text` under a temporary name beside `file` and renames it: a reader never sees half a file.
+void write_file(const std::filesystem::path& file, const std::string& text);
+
+/// A table of numbers with named columns, preceded by `# key: value` lines. The units are in the column names.
+struct Csv {
+  std::vector<std::pair<std::string, std::string>> header;
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+
+  /// 17 significant digits: every double survives the round trip.
+  void write(const std::filesystem::path& file) const;
+  /// Throws InputError naming file and line when a cell is not a number or a row has the wrong length.
+  [[nodiscard]] static Csv read(const std::filesystem::path& file);
+  /// Index of a column; throws InputError naming the column when it is missing.
+  [[nodiscard]] std::size_t column(const std::string& name) const;
+};
+
+}  // namespace annulus

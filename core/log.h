@@ -1,0 +1,52 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace annulus::log {
+
+enum class Level { quiet, normal, verbose };
+
+/// All messages go to standard error; results go to files and standard output.
+void set_level(Level level);
+void info(const std::string& message);
+void debug(const std::string& message);
+void warn(const std::string& message);
+
+}  // namespace annulus::log
+
+namespace annulus {
+
+/// Wall time per named stage, accumulated over repeated entries; whatever is in no stage is "other".
+class StageTimers {
+ public:
+  class Scope {
+   public:
+    Scope(StageTimers& timers, std::string stage);
+    ~Scope();
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    StageTimers& timers_;
+    std::string stage_;
+    std::chrono::steady_clock::time_point start_;
+  };
+
+  StageTimers();
+  [[nodiscard]] Scope measure(std::string stage) { return {*this, std::move(stage)}; }
+  [[nodiscard]] double seconds(const std::string& stage) const;
+  /// Stages in order of first entry, then "other" and "total".
+  [[nodiscard]] std::vector<std::pair<std::string, double>> report() const;
+
+ private:
+  std::vector<std::pair<std::string, double>> stages_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// Peak resident memory of this process in megabytes (10^6 bytes).
+[[nodiscard]] double peak_memory_MB();
+
+}  // namespace annulus

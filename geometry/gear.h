@@ -1,0 +1,60 @@
+#pragma once
+
+#include <optional>
+
+namespace annulus::geometry {
+
+enum class GearKind { external, internal };
+
+/// Input of one spur gear; SI. Sign rule for internal gears (ISO 21771 with positive diameters): every diameter and
+/// the tooth count are positive and a positive profile shift moves the tooth space outwards, so that x_r - x_p enters
+/// the internal mesh and x_s + x_p the external one.
+struct GearParameters {
+  GearKind kind = GearKind::external;
+  int teeth = 0;
+  double module = 0;          ///< m
+  double pressure_angle = 0;  ///< rad
+  double profile_shift = 0;   ///< x, in modules
+  double face_width = 0;      ///< m
+  std::optional<double> tip_diameter{};   ///< m; absent: addendum of one module
+  std::optional<double> root_diameter{};  ///< m; absent: dedendum of 1.25 modules
+  double root_fillet_factor = 0.38;       ///< rack tip radius (external) or fillet radius (internal) in modules
+  double tip_relief = 0;                  ///< m, material removed at the tip, normal to the flank
+  double tip_relief_length = 0;           ///< m, along the line of action, linear relief
+  double profile_crowning = 0;            ///< m, parabolic, at both ends of the active flank
+};
+
+/// A gear with its derived dimensions (ISO 21771). Construction throws GeometryError with the reason when the gear
+/// cannot exist: tip below base, pointed tooth, undercut, non-positive sizes.
+class Gear {
+ public:
+  explicit Gear(const GearParameters& parameters);
+
+  [[nodiscard]] const GearParameters& parameters() const { return p_; }
+  [[nodiscard]] GearKind kind() const { return p_.kind; }
+  [[nodiscard]] int teeth() const { return p_.teeth; }
+  [[nodiscard]] double pitch_angle() const;       ///< 2 pi / z, rad
+  [[nodiscard]] double reference_radius() const;  ///< m z / 2
+  [[nodiscard]] double base_radius() const;       ///< r_b
+  [[nodiscard]] double tip_radius() const;        ///< internal: smaller than the root radius
+  [[nodiscard]] double root_radius() const;
+  [[nodiscard]] double base_pitch() const;  ///< p_b = 2 pi r_b / z, distance of teeth along the line of action
+  /// Radius at which the involute starts at the root side (form circle: end of the generated trochoid or fillet).
+  [[nodiscard]] double form_radius() const { return form_radius_; }
+  /// Half the angle a tooth (the material) covers at radius r, from the involutes of both flanks, rad.
+  [[nodiscard]] double tooth_half_angle(double radius) const;
+  /// Tooth thickness along the arc at radius r, m.
+  [[nodiscard]] double tooth_thickness(double radius) const { return 2 * radius * tooth_half_angle(radius); }
+  /// Base tangent length W_k over k teeth (external) or k spaces (internal), ISO 21771, m.
+  [[nodiscard]] double base_tangent_length(int k) const;
+
+ private:
+  GearParameters p_;
+  double form_radius_ = 0;
+};
+
+/// inv(alpha) = tan(alpha) - alpha and its inverse.
+[[nodiscard]] double involute(double angle);
+[[nodiscard]] double inverse_involute(double value);
+
+}  // namespace annulus::geometry

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "geometry/gear.h"
+
+namespace annulus::geometry {
+
+/// Two gears in mesh at a working centre distance: sun and planet (external), or planet and ring (internal).
+///
+/// `pinion` is the external gear whose leading flank touches: the planet in the ring mesh, the planet in the sun mesh.
+/// Lengths along the line of action are measured on the *planet* by its roll length rho = r_b tan(alpha_y), the distance
+/// from the tangent point on its base circle; rho grows from root to tip.
+/// Construction throws GeometryError with the reason: no working angle, tip interference, involute interference,
+/// contact ratio below 1.
+class GearPair {
+ public:
+  /// `wheel` is the sun (external) or the ring (internal). Centre distance in m.
+  GearPair(const Gear& planet, const Gear& wheel, double centre_distance);
+
+  [[nodiscard]] const Gear& planet() const { return planet_; }
+  [[nodiscard]] const Gear& wheel() const { return wheel_; }
+  [[nodiscard]] bool internal() const { return wheel_.kind() == GearKind::internal; }
+  [[nodiscard]] double centre_distance() const { return centre_distance_; }
+  [[nodiscard]] double working_pressure_angle() const { return working_pressure_angle_; }
+  [[nodiscard]] double normal_backlash() const { return normal_backlash_; }  ///< m, along the line of action
+  [[nodiscard]] double contact_ratio() const;
+  /// Theoretical path of contact on the planet: roll lengths at its two ends and at the pitch point.
+  /// Internal mesh: rho_low is set by the ring's tip, rho_high by the planet's tip; external likewise by the sun's tip.
+  [[nodiscard]] double roll_length_low() const { return roll_low_; }
+  [[nodiscard]] double roll_length_high() const { return roll_high_; }
+  [[nodiscard]] double roll_length_pitch() const { return roll_pitch_; }
+  /// Roll length on the wheel of the point that touches the planet at `planet_roll`.
+  /// external: a sin(alpha_w) - rho; internal: a sin(alpha_w) + rho.
+  [[nodiscard]] double wheel_roll_length(double planet_roll) const;
+
+ private:
+  Gear planet_, wheel_;
+  double centre_distance_, working_pressure_angle_, normal_backlash_;
+  double roll_low_ = 0, roll_high_ = 0, roll_pitch_ = 0;
+};
+
+}  // namespace annulus::geometry

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "geometry/gear.h"
+
+namespace annulus::geometry {
+
+/// Boundaries of a tooth sector. A gear's own frame has the axis at the origin and tooth 0 centred on the +x axis;
+/// the *leading* flank is the one on the counter-clockwise side (y > 0), the *trailing* flank its mirror image.
+enum class Boundary : int {
+  none = 0,
+  support = 1,       ///< bore (external) or outside diameter (internal)
+  side_low = 2,      ///< radial cut at angle -pi/z
+  side_high = 3,     ///< radial cut at angle +pi/z
+  tip = 4,
+  leading_flank = 5,
+  trailing_flank = 6,
+  leading_fillet = 7,
+  trailing_fillet = 8,
+  root = 9,
+  end_low = 10,      ///< face at the smallest z (3D)
+  end_high = 11,     ///< face at the largest z (3D)
+  inner = 12,        ///< other free surfaces (the inside of a sleeve)
+};
+
+/// The exact outline of one tooth: involute flanks with modifications kept apart, root fillets (generated trochoid for
+/// external gears, circular for internal ones), root and tip circles.
+class ToothProfile {
+ public:
+  explicit ToothProfile(const Gear& gear);
+
+  [[nodiscard]] const Gear& gear() const { return gear_; }
+
+  /// Roll lengths rho = r_b tan(alpha_y) of the usable involute: at the tip and at the form circle.
+  [[nodiscard]] double roll_length_tip() const;
+  [[nodiscard]] double roll_length_form() const;
+  [[nodiscard]] double roll_length_at(double radius) const;
+
+  /// Point of the leading flank (mirror in y for the trailing one) at roll length rho, without modifications.
+  [[nodiscard]] Eigen::Vector2d flank_point(double roll_length) const;
+  /// Unit normal there, pointing out of the material.
+  [[nodiscard]] Eigen::Vector2d flank_normal(double roll_length) const;
+  /// Material removed normal to the flank by tip relief and profile crowning, m, >= 0.
+  [[nodiscard]] double modification(double roll_length) const;
+
+  /// Fillet point of the leading side, t in [0, 1] from the form circle to the root circle.
+  [[nodiscard]] Eigen::Vector2d fillet_point(double t) const;
+
+  /// The point of the exact boundary curve nearest to `point` (to solver accuracy); used for meshing and refinement.
+  [[nodiscard]] Eigen::Vector2d project(Boundary boundary, const Eigen::Vector2d& point, double support_radius) const;
+
+ private:
+  Gear gear_;
+};
+
+}  // namespace annulus::geometry
