@@ -19,7 +19,8 @@ void warn(const std::string& message);
 
 namespace annulus {
 
-/// Wall time per named stage, accumulated over repeated entries; whatever is in no stage is "other".
+/// Wall time per named stage, accumulated over repeated entries; whatever is in no stage is "other". Stages may nest
+/// (the inner time then counts in both), but all scopes of one object belong to one thread.
 class StageTimers {
  public:
   class Scope {
@@ -43,6 +44,8 @@ class StageTimers {
 
  private:
   std::vector<std::pair<std::string, double>> stages_;
+  int open_ = 0;        ///< scopes now open
+  double covered_ = 0;  ///< s, during which at least one scope was open
   std::chrono::steady_clock::time_point start_;
 };
 

@@ -52,11 +52,13 @@ class StiffnessTable {
 
 /// A periodic, continuously differentiable curve through equidistant values; period 1 per `values_per_unit` values.
 ///
-/// The argument is the number of mesh cycles passed (position + phase), of any sign and size. Makima slopes
-/// (Akima 1970, modified): no overshoot beyond a monotone neighbourhood's data, local, exact for constants.
+/// The argument is the number of mesh cycles passed (position + phase), of any sign and size. Cubic Hermite pieces with
+/// makima slopes (Akima 1970, modified): local (five values), exact for constants, no ringing beside a plateau, second
+/// order in the spacing near extrema and third elsewhere. It is not monotone everywhere: beside a steep flank it may
+/// pass the data slightly.
 class PeriodicCurve {
  public:
-  PeriodicCurve() = default;
+  PeriodicCurve() = default;  ///< zero everywhere
   /// `values` spans the whole period: positions x phases values, `values_per_unit` of them per mesh cycle.
   PeriodicCurve(const std::vector<double>& values, int values_per_unit);
 
@@ -66,12 +68,13 @@ class PeriodicCurve {
   [[nodiscard]] double mean() const { return mean_; }         ///< exact mean of the curve over its period
 
  private:
-  std::vector<double> values_, slopes_;
+  std::vector<double> values_{0, 0}, slopes_{0, 0};  ///< first one repeated at the end; slopes per knot distance
   double step_ = 1, period_ = 1, mean_ = 0;
 };
 
 /// The curves the lumped model consumes, read from a table at one load (linear in load between tabulated loads).
-/// Throws InputError when `load` lies outside the tabulated loads: no silent clamping.
+/// Throws InputError when `load` lies outside the tabulated loads (by more than 1e-9 relative, which is rounding):
+/// no silent clamping.
 struct MeshCurves {
   PeriodicCurve stiffness_secant;   ///< N/m
   PeriodicCurve stiffness_tangent;  ///< N/m

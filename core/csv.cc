@@ -1,0 +1,145 @@
+#include "core/csv.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+
+#include "core/errors.h"
+
+namespace annulus {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto blank = " \t\r";
+  const auto first = text.find_first_not_of(blank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+  std::vector<std::string_view> cells;
+  for (std::size_t begin = 0;;) {
+    const auto comma = line.find(',', begin);
+    cells.push_back(trimmed(line.substr(begin, comma - begin)));
+    if (comma == std::string_view::npos) return cells;
+    begin = comma + 1;
+  }
+}
+
+InputError at_line(const std::filesystem::path& file, int line, const std::string& what) {
+  return InputError(fmt::format("{}:{}: {}", file.string(), line, what));
+}
+
+double to_number(std::string_view cell, const std::filesystem::path& file, int line, const std::string& column) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc{} || end != cell.data() + cell.size())
+    throw at_line(file, line, fmt::format("'{}' in column {} is not a number", cell, column));
+  return value;
+}
+
+bool single_line(const std::string& text) { return text.find_first_of("\r\n") == std::string::npos; }
+
+}  // namespace
+
+void write_file(const std::filesystem::path& file, const std::string& text) {
+  // Process and counter make the name unique: two writers of one file never share a temporary.
+  static std::atomic<unsigned> counter{0};
+  auto temporary = file;
+  temporary += fmt::format(".{}.{}.tmp", ::getpid(), counter++);
+  {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) {
+      std::error_code ignored;
+      std::filesystem::remove(temporary, ignored);
+      throw InputError(
+          fmt::format("cannot write {}: check that its folder exists, is writable and not full", file.string()));
+    }
+  }
+  std::error_code error;
+  std::filesystem::rename(temporary, file, error);
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw InputError(fmt::format("cannot write {}: {}", file.string(), error.message()));
+  }
+}
+
+void Csv::write(const std::filesystem::path& file) const {
+  fmt::memory_buffer out;
+  const auto to = std::back_inserter(out);
+  for (const auto& [key, value] : header) {
+    // Such a file could not be read back.
+    if (key.empty() || key.find(':') != std::string::npos || !single_line(key) || !single_line(value))
+      throw InputError(
+          fmt::format("{}: header '{}: {}' must be one line with no colon in the key", file.string(), key, value));
+    fmt::format_to(to, "# {}: {}\n", key, value);
+  }
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].empty() || columns[i].find(',') != std::string::npos || !single_line(columns[i]))
+      throw InputError(fmt::format("{}: column name '{}' is empty or holds a comma", file.string(), columns[i]));
+    fmt::format_to(to, "{}{}", i ? "," : "", columns[i]);
+  }
+  fmt::format_to(to, "\n");
+  for (const auto& row : rows) {
+    require(row.size() == columns.size(), "CSV row and header differ in length");
+    for (std::size_t i = 0; i < row.size(); ++i) fmt::format_to(to, "{}{:.17g}", i ? "," : "", row[i]);
+    fmt::format_to(to, "\n");
+  }
+  write_file(file, fmt::to_string(out));
+}
+
+Csv Csv::read(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(fmt::format("cannot read {}: no such file, or not readable", file.string()));
+  Csv csv;
+  std::string text;
+  int line = 0;
+  bool ended = false;
+  while (std::getline(stream, text)) {
+    ++line;
+    const auto content = trimmed(text);
+    if (content.empty()) {
+      ended = true;  // blank lines are fine at the end, a hole in the data is not
+      continue;
+    }
+    if (ended) throw at_line(file, line, "data after an empty line; remove the empty line");
+    if (csv.columns.empty() && content.front() == '#') {
+      const auto colon = content.find(':');
+      if (colon == std::string_view::npos) throw at_line(file, line, "expected '# key: value'");
+      csv.header.emplace_back(trimmed(content.substr(1, colon - 1)), trimmed(content.substr(colon + 1)));
+      continue;
+    }
+    const auto cells = split(content);
+    if (csv.columns.empty()) {
+      csv.columns.assign(cells.begin(), cells.end());
+      continue;
+    }
+    if (cells.size() != csv.columns.size())
+      throw at_line(file, line, fmt::format("{} cells where the header has {}", cells.size(), csv.columns.size()));
+    auto& row = csv.rows.emplace_back();
+    row.reserve(cells.size());
+    for (std::size_t i = 0; i < cells.size(); ++i) row.push_back(to_number(cells[i], file, line, csv.columns[i]));
+  }
+  if (csv.columns.empty()) throw at_line(file, line + 1, "no line with column names");
+  return csv;
+}
+
+std::size_t Csv::column(const std::string& name) const {
+  const auto found = std::find(columns.begin(), columns.end(), name);
+  if (found == columns.end())
+    throw InputError(fmt::format("no column '{}'; there are: {}", name, fmt::join(columns, ", ")));
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+}  // namespace annulus

@@ -1,0 +1,96 @@
+#include "core/log.h"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace annulus::log {
+
+namespace {
+
+// Made on first use, so that static initialisation order does not matter; the only global of annulus.
+spdlog::logger& logger() {
+  static const auto instance = [] {
+    auto made = std::make_shared<spdlog::logger>("annulus", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+    made->set_pattern("%v");
+    made->set_level(spdlog::level::info);
+    made->flush_on(spdlog::level::info);
+    return made;
+  }();
+  return *instance;
+}
+
+}  // namespace
+
+void set_level(Level level) {
+  switch (level) {
+    case Level::quiet:
+      logger().set_level(spdlog::level::warn);
+      break;
+    case Level::normal:
+      logger().set_level(spdlog::level::info);
+      break;
+    case Level::verbose:
+      logger().set_level(spdlog::level::debug);
+      break;
+  }
+}
+
+// The message is an argument, not the format: braces in it stay as they are.
+void info(const std::string& message) { logger().info("{}", message); }
+void debug(const std::string& message) { logger().debug("{}", message); }
+void warn(const std::string& message) { logger().warn("warning: {}", message); }
+
+}  // namespace annulus::log
+
+namespace annulus {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+StageTimers::StageTimers() : start_(std::chrono::steady_clock::now()) {}
+
+StageTimers::Scope::Scope(StageTimers& timers, std::string stage)
+    : timers_(timers), stage_(std::move(stage)), start_(std::chrono::steady_clock::now()) {
+  auto& stages = timers_.stages_;
+  if (std::none_of(stages.begin(), stages.end(), [&](const auto& s) { return s.first == stage_; }))
+    stages.emplace_back(stage_, 0.0);  // at entry, so that the report is in order of entry
+  ++timers_.open_;
+}
+
+StageTimers::Scope::~Scope() {
+  const double elapsed = seconds_since(start_);
+  for (auto& [name, seconds] : timers_.stages_)
+    if (name == stage_) seconds += elapsed;
+  if (--timers_.open_ == 0) timers_.covered_ += elapsed;
+}
+
+double StageTimers::seconds(const std::string& stage) const {
+  for (const auto& [name, seconds] : stages_)
+    if (name == stage) return seconds;
+  return 0;
+}
+
+std::vector<std::pair<std::string, double>> StageTimers::report() const {
+  auto rows = stages_;
+  const double total = seconds_since(start_);
+  rows.emplace_back("other", total - covered_);
+  rows.emplace_back("total", total);
+  return rows;
+}
+
+double peak_memory_MB() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024 * 1e-6;  // Linux counts kibibytes
+}
+
+}  // namespace annulus
