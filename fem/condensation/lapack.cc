@@ -1,0 +1,100 @@
+#include "fem/condensation/lapack.h"
+
+#include <dlfcn.h>
+
+#include "core/errors.h"
+
+extern "C" {
+void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
+void zpotrf_(const char* uplo, const int* n, std::complex<double>* a, const int* lda, int* info);
+void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
+            const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
+void ztrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
+            const std::complex<double>* alpha, const std::complex<double>* a, const int* lda, std::complex<double>* b,
+            const int* ldb);
+void dgemm_(const char* ta, const char* tb, const int* m, const int* n, const int* k, const double* alpha,
+            const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
+            const int* ldc);
+void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha, const double* a,
+            const int* lda, const double* beta, double* c, const int* ldc);
+void zherk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
+            const std::complex<double>* a, const int* lda, const double* beta, std::complex<double>* c, const int* ldc);
+}
+
+namespace annulus::fem::lapack {
+namespace {
+int size(Eigen::Index n) { return static_cast<int>(n); }
+int leading(Eigen::Index n) { return n > 0 ? static_cast<int>(n) : 1; }
+}  // namespace
+
+bool cholesky(Eigen::MatrixXd& matrix) {
+  const int n = size(matrix.rows()), lda = leading(n);
+  int info = 0;
+  dpotrf_("L", &n, matrix.data(), &lda, &info);
+  return info == 0;
+}
+
+bool cholesky(Eigen::MatrixXcd& matrix) {
+  const int n = size(matrix.rows()), lda = leading(n);
+  int info = 0;
+  zpotrf_("L", &n, matrix.data(), &lda, &info);
+  return info == 0;
+}
+
+void solve_lower(const Eigen::MatrixXd& factor, Eigen::MatrixXd& rhs) {
+  const int m = size(rhs.rows()), n = size(rhs.cols()), lda = leading(factor.rows()), ldb = leading(m);
+  const double one = 1;
+  if (m > 0 && n > 0) dtrsm_("L", "L", "N", "N", &m, &n, &one, factor.data(), &lda, rhs.data(), &ldb);
+}
+
+void solve_lower(const Eigen::MatrixXcd& factor, Eigen::MatrixXcd& rhs) {
+  const int m = size(rhs.rows()), n = size(rhs.cols()), lda = leading(factor.rows()), ldb = leading(m);
+  const std::complex<double> one = 1;
+  if (m > 0 && n > 0) ztrsm_("L", "L", "N", "N", &m, &n, &one, factor.data(), &lda, rhs.data(), &ldb);
+}
+
+Eigen::MatrixXd transpose_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  require(a.rows() == b.rows(), "transpose_product of unequal sizes");
+  Eigen::MatrixXd c(a.cols(), b.cols());
+  const int m = size(a.cols()), n = size(b.cols()), k = size(a.rows());
+  const int lda = leading(k), ldc = leading(m);
+  const double one = 1, zero = 0;
+  if (c.size() > 0) dgemm_("T", "N", &m, &n, &k, &one, a.data(), &lda, b.data(), &lda, &zero, c.data(), &ldc);
+  return c;
+}
+
+Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  require(a.cols() == b.rows(), "product of unequal sizes");
+  Eigen::MatrixXd c(a.rows(), b.cols());
+  const int m = size(a.rows()), n = size(b.cols()), k = size(a.cols());
+  const int lda = leading(m), ldb = leading(k), ldc = leading(m);
+  const double one = 1, zero = 0;
+  if (c.size() > 0) dgemm_("N", "N", &m, &n, &k, &one, a.data(), &lda, b.data(), &ldb, &zero, c.data(), &ldc);
+  return c;
+}
+
+Eigen::MatrixXd gram(const Eigen::MatrixXd& y) {
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(y.cols(), y.cols());
+  const int n = size(y.cols()), k = size(y.rows()), lda = leading(k), ldc = leading(n);
+  const double one = 1, zero = 0;
+  if (n > 0) dsyrk_("L", "T", &n, &k, &one, y.data(), &lda, &zero, c.data(), &ldc);
+  c.triangularView<Eigen::StrictlyUpper>() = c.transpose();
+  return c;
+}
+
+Eigen::MatrixXcd gram(const Eigen::MatrixXcd& y) {
+  Eigen::MatrixXcd c = Eigen::MatrixXcd::Zero(y.cols(), y.cols());
+  const int n = size(y.cols()), k = size(y.rows()), lda = leading(k), ldc = leading(n);
+  const double one = 1, zero = 0;
+  if (n > 0) zherk_("L", "C", &n, &k, &one, y.data(), &lda, &zero, c.data(), &ldc);
+  c.triangularView<Eigen::StrictlyUpper>() = c.adjoint();
+  return c;
+}
+
+void use_one_thread() {
+  // Resolved at run time so that any other BLAS works as well.
+  using SetThreads = void (*)(int);
+  if (auto* set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) set(1);
+}
+
+}  // namespace annulus::fem::lapack

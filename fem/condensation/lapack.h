@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+
+namespace annulus::fem::lapack {
+
+/// Dense kernels handed to the optimised BLAS/LAPACK (OpenBLAS): Eigen's own are several times slower without
+/// machine-specific compiler flags. Sizes are checked by the callers; all matrices are column-major.
+
+/// In-place Cholesky factor L (lower) of a symmetric or Hermitian positive definite matrix; false when it is not.
+[[nodiscard]] bool cholesky(Eigen::MatrixXd& matrix);
+[[nodiscard]] bool cholesky(Eigen::MatrixXcd& matrix);
+/// rhs <- L^-1 rhs
+void solve_lower(const Eigen::MatrixXd& factor, Eigen::MatrixXd& rhs);
+void solve_lower(const Eigen::MatrixXcd& factor, Eigen::MatrixXcd& rhs);
+/// a^T b
+[[nodiscard]] Eigen::MatrixXd transpose_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+[[nodiscard]] Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+/// y^H y, both triangles filled.
+[[nodiscard]] Eigen::MatrixXd gram(const Eigen::MatrixXd& y);
+[[nodiscard]] Eigen::MatrixXcd gram(const Eigen::MatrixXcd& y);
+/// One BLAS thread: annulus runs its own threads over independent tasks.
+void use_one_thread();
+
+}  // namespace annulus::fem::lapack

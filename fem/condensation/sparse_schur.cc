@@ -1,0 +1,174 @@
+#include "fem/condensation/sparse_schur.h"
+
+#include <cholmod.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/errors.h"
+#include "fem/condensation/lapack.h"
+
+namespace annulus::fem {
+namespace {
+
+/// CHOLMOD's workspace, started and finished with the object.
+struct CholmodWorkspace {
+  cholmod_common common{};
+  CholmodWorkspace() {
+    cholmod_start(&common);
+    common.print = 0;
+    common.supernodal = CHOLMOD_SUPERNODAL;
+    common.final_ll = 1;
+  }
+  ~CholmodWorkspace() { cholmod_finish(&common); }
+  CholmodWorkspace(const CholmodWorkspace&) = delete;
+  CholmodWorkspace& operator=(const CholmodWorkspace&) = delete;
+};
+
+/// A view of the lower triangle for CHOLMOD; the arrays stay with the Eigen matrix.
+cholmod_sparse lower_view(Eigen::SparseMatrix<double>& lower) {
+  cholmod_sparse view{};
+  view.nrow = static_cast<std::size_t>(lower.rows());
+  view.ncol = static_cast<std::size_t>(lower.cols());
+  view.nzmax = static_cast<std::size_t>(lower.nonZeros());
+  view.p = lower.outerIndexPtr();
+  view.i = lower.innerIndexPtr();
+  view.x = lower.valuePtr();
+  view.stype = -1;
+  view.itype = CHOLMOD_INT;
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = 1;
+  view.packed = 1;
+  return view;
+}
+
+void check_factor(const CholmodWorkspace& workspace, const cholmod_factor* factor, const char* what) {
+  if (factor == nullptr || workspace.common.status == CHOLMOD_OUT_OF_MEMORY)
+    throw SolverError(std::string("out of memory while factorising the ") + what);
+  if (workspace.common.status == CHOLMOD_NOT_POSDEF || factor->minor < factor->n)
+    throw SolverError(std::string("the ") + what +
+                      " is not positive definite: the body is not held, or a cell of its mesh is inverted");
+}
+
+}  // namespace
+
+struct SparseCholesky::Impl {
+  CholmodWorkspace workspace;
+  cholmod_factor* factor = nullptr;
+  ~Impl() { cholmod_free_factor(&factor, &workspace.common); }
+};
+
+SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& matrix) : impl_(std::make_unique<Impl>()) {
+  Eigen::SparseMatrix<double> lower = matrix.triangularView<Eigen::Lower>();
+  cholmod_sparse view = lower_view(lower);
+  impl_->factor = cholmod_analyze(&view, &impl_->workspace.common);
+  if (impl_->factor != nullptr) cholmod_factorize(&view, impl_->factor, &impl_->workspace.common);
+  check_factor(impl_->workspace, impl_->factor, "stiffness matrix");
+}
+
+SparseCholesky::~SparseCholesky() = default;
+SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
+SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
+
+Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_hand_sides) const {
+  require(right_hand_sides.rows() == static_cast<Eigen::Index>(impl_->factor->n), "right-hand side of the wrong size");
+  cholmod_dense rhs{};
+  rhs.nrow = static_cast<std::size_t>(right_hand_sides.rows());
+  rhs.ncol = static_cast<std::size_t>(right_hand_sides.cols());
+  rhs.nzmax = rhs.nrow * rhs.ncol;
+  rhs.d = rhs.nrow;
+  rhs.x = const_cast<double*>(right_hand_sides.data());
+  rhs.xtype = CHOLMOD_REAL;
+  rhs.dtype = CHOLMOD_DOUBLE;
+  cholmod_dense* solution = cholmod_solve(CHOLMOD_A, impl_->factor, &rhs, &impl_->workspace.common);
+  if (solution == nullptr) throw SolverError("out of memory while solving with the factorised stiffness matrix");
+  Eigen::MatrixXd result = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x),
+                                                             right_hand_sides.rows(), right_hand_sides.cols());
+  cholmod_free_dense(&solution, &impl_->workspace.common);
+  return result;
+}
+
+Eigen::MatrixXd schur_complement(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& retained,
+                                 double shift_retained) {
+  const int n = static_cast<int>(matrix.rows()), kept = static_cast<int>(retained.size());
+  std::vector<int> position(n, -1);  // place of a freedom among the retained ones
+  for (int k = 0; k < kept; ++k) {
+    require(position[retained[k]] < 0, "a freedom is retained twice");
+    position[retained[k]] = k;
+  }
+  std::vector<int> interior;
+  interior.reserve(n - kept);
+  std::vector<int> place_inside(n, -1);
+  for (int i = 0; i < n; ++i)
+    if (position[i] < 0) {
+      place_inside[i] = static_cast<int>(interior.size());
+      interior.push_back(i);
+    }
+
+  CholmodWorkspace workspace;
+  auto& common = workspace.common;
+
+  // A fill-reducing ordering of the interior alone, the retained freedoms appended.
+  std::vector<Eigen::Triplet<double>> inside;
+  inside.reserve(static_cast<std::size_t>(matrix.nonZeros()) / 2 + n);
+  for (int column = 0; column < n; ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
+      if (it.row() >= column && place_inside[column] >= 0 && place_inside[it.row()] >= 0)
+        inside.emplace_back(place_inside[it.row()], place_inside[column], it.value());
+  Eigen::SparseMatrix<double> interior_matrix(static_cast<int>(interior.size()), static_cast<int>(interior.size()));
+  interior_matrix.setFromTriplets(inside.begin(), inside.end());
+  inside = {};
+  cholmod_sparse interior_view = lower_view(interior_matrix);
+  std::vector<int> interior_order(interior.size());
+  // Nested dissection pays for itself in three dimensions and on large plane sectors.
+  const bool ordered = interior.size() > 3000
+                           ? cholmod_metis(&interior_view, nullptr, 0, 1, interior_order.data(), &common) != 0
+                           : cholmod_amd(&interior_view, nullptr, 0, interior_order.data(), &common) != 0;
+  require(ordered, "the fill-reducing ordering failed");
+  std::vector<int> permutation;
+  permutation.reserve(n);
+  for (const int i : interior_order) permutation.push_back(interior[i]);
+  permutation.insert(permutation.end(), retained.begin(), retained.end());
+
+  Eigen::SparseMatrix<double> lower = matrix.triangularView<Eigen::Lower>();
+  if (shift_retained > 0)
+    for (const int i : retained) lower.coeffRef(i, i) += shift_retained;
+  cholmod_sparse view = lower_view(lower);
+  common.nmethods = 1;
+  common.method[0].ordering = CHOLMOD_GIVEN;
+  cholmod_factor* factor = cholmod_analyze_p(&view, permutation.data(), nullptr, 0, &common);
+  if (factor != nullptr) cholmod_factorize(&view, factor, &common);
+  check_factor(workspace, factor, "stiffness matrix of the sector");
+
+  // Read the columns of the retained freedoms out of the supernodes. CHOLMOD postorders the elimination tree; the
+  // retained freedoms keep their order, only columns of independent interior branches may stand between them.
+  Eigen::MatrixXd trailing = Eigen::MatrixXd::Zero(kept, kept);
+  const auto* order = static_cast<const int*>(factor->Perm);
+  const auto* first_column = static_cast<const int*>(factor->super);
+  const auto* row_start = static_cast<const int*>(factor->pi);
+  const auto* value_start = static_cast<const int*>(factor->px);
+  const auto* rows = static_cast<const int*>(factor->s);
+  const auto* values = static_cast<const double*>(factor->x);
+  for (std::size_t s = 0; s < factor->nsuper; ++s) {
+    const int height = row_start[s + 1] - row_start[s];
+    for (int column = first_column[s]; column < first_column[s + 1]; ++column) {
+      const int k = position[order[column]];
+      if (k < 0) continue;
+      const int local = column - first_column[s];
+      for (int r = local; r < height; ++r) {
+        const int row = position[order[rows[row_start[s] + r]]];
+        require(row >= k, "the retained freedoms were not eliminated last");
+        trailing(row, k) = values[static_cast<std::ptrdiff_t>(value_start[s]) +
+                                  static_cast<std::ptrdiff_t>(local) * height + r];
+      }
+    }
+  }
+  cholmod_free_factor(&factor, &common);
+  trailing.transposeInPlace();
+  Eigen::MatrixXd complement = lapack::gram(trailing);  // L L^T
+  complement.diagonal().array() -= shift_retained;
+  return complement;
+}
+
+}  // namespace annulus::fem

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <memory>
+#include <vector>
+
+namespace annulus::fem {
+
+/// Sparse supernodal Cholesky factor (CHOLMOD) of a symmetric positive definite matrix.
+class SparseCholesky {
+ public:
+  /// Throws SolverError when the matrix is not positive definite.
+  explicit SparseCholesky(const Eigen::SparseMatrix<double>& matrix);
+  ~SparseCholesky();
+  SparseCholesky(SparseCholesky&&) noexcept;
+  SparseCholesky& operator=(SparseCholesky&&) noexcept;
+
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Schur complement of the retained freedoms, K_rr - K_ri K_ii^-1 K_ir, in the order given.
+///
+/// The retained freedoms are eliminated last, so that the trailing block of one sparse factorisation is the Cholesky
+/// factor of the complement: exact, and cheaper than solving for every retained column.
+/// Throws SolverError when the matrix is not positive definite. A complement that is itself singular (a body that can
+/// still move rigidly) is allowed when `shift_retained` > 0: that multiple of the identity is added to the retained
+/// block before the factorisation and taken off the result.
+[[nodiscard]] Eigen::MatrixXd schur_complement(const Eigen::SparseMatrix<double>& matrix,
+                                               const std::vector<int>& retained, double shift_retained = 0);
+
+}  // namespace annulus::fem

@@ -1,0 +1,122 @@
+#include "fem/contact/flank_contact.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+
+#include "core/errors.h"
+
+namespace annulus::fem {
+namespace {
+
+/// Half the tooth angle at the base circle, extrapolated along the involute for internal gears.
+double base_half_angle(const geometry::Gear& gear) {
+  const double inv = geometry::involute(gear.parameters().pressure_angle);
+  const double reference = gear.tooth_half_angle(gear.reference_radius());
+  return gear.kind() == geometry::GearKind::internal ? reference - inv : reference + inv;
+}
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+}  // namespace
+
+FlankContact::FlankContact(const geometry::GearPair& pair)
+    : pair_(pair),
+      planet_(pair.planet()),
+      wheel_(pair.wheel()),
+      planet_base_half_angle_(base_half_angle(pair.planet())),
+      wheel_base_half_angle_(base_half_angle(pair.wheel())) {}
+
+double FlankContact::planet_tooth_angle(double contact_roll) const {
+  const double alpha = pair_.working_pressure_angle(), turned = contact_roll / pair_.planet().base_radius();
+  return (pair_.internal() ? 0.0 : M_PI) + turned - planet_base_half_angle_ - alpha;
+}
+
+double FlankContact::wheel_tooth_angle(double contact_roll) const {
+  const double alpha = pair_.working_pressure_angle();
+  const double turned = pair_.wheel_roll_length(contact_roll) / pair_.wheel().base_radius();
+  return turned - alpha + (pair_.internal() ? wheel_base_half_angle_ : -wheel_base_half_angle_);
+}
+
+FlankContact::Match FlankContact::match(double planet_roll, double contact_roll) const {
+  const double planet_angle = planet_tooth_angle(contact_roll);
+  const Eigen::Rotation2Dd turn(wheel_tooth_angle(contact_roll) - planet_angle);
+  const Eigen::Vector2d wheel_axis = -(Eigen::Rotation2Dd(-planet_angle) * Eigen::Vector2d(pair_.centre_distance(), 0));
+  const double side = pair_.internal() ? -1 : 1;  // trailing flank: the mirror image of the leading one
+
+  const Eigen::Vector2d point = planet_.flank_point(planet_roll), normal = planet_.flank_normal(planet_roll);
+  const double base = pair_.wheel().base_radius();
+  double roll = std::max(pair_.wheel_roll_length(planet_roll), 1e-3 * base);
+  Eigen::Vector2d distance;
+  for (int step = 0;; ++step) {
+    Eigen::Vector2d on_wheel = wheel_.flank_point(roll), out = wheel_.flank_normal(roll);
+    on_wheel.y() *= side;
+    out.y() *= side;
+    distance = turn * on_wheel + wheel_axis - point;
+    const Eigen::Vector2d tangent = turn * (side * Eigen::Vector2d(out.y(), -out.x())) * (roll / base);
+    const double change = cross(distance, normal) / cross(tangent, normal);
+    roll -= change;
+    if (std::abs(change) < 1e-13 * base) {
+      distance -= change * tangent;
+      break;
+    }
+    if (step == 50 || !(roll > 0)) throw SolverError("no point of the wheel flank lies opposite to the planet flank");
+  }
+  return {roll, distance.dot(normal) + planet_.modification(planet_roll) + wheel_.modification(roll)};
+}
+
+FlankContact::Interval FlankContact::domain(double contact_roll) const {
+  const double low = planet_.roll_length_form(), high = planet_.roll_length_tip();
+  const double wheel_low = std::min(wheel_.roll_length_form(), wheel_.roll_length_tip());
+  const double wheel_high = std::max(wheel_.roll_length_form(), wheel_.roll_length_tip());
+  const auto wheel_roll = [&](double roll) { return match(roll, contact_roll).wheel_roll; };
+  // The opposite point moves monotonously along the wheel flank.
+  const auto crossing = [&](double bound) {
+    boost::math::tools::eps_tolerance<double> tolerance(50);
+    std::uintmax_t iterations = 100;
+    const auto [a, b] = boost::math::tools::toms748_solve([&](double r) { return wheel_roll(r) - bound; }, low, high,
+                                                          tolerance, iterations);
+    return (a + b) / 2;
+  };
+  const double at_low = wheel_roll(low), at_high = wheel_roll(high);
+  const double least = std::min(at_low, at_high), most = std::max(at_low, at_high);
+  if (most <= wheel_low || least >= wheel_high) return {};
+  Interval interval{low, high};
+  const bool rising = at_high > at_low;
+  if (least < wheel_low) (rising ? interval.low : interval.high) = crossing(wheel_low);
+  if (most > wheel_high) (rising ? interval.high : interval.low) = crossing(wheel_high);
+  return interval;
+}
+
+double FlankContact::nearest_roll(double contact_roll) const {
+  const Interval d = domain(contact_roll);
+  require(!d.empty(), "flanks that do not face each other have no smallest gap");
+  const auto gap = [&](double roll) { return match(roll, contact_roll).gap; };
+  // Modifications can make several dents; look at a raster first.
+  constexpr int raster = 64;
+  int best = 0;
+  double least = gap(d.low);
+  for (int i = 1; i <= raster; ++i) {
+    const double g = gap(d.low + (d.high - d.low) * i / raster);
+    if (g < least) least = g, best = i;
+  }
+  const double step = (d.high - d.low) / raster;
+  const double a = std::max(d.low, d.low + (best - 1) * step), b = std::min(d.high, d.low + (best + 1) * step);
+  const auto [roll, value] = boost::math::tools::brent_find_minima(gap, a, b, 40);
+  const double clamped = std::clamp(contact_roll, d.low, d.high);  // exact for unmodified flanks
+  const double at_clamped = gap(clamped);
+  return at_clamped <= value ? clamped : roll;
+}
+
+double FlankContact::smallest_gap(double contact_roll) const {
+  return match(nearest_roll(contact_roll), contact_roll).gap;
+}
+
+double FlankContact::relative_curvature(double contact_roll) const {
+  const double wheel = pair_.wheel_roll_length(contact_roll);
+  return 1 / contact_roll + (pair_.internal() ? -1 : 1) / wheel;
+}
+
+}  // namespace annulus::fem

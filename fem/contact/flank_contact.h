@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "geometry/gear_pair.h"
+#include "geometry/profile.h"
+
+namespace annulus::fem {
+
+/// Exact geometry of one tooth pair: planet leading flank against the wheel's working flank, in the position in which
+/// the conjugate flanks would touch at a given planet roll length.
+///
+/// Frame of the solve: wheel at the origin, planet at (a, 0). In the ring mesh the planet turns counter-clockwise and
+/// presses its leading flank on the trailing flank of a ring tooth; in the sun mesh the sun turns counter-clockwise and
+/// presses its leading flank on the planet's leading flank. (A real planet uses its two flanks in its two meshes; its
+/// teeth are symmetric.)
+class FlankContact {
+ public:
+  explicit FlankContact(const geometry::GearPair& pair);
+
+  struct Match {
+    double wheel_roll = 0;  ///< roll length of the wheel point on the planet's normal, m
+    double gap = 0;         ///< distance along the planet's normal, modifications included, m; < 0: overlap
+  };
+  /// The wheel point opposite to planet roll `planet_roll`; `contact_roll` tells the position.
+  [[nodiscard]] Match match(double planet_roll, double contact_roll) const;
+
+  struct Interval {
+    double low = 0, high = 0;
+    [[nodiscard]] bool empty() const { return !(high > low); }
+  };
+  /// Planet roll lengths where both flanks exist (from form circle to tip of both gears), cut at the tip edges.
+  [[nodiscard]] Interval domain(double contact_roll) const;
+  /// Smallest gap over the domain: zero for an unmodified pair within the theoretical line of action.
+  [[nodiscard]] double smallest_gap(double contact_roll) const;
+  /// Planet roll length in the domain where the gap is smallest.
+  [[nodiscard]] double nearest_roll(double contact_roll) const;
+  /// 1/rho_planet +- 1/rho_wheel at a planet roll length of the theoretical contact, 1/m.
+  [[nodiscard]] double relative_curvature(double contact_roll) const;
+
+  [[nodiscard]] const geometry::GearPair& pair() const { return pair_; }
+  [[nodiscard]] const geometry::ToothProfile& planet() const { return planet_; }
+  [[nodiscard]] const geometry::ToothProfile& wheel() const { return wheel_; }
+  /// The working flank of the wheel.
+  [[nodiscard]] geometry::Boundary wheel_flank() const {
+    return pair_.internal() ? geometry::Boundary::trailing_flank : geometry::Boundary::leading_flank;
+  }
+  /// Angles of the two teeth in the frame of the solve when the pair's contact roll is `contact_roll`, rad.
+  [[nodiscard]] double planet_tooth_angle(double contact_roll) const;
+  [[nodiscard]] double wheel_tooth_angle(double contact_roll) const;
+
+ private:
+  geometry::GearPair pair_;
+  geometry::ToothProfile planet_, wheel_;
+  double planet_base_half_angle_, wheel_base_half_angle_;
+};
+
+}  // namespace annulus::fem

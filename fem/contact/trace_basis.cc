@@ -1,0 +1,95 @@
+#include "fem/contact/trace_basis.h"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+
+#include "core/errors.h"
+
+namespace annulus::fem {
+namespace {
+
+/// Gauss-Lobatto points on [0, 1]: the nodes of deal.II's FE_Q.
+std::vector<double> lobatto(int degree) {
+  switch (degree) {
+    case 1:
+      return {0, 1};
+    case 2:
+      return {0, 0.5, 1};
+    case 3:
+      return {0, 0.5 - std::sqrt(5.0) / 10, 0.5 + std::sqrt(5.0) / 10, 1};
+    case 4:
+      return {0, 0.5 - std::sqrt(21.0) / 14, 0.5, 0.5 + std::sqrt(21.0) / 14, 1};
+    default:
+      throw InputError("elements of degree " + std::to_string(degree) + " are not available: 1 to 4 are");
+  }
+}
+
+double lagrange(const std::vector<double>& nodes, std::size_t i, double x) {
+  double value = 1;
+  for (std::size_t j = 0; j < nodes.size(); ++j)
+    if (j != i) value *= (x - nodes[j]) / (nodes[i] - nodes[j]);
+  return value;
+}
+
+}  // namespace
+
+TraceBasis::TraceBasis(std::vector<double> stations, int degree)
+    : stations_(std::move(stations)), degree_(degree), unit_(lobatto(degree)) {
+  require(stations_.size() > 1 && (stations_.size() - 1) % degree_ == 0, "a trace with a broken element");
+}
+
+TraceBasis::Values TraceBasis::operator()(double coordinate) const {
+  const double tolerance = 1e-9 * (high() - low());
+  require(coordinate >= low() - tolerance && coordinate <= high() + tolerance, "a point outside a boundary trace");
+  const auto above = std::upper_bound(stations_.begin(), stations_.end(), coordinate);
+  int element = static_cast<int>(above - stations_.begin() - 1) / degree_;
+  element = std::clamp(element, 0, elements() - 1);
+  const double* u = stations_.data() + static_cast<std::ptrdiff_t>(element) * degree_;
+
+  // Invert the isoparametric map of the coordinate; it is nearly linear, so Newton needs a few steps.
+  double xi = (coordinate - u[0]) / (u[degree_] - u[0]);
+  for (int step = 0; step < 20; ++step) {
+    double value = -coordinate, slope = 0;
+    for (int i = 0; i <= degree_; ++i) {
+      value += u[i] * lagrange(unit_, i, xi);
+      for (int k = 0; k <= degree_; ++k) {
+        if (k == i) continue;
+        double term = 1 / (unit_[i] - unit_[k]);
+        for (int j = 0; j <= degree_; ++j)
+          if (j != i && j != k) term *= (xi - unit_[j]) / (unit_[i] - unit_[j]);
+        slope += u[i] * term;
+      }
+    }
+    const double change = value / slope;
+    xi -= change;
+    if (std::abs(change) < 1e-14) break;
+  }
+  Values result;
+  result.first = element * degree_;
+  for (int i = 0; i <= degree_; ++i) result.weights.push_back(lagrange(unit_, i, xi));
+  return result;
+}
+
+std::vector<double> TraceBasis::mean_over(double low, double high) const {
+  std::vector<double> result(stations_.size(), 0.0);
+  // Element by element: within one the integrand is smooth.
+  for (int e = 0; e < elements(); ++e) {
+    const double a = std::max(low, stations_[e * degree_]), b = std::min(high, stations_[(e + 1) * degree_]);
+    if (b <= a) continue;
+    using Rule = boost::math::quadrature::gauss<double, 7>;
+    const auto add = [&](double abscissa, double weight) {
+      const double x = (a + b) / 2 + abscissa * (b - a) / 2;
+      const auto values = (*this)(x);
+      for (int i = 0; i <= degree_; ++i)
+        result[values.first + i] += values.weights[i] * weight * (b - a) / 2 / (high - low);
+    };
+    for (std::size_t q = 0; q < Rule::abscissa().size(); ++q) {
+      add(Rule::abscissa()[q], Rule::weights()[q]);
+      if (Rule::abscissa()[q] != 0) add(-Rule::abscissa()[q], Rule::weights()[q]);
+    }
+  }
+  return result;
+}
+
+}  // namespace annulus::fem

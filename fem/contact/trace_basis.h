@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+namespace annulus::fem {
+
+/// The Lagrange shape functions of the elements along one boundary line, as functions of a smooth coordinate of that
+/// line (roll length, polar angle): the isoparametric coordinate is found from the coordinate of the nodes.
+class TraceBasis {
+ public:
+  TraceBasis() = default;
+  /// `stations`: coordinates of the nodes, ascending, elements * degree + 1 of them.
+  TraceBasis(std::vector<double> stations, int degree);
+
+  struct Values {
+    int first = 0;                ///< node of values[0]
+    std::vector<double> weights;  ///< degree + 1 shape functions, sum 1
+  };
+  /// Throws InternalError outside the line (beyond a relative 1e-9).
+  [[nodiscard]] Values operator()(double coordinate) const;
+  /// Integrals of all shape functions over [low, high], divided by its length.
+  [[nodiscard]] std::vector<double> mean_over(double low, double high) const;
+
+  [[nodiscard]] int size() const { return static_cast<int>(stations_.size()); }
+  [[nodiscard]] const std::vector<double>& stations() const { return stations_; }
+  [[nodiscard]] int elements() const { return degree_ > 0 ? (size() - 1) / degree_ : 0; }
+  [[nodiscard]] int degree() const { return degree_; }
+  [[nodiscard]] double low() const { return stations_.front(); }
+  [[nodiscard]] double high() const { return stations_.back(); }
+
+ private:
+  std::vector<double> stations_;
+  int degree_ = 0;
+  std::vector<double> unit_;  // reference coordinates of the nodes of one element
+};
+
+}  // namespace annulus::fem

@@ -1,0 +1,284 @@
+#include "fem/elasticity/elastic_problem.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/manifold.h>
+
+#include "core/errors.h"
+
+namespace annulus::fem {
+namespace {
+
+/// New points of a refined or curved boundary: the mean of the surrounding points moved onto the exact curve.
+template <int dim>
+class ExactBoundary : public dealii::Manifold<dim> {
+ public:
+  ExactBoundary(geometry::Boundary boundary, BoundaryProjection project)
+      : boundary_(boundary), project_(std::move(project)) {}
+
+  std::unique_ptr<dealii::Manifold<dim>> clone() const override {
+    return std::make_unique<ExactBoundary<dim>>(boundary_, project_);
+  }
+
+  dealii::Point<dim> get_new_point(const dealii::ArrayView<const dealii::Point<dim>>& points,
+                                   const dealii::ArrayView<const double>& weights) const override {
+    dealii::Point<dim> mean;
+    for (std::size_t i = 0; i < points.size(); ++i) mean += weights[i] * points[i];
+    const Eigen::Vector2d exact = project_(boundary_, {mean[0], mean[1]});
+    mean[0] = exact.x();
+    mean[1] = exact.y();
+    return mean;
+  }
+
+ private:
+  geometry::Boundary boundary_;
+  BoundaryProjection project_;
+};
+
+bool is_curved(geometry::Boundary boundary) {
+  using geometry::Boundary;
+  switch (boundary) {
+    case Boundary::support:
+    case Boundary::tip:
+    case Boundary::leading_flank:
+    case Boundary::trailing_flank:
+    case Boundary::leading_fillet:
+    case Boundary::trailing_fillet:
+    case Boundary::root:
+      return true;
+    default:
+      return false;
+  }
+}
+
+template <int dim>
+void build_triangulation(const geometry::Mesh& mesh, const BoundaryProjection& project,
+                         dealii::Triangulation<dim>& triangulation) {
+  require(mesh.dimension == dim, "mesh of the wrong dimension");
+  std::vector<dealii::Point<dim>> vertices(mesh.vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    for (int c = 0; c < dim; ++c) vertices[i][c] = mesh.vertices[i][c];
+
+  constexpr int corners = dealii::GeometryInfo<dim>::vertices_per_cell;
+  // Counter-clockwise to lexicographic numbering.
+  constexpr std::array<int, 8> order = {0, 1, 3, 2, 4, 5, 7, 6};
+  std::vector<dealii::CellData<dim>> cells(mesh.cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    for (int v = 0; v < corners; ++v) cells[i].vertices[v] = mesh.cells[i][order[v]];
+
+  dealii::SubCellData boundary;
+  for (const auto& face : mesh.faces) {
+    if constexpr (dim == 2) {
+      dealii::CellData<1> line;
+      line.vertices[0] = face.vertices[0];
+      line.vertices[1] = face.vertices[1];
+      line.boundary_id = static_cast<dealii::types::boundary_id>(face.boundary);
+      boundary.boundary_lines.push_back(line);
+    } else {
+      dealii::CellData<2> quad;
+      for (int v = 0; v < 4; ++v) quad.vertices[v] = face.vertices[order[v]];
+      quad.boundary_id = static_cast<dealii::types::boundary_id>(face.boundary);
+      boundary.boundary_quads.push_back(quad);
+    }
+  }
+  dealii::GridTools::consistently_order_cells(cells);
+  triangulation.create_triangulation(vertices, cells, boundary);
+
+  if (!project) return;
+  for (const auto id : triangulation.get_boundary_ids()) {
+    const auto tag = static_cast<geometry::Boundary>(id);
+    if (!is_curved(tag)) continue;
+    triangulation.set_all_manifold_ids_on_boundary(id, id);
+    triangulation.set_manifold(id, ExactBoundary<dim>(tag, project));
+  }
+}
+
+}  // namespace
+
+template <int dim>
+ElasticProblem<dim>::ElasticProblem(const geometry::Mesh& mesh, const BoundaryProjection& project,
+                                    const Material& material, int degree, int refinements)
+    : material_(material),
+      degree_(degree),
+      mapping_(degree),
+      element_(dealii::FE_Q<dim>(degree), dim),
+      dofs_(triangulation_) {
+  build_triangulation(mesh, project, triangulation_);
+  triangulation_.refine_global(refinements);
+  dofs_.distribute_dofs(element_);
+
+  std::vector<dealii::Point<dim>> points(dofs_.n_dofs());
+  dealii::DoFTools::map_dofs_to_support_points(mapping_, dofs_, points);
+  std::vector<int> component(dofs_.n_dofs(), -1), node_key(dofs_.n_dofs(), -1);
+  std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
+  // Lagrange freedoms of one node share the base index on every cell that sees the node.
+  std::vector<std::vector<int>> base_to_system(element_.dofs_per_cell / dim, std::vector<int>(dim));
+  for (unsigned int i = 0; i < element_.dofs_per_cell; ++i) {
+    const auto [c, base] = element_.system_to_component_index(i);
+    base_to_system[base][c] = static_cast<int>(i);
+  }
+  node_of_freedom_.assign(dofs_.n_dofs(), -1);
+  for (const auto& cell : dofs_.active_cell_iterators()) {
+    cell->get_dof_indices(indices);
+    for (const auto& system : base_to_system) {
+      if (node_of_freedom_[indices[system[0]]] >= 0) continue;
+      std::array<int, dim> freedoms{};
+      for (int c = 0; c < dim; ++c) {
+        freedoms[c] = static_cast<int>(indices[system[c]]);
+        node_of_freedom_[freedoms[c]] = static_cast<int>(node_freedoms_.size());
+      }
+      node_freedoms_.push_back(freedoms);
+      node_points_.push_back(points[freedoms[0]]);
+    }
+  }
+}
+
+template <int dim>
+Eigen::SparseMatrix<double> ElasticProblem<dim>::stiffness() const {
+  const double E = material_.youngs_modulus, nu = material_.poisson_ratio;
+  const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
+  const dealii::QGauss<dim> quadrature(degree_ + 1);
+  dealii::FEValues<dim> values(mapping_, element_, quadrature,
+                               dealii::update_gradients | dealii::update_JxW_values);
+  const unsigned int n = element_.dofs_per_cell, nodes = n / dim;
+  std::vector<unsigned int> component(n), base(n), scalar_of_base(nodes);
+  for (unsigned int i = 0; i < n; ++i) {
+    std::tie(component[i], base[i]) = element_.system_to_component_index(i);
+    if (component[i] == 0) scalar_of_base[base[i]] = i;
+  }
+  // Integrals of all products of scalar gradients give every component block; that is dim^2 times less work than
+  // integrating vector-valued shape functions.
+  Eigen::MatrixXd gradients(nodes * dim, quadrature.size()), weighted(nodes * dim, quadrature.size());
+  Eigen::MatrixXd products(nodes * dim, nodes * dim);
+  std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(static_cast<std::size_t>(triangulation_.n_active_cells()) * n * n);
+  std::vector<dealii::types::global_dof_index> indices(n);
+  for (const auto& cell : dofs_.active_cell_iterators()) {
+    values.reinit(cell);
+    for (unsigned int q = 0; q < quadrature.size(); ++q)
+      for (unsigned int a = 0; a < nodes; ++a)
+        for (int c = 0; c < dim; ++c) {
+          const double g = values.shape_grad(scalar_of_base[a], q)[c];
+          gradients(a * dim + c, q) = g;
+          weighted(a * dim + c, q) = g * values.JxW(q);
+        }
+    products.noalias() = gradients * weighted.transpose();
+    cell->get_dof_indices(indices);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j) {
+        const unsigned int ci = component[i], cj = component[j];
+        const unsigned int a = base[i] * dim, b = base[j] * dim;
+        double k = lambda * products(a + ci, b + cj) + mu * products(a + cj, b + ci);
+        if (ci == cj)
+          for (int c = 0; c < dim; ++c) k += mu * products(a + c, b + c);
+        triplets.emplace_back(static_cast<int>(indices[i]), static_cast<int>(indices[j]), k);
+      }
+  }
+  Eigen::SparseMatrix<double> matrix(freedoms(), freedoms());
+  matrix.setFromTriplets(triplets.begin(), triplets.end());
+  return matrix;
+}
+
+template <int dim>
+Eigen::VectorXd ElasticProblem<dim>::body_load(
+    const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& force_density) const {
+  const dealii::QGauss<dim> quadrature(degree_ + 3);
+  dealii::FEValues<dim> values(
+      mapping_, element_, quadrature,
+      dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(freedoms());
+  std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
+  for (const auto& cell : dofs_.active_cell_iterators()) {
+    values.reinit(cell);
+    cell->get_dof_indices(indices);
+    for (unsigned int q = 0; q < quadrature.size(); ++q) {
+      const auto f = force_density(values.quadrature_point(q));
+      for (unsigned int i = 0; i < element_.dofs_per_cell; ++i)
+        load[static_cast<Eigen::Index>(indices[i])] +=
+            f[element_.system_to_component_index(i).first] * values.shape_value(i, q) * values.JxW(q);
+    }
+  }
+  return load;
+}
+
+template <int dim>
+Eigen::VectorXd ElasticProblem<dim>::surface_load(
+    geometry::Boundary boundary,
+    const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&, const dealii::Tensor<1, dim>&)>& traction)
+    const {
+  const dealii::QGauss<dim - 1> quadrature(degree_ + 3);
+  dealii::FEFaceValues<dim> values(mapping_, element_, quadrature,
+                                   dealii::update_values | dealii::update_quadrature_points |
+                                       dealii::update_normal_vectors | dealii::update_JxW_values);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(freedoms());
+  std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
+  for (const auto& cell : dofs_.active_cell_iterators())
+    for (const auto face : cell->face_indices()) {
+      if (!cell->face(face)->at_boundary() ||
+          cell->face(face)->boundary_id() != static_cast<dealii::types::boundary_id>(boundary))
+        continue;
+      values.reinit(cell, face);
+      cell->get_dof_indices(indices);
+      for (unsigned int q = 0; q < quadrature.size(); ++q) {
+        const auto t = traction(values.quadrature_point(q), values.normal_vector(q));
+        for (unsigned int i = 0; i < element_.dofs_per_cell; ++i)
+          load[static_cast<Eigen::Index>(indices[i])] +=
+              t[element_.system_to_component_index(i).first] * values.shape_value(i, q) * values.JxW(q);
+      }
+    }
+  return load;
+}
+
+template <int dim>
+std::pair<double, double> ElasticProblem<dim>::errors(
+    const Eigen::VectorXd& solution, const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& exact,
+    const std::function<dealii::Tensor<2, dim>(const dealii::Point<dim>&)>& exact_gradient) const {
+  const dealii::QGauss<dim> quadrature(degree_ + 3);
+  dealii::FEValues<dim> values(mapping_, element_, quadrature,
+                               dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points |
+                                   dealii::update_JxW_values);
+  std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
+  double l2 = 0, h1 = 0;
+  for (const auto& cell : dofs_.active_cell_iterators()) {
+    values.reinit(cell);
+    cell->get_dof_indices(indices);
+    for (unsigned int q = 0; q < quadrature.size(); ++q) {
+      dealii::Tensor<1, dim> u;
+      dealii::Tensor<2, dim> gradient;
+      for (unsigned int i = 0; i < element_.dofs_per_cell; ++i) {
+        const double s = solution[static_cast<Eigen::Index>(indices[i])];
+        const auto c = element_.system_to_component_index(i).first;
+        u[c] += s * values.shape_value(i, q);
+        gradient[c] += s * values.shape_grad(i, q);
+      }
+      l2 += (u - exact(values.quadrature_point(q))).norm_square() * values.JxW(q);
+      h1 += (gradient - exact_gradient(values.quadrature_point(q))).norm_square() * values.JxW(q);
+    }
+  }
+  return {std::sqrt(l2), std::sqrt(h1)};
+}
+
+template <int dim>
+std::vector<int> ElasticProblem<dim>::boundary_nodes(geometry::Boundary boundary) const {
+  std::vector<bool> on(node_freedoms_.size(), false);
+  std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_face);
+  for (const auto& cell : dofs_.active_cell_iterators())
+    for (const auto face : cell->face_indices())
+      if (cell->face(face)->at_boundary() &&
+          cell->face(face)->boundary_id() == static_cast<dealii::types::boundary_id>(boundary)) {
+        cell->face(face)->get_dof_indices(indices);
+        for (const auto i : indices) on[node_of_freedom_[i]] = true;
+      }
+  std::vector<int> nodes;
+  for (std::size_t i = 0; i < on.size(); ++i)
+    if (on[i]) nodes.push_back(static_cast<int>(i));
+  return nodes;
+}
+
+template class ElasticProblem<2>;
+template class ElasticProblem<3>;
+
+}  // namespace annulus::fem

@@ -1,0 +1,71 @@
+#pragma once
+
+// Private to annulus_fem and its tests: the only header that shows deal.II.
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/grid/tria.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "fem/material.h"
+#include "geometry/mesh.h"
+
+namespace annulus::fem {
+
+/// Nearest point of the exact boundary curve in the cross-section; identity where the boundary is straight.
+using BoundaryProjection = std::function<Eigen::Vector2d(geometry::Boundary, const Eigen::Vector2d&)>;
+
+/// Small-strain isotropic elasticity (plane strain in 2D) on isoparametric Lagrange elements, any degree and dimension.
+template <int dim>
+class ElasticProblem {
+ public:
+  /// The mesh is refined `refinements` times with new points on the exact boundary.
+  ElasticProblem(const geometry::Mesh& mesh, const BoundaryProjection& project, const Material& material, int degree,
+                 int refinements = 0);
+
+  /// Symmetric stiffness matrix over all freedoms, held or not (N/m; in 2D per metre of width: N/m^2).
+  [[nodiscard]] Eigen::SparseMatrix<double> stiffness() const;
+  [[nodiscard]] Eigen::VectorXd body_load(
+      const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& force_density) const;
+  /// Traction integrated over one boundary; the second argument is the outward normal.
+  [[nodiscard]] Eigen::VectorXd surface_load(
+      geometry::Boundary boundary,
+      const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&, const dealii::Tensor<1, dim>&)>& traction)
+      const;
+  /// L2 and energy (strain-energy seminorm: H1) errors against an exact solution and its gradient.
+  [[nodiscard]] std::pair<double, double> errors(
+      const Eigen::VectorXd& solution, const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& exact,
+      const std::function<dealii::Tensor<2, dim>(const dealii::Point<dim>&)>& exact_gradient) const;
+
+  [[nodiscard]] int freedoms() const { return static_cast<int>(dofs_.n_dofs()); }
+  /// Freedoms of every node: [node][component]; nodes are numbered in order of their first freedom.
+  [[nodiscard]] const std::vector<std::array<int, dim>>& node_freedoms() const { return node_freedoms_; }
+  [[nodiscard]] const std::vector<dealii::Point<dim>>& node_points() const { return node_points_; }
+  /// Nodes lying on a boundary, each once, ascending.
+  [[nodiscard]] std::vector<int> boundary_nodes(geometry::Boundary boundary) const;
+  [[nodiscard]] int degree() const { return degree_; }
+
+ private:
+  Material material_;
+  int degree_;
+  dealii::Triangulation<dim> triangulation_;
+  dealii::MappingQ<dim> mapping_;
+  dealii::FESystem<dim> element_;
+  dealii::DoFHandler<dim> dofs_;
+  std::vector<std::array<int, dim>> node_freedoms_;
+  std::vector<dealii::Point<dim>> node_points_;
+  std::vector<int> node_of_freedom_;
+};
+
+extern template class ElasticProblem<2>;
+extern template class ElasticProblem<3>;
+
+}  // namespace annulus::fem

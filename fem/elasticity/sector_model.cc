@@ -1,0 +1,130 @@
+#include "fem/elasticity/sector_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <Eigen/Geometry>
+
+#include "core/errors.h"
+#include "fem/elasticity/elastic_problem.h"
+
+namespace annulus::fem {
+namespace {
+
+/// Ascending values that differ by more than `tolerance`; close ones are one station of the grid.
+std::vector<double> distinct(std::vector<double> values, double tolerance) {
+  std::sort(values.begin(), values.end());
+  std::vector<double> result;
+  for (const double v : values)
+    if (result.empty() || v - result.back() > tolerance) result.push_back(v);
+  return result;
+}
+
+int station(const std::vector<double>& stations, double value) {
+  const auto above = std::lower_bound(stations.begin(), stations.end(), value);
+  if (above == stations.end()) return static_cast<int>(stations.size()) - 1;
+  if (above == stations.begin()) return 0;
+  return static_cast<int>(above - stations.begin()) - (value - *(above - 1) < *above - value ? 1 : 0);
+}
+
+TraceGrid make_trace(const std::vector<int>& nodes, const std::vector<Eigen::Vector3d>& points, int degree,
+                     const std::function<double(const Eigen::Vector3d&)>& profile_coordinate,
+                     double profile_tolerance) {
+  TraceGrid trace;
+  trace.degree = degree;
+  std::vector<double> u, z;
+  for (const int n : nodes) {
+    u.push_back(profile_coordinate(points[n]));
+    z.push_back(points[n].z());
+  }
+  trace.profile = distinct(u, profile_tolerance);
+  trace.axial = distinct(z, 1e-9);
+  require(trace.profile.size() * trace.axial.size() == nodes.size(),
+          "the nodes of a boundary do not form a tensor grid");
+  trace.nodes.assign(nodes.size(), -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    trace.nodes[station(trace.profile, u[i]) * trace.axial.size() + station(trace.axial, z[i])] = nodes[i];
+  require(std::find(trace.nodes.begin(), trace.nodes.end(), -1) == trace.nodes.end(), "a trace node is missing");
+  return trace;
+}
+
+template <int dim>
+SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile& profile, double support_radius,
+                       const Material& material, const SectorModelOptions& options) {
+  const auto project = [&profile, support_radius](geometry::Boundary boundary, const Eigen::Vector2d& point) {
+    return profile.project(boundary, point, support_radius);
+  };
+  const ElasticProblem<dim> problem(mesh, project, material, options.degree, options.refinements);
+
+  SectorModel model;
+  model.dimension = dim;
+  model.pitch_angle = profile.gear().pitch_angle();
+  for (const auto& p : problem.node_points()) {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    for (int c = 0; c < dim; ++c) point[c] = p[c];
+    model.nodes.push_back(point);
+  }
+
+  std::vector<bool> held(model.nodes.size(), false);
+  if (options.held != HeldBoundary::none)
+    for (const int n : problem.boundary_nodes(options.held == HeldBoundary::support ? geometry::Boundary::support
+                                                                                    : geometry::Boundary::end_low))
+      held[n] = true;
+  std::vector<int> row_of_freedom(problem.freedoms(), -1);
+  model.freedom.assign(model.nodes.size() * dim, -1);
+  int rows = 0;
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+    for (int c = 0; c < dim; ++c)
+      if (!held[n]) {
+        row_of_freedom[problem.node_freedoms()[n][c]] = rows;
+        model.freedom[n * dim + c] = rows++;
+      }
+  const Eigen::SparseMatrix<double> full = problem.stiffness();
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(full.nonZeros()));
+  for (int column = 0; column < full.outerSize(); ++column)
+    if (row_of_freedom[column] >= 0)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(full, column); it; ++it)
+        if (row_of_freedom[it.row()] >= 0)
+          entries.emplace_back(row_of_freedom[it.row()], row_of_freedom[column], it.value());
+  model.stiffness.resize(rows, rows);
+  model.stiffness.setFromTriplets(entries.begin(), entries.end());
+
+  const auto radial_axial_order = [&](int a, int b) {
+    const auto &p = model.nodes[a], &q = model.nodes[b];
+    if (std::abs(p.z() - q.z()) > 1e-9) return p.z() < q.z();
+    return std::hypot(p.x(), p.y()) < std::hypot(q.x(), q.y());
+  };
+  model.low_nodes = problem.boundary_nodes(geometry::Boundary::side_low);
+  model.high_nodes = problem.boundary_nodes(geometry::Boundary::side_high);
+  for (auto* side : {&model.low_nodes, &model.high_nodes}) {
+    side->erase(std::remove_if(side->begin(), side->end(), [&](int n) { return held[n]; }), side->end());
+    std::sort(side->begin(), side->end(), radial_axial_order);
+  }
+  require(model.low_nodes.size() == model.high_nodes.size(), "the two radial cuts do not match");
+  const Eigen::AngleAxisd pitch(model.pitch_angle, Eigen::Vector3d::UnitZ());
+  for (std::size_t i = 0; i < model.low_nodes.size(); ++i)
+    require((pitch * model.nodes[model.low_nodes[i]] - model.nodes[model.high_nodes[i]]).norm() <
+                1e-9 * support_radius,
+            "a node of one radial cut has no partner on the other");
+
+  model.flank = make_trace(
+      problem.boundary_nodes(options.flank), model.nodes, options.degree,
+      [&](const Eigen::Vector3d& p) { return profile.roll_length_at(std::hypot(p.x(), p.y())); }, 1e-8);
+  if (options.want_outside)
+    model.outside = make_trace(
+        problem.boundary_nodes(geometry::Boundary::support), model.nodes, options.degree,
+        [](const Eigen::Vector3d& p) { return std::atan2(p.y(), p.x()); }, 1e-9);
+  return model;
+}
+
+}  // namespace
+
+SectorModel make_sector_model(const geometry::Mesh& mesh, const geometry::ToothProfile& profile,
+                              double support_radius, const Material& material, const SectorModelOptions& options) {
+  return mesh.dimension == 2 ? discretise<2>(mesh, profile, support_radius, material, options)
+                             : discretise<3>(mesh, profile, support_radius, material, options);
+}
+
+}  // namespace annulus::fem

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "fem/material.h"
+#include "geometry/mesh.h"
+#include "geometry/profile.h"
+
+namespace annulus::fem {
+
+/// The element nodes on a boundary as a tensor grid: a profile coordinate (roll length on a flank, polar angle on a
+/// circle) times the axial coordinate. In the plane there is one axial station of unit width.
+struct TraceGrid {
+  int degree = 2;
+  std::vector<double> profile;  ///< ascending; m or rad
+  std::vector<double> axial;    ///< ascending, m; {0} in the plane
+  std::vector<int> nodes;       ///< [profile index * axial.size() + axial index]
+  [[nodiscard]] int size() const { return static_cast<int>(nodes.size()); }
+};
+
+/// Which boundary of a sector is held.
+enum class HeldBoundary { none, support, end_low };
+
+/// One discretised tooth sector, free of deal.II: stiffness over the freedoms that are not held, and the nodes that
+/// matter to the outside.
+struct SectorModel {
+  int dimension = 2;
+  double pitch_angle = 0;
+  Eigen::SparseMatrix<double> stiffness;
+  std::vector<Eigen::Vector3d> nodes;
+  std::vector<int> freedom;  ///< [node * dimension + component] -> row of `stiffness`, or -1 when held
+  std::vector<int> low_nodes, high_nodes;  ///< matched pairs on the two radial cuts, held nodes left out
+  TraceGrid flank;    ///< of the contact flank
+  TraceGrid outside;  ///< of the support circle (empty when held)
+};
+
+struct SectorModelOptions {
+  int degree = 2;
+  int refinements = 0;
+  HeldBoundary held = HeldBoundary::support;
+  geometry::Boundary flank = geometry::Boundary::leading_flank;
+  bool want_outside = false;
+};
+
+[[nodiscard]] SectorModel make_sector_model(const geometry::Mesh& mesh, const geometry::ToothProfile& profile,
+                                            double support_radius, const Material& material,
+                                            const SectorModelOptions& options);
+
+}  // namespace annulus::fem
