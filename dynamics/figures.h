@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "dynamics/planetary_stage.h"
+
+namespace annulus::dynamics {
+
+/// A figure of merit with its estimated absolute numerical error.
+struct Figure {
+  double value = 0;
+  double error = 0;
+};
+
+/// N F_n / sum F, its maximum over the planets n and over ...
+struct LoadSharing {
+  Figure instantaneous;  ///< ... every instant
+  Figure averaged;       ///< ... every mesh cycle, the forces averaged over it first
+  Figure quasi_static;   ///< ... every position, without inertia and damping
+};
+
+/// Largest N F_n / sum F over all columns; `force` has one row per planet. Throws SolverError when a sum is not
+/// positive (the whole stage has lost contact at that instant: the coefficient does not exist).
+[[nodiscard]] double load_sharing_instantaneous(const Eigen::Ref<const Eigen::MatrixXd>& force);
+/// The same after a running mean over `samples_per_cycle` columns.
+[[nodiscard]] double load_sharing_averaged(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_per_cycle);
+/// N F_n / sum F over time, one row per planet.
+[[nodiscard]] Eigen::MatrixXd load_sharing_over_time(const Eigen::Ref<const Eigen::MatrixXd>& force);
+
+/// Amplitudes of a real periodic series whose columns span whole mesh cycles.
+struct Spectrum {
+  Eigen::VectorXd order;      ///< multiples of the mesh frequency
+  Eigen::VectorXd amplitude;  ///< single-sided; order 0 is the mean
+};
+[[nodiscard]] Spectrum spectrum(const Eigen::Ref<const Eigen::VectorXd>& series, int mesh_cycles);
+
+/// Quasi-static mesh forces: K q + sum b k g(b^T q - e(t)) = f at equidistant positions over the error period.
+struct QuasiStatic {
+  Eigen::MatrixXd sun_force, ring_force;  ///< N, one row per planet, one column per position
+};
+/// Throws InputError for an unbalanced load, SolverError when the contact state is not found.
+[[nodiscard]] QuasiStatic quasi_static(const PlanetaryStage& stage, int positions_per_cycle = 16);
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+
+#include "dynamics/lumped_system.h"
+
+namespace annulus::dynamics {
+
+enum class Integrator {
+  arkode_explicit,  ///< ARKODE ERKStep, Dormand-Prince 5(4), adaptive: the fastest for gear sets of metal
+  cvode_adams,      ///< CVODE Adams-Moulton with Newton and analytic Jacobian
+  cvode_bdf,        ///< CVODE BDF with Newton and analytic Jacobian: for stiff, well damped systems
+  runge_kutta_4,    ///< fixed step classical Runge-Kutta, as in the papers; needs `fixed_step`
+};
+
+struct IntegratorOptions {
+  Integrator method = Integrator::arkode_explicit;
+  double relative_tolerance = 1e-6;
+  /// m. Absent: relative_tolerance times the mesh deflection under the mean force is resolved to a tenth.
+  std::optional<double> absolute_tolerance;
+  double fixed_step = 0;        ///< s, runge_kutta_4 only
+  long max_steps = 50'000'000;  ///< per call of advance; a guard against a hopeless tolerance
+};
+
+struct IntegratorStatistics {
+  long steps = 0;
+  long rhs_evaluations = 0;
+  long jacobian_evaluations = 0;
+  long contact_events = 0;      ///< times a mesh opened or closed
+  long stiffness_restarts = 0;  ///< times a rectangular stiffness jumped
+};
+
+/// State and energy bookkeeping of an integration.
+struct SystemState {
+  double time = 0;                      ///< s
+  Eigen::VectorXd q, v;                 ///< m, m/s
+  double supplied = 0, dissipated = 0;  ///< J since the start, when tracked
+};
+
+/// Integrates from `state` to time `end` and leaves the state there. `sample` (may be empty) is called at the
+/// `samples` equidistant times state.time + i (end - state.time)/samples, i = 0 ... samples-1, after the mesh forces in
+/// `workspace` have been evaluated there.
+/// Roots of |delta| = half backlash and the known jumps of rectangular stiffnesses are located and the integrator
+/// restarts there. Throws SolverError naming time and cause when the integrator fails or a value is not finite.
+IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, double end,
+                               const IntegratorOptions& options, LumpedSystem::Workspace& workspace, int samples = 0,
+                               const std::function<void(int index, const SystemState&)>& sample = {},
+                               bool track_energy = false);
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,137 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dynamics/mesh_excitation.h"
+
+namespace annulus::dynamics {
+
+/// A coordinate as a linear combination of freedoms: sum of factor x freedom. Empty: the coordinate is held.
+using LinearForm = std::vector<std::pair<int, double>>;
+[[nodiscard]] LinearForm operator+(const LinearForm& a, const LinearForm& b);
+[[nodiscard]] LinearForm operator*(double factor, const LinearForm& a);
+
+/// amount x sin(rate t + phase), part of a mesh's transmission error. m, rad/s, rad.
+struct HarmonicError {
+  double amount = 0, rate = 0, phase = 0;
+};
+
+/// One gear mesh, whatever its kind: delta = b^T q - e(t), force on the freedoms -b F,
+/// F = k(t) g(delta) + c delta', g with half backlash; c acts while the teeth touch (or always).
+struct MeshElement {
+  std::string name;
+  LinearForm b;
+  MeshExcitation excitation;
+  double frequency = 0;                 ///< Hz, mesh cycles per second
+  double phase_offset = 0;              ///< mesh cycles at t = 0: the excitation is read at frequency t + phase_offset
+  double damping = 0;                   ///< N s/m
+  std::optional<double> half_backlash;  ///< m
+  bool damping_without_contact = false;
+  std::vector<HarmonicError> errors;
+};
+
+/// M q'' + (C + G) q' + (K + K_Omega) q + sum_m b_m F_m = f, immutable. Built by LumpedSystemBuilder.
+class LumpedSystem {
+ public:
+  /// Contact state of a mesh, held between the events the integrator finds.
+  enum class Contact : signed char { back = -1, open = 0, drive = 1 };
+
+  /// Scratch memory and discrete state of one evaluation thread. Make one per thread with `workspace()`.
+  struct Workspace {
+    double time = 0;
+    bool excitation_valid = false;
+    std::vector<double> stiffness, error, error_rate;  ///< per mesh at `time`
+    std::vector<double> delta, delta_rate, force;      ///< per mesh, of the last evaluation
+    std::vector<Contact> contact;                      ///< per mesh
+    /// Per mesh: value of a rectangular wave (1 high, 0 low) held up to the next jump; -1: by time.
+    std::vector<signed char> wave;
+    std::vector<double> sine, cosine;  ///< of the error rates and mesh frequencies at `time`
+  };
+
+  [[nodiscard]] int freedoms() const { return static_cast<int>(names_.size()); }
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  /// Index of a freedom, -1 when it does not exist (held).
+  [[nodiscard]] int find(const std::string& name) const;
+  [[nodiscard]] const std::vector<MeshElement>& meshes() const { return meshes_; }
+  [[nodiscard]] const Eigen::MatrixXd& mass() const { return mass_; }
+  [[nodiscard]] const Eigen::MatrixXd& stiffness() const { return stiffness_; }  ///< K, symmetric, without meshes
+  /// K_Omega: centripetal (symmetric) and circulatory (dampers to the housing, skew) terms.
+  [[nodiscard]] const Eigen::MatrixXd& rotating_stiffness() const { return rotating_stiffness_; }
+  [[nodiscard]] const Eigen::MatrixXd& damping() const { return damping_; }        ///< C, symmetric, without meshes
+  [[nodiscard]] const Eigen::MatrixXd& gyroscopic() const { return gyroscopic_; }  ///< G, skew
+  [[nodiscard]] const Eigen::VectorXd& load() const { return load_; }              ///< f, N
+  [[nodiscard]] Eigen::VectorXd mesh_vector(int mesh) const;                       ///< b, dense
+
+  [[nodiscard]] Workspace workspace() const;
+  /// Sets the contact states from the deflections at (t, q).
+  void detect_contact(double t, const double* q, Workspace& workspace) const;
+  /// Stiffness, error and error rate of every mesh at time t.
+  void evaluate_excitation(double t, Workspace& workspace) const;
+  /// delta, delta' and F of every mesh in its held contact state. No allocation.
+  void evaluate_meshes(double t, const double* q, const double* v, Workspace& workspace) const;
+  /// State y = (q, v), dy = (v, M^-1 (...)). No allocation.
+  void rhs(double t, const double* y, double* dy, Workspace& workspace) const;
+  /// d(dy)/dy in the held contact state, column-major 2n x 2n.
+  void jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixXd> result, Workspace& workspace) const;
+
+  /// Energy (J): kinetic + elastic including the centripetal potential; of the last evaluated mesh state.
+  [[nodiscard]] double energy(double t, const double* y, Workspace& workspace) const;
+  /// Power (W) put in by loads, errors and stiffness change, and taken out by dampers, at the last rhs evaluation.
+  struct Power {
+    double supplied = 0, dissipated = 0;
+  };
+  [[nodiscard]] Power power(double t, const double* y, const Workspace& workspace) const;
+
+  /// Time of the next jump of a rectangular stiffness strictly after t, or infinity.
+  [[nodiscard]] double next_jump(double t) const;
+  /// Holds the rectangular waves at their values at time t (give the middle of the jump-free interval).
+  void hold_waves(double t, Workspace& workspace) const;
+
+ private:
+  friend class LumpedSystemBuilder;
+  struct SparseRows {  ///< rows of M^-1 (K + K_Omega) and M^-1 (C + G) on their common pattern
+    std::vector<int> start, column;
+    std::vector<double> stiffness, damping;
+  };
+  std::vector<std::string> names_;
+  std::vector<MeshElement> meshes_;
+  Eigen::MatrixXd mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
+  Eigen::VectorXd load_, accelerating_load_;  ///< f and M^-1 f
+};
+
+/// Collects bodies, supports, couplings and meshes of any stage.
+class LumpedSystemBuilder {
+ public:
+  /// Adds a freedom; its form is {{index, 1}}.
+  LinearForm add_freedom(const std::string& name);
+  /// Adds mass (kg, or inertia / radius^2) to the coordinate: M += m a a^T.
+  void add_mass(const LinearForm& coordinate, double mass);
+  /// Plane body in a frame turning with `speed` (rad/s): -2 m Omega y', +2 m Omega x' and -m Omega^2 (x, y).
+  void add_rotating_mass(const LinearForm& x, const LinearForm& y, double mass, double speed);
+  /// Any symmetric term of the potential: K_Omega += value (a b^T + b a^T)/2.
+  void add_rotating_stiffness(const LinearForm& a, const LinearForm& b, double value);
+  /// Spring and damper along a coordinate: K += k a a^T, C += c a a^T.
+  void add_spring(const LinearForm& coordinate, double stiffness, double damping);
+  /// Damper to the housing seen from the turning frame: c (x' - Omega y), c (y' + Omega x); adds the Omega part only.
+  void add_housing_damper_rotation(const LinearForm& x, const LinearForm& y, double damping, double speed);
+  void add_load(const LinearForm& coordinate, double force);
+  void add_mesh(MeshElement mesh);
+  /// Throws InputError when a freedom has no mass.
+  [[nodiscard]] LumpedSystem build() const;
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<MeshElement> meshes_;
+  struct Term {
+    LinearForm row, column;
+    double value;
+  };
+  std::vector<Term> mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
+  std::vector<std::pair<LinearForm, double>> load_;
+};
+
+}  // namespace annulus::dynamics

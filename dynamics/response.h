@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/figures.h"
+#include "dynamics/integrate.h"
+#include "dynamics/planetary_stage.h"
+
+namespace annulus::dynamics {
+
+struct SimulationOptions {
+  IntegratorOptions integrator;
+  /// Total mesh cycles from the start. Absent: until the response repeats, then one error period.
+  std::optional<int> mesh_cycles;
+  /// The response counts as periodic when no mesh force differs by more than this, relative to the mean mesh force,
+  /// from one evaluated window earlier, and the differences, continued geometrically, add up to no more.
+  double steady_tolerance = 1e-3;
+  int max_windows = 40;        ///< gives up after so many windows (chaos, nearly undamped): `steady` is then false
+  int samples_per_cycle = 64;  ///< of the time series; the highest excited frequency needs at least four samples
+  /// The window is the error period, or as many error periods as reach this many mesh cycles: differences between
+  /// short windows say little about slow transients.
+  int min_window_cycles = 20;
+  /// Integrates the last window again with a tolerance ten times looser to estimate the integrator's part of the error.
+  bool estimate_error = true;
+};
+
+/// Time series over the evaluated window, equidistant, the end point not included.
+struct TimeSeries {
+  std::vector<std::string> freedoms;  ///< sun_x, planet1_u, ... (all are lengths, m)
+  std::vector<std::string> meshes;    ///< sun_planet1 ... ring_planetN
+  Eigen::VectorXd time;               ///< s
+  Eigen::MatrixXd displacement;       ///< m, one row per freedom, one column per time; rigid rotation included
+  Eigen::MatrixXd velocity;           ///< m/s
+  Eigen::MatrixXd force;              ///< N, one row per mesh; positive pushes the teeth apart
+};
+
+/// One branch of the power flow: the mesh of one planet with sun or ring.
+struct BranchResult {
+  Figure dynamic_factor_max;      ///< max F / mean mesh force over the window
+  double dynamic_factor_min = 0;  ///< min F / mean mesh force
+  double mean_force = 0;          ///< N
+  double contact_loss = 0;        ///< fraction of the time without contact
+};
+
+struct MeshKindResult {
+  LoadSharing load_sharing;
+  std::vector<BranchResult> branches;  ///< one per planet
+};
+
+/// Energy bookkeeping over the window: change of energy = supplied - dissipated.
+struct EnergyBalance {
+  double supplied = 0;    ///< J, by torques, errors and stiffness change
+  double dissipated = 0;  ///< J, by dampers (>= 0)
+  double change = 0;      ///< J, kinetic + elastic
+  double relative = 0;    ///< |change - supplied + dissipated| / (dissipated + energy)
+};
+
+struct DynamicResponse {
+  double mesh_frequency = 0;        ///< Hz
+  double mean_mesh_force = 0;       ///< N, T_s / (N r_bs)
+  int window_cycles = 0;            ///< evaluated at the end, mesh cycles
+  bool whole_error_period = false;  ///< false only when `mesh_cycles` was too short for one
+  int total_cycles = 0;             ///< integrated mesh cycles
+  bool steady = false;              ///< successive windows agree within steady_tolerance
+  double steady_difference =
+      0;  ///< largest mesh force difference to the window before / mean mesh force; NaN: one window
+  MeshKindResult sun_planet, ring_planet;
+  EnergyBalance energy;
+  /// |mean over the window of sum of sun mesh forces x r_bs - T_s| / T_s: momentum balance of the sun's rotation.
+  double force_balance_relative = 0;
+  IntegratorStatistics statistics;
+  TimeSeries series;
+};
+
+/// Time response of the stage, from its quasi-static state at time 0 to the periodic steady state, and its figures.
+/// Throws InputError when the stage or the options are not usable (no speed, no torque, an unbalanced load: nothing
+/// holds the ring), SolverError when the integrator fails.
+[[nodiscard]] DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& options = {});
+
+}  // namespace annulus::dynamics
