@@ -1,0 +1,117 @@
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene_value.h"
+
+namespace annulus::app {
+
+/// What the user asks for, checked and in SI units. Every member is declared to the file format, with its key, unit,
+/// default, bounds and meaning, in scene_schema.cc and nowhere else.
+
+enum class StageKind { planetary, helical_pair, two_k_v };
+enum class Rung { automatic, closed_form, plane, solid, resolved };
+enum class Structure { traditional, thin_walled, pinned, bolted };
+enum class StiffnessShape { computed, constant, harmonic, rectangular, table };
+enum class MeshDamping { in_contact, always };
+
+inline constexpr double rigid = std::numeric_limits<double>::infinity();
+
+struct StageInput {
+  StageKind kind = StageKind::planetary;
+  int planets = 0;
+  double module = 0, pressure_angle = 0, face_width = 0, centre_distance = 0;
+  double power = 0;
+  std::optional<double> sun_speed, carrier_speed;  ///< rad/s; exactly one is given
+};
+
+struct MaterialInput {
+  double youngs_modulus = 0, poisson_ratio = 0, density = 0;
+};
+
+/// What sun, planet and ring have in common.
+struct GearInput {
+  int teeth = 0;
+  double profile_shift = 0;
+  std::optional<double> mass, inertia;
+  std::optional<double> tip_diameter, root_diameter;
+  double root_fillet_factor = 0;
+  double tip_relief = 0, tip_relief_length = 0, profile_crowning = 0;
+  double lead_crowning = 0, lead_slope = 0;
+};
+
+struct HubGearInput : GearInput {
+  std::optional<double> bore_diameter;
+};
+
+struct CarrierInput {
+  std::optional<double> mass, inertia;
+};
+
+struct RingInput : GearInput {
+  std::string name;
+  Structure structure = Structure::traditional;
+  std::optional<double> outside_diameter, rim_thickness;  ///< exactly one is given
+  std::optional<double> free_length, sleeve_thickness, hoop_width, hoop_thickness;
+  std::optional<int> pins;
+  std::optional<double> pin_diameter, pin_clearance, pin_radial_stiffness, first_pin_angle;
+};
+
+/// An eccentricity turns with its body, an installation error stands still in the housing (or on the carrier).
+struct ErrorInput {
+  std::vector<double> planet_eccentricity, planet_eccentricity_phase, planet_installation, planet_installation_phase;
+  double sun_eccentricity = 0, sun_eccentricity_phase = 0, sun_installation = 0, sun_installation_phase = 0;
+  double ring_eccentricity = 0, ring_eccentricity_phase = 0, ring_installation = 0, ring_installation_phase = 0;
+};
+
+/// N/m; `rigid` drops the freedom. Torsional values are in the coordinate u = base radius x angle.
+struct SupportInput {
+  double sun = rigid, ring = rigid, carrier = rigid, planet = rigid;
+  double sun_torsional = 0, ring_torsional = rigid, carrier_torsional = 0;
+};
+
+/// Mesh stiffness given instead of computed.
+struct MeshInput {
+  StiffnessShape stiffness = StiffnessShape::computed;
+  std::optional<double> mean, ripple, duty, phase;
+  std::optional<std::string> file;
+};
+
+struct DynamicsInput {
+  double half_backlash = 0;
+  double mesh_damping_ratio = 0, support_damping_ratio = 0;
+  MeshDamping mesh_damping = MeshDamping::in_contact;
+  std::optional<double> mesh_cycles;
+  double relative_tolerance = 0;
+};
+
+struct Scene {
+  std::filesystem::path file;
+  std::string title;
+  double accuracy = 0;
+  Rung rung = Rung::automatic;
+  StageInput stage;
+  MaterialInput material;
+  HubGearInput sun, planet;
+  CarrierInput carrier;
+  std::vector<RingInput> rings;
+  ErrorInput errors;
+  SupportInput supports;
+  MeshInput sun_planet, ring_planet;
+  std::optional<DynamicsInput> dynamics;  ///< absent: no dynamics wanted
+
+  std::vector<Input> inputs;                   ///< every input with its origin, in the order of the schema
+  std::map<std::string, std::string> assumed;  ///< key -> reason, as declared in [assumed]
+};
+
+/// Reads and checks a scene file. Throws SceneError with *all* problems found.
+[[nodiscard]] Scene read_scene(const std::filesystem::path& file);
+/// The same from text; `name` stands for the file in messages.
+[[nodiscard]] Scene parse_scene(const std::string& text, const std::filesystem::path& name);
+
+}  // namespace annulus::app

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "app/scene.h"
+
+namespace annulus::app {
+
+/// Completes a scene whose values are all of the right type and range (lists of one value per planet), and checks the
+/// rules between keys. Problems are appended, never thrown.
+void complete_and_check(Scene& scene, std::vector<Problem>& problems);
+
+}  // namespace annulus::app

@@ -1,0 +1,302 @@
+#include <fmt/format.h>
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "app/scene_checks.h"
+#include "app/scene_schema.h"
+
+namespace annulus::app {
+
+namespace {
+
+struct Place {
+  int line = 0, column = 0;
+};
+
+Place place_of(const toml::source_region& source) {
+  return {static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+}
+
+std::string node_text(const toml::node& node) {
+  if (node.is_table() || node.is_array_of_tables()) return "{...}";
+  if (const auto* text = node.as_string()) return '"' + **text + '"';
+  if (const auto* number = node.as_floating_point()) {
+    // A whole-valued float must look like one, or "5 must be a whole number" would puzzle.
+    const std::string text = to_text(**number, 15);
+    return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
+  }
+  std::ostringstream out;
+  node.visit([&](const auto& n) { out << n; });
+  return out.str();
+}
+
+/// Reads the tables of one file against the schema and collects every problem.
+class Reader {
+ public:
+  Reader(const toml::table& root, const std::filesystem::path& file) : root_(root) { scene_.file = file; }
+
+  Scene read() {
+    check_root_keys();
+    for (const auto& table : schema()) read_table(table);
+    read_assumed();
+    complete_and_check(scene_, problems_);
+    std::stable_sort(problems_.begin(), problems_.end(),
+                     [](const Problem& a, const Problem& b) { return a.line < b.line; });
+    if (!problems_.empty()) throw SceneError(scene_.file.string(), problems_);
+    return std::move(scene_);
+  }
+
+ private:
+  void problem(Place at, std::string message) { problems_.push_back({at.line, at.column, std::move(message)}); }
+
+  void read_table(const Table& table) {
+    const toml::node* node = table.path.empty() ? &root_ : root_.at_path(table.path).node();
+    if (!node) {
+      if (table.required) problem({}, fmt::format("{} is missing: {}", table.header(), table.meaning));
+      // An absent table still has its defaults, unless its presence is itself the question ([dynamics], [mesh.*]).
+      if (!table.required && !needs_presence(table)) read_keys(table, toml::table{}, 0, "");
+      return;
+    }
+    if (table.repeated) {
+      const toml::array* array = node->as_array();
+      if (!array || array->empty() || !array->is_homogeneous(toml::node_type::table)) {
+        return problem(place_of(node->source()), fmt::format("{}: write each one as {}", table.path, table.header()));
+      }
+      scene_.rings.resize(array->size());
+      for (std::size_t i = 0; i < array->size(); ++i) {
+        const auto& entry = *array->get(i)->as_table();
+        scene_.rings[i].name = entry["name"].value_or(fmt::format("{}", i + 1));
+        read_keys(table, entry, i, scene_.rings[i].name);
+      }
+      return;
+    }
+    const toml::table* entry = node->as_table();
+    if (!entry) {
+      return problem(place_of(node->source()),
+                     fmt::format("{}: must be a table, written {}", table.path, table.header()));
+    }
+    read_keys(table, *entry, 0, "");
+  }
+
+  static bool needs_presence(const Table& table) {
+    for (const auto& p : table.parameters) {
+      if (p.presence == Parameter::Presence::required) return true;
+    }
+    return false;
+  }
+
+  void read_keys(const Table& table, const toml::table& entry, std::size_t index, const std::string& ring) {
+    if (!table.path.empty()) check_keys(table, entry);
+    for (const auto& p : table.parameters) {
+      Input input{.key = p.key(), .ring = ring, .unit = p.unit, .meaning = p.meaning};
+      const auto found = entry.find(p.name);
+      if (found == entry.end()) {
+        const Place at = place_of(entry.source());
+        if (p.presence == Parameter::Presence::required) {
+          problem(at, fmt::format("{}: is missing{}; must be {}. {}", p.key(),
+                                  ring.empty() ? "" : " for ring '" + ring + "'", expected(p), p.meaning));
+          continue;
+        }
+        input.origin = Origin::default_value;
+        input.note = p.note;
+        input.value = p.default_value;
+        input.line = at.line;
+        input.column = at.column;
+      } else {
+        const Place at = place_of(found->first.source());
+        input.line = at.line;
+        input.column = at.column;
+        // A refused value stays in the list without a value, so that later checks do not call it missing.
+        if (!convert(p, found->second, at, input.value)) input.value = {};
+      }
+      if (!std::holds_alternative<std::monostate>(input.value)) p.store(scene_, index, input.value);
+      scene_.inputs.push_back(std::move(input));
+    }
+  }
+
+  static std::string expected(const Parameter& p) {
+    const auto range = p.range_text();
+    return p.type_text() + (range.empty() ? "" : ", " + range);
+  }
+
+  bool convert(const Parameter& p, const toml::node& node, Place at, Value& value) {
+    const std::string head = fmt::format("{} = {}", p.key(), node_text(node));
+    const auto refuse = [&](const std::string& rule) {
+      problem(at, head + ": " + rule);
+      return false;
+    };
+    switch (p.kind) {
+      case Parameter::Kind::integer:
+        if (!node.is_integer()) return refuse("must be " + expected(p));
+        value = static_cast<long>(**node.as_integer());
+        if (!in_range(p, static_cast<double>(std::get<long>(value))))
+          return refuse("must be in range: " + p.range_text());
+        break;
+      case Parameter::Kind::real:
+        if (!node.is_number()) return refuse("must be " + expected(p));
+        value = *node.value<double>();
+        if (!in_range(p, std::get<double>(value))) return refuse("must be in range: " + p.range_text());
+        break;
+      case Parameter::Kind::reals: {
+        const auto* array = node.as_array();
+        std::vector<double> list;
+        for (std::size_t i = 0; array && i < array->size(); ++i) {
+          const auto* item = array->get(i);
+          if (!item->is_number()) return refuse("must be " + expected(p));
+          list.push_back(*item->value<double>());
+          if (!in_range(p, list.back()))
+            return refuse(fmt::format("value {} must be in range: {}", i + 1, p.range_text()));
+        }
+        if (!array) return refuse("must be " + expected(p));
+        value = std::move(list);
+        break;
+      }
+      case Parameter::Kind::text:
+        if (!node.is_string()) return refuse("must be " + expected(p));
+        value = **node.as_string();
+        break;
+      case Parameter::Kind::choice: {
+        const auto text = node.value<std::string>();
+        if (!text || std::find(p.choices.begin(), p.choices.end(), *text) == p.choices.end()) {
+          const std::string near = text ? nearest(*text, p.choices) : "";
+          return refuse("must be " + p.type_text() + (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+        }
+        value = *text;
+        break;
+      }
+    }
+    if (!p.unavailable.empty() && value != p.default_value) {
+      return refuse("is not yet available in this version: " + p.unavailable);
+    }
+    return true;
+  }
+
+  static bool in_range(const Parameter& p, double x) {
+    if (std::isnan(x)) return false;
+    if (std::isinf(x)) return x > 0 && p.may_be_infinite;
+    return (p.low_included ? x >= p.low : x > p.low) && x <= p.high;
+  }
+
+  void check_keys(const Table& table, const toml::table& entry) {
+    std::vector<std::string> names;
+    for (const auto& p : table.parameters) names.push_back(p.name);
+    for (const auto& [key, node] : entry) {
+      const std::string name(key.str());
+      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+      problem(place_of(key.source()), fmt::format("{}.{} = {}: unknown key{}", table.path, name, node_text(node),
+                                                  suggestion(table.path, name, names)));
+    }
+  }
+
+  // Nearest key of the same table; else the same key in other tables, where the user may have meant to write it.
+  static std::string suggestion(const std::string& path, const std::string& name,
+                                const std::vector<std::string>& names) {
+    std::string elsewhere;
+    for (const auto& table : schema()) {
+      for (const auto& p : table.parameters) {
+        if (p.name == name)
+          elsewhere += (elsewhere.empty() ? "" : ", ") + (table.path.empty() ? "the top level" : table.header());
+      }
+    }
+    if (!elsewhere.empty()) return "; it belongs in " + elsewhere;
+    const std::string near = nearest(name, names);
+    if (near.empty()) return "; see `annulus explain`";
+    return "; did you mean " + (path.empty() ? near : path + "." + near) + "?";
+  }
+
+  void check_root_keys() {
+    std::vector<std::string> names = {"assumed"};
+    for (const auto& p : schema().front().parameters) names.push_back(p.name);
+    for (const auto& table : schema()) {
+      if (!table.path.empty()) names.push_back(table.path.substr(0, table.path.find('.')));
+    }
+    for (const auto& [key, node] : root_) {
+      const std::string name(key.str());
+      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+      std::string what =
+          fmt::format("{}: unknown {}", name, node.is_table() || node.is_array_of_tables() ? "table" : "key");
+      const auto& later = unavailable_tables();
+      const auto match = std::find_if(later.begin(), later.end(), [&](const auto& t) { return t.first == name; });
+      what = match != later.end() ? fmt::format("[{}] ({}) is not yet available in this version", name, match->second)
+                                  : what + suggestion("", name, names);
+      problem(place_of(key.source()), what);
+    }
+    if (const auto* mesh = root_["mesh"].as_table()) {
+      for (const auto& [key, node] : *mesh) {
+        const std::string name(key.str());
+        if (name == "sun_planet" || name == "ring_planet") continue;
+        problem(place_of(key.source()),
+                fmt::format("mesh.{}: unknown table; did you mean mesh.{}?", name,
+                            name.starts_with("r") || name.starts_with("planet_r") ? "ring_planet" : "sun_planet"));
+      }
+    }
+  }
+
+  void read_assumed() {
+    const auto* node = root_.get("assumed");
+    if (!node) return;
+    if (const auto* table = node->as_table()) return read_assumed(*table, "");
+    problem(place_of(node->source()), "assumed: must be a table of key = \"reason\"");
+  }
+
+  // The keys contain dots: quoted or not, they arrive here as the same path.
+  void read_assumed(const toml::table& table, const std::string& prefix) {
+    for (const auto& [key, node] : table) {
+      const std::string path = prefix + std::string(key.str());
+      if (const auto* inner = node.as_table()) {
+        read_assumed(*inner, path + ".");
+        continue;
+      }
+      const Place at = place_of(key.source());
+      const auto reason = node.value<std::string>();
+      if (!reason || reason->empty()) {
+        problem(at, fmt::format("assumed.{}: must be the reason, a text in quotes", path));
+      } else if (!find_parameter(path)) {
+        const std::string near = nearest(path, all_keys());
+        problem(at, fmt::format("assumed.{}: there is no such key{}", path,
+                                near.empty() ? "" : "; did you mean " + near + "?"));
+      } else {
+        bool has_value = false;
+        for (auto& input : scene_.inputs) {
+          if (input.key != path || std::holds_alternative<std::monostate>(input.value)) continue;
+          input.assumed = *reason;
+          has_value = true;
+        }
+        scene_.assumed[path] = *reason;
+        if (!has_value) problem(at, fmt::format("assumed.{}: this scene does not set it", path));
+      }
+    }
+  }
+
+  const toml::table& root_;
+  Scene scene_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+Scene parse_scene(const std::string& text, const std::filesystem::path& name) {
+  toml::table root;
+  try {
+    root = toml::parse(text, name.string());
+  } catch (const toml::parse_error& error) {
+    const Place at = place_of(error.source());
+    throw SceneError(name.string(), {{at.line, at.column, "not valid TOML: " + std::string(error.description())}});
+  }
+  return Reader(root, name).read();
+}
+
+Scene read_scene(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file))
+    throw InputError(file.string() + ": cannot be read; is the path right?");
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  return parse_scene(text, file);
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,321 @@
+#include "app/scene_schema.h"
+
+#include "app/scene_declare.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr const char* needs_dynamics = "needed by [dynamics]";
+
+template <class Section>
+void declare_gear(Declarations<Section>& t, bool internal) {
+  t.key("teeth", &Section::teeth, "Number of teeth.").required().from(5, 2000);
+  t.key("profile_shift", &Section::profile_shift,
+        internal ? "Profile shift in modules; positive moves the tooth space outwards."
+                 : "Profile shift in modules; positive moves the rack outwards.")
+      .required()
+      .from(-2, 3);
+  t.key("mass_kg", &Section::mass, "Mass.").above(0, 1e6).absent(needs_dynamics);
+  t.key("inertia_kg_m2", &Section::inertia, "Moment of inertia about the axis.").above(0, 1e6).absent(needs_dynamics);
+  t.key("tip_diameter_mm", &Section::tip_diameter, "Tip diameter.")
+      .above(0, 1e5)
+      .absent("addendum of one module beyond the profile shift (ISO 53)");
+  t.key("root_diameter_mm", &Section::root_diameter, "Root diameter.")
+      .above(0, 1e5)
+      .absent("dedendum of 1.25 modules beyond the profile shift (ISO 53)");
+  t.key("root_fillet_factor", &Section::root_fillet_factor,
+        internal ? "Radius of the root fillet in modules; limited to the full circle between the flanks."
+                 : "Tip radius of the generating rack in modules.")
+      .fallback(0.38, "ISO 53 profile A")
+      .above(0, 0.6);
+  t.key("tip_relief_um", &Section::tip_relief, "Linear tip relief, normal to the flank.")
+      .fallback(0.0, "unmodified flanks")
+      .from(0, 1000);
+  t.key("tip_relief_length_mm", &Section::tip_relief_length, "Length of the tip relief along the line of action.")
+      .fallback(0.0, "unmodified flanks")
+      .from(0, 1000);
+  t.key("profile_crowning_um", &Section::profile_crowning, "Parabolic crowning at both ends of the flank's profile.")
+      .fallback(0.0, "unmodified flanks")
+      .from(0, 1000);
+  constexpr const char* no_lead = "lead modifications are not yet part of the contact solve";
+  t.key("lead_crowning_um", &Section::lead_crowning, "Crowning along the face width.")
+      .fallback(0.0, "unmodified flanks")
+      .from(0, 1000)
+      .unavailable(no_lead);
+  t.key("lead_slope_um", &Section::lead_slope, "Slope along the face width, end to end.")
+      .fallback(0.0, "unmodified flanks")
+      .from(-1000, 1000)
+      .unavailable(no_lead);
+}
+
+Table hub_gear_table(const char* path, const char* meaning, HubGearInput& (*section)(Scene&, std::size_t)) {
+  Declarations<HubGearInput> t(path, meaning, section);
+  declare_gear(t, false);
+  t.key("bore_diameter_mm", &HubGearInput::bore_diameter, "Diameter of the bore, where the body meets a rigid hub.")
+      .above(0, 1e5)
+      .absent("needed when a mesh of this gear is computed");
+  return t.done();
+}
+
+Table mesh_table(const char* path, const char* meaning, MeshInput& (*section)(Scene&, std::size_t)) {
+  Declarations<MeshInput> t(path, meaning, section);
+  t.optional();
+  t.choice("stiffness", &MeshInput::stiffness,
+           {{"computed", StiffnessShape::computed},
+            {"constant", StiffnessShape::constant},
+            {"harmonic", StiffnessShape::harmonic},
+            {"rectangular", StiffnessShape::rectangular},
+            {"table", StiffnessShape::table}},
+           "Where the mesh stiffness comes from; everything but `computed` replaces the finite-element solve.")
+      .required();
+  t.key("mean_N_per_m", &MeshInput::mean, "Mean stiffness of one mesh.")
+      .above(0, 1e13)
+      .absent("needed by all given shapes but a table");
+  t.key("ripple", &MeshInput::ripple,
+        "Relative ripple: k = mean (1 + ripple cos 2π phase), or mean (1 + ripple (s(phase) - duty)) with s = 1 during "
+        "the fraction `duty` and else 0.")
+      .from(0, 10)
+      .absent("needed by harmonic and rectangular");
+  t.key("duty", &MeshInput::duty, "Fraction of the mesh cycle in which the rectangular wave is high.")
+      .above(0, 1)
+      .absent("needed by rectangular");
+  t.key("phase", &MeshInput::phase,
+        "Lead of this wave in mesh cycles, on top of the phasing derived from the geometry.")
+      .from(-1, 1)
+      .absent("no lead");
+  t.key("file", &MeshInput::file, "Stiffness table (CSV as annulus writes it), relative to the scene.")
+      .absent("needed by table");
+  return t.done();
+}
+
+std::vector<Table> declare_tables() {
+  std::vector<Table> tables;
+
+  Declarations<Scene> top("", "The whole scene.", [](Scene& s, std::size_t) -> Scene& { return s; });
+  top.key("title", &Scene::title, "Title of the report.").fallback(std::string("Planetary stage"), "");
+  top.key("accuracy", &Scene::accuracy, "Wanted relative accuracy of the mesh stiffness.")
+      .fallback(0.01, "well below the spread of unknown inputs such as support stiffnesses")
+      .from(1e-5, 0.2);
+  top.choice("rung", &Scene::rung,
+             {{"automatic", Rung::automatic},
+              {"closed_form", Rung::closed_form},
+              {"plane", Rung::plane},
+              {"solid", Rung::solid},
+              {"resolved", Rung::resolved}},
+             "Kind of model of the elastic bodies.")
+      .fallback(std::string("automatic"), "the cheapest that the ring structure permits");
+  tables.push_back(top.done());
+
+  Declarations<StageInput> stage("stage", "The gear set and its operating point.",
+                                 [](Scene& s, std::size_t) -> StageInput& { return s.stage; });
+  stage
+      .choice("kind", &StageInput::kind,
+              {{"planetary", StageKind::planetary},
+               {"helical_pair", StageKind::helical_pair},
+               {"two_k_v", StageKind::two_k_v}},
+              "Kind of stage.")
+      .required();
+  stage.key("planets", &StageInput::planets, "Number of equally spaced planets.").required().from(1, 50);
+  stage.key("module_mm", &StageInput::module, "Module.").required().from(0.05, 100);
+  stage.key("pressure_angle_deg", &StageInput::pressure_angle, "Pressure angle of the basic rack.")
+      .required()
+      .from(10, 35);
+  stage.key("face_width_mm", &StageInput::face_width, "Common face width.").required().above(0, 5000);
+  stage.key("centre_distance_mm", &StageInput::centre_distance, "Working centre distance of sun and planet.")
+      .required()
+      .above(0, 1e5);
+  stage.key("power_kW", &StageInput::power, "Transmitted power; the sun drives, the carrier is driven.")
+      .required()
+      .above(0, 1e6);
+  stage.key("sun_speed_rpm", &StageInput::sun_speed, "Speed of the sun; give this or carrier_speed_rpm.")
+      .above(0, 1e6)
+      .absent("follows from carrier_speed_rpm");
+  stage.key("carrier_speed_rpm", &StageInput::carrier_speed, "Speed of the carrier; give this or sun_speed_rpm.")
+      .above(0, 1e6)
+      .absent("follows from sun_speed_rpm");
+  tables.push_back(stage.done());
+
+  Declarations<MaterialInput> material("material", "Material of all gears.",
+                                       [](Scene& s, std::size_t) -> MaterialInput& { return s.material; });
+  material.key("youngs_modulus_GPa", &MaterialInput::youngs_modulus, "Young's modulus.").required().from(1, 2000);
+  material.key("poisson_ratio", &MaterialInput::poisson_ratio, "Poisson's ratio.").fallback(0.3, "steel").from(0, 0.49);
+  material.key("density_kg_per_m3", &MaterialInput::density, "Density; only used to check masses.")
+      .fallback(7850.0, "steel")
+      .from(100, 30000);
+  tables.push_back(material.done());
+
+  tables.push_back(
+      hub_gear_table("sun", "The sun gear.", [](Scene& s, std::size_t) -> HubGearInput& { return s.sun; }));
+  tables.push_back(
+      hub_gear_table("planet", "Each planet gear.", [](Scene& s, std::size_t) -> HubGearInput& { return s.planet; }));
+
+  Declarations<CarrierInput> carrier("carrier", "The planet carrier.",
+                                     [](Scene& s, std::size_t) -> CarrierInput& { return s.carrier; });
+  carrier.optional();
+  carrier.key("mass_kg", &CarrierInput::mass, "Mass without planets.").above(0, 1e6).absent(needs_dynamics);
+  carrier.key("inertia_kg_m2", &CarrierInput::inertia, "Moment of inertia about the axis, without planets.")
+      .above(0, 1e6)
+      .absent(needs_dynamics);
+  tables.push_back(carrier.done());
+
+  Declarations<RingInput> ring("ring", "A ring gear and what holds it; several rings are compared with each other.",
+                               [](Scene& s, std::size_t i) -> RingInput& { return s.rings.at(i); });
+  ring.repeated();
+  ring.key("name", &RingInput::name, "Name, also of the folder of its results.").required();
+  ring.choice("structure", &RingInput::structure,
+              {{"traditional", Structure::traditional},
+               {"thin_walled", Structure::thin_walled},
+               {"pinned", Structure::pinned},
+               {"bolted", Structure::bolted}},
+              "traditional: outer surface held; thin_walled: cantilever on a sleeve whose end face is held, outside "
+              "free; pinned: pins around the outside that carry outward pressure only; bolted: the same places held "
+              "both ways.")
+      .required();
+  declare_gear(ring, true);
+  ring.key("outside_diameter_mm", &RingInput::outside_diameter, "Outside diameter; give this or rim_thickness_mm.")
+      .above(0, 1e5)
+      .absent("root diameter plus twice rim_thickness_mm");
+  ring.key("rim_thickness_mm", &RingInput::rim_thickness, "From the root circle to the outside.")
+      .above(0, 1e4)
+      .absent("follows from outside_diameter_mm");
+  ring.key("free_length_mm", &RingInput::free_length,
+           "thin_walled: toothless sleeve between the held face and the teeth.")
+      .above(0, 1e4)
+      .absent("thin_walled only");
+  ring.key("sleeve_thickness_mm", &RingInput::sleeve_thickness,
+           "thin_walled: thickness of the sleeve, at the outside diameter.")
+      .above(0, 1e4)
+      .absent("thin_walled only");
+  constexpr const char* no_hoop = "stiffening hoops are not yet meshed";
+  ring.key("hoop_width_mm", &RingInput::hoop_width, "thin_walled: axial width of a stiffening hoop at the free end.")
+      .from(0, 1e4)
+      .absent("no hoop")
+      .unavailable(no_hoop);
+  ring.key("hoop_thickness_mm", &RingInput::hoop_thickness, "thin_walled: radial thickness of the hoop.")
+      .from(0, 1e4)
+      .absent("no hoop")
+      .unavailable(no_hoop);
+  ring.key("pins", &RingInput::pins, "pinned, bolted: number of equally spaced pins or bolts.")
+      .from(1, 2000)
+      .absent("pinned and bolted only");
+  ring.key("pin_diameter_mm", &RingInput::pin_diameter, "pinned, bolted: diameter.")
+      .above(0, 1000)
+      .absent("pinned and bolted only");
+  ring.key("pin_clearance_um", &RingInput::pin_clearance, "pinned: radial play.").from(0, 1e4).absent("no play");
+  ring.key("pin_radial_stiffness_N_per_m", &RingInput::pin_radial_stiffness,
+           "pinned, bolted: radial stiffness of one pin.")
+      .above(0, 1e14)
+      .absent("derived from the pin");
+  ring.key("first_pin_angle_deg", &RingInput::first_pin_angle, "pinned, bolted: first pin, from the centre of tooth 0.")
+      .from(-360, 360)
+      .absent("0: behind tooth 0");
+  tables.push_back(ring.done());
+
+  Declarations<ErrorInput> errors(
+      "errors", "Manufacturing errors. Lists have one value per planet. Eccentricities turn with their body.",
+      [](Scene& s, std::size_t) -> ErrorInput& { return s.errors; });
+  errors.optional();
+  const auto list = [&](const char* name, std::vector<double> ErrorInput::*member, const char* meaning, double limit) {
+    errors.key(name, member, meaning).fallback(std::vector<double>{}, "0 for every planet").from(-limit, limit);
+  };
+  const auto single = [&](const char* name, double ErrorInput::*member, const char* meaning, double limit) {
+    errors.key(name, member, meaning).fallback(0.0, "no error").from(-limit, limit);
+  };
+  list("planet_eccentricity_um", &ErrorInput::planet_eccentricity, "Eccentricity of each planet.", 1e4);
+  list("planet_eccentricity_phase_deg", &ErrorInput::planet_eccentricity_phase,
+       "Direction of the eccentricity at time 0, in the planet's own frame.", 360);
+  list("planet_installation_um", &ErrorInput::planet_installation, "Misplacement of each planet's bearing.", 1e4);
+  list("planet_installation_phase_deg", &ErrorInput::planet_installation_phase,
+       "Direction of the misplacement, in the frame of the carrier.", 360);
+  single("sun_eccentricity_um", &ErrorInput::sun_eccentricity, "Eccentricity of the sun.", 1e4);
+  single("sun_eccentricity_phase_deg", &ErrorInput::sun_eccentricity_phase, "Its direction at time 0.", 360);
+  single("sun_installation_um", &ErrorInput::sun_installation, "Misplacement of the sun's axis.", 1e4);
+  single("sun_installation_phase_deg", &ErrorInput::sun_installation_phase, "Its direction.", 360);
+  single("ring_eccentricity_um", &ErrorInput::ring_eccentricity, "Eccentricity of the ring.", 1e4);
+  single("ring_eccentricity_phase_deg", &ErrorInput::ring_eccentricity_phase, "Its direction.", 360);
+  single("ring_installation_um", &ErrorInput::ring_installation, "Misplacement of the ring's axis.", 1e4);
+  single("ring_installation_phase_deg", &ErrorInput::ring_installation_phase, "Its direction.", 360);
+  tables.push_back(errors.done());
+
+  Declarations<SupportInput> supports(
+      "supports", "Stiffness of the bearings; absent or inf means rigid, and the freedom is dropped.",
+      [](Scene& s, std::size_t) -> SupportInput& { return s.supports; });
+  supports.optional();
+  const auto bearing = [&](const char* name, double SupportInput::*member, const char* meaning) {
+    supports.key(name, member, meaning).fallback(rigid, "rigid: the freedom is dropped").above(0, 1e14).infinite();
+  };
+  bearing("sun_N_per_m", &SupportInput::sun, "Support of the sun's axis, any direction.");
+  bearing("ring_N_per_m", &SupportInput::ring, "Support of the ring's axis, any direction.");
+  bearing("carrier_N_per_m", &SupportInput::carrier, "Support of the carrier's axis, any direction.");
+  bearing("planet_N_per_m", &SupportInput::planet, "Bearing of each planet on the carrier, radial and tangential.");
+  bearing("ring_torsional_N_per_m", &SupportInput::ring_torsional,
+          "Torsional support of the ring, in u = base radius × angle.");
+  supports
+      .key("sun_torsional_N_per_m", &SupportInput::sun_torsional,
+           "Torsional support of the sun, in u = base radius × angle.")
+      .fallback(0.0, "free: the sun carries the power")
+      .from(0, 1e14);
+  supports
+      .key("carrier_torsional_N_per_m", &SupportInput::carrier_torsional,
+           "Torsional support of the carrier, in u = centre distance × angle.")
+      .fallback(0.0, "free: the carrier carries the power")
+      .from(0, 1e14);
+  tables.push_back(supports.done());
+
+  tables.push_back(mesh_table("mesh.sun_planet", "Stiffness of the sun mesh, given instead of computed.",
+                              [](Scene& s, std::size_t) -> MeshInput& { return s.sun_planet; }));
+  tables.push_back(mesh_table("mesh.ring_planet", "Stiffness of the ring mesh, given instead of computed.",
+                              [](Scene& s, std::size_t) -> MeshInput& { return s.ring_planet; }));
+
+  Declarations<DynamicsInput> dynamics("dynamics", "The lumped model; absent: meshes and stiffness only.",
+                                       [](Scene& s, std::size_t) -> DynamicsInput& {
+                                         if (!s.dynamics) s.dynamics.emplace();
+                                         return *s.dynamics;
+                                       });
+  dynamics.optional();
+  dynamics
+      .key("half_backlash_um", &DynamicsInput::half_backlash,
+           "Half the backlash along the line of action, both meshes.")
+      .required()
+      .from(0, 1e4);
+  dynamics
+      .key("mesh_damping_ratio", &DynamicsInput::mesh_damping_ratio, "Damping ratio ζ of every mesh: c = 2ζ√(k m_e).")
+      .required()
+      .from(0, 2);
+  dynamics.key("support_damping_ratio", &DynamicsInput::support_damping_ratio, "Damping ratio of every bearing.")
+      .required()
+      .from(0, 2);
+  dynamics
+      .choice("mesh_damping", &DynamicsInput::mesh_damping,
+              {{"in_contact", MeshDamping::in_contact}, {"always", MeshDamping::always}},
+              "When mesh damping acts. `always` is the literal form of the papers; it lets separated flanks pull.")
+      .fallback(std::string("in_contact"), "separated flanks exert no force");
+  dynamics.key("mesh_cycles", &DynamicsInput::mesh_cycles, "Mesh cycles to integrate.")
+      .from(1, 1e6)
+      .absent("until the periodic steady state is reached, then one error period");
+  dynamics.key("relative_tolerance", &DynamicsInput::relative_tolerance, "Relative tolerance of the time integration.")
+      .fallback(1e-6, "far below the accuracy of the stiffness")
+      .from(1e-12, 1e-2);
+  tables.push_back(dynamics.done());
+  return tables;
+}
+
+}  // namespace
+
+const std::vector<Table>& schema() {
+  static const std::vector<Table> tables = declare_tables();
+  return tables;
+}
+
+const std::vector<std::pair<std::string, std::string>>& unavailable_tables() {
+  static const std::vector<std::pair<std::string, std::string>> tables = {
+      {"modes", "choice of vibration modes"},
+      {"sweep", "sweeps over speed, load or any input"},
+      {"monte_carlo", "samples over unknown error phases"},
+      {"optimise", "optimisation of inputs"},
+  };
+  return tables;
+}
+
+}  // namespace annulus::app

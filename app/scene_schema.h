@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/scene.h"
+
+namespace annulus::app {
+
+/// One key of a scene file. It is declared once, in scene_schema.cc; parser, validation, `plan`, `explain` and the
+/// scene reference (docs/scene.md) come from that declaration.
+struct Parameter {
+  enum class Kind { integer, real, text, choice, reals };
+  enum class Presence { required, optional, defaulted };
+
+  std::string table{};  ///< "stage", "mesh.sun_planet"; empty for the top level
+  std::string name{};   ///< "module_mm"
+  Kind kind = Kind::real;
+  std::string unit{};  ///< for people, read off the suffix of the name: "mm"
+  double si = 1;       ///< value in SI units = value in the file x si
+  Presence presence = Presence::optional;
+  Value default_value{};
+  std::string note{};  ///< reason of the default, or what absence means
+  double low = -rigid, high = rigid;
+  bool low_included = true;
+  bool may_be_infinite = false;
+  std::vector<std::string> choices{};
+  std::string meaning{};
+  std::string unavailable{};  ///< not empty: known, but this version cannot use it; says what is missing
+  /// Stores a checked value (in file units) into the scene; the index counts the tables of an array ([[ring]]).
+  std::function<void(Scene&, std::size_t, const Value&)> store{};
+
+  [[nodiscard]] std::string key() const { return table.empty() ? name : table + "." + name; }
+  [[nodiscard]] std::string type_text() const;   ///< "a whole number", "a list of numbers"
+  [[nodiscard]] std::string range_text() const;  ///< "0 < value <= 100 mm"; empty when anything goes
+};
+
+struct Table {
+  std::string path{};
+  bool repeated = false;  ///< [[path]]: array of tables
+  bool required = true;   ///< false: absent as a whole is fine, and then none of its keys applies
+  std::string meaning{};
+  std::vector<Parameter> parameters{};
+
+  [[nodiscard]] std::string header() const { return repeated ? "[[" + path + "]]" : "[" + path + "]"; }
+};
+
+/// All tables in the order of the documentation; the first one, with an empty path, holds the top-level keys.
+[[nodiscard]] const std::vector<Table>& schema();
+/// Tables of the format that this version cannot use yet, with what they will do.
+[[nodiscard]] const std::vector<std::pair<std::string, std::string>>& unavailable_tables();
+
+/// nullptr when there is no such key.
+[[nodiscard]] const Parameter* find_parameter(const std::string& key);
+[[nodiscard]] std::vector<std::string> all_keys();
+
+/// The scene reference as Markdown (docs/scene.md), and one key for `annulus explain KEY`.
+[[nodiscard]] std::string scene_reference();
+[[nodiscard]] std::string explain(const Parameter& parameter);
+
+}  // namespace annulus::app
