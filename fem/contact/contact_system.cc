@@ -1,0 +1,241 @@
+#include "fem/contact/contact_system.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+
+#include "core/errors.h"
+
+namespace annulus::fem {
+
+double hertz_half_width(double line_load, double relative_curvature, const Material& material) {
+  const double modulus = material.youngs_modulus / (2 * (1 - material.poisson_ratio * material.poisson_ratio));
+  return std::sqrt(4 * line_load / (M_PI * modulus * relative_curvature));
+}
+
+/// One tooth pair that may touch: its window, cut into pressure elements, on both flanks.
+struct ContactSystem::Pair {
+  int tooth = 0;         ///< number of the pair; planet tooth
+  int wheel_tooth = 0;
+  double roll = 0;       ///< theoretical contact on the planet
+  double smallest_gap = 0;
+  bool low_is_edge = false, high_is_edge = false;  ///< the window ends at the end of a flank
+  Eigen::VectorXd gap, length;                     ///< per element: mean gap (m), arc length (m)
+  ContactBody::Weights planet, wheel;
+  std::vector<std::vector<double>> planet_rolls, wheel_rolls, weights;  ///< quadrature points behind the elements
+};
+
+ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel,
+                             const PinRow* pins, const Material& material, std::vector<double> slice_edges,
+                             ContactOptions options)
+    : flanks_(flanks),
+      planet_(planet),
+      wheel_(wheel),
+      pins_(pins),
+      material_(material),
+      slice_edges_(std::move(slice_edges)),
+      options_(options) {}
+
+std::vector<ContactSystem::Pair> ContactSystem::find_pairs(int cycle, double phase, double load, double window) const {
+  const auto& pair = flanks_.pair();
+  const double pitch = pair.planet().base_pitch();
+  const double width = slice_edges_.back() - slice_edges_.front();
+  // Along the path the contact of a tooth moves from the planet's root to its tip in the ring mesh (planet drives) and
+  // from tip to root in the sun mesh (sun drives).
+  const double direction = pair.internal() ? 1 : -1;
+  const double reference = pair.roll_length_pitch() + direction * phase * pitch;
+  // Under load teeth meet before and after the theoretical path: look one base pitch beyond both its ends.
+  const int first = static_cast<int>(std::ceil((pair.roll_length_low() - reference) / pitch - 1));
+  const int last = static_cast<int>(std::floor((pair.roll_length_high() - reference) / pitch + 1));
+  std::vector<Pair> pairs;
+  for (int k = first; k <= last; ++k) {
+    Pair p;
+    p.roll = reference + k * pitch;
+    if (p.roll <= 0) continue;
+    const auto domain = flanks_.domain(p.roll);
+    if (domain.empty()) continue;
+    p.tooth = k - static_cast<int>(direction) * cycle;
+    p.wheel_tooth = pair.internal() ? p.tooth : -p.tooth;
+    const double centre = flanks_.nearest_roll(p.roll);
+    p.smallest_gap = flanks_.match(centre, p.roll).gap;
+    const double base = pair.planet().base_radius();
+    const double half_width = hertz_half_width(
+        load / width, flanks_.relative_curvature(std::clamp(p.roll, pair.roll_length_low(), pair.roll_length_high())),
+        material_);
+    const double half = window * half_width * base / centre;  // arc length s = rho^2 / (2 r_b)
+    const double low = std::max(centre - half, domain.low), high = std::min(centre + half, domain.high);
+    p.low_is_edge = low == domain.low;
+    p.high_is_edge = high == domain.high;
+    const double wanted = 2 * window * options_.elements_per_half_width * (high - low) / (2 * half);
+    const int elements = std::max(4, static_cast<int>(std::lround(wanted)));
+
+    p.gap.resize(elements);
+    p.length.resize(elements);
+    p.planet = ContactBody::Weights::Zero(planet_.body().flank.size(), elements);
+    p.wheel = ContactBody::Weights::Zero(wheel_.body().flank.size(), elements);
+    p.planet_rolls.resize(elements);
+    p.wheel_rolls.resize(elements);
+    p.weights.resize(elements);
+    const auto add = [](ContactBody::Weights& weights, int e, const TraceBasis& basis, double roll, double weight) {
+      const auto values = basis(std::clamp(roll, basis.low(), basis.high()));
+      for (std::size_t i = 0; i < values.weights.size(); ++i)
+        weights(values.first + static_cast<int>(i), e) += weight * values.weights[i];
+    };
+    for (int e = 0; e < elements; ++e) {
+      const double a = low + (high - low) * e / elements, b = low + (high - low) * (e + 1) / elements;
+      p.length[e] = (b * b - a * a) / (2 * base);
+      p.gap[e] = 0;
+      using Rule = boost::math::quadrature::gauss<double, 4>;
+      for (std::size_t q = 0; q < Rule::abscissa().size(); ++q)
+        for (const double side : {-1.0, 1.0}) {
+          const double roll = (a + b) / 2 + side * Rule::abscissa()[q] * (b - a) / 2;
+          const double weight = Rule::weights()[q] * (b - a) / 2 * roll / base / p.length[e];
+          const auto match = flanks_.match(roll, p.roll);
+          p.gap[e] += weight * match.gap;
+          add(p.planet, e, planet_.body().flank, roll, weight);
+          add(p.wheel, e, wheel_.body().flank, match.wheel_roll, weight);
+          p.planet_rolls[e].push_back(roll);
+          p.wheel_rolls[e].push_back(match.wheel_roll);
+          p.weights[e].push_back(weight);
+        }
+    }
+    pairs.push_back(std::move(p));
+  }
+  require(!pairs.empty(), "no tooth pair faces another");
+  return pairs;
+}
+
+LoadedPosition ContactSystem::solve(int cycle, double phase, double load, WarmStart& warm) const {
+  const int slices = planet_.slices();
+  double window = options_.window;
+  for (int attempt = 0; attempt < 6; ++attempt, window *= 1.5) {
+    const auto pairs = find_pairs(cycle, phase, load, window);
+    std::vector<Eigen::Index> start;
+    Eigen::Index contacts = 0;
+    for (const auto& p : pairs) {
+      start.push_back(contacts);
+      contacts += p.gap.size() * slices;
+    }
+    const Eigen::Index pin_forces = pins_ != nullptr ? 2 * pins_->size() : 0, n = contacts + pin_forces;
+
+    ComplementarityProblem problem;
+    problem.compliance = Eigen::MatrixXd::Zero(n, n);
+    problem.gap = Eigen::VectorXd::Zero(n);
+    problem.rigid = Eigen::MatrixXd::Zero(n, pins_ != nullptr ? 4 : 1);
+    problem.load = Eigen::VectorXd::Zero(problem.rigid.cols());
+    problem.load[0] = load;
+    problem.unilateral.assign(n, true);
+    std::vector<bool> guess(n, false);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const auto& p = pairs[i];
+      const Eigen::Index size = p.gap.size() * slices;
+      for (Eigen::Index e = 0; e < p.gap.size(); ++e) problem.gap.segment(start[i] + e * slices, slices).setConstant(p.gap[e]);
+      problem.rigid.col(0).segment(start[i], size).setOnes();
+      for (std::size_t j = 0; j <= i; ++j) {
+        const auto& o = pairs[j];
+        const Eigen::MatrixXd block = planet_.compliance(p.planet, p.tooth, o.planet, o.tooth) +
+                                      wheel_.compliance(p.wheel, p.wheel_tooth, o.wheel, o.wheel_tooth);
+        problem.compliance.block(start[i], start[j], size, block.cols()) = block;
+        problem.compliance.block(start[j], start[i], block.cols(), size) = block.transpose();
+      }
+      problem.compliance.block(start[i], start[i], size, size) +=
+          planet_.near_field(p.planet_rolls, p.weights) + wheel_.near_field(p.wheel_rolls, p.weights);
+      const auto known = warm.find(p.tooth);
+      const bool reuse = known != warm.end() && static_cast<Eigen::Index>(known->second.size()) == size;
+      for (Eigen::Index e = 0; e < size; ++e)
+        guess[start[i] + e] = reuse ? known->second[e] : p.smallest_gap < 1e-9 && std::abs(e - size / 2) < size / 4;
+    }
+    if (pins_ != nullptr) {
+      problem.compliance.bottomRightCorner(pin_forces, pin_forces) = pins_->compliance();
+      const double length = flanks_.pair().wheel().reference_radius();  // makes the rotation a displacement
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const auto& p = pairs[i];
+        const Eigen::MatrixXd coupling = pins_->to_flank(wheel_, p.wheel, p.wheel_tooth);
+        problem.compliance.block(start[i], contacts, coupling.rows(), pin_forces) = coupling;
+        problem.compliance.block(contacts, start[i], pin_forces, coupling.rows()) = coupling.transpose();
+        problem.rigid.block(start[i], 1, coupling.rows(), 3) = -wheel_.resultants(p.wheel, p.wheel_tooth);
+      }
+      problem.rigid.block(contacts, 1, pin_forces, 3) = -pins_->resultants();
+      problem.rigid.col(3) /= length;
+      for (int q = 0; q < pins_->size(); ++q) {
+        problem.gap[contacts + 2 * q] = pins_->parameters().clearance;
+        problem.unilateral[contacts + 2 * q] = pins_->parameters().unilateral;
+        problem.unilateral[contacts + 2 * q + 1] = false;
+        guess[contacts + 2 * q] = true;
+      }
+    }
+
+    const auto solution = solve_complementarity(problem, guess);
+    warm.clear();
+    bool window_too_small = false;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const auto& p = pairs[i];
+      const Eigen::Index size = p.gap.size() * slices;
+      warm[p.tooth] = std::vector<bool>(solution.active.begin() + start[i], solution.active.begin() + start[i] + size);
+      for (int s = 0; s < slices; ++s) {
+        window_too_small |= !p.low_is_edge && solution.active[start[i] + s];
+        window_too_small |= !p.high_is_edge && solution.active[start[i] + size - slices + s];
+      }
+    }
+    if (window_too_small) continue;
+    LoadedPosition position = evaluate(pairs, problem, solution, load);
+    position.mesh_phase = phase;
+    position.ring_tooth = cycle;
+    const auto& reference = pairs.front();
+    // Angle of the pitch point in the wheel's own frame; the ring mesh is solved in a mirror image of the real one.
+    const double tooth = reference.wheel_tooth * flanks_.pair().wheel().pitch_angle();
+    const double angle = flanks_.wheel_tooth_angle(reference.roll) - tooth;
+    position.ring_angle = flanks_.pair().internal() ? angle : -angle;
+    return position;
+  }
+  throw SolverError(fmt::format("mesh phase {:.4f}: the contact at {:.4g} N does not fit its window", phase, load));
+}
+
+LoadedPosition ContactSystem::evaluate(const std::vector<Pair>& pairs, const ComplementarityProblem& problem,
+                                       const ComplementaritySolution& solution, double load) const {
+  const int slices = planet_.slices();
+  LoadedPosition result;
+  result.load = load;
+  result.entry.lte = solution.rigid[0];
+  double unloaded = pairs.front().smallest_gap;
+  for (const auto& p : pairs) unloaded = std::min(unloaded, p.smallest_gap);
+  result.entry.unloaded_te = unloaded;
+  if (!(result.entry.lte > unloaded)) throw SolverError("the loaded transmission error is not positive");
+  result.entry.stiffness_secant = load / (result.entry.lte - unloaded);
+  result.entry.stiffness_tangent = 1 / solution.tangent(0, 0);
+
+  double moment = 0;
+  Eigen::Index at = 0;
+  for (const auto& p : pairs) {
+    const Eigen::Index size = p.gap.size() * slices;
+    const Eigen::VectorXd force = solution.force.segment(at, size);
+    moment -= (planet_.resultants(p.planet, p.tooth).col(2)).dot(force);
+    result.pair_share.push_back(force.sum() / load);
+    result.pair_roll.push_back(p.roll);
+    for (Eigen::Index e = 0; e < p.gap.size(); ++e)
+      for (int s = 0; s < slices; ++s) {
+        const double pressure = force[e * slices + s] / (p.length[e] * (slice_edges_[s + 1] - slice_edges_[s]));
+        if (pressure <= result.max_pressure) continue;
+        result.max_pressure = pressure;
+        result.tip_edge_contact = (e == 0 && p.low_is_edge) || (e == p.gap.size() - 1 && p.high_is_edge);
+      }
+    at += size;
+  }
+  const double torque = load * flanks_.pair().planet().base_radius();
+  result.force_balance_relative = std::abs(moment - torque) / torque;
+  const double stored = solution.force.dot(problem.compliance * solution.force);
+  const double against_gaps = solution.force.dot(problem.gap), work = load * result.entry.lte;
+  result.energy_balance_relative = std::abs(work - stored - against_gaps) / work;
+  result.max_penetration = std::max(0.0, -solution.gap.minCoeff());
+  if (pins_ != nullptr)
+    for (int q = 0; q < pins_->size(); ++q) {
+      const double radial = solution.force[at + 2 * q];
+      // The pin feels the opposite of what it does to the rim; mirrored frame: tangential forces change sign twice.
+      result.pins.push_back({radial > 0, radial, solution.force[at + 2 * q + 1]});
+    }
+  return result;
+}
+
+}  // namespace annulus::fem

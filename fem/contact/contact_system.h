@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <vector>
+
+#include "fem/contact/complementarity.h"
+#include "fem/contact/contact_body.h"
+#include "fem/contact/flank_contact.h"
+#include "fem/contact/pin_row.h"
+#include "fem/loaded_mesh.h"
+
+namespace annulus::fem {
+
+/// Half-width of a line contact after Hertz, b = sqrt(4 F' / (pi E* kappa)), E* = E / (2 (1 - nu^2)) for two bodies of
+/// the same material (Johnson, Contact Mechanics, 4.2). F' in N/m, kappa the relative curvature in 1/m.
+[[nodiscard]] double hertz_half_width(double line_load, double relative_curvature, const Material& material);
+
+struct ContactOptions {
+  double elements_per_half_width = 8;  ///< pressure elements; the force error of constant elements is then below 0.1 %
+  double window = 1.25;                ///< half-length of a pair's contact window in Hertz half-widths of the whole load
+};
+
+/// All tooth pairs (and pins) of one gear mesh as one complementarity problem per position.
+class ContactSystem {
+ public:
+  /// References are kept; `pins` may be null. `slice_edges` as for the bodies.
+  ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel, const PinRow* pins,
+                const Material& material, std::vector<double> slice_edges, ContactOptions options);
+
+  /// Active elements by tooth, to start the neighbouring position from.
+  using WarmStart = std::map<int, std::vector<bool>>;
+
+  /// Position in mesh cycles from the pitch-point contact of teeth 0; `warm` is read and replaced.
+  [[nodiscard]] LoadedPosition solve(int cycle, double phase, double load, WarmStart& warm) const;
+
+ private:
+  struct Pair;
+  [[nodiscard]] std::vector<Pair> find_pairs(int cycle, double phase, double load, double window) const;
+  [[nodiscard]] LoadedPosition evaluate(const std::vector<Pair>& pairs, const ComplementarityProblem& problem,
+                                        const ComplementaritySolution& solution, double load) const;
+
+  const FlankContact& flanks_;
+  const ContactBody& planet_;
+  const ContactBody& wheel_;
+  const PinRow* pins_;
+  Material material_;
+  std::vector<double> slice_edges_;
+  ContactOptions options_;
+};
+
+}  // namespace annulus::fem
