@@ -31,6 +31,7 @@ struct LoadedMeshSettings {
   double accuracy = 0.01;  ///< wanted relative accuracy of the stiffness
   int degree = 2;          ///< polynomial degree of the elements
   bool estimate_error = true;  ///< solve on two nested settings and report their difference
+  int threads = 1;             ///< changes the time, never the result
   std::function<void(double fraction)> progress{};  ///< called now and then with the finished fraction
 };
 
@@ -65,6 +66,7 @@ struct LoadedMeshResult {
   double reciprocity_relative = 0; ///< asymmetry of the condensed compliances
   geometry::Mesh planet_sector, wheel_sector;  ///< as solved
   long unknowns = 0;               ///< freedoms of the two sectors
+  double pin_stiffness = 0;        ///< N/m per pin as used; 0 without pins
   double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0;
 };
 

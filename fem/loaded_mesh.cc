@@ -1,0 +1,148 @@
+#include "fem/loaded_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <numeric>
+#include <thread>
+
+#include "core/errors.h"
+#include "fem/contact/contact_system.h"
+#include "fem/mesh_bodies.h"
+
+namespace annulus::fem {
+namespace {
+
+/// Teeth after which the structure of the wheel repeats.
+int repeating_teeth(const LoadedMeshProblem& problem) {
+  const auto* pinned = std::get_if<PinHeld>(&problem.structure);
+  if (pinned == nullptr) return 1;
+  const int teeth = problem.pair.wheel().teeth();
+  return teeth / std::gcd(teeth, pinned->pins);
+}
+
+/// All positions of one level: [cycle][phase 0 ... phases][load]; the last phase of the last cycle is the closure,
+/// inner ends of cycles are not solved twice.
+class PositionRun {
+ public:
+  PositionRun(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, const FlankContact& flanks,
+              const MeshBodies& bodies)
+      : problem_(problem),
+        settings_(settings),
+        system_(flanks, *bodies.planet, *bodies.wheel, bodies.pins ? &*bodies.pins : nullptr, problem.material,
+                bodies.slice_edges, {}),
+        cycles_(repeating_teeth(problem)) {}
+
+  [[nodiscard]] std::vector<LoadedPosition> solve(const std::function<void(double)>& progress) const {
+    const int loads = static_cast<int>(problem_.loads.size()), phases = problem_.phases;
+    std::vector<LoadedPosition> positions(static_cast<std::size_t>(cycles_ * phases + 1) * loads);
+    // One task per cycle and load: neighbouring phases warm-start each other, whatever the number of threads.
+    const int tasks = cycles_ * loads;
+    std::atomic<int> next{0}, done{0};
+    std::mutex failure_lock;
+    std::exception_ptr failure;
+    const auto worker = [&] {
+      for (int task = next++; task < tasks; task = next++) try {
+          const int cycle = task / loads, load = task % loads;
+          ContactSystem::WarmStart warm;
+          const int last = cycle + 1 == cycles_ ? phases : phases - 1;
+          for (int phase = 0; phase <= last; ++phase)
+            positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load] =
+                system_.solve(cycle, static_cast<double>(phase) / phases, problem_.loads[load], warm);
+          ++done;
+          if (progress) {
+            const std::lock_guard lock(failure_lock);
+            progress(static_cast<double>(done) / tasks);
+          }
+        } catch (...) {
+          const std::lock_guard lock(failure_lock);
+          if (!failure) failure = std::current_exception();
+          next = tasks;
+        }
+    };
+    std::vector<std::thread> pool;
+    for (int t = 1; t < std::min(settings_.threads, tasks); ++t) pool.emplace_back(worker);
+    worker();
+    for (auto& t : pool) t.join();
+    if (failure) std::rethrow_exception(failure);
+    return positions;
+  }
+
+ private:
+  const LoadedMeshProblem& problem_;
+  const LoadedMeshSettings& settings_;
+  ContactSystem system_;
+  int cycles_;
+};
+
+void check(const LoadedMeshProblem& problem) {
+  if (problem.loads.empty() || problem.phases < 2) throw InputError("a loaded mesh needs a load and two phases");
+  for (std::size_t i = 0; i < problem.loads.size(); ++i)
+    if (!(problem.loads[i] > (i > 0 ? problem.loads[i - 1] : 0.0)))
+      throw InputError("the loads of a stiffness table have to be positive and strictly increasing");
+  if (!problem.pair.internal() && !std::holds_alternative<OutsideHeld>(problem.structure))
+    throw InputError("a ring structure belongs to the ring mesh");
+  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure); pinned != nullptr && pinned->pins < 1)
+    throw InputError("a pinned ring needs at least one pin");
+}
+
+}  // namespace
+
+LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings) {
+  check(problem);
+  const FlankContact flanks(problem.pair);
+  const auto now = [] { return std::chrono::steady_clock::now(); };
+  const auto since = [&](auto start) { return std::chrono::duration<double>(now() - start).count(); };
+
+  MeshBodies bodies = build_bodies(problem, flanks, settings, Level::reported);
+  double mesh_seconds = bodies.mesh_seconds, condense_seconds = bodies.condense_seconds;
+  auto start = now();
+  const double share = settings.estimate_error ? 0.6 : 1.0;
+  auto positions = PositionRun(problem, settings, flanks, bodies).solve([&](double f) {
+    if (settings.progress) settings.progress(share * f);
+  });
+  double contact_seconds = since(start);
+
+  double reciprocity = std::max(bodies.planet->body().compliance.reciprocity_error(),
+                                bodies.wheel->body().compliance.reciprocity_error());
+  if (settings.estimate_error) {
+    const MeshBodies coarse = build_bodies(problem, flanks, settings, Level::check);
+    mesh_seconds += coarse.mesh_seconds;
+    condense_seconds += coarse.condense_seconds;
+    start = now();
+    const auto companions = PositionRun(problem, settings, flanks, coarse).solve([&](double f) {
+      if (settings.progress) settings.progress(share + (1 - share) * f);
+    });
+    contact_seconds += since(start);
+    // The compliance is an energy; its error falls at least with the square of the cell size wherever the contact
+    // dominates, so that the difference of two levels overestimates the error of the finer one.
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      positions[i].entry.error_relative =
+          std::abs(companions[i].entry.stiffness_secant / positions[i].entry.stiffness_secant - 1);
+  }
+
+  const int loads = static_cast<int>(problem.loads.size()), cycles = repeating_teeth(problem);
+  const std::size_t table_size = static_cast<std::size_t>(cycles) * problem.phases * loads;
+  std::vector<double> ring_angles;
+  std::vector<StiffnessEntry> entries;
+  for (std::size_t i = 0; i < table_size; ++i) entries.push_back(positions[i].entry);
+  for (int c = 0; c < cycles; ++c)
+    ring_angles.push_back(positions[static_cast<std::size_t>(c) * problem.phases * loads].ring_angle);
+  double closure = 0;
+  for (int l = 0; l < loads; ++l)
+    closure = std::max(closure, std::abs(positions[table_size + l].entry.lte / positions[l].entry.lte - 1));
+
+  const double pin_stiffness = bodies.pins ? bodies.pins->stiffness() : 0;
+  StiffnessTable table(problem.pair.internal() ? "ring_planet" : "sun_planet", problem.phases, std::move(ring_angles),
+                       problem.loads, std::move(entries));
+  return {std::move(table), std::move(positions), closure, reciprocity, std::move(bodies.planet_sector),
+          std::move(bodies.wheel_sector), bodies.unknowns, pin_stiffness, mesh_seconds, condense_seconds,
+          contact_seconds};
+}
+
+}  // namespace annulus::fem
