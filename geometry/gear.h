@@ -12,20 +12,22 @@ enum class GearKind { external, internal };
 struct GearParameters {
   GearKind kind = GearKind::external;
   int teeth = 0;
-  double module = 0;          ///< m
-  double pressure_angle = 0;  ///< rad
-  double profile_shift = 0;   ///< x, in modules
-  double face_width = 0;      ///< m
+  double module = 0;                      ///< m
+  double pressure_angle = 0;              ///< rad
+  double profile_shift = 0;               ///< x, in modules
+  double face_width = 0;                  ///< m
   std::optional<double> tip_diameter{};   ///< m; absent: addendum of one module
   std::optional<double> root_diameter{};  ///< m; absent: dedendum of 1.25 modules
-  double root_fillet_factor = 0.38;       ///< rack tip radius (external) or fillet radius (internal) in modules
+  double root_fillet_factor = 0.38;       ///< rack tip radius (external) or fillet radius (internal) in
+                                          ///< modules; limited to the full root rounding
   double tip_relief = 0;                  ///< m, material removed at the tip, normal to the flank
   double tip_relief_length = 0;           ///< m, along the line of action, linear relief
-  double profile_crowning = 0;            ///< m, parabolic, at both ends of the active flank
+  double profile_crowning = 0;            ///< m, parabolic, at both ends of the usable flank
 };
 
 /// A gear with its derived dimensions (ISO 21771). Construction throws GeometryError with the reason when the gear
-/// cannot exist: tip below base, pointed tooth, undercut, non-positive sizes.
+/// cannot exist: tip below base, pointed tooth (thinner than 0.2 modules at the tip), undercut, no room for a root
+/// fillet, non-positive sizes, pressure angle outside 10 to 35 degrees.
 class Gear {
  public:
   explicit Gear(const GearParameters& parameters);
@@ -41,11 +43,11 @@ class Gear {
   [[nodiscard]] double base_pitch() const;  ///< p_b = 2 pi r_b / z, distance of teeth along the line of action
   /// Radius at which the involute starts at the root side (form circle: end of the generated trochoid or fillet).
   [[nodiscard]] double form_radius() const { return form_radius_; }
-  /// Half the angle a tooth (the material) covers at radius r, from the involutes of both flanks, rad.
+  /// Half the angle a tooth (the material) covers at radius r >= r_b, from the involutes of both flanks, rad.
   [[nodiscard]] double tooth_half_angle(double radius) const;
   /// Tooth thickness along the arc at radius r, m.
   [[nodiscard]] double tooth_thickness(double radius) const { return 2 * radius * tooth_half_angle(radius); }
-  /// Base tangent length W_k over k teeth (external) or k spaces (internal), ISO 21771, m.
+  /// Base tangent length W_k over k teeth (external) or k spaces (internal), without backlash, ISO 21771, m.
   [[nodiscard]] double base_tangent_length(int k) const;
 
  private:
@@ -53,7 +55,7 @@ class Gear {
   double form_radius_ = 0;
 };
 
-/// inv(alpha) = tan(alpha) - alpha and its inverse.
+/// inv(alpha) = tan(alpha) - alpha, rad, and its inverse for values >= 0.
 [[nodiscard]] double involute(double angle);
 [[nodiscard]] double inverse_involute(double value);
 

@@ -6,15 +6,20 @@ namespace annulus::geometry {
 
 /// Two gears in mesh at a working centre distance: sun and planet (external), or planet and ring (internal).
 ///
-/// `pinion` is the external gear whose leading flank touches: the planet in the ring mesh, the planet in the sun mesh.
-/// Lengths along the line of action are measured on the *planet* by its roll length rho = r_b tan(alpha_y), the distance
-/// from the tangent point on its base circle; rho grows from root to tip.
-/// Construction throws GeometryError with the reason: no working angle, tip interference, involute interference,
-/// contact ratio below 1.
+/// Lengths along the line of action are measured on the *planet* by its roll length rho = r_b tan(alpha_y), the
+/// distance from the tangent point on its base circle; rho grows from root to tip. Construction throws GeometryError
+/// with the reason: different base pitches, no working angle, negative backlash, tip interference (a tip that reaches
+/// below the mate's form circle or into its root), involute interference, fouling tips of internal gears with few teeth
+/// difference, contact ratio below 1.
 class GearPair {
  public:
   /// `wheel` is the sun (external) or the ring (internal). Centre distance in m.
   GearPair(const Gear& planet, const Gear& wheel, double centre_distance);
+
+  /// Negative backlash up to this many modules is accepted and reported as it is: profile shifts printed with four
+  /// digits and centre distances printed to a hundredth of a millimetre leave that much rounding in a backlash-free
+  /// pair.
+  static constexpr double backlash_tolerance = 5e-4;
 
   [[nodiscard]] const Gear& planet() const { return planet_; }
   [[nodiscard]] const Gear& wheel() const { return wheel_; }
@@ -33,6 +38,9 @@ class GearPair {
   [[nodiscard]] double wheel_roll_length(double planet_roll) const;
 
  private:
+  void check_tips() const;
+  void check_internal_tips() const;
+
   Gear planet_, wheel_;
   double centre_distance_, working_pressure_angle_, normal_backlash_;
   double roll_low_ = 0, roll_high_ = 0, roll_pitch_ = 0;

@@ -15,40 +15,49 @@ namespace annulus::geometry {
 /// `ToothProfile::project`: boundary vertices lie exactly on their curve.
 struct Mesh {
   struct Face {
-    std::array<std::uint32_t, 4> vertices{};  ///< 2 used in 2D
+    std::array<std::uint32_t, 4> vertices{};  ///< 2 used in 2D, the body on their left
     Boundary boundary = Boundary::none;
   };
   enum class Region : int { tooth = 0, rim = 1, sleeve = 2, hoop = 3 };
 
   int dimension = 2;
-  std::vector<Eigen::Vector3d> vertices;               ///< m
-  std::vector<std::array<std::uint32_t, 8>> cells;     ///< 4 used in 2D
-  std::vector<Region> regions;                         ///< one per cell
-  std::vector<Face> faces;                             ///< boundary faces only
+  std::vector<Eigen::Vector3d> vertices;            ///< m
+  std::vector<std::array<std::uint32_t, 8>> cells;  ///< 4 used in 2D
+  std::vector<Region> regions;                      ///< one per cell
+  std::vector<Face> faces;                          ///< boundary faces only
 
-  /// Smallest scaled Jacobian over all cells: 1 for rectangles, <= 0 for inverted cells.
+  /// Smallest scaled Jacobian (corner determinant over the product of the edge lengths) over all cells: 1 for
+  /// rectangles, <= 0 for inverted cells.
   [[nodiscard]] double worst_scaled_jacobian() const;
+  /// m^2 or m^3, exact for the straight-sided cells.
   [[nodiscard]] double area_or_volume() const;
 };
 
-/// The sector repeated `count` times about the z axis, shared vertices merged; a full ring when count = teeth.
+/// The sector (plane or solid) repeated `count` times about the z axis counter-clockwise, the original first; shared
+/// vertices merged by construction; a closed ring without sides when count = teeth. Cell c of copy k is cell
+/// k * sector.cells.size() + c, and the side faces between copies disappear.
 [[nodiscard]] Mesh repeat(const Mesh& sector, int teeth, int count);
 
 /// One stack of layers for `extrude`.
 struct Layers {
   double z_low = 0, z_high = 0;  ///< m
   int cells = 1;
-  double grading = 1;  ///< ratio of the last to the first layer thickness
-  Mesh::Region region = Mesh::Region::rim;
-  bool toothed = true;        ///< whole cross-section
-  double radius_low = 0;      ///< not toothed: only cells whose centre radius lies in [radius_low, radius_high]
+  double grading = 1;                       ///< ratio of the last to the first layer thickness
+  Mesh::Region region = Mesh::Region::rim;  ///< rim: cells keep the region they have in the plane mesh
+  bool toothed = true;                      ///< whole cross-section
+  double radius_low = 0;  ///< not toothed: only cells whose centre radius lies in [radius_low, radius_high]
   double radius_high = 1e99;
 };
-/// Hexahedra from a plane mesh, stacks from low to high z. Side, flank, ... tags are carried over; free ends get
-/// end_low / end_high, newly exposed annular faces get `inner`.
+/// Hexahedra from a plane mesh, stacks from low to high z, each starting where the one before ends. Side, flank, ...
+/// tags are carried over; the lower end of the lowest stack gets `end_low`, the upper end of the highest `end_high`,
+/// every other exposed face (inside of a sleeve, toothed end beside it) `inner`. Face vertices run counter-clockwise
+/// seen from outside the body.
 [[nodiscard]] Mesh extrude(const Mesh& plane, const std::vector<Layers>& stacks);
 
-void write_msh(const Mesh& mesh, const std::filesystem::path& file);  ///< gmsh 4.1, physical groups by boundary
-void write_vtu(const Mesh& mesh, const std::filesystem::path& file);  ///< VTK XML unstructured grid
+/// gmsh MSH 4.1 in m: one entity and one named physical group per region and per boundary. Throws Error on a failed
+/// write.
+void write_msh(const Mesh& mesh, const std::filesystem::path& file);
+/// VTK XML unstructured grid in m with the cell data `region`. Throws Error on a failed write.
+void write_vtu(const Mesh& mesh, const std::filesystem::path& file);
 
 }  // namespace annulus::geometry

@@ -7,8 +7,8 @@
 namespace annulus::geometry {
 
 /// A single-stage planetary set with equally spaced planets, ring fixed to its structure.
-/// Construction throws GeometryError with the reason: assembly condition (z_s + z_r) / N not whole, planets collide,
-/// and all that GearPair refuses.
+/// Construction throws GeometryError with the reason: assembly condition (z_s + z_r) / N not whole, planets collide
+/// (tip circles nearer than `planet_clearance`), and all that GearPair refuses.
 class PlanetarySet {
  public:
   PlanetarySet(const Gear& sun, const Gear& planet, const Gear& ring, double centre_distance, int planets);
@@ -22,16 +22,25 @@ class PlanetarySet {
   [[nodiscard]] double centre_distance() const { return sun_mesh_.centre_distance(); }
   [[nodiscard]] double planet_angle(int n) const;  ///< phi_n = 2 pi n / N, n = 0 ... N-1
 
+  /// Room between the tip circles of neighbouring planets, modules: a fifth of a module for lubricant and deflection.
+  static constexpr double planet_clearance = 0.2;
+
   /// Mesh phasing (Parker and Lin, J. Mech. Des. 126, 2004), derived from the geometry, in mesh cycles in [0, 1).
   /// At time t the sun mesh of planet n is at phase f t - sun_phase_lag(n), its ring mesh at f t - ring_phase_lag(n),
   /// f being the mesh frequency and phase 0 the pitch-point contact of a tooth pair (see StiffnessTable).
-  /// sun_phase_lag(0) = 0. The sun drives counter-clockwise seen from the carrier, the planets sit counter-clockwise.
+  /// sun_phase_lag(0) = 0. Seen from the carrier the sun drives counter-clockwise, planets and ring turn clockwise, and
+  /// planet n sits at phi_n counter-clockwise of planet 0. The sun touches the planets' leading flanks, the planets
+  /// touch the ring with their trailing flanks; both meshes touch with their driving flanks, backlash lies behind them.
+  /// In closed form gamma_sn = z_s phi_n / 2 pi, gamma_rn = gamma_rs - z_r phi_n / 2 pi (whole cycles dropped), with
+  /// gamma_rs = ring_phase_lag(0) = z_p (pi - psi_s - psi_r) / 2 pi and psi the planet's tooth half angles at its two
+  /// working pitch circles.
   [[nodiscard]] double sun_phase_lag(int n) const;
   [[nodiscard]] double ring_phase_lag(int n) const;
-  /// Whole ring teeth passed between planet 0 and planet n: where planet n stands on a ring that does not repeat with
-  /// every tooth. The ring position coordinate of planet n is f t - ring_phase_lag(n) + ring_tooth_offset(n) in mesh
-  /// cycles: planet n at time 0 stands exactly n z_r / N ring teeth further (in the direction in which planet 0 moves
-  /// along the ring with growing time) than planet 0.
+  /// Whole number of mesh cycles that makes `f t - ring_phase_lag(n) + ring_tooth_offset(n)` the ring position
+  /// coordinate of planet n: where it stands on a ring that does not repeat with every tooth. The coordinate grows by
+  /// one when a planet has passed one ring tooth; seen from the ring the planets travel counter-clockwise, and at the
+  /// same time planet n is exactly n z_r / N ahead of planet 0. ring_tooth_offset(0) = 0. The coordinate is whole when
+  /// a leading flank of the ring touches at the planet's pitch point.
   [[nodiscard]] double ring_tooth_offset(int n) const;
 
  private:

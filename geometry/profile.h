@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "geometry/gear.h"
+#include "geometry/root_fillet.h"
 
 namespace annulus::geometry {
 
@@ -10,18 +11,18 @@ namespace annulus::geometry {
 /// the *leading* flank is the one on the counter-clockwise side (y > 0), the *trailing* flank its mirror image.
 enum class Boundary : int {
   none = 0,
-  support = 1,       ///< bore (external) or outside diameter (internal)
-  side_low = 2,      ///< radial cut at angle -pi/z
-  side_high = 3,     ///< radial cut at angle +pi/z
+  support = 1,    ///< bore (external) or outside diameter (internal)
+  side_low = 2,   ///< radial cut at angle -pi/z
+  side_high = 3,  ///< radial cut at angle +pi/z
   tip = 4,
   leading_flank = 5,
   trailing_flank = 6,
   leading_fillet = 7,
   trailing_fillet = 8,
   root = 9,
-  end_low = 10,      ///< face at the smallest z (3D)
-  end_high = 11,     ///< face at the largest z (3D)
-  inner = 12,        ///< other free surfaces (the inside of a sleeve)
+  end_low = 10,   ///< face at the smallest z (3D)
+  end_high = 11,  ///< face at the largest z (3D)
+  inner = 12,     ///< other free surfaces (the inside of a sleeve)
 };
 
 /// The exact outline of one tooth: involute flanks with modifications kept apart, root fillets (generated trochoid for
@@ -32,7 +33,8 @@ class ToothProfile {
 
   [[nodiscard]] const Gear& gear() const { return gear_; }
 
-  /// Roll lengths rho = r_b tan(alpha_y) of the usable involute: at the tip and at the form circle.
+  /// Roll lengths rho = r_b tan(alpha_y) of the usable involute, m: at the tip and at the form circle. An internal gear
+  /// has its tip at the smaller one.
   [[nodiscard]] double roll_length_tip() const;
   [[nodiscard]] double roll_length_form() const;
   [[nodiscard]] double roll_length_at(double radius) const;
@@ -41,17 +43,25 @@ class ToothProfile {
   [[nodiscard]] Eigen::Vector2d flank_point(double roll_length) const;
   /// Unit normal there, pointing out of the material.
   [[nodiscard]] Eigen::Vector2d flank_normal(double roll_length) const;
-  /// Material removed normal to the flank by tip relief and profile crowning, m, >= 0.
+  /// Material removed normal to the flank, m, >= 0: tip relief rising linearly over the last `tip_relief_length` before
+  /// the tip, and a parabola of height `profile_crowning` at the tip and form circles. Beyond them the end value holds.
   [[nodiscard]] double modification(double roll_length) const;
 
   /// Fillet point of the leading side, t in [0, 1] from the form circle to the root circle.
-  [[nodiscard]] Eigen::Vector2d fillet_point(double t) const;
+  [[nodiscard]] Eigen::Vector2d fillet_point(double t) const { return fillet_.point(t); }
+  /// Unit tangent there, towards growing t.
+  [[nodiscard]] Eigen::Vector2d fillet_tangent(double t) const { return fillet_.tangent(t); }
 
-  /// The point of the exact boundary curve nearest to `point` (to solver accuracy); used for meshing and refinement.
+  /// The point of the exact boundary curve of tooth 0 nearest to `point`, to rounding, without modifications; beyond
+  /// the ends of a flank or fillet its end point. Boundaries without a curve of their own (sides, ends, inner, none)
+  /// return `point`. Used for meshing and refinement: `point` has to lie nearer to the curve than its centre of
+  /// curvature.
   [[nodiscard]] Eigen::Vector2d project(Boundary boundary, const Eigen::Vector2d& point, double support_radius) const;
 
  private:
   Gear gear_;
+  RootFillet fillet_;
+  double base_angle_;  ///< half angle of the tooth on the base circle, where the involute starts
 };
 
 }  // namespace annulus::geometry

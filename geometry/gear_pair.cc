@@ -1,0 +1,199 @@
+#include "geometry/gear_pair.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "core/errors.h"
+#include "core/units.h"
+#include "geometry/profile.h"
+
+namespace annulus::geometry {
+
+namespace {
+
+std::string pair_name(const Gear& planet, const Gear& wheel) {
+  return fmt::format("the {} mesh of {} and {} teeth", wheel.kind() == GearKind::internal ? "internal" : "external",
+                     planet.teeth(), wheel.teeth());
+}
+
+double roll_at(const Gear& gear, double radius) {
+  const double base = gear.base_radius();
+  return std::sqrt(std::max(0.0, (radius - base) * (radius + base)));
+}
+
+double checked_working_angle(const Gear& planet, const Gear& wheel, double centre_distance) {
+  const auto name = pair_name(planet, wheel);
+  if (planet.kind() != GearKind::external) throw GeometryError(name + ": the first gear has to be an external one");
+  // The same rack has to generate both: typed values, so equal up to rounding.
+  const auto& p = planet.parameters();
+  const auto& w = wheel.parameters();
+  if (std::abs(p.module - w.module) > 1e-9 * p.module || std::abs(p.pressure_angle - w.pressure_angle) > 1e-9) {
+    throw GeometryError(fmt::format(
+        "{}: modules {} and {} mm or pressure angles {} and {} deg differ; they have to be equal", name,
+        p.module / units::mm, w.module / units::mm, p.pressure_angle / units::deg, w.pressure_angle / units::deg));
+  }
+  const bool internal = wheel.kind() == GearKind::internal;
+  if (internal && wheel.teeth() <= planet.teeth()) {
+    throw GeometryError(fmt::format("{}: the internal gear needs more teeth than the planet", name));
+  }
+  const double base_distance =
+      internal ? wheel.base_radius() - planet.base_radius() : wheel.base_radius() + planet.base_radius();
+  if (!(centre_distance > base_distance)) {
+    throw GeometryError(
+        fmt::format("{}: no working pressure angle exists at the centre distance {:.4f} mm; it has to be "
+                    "larger than {:.4f} mm (reference centre distance {:.4f} mm)",
+                    name, centre_distance / units::mm, base_distance / units::mm,
+                    base_distance / std::cos(p.pressure_angle) / units::mm));
+  }
+  return std::acos(base_distance / centre_distance);
+}
+
+}  // namespace
+
+GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance)
+    : planet_(planet),
+      wheel_(wheel),
+      centre_distance_(centre_distance),
+      working_pressure_angle_(checked_working_angle(planet, wheel, centre_distance)),
+      normal_backlash_(0) {
+  // On the working pitch circles the circular pitch has to hold both teeth; the rest is circumferential backlash.
+  const double cosine = std::cos(working_pressure_angle_);
+  const double planet_pitch_radius = planet_.base_radius() / cosine;
+  const double wheel_pitch_radius = wheel_.base_radius() / cosine;
+  normal_backlash_ = planet_.base_pitch() - cosine * (planet_.tooth_thickness(planet_pitch_radius) +
+                                                      wheel_.tooth_thickness(wheel_pitch_radius));
+  const double module = planet_.parameters().module;
+  if (normal_backlash_ < -backlash_tolerance * module) {
+    const double shift = -normal_backlash_ / (2 * module * std::sin(planet_.parameters().pressure_angle));
+    throw GeometryError(fmt::format(
+        "{} has no room: its normal backlash is {:.4f} um at the centre distance {:.4f} mm; {} by {:.5f} or {} the "
+        "centre distance",
+        pair_name(planet_, wheel_), normal_backlash_ / units::um, centre_distance_ / units::mm,
+        internal() ? "raise the difference of the profile shifts (ring - planet)"
+                   : "lower the sum of the profile shifts",
+        shift, internal() ? "reduce" : "raise"));
+  }
+
+  const double length = centre_distance_ * std::sin(working_pressure_angle_);
+  const double wheel_tip = roll_at(wheel_, wheel_.tip_radius());
+  roll_pitch_ = planet_.base_radius() * std::tan(working_pressure_angle_);
+  roll_low_ = internal() ? wheel_tip - length : length - wheel_tip;
+  roll_high_ = roll_at(planet_, planet_.tip_radius());
+  check_tips();
+  if (internal()) check_internal_tips();
+  if (contact_ratio() < 1) {
+    throw GeometryError(
+        fmt::format("{} has a contact ratio of {:.4f}; at least 1 is needed: enlarge the tip diameters or "
+                    "reduce the working pressure angle ({:.4f} deg)",
+                    pair_name(planet_, wheel_), contact_ratio(), working_pressure_angle_ / units::deg));
+  }
+}
+
+double GearPair::contact_ratio() const { return (roll_high_ - roll_low_) / planet_.base_pitch(); }
+
+double GearPair::wheel_roll_length(double planet_roll) const {
+  const double length = centre_distance_ * std::sin(working_pressure_angle_);
+  return internal() ? length + planet_roll : length - planet_roll;
+}
+
+void GearPair::check_tips() const {
+  const auto name = pair_name(planet_, wheel_);
+  const char* wheel_word = internal() ? "ring" : "sun";
+  if (roll_low_ < 0) {
+    throw GeometryError(fmt::format(
+        "{}: {} interference: the tip of the {} (diameter {:.4f} mm) touches {:.4f} mm beyond the start of the "
+        "planet's involute; {} its tip diameter or raise the planet's profile shift",
+        name, internal() ? "involute" : "tip", wheel_word, 2 * wheel_.tip_radius() / units::mm, -roll_low_ / units::mm,
+        internal() ? "enlarge" : "reduce"));
+  }
+  const double planet_form = roll_at(planet_, planet_.form_radius());
+  if (roll_low_ < planet_form) {
+    throw GeometryError(fmt::format(
+        "{}: tip interference: the tip of the {} touches the planet at the diameter {:.4f} mm, below its form "
+        "diameter {:.4f} mm (start of the involute); {} the tip diameter of the {} (now {:.4f} mm), reduce the "
+        "planet's root diameter or its root fillet factor",
+        name, wheel_word, 2 * std::hypot(planet_.base_radius(), roll_low_) / units::mm,
+        2 * planet_.form_radius() / units::mm, internal() ? "enlarge" : "reduce", wheel_word,
+        2 * wheel_.tip_radius() / units::mm));
+  }
+  const double wheel_roll = wheel_roll_length(roll_high_);
+  const double wheel_form = roll_at(wheel_, wheel_.form_radius());
+  if (internal() ? wheel_roll > wheel_form : wheel_roll < wheel_form) {
+    throw GeometryError(fmt::format(
+        "{}: tip interference: the tip of the planet touches the {} at roll length {:.4f} mm, its involute ends "
+        "at {:.4f} mm (form diameter {:.4f} mm); reduce the planet's tip diameter (now {:.4f} mm) or the root "
+        "fillet factor of the {}",
+        name, wheel_word, wheel_roll / units::mm, wheel_form / units::mm, 2 * wheel_.form_radius() / units::mm,
+        2 * planet_.tip_radius() / units::mm, wheel_word));
+  }
+  const double a = centre_distance_;
+  const double at_wheel_root =
+      internal() ? wheel_.root_radius() - a - planet_.tip_radius() : a - wheel_.root_radius() - planet_.tip_radius();
+  const double at_planet_root =
+      internal() ? wheel_.tip_radius() - a - planet_.root_radius() : a - wheel_.tip_radius() - planet_.root_radius();
+  if (std::min(at_wheel_root, at_planet_root) <= 0) {
+    throw GeometryError(
+        fmt::format("{}: a tip runs into a root: clearance {:.4f} mm at the root of the {}, {:.4f} mm at the "
+                    "root of the planet; reduce the tip or root diameters",
+                    name, at_wheel_root / units::mm, wheel_word, at_planet_root / units::mm));
+  }
+}
+
+// The tip corner of the planet's driving flank, followed in the frame of the ring: where it crosses the ring's tip
+// circle the ring's tip corner has to be ahead (no fouling), and inside the ring's space it has to stay clear of the
+// fillet.
+void GearPair::check_internal_tips() const {
+  const auto name = pair_name(planet_, wheel_);
+  const double a = centre_distance_;
+  const double ratio = static_cast<double>(planet_.teeth()) / wheel_.teeth();
+  // Angles behind / ahead of the line of centres at the pitch contact; the planet's leading flank drives the trailing
+  // flank of the ring tooth ahead of it.
+  const double working = involute(working_pressure_angle_);
+  const double planet_corner = involute(std::acos(planet_.base_radius() / planet_.tip_radius())) - working;
+  const double ring_corner = working - involute(std::acos(wheel_.base_radius() / wheel_.tip_radius()));
+  const double tip = planet_.tip_radius();
+  const double crossing = (wheel_.tip_radius() * wheel_.tip_radius() - a * a - tip * tip) / (2 * a * tip);
+  if (crossing > -1 && crossing < 1) {
+    const double planet_angle = std::acos(crossing);
+    const double ring_angle = std::atan2(tip * std::sin(planet_angle), a + tip * std::cos(planet_angle));
+    const double ahead = ring_corner + (planet_angle + planet_corner) * ratio - ring_angle;
+    if (ahead < 0) {
+      throw GeometryError(
+          fmt::format("{}: the tips foul each other by {:.4f} mm where the planet's teeth leave the ring (too "
+                      "small a difference of teeth); reduce the planet's tip diameter or enlarge the ring's",
+                      name, -ahead * wheel_.tip_radius() / units::mm));
+    }
+  }
+
+  const RootFillet fillet(wheel_);
+  const ToothProfile ring(wheel_);
+  const double wheel_pitch_radius = wheel_.base_radius() / std::cos(working_pressure_angle_);
+  const double half_tooth = wheel_.tooth_half_angle(wheel_pitch_radius);
+  constexpr int samples = 200;  // over the planet's turn inside the ring; the fillet spans some ten of them
+  for (int i = 0; i <= samples; ++i) {
+    const double planet_angle = planet_.pitch_angle() * 2 * (2.0 * i / samples - 1);
+    const double radius = std::hypot(a + tip * std::cos(planet_angle), tip * std::sin(planet_angle));
+    if (radius <= wheel_.form_radius()) continue;
+    const double turned = (planet_angle + planet_corner) * ratio;
+    const double absolute = std::atan2(tip * std::sin(planet_angle), a + tip * std::cos(planet_angle));
+    // Angle behind the centre of the ring tooth ahead: mirrored, that is the leading side of tooth 0.
+    const double behind = half_tooth + turned - absolute;
+    const Eigen::Vector2d corner(radius * std::cos(behind), radius * std::sin(behind));
+    const double t = fillet.nearest(corner);
+    const Eigen::Vector2d tangent = fillet.tangent(t);
+    // Material lies on the right of the fillet walked from tip to root of an internal tooth.
+    const double depth = (corner - fillet.point(t)).dot(Eigen::Vector2d(tangent.y(), -tangent.x()));
+    if (t > 0 && t < 1 && depth > 1e-9 * planet_.parameters().module) {
+      throw GeometryError(
+          fmt::format("{}: the planet's tip corner cuts {:.4f} um into the root fillet of the ring; reduce the "
+                      "planet's tip diameter or the ring's root fillet factor",
+                      name, depth / units::um));
+    }
+  }
+}
+
+}  // namespace annulus::geometry

@@ -1,0 +1,47 @@
+#include "geometry/gmsh_session.h"
+
+#include <gmsh.h>
+
+namespace annulus::geometry {
+
+namespace {
+
+std::mutex& gmsh_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+struct GmshRuntime {
+  GmshRuntime() {
+    // No configuration files: the user's gmsh settings must not change a mesh.
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::option::setNumber("General.NumThreads", 1);
+    gmsh::option::setNumber("Mesh.MshFileVersion", 4.1);
+    gmsh::option::setNumber("Mesh.SaveAll", 0);
+  }
+  ~GmshRuntime() {
+    try {
+      gmsh::finalize();
+    } catch (...) {  // at process exit nobody is left to be told
+    }
+  }
+  GmshRuntime(const GmshRuntime&) = delete;
+  GmshRuntime& operator=(const GmshRuntime&) = delete;
+};
+
+}  // namespace
+
+GmshModel::GmshModel(const std::string& name) : lock_(gmsh_mutex()) {
+  static GmshRuntime runtime;
+  gmsh::model::add(name);
+}
+
+GmshModel::~GmshModel() {
+  try {
+    gmsh::model::remove();
+  } catch (...) {  // a destructor during unwinding: the first error is the one that counts
+  }
+}
+
+}  // namespace annulus::geometry

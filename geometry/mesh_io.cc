@@ -1,0 +1,119 @@
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include <iterator>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "core/csv.h"
+#include "core/errors.h"
+#include "geometry/gmsh_session.h"
+#include "geometry/mesh.h"
+
+namespace annulus::geometry {
+
+namespace {
+
+constexpr std::array<std::string_view, 13> boundary_names = {
+    "none",           "support",         "side_low", "side_high", "tip",      "leading_flank", "trailing_flank",
+    "leading_fillet", "trailing_fillet", "root",     "end_low",   "end_high", "inner"};
+constexpr std::array<std::string_view, 4> region_names = {"tooth", "rim", "sleeve", "hoop"};
+
+// Element types of the MSH format.
+constexpr int msh_line = 1;
+constexpr int msh_quadrilateral = 3;
+constexpr int msh_hexahedron = 5;
+
+/// Elements of one dimension as discrete entities, one per group, each with its named physical group; node tags start
+/// at 1. Returns the first entity.
+template <class Name>
+int add_groups(int dimension, int type, const std::map<int, std::vector<std::size_t>>& groups, const Name& name) {
+  int first = 0;
+  for (const auto& [group, nodes] : groups) {
+    const int entity = gmsh::model::addDiscreteEntity(dimension);
+    if (first == 0) first = entity;
+    gmsh::model::mesh::addElementsByType(entity, type, {}, nodes);
+    const int physical = gmsh::model::addPhysicalGroup(dimension, {entity});
+    gmsh::model::setPhysicalName(dimension, physical, std::string(name(group)));
+  }
+  return first;
+}
+
+void add_vertices(const Mesh& mesh, int dimension, int entity) {
+  std::vector<std::size_t> tags(mesh.vertices.size());
+  std::vector<double> coordinates;
+  coordinates.reserve(3 * tags.size());
+  for (std::size_t v = 0; v < tags.size(); ++v) {
+    tags[v] = v + 1;
+    coordinates.insert(coordinates.end(), mesh.vertices[v].begin(), mesh.vertices[v].end());
+  }
+  gmsh::model::mesh::addNodes(dimension, entity, tags, coordinates);
+}
+
+}  // namespace
+
+void write_msh(const Mesh& mesh, const std::filesystem::path& file) {
+  const bool solid = mesh.dimension == 3;
+  std::map<int, std::vector<std::size_t>> cells;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    auto& nodes = cells[static_cast<int>(mesh.regions[c])];
+    for (int i = 0; i < (solid ? 8 : 4); ++i) nodes.push_back(mesh.cells[c][i] + 1);
+  }
+  std::map<int, std::vector<std::size_t>> faces;
+  for (const auto& face : mesh.faces) {
+    auto& nodes = faces[static_cast<int>(face.boundary)];
+    for (int i = 0; i < (solid ? 4 : 2); ++i) nodes.push_back(face.vertices[i] + 1);
+  }
+  // gmsh chooses the format by the ending, so the temporary name keeps it.
+  auto temporary = file;
+  temporary.replace_filename("." + file.filename().string() + ".tmp.msh");
+  try {
+    const GmshModel model("annulus mesh");
+    // Nodes first: elements refer to them. gmsh accepts all of them on one entity.
+    const int holder = gmsh::model::addDiscreteEntity(mesh.dimension);
+    add_vertices(mesh, mesh.dimension, holder);
+    add_groups(mesh.dimension, solid ? msh_hexahedron : msh_quadrilateral, cells,
+               [](int region) { return region_names.at(static_cast<std::size_t>(region)); });
+    add_groups(mesh.dimension - 1, solid ? msh_quadrilateral : msh_line, faces,
+               [](int boundary) { return boundary_names.at(static_cast<std::size_t>(boundary)); });
+    gmsh::model::mesh::reclassifyNodes();
+    gmsh::write(temporary.string());
+    std::filesystem::rename(temporary, file);
+  } catch (const std::exception& e) {
+    throw Error(fmt::format("cannot write the mesh {}: {}", file.string(), e.what()));
+  } catch (...) {  // gmsh throws plain strings and integers
+    throw Error(fmt::format("cannot write the mesh {}: gmsh refused; is the folder writable?", file.string()));
+  }
+}
+
+void write_vtu(const Mesh& mesh, const std::filesystem::path& file) {
+  const bool solid = mesh.dimension == 3;
+  const int corners = solid ? 8 : 4;
+  constexpr int vtk_quad = 9;
+  constexpr int vtk_hexahedron = 12;
+  std::string text;
+  auto out = std::back_inserter(text);
+  fmt::format_to(out,
+                 "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n<UnstructuredGrid>\n"
+                 "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n"
+                 "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n",
+                 mesh.vertices.size(), mesh.cells.size());
+  for (const auto& v : mesh.vertices) fmt::format_to(out, "{:.17g} {:.17g} {:.17g}\n", v.x(), v.y(), v.z());
+  text += "</DataArray>\n</Points>\n<Cells>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
+  for (const auto& cell : mesh.cells) {
+    for (int i = 0; i < corners; ++i) fmt::format_to(out, "{}{}", cell[i], i + 1 < corners ? ' ' : '\n');
+  }
+  text += "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
+  for (std::size_t c = 1; c <= mesh.cells.size(); ++c) fmt::format_to(out, "{}\n", corners * c);
+  text += "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n";
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) fmt::format_to(out, "{}\n", solid ? vtk_hexahedron : vtk_quad);
+  text +=
+      "</DataArray>\n</Cells>\n<CellData Scalars=\"region\">\n"
+      "<DataArray type=\"Int32\" Name=\"region\" format=\"ascii\">\n";
+  for (const auto region : mesh.regions) fmt::format_to(out, "{}\n", static_cast<int>(region));
+  text += "</DataArray>\n</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  write_file(file, text);
+}
+
+}  // namespace annulus::geometry

@@ -1,0 +1,153 @@
+#include "geometry/root_fillet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "core/errors.h"
+#include "core/units.h"
+
+namespace annulus::geometry {
+
+namespace {
+
+constexpr double half_pi = std::numbers::pi / 2;
+
+Eigen::Vector2d radial_direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// Root of a monotone function with a change of sign in [a, b], to the last few bits.
+template <class Function>
+double bracketed_root(const Function& f, double a, double b, double fa, double fb) {
+  std::uintmax_t evaluations = 100;
+  const auto [low, high] =
+      boost::math::tools::toms748_solve(f, a, b, fa, fb, boost::math::tools::eps_tolerance<double>(51), evaluations);
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+RootFillet::RootFillet(const Gear& gear)
+    : kind_(gear.kind()),
+      space_angle_(std::numbers::pi / gear.teeth()),
+      reference_radius_(gear.reference_radius()),
+      base_radius_(gear.base_radius()),
+      root_radius_(gear.root_radius()) {
+  if (kind_ == GearKind::external) {
+    generate(gear);
+  } else {
+    inscribe(gear);
+  }
+}
+
+void RootFillet::generate(const Gear& gear) {
+  const auto& p = gear.parameters();
+  const double m = p.module;
+  const double alpha = p.pressure_angle;
+  // Half the rack tooth at its tip, which cuts the root circle; the rack's datum line lies x m outside the pitch line.
+  const double depth = reference_radius_ + p.profile_shift * m - root_radius_;
+  const double half_tip = std::numbers::pi * m / 4 - depth * std::tan(alpha);
+  // From the sharp rack corner to the point where its rounding starts, per unit of radius.
+  const double setback = (1 - std::sin(alpha)) / std::cos(alpha);
+  radius_ = std::min(p.root_fillet_factor * m, (half_tip - min_root_land * m) / setback);
+  if (radius_ < min_radius * m) {
+    throw GeometryError(fmt::format(
+        "the root of the external gear with {} teeth cannot be generated: the rack tooth that cuts the root "
+        "diameter {:.4f} mm is {:.4f} mm wide at its tip; use a larger root diameter, a smaller pressure "
+        "angle or a root fillet factor of at least {}",
+        p.teeth, 2 * root_radius_ / units::mm, 2 * half_tip / units::mm, min_radius));
+  }
+  corner_x_ = half_tip - radius_ * setback;
+  corner_depth_ = reference_radius_ - root_radius_ - radius_;
+  beta_end_ = half_pi - alpha;
+  form_roll_ = reference_radius_ * std::sin(alpha) - (corner_depth_ / std::sin(alpha) + radius_);
+  if (form_roll_ < 0) {
+    throw GeometryError(fmt::format(
+        "the external gear with {} teeth is undercut: the rack corner reaches {:.4f} mm beyond the start of the "
+        "involute; raise the profile shift from {:.4f} by {:.4f} or use more teeth",
+        p.teeth, -form_roll_ / units::mm, p.profile_shift, -form_roll_ * std::sin(alpha) / m));
+  }
+  // Regular envelope: the radius has to grow along the whole fillet (only far too large positive shifts fail).
+  const double c = std::cos(beta_end_);
+  if (reference_radius_ * radius_ + (corner_depth_ / c + radius_) * corner_depth_ / (c * c) <= 0) {
+    throw GeometryError(
+        fmt::format("the root fillet of the external gear with {} teeth and profile shift {:.4f} cannot be generated; "
+                    "use a smaller "
+                    "profile shift or root diameter",
+                    p.teeth, p.profile_shift));
+  }
+}
+
+void RootFillet::inscribe(const Gear& gear) {
+  const auto& p = gear.parameters();
+  const double m = p.module;
+  const double base_angle = gear.tooth_half_angle(base_radius_);
+  const double limit = space_angle_ - min_root_land * m / root_radius_;
+  // Angle of the arc's centre: it has to stay on this side of the centre of the space.
+  const auto roll = [&](double radius) {
+    const double reach = root_radius_ - radius;
+    return reach > base_radius_ ? radius + std::sqrt(reach * reach - base_radius_ * base_radius_) : radius;
+  };
+  const auto excess = [&](double radius) {
+    const double rho = roll(radius);
+    return base_angle + rho / base_radius_ - std::atan((rho - radius) / base_radius_) - limit;
+  };
+  radius_ = std::min(p.root_fillet_factor * m, root_radius_ - base_radius_);
+  const double smallest = min_radius * m;
+  if (radius_ < smallest || excess(smallest) > 0) {
+    throw GeometryError(fmt::format(
+        "the space of the internal gear with {} teeth has no room for a root fillet of {} modules at the root diameter "
+        "{:.4f} mm; use a smaller root diameter or a fillet factor of at least {}",
+        p.teeth, min_radius, 2 * root_radius_ / units::mm, min_radius));
+  }
+  if (excess(radius_) > 0) radius_ = bracketed_root(excess, smallest, radius_, excess(smallest), excess(radius_));
+  form_roll_ = roll(radius_);
+  const double tangent_angle = base_angle + form_roll_ / base_radius_;  // of the tangent point on the base circle
+  const double centre_angle = tangent_angle - std::atan((form_roll_ - radius_) / base_radius_);
+  centre_ = (root_radius_ - radius_) * radial_direction(centre_angle);
+  arc_start_ = tangent_angle - half_pi;
+  arc_sweep_ = centre_angle - arc_start_;
+}
+
+double RootFillet::root_angle() const {
+  if (kind_ == GearKind::internal) return arc_start_ + arc_sweep_;
+  return space_angle_ - corner_x_ / reference_radius_;
+}
+
+Eigen::Vector2d RootFillet::point(double t) const {
+  if (kind_ == GearKind::internal) return centre_ + radius_ * radial_direction(arc_start_ + t * arc_sweep_);
+  const double beta = (1 - t) * beta_end_;
+  // The corner's normal passes through the instantaneous pole, which sits on the pitch circle at the angle phi from the
+  // centre of the space; the fillet point lies `reach` further along it.
+  const double phi = (corner_x_ - corner_depth_ * std::tan(beta)) / reference_radius_;
+  const double reach = corner_depth_ / std::cos(beta) + radius_;
+  const Eigen::Vector2d pole = radial_direction(space_angle_ - phi);
+  const Eigen::Vector2d towards_tooth(pole.y(), -pole.x());
+  return (reference_radius_ - reach * std::cos(beta)) * pole + reach * std::sin(beta) * towards_tooth;
+}
+
+Eigen::Vector2d RootFillet::tangent(double t) const {
+  if (kind_ == GearKind::internal) return radial_direction(arc_start_ + t * arc_sweep_ + half_pi);
+  const double beta = (1 - t) * beta_end_;
+  const double phi = (corner_x_ - corner_depth_ * std::tan(beta)) / reference_radius_;
+  return -radial_direction(space_angle_ - phi - half_pi + beta);
+}
+
+double RootFillet::nearest(const Eigen::Vector2d& q) const {
+  if (kind_ == GearKind::internal) {
+    const Eigen::Vector2d d = q - centre_;
+    const double angle = std::remainder(std::atan2(d.y(), d.x()) - arc_start_, 2 * std::numbers::pi);
+    return std::clamp(angle / arc_sweep_, 0.0, 1.0);
+  }
+  // (q - pole) . tangent = 0, with pole . tangent = r sin(beta) in closed form.
+  const auto along = [&](double t) { return q.dot(tangent(t)) + reference_radius_ * std::sin((1 - t) * beta_end_); };
+  const double at_form = along(0);
+  const double at_root = along(1);
+  if (at_form <= 0) return 0;
+  if (at_root >= 0) return 1;
+  return bracketed_root(along, 0.0, 1.0, at_form, at_root);
+}
+
+}  // namespace annulus::geometry

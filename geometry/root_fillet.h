@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "geometry/gear.h"
+
+namespace annulus::geometry {
+
+/// Root fillet on the leading side of tooth 0, in the gear's own frame (see profile.h); SI.
+///
+/// External: envelope of the rounded tip corner of the generating rack (Litvin and Fuentes, Gear Geometry and Applied
+/// Theory, ch. 6). The rack touches the fillet along its corner normal, which makes an angle beta with the centre line
+/// of the space: beta = 0 on the root circle, beta = pi/2 - alpha where the fillet meets the involute.
+/// Internal: a circular arc tangent to involute and root circle.
+///
+/// The radius is limited to what the tooth space can hold: half a root land of at least `min_root_land` modules stays,
+/// so that a wanted radius that is too large gives the full root rounding.
+class RootFillet {
+ public:
+  /// Uses only the radii and thicknesses of `gear`, not its form radius. Throws GeometryError with the reason:
+  /// undercut, root too deep for the generating rack, no room for a fillet in the space.
+  explicit RootFillet(const Gear& gear);
+
+  static constexpr double min_root_land = 0.02;  ///< half the root land, modules
+  static constexpr double min_radius = 0.05;     ///< smallest fillet radius accepted, modules
+
+  /// Rack tip radius (external) or fillet radius (internal), m.
+  [[nodiscard]] double radius() const { return radius_; }
+  /// Roll length r_b tan(alpha) at which the fillet leaves the involute, m.
+  [[nodiscard]] double form_roll() const { return form_roll_; }
+  /// Polar angle at which the fillet meets the root circle (leading side), rad.
+  [[nodiscard]] double root_angle() const;
+  /// Largest polar angle of the space: its centre line at pi / z.
+  [[nodiscard]] double space_angle() const { return space_angle_; }
+
+  [[nodiscard]] Eigen::Vector2d point(double t) const;    ///< t in [0, 1] from involute to root circle
+  [[nodiscard]] Eigen::Vector2d tangent(double t) const;  ///< unit vector towards growing t
+  /// Parameter t of the point nearest to `q`, which has to lie nearer than the centre of curvature.
+  [[nodiscard]] double nearest(const Eigen::Vector2d& q) const;
+
+ private:
+  void generate(const Gear& gear);  ///< external
+  void inscribe(const Gear& gear);  ///< internal
+
+  GearKind kind_;
+  double space_angle_, reference_radius_, base_radius_, root_radius_;
+  double radius_ = 0, form_roll_ = 0;
+  // external: rack corner centre beside the rack tooth's centre line and below the pitch line, largest beta
+  double corner_x_ = 0, corner_depth_ = 0, beta_end_ = 0;
+  // internal: arc centre, polar angle of the arc's first normal, swept angle
+  Eigen::Vector2d centre_ = Eigen::Vector2d::Zero();
+  double arc_start_ = 0, arc_sweep_ = 0;
+};
+
+}  // namespace annulus::geometry
