@@ -20,8 +20,8 @@ struct LoadSharing {
   Figure quasi_static;   ///< ... every position, without inertia and damping
 };
 
-/// Largest N F_n / sum F over all columns; `force` has one row per planet. Throws SolverError when a sum is not
-/// positive (the whole stage has lost contact at that instant: the coefficient does not exist).
+/// Largest N F_n / sum F over all columns; `force` has one row per planet. Infinite when a sum is not positive: the
+/// stage carries no load at that instant and its share is unbounded.
 [[nodiscard]] double load_sharing_instantaneous(const Eigen::Ref<const Eigen::MatrixXd>& force);
 /// The same after a running mean over `samples_per_cycle` columns.
 [[nodiscard]] double load_sharing_averaged(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_per_cycle);
@@ -35,11 +35,13 @@ struct Spectrum {
 };
 [[nodiscard]] Spectrum spectrum(const Eigen::Ref<const Eigen::VectorXd>& series, int mesh_cycles);
 
-/// Quasi-static mesh forces: K q + sum b k g(b^T q - e(t)) = f at equidistant positions over the error period.
+/// Quasi-static mesh forces: K q + sum b k g(b^T q - e(t)) = f at equidistant positions from time 0 on, over the error
+/// period or the first `max_cycles` mesh cycles of it.
 struct QuasiStatic {
   Eigen::MatrixXd sun_force, ring_force;  ///< N, one row per planet, one column per position
 };
 /// Throws InputError for an unbalanced load, SolverError when the contact state is not found.
-[[nodiscard]] QuasiStatic quasi_static(const PlanetaryStage& stage, int positions_per_cycle = 16);
+[[nodiscard]] QuasiStatic quasi_static(const PlanetaryStage& stage, int positions_per_cycle = 16,
+                                       int max_cycles = 1000);
 
 }  // namespace annulus::dynamics

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -93,14 +94,12 @@ class LumpedSystem {
 
  private:
   friend class LumpedSystemBuilder;
-  struct SparseRows {  ///< rows of M^-1 (K + K_Omega) and M^-1 (C + G) on their common pattern
-    std::vector<int> start, column;
-    std::vector<double> stiffness, damping;
-  };
+  struct Compiled;  // flat arrays for the right-hand side, shared by copies
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
   Eigen::MatrixXd mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
-  Eigen::VectorXd load_, accelerating_load_;  ///< f and M^-1 f
+  Eigen::VectorXd load_;
+  std::shared_ptr<const Compiled> compiled_;
 };
 
 /// Collects bodies, supports, couplings and meshes of any stage.

@@ -23,6 +23,9 @@ struct SimulationOptions {
   /// The window is the error period, or as many error periods as reach this many mesh cycles: differences between
   /// short windows say little about slow transients.
   int min_window_cycles = 20;
+  /// Upper limit of the window (memory): sun, planet and housing errors together repeat after lcm(z_s, z_p, z_r) mesh
+  /// cycles, which may be tens of thousands. A window cut by it cannot be compared with the one before.
+  int max_window_cycles = 1000;
   /// Integrates the last window again with a tolerance ten times looser to estimate the integrator's part of the error.
   bool estimate_error = true;
 };
@@ -62,14 +65,15 @@ struct DynamicResponse {
   double mesh_frequency = 0;        ///< Hz
   double mean_mesh_force = 0;       ///< N, T_s / (N r_bs)
   int window_cycles = 0;            ///< evaluated at the end, mesh cycles
-  bool whole_error_period = false;  ///< false only when `mesh_cycles` was too short for one
+  bool whole_error_period = false;  ///< false when `mesh_cycles` or `max_window_cycles` was too short for one
   int total_cycles = 0;             ///< integrated mesh cycles
   bool steady = false;              ///< successive windows agree within steady_tolerance
-  double steady_difference =
-      0;  ///< largest mesh force difference to the window before / mean mesh force; NaN: one window
+  /// Largest mesh force difference to the window before / mean mesh force; absent when there was none to compare with.
+  std::optional<double> steady_difference;
   MeshKindResult sun_planet, ring_planet;
   EnergyBalance energy;
-  /// |mean over the window of sum of sun mesh forces x r_bs - T_s| / T_s: momentum balance of the sun's rotation.
+  /// Momentum balance of the sun's rotation over the window, relative to T_s: mean of sum F_sn r_bs (and of its
+  /// torsional support, and the change of angular momentum) against T_s.
   double force_balance_relative = 0;
   IntegratorStatistics statistics;
   TimeSeries series;

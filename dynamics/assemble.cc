@@ -1,0 +1,134 @@
+#include <cmath>
+#include <string>
+
+#include "dynamics/lumped_system.h"
+#include "dynamics/planetary_stage.h"
+#include "dynamics/stage_errors.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+struct PlaneBody {
+  LinearForm x, y, u;
+};
+
+double critical_share(double ratio, double stiffness, double mass) { return 2 * ratio * std::sqrt(stiffness * mass); }
+
+PlaneBody add_central(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const CentralBody& body,
+                      const std::string& name) {
+  PlaneBody c;
+  const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
+  if (body.support != rigid) {
+    c.x = builder.add_freedom(name + "_x");
+    c.y = builder.add_freedom(name + "_y");
+    const double damping = critical_share(stage.support_damping_ratio, body.support, body.mass);
+    builder.add_rotating_mass(c.x, c.y, body.mass, speed);
+    builder.add_spring(c.x, body.support, damping);
+    builder.add_spring(c.y, body.support, damping);
+    builder.add_housing_damper_rotation(c.x, c.y, damping, speed);
+  }
+  if (body.torsional_support != rigid) {
+    c.u = builder.add_freedom(name + "_u");
+    const double mass = body.inertia / (body.radius * body.radius);
+    builder.add_mass(c.u, mass);
+    builder.add_spring(c.u, body.torsional_support,
+                       critical_share(stage.support_damping_ratio, body.torsional_support, mass));
+  }
+  return c;
+}
+
+/// Planet n at phi: its own freedoms where the bearing gives way, else the carrier's motion at its place.
+PlaneBody add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const PlaneBody& carrier, double phi,
+                     const std::string& name) {
+  const auto& body = stage.planet;
+  const LinearForm radial = std::cos(phi) * carrier.x + std::sin(phi) * carrier.y;
+  const LinearForm translation = -std::sin(phi) * carrier.x + std::cos(phi) * carrier.y;
+  const LinearForm tangential = translation + carrier.u;
+  PlaneBody p;
+  const auto place = [&](double bearing, const LinearForm& seat, const std::string& freedom) {
+    if (bearing == rigid) return seat;
+    LinearForm own = builder.add_freedom(freedom);
+    builder.add_spring(own + (-1.0) * seat, bearing,  // (20), (21)
+                       critical_share(stage.support_damping_ratio, bearing, body.mass));
+    return own;
+  };
+  p.x = place(body.bearing_radial, radial, name + "_x");
+  p.y = place(body.bearing_tangential, tangential, name + "_y");
+  p.u = builder.add_freedom(name + "_u");
+  builder.add_mass(p.u, body.inertia / (body.radius * body.radius));
+
+  const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
+  builder.add_rotating_mass(p.x, p.y, body.mass, speed);
+  // The bearing carries the centrifugal force m a Omega^2 of the planet. Turning the carrier by u/a turns this preload
+  // with it; to second order the potential is -m Omega^2/2 (x^2 + (y - u)^2 + 2 t u), t the tangential translation of
+  // the carrier at the planet. Without it a rigid rotation would gain energy and run away. Corrects -m Omega^2 y_n.
+  const double centrifugal = body.mass * speed * speed;
+  builder.add_rotating_stiffness(p.y, carrier.u, 2 * centrifugal);
+  builder.add_rotating_stiffness(carrier.u, carrier.u, -centrifugal);
+  builder.add_rotating_stiffness(translation, carrier.u, -2 * centrifugal);
+  return p;
+}
+
+/// 1/m_e = r_1^2/I_1 + r_2^2/I_2 (31); a body that cannot turn counts as infinitely heavy.
+double equivalent_mass(const PlanetaryStage& stage, const CentralBody& wheel) {
+  const auto& planet = stage.planet;
+  double inverse = planet.radius * planet.radius / planet.inertia;
+  if (wheel.torsional_support != rigid) inverse += wheel.radius * wheel.radius / wheel.inertia;
+  return 1 / inverse;
+}
+
+double value_or_zero(const std::vector<double>& values, int n) { return values.empty() ? 0.0 : values[n]; }
+
+}  // namespace
+
+LumpedSystem assemble(const PlanetaryStage& stage) {
+  stage.check();
+  LumpedSystemBuilder builder;
+  const PlaneBody sun = add_central(builder, stage, stage.sun, "sun");
+  const PlaneBody ring = add_central(builder, stage, stage.ring, "ring");
+  const PlaneBody carrier = add_central(builder, stage, stage.carrier, "carrier");
+  const double as = stage.sun_working_angle, ar = stage.ring_working_angle;
+
+  const auto mesh = [&](const std::string& name, LinearForm b, const MeshExcitation& excitation,
+                        const CentralBody& wheel, double phase, std::vector<HarmonicError> errors) {
+    MeshElement element;
+    element.name = name;
+    element.b = std::move(b);
+    element.excitation = excitation;
+    element.frequency = stage.mesh_frequency();
+    element.phase_offset = phase;
+    element.damping =
+        critical_share(stage.mesh_damping_ratio, mean_stiffness(excitation), equivalent_mass(stage, wheel));
+    element.half_backlash = stage.half_backlash;
+    element.damping_without_contact = stage.damping_without_contact;
+    element.errors = std::move(errors);
+    return element;
+  };
+
+  std::vector<MeshElement> ring_meshes;
+  for (int n = 0; n < stage.planets(); ++n) {
+    const double phi = stage.planet_angles[n];
+    const auto number = std::to_string(n + 1);
+    const PlaneBody p = add_planet(builder, stage, carrier, phi, "planet" + number);
+    const LinearForm sun_b = sun.u + (-std::sin(phi - as)) * sun.x + std::cos(phi - as) * sun.y + p.u +  // (15)
+                             (-std::sin(as)) * p.x + (-std::cos(as)) * p.y;
+    const LinearForm ring_b = ring.u + (-std::sin(phi + ar)) * ring.x + std::cos(phi + ar) * ring.y +  // (16)
+                              (-1.0) * p.u + std::sin(ar) * p.x + (-std::cos(ar)) * p.y;
+    builder.add_mesh(mesh("sun_planet" + number, sun_b, stage.sun_mesh, stage.sun,
+                          -value_or_zero(stage.sun_phase_lag, n), sun_mesh_errors(stage, n)));
+    ring_meshes.push_back(mesh("ring_planet" + number, ring_b, stage.ring_mesh, stage.ring,
+                               value_or_zero(stage.ring_tooth_offset, n) - value_or_zero(stage.ring_phase_lag, n),
+                               ring_mesh_errors(stage, n)));
+  }
+  for (auto& element : ring_meshes) builder.add_mesh(std::move(element));
+
+  // The carrier's load from virtual work: equal to T_c / a with T_c = T_s (1 + z_r/z_s), but balanced to rounding, so
+  // that a stage free to turn does not creep away.
+  const double sun_force = stage.sun_torque / stage.sun.radius;
+  builder.add_load(sun.u, sun_force);
+  builder.add_load(carrier.u, -sun_force * (std::cos(as) + std::cos(ar)));
+  return builder.build();
+}
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,65 @@
+#include "dynamics/figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <unsupported/Eigen/FFT>
+
+#include "core/errors.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+double largest_share(const Eigen::Ref<const Eigen::VectorXd>& force) {
+  const double sum = force.sum();
+  return sum > 0 ? static_cast<double>(force.size()) * force.maxCoeff() / sum : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+double load_sharing_instantaneous(const Eigen::Ref<const Eigen::MatrixXd>& force) {
+  require(force.size() > 0, "load sharing of no force");
+  double largest = 0;
+  for (Eigen::Index i = 0; i < force.cols(); ++i) largest = std::max(largest, largest_share(force.col(i)));
+  return largest;
+}
+
+double load_sharing_averaged(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_per_cycle) {
+  require(samples_per_cycle > 0 && force.cols() >= samples_per_cycle, "load sharing over less than a mesh cycle");
+  // Sum over the sliding cycle; sliding accumulates rounding of about columns x eps, far below any use.
+  Eigen::VectorXd sum = force.leftCols(samples_per_cycle).rowwise().sum();
+  double largest = largest_share(sum);
+  for (Eigen::Index i = samples_per_cycle; i < force.cols(); ++i) {
+    sum += force.col(i) - force.col(i - samples_per_cycle);
+    largest = std::max(largest, largest_share(sum));
+  }
+  return largest;
+}
+
+Eigen::MatrixXd load_sharing_over_time(const Eigen::Ref<const Eigen::MatrixXd>& force) {
+  Eigen::MatrixXd share = force * static_cast<double>(force.rows());
+  for (Eigen::Index i = 0; i < force.cols(); ++i) share.col(i) /= force.col(i).sum();
+  return share;
+}
+
+Spectrum spectrum(const Eigen::Ref<const Eigen::VectorXd>& series, int mesh_cycles) {
+  const auto n = series.size();
+  if (n < 2 || mesh_cycles < 1) throw InputError("a spectrum needs at least two samples and one mesh cycle");
+  Eigen::VectorXd copy = series;
+  Eigen::VectorXcd lines;
+  Eigen::FFT<double> transform;
+  transform.fwd(lines, copy);
+  const Eigen::Index half = n / 2 + 1;
+  Spectrum result{Eigen::VectorXd(half), Eigen::VectorXd(half)};
+  for (Eigen::Index i = 0; i < half; ++i) {
+    // Lines other than the mean and the Nyquist line stand for a pair of conjugates.
+    const double pair = i == 0 || 2 * i == n ? 1.0 : 2.0;
+    result.order[i] = static_cast<double>(i) / mesh_cycles;
+    result.amplitude[i] = pair * std::abs(lines[i]) / static_cast<double>(n);
+  }
+  return result;
+}
+
+}  // namespace annulus::dynamics

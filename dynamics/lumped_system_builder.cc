@@ -1,0 +1,183 @@
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/errors.h"
+#include "dynamics/lumped_system.h"
+#include "dynamics/lumped_system_compiled.h"
+
+namespace annulus::dynamics {
+
+LinearForm operator+(const LinearForm& a, const LinearForm& b) {
+  LinearForm sum = a;
+  for (const auto& [index, factor] : b) {
+    const auto same = std::find_if(sum.begin(), sum.end(), [i = index](const auto& term) { return term.first == i; });
+    if (same == sum.end())
+      sum.emplace_back(index, factor);
+    else
+      same->second += factor;
+  }
+  return sum;
+}
+
+LinearForm operator*(double factor, const LinearForm& a) {
+  LinearForm scaled = a;
+  for (auto& term : scaled) term.second *= factor;
+  return scaled;
+}
+
+LinearForm LumpedSystemBuilder::add_freedom(const std::string& name) {
+  names_.push_back(name);
+  return {{static_cast<int>(names_.size()) - 1, 1.0}};
+}
+
+void LumpedSystemBuilder::add_mass(const LinearForm& coordinate, double mass) {
+  mass_.push_back({coordinate, coordinate, mass});
+}
+
+void LumpedSystemBuilder::add_rotating_mass(const LinearForm& x, const LinearForm& y, double mass, double speed) {
+  add_mass(x, mass);
+  add_mass(y, mass);
+  gyroscopic_.push_back({x, y, -2 * mass * speed});
+  gyroscopic_.push_back({y, x, 2 * mass * speed});
+  add_rotating_stiffness(x, x, -mass * speed * speed);
+  add_rotating_stiffness(y, y, -mass * speed * speed);
+}
+
+void LumpedSystemBuilder::add_rotating_stiffness(const LinearForm& a, const LinearForm& b, double value) {
+  rotating_stiffness_.push_back({a, b, value / 2});
+  rotating_stiffness_.push_back({b, a, value / 2});
+}
+
+void LumpedSystemBuilder::add_spring(const LinearForm& coordinate, double stiffness, double damping) {
+  stiffness_.push_back({coordinate, coordinate, stiffness});
+  damping_.push_back({coordinate, coordinate, damping});
+}
+
+void LumpedSystemBuilder::add_housing_damper_rotation(const LinearForm& x, const LinearForm& y, double damping,
+                                                      double speed) {
+  rotating_stiffness_.push_back({x, y, -damping * speed});
+  rotating_stiffness_.push_back({y, x, damping * speed});
+}
+
+void LumpedSystemBuilder::add_load(const LinearForm& coordinate, double force) {
+  load_.emplace_back(coordinate, force);
+}
+
+void LumpedSystemBuilder::add_mesh(MeshElement mesh) { meshes_.push_back(std::move(mesh)); }
+
+namespace {
+
+template <class Terms>
+Eigen::MatrixXd assembled(const Terms& terms, int n) {
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+  for (const auto& term : terms)
+    for (const auto& [i, a] : term.row)
+      for (const auto& [j, b] : term.column) matrix(i, j) += term.value * a * b;
+  return matrix;
+}
+
+/// Index of `rate` in the list, appended when new.
+std::size_t slot_of(std::vector<double>& rates, double rate) {
+  const auto found = std::find(rates.begin(), rates.end(), rate);
+  if (found != rates.end()) return static_cast<std::size_t>(found - rates.begin());
+  rates.push_back(rate);
+  return rates.size() - 1;
+}
+
+void append_sparse(const Eigen::VectorXd& dense, FlatRows& rows) {
+  const double largest = dense.size() ? dense.cwiseAbs().maxCoeff() : 0;
+  for (int i = 0; i < dense.size(); ++i)
+    // Below rounding of the solve with a non-diagonal mass matrix an entry is a zero that cancelled.
+    if (std::abs(dense[i]) > 1e-16 * largest) {
+      rows.index.push_back(i);
+      rows.factor.push_back(dense[i]);
+    }
+  rows.start.push_back(static_cast<int>(rows.index.size()));
+}
+
+}  // namespace
+
+LumpedSystem LumpedSystemBuilder::build() const {
+  const int n = static_cast<int>(names_.size());
+  LumpedSystem system;
+  system.names_ = names_;
+  system.meshes_ = meshes_;
+  system.mass_ = assembled(mass_, n);
+  system.stiffness_ = assembled(stiffness_, n);
+  system.rotating_stiffness_ = assembled(rotating_stiffness_, n);
+  system.damping_ = assembled(damping_, n);
+  system.gyroscopic_ = assembled(gyroscopic_, n);
+  system.load_ = Eigen::VectorXd::Zero(n);
+  for (const auto& [form, force] : load_)
+    for (const auto& [i, a] : form) system.load_[i] += a * force;
+  for (int i = 0; i < n; ++i)
+    if (!(system.mass_(i, i) > 0)) throw InputError(fmt::format("freedom {} has no mass", names_[i]));
+  const Eigen::LLT<Eigen::MatrixXd> mass(system.mass_);
+  if (mass.info() != Eigen::Success) throw InputError("the mass matrix is not positive definite");
+
+  auto compiled = std::make_shared<LumpedSystem::Compiled>();
+  auto& c = *compiled;
+  c.acceleration = mass.solve(system.load_);
+  const Eigen::MatrixXd stiffness = mass.solve(system.stiffness_ + system.rotating_stiffness_);
+  const Eigen::MatrixXd damping = mass.solve(system.damping_ + system.gyroscopic_);
+  const double largest = n ? stiffness.cwiseAbs().maxCoeff() : 0, largest_rate = n ? damping.cwiseAbs().maxCoeff() : 0;
+  c.row_start.push_back(0);
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j)
+      if (std::abs(stiffness(i, j)) > 1e-16 * largest || std::abs(damping(i, j)) > 1e-16 * largest_rate) {
+        c.column.push_back(j);
+        c.stiffness.push_back(stiffness(i, j));
+        c.damping.push_back(damping(i, j));
+      }
+    c.row_start.push_back(static_cast<int>(c.column.size()));
+  }
+
+  // Terms constant in time get no slot; all others share one sine and cosine per distinct rate.
+  c.b.start = c.inverse_b.start = {0};
+  for (const auto& mesh : meshes_) {
+    const Eigen::VectorXd b = system.mesh_vector(static_cast<int>(&mesh - meshes_.data()));
+    append_sparse(b, c.b);
+    append_sparse(mass.solve(b), c.inverse_b);
+    auto& m = c.meshes.emplace_back();
+    m.damping = mesh.damping;
+    m.damping_without_contact = mesh.damping_without_contact;
+    m.half_backlash = mesh.half_backlash.value_or(0.0);
+    m.linear = m.half_backlash == 0;  // g(delta) = delta
+    m.frequency = mesh.frequency;
+    m.phase_offset = mesh.phase_offset;
+    m.mean = mean_stiffness(mesh.excitation);
+    for (const auto& error : mesh.errors) {
+      if (error.rate == 0)
+        m.constant_error += error.amount * std::sin(error.phase);
+      else
+        m.errors.push_back(
+            {slot_of(c.rates, error.rate), error.amount * std::cos(error.phase), error.amount * std::sin(error.phase)});
+    }
+    if (const auto* harmonic = std::get_if<HarmonicStiffness>(&mesh.excitation)) {
+      const double angle = 2 * std::numbers::pi * (mesh.phase_offset - harmonic->phase_shift);
+      m.ripple = {slot_of(c.rates, 2 * std::numbers::pi * mesh.frequency),
+                  -harmonic->mean * harmonic->ripple * std::sin(angle),
+                  harmonic->mean * harmonic->ripple * std::cos(angle)};
+      m.kind = CompiledMesh::Kind::harmonic;
+    } else if (const auto* wave = std::get_if<RectangularStiffness>(&mesh.excitation)) {
+      m.kind = CompiledMesh::Kind::wave;
+      m.low = wave->mean * (1 - wave->ripple * wave->duty);
+      m.high = m.low + wave->mean * wave->ripple;
+      m.duty = wave->duty;
+      m.phase_offset -= wave->phase_shift;
+    } else if (const auto* table = std::get_if<TableStiffness>(&mesh.excitation)) {
+      m.kind = CompiledMesh::Kind::table;
+      m.secant = table->secant;
+      m.unloaded_te = table->unloaded_te;
+      m.phase_offset -= table->phase_shift;
+    }
+  }
+  system.compiled_ = std::move(compiled);
+  return system;
+}
+
+}  // namespace annulus::dynamics

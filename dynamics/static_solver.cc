@@ -1,0 +1,124 @@
+#include "dynamics/static_solver.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/errors.h"
+#include "dynamics/figures.h"
+#include "dynamics/modes.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+using Contact = LumpedSystem::Contact;
+
+/// State that a deflection asks for, and how far (m) it is inside another state than `held`.
+std::pair<Contact, double> wanted_state(double delta, double half_backlash, Contact held) {
+  Contact contact = Contact::open;
+  if (delta > half_backlash) contact = Contact::drive;
+  if (delta < -half_backlash) contact = Contact::back;
+  const double edge = (held == Contact::back || contact == Contact::back) ? -half_backlash : half_backlash;
+  return {contact, contact == held ? 0.0 : std::abs(delta - edge)};
+}
+
+}  // namespace
+
+StaticSolver::StaticSolver(const LumpedSystem& system) : system_(system), base_(system.stiffness()) {
+  const int meshes = static_cast<int>(system.meshes().size());
+  vectors_.resize(system.freedoms(), meshes);
+  Eigen::VectorXd mean(meshes);
+  for (int m = 0; m < meshes; ++m) {
+    vectors_.col(m) = system.mesh_vector(m);
+    mean[m] = mean_stiffness(system.meshes()[m].excitation);
+  }
+  const Modes found = modes(system, mean);
+  const double scale = found.modes.empty() ? 0 : std::pow(found.modes.back().frequency, 2);
+  for (const auto& mode : found.modes) {
+    if (mode.frequency > 0) break;
+    const double work = std::abs(mode.shape.dot(system.load()));
+    // A balanced load cancels to rounding: some 1e-16 of the terms.
+    if (work > 1e-9 * mode.shape.cwiseAbs().dot(system.load().cwiseAbs()))
+      throw InputError(
+          "the load is not balanced: nothing holds the ring (or another body) against turning; give it a torsional "
+          "support");
+    const Eigen::VectorXd momentum = system.mass() * mode.shape;
+    base_ += scale * momentum * momentum.transpose();
+  }
+}
+
+Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
+  system_.evaluate_excitation(t, w);
+  const int meshes = static_cast<int>(vectors_.cols());
+  const auto half = [&](int m) { return system_.meshes()[m].half_backlash.value_or(0.0); };
+  constexpr int tries = 200, all_at_once = 20;
+  // An open mesh keeps a billionth of its stiffness: an idle planet then has a definite place, at forces of at most
+  // 1e-9 k x half backlash, which no figure of merit sees.
+  constexpr double open_share = 1e-9;
+  Eigen::VectorXd q;
+  for (int attempt = 0; attempt < tries; ++attempt) {
+    matrix_ = base_;
+    Eigen::VectorXd load = system_.load();
+    for (int m = 0; m < meshes; ++m) {
+      const bool linear = half(m) == 0;
+      const double share = linear || w.contact[m] != Contact::open ? 1.0 : open_share;
+      const double offset = linear ? 0.0 : static_cast<int>(w.contact[m]) * half(m);
+      matrix_ += (share * w.stiffness[m]) * vectors_.col(m) * vectors_.col(m).transpose();
+      load += (share * w.stiffness[m] * (w.error[m] + offset)) * vectors_.col(m);
+    }
+    factor_.compute(matrix_);
+    if (factor_.info() != Eigen::Success)
+      throw SolverError("the quasi-static stiffness is singular: a freedom is held by nothing");
+    q = factor_.solve(load);
+
+    int changes = 0, worst = -1;
+    double worst_excess = 0;
+    for (int m = 0; m < meshes; ++m) {
+      const bool linear = half(m) == 0;
+      w.delta[m] = vectors_.col(m).dot(q) - w.error[m];
+      w.delta_rate[m] = 0;
+      const double offset = linear ? 0.0 : static_cast<int>(w.contact[m]) * half(m);
+      w.force[m] = linear || w.contact[m] != Contact::open ? w.stiffness[m] * (w.delta[m] - offset) : 0.0;
+      if (linear) continue;
+      const auto [contact, excess] = wanted_state(w.delta[m], half(m), w.contact[m]);
+      if (contact == w.contact[m]) continue;
+      ++changes;
+      if (excess > worst_excess) {
+        worst_excess = excess;
+        worst = m;
+      }
+      if (attempt < all_at_once) w.contact[m] = contact;
+    }
+    if (changes == 0) return q;
+    // Changing all at once is fast but may cycle; one at a time, the worst first, ends it.
+    if (attempt >= all_at_once) {
+      if (worst < 0) return q;  // all differ by rounding only: on the edge either state is right
+      w.contact[worst] = wanted_state(w.delta[worst], half(worst), w.contact[worst]).first;
+    }
+  }
+  throw SolverError(fmt::format("no consistent contact state in {} attempts at t = {:g} s (quasi-static)", tries, t));
+}
+
+QuasiStatic quasi_static(const PlanetaryStage& stage, int positions_per_cycle, int max_cycles) {
+  if (positions_per_cycle < 1 || max_cycles < 1)
+    throw InputError("quasi-static analysis needs at least one position and one mesh cycle");
+  if (!(stage.carrier_speed > 0))
+    throw InputError("quasi-static positions follow from the carrier speed: it must be positive");
+  const LumpedSystem system = assemble(stage);
+  StaticSolver solver(system);
+  auto workspace = system.workspace();
+  const int n = stage.planets();
+  const int positions = positions_per_cycle * std::min(stage.error_period(), max_cycles);
+  QuasiStatic result{Eigen::MatrixXd(n, positions), Eigen::MatrixXd(n, positions)};
+  for (int i = 0; i < positions; ++i) {
+    (void)solver.solve(i / (positions_per_cycle * stage.mesh_frequency()), workspace);
+    for (int p = 0; p < n; ++p) {
+      result.sun_force(p, i) = workspace.force[p];
+      result.ring_force(p, i) = workspace.force[n + p];
+    }
+  }
+  return result;
+}
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,232 @@
+#include "dynamics/stepper.h"
+
+#include <arkode/arkode_erkstep.h>
+#include <cvode/cvode.h>
+#include <fmt/format.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <sundials/sundials_context.hpp>
+
+#include "core/errors.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+extern "C" {
+
+static int annulus_rhs(realtype t, N_Vector y, N_Vector dy, void* data) {
+  auto& p = *static_cast<StepperProblem*>(data);
+  const double* state = N_VGetArrayPointer(y);
+  double* rate = N_VGetArrayPointer(dy);
+  ++p.statistics.rhs_evaluations;
+  p.system.rhs(t, state, rate, p.workspace);
+  const int n = 2 * p.system.freedoms();
+  if (p.track_energy) {
+    const auto power = p.system.power(t, state, p.workspace);
+    rate[n] = power.supplied;
+    rate[n + 1] = power.dissipated;
+  }
+  double sum = 0;
+  for (int i = 0; i < n; ++i) sum += rate[i];
+  return std::isfinite(sum) ? 0 : 1;  // 1: recoverable, a smaller step may avoid the overflow
+}
+
+static int annulus_jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix matrix, void* data, N_Vector, N_Vector,
+                            N_Vector) {
+  auto& p = *static_cast<StepperProblem*>(data);
+  ++p.statistics.jacobian_evaluations;
+  const int n = 2 * p.system.freedoms(), size = p.size();
+  Eigen::Map<Eigen::MatrixXd> jacobian(SUNDenseMatrix_Data(matrix), size, size);
+  // The energies are integrals beside the system: nothing depends on them, and their own dependence on the state may be
+  // left out of a Newton matrix (they are then corrected, not predicted).
+  jacobian.setZero();
+  p.system.jacobian(t, N_VGetArrayPointer(y), jacobian.topLeftCorner(n, n), p.workspace);
+  return 0;
+}
+
+static int annulus_roots(realtype t, N_Vector y, realtype* values, void* data) {
+  auto& p = *static_cast<StepperProblem*>(data);
+  const double* state = N_VGetArrayPointer(y);
+  p.system.evaluate_meshes(t, state, state + p.system.freedoms(), p.workspace);
+  for (std::size_t i = 0; i < p.rooted.size(); ++i) {
+    const double half = *p.system.meshes()[p.rooted[i]].half_backlash;
+    values[2 * i] = p.workspace.delta[p.rooted[i]] - half;
+    values[2 * i + 1] = p.workspace.delta[p.rooted[i]] + half;
+  }
+  return 0;
+}
+
+/// SUNDIALS prints its complaints; here they end in the exception.
+static void annulus_complaint(int, const char*, const char*, char* message, void* data) {
+  *static_cast<std::string*>(data) = message;
+}
+
+}  // extern "C"
+
+constexpr int root_return = 2;  // CV_ROOT_RETURN and ARK_ROOT_RETURN
+
+class SundialsStepper : public Stepper {
+ public:
+  SundialsStepper(StepperProblem& problem, const Eigen::VectorXd& tolerance)
+      : problem_(problem), roots_(2 * problem.rooted.size(), 0) {
+    y_ = N_VNew_Serial(problem.size(), context_);
+    tolerance_ = N_VNew_Serial(problem.size(), context_);
+    for (int i = 0; i < problem.size(); ++i) NV_Ith_S(tolerance_, i) = tolerance[i];
+  }
+  ~SundialsStepper() override {
+    N_VDestroy(y_);
+    N_VDestroy(tolerance_);
+  }
+  SundialsStepper(const SundialsStepper&) = delete;
+  SundialsStepper& operator=(const SundialsStepper&) = delete;
+  Eigen::Map<Eigen::VectorXd> state() override { return {N_VGetArrayPointer(y_), problem_.size()}; }
+  const std::vector<int>& roots() override { return roots_; }
+
+ protected:
+  void check(int flag, double t) const {
+    if (flag < 0)
+      throw SolverError(
+          fmt::format("time integration failed at t = {:.9g} s: {} (status {}); loosen or tighten the "
+                      "tolerance or choose another integrator",
+                      t, complaint_.empty() ? "no reason given" : complaint_, flag));
+  }
+
+  sundials::Context context_;
+  StepperProblem& problem_;
+  N_Vector y_ = nullptr, tolerance_ = nullptr;
+  std::vector<int> roots_;
+  std::string complaint_;
+};
+
+class ExplicitStepper final : public SundialsStepper {
+ public:
+  ExplicitStepper(StepperProblem& problem, const IntegratorOptions& options, const Eigen::VectorXd& tolerance)
+      : SundialsStepper(problem, tolerance), fixed_step_(options.fixed_step) {
+    memory_ = ERKStepCreate(annulus_rhs, 0.0, y_, context_);
+    if (!memory_) throw SolverError("ARKODE could not be set up");
+    check(ERKStepSetErrHandlerFn(memory_, annulus_complaint, &complaint_), 0);
+    check(ERKStepSetUserData(memory_, &problem_), 0);
+    check(ERKStepSVtolerances(memory_, options.relative_tolerance, tolerance_), 0);
+    check(ERKStepSetMaxNumSteps(memory_, options.max_steps), 0);
+    if (options.method == Integrator::runge_kutta_4) {
+      double a[16] = {0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 1, 0};
+      double b[4] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6}, c[4] = {0, 0.5, 0.5, 1};
+      const auto table = ARKodeButcherTable_Create(4, 4, 0, c, a, b, nullptr);
+      const int flag = ERKStepSetTable(memory_, table);
+      ARKodeButcherTable_Free(table);
+      check(flag, 0);
+      check(ERKStepSetFixedStep(memory_, fixed_step_), 0);
+    } else {
+      check(ERKStepSetTableNum(memory_, ARKODE_DORMAND_PRINCE_7_4_5), 0);
+    }
+    if (!problem_.rooted.empty())
+      check(ERKStepRootInit(memory_, static_cast<int>(2 * problem_.rooted.size()), annulus_roots), 0);
+  }
+  ~ExplicitStepper() override { ERKStepFree(&memory_); }
+  ExplicitStepper(const ExplicitStepper&) = delete;
+  ExplicitStepper& operator=(const ExplicitStepper&) = delete;
+
+  void restart(double t, double stop) override {
+    close();
+    check(ERKStepReInit(memory_, annulus_rhs, t, y_), t);
+    // The step that served before the event serves after it.
+    if (fixed_step_ == 0 && last_step_ > 0) check(ERKStepSetInitStep(memory_, std::min(last_step_, stop - t)), t);
+    check(ERKStepSetStopTime(memory_, stop), t);
+    counting_ = true;
+  }
+
+  Reached advance(double out) override {
+    double t = out;
+    const int flag = ERKStepEvolve(memory_, out, y_, &t, ARK_NORMAL);
+    check(flag, t);
+    if (flag == root_return) check(ERKStepGetRootInfo(memory_, roots_.data()), t);
+    return {t, flag == root_return};
+  }
+
+  void close() override {
+    if (!counting_) return;
+    long steps = 0;
+    check(ERKStepGetNumSteps(memory_, &steps), 0);
+    if (steps > 0) check(ERKStepGetCurrentStep(memory_, &last_step_), 0);
+    problem_.statistics.steps += steps;
+    counting_ = false;
+  }
+
+ private:
+  void* memory_ = nullptr;
+  double fixed_step_ = 0, last_step_ = 0;
+  bool counting_ = false;
+};
+
+class ImplicitStepper final : public SundialsStepper {
+ public:
+  ImplicitStepper(StepperProblem& problem, const IntegratorOptions& options, const Eigen::VectorXd& tolerance)
+      : SundialsStepper(problem, tolerance) {
+    memory_ = CVodeCreate(options.method == Integrator::cvode_adams ? CV_ADAMS : CV_BDF, context_);
+    if (!memory_) throw SolverError("CVODE could not be set up");
+    check(CVodeSetErrHandlerFn(memory_, annulus_complaint, &complaint_), 0);
+    check(CVodeInit(memory_, annulus_rhs, 0.0, y_), 0);
+    check(CVodeSetUserData(memory_, &problem_), 0);
+    check(CVodeSVtolerances(memory_, options.relative_tolerance, tolerance_), 0);
+    check(CVodeSetMaxNumSteps(memory_, options.max_steps), 0);
+    matrix_ = SUNDenseMatrix(problem.size(), problem.size(), context_);
+    solver_ = SUNLinSol_Dense(y_, matrix_, context_);
+    check(CVodeSetLinearSolver(memory_, solver_, matrix_), 0);
+    check(CVodeSetJacFn(memory_, annulus_jacobian), 0);
+    if (!problem_.rooted.empty())
+      check(CVodeRootInit(memory_, static_cast<int>(2 * problem_.rooted.size()), annulus_roots), 0);
+  }
+  ~ImplicitStepper() override {
+    CVodeFree(&memory_);
+    SUNLinSolFree(solver_);
+    SUNMatDestroy(matrix_);
+  }
+  ImplicitStepper(const ImplicitStepper&) = delete;
+  ImplicitStepper& operator=(const ImplicitStepper&) = delete;
+
+  void restart(double t, double stop) override {
+    close();
+    check(CVodeReInit(memory_, t, y_), t);
+    check(CVodeSetStopTime(memory_, stop), t);
+    counting_ = true;
+  }
+
+  Reached advance(double out) override {
+    double t = out;
+    const int flag = CVode(memory_, out, y_, &t, CV_NORMAL);
+    check(flag, t);
+    if (flag == root_return) check(CVodeGetRootInfo(memory_, roots_.data()), t);
+    return {t, flag == root_return};
+  }
+
+  void close() override {
+    if (!counting_) return;
+    long steps = 0;
+    check(CVodeGetNumSteps(memory_, &steps), 0);
+    problem_.statistics.steps += steps;
+    counting_ = false;
+  }
+
+ private:
+  void* memory_ = nullptr;
+  SUNMatrix matrix_ = nullptr;
+  SUNLinearSolver solver_ = nullptr;
+  bool counting_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Stepper> make_stepper(StepperProblem& problem, const IntegratorOptions& options,
+                                      const Eigen::VectorXd& tolerance) {
+  if (options.method == Integrator::cvode_adams || options.method == Integrator::cvode_bdf)
+    return std::make_unique<ImplicitStepper>(problem, options, tolerance);
+  return std::make_unique<ExplicitStepper>(problem, options, tolerance);
+}
+
+}  // namespace annulus::dynamics

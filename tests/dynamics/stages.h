@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "core/units.h"
+#include "dynamics/planetary_stage.h"
+
+/// Stages the tests share.
+namespace annulus::dynamics::stages {
+
+/// The stage of the ring paper (tables 1 to 3; models.md A for what it does not print): 48/55/162 teeth, five planets,
+/// harmonic stiffness, eccentricities and installation errors of the planets with all phases zero.
+inline PlanetaryStage ring_paper() {
+  PlanetaryStage s;
+  s.sun_teeth = 48;
+  s.planet_teeth = 55;
+  s.ring_teeth = 162;
+  const double module = 3.8e-3, base = std::cos(22.5 * units::deg), a = 0.201;
+  s.sun.radius = module * 48 / 2 * base;
+  s.planet.radius = module * 55 / 2 * base;
+  s.ring.radius = module * 162 / 2 * base;
+  s.carrier.radius = a;
+  s.sun_working_angle = std::acos((s.sun.radius + s.planet.radius) / a);
+  s.ring_working_angle = std::acos((s.ring.radius - s.planet.radius) / a);
+  s.sun.mass = 66;
+  s.sun.inertia = 0.54895;
+  s.sun.support = 1e7;
+  s.planet.mass = 8.51;
+  s.planet.inertia = 0.09282;
+  s.planet.bearing_radial = s.planet.bearing_tangential = 1e9;
+  s.ring.mass = 31.25;
+  s.ring.inertia = 2.9606;
+  s.ring.support = 1e9;
+  s.ring.torsional_support = 1e10;
+  s.carrier.mass = 400.1;
+  s.carrier.inertia = 15.3193;
+  s.carrier.support = 1e9;
+  const double eccentricity[] = {15, 36, 17, 38, 19}, installation[] = {11, 32, 13, 34, 15};
+  const auto fraction = [](double x) { return x - std::floor(x); };
+  for (int n = 0; n < 5; ++n) {
+    s.planet_angles.push_back(2 * std::numbers::pi * n / 5);
+    s.planet_errors.push_back({{eccentricity[n] * units::um, 0}, {installation[n] * units::um, 0}});
+    // Parker and Lin 2004: the meshes of planet n follow those of planet 0 by z_s/N (sun) and -z_r/N (ring) cycles.
+    s.sun_phase_lag.push_back(fraction(48.0 * n / 5));
+    s.ring_phase_lag.push_back(fraction(-162.0 * n / 5));
+    s.ring_tooth_offset.push_back(0);
+  }
+  s.sun_mesh = HarmonicStiffness{1.364e9, 0.2258, 0};
+  s.ring_mesh = HarmonicStiffness{1.87e9, 0.1294, 0};
+  s.half_backlash = 50e-6;
+  s.mesh_damping_ratio = 0.07;
+  s.support_damping_ratio = 0.03;
+  s.carrier_speed = 1128 * units::rpm * 48 / (48 + 162);
+  s.sun_torque = 2958.8e3 / (1128 * units::rpm);
+  return s;
+}
+
+/// Lin and Parker, J. Vib. Acoust. 121 (1999): inertias are given as I/r^2, so every radius is 1 m.
+inline PlanetaryStage lin_parker(int planets) {
+  PlanetaryStage s;
+  s.sun = {0.4, 0.39, 1, 1e8, 0, {}};
+  s.ring = {2.35, 3.00, 1, 1e8, 1e9, {}};
+  s.carrier = {5.43, 6.29, 1, 1e8, 0, {}};
+  s.planet = {0.66, 0.61, 1, 1e8, 1e8};
+  s.sun_working_angle = s.ring_working_angle = 24.6 * units::deg;
+  s.sun_mesh = s.ring_mesh = ConstantStiffness{5e8};
+  for (int n = 0; n < planets; ++n) s.planet_angles.push_back(2 * std::numbers::pi * n / planets);
+  return s;
+}
+
+}  // namespace annulus::dynamics::stages
