@@ -35,4 +35,6 @@ add_library(annulus_dealii INTERFACE)
 target_include_directories(annulus_dealii SYSTEM INTERFACE ${DEAL_II_INCLUDE_DIRS})
 target_compile_definitions(annulus_dealii INTERFACE BOOST_NO_AUTO_PTR)
 find_library(DEAL_II_RELEASE_LIBRARY NAMES deal.ii deal_II HINTS ${DEAL_II_PATH}/lib REQUIRED)
-target_link_libraries(annulus_dealii INTERFACE ${DEAL_II_RELEASE_LIBRARY})
+# deal.II's headers inline calls into oneTBB.
+find_package(TBB REQUIRED)
+target_link_libraries(annulus_dealii INTERFACE ${DEAL_II_RELEASE_LIBRARY} TBB::tbb)

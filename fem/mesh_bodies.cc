@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "fem/condensation/lapack.h"
+#include "fem/contact/contact_system.h"
 
 namespace annulus::fem {
 namespace {
@@ -43,6 +44,13 @@ void condense_all(std::vector<Task>& tasks, const Material& material, int thread
   }
   for (const auto& failure : failures)
     if (failure) std::rethrow_exception(failure);
+}
+
+/// Arc length of the flank cells, s = rho^2 / (2 r_b); they are uniform.
+double flank_cell(const Task& task) {
+  const auto& flank = task.body.flank;
+  const double low = flank.low(), high = flank.high();
+  return (high * high - low * low) / (2 * task.profile->gear().base_radius()) / flank.elements();
 }
 
 std::vector<double> uniform_edges(double width, int cells) {
@@ -148,6 +156,7 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     }
     return terms;
   };
+  bodies.flank_cell = std::max(flank_cell(tasks[solid ? 2 : 0]), flank_cell(tasks[solid ? 4 : 1]));
   bodies.unknowns = tasks[0].body.unknowns + tasks[1].body.unknowns;
   bodies.planet_sector = std::move(tasks[0].mesh);
   bodies.wheel_sector = std::move(tasks[1].mesh);

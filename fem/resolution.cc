@@ -14,7 +14,7 @@ BodyResolution contact_resolution(const geometry::Gear& gear, double half_width,
   const double flank = std::abs(tip * tip - form * form) / (2 * base);
   // Quadratic elements: the near field converges with the square of the cell size (measured by the benchmarks).
   const double refine = std::sqrt(std::clamp(0.01 / accuracy, 0.25, 100.0)) * (level == Level::check ? 1 / level_ratio : 1);
-  const double cell = half_width / 3 / refine;
+  const double cell = half_width / 6 / refine;
   const double thickness = gear.tooth_thickness(gear.reference_radius());
 
   BodyResolution r;

@@ -18,7 +18,8 @@ enum class Level { reported, check };
 /// Ratio of the cell sizes of the two levels in the plane.
 inline constexpr double level_ratio = 1.5;
 
-/// Plane cross-section that resolves the contact: flank cells of a third of the Hertz half-width at `line_load`.
+/// Plane cross-section that resolves the contact: flank cells of a sixth of `half_width` (Hertz, nominal load), so that
+/// a quarter of the load still has three cells in its half-width.
 [[nodiscard]] BodyResolution contact_resolution(const geometry::Gear& gear, double half_width, double accuracy,
                                                 Level level);
 /// Solid body: the flank is coarse, its near field is corrected from the plane.

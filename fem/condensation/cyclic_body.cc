@@ -95,7 +95,7 @@ CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, int ma
   require(sectors >= 3, "a ring needs at least three sectors");
   max_offset = std::min(max_offset, sectors / 2);
   const ChainedSector chained = chain(sector);
-  const auto m = chained.diagonal.rows(), ports = chained.load_low.cols();
+  const auto ports = chained.load_low.cols();
   const int harmonics = sectors / 2 + 1;
   const double rigid_stiffness = chained.diagonal.diagonal().mean();
 
