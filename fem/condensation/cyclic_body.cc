@@ -77,13 +77,25 @@ ChainedSector chain(const CondensedSector& sector) {
 
 }  // namespace
 
-Eigen::MatrixXd CyclicCompliance::block(int offset) const {
+std::pair<int, bool> CyclicCompliance::locate(int offset) const {
   int d = offset % sectors_;
   if (d < 0) d += sectors_;
   const bool mirrored = d > sectors_ - d;
   if (mirrored) d = sectors_ - d;
   require(d <= max_offset(), "a compliance block beyond the formed offsets was asked for");
+  return {d, mirrored};
+}
+
+Eigen::MatrixXd CyclicCompliance::block(int offset) const {
+  const auto [d, mirrored] = locate(offset);
   return mirrored ? Eigen::MatrixXd(blocks_[d].transpose()) : blocks_[d];
+}
+
+Eigen::MatrixXd CyclicCompliance::apply(int offset, int first_row, int rows, int first_column,
+                                        const Eigen::MatrixXd& x) const {
+  const auto [d, mirrored] = locate(offset);
+  if (mirrored) return blocks_[d].block(first_column, first_row, x.rows(), rows).transpose() * x;
+  return blocks_[d].block(first_row, first_column, rows, x.rows()) * x;
 }
 
 double CyclicCompliance::reciprocity_error() const {

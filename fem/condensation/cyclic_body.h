@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "fem/condensation/condensed_sector.h"
@@ -22,10 +23,16 @@ class CyclicCompliance {
   [[nodiscard]] int max_offset() const { return static_cast<int>(blocks_.size()) - 1; }
   /// Any offset, taken modulo N to the nearest; throws InternalError beyond max_offset().
   [[nodiscard]] Eigen::MatrixXd block(int offset) const;
+  /// block(offset).block(first_row, first_column, rows, x.rows()) * x without copying the whole block.
+  [[nodiscard]] Eigen::MatrixXd apply(int offset, int first_row, int rows, int first_column,
+                                      const Eigen::MatrixXd& x) const;
   /// Largest asymmetry of block(0) relative to its largest entry.
   [[nodiscard]] double reciprocity_error() const;
 
  private:
+  /// Stored offset and whether the block has to be transposed.
+  [[nodiscard]] std::pair<int, bool> locate(int offset) const;
+
   int sectors_ = 0;
   std::vector<Eigen::MatrixXd> blocks_;  // offsets 0 ... max
 };

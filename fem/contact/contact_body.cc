@@ -25,7 +25,7 @@ ContactBody::ContactBody(GearBody body, const std::vector<double>& slice_edges, 
       near_field_(std::move(near_field)) {
   require(slices_ >= 1, "a contact needs at least one slice");
   for (int s = 0; s < slices_; ++s) slice_width_.push_back(slice_edges[s + 1] - slice_edges[s]);
-  width_ = slice_edges.back() - slice_edges.front();
+  const double width = slice_edges.back() - slice_edges.front();
   const int stations = body_.axial_stations();
   axial_ = Eigen::MatrixXd::Ones(stations, slices_);
   double per_width = 1;
@@ -36,7 +36,7 @@ ContactBody::ContactBody(GearBody body, const std::vector<double>& slice_edges, 
     }
   } else {
     require(slices_ == 1, "a plane body has one slice");
-    per_width = 1 / width_;  // plane compliances are per unit of width
+    per_width = 1 / width;  // plane compliances are per unit of width
   }
 
   // Condense the axial direction once: compliance between profile stations and slices.
@@ -98,12 +98,6 @@ Eigen::MatrixXd ContactBody::resultants(const Weights& a, int tooth) const {
       of_station.row(u * slices_ + s) = sum;
     }
   return gather_rows(a, of_station, slices_);
-}
-
-Eigen::MatrixXd ContactBody::from_ports(const Weights& a, int tooth, const Eigen::MatrixXd& loads, int sector) const {
-  require(body_.axial_stations() == 1, "port loads are a matter of plane bodies");
-  const Eigen::MatrixXd block = body_.compliance.block(tooth - sector);
-  return gather_rows(a, lapack::product(Eigen::MatrixXd(block.topRows(body_.flank_ports())), loads) / width_, 1);
 }
 
 }  // namespace annulus::fem

@@ -35,13 +35,10 @@ class ContactBody {
                                            const std::vector<std::vector<double>>& weights) const;
   /// Resultants (x, y, moment about the axis) of unit (element, slice) forces on a tooth: 3 columns.
   [[nodiscard]] Eigen::MatrixXd resultants(const Weights& a, int tooth) const;
-  /// Flank displacement under unit loads at arbitrary ports (columns of `loads`) of sector `sector`.
-  [[nodiscard]] Eigen::MatrixXd from_ports(const Weights& a, int tooth, const Eigen::MatrixXd& loads, int sector) const;
 
  private:
   GearBody body_;
   int slices_ = 1;
-  double width_ = 1;
   std::vector<double> slice_width_;
   Eigen::MatrixXd axial_;                    // axial stations x slices, column sum 1
   std::vector<Eigen::MatrixXd> compressed_;  // per offset: (station, slice) x (station, slice)

@@ -153,7 +153,7 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double load, WarmSt
       const double length = flanks_.pair().wheel().reference_radius();  // makes the rotation a displacement
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         const auto& p = pairs[i];
-        const Eigen::MatrixXd coupling = pins_->to_flank(wheel_, p.wheel, p.wheel_tooth);
+        const Eigen::MatrixXd coupling = pins_->to_flank(p.wheel, p.wheel_tooth);
         problem.compliance.block(start[i], contacts, coupling.rows(), pin_forces) = coupling;
         problem.compliance.block(contacts, start[i], pin_forces, coupling.rows()) = coupling.transpose();
         problem.rigid.block(start[i], 1, coupling.rows(), 3) = -wheel_.resultants(p.wheel, p.wheel_tooth);

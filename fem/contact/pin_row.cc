@@ -9,7 +9,7 @@ namespace annulus::fem {
 
 PinRow::PinRow(const PinHeld& pins, const GearBody& ring, double outside_radius, double width, bool mirrored,
                double derived_stiffness)
-    : pins_(pins), width_(width), stiffness_(pins.radial_stiffness.value_or(derived_stiffness)) {
+    : pins_(pins), stiffness_(pins.radial_stiffness.value_or(derived_stiffness)) {
   const double half_arc = pins.pin_diameter / 2 / outside_radius, pitch = ring.pitch_angle;
   const int ports = static_cast<int>(ring.ports.size()), first_port = ring.flank_ports();
   for (int p = 0; p < pins.pins; ++p) {
@@ -59,7 +59,7 @@ PinRow::PinRow(const PinHeld& pins, const GearBody& ring, double outside_radius,
     loads_.push_back(std::move(pieces));
   }
 
-  const int n = size();
+  const int n = size(), outside = ports - first_port;
   compliance_ = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   resultants_ = Eigen::MatrixXd::Zero(2 * n, 3);
   for (int p = 0; p < n; ++p) {
@@ -70,18 +70,24 @@ PinRow::PinRow(const PinHeld& pins, const GearBody& ring, double outside_radius,
       for (const auto& [sector_p, load_p] : loads_[p])
         for (const auto& [sector_q, load_q] : loads_[q])
           compliance_.block(2 * p, 2 * q, 2, 2) +=
-              load_p.transpose() * ring.compliance.block(sector_p - sector_q) * load_q / width_;
+              load_p.bottomRows(outside).transpose() *
+              ring.compliance.apply(sector_p - sector_q, first_port, outside, first_port, load_q.bottomRows(outside)) /
+              width;
     for (int q = 0; q < p; ++q) compliance_.block(2 * q, 2 * p, 2, 2) = compliance_.block(2 * p, 2 * q, 2, 2).transpose();
   }
   compliance_.diagonal().array() += 1 / stiffness_;
+
+  to_stations_.assign(ring.teeth, Eigen::MatrixXd::Zero(first_port, 2 * n));
+  for (int tooth = 0; tooth < ring.teeth; ++tooth)
+    for (int p = 0; p < n; ++p)
+      for (const auto& [sector, load] : loads_[p])
+        to_stations_[tooth].middleCols(2 * p, 2) +=
+            ring.compliance.apply(tooth - sector, 0, first_port, first_port, load.bottomRows(outside)) / width;
 }
 
-Eigen::MatrixXd PinRow::to_flank(const ContactBody& ring, const ContactBody::Weights& elements, int tooth) const {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(elements.cols(), 2 * size());
-  for (int p = 0; p < size(); ++p)
-    for (const auto& [sector, load] : loads_[p])
-      result.middleCols(2 * p, 2) += ring.from_ports(elements, tooth, load, sector);
-  return result;
+Eigen::MatrixXd PinRow::to_flank(const ContactBody::Weights& elements, int tooth) const {
+  const int teeth = static_cast<int>(to_stations_.size());
+  return elements.transpose() * to_stations_[((tooth % teeth) + teeth) % teeth];
 }
 
 }  // namespace annulus::fem

@@ -25,18 +25,19 @@ class PinRow {
   /// 2 pins x 2 pins: displacements at the pins under unit pin forces, (radial inwards, tangential) per pin, m/N,
   /// the pins' own compliance included.
   [[nodiscard]] const Eigen::MatrixXd& compliance() const { return compliance_; }
-  /// Displacement of flank elements under unit pin forces: rows x 2 pins.
-  [[nodiscard]] Eigen::MatrixXd to_flank(const ContactBody& ring, const ContactBody::Weights& elements, int tooth) const;
+  /// Displacement of flank elements under unit pin forces, m/N: elements x 2 pins.
+  [[nodiscard]] Eigen::MatrixXd to_flank(const ContactBody::Weights& elements, int tooth) const;
   /// Resultants (x, y, moment) of unit pin forces: 2 pins x 3.
   [[nodiscard]] const Eigen::MatrixXd& resultants() const { return resultants_; }
 
  private:
   PinHeld pins_;
-  double width_, stiffness_;
+  double stiffness_;
   std::vector<double> angles_;
   /// Per pin: the sectors it touches with their port loads (ports x 2).
   std::vector<std::vector<std::pair<int, Eigen::MatrixXd>>> loads_;
   Eigen::MatrixXd compliance_, resultants_;
+  std::vector<Eigen::MatrixXd> to_stations_;  // per tooth: flank stations x 2 pins
 };
 
 }  // namespace annulus::fem
