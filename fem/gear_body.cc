@@ -13,8 +13,8 @@ Eigen::RowVector3d GearBody::rigid_motion(int port, int sector) const {
   return {d.x(), d.y(), p.x() * d.y() - p.y() * d.x()};
 }
 
-GearBody make_gear_body(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
-                        double support_radius, const Material& material, const GearBodyOptions& options) {
+GearBody make_gear_body(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile, double support_radius,
+                        const Material& material, const GearBodyOptions& options) {
   const SectorModel model = make_sector_model(sector_mesh, profile, support_radius, material, options.sector);
 
   GearBody body;

@@ -26,8 +26,8 @@ struct GearBody {
 
   [[nodiscard]] int axial_stations() const { return axial.size() > 0 ? axial.size() : 1; }
   [[nodiscard]] int flank_ports() const { return flank.size() * axial_stations(); }
-  /// In-plane rigid-motion displacement (x, y, rotation about the axis) of a port of sector `sector`, m per (m, m, rad),
-  /// in the frame of sector 0. Its transpose gives the resultant of a unit port load.
+  /// In-plane rigid-motion displacement (x, y, rotation about the axis) of a port of sector `sector`, m per (m, m,
+  /// rad), in the frame of sector 0. Its transpose gives the resultant of a unit port load.
   [[nodiscard]] Eigen::RowVector3d rigid_motion(int port, int sector) const;
 };
 

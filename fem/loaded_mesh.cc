@@ -99,32 +99,49 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   const auto now = [] { return std::chrono::steady_clock::now(); };
   const auto since = [&](auto start) { return std::chrono::duration<double>(now() - start).count(); };
 
-  MeshBodies bodies = build_bodies(problem, flanks, settings, Level::reported);
-  double mesh_seconds = bodies.mesh_seconds, condense_seconds = bodies.condense_seconds;
-  auto start = now();
-  const double share = settings.estimate_error ? 0.6 : 1.0;
-  auto positions = PositionRun(problem, settings, flanks, bodies).solve([&](double f) {
-    if (settings.progress) settings.progress(share * f);
-  });
-  double contact_seconds = since(start);
+  const int last_level = settings.rung == Rung::solid ? last_solid_level : last_plane_level;
+  const int first_level = settings.level.value_or(1);
+  if (first_level < 1 || first_level > last_level)
+    throw InputError(fmt::format("level {} is not available: 1 to {} are", first_level, last_level));
 
-  double reciprocity = std::max(bodies.planet->body().compliance.reciprocity_error(),
-                                bodies.wheel->body().compliance.reciprocity_error());
-  if (settings.estimate_error) {
-    const MeshBodies coarse = build_bodies(problem, flanks, settings, Level::check);
-    mesh_seconds += coarse.mesh_seconds;
-    condense_seconds += coarse.condense_seconds;
-    start = now();
-    const auto companions = PositionRun(problem, settings, flanks, coarse).solve([&](double f) {
-      if (settings.progress) settings.progress(share + (1 - share) * f);
+  double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0, worst = 0;
+  MeshBodies bodies;
+  const auto solve_level = [&](int level) {
+    bodies = build_bodies(problem, flanks, settings, level);
+    mesh_seconds += bodies.mesh_seconds;
+    condense_seconds += bodies.condense_seconds;
+    const auto start = now();
+    auto positions = PositionRun(problem, settings, flanks, bodies).solve([&](double f) {
+      if (settings.progress) settings.progress((level - first_level + f) / (level - first_level + 2));
     });
     contact_seconds += since(start);
-    // The compliance is an energy; its error falls at least with the square of the cell size wherever the contact
-    // dominates, so that the difference of two levels overestimates the error of the finer one.
-    for (std::size_t i = 0; i < positions.size(); ++i)
-      positions[i].entry.error_relative =
-          std::abs(companions[i].entry.stiffness_secant / positions[i].entry.stiffness_secant - 1);
+    return positions;
+  };
+
+  auto coarser = solve_level(first_level - 1);
+  std::vector<LoadedPosition> positions;
+  int level = first_level;
+  for (;; ++level) {
+    positions = solve_level(level);
+    // The error falls at least with the square of the cell size where the contact dominates, so that the difference of
+    // two levels overestimates that of the finer one; near singular edges of a support it falls more slowly and the
+    // difference is about the error itself.
+    worst = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      auto& entry = positions[i].entry;
+      entry.error_relative = std::abs(coarser[i].entry.stiffness_secant / entry.stiffness_secant - 1);
+      worst = std::max(worst, entry.error_relative);
+    }
+    if (settings.level || worst <= settings.accuracy) break;
+    if (level == last_level)
+      throw SolverError(
+          fmt::format("the mesh stiffness reached a relative accuracy of {:.2g} at the finest resolution, not "
+                      "the wanted {:.2g}: ask for less accuracy",
+                      worst, settings.accuracy));
+    coarser = std::move(positions);
   }
+  const double reciprocity = std::max(bodies.planet->body().compliance.reciprocity_error(),
+                                      bodies.wheel->body().compliance.reciprocity_error());
 
   const int loads = static_cast<int>(problem.loads.size()), cycles = repeating_teeth(problem);
   const std::size_t table_size = static_cast<std::size_t>(cycles) * problem.phases * loads;
@@ -140,8 +157,18 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   const double pin_stiffness = bodies.pins ? bodies.pins->stiffness() : 0;
   StiffnessTable table(problem.pair.internal() ? "ring_planet" : "sun_planet", problem.phases, std::move(ring_angles),
                        problem.loads, std::move(entries));
-  return {std::move(table), std::move(positions), closure, reciprocity, std::move(bodies.planet_sector),
-          std::move(bodies.wheel_sector), bodies.unknowns, pin_stiffness, mesh_seconds, condense_seconds,
+  return {std::move(table),
+          std::move(positions),
+          closure,
+          reciprocity,
+          std::move(bodies.planet_sector),
+          std::move(bodies.wheel_sector),
+          level,
+          worst,
+          bodies.unknowns,
+          pin_stiffness,
+          mesh_seconds,
+          condense_seconds,
           contact_seconds};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,22 +17,24 @@ namespace annulus::fem {
 struct LoadedMeshProblem {
   geometry::GearPair pair;
   Material material;
-  double face_width = 0;          ///< m, common
-  double planet_bore_radius = 0;  ///< m, rigid hub
-  double wheel_support_radius = 0;  ///< m: bore of the sun (rigid hub) or outside radius of the ring
+  double face_width = 0;                    ///< m, common
+  double planet_bore_radius = 0;            ///< m, rigid hub
+  double wheel_support_radius = 0;          ///< m: bore of the sun (rigid hub) or outside radius of the ring
   RingStructure structure = OutsideHeld{};  ///< ring mesh only
-  std::vector<double> loads;      ///< N, total normal forces, strictly increasing
-  int phases = 16;                ///< positions per mesh cycle
+  std::vector<double> loads;                ///< N, total normal forces, strictly increasing
+  int phases = 16;                          ///< positions per mesh cycle
 };
 
 enum class Rung { plane, solid };
 
 struct LoadedMeshSettings {
   Rung rung = Rung::plane;
-  double accuracy = 0.01;  ///< wanted relative accuracy of the stiffness
-  int degree = 2;          ///< polynomial degree of the elements
-  bool estimate_error = true;  ///< solve on two nested settings and report their difference
-  int threads = 1;             ///< changes the time, never the result
+  double accuracy =
+      0.01;        ///< wanted relative accuracy of the stiffness: the mesh is refined until the estimate meets it
+  int degree = 2;  ///< polynomial degree of the elements
+  /// Forces one level of resolution (1, 2, ...; its error estimated from the level before) instead of refining.
+  std::optional<int> level{};
+  int threads = 1;                                  ///< changes the time, never the result
   std::function<void(double fraction)> progress{};  ///< called now and then with the finished fraction
 };
 
@@ -49,28 +52,31 @@ struct LoadedPosition {
   double ring_angle = 0;  ///< rad, of the pitch point in the wheel's own frame
   double load = 0;        ///< N
   StiffnessEntry entry;
-  std::vector<double> pair_share;     ///< load share of the tooth pairs, in order of rising planet roll length
-  std::vector<double> pair_roll;      ///< m, planet roll length of each pair's theoretical contact point
-  double max_pressure = 0;            ///< Pa
-  bool tip_edge_contact = false;      ///< the peak pressure stands at a tip edge: singular, not to be compared
+  std::vector<double> pair_share;  ///< load share of the tooth pairs, in order of rising planet roll length
+  std::vector<double> pair_roll;   ///< m, planet roll length of each pair's theoretical contact point
+  double max_pressure = 0;         ///< Pa
+  bool tip_edge_contact = false;   ///< the peak pressure stands at a tip edge: singular, not to be compared
   std::vector<PinState> pins;
-  double force_balance_relative = 0;  ///< |sum of force x lever arm - torque| / torque
+  double force_balance_relative = 0;   ///< |sum of force x lever arm - torque| / torque
   double energy_balance_relative = 0;  ///< |work of the load - 2 x strain energy - work against the gaps| / work
   double max_penetration = 0;          ///< m
 };
 
 struct LoadedMeshResult {
   StiffnessTable table;
-  std::vector<LoadedPosition> positions;  ///< at every load, [ring tooth][phase][load], then the closure positions
-  double closure_relative = 0;     ///< |LTE(phase 1) - LTE(phase 0)| / LTE over all loads
-  double reciprocity_relative = 0; ///< asymmetry of the condensed compliances
+  std::vector<LoadedPosition> positions;       ///< at every load, [ring tooth][phase][load], then the closure positions
+  double closure_relative = 0;                 ///< |LTE(phase 1) - LTE(phase 0)| / LTE over all loads
+  double reciprocity_relative = 0;             ///< asymmetry of the condensed compliances
   geometry::Mesh planet_sector, wheel_sector;  ///< as solved
-  long unknowns = 0;               ///< freedoms of the two sectors
-  double pin_stiffness = 0;        ///< N/m per pin as used; 0 without pins
+  int level = 1;                               ///< level of resolution reached
+  double worst_error_relative = 0;             ///< largest estimated error of a table entry
+  long unknowns = 0;                           ///< freedoms of the two sectors
+  double pin_stiffness = 0;                    ///< N/m per pin as used; 0 without pins
   double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0;
 };
 
-/// Solves every position. Throws SolverError naming position, load and residual when one does not converge.
+/// Solves every position. Throws SolverError naming position, load and residual when one does not converge, and when
+/// the finest level does not reach the accuracy.
 [[nodiscard]] LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings);
 
 }  // namespace annulus::fem

@@ -66,7 +66,7 @@ double derived_pin_stiffness(const Material& material, double length) {
 }
 
 MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& flanks,
-                        const LoadedMeshSettings& settings, Level level) {
+                        const LoadedMeshSettings& settings, int level) {
   const auto start = std::chrono::steady_clock::now();
   const auto& pair = problem.pair;
   const bool solid = settings.rung == Rung::solid;
@@ -79,9 +79,9 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
 
   // The mesh is made for the load the table centres on.
   const double nominal = problem.loads[problem.loads.size() / 2];
-  const double half_width =
-      hertz_half_width(nominal / problem.face_width, flanks.relative_curvature(pair.roll_length_pitch()), problem.material);
-  const BodyResolution solid_counts = solid_resolution(level);
+  const double half_width = hertz_half_width(nominal / problem.face_width,
+                                             flanks.relative_curvature(pair.roll_length_pitch()), problem.material);
+  const BodyResolution solid_counts = solid ? solid_resolution(level) : BodyResolution{};
 
   geometry::Rim planet_rim{problem.planet_bore_radius, {}}, wheel_rim{problem.wheel_support_radius, {}};
   if (cantilever != nullptr) wheel_rim.circles = {problem.wheel_support_radius - cantilever->sleeve_thickness};
@@ -122,7 +122,7 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   };
 
   const auto plane_counts = [&](bool wheel) {
-    return contact_resolution(wheel ? pair.wheel() : pair.planet(), half_width, settings.accuracy, level);
+    return contact_resolution(wheel ? pair.wheel() : pair.planet(), half_width, level);
   };
   // The near field of a solid body comes from plane bodies held at the support circle: the far field cancels.
   SectorModelOptions planet_near = planet_model, wheel_near = wheel_model;

@@ -24,11 +24,11 @@ struct MeshBodies {
 };
 
 [[nodiscard]] MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& flanks,
-                                      const LoadedMeshSettings& settings, Level level);
+                                      const LoadedMeshSettings& settings, int level);
 
 /// Stiffness of one pin between two conforming half-grooves, N/m: a solid cylinder of diameter D squeezed over its
-/// full width behaves like a prism of its mean width pi D / 4 and height D, k = pi E L / (4 (1 - nu^2)). An estimate: it
-/// leaves out the local compliance of a real housing.
+/// full width behaves like a prism of its mean width pi D / 4 and height D, k = pi E L / (4 (1 - nu^2)). An estimate:
+/// it leaves out the local compliance of a real housing.
 [[nodiscard]] double derived_pin_stiffness(const Material& material, double length);
 
 }  // namespace annulus::fem

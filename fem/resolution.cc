@@ -1,19 +1,20 @@
 #include "fem/resolution.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "core/errors.h"
 #include "geometry/profile.h"
 
 namespace annulus::fem {
 
-BodyResolution contact_resolution(const geometry::Gear& gear, double half_width, double accuracy, Level level) {
+BodyResolution contact_resolution(const geometry::Gear& gear, double half_width, int level) {
   const geometry::ToothProfile profile(gear);
   const double base = gear.base_radius();
   const double tip = profile.roll_length_tip(), form = profile.roll_length_form();
   const double flank = std::abs(tip * tip - form * form) / (2 * base);
-  // Quadratic elements: the near field converges with the square of the cell size (measured by the benchmarks).
-  const double refine = std::sqrt(std::clamp(0.01 / accuracy, 0.25, 100.0)) * (level == Level::check ? 1 / level_ratio : 1);
+  const double refine = std::pow(level_ratio, level - 1);
   const double cell = half_width / 6 / refine;
   const double thickness = gear.tooth_thickness(gear.reference_radius());
 
@@ -31,19 +32,14 @@ BodyResolution contact_resolution(const geometry::Gear& gear, double half_width,
   return r;
 }
 
-BodyResolution solid_resolution(Level level) {
-  BodyResolution r;
-  auto& s = r.section;
-  if (level == Level::reported) {
-    s = {10, 2, 6, 1, 3, 0.8};
-    r.face_cells = 8;
-    r.sleeve_cells = 3;
-  } else {
-    s = {7, 2, 4, 1, 2, 1.0};
-    r.face_cells = 5;
-    r.sleeve_cells = 2;
-  }
-  return r;
+BodyResolution solid_resolution(int level) {
+  require(level >= 0 && level <= last_solid_level, "no such level of solid resolution");
+  static constexpr std::array<BodyResolution, last_solid_level + 1> levels = {{
+      {{7, 2, 4, 1, 2, 1.0}, 5, 2},
+      {{10, 2, 6, 1, 3, 0.8}, 8, 3},
+      {{15, 4, 8, 1, 4, 0.8}, 12, 4},
+  }};
+  return levels[level];
 }
 
 }  // namespace annulus::fem

@@ -12,17 +12,16 @@ struct BodyResolution {
   int sleeve_cells = 0;  ///< along the free length of a sleeve
 };
 
-/// How fine: `reported` is what the results are taken from, `check` the coarser companion of the error estimate.
-enum class Level { reported, check };
-
-/// Ratio of the cell sizes of the two levels in the plane.
+/// Levels of resolution: every level has cells 1.5 times smaller than the one before, in the plane; results come from
+/// one level, their error estimate from the difference to the level before.
 inline constexpr double level_ratio = 1.5;
+inline constexpr int last_plane_level = 8;
+inline constexpr int last_solid_level = 2;
 
-/// Plane cross-section that resolves the contact: flank cells of a sixth of `half_width` (Hertz, nominal load), so that
-/// a quarter of the load still has three cells in its half-width.
-[[nodiscard]] BodyResolution contact_resolution(const geometry::Gear& gear, double half_width, double accuracy,
-                                                Level level);
+/// Plane cross-section that resolves the contact. At level 1 the flank cells are a sixth of `half_width` (Hertz,
+/// nominal load), so that a quarter of the load still has three cells in its half-width.
+[[nodiscard]] BodyResolution contact_resolution(const geometry::Gear& gear, double half_width, int level);
 /// Solid body: the flank is coarse, its near field is corrected from the plane.
-[[nodiscard]] BodyResolution solid_resolution(Level level);
+[[nodiscard]] BodyResolution solid_resolution(int level);
 
 }  // namespace annulus::fem

@@ -19,10 +19,10 @@ struct EndFaceHeld {
 /// (bolted).
 struct PinHeld {
   int pins = 0;
-  double pin_diameter = 0;                    ///< m
-  double clearance = 0;                       ///< m, radial play
-  std::optional<double> radial_stiffness{};   ///< N/m per pin; absent: derived from the pin
-  double first_pin_angle = 0;                 ///< rad, from the centre of tooth 0
+  double pin_diameter = 0;                   ///< m
+  double clearance = 0;                      ///< m, radial play
+  std::optional<double> radial_stiffness{};  ///< N/m per pin; absent: derived from the pin
+  double first_pin_angle = 0;                ///< rad, from the centre of tooth 0
   bool unilateral = true;
 };
 

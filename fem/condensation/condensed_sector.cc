@@ -31,12 +31,13 @@ CondensedSector condense(const SectorModel& model, const std::vector<Port>& port
       if (port.direction[c] != 0) keep(model.freedom[port.node * dim + c]);
   const int inner = static_cast<int>(retained.size()) - cuts;
 
-  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(retained.size()),
-                                                static_cast<Eigen::Index>(ports.size()));
+  Eigen::MatrixXd loads =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(retained.size()), static_cast<Eigen::Index>(ports.size()));
   for (std::size_t p = 0; p < ports.size(); ++p)
     for (int c = 0; c < dim; ++c) {
       const int row = model.freedom[ports[p].node * dim + c];
-      if (ports[p].direction[c] != 0 && row >= 0) loads(place.at(row), static_cast<Eigen::Index>(p)) = ports[p].direction[c];
+      if (ports[p].direction[c] != 0 && row >= 0)
+        loads(place.at(row), static_cast<Eigen::Index>(p)) = ports[p].direction[c];
     }
 
   // A floating sector can move rigidly: its complement is singular and needs the shift, of the size of its entries.

@@ -50,8 +50,8 @@ std::vector<Eigen::VectorXcd> rigid_motions(const CondensedSector& sector, int h
 
 /// The cut stiffness and loads with the high cut turned into the frame of the next sector.
 struct ChainedSector {
-  Eigen::MatrixXd diagonal, coupling;      // A_0 and A_1 of the block-circulant matrix
-  Eigen::MatrixXd load_low, load_high;     // m x ports
+  Eigen::MatrixXd diagonal, coupling;   // A_0 and A_1 of the block-circulant matrix
+  Eigen::MatrixXd load_low, load_high;  // m x ports
 };
 
 ChainedSector chain(const CondensedSector& sector) {
@@ -126,8 +126,7 @@ CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, int ma
         for (const auto& motion : rigid_motions(sector, h)) matrix += rigid_stiffness * motion * motion.adjoint();
       if (!lapack::cholesky(matrix))
         throw SolverError("the ring is not held against its harmonic " + std::to_string(h) + " of deformation");
-      Eigen::MatrixXcd loads =
-          chained.load_low.cast<Complex>() + std::conj(shift) * chained.load_high.cast<Complex>();
+      Eigen::MatrixXcd loads = chained.load_low.cast<Complex>() + std::conj(shift) * chained.load_high.cast<Complex>();
       lapack::solve_lower(matrix, loads);
       const Eigen::MatrixXcd product = lapack::gram(loads);
       // Harmonics h and N - h are conjugate.

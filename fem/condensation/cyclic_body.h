@@ -16,8 +16,7 @@ namespace annulus::fem {
 class CyclicCompliance {
  public:
   CyclicCompliance() = default;
-  CyclicCompliance(int sectors, std::vector<Eigen::MatrixXd> blocks)
-      : sectors_(sectors), blocks_(std::move(blocks)) {}
+  CyclicCompliance(int sectors, std::vector<Eigen::MatrixXd> blocks) : sectors_(sectors), blocks_(std::move(blocks)) {}
 
   [[nodiscard]] int sectors() const { return sectors_; }
   [[nodiscard]] int max_offset() const { return static_cast<int>(blocks_.size()) - 1; }

@@ -159,8 +159,8 @@ Eigen::MatrixXd schur_complement(const Eigen::SparseMatrix<double>& matrix, cons
       for (int r = local; r < height; ++r) {
         const int row = position[order[rows[row_start[s] + r]]];
         require(row >= k, "the retained freedoms were not eliminated last");
-        trailing(row, k) = values[static_cast<std::ptrdiff_t>(value_start[s]) +
-                                  static_cast<std::ptrdiff_t>(local) * height + r];
+        trailing(row, k) =
+            values[static_cast<std::ptrdiff_t>(value_start[s]) + static_cast<std::ptrdiff_t>(local) * height + r];
       }
     }
   }

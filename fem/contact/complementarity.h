@@ -21,9 +21,9 @@ struct ComplementarityProblem {
 };
 
 struct ComplementaritySolution {
-  Eigen::VectorXd force;   ///< f
-  Eigen::VectorXd gap;     ///< w
-  Eigen::VectorXd rigid;   ///< lambda
+  Eigen::VectorXd force;  ///< f
+  Eigen::VectorXd gap;    ///< w
+  Eigen::VectorXd rigid;  ///< lambda
   /// d lambda / d t for the final contact set: its first diagonal entry is the tangent compliance.
   Eigen::MatrixXd tangent;
   std::vector<bool> active;

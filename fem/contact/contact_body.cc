@@ -13,16 +13,15 @@ Eigen::MatrixXd gather_rows(const Eigen::MatrixXd& weights, const Eigen::MatrixX
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(weights.cols() * group, matrix.cols());
   for (Eigen::Index e = 0; e < weights.cols(); ++e)
     for (Eigen::Index u = 0; u < weights.rows(); ++u)
-      if (weights(u, e) != 0) result.middleRows(e * group, group) += weights(u, e) * matrix.middleRows(u * group, group);
+      if (weights(u, e) != 0)
+        result.middleRows(e * group, group) += weights(u, e) * matrix.middleRows(u * group, group);
   return result;
 }
 
 }  // namespace
 
 ContactBody::ContactBody(GearBody body, const std::vector<double>& slice_edges, std::vector<NearFieldTerm> near_field)
-    : body_(std::move(body)),
-      slices_(static_cast<int>(slice_edges.size()) - 1),
-      near_field_(std::move(near_field)) {
+    : body_(std::move(body)), slices_(static_cast<int>(slice_edges.size()) - 1), near_field_(std::move(near_field)) {
   require(slices_ >= 1, "a contact needs at least one slice");
   for (int s = 0; s < slices_; ++s) slice_width_.push_back(slice_edges[s + 1] - slice_edges[s]);
   const double width = slice_edges.back() - slice_edges.front();
@@ -45,8 +44,7 @@ ContactBody::ContactBody(GearBody body, const std::vector<double>& slice_edges, 
     const Eigen::MatrixXd full = body_.compliance.block(d).topLeftCorner(ports, ports);
     Eigen::MatrixXd columns(ports, profile * slices_);
     for (int u = 0; u < profile; ++u)
-      columns.middleCols(u * slices_, slices_) =
-          lapack::product(full.middleCols(u * stations, stations), axial_);
+      columns.middleCols(u * slices_, slices_) = lapack::product(full.middleCols(u * stations, stations), axial_);
     Eigen::MatrixXd both(profile * slices_, profile * slices_);
     for (int u = 0; u < profile; ++u)
       both.middleRows(u * slices_, slices_) =

@@ -17,9 +17,9 @@ double hertz_half_width(double line_load, double relative_curvature, const Mater
 
 /// One tooth pair that may touch: its window, cut into pressure elements, on both flanks.
 struct ContactSystem::Pair {
-  int tooth = 0;         ///< number of the pair; planet tooth
+  int tooth = 0;  ///< number of the pair; planet tooth
   int wheel_tooth = 0;
-  double roll = 0;       ///< theoretical contact on the planet
+  double roll = 0;  ///< theoretical contact on the planet
   double smallest_gap = 0;
   bool low_is_edge = false, high_is_edge = false;  ///< the window ends at the end of a flank
   Eigen::VectorXd gap, length;                     ///< per element: mean gap (m), arc length (m)
@@ -132,7 +132,8 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double load, WarmSt
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const auto& p = pairs[i];
       const Eigen::Index size = p.gap.size() * slices;
-      for (Eigen::Index e = 0; e < p.gap.size(); ++e) problem.gap.segment(start[i] + e * slices, slices).setConstant(p.gap[e]);
+      for (Eigen::Index e = 0; e < p.gap.size(); ++e)
+        problem.gap.segment(start[i] + e * slices, slices).setConstant(p.gap[e]);
       problem.rigid.col(0).segment(start[i], size).setOnes();
       for (std::size_t j = 0; j <= i; ++j) {
         const auto& o = pairs[j];

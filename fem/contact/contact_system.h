@@ -19,7 +19,7 @@ namespace annulus::fem {
 struct ContactOptions {
   double elements_per_half_width = 8;  ///< pressure elements
   double smallest_element = 0;         ///< m: a pressure finer than the flank's cells could not be told apart
-  double window = 1.25;                ///< half-length of a pair's contact window in Hertz half-widths of the whole load
+  double window = 1.25;  ///< half-length of a pair's contact window in Hertz half-widths of the whole load
 };
 
 /// All tooth pairs (and pins) of one gear mesh as one complementarity problem per position.

@@ -73,7 +73,8 @@ PinRow::PinRow(const PinHeld& pins, const GearBody& ring, double outside_radius,
               load_p.bottomRows(outside).transpose() *
               ring.compliance.apply(sector_p - sector_q, first_port, outside, first_port, load_q.bottomRows(outside)) /
               width;
-    for (int q = 0; q < p; ++q) compliance_.block(2 * q, 2 * p, 2, 2) = compliance_.block(2 * p, 2 * q, 2, 2).transpose();
+    for (int q = 0; q < p; ++q)
+      compliance_.block(2 * q, 2 * p, 2, 2) = compliance_.block(2 * p, 2 * q, 2, 2).transpose();
   }
   compliance_.diagonal().array() += 1 / stiffness_;
 

@@ -141,8 +141,7 @@ Eigen::SparseMatrix<double> ElasticProblem<dim>::stiffness() const {
   const double E = material_.youngs_modulus, nu = material_.poisson_ratio;
   const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
   const dealii::QGauss<dim> quadrature(degree_ + 1);
-  dealii::FEValues<dim> values(mapping_, element_, quadrature,
-                               dealii::update_gradients | dealii::update_JxW_values);
+  dealii::FEValues<dim> values(mapping_, element_, quadrature, dealii::update_gradients | dealii::update_JxW_values);
   const unsigned int n = element_.dofs_per_cell, nodes = n / dim;
   std::vector<unsigned int> component(n), base(n), scalar_of_base(nodes);
   for (unsigned int i = 0; i < n; ++i) {
@@ -186,9 +185,8 @@ template <int dim>
 Eigen::VectorXd ElasticProblem<dim>::body_load(
     const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& force_density) const {
   const dealii::QGauss<dim> quadrature(degree_ + 3);
-  dealii::FEValues<dim> values(
-      mapping_, element_, quadrature,
-      dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
+  dealii::FEValues<dim> values(mapping_, element_, quadrature,
+                               dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
   Eigen::VectorXd load = Eigen::VectorXd::Zero(freedoms());
   std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
   for (const auto& cell : dofs_.active_cell_iterators()) {
@@ -237,9 +235,9 @@ std::pair<double, double> ElasticProblem<dim>::errors(
     const Eigen::VectorXd& solution, const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& exact,
     const std::function<dealii::Tensor<2, dim>(const dealii::Point<dim>&)>& exact_gradient) const {
   const dealii::QGauss<dim> quadrature(degree_ + 3);
-  dealii::FEValues<dim> values(mapping_, element_, quadrature,
-                               dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points |
-                                   dealii::update_JxW_values);
+  dealii::FEValues<dim> values(
+      mapping_, element_, quadrature,
+      dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points | dealii::update_JxW_values);
   std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
   double l2 = 0, h1 = 0;
   for (const auto& cell : dofs_.active_cell_iterators()) {

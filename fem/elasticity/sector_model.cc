@@ -108,24 +108,21 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
   require(model.low_nodes.size() == model.high_nodes.size(), "the two radial cuts do not match");
   const Eigen::AngleAxisd pitch(model.pitch_angle, Eigen::Vector3d::UnitZ());
   for (std::size_t i = 0; i < model.low_nodes.size(); ++i)
-    require((pitch * model.nodes[model.low_nodes[i]] - model.nodes[model.high_nodes[i]]).norm() <
-                1e-9 * support_radius,
+    require((pitch * model.nodes[model.low_nodes[i]] - model.nodes[model.high_nodes[i]]).norm() < 1e-9 * support_radius,
             "a node of one radial cut has no partner on the other");
 
-  model.flank = make_trace(
-      problem.boundary_nodes(options.flank), model.nodes, options.degree,
-      [&](const Eigen::Vector3d& p) { return profile.roll_length_at(std::hypot(p.x(), p.y())); });
+  model.flank = make_trace(problem.boundary_nodes(options.flank), model.nodes, options.degree,
+                           [&](const Eigen::Vector3d& p) { return profile.roll_length_at(std::hypot(p.x(), p.y())); });
   if (options.want_outside)
-    model.outside = make_trace(
-        problem.boundary_nodes(geometry::Boundary::support), model.nodes, options.degree,
-        [](const Eigen::Vector3d& p) { return std::atan2(p.y(), p.x()); });
+    model.outside = make_trace(problem.boundary_nodes(geometry::Boundary::support), model.nodes, options.degree,
+                               [](const Eigen::Vector3d& p) { return std::atan2(p.y(), p.x()); });
   return model;
 }
 
 }  // namespace
 
-SectorModel make_sector_model(const geometry::Mesh& mesh, const geometry::ToothProfile& profile,
-                              double support_radius, const Material& material, const SectorModelOptions& options) {
+SectorModel make_sector_model(const geometry::Mesh& mesh, const geometry::ToothProfile& profile, double support_radius,
+                              const Material& material, const SectorModelOptions& options) {
   return mesh.dimension == 2 ? discretise<2>(mesh, profile, support_radius, material, options)
                              : discretise<3>(mesh, profile, support_radius, material, options);
 }

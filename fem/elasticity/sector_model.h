@@ -30,10 +30,10 @@ struct SectorModel {
   double pitch_angle = 0;
   Eigen::SparseMatrix<double> stiffness;
   std::vector<Eigen::Vector3d> nodes;
-  std::vector<int> freedom;  ///< [node * dimension + component] -> row of `stiffness`, or -1 when held
+  std::vector<int> freedom;                ///< [node * dimension + component] -> row of `stiffness`, or -1 when held
   std::vector<int> low_nodes, high_nodes;  ///< matched pairs on the two radial cuts, held nodes left out
-  TraceGrid flank;    ///< of the contact flank
-  TraceGrid outside;  ///< of the support circle (empty when held)
+  TraceGrid flank;                         ///< of the contact flank
+  TraceGrid outside;                       ///< of the support circle (empty when held)
 };
 
 struct SectorModelOptions {
