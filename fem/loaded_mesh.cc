@@ -87,8 +87,8 @@ void check(const LoadedMeshProblem& problem) {
       throw InputError("the loads of a stiffness table have to be positive and strictly increasing");
   if (!problem.pair.internal() && !std::holds_alternative<OutsideHeld>(problem.structure))
     throw InputError("a ring structure belongs to the ring mesh");
-  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure); pinned != nullptr && pinned->pins < 1)
-    throw InputError("a pinned ring needs at least one pin");
+  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure); pinned != nullptr && pinned->pins < 2)
+    throw InputError("a ring on fewer than two pins turns about its pin: give at least two");
 }
 
 }  // namespace
@@ -140,8 +140,8 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
                       worst, settings.accuracy));
     coarser = std::move(positions);
   }
-  const double reciprocity = std::max(bodies.planet->body().compliance.reciprocity_error(),
-                                      bodies.wheel->body().compliance.reciprocity_error());
+  double reciprocity = 0;
+  for (const auto& p : positions) reciprocity = std::max(reciprocity, p.reciprocity_relative);
 
   const int loads = static_cast<int>(problem.loads.size()), cycles = repeating_teeth(problem);
   const std::size_t table_size = static_cast<std::size_t>(cycles) * problem.phases * loads;

@@ -59,6 +59,7 @@ struct LoadedPosition {
   std::vector<PinState> pins;
   double force_balance_relative = 0;   ///< |sum of force x lever arm - torque| / torque
   double energy_balance_relative = 0;  ///< |work of the load - 2 x strain energy - work against the gaps| / work
+  double reciprocity_relative = 0;     ///< asymmetry of the compliance between tooth pairs, formed both ways
   double max_penetration = 0;          ///< m
 };
 
@@ -66,7 +67,7 @@ struct LoadedMeshResult {
   StiffnessTable table;
   std::vector<LoadedPosition> positions;       ///< at every load, [ring tooth][phase][load], then the closure positions
   double closure_relative = 0;                 ///< |LTE(phase 1) - LTE(phase 0)| / LTE over all loads
-  double reciprocity_relative = 0;             ///< asymmetry of the condensed compliances
+  double reciprocity_relative = 0;             ///< largest over the positions
   geometry::Mesh planet_sector, wheel_sector;  ///< as solved
   int level = 1;                               ///< level of resolution reached
   double worst_error_relative = 0;             ///< largest estimated error of a table entry

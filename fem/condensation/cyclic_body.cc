@@ -98,11 +98,6 @@ Eigen::MatrixXd CyclicCompliance::apply(int offset, int first_row, int rows, int
   return blocks_[d].block(first_row, first_column, rows, x.rows()) * x;
 }
 
-double CyclicCompliance::reciprocity_error() const {
-  const auto& c = blocks_.front();
-  return (c - c.transpose()).cwiseAbs().maxCoeff() / c.cwiseAbs().maxCoeff();
-}
-
 CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, int max_offset, bool floating, int threads) {
   require(sectors >= 3, "a ring needs at least three sectors");
   max_offset = std::min(max_offset, sectors / 2);

@@ -25,8 +25,6 @@ class CyclicCompliance {
   /// block(offset).block(first_row, first_column, rows, x.rows()) * x without copying the whole block.
   [[nodiscard]] Eigen::MatrixXd apply(int offset, int first_row, int rows, int first_column,
                                       const Eigen::MatrixXd& x) const;
-  /// Largest asymmetry of block(0) relative to its largest entry.
-  [[nodiscard]] double reciprocity_error() const;
 
  private:
   /// Stored offset and whether the block has to be transposed.

@@ -32,7 +32,6 @@ bool solve_active(const ComplementarityProblem& p, const std::vector<int>& set, 
   s.force.setZero(p.gap.size());
   for (Eigen::Index i = 0; i < n; ++i) s.force[set[i]] = f[i];
   s.gap = p.compliance * s.force + p.gap - p.rigid * s.rigid;
-  for (const int i : set) s.gap[i] = 0;
   return true;
 }
 

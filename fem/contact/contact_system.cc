@@ -127,6 +127,7 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double load, WarmSt
     problem.rigid = Eigen::MatrixXd::Zero(n, pins_ != nullptr ? 4 : 1);
     problem.load = Eigen::VectorXd::Zero(problem.rigid.cols());
     problem.load[0] = load;
+    double asymmetry = 0;
     problem.unilateral.assign(n, true);
     std::vector<bool> guess(n, false);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -137,10 +138,16 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double load, WarmSt
       problem.rigid.col(0).segment(start[i], size).setOnes();
       for (std::size_t j = 0; j <= i; ++j) {
         const auto& o = pairs[j];
+        // Both directions are formed on their own: what they differ by measures reciprocity (Betti).
         const Eigen::MatrixXd block = planet_.compliance(p.planet, p.tooth, o.planet, o.tooth) +
                                       wheel_.compliance(p.wheel, p.wheel_tooth, o.wheel, o.wheel_tooth);
-        problem.compliance.block(start[i], start[j], size, block.cols()) = block;
-        problem.compliance.block(start[j], start[i], block.cols(), size) = block.transpose();
+        const Eigen::MatrixXd opposite = planet_.compliance(o.planet, o.tooth, p.planet, p.tooth) +
+                                         wheel_.compliance(o.wheel, o.wheel_tooth, p.wheel, p.wheel_tooth);
+        const double largest = block.cwiseAbs().maxCoeff();
+        asymmetry = std::max(asymmetry, (block - opposite.transpose()).cwiseAbs().maxCoeff() / largest);
+        problem.compliance.block(start[i], start[j], size, block.cols()) = (block + opposite.transpose()) / 2;
+        problem.compliance.block(start[j], start[i], block.cols(), size) =
+            problem.compliance.block(start[i], start[j], size, block.cols()).transpose();
       }
       problem.compliance.block(start[i], start[i], size, size) +=
           planet_.near_field(p.planet_rolls, p.weights) + wheel_.near_field(p.wheel_rolls, p.weights);
@@ -185,6 +192,7 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double load, WarmSt
     LoadedPosition position = evaluate(pairs, problem, solution, load);
     position.mesh_phase = phase;
     position.ring_tooth = cycle;
+    position.reciprocity_relative = asymmetry;
     const auto& reference = pairs.front();
     // Angle of the pitch point in the wheel's own frame; the ring mesh is solved in a mirror image of the real one.
     const double tooth = reference.wheel_tooth * flanks_.pair().wheel().pitch_angle();
