@@ -100,7 +100,12 @@ IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, d
 
   const double start = state.time;
   double t = start;
-  const auto segment_end = [&] { return std::min(system.next_jump(t), end); };
+  // Times closer than this are one: SUNDIALS refuses to integrate over a distance of rounding.
+  const double instant = 1e-14 * std::max({std::abs(start), std::abs(end), end - start});
+  const auto segment_end = [&] {
+    const double jump = system.next_jump(t);
+    return end - jump < instant ? end : jump;
+  };
   double stop = segment_end();
   system.hold_waves((t + stop) / 2, workspace);
   system.detect_contact(t, state.q.data(), workspace);
@@ -119,8 +124,6 @@ IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, d
       state.dissipated = y[2 * n + 1];
     }
   };
-  // Times closer than this are one: SUNDIALS refuses to integrate over a distance of rounding.
-  const double instant = 1e-14 * std::max({std::abs(start), std::abs(end), end - start});
   int next = 0;
   const auto sample_time = [&](int i) { return start + i * (end - start) / samples; };
   const auto emit = [&] {

@@ -32,11 +32,11 @@ double acting_damping(const CompiledMesh& mesh, LumpedSystem::Contact contact) {
   return contact != LumpedSystem::Contact::open || mesh.damping_without_contact ? mesh.damping : 0.0;
 }
 
-double stiffness_rate(const CompiledMesh& mesh, double t, const std::vector<double>& rates) {
-  if (mesh.kind == CompiledMesh::Kind::harmonic) {
-    const double w = rates[mesh.ripple.slot];
-    return w * (mesh.ripple.sine * std::cos(w * t) - mesh.ripple.cosine * std::sin(w * t));
-  }
+double stiffness_rate(const CompiledMesh& mesh, double t, const std::vector<double>& rates,
+                      const LumpedSystem::Workspace& w) {
+  if (mesh.kind == CompiledMesh::Kind::harmonic)
+    return rates[mesh.ripple.slot] *
+           (mesh.ripple.sine * w.cosine[mesh.ripple.slot] - mesh.ripple.cosine * w.sine[mesh.ripple.slot]);
   if (mesh.kind == CompiledMesh::Kind::table)
     return mesh.frequency * mesh.secant.derivative(mesh.frequency * t + mesh.phase_offset);
   return 0;  // the jumps of a wave are booked where they happen
@@ -196,19 +196,20 @@ double LumpedSystem::energy(double t, const double* y, Workspace& w) const {
 
 LumpedSystem::Power LumpedSystem::power(double t, const double* y, const Workspace& w) const {
   const int n = freedoms();
-  const Eigen::Map<const Eigen::VectorXd> q(y, n), v(y + n, n);
+  const double* q = y;
+  const double* v = y + n;
   // dE/dt = v.f - v.(C v) - v.(K_skew q) - sum c delta'^2 - sum e' F + sum k'/2 g^2
-  Power p{load_.dot(v), 0};
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      p.dissipated += v[i] * damping_(i, j) * v[j];
-      p.supplied -= v[i] * 0.5 * (rotating_stiffness_(i, j) - rotating_stiffness_(j, i)) * q[j];
-    }
+  Power p;
+  for (int i = 0; i < n; ++i) p.supplied += load_[i] * v[i];
+  for (const auto& term : compiled_->power) {
+    p.dissipated += v[term.i] * term.damping * v[term.j];
+    p.supplied -= v[term.i] * term.circulatory * q[term.j];
+  }
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
     const CompiledMesh& mesh = compiled_->meshes[m];
     const double g = penetration(mesh, w.contact[m], w.delta[m]);
     p.dissipated += acting_damping(mesh, w.contact[m]) * w.delta_rate[m] * w.delta_rate[m];
-    p.supplied += 0.5 * stiffness_rate(mesh, t, compiled_->rates) * g * g - w.error_rate[m] * w.force[m];
+    p.supplied += 0.5 * stiffness_rate(mesh, t, compiled_->rates, w) * g * g - w.error_rate[m] * w.force[m];
   }
   return p;
 }

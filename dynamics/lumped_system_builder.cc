@@ -76,7 +76,7 @@ Eigen::MatrixXd assembled(const Terms& terms, int n) {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
   for (const auto& term : terms)
     for (const auto& [i, a] : term.row)
-      for (const auto& [j, b] : term.column) matrix(i, j) += term.value * a * b;
+      for (const auto& [j, b] : term.column) matrix(i, j) += term.value * (a * b);  // so that symmetry is exact
   return matrix;
 }
 
@@ -135,6 +135,12 @@ LumpedSystem LumpedSystemBuilder::build() const {
       }
     c.row_start.push_back(static_cast<int>(c.column.size()));
   }
+
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double skew = 0.5 * (system.rotating_stiffness_(i, j) - system.rotating_stiffness_(j, i));
+      if (system.damping_(i, j) != 0 || skew != 0) c.power.push_back({i, j, system.damping_(i, j), skew});
+    }
 
   // Terms constant in time get no slot; all others share one sine and cosine per distinct rate.
   c.b.start = c.inverse_b.start = {0};

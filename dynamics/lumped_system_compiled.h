@@ -37,8 +37,13 @@ struct LumpedSystem::Compiled {
   std::vector<int> row_start, column;      ///< common pattern of ...
   std::vector<double> stiffness, damping;  ///< ... M^-1 (K + K_Omega) and M^-1 (C + G)
   Eigen::VectorXd acceleration;            ///< M^-1 f
-  FlatRows b, inverse_b;                   ///< b and M^-1 b per mesh
-  std::vector<double> rates;               ///< rad/s, one per slot
+  struct PowerTerm {
+    int i = 0, j = 0;
+    double damping = 0, circulatory = 0;  ///< C_ij and the skew part of K_Omega
+  };
+  std::vector<PowerTerm> power;  ///< nonzero entries
+  FlatRows b, inverse_b;         ///< b and M^-1 b per mesh
+  std::vector<double> rates;     ///< rad/s, one per slot
   std::vector<CompiledMesh> meshes;
 };
 

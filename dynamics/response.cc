@@ -153,29 +153,50 @@ bool reach_steady_state(Run& run, int cycles, const SimulationOptions& options, 
   return false;
 }
 
-/// All numbers that are taken from the forces of one kind of mesh.
-struct RawFigures {
-  double instantaneous = 0, averaged = 0;
-  Eigen::VectorXd largest;
+/// Largest value of a sampled curve: as sampled, and at the top of the parabola through the highest sample and its
+/// neighbours. Their difference tells what the sampling misses.
+struct Peak {
+  double sampled = 0, refined = 0;
 };
 
-RawFigures raw_figures(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_per_cycle) {
-  return {load_sharing_instantaneous(force), load_sharing_averaged(force, samples_per_cycle),
-          force.rowwise().maxCoeff()};
+Peak peak_of(const Eigen::Ref<const Eigen::RowVectorXd>& values) {
+  Eigen::Index i = 0;
+  Peak peak;
+  peak.sampled = peak.refined = values.maxCoeff(&i);
+  if (i == 0 || i + 1 >= values.size() || !std::isfinite(peak.sampled)) return peak;
+  const double rise = values[i] - values[i - 1], fall = values[i] - values[i + 1];
+  if (rise + fall > 0) peak.refined += (rise - fall) * (rise - fall) / (8 * (rise + fall));
+  return peak;
 }
 
-Eigen::MatrixXd every_second(const Eigen::Ref<const Eigen::MatrixXd>& force) {
-  Eigen::MatrixXd half(force.rows(), force.cols() / 2);
-  for (Eigen::Index i = 0; i < half.cols(); ++i) half.col(i) = force.col(2 * i);
-  return half;
+Peak highest(const Peak& a, const Peak& b) { return {std::max(a.sampled, b.sampled), std::max(a.refined, b.refined)}; }
+
+/// Highest peak over the rows of a matrix of branches x times.
+Peak peak_of_rows(const Eigen::Ref<const Eigen::MatrixXd>& values) {
+  Peak peak = peak_of(values.row(0));
+  for (Eigen::Index i = 1; i < values.rows(); ++i) peak = highest(peak, peak_of(values.row(i)));
+  return peak;
 }
 
-Figure figure(double value, std::initializer_list<double> alternatives) {
-  Figure result{value, 0};
-  // Independent causes (sampling, steadiness, tolerance) may add up.
-  for (const double other : alternatives)
-    if (value != other) result.error += std::abs(value - other);
+Peak sharing_peak(const Eigen::Ref<const Eigen::MatrixXd>& force) {
+  const double sampled = load_sharing_instantaneous(force);
+  if (!std::isfinite(sampled)) return {sampled, sampled};
+  return peak_of_rows(load_sharing_over_time(force));
+}
+
+/// The refined peak with the sum of what the sampling misses and of the differences to other runs: these are
+/// independent causes that may add up.
+Figure figure(const Peak& best, std::initializer_list<Peak> others) {
+  Figure result{best.refined, 0};
+  if (!std::isfinite(best.refined)) return result;
+  result.error = best.refined - best.sampled;
+  for (const auto& other : others) result.error += std::abs(best.refined - other.refined);
   return result;
+}
+
+Peak averaged_peak(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_per_cycle) {
+  const double value = load_sharing_averaged(force, samples_per_cycle);  // smooth: a sliding mean needs no refinement
+  return {value, value};
 }
 
 struct Evidence {
@@ -187,22 +208,18 @@ struct Evidence {
 MeshKindResult evaluate(const Evidence& evidence, Eigen::Index first, Eigen::Index planets,
                         const Eigen::MatrixXd& quasi_static_force) {
   const auto rows = [&](const Window& w) { return w.force.middleRows(first, planets); };
-  const RawFigures best = raw_figures(rows(evidence.window), evidence.samples_per_cycle);
-  // An even number of samples halves exactly; otherwise the running mean over half of them covers nearly a cycle.
-  const RawFigures coarse = raw_figures(every_second(rows(evidence.window)), evidence.samples_per_cycle / 2);
-  const RawFigures before = raw_figures(rows(evidence.before), evidence.samples_per_cycle);
-  const RawFigures loose = raw_figures(rows(evidence.loose), evidence.samples_per_cycle);
+  const auto best = rows(evidence.window), before = rows(evidence.before), loose = rows(evidence.loose);
+  const int cycle = evidence.samples_per_cycle;
   MeshKindResult result;
-  result.load_sharing.instantaneous =
-      figure(best.instantaneous, {coarse.instantaneous, before.instantaneous, loose.instantaneous});
-  result.load_sharing.averaged = figure(best.averaged, {coarse.averaged, before.averaged, loose.averaged});
-  result.load_sharing.quasi_static = figure(load_sharing_instantaneous(quasi_static_force),
-                                            {load_sharing_instantaneous(every_second(quasi_static_force))});
+  auto& sharing = result.load_sharing;
+  sharing.instantaneous = figure(sharing_peak(best), {sharing_peak(before), sharing_peak(loose)});
+  sharing.averaged = figure(averaged_peak(best, cycle), {averaged_peak(before, cycle), averaged_peak(loose, cycle)});
+  sharing.quasi_static = figure(sharing_peak(quasi_static_force), {});
   for (Eigen::Index p = 0; p < planets; ++p) {
     const double f = evidence.mean_force;
     BranchResult branch;
     branch.dynamic_factor_max =
-        figure(best.largest[p] / f, {coarse.largest[p] / f, before.largest[p] / f, loose.largest[p] / f});
+        figure(peak_of(best.row(p) / f), {peak_of(before.row(p) / f), peak_of(loose.row(p) / f)});
     branch.dynamic_factor_min = evidence.window.force.row(first + p).minCoeff() / f;
     branch.mean_force = evidence.window.force.row(first + p).mean();
     branch.contact_loss = evidence.window.open[first + p];

@@ -1,0 +1,335 @@
+#include "dynamics/integrate.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "core/errors.h"
+#include "tests/dynamics/stages.h"
+
+BOOST_AUTO_TEST_SUITE(integration)
+
+using namespace annulus::dynamics;
+
+constexpr Integrator adaptive[] = {Integrator::arkode_explicit, Integrator::cvode_adams, Integrator::cvode_bdf};
+
+struct Oscillator {
+  double mass = 2, stiffness = 5e4, damping = 0;  // 25.2 Hz
+  [[nodiscard]] LumpedSystem system() const {
+    LumpedSystemBuilder builder;
+    const auto x = builder.add_freedom("x");
+    builder.add_mass(x, mass);
+    builder.add_spring(x, stiffness, damping);
+    return builder.build();
+  }
+};
+
+SystemState start(double q, double v) {
+  SystemState state;
+  state.q = Eigen::VectorXd::Constant(1, q);
+  state.v = Eigen::VectorXd::Constant(1, v);
+  return state;
+}
+
+IntegratorOptions tight(Integrator method, double tolerance, double absolute) {
+  IntegratorOptions options;
+  options.method = method;
+  options.relative_tolerance = tolerance;
+  options.absolute_tolerance = absolute;
+  return options;
+}
+
+BOOST_AUTO_TEST_CASE(damped_free_vibration_in_closed_form) {
+  const Oscillator oscillator{2, 5e4, 40};
+  const double w0 = std::sqrt(5e4 / 2), decay = 40.0 / 4, w = std::sqrt(w0 * w0 - decay * decay), t = 0.2;
+  const double expected = 1e-3 * std::exp(-decay * t) * (std::cos(w * t) + decay / w * std::sin(w * t));
+  for (const auto method : adaptive)
+    for (const double tolerance : {1e-6, 1e-9}) {
+      const auto system = oscillator.system();
+      auto workspace = system.workspace();
+      auto state = start(1e-3, 0);
+      const auto statistics = integrate(system, state, t, tight(method, tolerance, 1e-3 * tolerance), workspace);
+      // Local errors of at most 2 x tolerance (relative + absolute) per step add up.
+      BOOST_TEST(std::abs(state.q[0] - expected) <= 2 * tolerance * 1e-3 * static_cast<double>(statistics.steps));
+      BOOST_TEST(state.time == t);
+      BOOST_TEST((statistics.jacobian_evaluations > 0) == (method != Integrator::arkode_explicit));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(runge_kutta_has_order_four) {
+  const auto system = Oscillator{}.system();
+  const double w = std::sqrt(2.5e4), t = 0.1;
+  double previous = 0;
+  for (const int steps : {100, 200, 400}) {
+    auto workspace = system.workspace();
+    auto state = start(1e-3, 0);
+    IntegratorOptions options = tight(Integrator::runge_kutta_4, 1e-6, 1e-9);
+    options.fixed_step = t / steps;
+    const auto statistics = integrate(system, state, t, options, workspace);
+    BOOST_TEST(std::abs(statistics.steps - steps) <= 1);  // rounding may leave a last sliver
+    const double error = std::hypot(state.q[0] - 1e-3 * std::cos(w * t), state.v[0] / w + 1e-3 * std::sin(w * t));
+    if (previous > 0) {
+      BOOST_TEST(std::log2(previous / error) > 3.8);  // bounded from both sides: neither less nor by chance more
+      BOOST_TEST(std::log2(previous / error) < 4.2);
+    }
+    previous = error;
+  }
+  BOOST_TEST(previous < 1e-3 * 1e-6);  // w h = 0.04: n (w h)^5/120 = 3e-7 of the amplitude
+}
+
+// A mass between the two flanks of a dead band: free flight, half a sine in each contact.
+BOOST_AUTO_TEST_CASE(backlash_oscillator_in_closed_form) {
+  LumpedSystemBuilder builder;
+  MeshElement mesh;
+  mesh.name = "m";
+  mesh.b = builder.add_freedom("x");
+  mesh.excitation = ConstantStiffness{5e4};
+  mesh.half_backlash = 1e-3;
+  builder.add_mass(mesh.b, 2);
+  builder.add_mesh(mesh);
+  const auto system = builder.build();
+  const double speed = 0.3, period = 2 * (2e-3 / speed) + 2 * std::numbers::pi / std::sqrt(2.5e4);
+  for (const auto method : adaptive) {
+    auto workspace = system.workspace();
+    auto state = start(0, speed);
+    const double tolerance = 1e-9;
+    const auto statistics =
+        integrate(system, state, 20 * period, tight(method, tolerance, 1e-3 * tolerance), workspace);
+    BOOST_TEST(statistics.contact_events == 80);  // in and out, on both sides
+    // Steps x tolerance of the excursion (1e-3 + 0.3/158 m), times 10: an error in speed goes on shifting the phase for
+    // the rest of the flights.
+    BOOST_TEST(std::abs(state.q[0]) <= 10 * tolerance * 3e-3 * static_cast<double>(statistics.steps));
+    BOOST_TEST(std::abs(state.v[0] / speed - 1) <= 2 * tolerance * static_cast<double>(statistics.steps));
+  }
+}
+
+// Meissner's equation: a stiffness switching between two values, each piece an exact rotation in the phase plane.
+BOOST_AUTO_TEST_CASE(rectangular_stiffness_in_closed_form) {
+  LumpedSystemBuilder builder;
+  MeshElement mesh;
+  mesh.name = "m";
+  mesh.b = builder.add_freedom("x");
+  mesh.excitation = RectangularStiffness{5e4, 0.6, 0.3, 0};
+  mesh.frequency = 70;
+  mesh.phase_offset = 0.1;
+  builder.add_mass(mesh.b, 2);
+  builder.add_mesh(mesh);
+  const auto system = builder.build();
+  const auto piece = [](double stiffness, double time) {
+    const double w = std::sqrt(stiffness / 2), c = std::cos(w * time), s = std::sin(w * time);
+    return (Eigen::Matrix2d() << c, s / w, -w * s, c).finished();
+  };
+  const double low = 5e4 * (1 - 0.6 * 0.3), high = low + 0.6 * 5e4;
+  const Eigen::Matrix2d cycle = piece(high, 0.1 / 70) * piece(low, 0.7 / 70) * piece(high, 0.2 / 70);
+  Eigen::Vector2d expected(1e-3, 0.1);
+  for (int i = 0; i < 30; ++i) expected = cycle * expected;
+  for (const auto method : adaptive) {
+    auto workspace = system.workspace();
+    auto state = start(1e-3, 0.1);
+    const auto statistics = integrate(system, state, 30.0 / 70, tight(method, 1e-9, 1e-12), workspace);
+    BOOST_TEST(statistics.stiffness_restarts == 60);
+    const double scale = expected.norm(), bound = 2e-9 * static_cast<double>(statistics.steps);
+    BOOST_TEST(std::hypot((state.q[0] - expected[0]) * 158, state.v[0] - expected[1]) <= bound * scale);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(samples_lie_on_the_solution) {
+  const auto system = Oscillator{}.system();
+  const double w = std::sqrt(2.5e4);
+  for (const auto method : adaptive) {
+    auto workspace = system.workspace();
+    auto state = start(1e-3, 0);
+    int count = 0;
+    double worst = 0;
+    integrate(system, state, 0.1, tight(method, 1e-8, 1e-11), workspace, 97, [&](int i, const SystemState& s) {
+      BOOST_TEST(i == count);
+      BOOST_TEST(std::abs(s.time - 0.1 * i / 97) <= 1e-15);
+      worst = std::max(worst, std::abs(s.q[0] - 1e-3 * std::cos(w * s.time)));
+      ++count;
+    });
+    BOOST_TEST(count == 97);
+    // Interpolation between steps is of lower order than the steps: a hundred times the tolerance x steps (about 200).
+    BOOST_TEST(worst <= 1e-3 * 1e-8 * 2e4);
+  }
+}
+
+/// A stage without loss and load in which every freedom moves.
+SystemState shaken(const LumpedSystem& system) {
+  SystemState state;
+  state.q.setZero(system.freedoms());
+  state.v.resize(system.freedoms());
+  for (int i = 0; i < system.freedoms(); ++i) state.v[i] = 0.1 * std::sin(1.0 + 7.0 * i);
+  return state;
+}
+
+BOOST_AUTO_TEST_CASE(undamped_unforced_energy_is_constant) {
+  for (const double speed : {0.0, 300.0}) {  // with the conservative terms of the rotating frame
+    auto stage = stages::ring_paper();
+    stage.planet_errors.clear();
+    stage.sun_torque = 0;
+    stage.mesh_damping_ratio = stage.support_damping_ratio = 0;
+    stage.half_backlash = 2e-6;  // contacts open and close all the time
+    stage.sun_mesh = ConstantStiffness{1.364e9};
+    stage.ring_mesh = ConstantStiffness{1.87e9};
+    stage.carrier_speed = speed;
+    const auto system = assemble(stage);
+    for (const auto method : {Integrator::arkode_explicit, Integrator::cvode_adams}) {
+      auto workspace = system.workspace();
+      auto state = shaken(system);
+      Eigen::VectorXd y(2 * system.freedoms());
+      y << state.q, state.v;
+      system.detect_contact(0, y.data(), workspace);
+      const double before = system.energy(0, y.data(), workspace);
+      const double tolerance = 1e-8;
+      const auto statistics = integrate(system, state, 0.01, tight(method, tolerance, 1e-5 * tolerance), workspace);
+      y << state.q, state.v;
+      const double after = system.energy(state.time, y.data(), workspace);
+      BOOST_TEST(statistics.contact_events > 10);
+      // Each step errs by at most about the tolerance in every freedom; energy is quadratic: 2 x steps x tolerance.
+      BOOST_TEST(std::abs(after / before - 1) <= 2 * tolerance * static_cast<double>(statistics.steps));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(energy_bookkeeping_closes_with_everything_acting) {
+  auto stage = stages::ring_paper();
+  stage.sun_mesh = RectangularStiffness{1.364e9, 0.35, 0.6, 0};
+  stage.sun_torque = 2000;  // light enough for the meshes to part
+  stage.half_backlash = 5e-6;
+  stage.mesh_damping_ratio = 0.02;
+  const auto system = assemble(stage);
+  for (const auto method : adaptive) {
+    auto workspace = system.workspace();
+    auto state = shaken(system);
+    Eigen::VectorXd y(2 * system.freedoms());
+    y << state.q, state.v;
+    system.hold_waves(1e-9, workspace);
+    system.detect_contact(0, y.data(), workspace);
+    const double before = system.energy(0, y.data(), workspace);
+    const auto statistics =
+        integrate(system, state, 10 / stage.mesh_frequency(), tight(method, 1e-8, 1e-13), workspace, 0, {}, true);
+    y << state.q, state.v;
+    const double after = system.energy(state.time, y.data(), workspace);
+    BOOST_TEST(statistics.contact_events > 10);
+    BOOST_TEST(statistics.stiffness_restarts >= 49);  // phases of 0.2 cycles and a duty of 0.6: five a cycle
+    BOOST_TEST(state.dissipated > 0.1 * before);
+    // Local errors, as above, of the larger of the energies that pass.
+    const double scale = before + state.dissipated + std::abs(state.supplied);
+    BOOST_TEST(std::abs(after - before - state.supplied + state.dissipated) <=
+               2e-8 * static_cast<double>(statistics.steps) * scale);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(all_integrators_agree_on_a_rattling_stage) {
+  auto stage = stages::ring_paper();
+  stage.sun_torque = 2000;
+  stage.half_backlash = 5e-6;
+  const auto system = assemble(stage);
+  std::vector<Eigen::VectorXd> ends;
+  long events = 0;
+  for (const auto method :
+       {Integrator::arkode_explicit, Integrator::cvode_adams, Integrator::cvode_bdf, Integrator::runge_kutta_4}) {
+    auto workspace = system.workspace();
+    auto state = shaken(system);
+    auto options = tight(method, 1e-9, 1e-15);
+    if (method == Integrator::runge_kutta_4) options.fixed_step = 2e-7;
+    events = integrate(system, state, 3 / stage.mesh_frequency(), options, workspace).contact_events;
+    ends.push_back(state.q);
+  }
+  BOOST_TEST(events > 10);
+  // Deflections are some 1e-5 m; contact events amplify the integrators' 1e-9 differences by less than a thousand in
+  // three mesh cycles.
+  for (const auto& end : ends) BOOST_TEST((end - ends[0]).cwiseAbs().maxCoeff() <= 1e-11);
+}
+
+// A linear stage (teeth always touching) under the planets' eccentricity, gyroscopic terms and dampers included,
+// against the solution of the complex linear system at that frequency.
+BOOST_AUTO_TEST_CASE(forced_response_agrees_with_the_frequency_domain) {
+  auto stage = stages::ring_paper();
+  stage.half_backlash.reset();
+  stage.sun_mesh = ConstantStiffness{1.364e9};
+  stage.ring_mesh = ConstantStiffness{1.87e9};
+  stage.carrier_speed = 200;  // errors at 589 rad/s, near the sun on its support; rotating terms of some per cent
+  const auto system = assemble(stage);
+  const int n = system.freedoms();
+  const double w = 200.0 * 162 / 55;
+
+  Eigen::MatrixXd stiffness = system.stiffness() + system.rotating_stiffness();
+  Eigen::MatrixXd damping = system.damping() + system.gyroscopic();
+  Eigen::VectorXd constant = system.load();
+  Eigen::VectorXcd harmonic = Eigen::VectorXcd::Zero(n);
+  using namespace std::complex_literals;
+  std::vector<std::complex<double>> amplitude;  // e = constant part + Re(amplitude exp(i w t))
+  std::vector<double> offset, mean;
+  for (int m = 0; m < 10; ++m) {
+    const auto& mesh = system.meshes()[m];
+    const Eigen::VectorXd b = system.mesh_vector(m);
+    mean.push_back(m < 5 ? 1.364e9 : 1.87e9);
+    amplitude.push_back(0);
+    offset.push_back(0);
+    for (const auto& e : mesh.errors) {
+      if (e.rate == 0) {
+        offset.back() += e.amount * std::sin(e.phase);
+      } else {
+        BOOST_REQUIRE(std::abs(e.rate + w) < 1e-9);
+        amplitude.back() += e.amount * 1i * std::exp(-1i * e.phase);  // sin(-w t + p) = Re(i e^{i(wt - p)})
+      }
+    }
+    stiffness += mean[m] * b * b.transpose();
+    damping += mesh.damping * b * b.transpose();
+    constant += mean[m] * offset[m] * b;
+    harmonic += (mean[m] + 1i * w * mesh.damping) * amplitude[m] * b;
+  }
+  // The rigid rotation is neutral: held at its start for the static part, unexcited by the harmonic one.
+  const Eigen::MatrixXcd dynamic = stiffness - w * w * system.mass() + 1i * w * damping;
+  const Eigen::VectorXcd q = dynamic.partialPivLu().solve(harmonic);
+  const Eigen::VectorXd q0 = stiffness.completeOrthogonalDecomposition().solve(constant);
+
+  SystemState state;
+  state.q = q0 + q.real();
+  state.v = (1i * w * q).real();
+  auto workspace = system.workspace();
+  double worst = 0, swing = 0;
+  const auto compare = [&](int, const SystemState& s) {
+    const std::complex<double> turn = std::exp(1i * w * s.time);
+    for (int m = 0; m < 10; ++m) {
+      const Eigen::VectorXd b = system.mesh_vector(m);
+      const auto delta = (b.cast<std::complex<double>>().dot(q) - amplitude[m]) * turn;
+      const double vibration = (delta * (mean[m] + 1i * w * system.meshes()[m].damping)).real();
+      const double force = mean[m] * (b.dot(q0) - offset[m]) + vibration;
+      worst = std::max(worst, std::abs(workspace.force[m] - force));
+      swing = std::max(swing, std::abs(vibration));
+    }
+  };
+  // Started on the periodic solution, the stage stays on it: ten periods.
+  integrate(system, state, 20 * std::numbers::pi / w, tight(Integrator::arkode_explicit, 1e-9, 1e-14), workspace, 200,
+            compare);
+  BOOST_TEST(swing > 1000);                             // N: the vibration is there
+  BOOST_TEST(worst <= 1e-5 * stage.mean_mesh_force());  // 1e-9 tolerance, 1e4 steps
+}
+
+BOOST_AUTO_TEST_CASE(failures_are_reported) {
+  const auto system = Oscillator{}.system();
+  auto workspace = system.workspace();
+  auto state = start(1e-3, 0);
+  auto options = tight(Integrator::arkode_explicit, 1e-6, 1e-9);
+  options.max_steps = 2;
+  BOOST_CHECK_THROW(integrate(system, state, 1, options, workspace), annulus::SolverError);
+  options = {};
+  BOOST_CHECK_THROW(integrate(system, state, 1, options, workspace), annulus::InputError);  // no scale for a tolerance
+  options = tight(Integrator::runge_kutta_4, 1e-6, 1e-9);
+  BOOST_CHECK_THROW(integrate(system, state, 1, options, workspace), annulus::InputError);  // no step
+  options = tight(Integrator::cvode_bdf, 0, 1e-9);
+  BOOST_CHECK_THROW(integrate(system, state, 1, options, workspace), annulus::InputError);
+  options = tight(Integrator::cvode_bdf, 1e-6, 1e-9);
+  BOOST_CHECK_THROW(integrate(system, state, 0, options, workspace), annulus::InputError);  // ends at its start
+  // An unstable fixed step ends in an error, not in infinities.
+  options = tight(Integrator::runge_kutta_4, 1e-6, 1e-9);
+  options.fixed_step = 1;
+  BOOST_CHECK_THROW(integrate(system, state, 1000, options, workspace), annulus::SolverError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

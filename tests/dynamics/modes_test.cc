@@ -1,0 +1,151 @@
+#include "dynamics/modes.h"
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/errors.h"
+#include "tests/dynamics/stages.h"
+
+BOOST_AUTO_TEST_SUITE(modes)
+
+using namespace annulus::dynamics;
+
+std::vector<double> frequencies(const Modes& found, ModeKind kind) {
+  std::vector<double> list;
+  for (const auto& mode : found.modes)
+    if (mode.kind == kind) list.push_back(mode.frequency);
+  return list;
+}
+
+// Lin and Parker, J. Vib. Acoust. 121 (1999), table of the four-planet example. 0.05 %: the published figures (four to
+// six digits) rest on rounded inputs; the lowest pair deviates by 0.043 %.
+BOOST_AUTO_TEST_CASE(lin_and_parker_four_planets) {
+  const auto found = annulus::dynamics::modes(stages::lin_parker(4));
+  BOOST_REQUIRE(found.modes.size() == 21U);
+  const std::map<ModeKind, std::vector<double>> published = {
+      {ModeKind::rotational, {0, 1536.6, 1970.6, 2625.7, 7773.6, 13071.1}},
+      {ModeKind::translational,
+       {727.0, 727.0, 1091.0, 1091.0, 1892.8, 1892.8, 2342.5, 2342.5, 7189.9, 7189.9, 10437.6, 10437.6}},
+      {ModeKind::planet, {1808.2, 5963.8, 6981.7}}};
+  for (const auto& [kind, values] : published) {
+    const auto list = frequencies(found, kind);
+    BOOST_REQUIRE(list.size() == values.size());
+    for (std::size_t i = 0; i < list.size(); ++i) BOOST_TEST(std::abs(list[i] - values[i]) <= 5e-4 * values[i]);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(structure_for_any_number_of_planets) {
+  std::vector<double> planet_frequencies;
+  for (int planets = 3; planets <= 8; ++planets) {
+    const auto found = annulus::dynamics::modes(stages::lin_parker(planets));
+    const auto rotational = frequencies(found, ModeKind::rotational);
+    const auto translational = frequencies(found, ModeKind::translational);
+    const auto planet = frequencies(found, ModeKind::planet);
+    BOOST_TEST(rotational.size() == 6U);
+    BOOST_TEST(translational.size() == 12U);
+    BOOST_TEST(planet.size() == static_cast<std::size_t>(3 * (planets - 3)));
+    BOOST_TEST(rotational.front() == 0.0);
+    // Pairs and multiples of one frequency differ by rounding: eps x the square of the highest frequency over twice the
+    // frequency itself, 2e-11 of it at worst.
+    for (std::size_t i = 0; i < translational.size(); i += 2)
+      BOOST_TEST(std::abs(translational[i + 1] - translational[i]) <= 1e-9 * translational[i]);
+    if (planets == 4) planet_frequencies = planet;
+    for (std::size_t i = 0; i < planet.size(); ++i)  // three frequencies, each planets - 3 times, for every number
+      BOOST_TEST(std::abs(planet[i] - planet_frequencies[i / (planets - 3)]) <= 1e-9 * planet[i]);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(shapes_are_mass_normalised_and_solve_the_eigenproblem) {
+  const auto stage = stages::ring_paper();
+  const auto system = assemble(stage);
+  const auto found = annulus::dynamics::modes(stage);
+  BOOST_TEST((found.freedoms == system.names()));
+  Eigen::MatrixXd stiffness = system.stiffness();
+  for (int m = 0; m < 10; ++m)
+    stiffness += (m < 5 ? 1.364e9 : 1.87e9) * system.mesh_vector(m) * system.mesh_vector(m).transpose();
+  for (const auto& mode : found.modes) {
+    BOOST_TEST(std::abs(mode.shape.dot(system.mass() * mode.shape) - 1) <= 1e-12);
+    const double square = std::pow(2 * std::numbers::pi * mode.frequency, 2);
+    // Backward error of the dense solver: eps x size x the largest stiffness.
+    const Eigen::VectorXd residual = stiffness * mode.shape - square * system.mass() * mode.shape;
+    BOOST_TEST(residual.cwiseAbs().maxCoeff() <= 1e-13 * stiffness.cwiseAbs().maxCoeff());
+    BOOST_TEST((mode.kind != ModeKind::mixed));
+  }
+  BOOST_TEST(found.modes.front().frequency == 0.0);
+  BOOST_TEST(found.modes[1].frequency > 1.0);  // one rigid motion only
+}
+
+// Kahraman, Mech. Mach. Theory 29 (1994): purely torsional, ring fixed, planets riding on the carrier. In coordinates
+// u the planets' own modes have w^2 = (k1 + k2)/m_p, N - 1 times.
+BOOST_AUTO_TEST_CASE(torsional_closed_form) {
+  auto stage = stages::ring_paper();
+  for (double* support :
+       {&stage.sun.support, &stage.ring.support, &stage.carrier.support, &stage.ring.torsional_support,
+        &stage.planet.bearing_radial, &stage.planet.bearing_tangential})
+    *support = rigid;
+  const auto found = annulus::dynamics::modes(stage);
+  BOOST_REQUIRE(found.modes.size() == 7U);
+  const double mp = stage.planet.inertia / std::pow(stage.planet.radius, 2);
+  const double expected = std::sqrt((1.364e9 + 1.87e9) / mp) / (2 * std::numbers::pi);
+  const auto planet = frequencies(found, ModeKind::planet);
+  BOOST_REQUIRE(planet.size() == 4U);
+  for (const double f : planet) BOOST_TEST(std::abs(f / expected - 1) <= 1e-12);
+
+  // The other two roots: sun s, carrier c and the planets moving alike p reduce to three freedoms with potential
+  // N/2 [k1 (s + p - cos a_s c)^2 + k2 (-p - cos a_r c)^2]. w = 0 leaves a quadratic for w^2.
+  const double n = 5, ms = stage.sun.inertia / std::pow(stage.sun.radius, 2);
+  const double mc = stage.carrier.inertia / std::pow(stage.carrier.radius, 2) + n * stage.planet.mass, m = n * mp;
+  const double k1 = n * 1.364e9, k2 = n * 1.87e9, cs = std::cos(stage.sun_working_angle),
+               cr = std::cos(stage.ring_working_angle);
+  const double trace = k1 / ms + (k1 + k2) / m + (k1 * cs * cs + k2 * cr * cr) / mc;
+  // Sum of the principal second minors of M^-1 K: each is k1 k2 (b1 x b2)^2 / (m_i m_j).
+  const double minors = k1 * k2 * (1 / (ms * m) + cr * cr / (ms * mc) + std::pow(cs + cr, 2) / (m * mc));
+  const double root = std::sqrt(trace * trace - 4 * minors);
+  const auto rotational = frequencies(found, ModeKind::rotational);
+  BOOST_REQUIRE(rotational.size() == 3U);
+  BOOST_TEST(rotational[0] == 0.0);
+  for (const int i : {1, 2}) {
+    const double square = (trace + (i == 1 ? -root : root)) / 2;
+    BOOST_TEST(std::abs(rotational[i] * 2 * std::numbers::pi / std::sqrt(square) - 1) <= 1e-12);
+  }
+}
+
+// A stiff bearing tends to the rigid one: first order in 1/k_p.
+BOOST_AUTO_TEST_CASE(rigid_bearings_are_the_limit_of_stiff_ones) {
+  auto stage = stages::ring_paper();
+  stage.planet.bearing_radial = stage.planet.bearing_tangential = rigid;
+  const auto limit = annulus::dynamics::modes(stage);
+  double previous = 0;
+  for (const double stiffness : {1e12, 1e13}) {
+    stage.planet.bearing_radial = stage.planet.bearing_tangential = stiffness;
+    const auto found = annulus::dynamics::modes(stage);
+    double worst = 0;
+    for (std::size_t i = 1; i < limit.modes.size(); ++i)
+      worst = std::max(worst, std::abs(found.modes[i].frequency / limit.modes[i].frequency - 1));
+    BOOST_TEST(worst < 20 * 1.87e9 / stiffness);
+    if (previous > 0) BOOST_TEST(std::abs(previous / worst - 10) < 0.5);
+    previous = worst;
+  }
+}
+
+BOOST_AUTO_TEST_CASE(unequal_spacing_mixes_the_kinds) {
+  auto stage = stages::lin_parker(4);
+  stage.planet_angles[1] += 0.3;
+  const auto found = annulus::dynamics::modes(stage);
+  BOOST_TEST(!frequencies(found, ModeKind::mixed).empty());
+  BOOST_TEST(found.modes.front().frequency == 0.0);  // turning stays free
+}
+
+BOOST_AUTO_TEST_CASE(tables_enter_with_their_mean_tangent) {
+  auto stage = stages::lin_parker(4);
+  const annulus::PeriodicCurve secant({9e8}, 1), tangent({4e8, 6e8}, 2), zero({0.0}, 1);
+  stage.sun_mesh = stage.ring_mesh = TableStiffness{secant, tangent, zero, 0};
+  const auto found = annulus::dynamics::modes(stage), reference = annulus::dynamics::modes(stages::lin_parker(4));
+  for (std::size_t i = 0; i < found.modes.size(); ++i)
+    BOOST_TEST(found.modes[i].frequency == reference.modes[i].frequency);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,216 @@
+#include "dynamics/planetary_stage.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "core/errors.h"
+#include "dynamics/lumped_system.h"
+#include "tests/dynamics/stages.h"
+
+BOOST_AUTO_TEST_SUITE(planetary_stage)
+
+using namespace annulus::dynamics;
+
+/// Sets the coordinates named body_x and body_y to a vector given in the carrier frame, turned by -angle.
+void displace(const LumpedSystem& system, Eigen::VectorXd& q, const std::string& body, double amount, double direction,
+              double angle) {
+  q[system.find(body + "_x")] += amount * std::cos(direction - angle);
+  q[system.find(body + "_y")] += amount * std::sin(direction - angle);
+}
+
+BOOST_AUTO_TEST_CASE(base_scene_agrees_with_the_printed_numbers) {
+  const auto stage = stages::ring_paper();
+  // Printed to the digits shown (models.md A).
+  BOOST_TEST(std::abs(stage.sun_working_angle / annulus::units::deg - 25.905) < 5e-4);
+  BOOST_TEST(std::abs(stage.ring_working_angle / annulus::units::deg - 20.860) < 5e-4);
+  BOOST_TEST(std::abs(stage.mesh_frequency() - 696.1) < 0.05);
+  BOOST_TEST(std::abs(stage.mean_mesh_force() - 59.46e3) < 5);
+  BOOST_TEST(std::abs(stage.sun_torque - 25048) < 0.5);
+  BOOST_TEST(std::abs(stage.carrier_torque() - 25048 * 210.0 / 48) < 2.2);
+  BOOST_TEST(stage.error_period() == 55);
+}
+
+BOOST_AUTO_TEST_CASE(error_period_is_the_common_period) {
+  auto stage = stages::ring_paper();
+  for (auto& e : stage.planet_errors) e.eccentricity = {};
+  BOOST_TEST(stage.error_period() == 1);  // installation errors of planets stand still in the carrier frame
+  stage.sun.errors.eccentricity.amount = 1e-6;
+  BOOST_TEST(stage.error_period() == 48);
+  stage.ring.errors.installation.amount = 1e-6;
+  BOOST_TEST(stage.error_period() == 16 * 3 * 27);  // lcm(48, 162)
+  stage.sun.errors = {};
+  stage.ring.errors = {};
+  stage.ring_mesh = TableStiffness{annulus::PeriodicCurve(std::vector<double>(27 * 2, 1e9), 2),
+                                   annulus::PeriodicCurve({1e9}, 1), annulus::PeriodicCurve({0.0}, 1), 0};
+  BOOST_TEST(stage.error_period() == 27);
+}
+
+// The statement behind every sign of e: displacing a toothing acts on delta as displacing the body does.
+BOOST_AUTO_TEST_CASE(errors_act_like_displacements_of_their_body) {
+  const double wr = 1e-5;  // any amount; the relation is linear
+  for (const double time : {0.0, 0.013, 1.7}) {
+    for (int kind = 0; kind < 8; ++kind) {
+      auto stage = stages::ring_paper();
+      stage.planet_errors.assign(5, {});
+      const double c = stage.carrier_speed, th = 0.7;
+      BodyErrors errors;
+      (kind % 2 ? errors.installation : errors.eccentricity) = {wr, th};
+      if (kind < 2) stage.planet_errors[3] = errors;
+      if (kind / 2 == 1) stage.sun.errors = errors;
+      if (kind / 2 == 2) stage.ring.errors = errors;
+      if (kind / 2 == 3) stage.carrier.errors = errors;
+      const auto system = assemble(stage);
+      Eigen::VectorXd q = Eigen::VectorXd::Zero(system.freedoms());
+      const double phi = stage.planet_angles[3];
+      // Directions seen from the carrier: the planet turns at -(z_r/z_p) Omega, the sun at (z_r/z_s) Omega, the ring
+      // and the housing at -Omega.
+      switch (kind) {
+        case 0:
+          displace(system, q, "planet4", wr, phi + th - c * 162 / 55 * time, phi);
+          break;
+        case 1:
+          displace(system, q, "planet4", wr, th, phi);
+          break;
+        case 2:
+          displace(system, q, "sun", wr, th + c * 162 / 48 * time, 0);
+          break;
+        case 3:
+          displace(system, q, "sun", wr, th - c * time, 0);
+          break;
+        case 4:
+        case 5:
+          displace(system, q, "ring", wr, th - c * time, 0);
+          break;
+        default:
+          for (int n = 0; n < 5; ++n)
+            displace(system, q, "planet" + std::to_string(n + 1), wr, th - (kind == 7 ? c * time : 0.0),
+                     stage.planet_angles[n]);
+      }
+      for (int n = 0; n < 5; ++n) {
+        // Rounding of angles up to 200 rad.
+        BOOST_TEST(std::abs(system.mesh_vector(n).dot(q) + sun_mesh_error(stage, n, time).value) <= 1e-12 * wr);
+        BOOST_TEST(std::abs(system.mesh_vector(5 + n).dot(q) + ring_mesh_error(stage, n, time).value) <= 1e-12 * wr);
+      }
+      const bool sun_only = kind / 2 == 1, ring_only = kind / 2 == 2;
+      BOOST_TEST((std::abs(sun_mesh_error(stage, 3, time).value) > 1e-8) == !ring_only);
+      BOOST_TEST((std::abs(ring_mesh_error(stage, 3, time).value) > 1e-8) == !sun_only);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(error_rates_are_derivatives) {
+  auto stage = stages::ring_paper();
+  stage.sun.errors = {{2e-5, 0.3}, {1e-5, 1.1}};
+  stage.ring.errors = {{3e-5, -0.4}, {2e-5, 2.0}};
+  stage.carrier.errors = {{1e-5, 0.2}, {4e-5, -1.0}};
+  const auto system = assemble(stage);
+  auto workspace = system.workspace();
+  for (int n = 0; n < 5; ++n)
+    for (const double t : {0.0, 0.37}) {
+      const double h = 1e-5;  // difference error h^2 w^3/6 e = 1e-10 x 8e5/6 x 1e-4 at w = 91 rad/s, rounding 1e-15
+      const auto sun = sun_mesh_error(stage, n, t), ring = ring_mesh_error(stage, n, t);
+      const double sun_rate = (sun_mesh_error(stage, n, t + h).value - sun_mesh_error(stage, n, t - h).value) / (2 * h);
+      const double ring_rate =
+          (ring_mesh_error(stage, n, t + h).value - ring_mesh_error(stage, n, t - h).value) / (2 * h);
+      BOOST_TEST(std::abs(sun.rate - sun_rate) <= 5e-9);
+      BOOST_TEST(std::abs(ring.rate - ring_rate) <= 5e-9);
+      BOOST_TEST(std::abs(sun.rate) > 1e-5);
+      // The assembled system evaluates the same errors by shared sines.
+      system.evaluate_excitation(t, workspace);
+      BOOST_TEST(std::abs(workspace.error[n] - sun.value) <= 1e-18);
+      BOOST_TEST(std::abs(workspace.error_rate[5 + n] - ring.rate) <= 1e-16);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(rigid_rotation_costs_nothing_at_any_speed) {
+  for (const double speed : {0.0, 27.0, 500.0}) {
+    auto stage = stages::ring_paper();
+    stage.carrier_speed = speed;
+    stage.sun_torque = 0;
+    const auto system = assemble(stage);
+    Eigen::VectorXd turn = Eigen::VectorXd::Zero(system.freedoms());
+    const double cs = std::cos(stage.sun_working_angle), cr = std::cos(stage.ring_working_angle);
+    turn[system.find("carrier_u")] = 1;
+    turn[system.find("sun_u")] = cs + cr;
+    for (int n = 1; n <= 5; ++n) {
+      turn[system.find("planet" + std::to_string(n) + "_y")] = 1;
+      turn[system.find("planet" + std::to_string(n) + "_u")] = -cr;
+    }
+    for (int m = 0; m < 10; ++m) BOOST_TEST(std::abs(system.mesh_vector(m).dot(turn)) <= 1e-15);
+    // Forces, not only their work, vanish; stiffnesses are 1e9 N/m, so 1e-15 of that.
+    BOOST_TEST((system.stiffness() * turn).cwiseAbs().maxCoeff() <= 1e-6);
+    BOOST_TEST((system.rotating_stiffness() * turn).cwiseAbs().maxCoeff() <= 1e-15 * 5 * 8.51 * speed * speed);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(load_is_balanced_and_agrees_with_the_tooth_ratio) {
+  const auto stage = stages::ring_paper();
+  const auto system = assemble(stage);
+  const double carrier = -system.load()[system.find("carrier_u")] * stage.carrier.radius;
+  BOOST_TEST(std::abs(carrier / stage.carrier_torque() - 1) <= 1e-14);
+  BOOST_TEST(system.load().cwiseAbs().sum() ==
+             std::abs(system.load()[system.find("sun_u")]) + std::abs(system.load()[system.find("carrier_u")]));
+}
+
+BOOST_AUTO_TEST_CASE(mesh_damping_follows_its_formula) {
+  auto stage = stages::ring_paper();
+  const auto expected = [](double k, double r1, double i1, double r2, double i2) {
+    return 2 * 0.07 * std::sqrt(k * i1 * i2 / (i1 * r2 * r2 + i2 * r1 * r1));  // (31), (34)
+  };
+  const auto system = assemble(stage);
+  const auto& p = stage.planet;
+  BOOST_TEST(std::abs(system.meshes()[0].damping /
+                          expected(1.364e9, stage.sun.radius, stage.sun.inertia, p.radius, p.inertia) -
+                      1) <= 1e-14);
+  BOOST_TEST(std::abs(system.meshes()[9].damping /
+                          expected(1.87e9, stage.ring.radius, stage.ring.inertia, p.radius, p.inertia) -
+                      1) <= 1e-14);
+  stage.ring.torsional_support = rigid;  // then only the planet's inertia is left
+  const double alone = 2 * 0.07 * std::sqrt(1.87e9 * p.inertia) / p.radius;
+  BOOST_TEST(std::abs(assemble(stage).meshes()[9].damping / alone - 1) <= 1e-14);
+}
+
+BOOST_AUTO_TEST_CASE(rigid_supports_drop_their_freedoms) {
+  auto stage = stages::ring_paper();
+  BOOST_TEST(assemble(stage).freedoms() == 9 + 15);
+  stage.ring.support = stage.ring.torsional_support = rigid;
+  BOOST_TEST(assemble(stage).find("ring_x") == -1);
+  BOOST_TEST(assemble(stage).freedoms() == 6 + 15);
+  stage.planet.bearing_radial = stage.planet.bearing_tangential = rigid;
+  BOOST_TEST(assemble(stage).freedoms() == 6 + 5);
+  stage.sun.support = stage.carrier.support = rigid;
+  const auto torsional = assemble(stage);
+  BOOST_TEST((torsional.names() == std::vector<std::string>{"sun_u", "carrier_u", "planet1_u", "planet2_u", "planet3_u",
+                                                            "planet4_u", "planet5_u"}));
+  // The planets ride on the carrier: their mass turns with it.
+  const int c = torsional.find("carrier_u");
+  const double alone = stage.carrier.inertia / (stage.carrier.radius * stage.carrier.radius);
+  BOOST_TEST(std::abs(torsional.mass()(c, c) - alone - 5 * stage.planet.mass) <= 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(contradictions_are_refused) {
+  const auto refused = [](const auto& change) {
+    auto stage = stages::ring_paper();
+    change(stage);
+    try {
+      stage.check();
+    } catch (const annulus::InputError&) {
+      return true;
+    }
+    return false;
+  };
+  BOOST_TEST(!refused([](auto&) {}));
+  BOOST_TEST(refused([](auto& s) { s.sun.mass = 0; }));
+  BOOST_TEST(refused([](auto& s) { s.planet.inertia = NAN; }));
+  BOOST_TEST(refused([](auto& s) { s.sun.support = -1; }));
+  BOOST_TEST(refused([](auto& s) { s.planet_errors.pop_back(); }));
+  BOOST_TEST(refused([](auto& s) { s.ring_phase_lag.push_back(0); }));
+  BOOST_TEST(refused([](auto& s) { s.planet_angles.clear(); }));
+  BOOST_TEST(refused([](auto& s) { s.half_backlash = -1e-6; }));
+  BOOST_TEST(refused([](auto& s) { s.sun_teeth = 0; }));
+  BOOST_TEST(refused([](auto& s) { s.carrier.radius *= 1.01; }));  // torque ratio against the teeth
+  BOOST_TEST(refused([](auto& s) { s.sun.torsional_support = rigid; }));
+  BOOST_TEST(refused([](auto& s) { s.sun_mesh = ConstantStiffness{0}; }));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

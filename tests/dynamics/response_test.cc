@@ -1,0 +1,212 @@
+#include "dynamics/response.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "core/errors.h"
+#include "tests/dynamics/stages.h"
+
+BOOST_AUTO_TEST_SUITE(response)
+
+using namespace annulus::dynamics;
+
+SimulationOptions quick() {
+  SimulationOptions options;
+  options.samples_per_cycle = 32;
+  return options;
+}
+
+BOOST_AUTO_TEST_CASE(base_scene_reaches_its_steady_state) {
+  const auto stage = stages::ring_paper();
+  const auto r = simulate(stage, quick());
+  BOOST_TEST(r.steady);
+  BOOST_TEST(r.whole_error_period);
+  BOOST_TEST(r.window_cycles == 55);
+  BOOST_TEST(r.total_cycles % 55 == 0);
+  BOOST_TEST(*r.steady_difference <= SimulationOptions{}.steady_tolerance);
+  // Bookkeeping to the integrator's tolerance times its steps (5000 x 1e-6).
+  BOOST_TEST(r.energy.relative <= 5e-3);
+  BOOST_TEST(r.energy.dissipated > 0);
+  BOOST_TEST(r.force_balance_relative <= 1e-4);
+  for (const auto* kind : {&r.sun_planet, &r.ring_planet}) {
+    double mean = 0;
+    for (const auto& branch : kind->branches) {
+      mean += branch.mean_force / 5;
+      BOOST_TEST(branch.contact_loss == 0.0);
+      BOOST_TEST(branch.dynamic_factor_max.value > branch.mean_force / r.mean_mesh_force);
+      BOOST_TEST(branch.dynamic_factor_min < branch.mean_force / r.mean_mesh_force);
+      BOOST_TEST(branch.dynamic_factor_max.error <= 5e-3);
+    }
+    BOOST_TEST(std::abs(mean / r.mean_mesh_force - 1) <= 1e-4);  // steady to 1e-3, most of it in the differences
+    const auto& sharing = kind->load_sharing;
+    BOOST_TEST(sharing.averaged.value < sharing.instantaneous.value);
+    BOOST_TEST(sharing.averaged.value > 1.0);
+    BOOST_TEST(sharing.quasi_static.value > 1.0);
+    BOOST_TEST(sharing.instantaneous.error <= 5e-3);
+  }
+  BOOST_REQUIRE(r.series.time.size() == 55 * 32);
+  BOOST_TEST(r.series.force.rows() == 10);
+  BOOST_TEST((r.series.meshes.front() == "sun_planet1" && r.series.meshes.back() == "ring_planet5"));
+  BOOST_TEST(std::abs(r.series.time[0] - (r.total_cycles - 55) / r.mesh_frequency) <= 1e-12);
+}
+
+// The error that is stated covers the distance to a much finer run.
+BOOST_AUTO_TEST_CASE(stated_errors_cover_the_true_ones) {
+  const auto stage = stages::ring_paper();
+  const auto coarse = simulate(stage, quick());
+  SimulationOptions fine;
+  fine.samples_per_cycle = 256;
+  fine.integrator.relative_tolerance = 1e-9;
+  fine.mesh_cycles = 10 * 55;
+  const auto truth = simulate(stage, fine);
+  BOOST_TEST(*truth.steady_difference < 1e-6);
+  const auto covered = [](const Figure& a, const Figure& b) { return std::abs(a.value - b.value) <= a.error + 1e-9; };
+  BOOST_TEST(covered(coarse.sun_planet.load_sharing.instantaneous, truth.sun_planet.load_sharing.instantaneous));
+  BOOST_TEST(covered(coarse.ring_planet.load_sharing.instantaneous, truth.ring_planet.load_sharing.instantaneous));
+  BOOST_TEST(covered(coarse.sun_planet.load_sharing.averaged, truth.sun_planet.load_sharing.averaged));
+  for (int n = 0; n < 5; ++n)
+    BOOST_TEST(
+        covered(coarse.sun_planet.branches[n].dynamic_factor_max, truth.sun_planet.branches[n].dynamic_factor_max));
+}
+
+// Slow enough, the dynamic forces are the quasi-static ones.
+BOOST_AUTO_TEST_CASE(slow_running_is_quasi_static) {
+  auto stage = stages::ring_paper();
+  stage.carrier_speed /= 400;                               // 1.7 Hz mesh frequency, natural frequencies from 183 Hz on
+  for (auto& e : stage.planet_errors) e.eccentricity = {};  // period of one mesh cycle
+  auto options = quick();
+  options.min_window_cycles = 1;
+  options.samples_per_cycle = 16;
+  const auto r = simulate(stage, options);
+  const auto path = quasi_static(stage, 16);
+  BOOST_REQUIRE(r.series.force.cols() == path.sun_force.cols());
+  // Inertia adds (1.7/183)^2 = 1e-4 of the change of force over a cycle (some per cent of the mean), dampers
+  // c w / k = 2 zeta w / w_n = 1e-3 of it.
+  BOOST_TEST((r.series.force.topRows(5) - path.sun_force).cwiseAbs().maxCoeff() <= 1e-4 * r.mean_mesh_force);
+  BOOST_TEST((r.series.force.bottomRows(5) - path.ring_force).cwiseAbs().maxCoeff() <= 1e-4 * r.mean_mesh_force);
+  BOOST_TEST((path.sun_force.rowwise().maxCoeff() - path.sun_force.rowwise().minCoeff()).maxCoeff() >
+             0.01 * r.mean_mesh_force);
+}
+
+// While no mesh separates, backlash only shifts the coordinates.
+BOOST_AUTO_TEST_CASE(backlash_does_not_matter_without_separation) {
+  auto stage = stages::ring_paper();
+  auto options = quick();
+  options.mesh_cycles = 165;
+  options.integrator.absolute_tolerance = 1e-12;
+  stage.half_backlash.reset();
+  const auto linear = simulate(stage, options);
+  for (const double half : {1e-5, 1e-3}) {
+    stage.half_backlash = half;
+    const auto r = simulate(stage, options);
+    BOOST_TEST(r.statistics.contact_events == 0);
+    // The shift changes magnitudes, hence steps: tolerance x steps.
+    BOOST_TEST((r.series.force - linear.series.force).cwiseAbs().maxCoeff() <= 1e-4 * r.mean_mesh_force);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(without_errors_load_sharing_does_not_depend_on_torque) {
+  auto stage = stages::ring_paper();
+  stage.planet_errors.clear();
+  stage.half_backlash.reset();
+  auto options = quick();
+  options.mesh_cycles = 100;
+  options.integrator.relative_tolerance = 1e-8;
+  const auto full = simulate(stage, options);
+  stage.sun_torque *= 0.1;
+  const auto tenth = simulate(stage, options);
+  BOOST_TEST(full.sun_planet.load_sharing.instantaneous.value > 1.001);  // the planets' phases differ
+  // A linear system scales: rounding and tolerance x steps.
+  BOOST_TEST(std::abs(full.sun_planet.load_sharing.instantaneous.value -
+                      tenth.sun_planet.load_sharing.instantaneous.value) <= 1e-5);
+}
+
+BOOST_AUTO_TEST_CASE(contact_is_lost_and_counted_at_light_load) {
+  auto stage = stages::ring_paper();
+  stage.sun_torque *= 0.02;
+  auto options = quick();
+  options.mesh_cycles = 165;
+  const auto r = simulate(stage, options);
+  BOOST_TEST(r.statistics.contact_events > 0);
+  double loss = 0;
+  for (const auto& branch : r.sun_planet.branches) loss = std::max(loss, branch.contact_loss);
+  BOOST_TEST(loss > 0.0);
+  BOOST_TEST(loss < 1.0);
+  BOOST_TEST(r.series.force.minCoeff() > -0.5 * r.mean_mesh_force);  // dampers alone can pull while teeth touch
+}
+
+// A table that samples the harmonic stiffness gives the harmonic answer, planet by planet: the phasing is the same.
+BOOST_AUTO_TEST_CASE(table_stiffness_reproduces_the_harmonic_stage) {
+  const auto harmonic = stages::ring_paper();
+  auto table = harmonic;
+  const auto sampled = [](double mean, double ripple) {
+    std::vector<double> values;
+    for (int i = 0; i < 256; ++i) values.push_back(mean * (1 + ripple * std::cos(2 * std::numbers::pi * i / 256)));
+    const annulus::PeriodicCurve curve(values, 256);
+    return TableStiffness{curve, curve, annulus::PeriodicCurve({0.0}, 1), 0};
+  };
+  table.sun_mesh = sampled(1.364e9, 0.2258);
+  table.ring_mesh = sampled(1.87e9, 0.1294);
+  auto options = quick();
+  options.mesh_cycles = 110;
+  const auto a = simulate(harmonic, options), b = simulate(table, options);
+  // Interpolation at 256 values: 4e-5 of the ripple at extrema, so 1e-5 of the stiffness, times resonance (below 10).
+  BOOST_TEST((a.series.force - b.series.force).cwiseAbs().maxCoeff() <= 1e-4 * a.mean_mesh_force);
+}
+
+// A ring that repeats after three teeth: planet n reads the table where it stands on the ring.
+BOOST_AUTO_TEST_CASE(ring_positions_are_read_where_the_planet_stands) {
+  auto stage = stages::ring_paper();
+  std::vector<double> values;
+  for (int i = 0; i < 3 * 64; ++i) values.push_back(1.87e9 * (1 + 0.1 * std::cos(2 * std::numbers::pi * i / 192)));
+  const annulus::PeriodicCurve curve(values, 64);
+  stage.ring_mesh = TableStiffness{curve, curve, annulus::PeriodicCurve({0.0}, 1), 0};
+  stage.ring_tooth_offset = {0, 32, 65, 97, 130};
+  const auto system = assemble(stage);
+  auto workspace = system.workspace();
+  for (const double t : {0.0, 0.0037, 0.81}) {
+    system.evaluate_excitation(t, workspace);
+    for (int n = 0; n < 5; ++n) {
+      const double cycles = stage.mesh_frequency() * t - stage.ring_phase_lag[n] + stage.ring_tooth_offset[n];
+      BOOST_TEST(std::abs(workspace.stiffness[5 + n] - curve(cycles)) <= 1.87e9 * 1e-12);
+    }
+  }
+  for (auto& e : stage.planet_errors) e.eccentricity = {};
+  BOOST_TEST(stage.error_period() == 3);
+}
+
+BOOST_AUTO_TEST_CASE(windows_that_cannot_be_compared_say_so) {
+  auto stage = stages::ring_paper();
+  auto options = quick();
+  options.mesh_cycles = 30;  // less than one error period
+  options.estimate_error = false;
+  const auto cut = simulate(stage, options);
+  BOOST_TEST(!cut.whole_error_period);
+  BOOST_TEST(!cut.steady);
+  BOOST_TEST(!cut.steady_difference.has_value());
+  BOOST_TEST(cut.window_cycles == 30);
+  options.mesh_cycles.reset();
+  options.max_window_cycles = 20;
+  const auto limited = simulate(stage, options);
+  BOOST_TEST(!limited.whole_error_period);
+  BOOST_TEST(limited.window_cycles == 20);
+  BOOST_TEST(limited.total_cycles == 40);
+}
+
+BOOST_AUTO_TEST_CASE(unusable_requests_are_refused) {
+  auto stage = stages::ring_paper();
+  stage.sun_torque = 0;
+  BOOST_CHECK_THROW((void)simulate(stage), annulus::InputError);
+  stage = stages::ring_paper();
+  stage.carrier_speed = 0;
+  BOOST_CHECK_THROW((void)simulate(stage), annulus::InputError);
+  stage = stages::ring_paper();
+  stage.ring.torsional_support = 0;
+  BOOST_CHECK_THROW((void)simulate(stage), annulus::InputError);
+  auto options = quick();
+  options.mesh_cycles = 0;
+  BOOST_CHECK_THROW((void)simulate(stages::ring_paper(), options), annulus::InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
