@@ -35,7 +35,7 @@ class PositionRun {
       : problem_(problem),
         settings_(settings),
         system_(flanks, *bodies.planet, *bodies.wheel, bodies.pins ? &*bodies.pins : nullptr, problem.material,
-                bodies.slice_edges, {8, 1.1 * bodies.flank_cell}),
+                bodies.slice_edges, {1.1 * bodies.flank_cell}),
         cycles_(repeating_teeth(problem)) {}
 
   [[nodiscard]] std::vector<LoadedPosition> solve(const std::function<void(double)>& progress) const {

@@ -68,8 +68,7 @@ std::vector<ContactSystem::Pair> ContactSystem::find_pairs(int cycle, double pha
     const double low = std::max(centre - half, domain.low), high = std::min(centre + half, domain.high);
     p.low_is_edge = low == domain.low;
     p.high_is_edge = high == domain.high;
-    const double size = std::max(half_width / options_.elements_per_half_width, options_.smallest_element);
-    const double wanted = (high * high - low * low) / (2 * base) / size;
+    const double wanted = (high * high - low * low) / (2 * base) / options_.element;
     const int elements = std::max(1, static_cast<int>(std::lround(wanted)));
 
     p.gap.resize(elements);

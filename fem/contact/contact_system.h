@@ -17,8 +17,7 @@ namespace annulus::fem {
 [[nodiscard]] double hertz_half_width(double line_load, double relative_curvature, const Material& material);
 
 struct ContactOptions {
-  double elements_per_half_width = 8;  ///< pressure elements
-  double smallest_element = 0;         ///< m: a pressure finer than the flank's cells could not be told apart
+  double element = 0;    ///< m, length of a pressure element: no finer than the flank's cells, which could not tell
   double window = 1.25;  ///< half-length of a pair's contact window in Hertz half-widths of the whole load
 };
 
