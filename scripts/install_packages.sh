@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Installs what annulus needs to be built and tested on Debian 12. As root or with sudo; quick when all is there.
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build pkg-config
+  libdeal.ii-dev libgmsh-dev libeigen3-dev libsundials-dev libsuitesparse-dev libtbb-dev
+  libboost-dev libboost-test-dev
+  libopenblas-dev libopenblas0-pthread
+  libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  if ! dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed; then
+    missing+=("$package")
+  fi
+done
+
+if [ ${#missing[@]} -gt 0 ]; then
+  root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "install_packages.sh: run as root or install sudo; missing: ${missing[*]}" >&2
+      exit 1
+    fi
+    root=(sudo)
+  fi
+  echo "Installing: ${missing[*]}"
+  "${root[@]}" apt-get update -qq
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+fi
+
+# The reference BLAS is three to eight times slower in the factorisations.
+blas=$(readlink -f "/usr/lib/$(dpkg-architecture -qDEB_HOST_MULTIARCH 2>/dev/null || gcc -print-multiarch)/libblas.so.3" || true)
+case "$blas" in
+  *openblas*) ;;
+  *) echo "warning: the active BLAS is ${blas:-unknown}, not OpenBLAS: annulus will be slow" >&2 ;;
+esac
