@@ -5,6 +5,7 @@
 
 #include "core/errors.h"
 #include "dynamics/lumped_system.h"
+#include "geometry/planetary.h"
 #include "tests/dynamics/stages.h"
 
 BOOST_AUTO_TEST_SUITE(planetary_stage)
@@ -28,6 +29,51 @@ BOOST_AUTO_TEST_CASE(base_scene_agrees_with_the_printed_numbers) {
   BOOST_TEST(std::abs(stage.sun_torque - 25048) < 0.5);
   BOOST_TEST(std::abs(stage.carrier_torque() - 25048 * 210.0 / 48) < 2.2);
   BOOST_TEST(stage.error_period() == 55);
+}
+
+BOOST_AUTO_TEST_CASE(kinematics_come_from_the_gears) {
+  const auto gear = [](annulus::geometry::GearKind kind, int teeth, double shift) {
+    annulus::geometry::GearParameters p;
+    p.kind = kind;
+    p.teeth = teeth;
+    p.module = 3.8e-3;
+    p.pressure_angle = 22.5 * annulus::units::deg;
+    p.profile_shift = shift;
+    p.face_width = 0.088;
+    return annulus::geometry::Gear(p);
+  };
+  using annulus::geometry::GearKind;
+  const annulus::geometry::PlanetarySet set(gear(GearKind::external, 48, 0.7608), gear(GearKind::external, 55, 0.7361),
+                                            gear(GearKind::internal, 162, 0.1516), 0.201, 5);
+  const auto expected = stages::ring_paper();
+  auto stage = expected;
+  stage.sun_teeth = stage.planet_teeth = stage.ring_teeth = 0;
+  for (auto* list : {&stage.planet_angles, &stage.sun_phase_lag, &stage.ring_phase_lag, &stage.ring_tooth_offset})
+    list->assign(3, -1);  // to be replaced
+  for (auto* value : {&stage.sun.radius, &stage.planet.radius, &stage.ring.radius, &stage.carrier.radius,
+                      &stage.sun_working_angle, &stage.ring_working_angle})
+    *value = 0;
+  set_kinematics(stage, set);
+  BOOST_CHECK_NO_THROW(stage.check());
+  BOOST_TEST(stage.sun_teeth == 48);
+  BOOST_TEST(stage.planet_teeth == 55);
+  BOOST_TEST(stage.ring_teeth == 162);
+  const double rounding = 1e-14;
+  BOOST_TEST(std::abs(stage.sun.radius - expected.sun.radius) <= rounding);
+  BOOST_TEST(std::abs(stage.planet.radius - expected.planet.radius) <= rounding);
+  BOOST_TEST(std::abs(stage.ring.radius - expected.ring.radius) <= rounding);
+  BOOST_TEST(stage.carrier.radius == 0.201);
+  BOOST_TEST(std::abs(stage.sun_working_angle - expected.sun_working_angle) <= rounding);
+  BOOST_TEST(std::abs(stage.ring_working_angle - expected.ring_working_angle) <= rounding);
+  for (int n = 0; n < 5; ++n) {
+    BOOST_TEST(std::abs(stage.planet_angles[n] - expected.planet_angles[n]) <= rounding);
+    BOOST_TEST(stage.sun_phase_lag[n] == set.sun_phase_lag(n));
+    BOOST_TEST(stage.ring_phase_lag[n] == set.ring_phase_lag(n));
+    BOOST_TEST(stage.ring_tooth_offset[n] == set.ring_tooth_offset(n));
+    // At time 0 planet n reads the ring n z_r / N teeth further than planet 0.
+    const auto place = [&](int i) { return stage.ring_tooth_offset[i] - stage.ring_phase_lag[i]; };
+    BOOST_TEST(std::abs(place(n) - place(0) - 162.0 * n / 5) <= 1e-9);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(error_period_is_the_common_period) {
