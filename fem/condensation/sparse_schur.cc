@@ -9,7 +9,6 @@
 #include "fem/condensation/lapack.h"
 
 namespace annulus::fem {
-namespace {
 
 /// CHOLMOD's workspace, started and finished with the object.
 struct CholmodWorkspace {
@@ -24,6 +23,8 @@ struct CholmodWorkspace {
   CholmodWorkspace(const CholmodWorkspace&) = delete;
   CholmodWorkspace& operator=(const CholmodWorkspace&) = delete;
 };
+
+namespace {
 
 /// A view of the lower triangle for CHOLMOD; the arrays stay with the Eigen matrix.
 cholmod_sparse lower_view(Eigen::SparseMatrix<double>& lower) {
