@@ -90,10 +90,15 @@ void build_triangulation(const geometry::Mesh& mesh, const BoundaryProjection& p
   if (!project) return;
   for (const auto id : triangulation.get_boundary_ids()) {
     const auto tag = static_cast<geometry::Boundary>(id);
-    if (!is_curved(tag)) continue;
-    triangulation.set_all_manifold_ids_on_boundary(id, id);
-    triangulation.set_manifold(id, ExactBoundary<dim>(tag, project));
+    if (is_curved(tag)) triangulation.set_manifold(id, ExactBoundary<dim>(tag, project));
   }
+  // With the edges of every face: an edge shared with an end face carries the boundary id of either, so that
+  // Triangulation::set_all_manifold_ids_on_boundary would leave it straight.
+  for (const auto& cell : triangulation.active_cell_iterators())
+    for (const auto face : cell->face_indices())
+      if (cell->face(face)->at_boundary() &&
+          is_curved(static_cast<geometry::Boundary>(cell->face(face)->boundary_id())))
+        cell->face(face)->set_all_manifold_ids(cell->face(face)->boundary_id());
 }
 
 }  // namespace
