@@ -1,0 +1,64 @@
+#include "discretised_body.h"
+
+#include <memory>
+
+#include "fem/elasticity/elastic_problem.h"
+
+namespace annulus::tests {
+namespace {
+
+template <int dim>
+DiscretisedBody discretise_in(const geometry::Mesh& mesh, const Projection& project, const fem::Material& material,
+                              int degree) {
+  const auto problem = std::make_shared<fem::ElasticProblem<dim>>(mesh, project, material, degree);
+  DiscretisedBody body;
+  body.dimension = dim;
+  for (std::size_t n = 0; n < problem->node_points().size(); ++n) {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    for (int c = 0; c < dim; ++c) {
+      point[c] = problem->node_points()[n][c];
+      body.freedom.push_back(problem->node_freedoms()[n][c]);
+    }
+    body.nodes.push_back(point);
+  }
+  body.stiffness = problem->stiffness();
+  body.boundary_nodes = [problem](geometry::Boundary boundary) { return problem->boundary_nodes(boundary); };
+  return body;
+}
+
+}  // namespace
+
+DiscretisedBody discretise_body(const geometry::Mesh& mesh, const Projection& project, const fem::Material& material,
+                                int degree) {
+  return mesh.dimension == 2 ? discretise_in<2>(mesh, project, material, degree)
+                             : discretise_in<3>(mesh, project, material, degree);
+}
+
+FreeSystem::FreeSystem(const Eigen::SparseMatrix<double>& full, const std::vector<bool>& fixed)
+    : row(fixed.size(), -1) {
+  int rows = 0;
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    if (!fixed[i]) row[i] = rows++;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int column = 0; column < full.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(full, column); it; ++it)
+      if (row[it.row()] >= 0 && row[column] >= 0) entries.emplace_back(row[it.row()], row[column], it.value());
+  matrix.resize(rows, rows);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+}
+
+Eigen::MatrixXd FreeSystem::restrict_rows(const Eigen::MatrixXd& full) const {
+  Eigen::MatrixXd result(matrix.rows(), full.cols());
+  for (std::size_t i = 0; i < row.size(); ++i)
+    if (row[i] >= 0) result.row(row[i]) = full.row(static_cast<Eigen::Index>(i));
+  return result;
+}
+
+Eigen::MatrixXd FreeSystem::extend_rows(const Eigen::MatrixXd& free) const {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(row.size()), free.cols());
+  for (std::size_t i = 0; i < row.size(); ++i)
+    if (row[i] >= 0) result.row(static_cast<Eigen::Index>(i)) = free.row(row[i]);
+  return result;
+}
+
+}  // namespace annulus::tests
