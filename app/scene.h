@@ -67,6 +67,8 @@ struct ErrorInput {
   std::vector<double> planet_eccentricity, planet_eccentricity_phase, planet_installation, planet_installation_phase;
   double sun_eccentricity = 0, sun_eccentricity_phase = 0, sun_installation = 0, sun_installation_phase = 0;
   double ring_eccentricity = 0, ring_eccentricity_phase = 0, ring_installation = 0, ring_installation_phase = 0;
+  double carrier_eccentricity = 0, carrier_eccentricity_phase = 0;
+  double carrier_installation = 0, carrier_installation_phase = 0;
 };
 
 /// N/m; `rigid` drops the freedom. Torsional values are in the coordinate u = base radius x angle.
@@ -86,7 +88,7 @@ struct DynamicsInput {
   double half_backlash = 0;
   double mesh_damping_ratio = 0, support_damping_ratio = 0;
   MeshDamping mesh_damping = MeshDamping::in_contact;
-  std::optional<double> mesh_cycles;
+  std::optional<int> mesh_cycles;
   double relative_tolerance = 0;
 };
 

@@ -147,8 +147,6 @@ class Checker {
         problem("ring.name", ring.name,
                 "names a folder: letters, digits, '-', '_', '+' and '.' only, not starting with '.'");
       }
-      if (ring.name == "sun")
-        problem("ring.name", ring.name, "is the folder of the shared sun mesh; choose another name");
     }
     seen.clear();
     for (const auto& input : scene_.inputs) {

@@ -80,10 +80,9 @@ Table mesh_table(const char* path, const char* meaning, MeshInput& (*section)(Sc
   t.key("duty", &MeshInput::duty, "Fraction of the mesh cycle in which the rectangular wave is high.")
       .above(0, 1)
       .absent("needed by rectangular");
-  t.key("phase", &MeshInput::phase,
-        "Lead of this wave in mesh cycles, on top of the phasing derived from the geometry.")
+  t.key("phase", &MeshInput::phase, "Lag of this wave in mesh cycles, on top of the phasing derived from the geometry.")
       .from(-1, 1)
-      .absent("no lead");
+      .absent("no lag");
   t.key("file", &MeshInput::file, "Stiffness table (CSV as annulus writes it), relative to the scene.")
       .absent("needed by table");
   return t.done();
@@ -236,6 +235,10 @@ std::vector<Table> declare_tables() {
   single("ring_eccentricity_phase_deg", &ErrorInput::ring_eccentricity_phase, "Its direction.", 360);
   single("ring_installation_um", &ErrorInput::ring_installation, "Misplacement of the ring's axis.", 1e4);
   single("ring_installation_phase_deg", &ErrorInput::ring_installation_phase, "Its direction.", 360);
+  single("carrier_eccentricity_um", &ErrorInput::carrier_eccentricity, "Eccentricity of the carrier.", 1e4);
+  single("carrier_eccentricity_phase_deg", &ErrorInput::carrier_eccentricity_phase, "Its direction.", 360);
+  single("carrier_installation_um", &ErrorInput::carrier_installation, "Misplacement of the carrier's axis.", 1e4);
+  single("carrier_installation_phase_deg", &ErrorInput::carrier_installation_phase, "Its direction.", 360);
   tables.push_back(errors.done());
 
   Declarations<SupportInput> supports(

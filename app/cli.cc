@@ -1,0 +1,169 @@
+#include "app/cli.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "app/content_id.h"
+#include "app/pipeline.h"
+#include "app/progress.h"
+#include "app/scene_schema.h"
+#include "app/summary.h"
+#include "core/errors.h"
+#include "core/log.h"
+
+namespace annulus::app {
+
+namespace {
+
+enum ExitStatus { done = 0, defect = 1, wrong_input = 2, refused = 3, interrupted = 130 };
+
+struct Arguments {
+  std::string scene, out, tables, key;
+  bool json = false, markdown = false, quiet = false, verbose = false;
+  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+};
+
+// Every file is written under another name and renamed, so nothing needs cleaning up: finished results are reused.
+void on_interrupt(int) {
+  constexpr char text[] = "\ninterrupted; finished results are kept and reused by the next run\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, sizeof text - 1);
+  std::_Exit(interrupted);
+}
+
+void run_and_print(const Arguments& arguments, bool with_dynamics) {
+  const Scene scene = read_scene(arguments.scene);
+  RunOptions options{.threads = arguments.threads, .with_dynamics = with_dynamics};
+  options.out =
+      arguments.out.empty() ? std::filesystem::path("out") / scene.file.stem() : std::filesystem::path(arguments.out);
+  if (!arguments.tables.empty()) options.tables = arguments.tables;
+  const RunResult result = run(scene, options);
+  fmt::print("{}", summary_text(result));
+  fmt::print("report  {}\n", (options.out / "report.html").string());
+}
+
+void dynamics_command(const Arguments& arguments) {
+  const Scene scene = read_scene(arguments.scene);
+  if (!scene.dynamics) throw InputError(arguments.scene + ": has no [dynamics] table; add one to run the lumped model");
+  run_and_print(arguments, true);
+}
+
+void plan_command(const Arguments& arguments) {
+  const Scene scene = read_scene(arguments.scene);
+  const Plan plan = make_plan(scene, make_geometry(scene));
+  fmt::print("{}", arguments.json ? to_json(plan) : to_text(plan));
+}
+
+void check_command(const Arguments& arguments) {
+  const Scene scene = read_scene(arguments.scene);
+  const auto geometry = make_geometry(scene);
+  fmt::print("{}: good ({} ring{}, {} planets)\n", arguments.scene, geometry.rings.size(),
+             geometry.rings.size() == 1 ? "" : "s", scene.stage.planets);
+}
+
+void explain_command(const Arguments& arguments) {
+  if (arguments.markdown) {
+    fmt::print("{}", scene_reference());
+    return;
+  }
+  bool found = false;
+  for (const auto& table : schema()) {
+    const bool whole_table = arguments.key == table.path && !table.path.empty();
+    for (const auto& p : table.parameters) {
+      if (!arguments.key.empty() && arguments.key != p.key() && arguments.key != p.name && !whole_table) continue;
+      fmt::print("{}{}", found ? "\n" : "", explain(p));
+      found = true;
+    }
+  }
+  if (found) return;
+  const std::string near = nearest(arguments.key, all_keys());
+  throw InputError(arguments.key + ": there is no such key" + (near.empty() ? "" : "; did you mean " + near + "?"));
+}
+
+void add_common(CLI::App& command, Arguments& arguments) {
+  command.add_option("--threads", arguments.threads, "Threads to use")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  auto* quiet = command.add_flag("--quiet,-q", arguments.quiet, "Warnings and errors only");
+  command.add_flag("--verbose,-v", arguments.verbose, "More messages")->excludes(quiet);
+}
+
+CLI::App* add_command(CLI::App& app, Arguments& arguments, const char* name, const char* what) {
+  auto* command = app.add_subcommand(name, what);
+  command->add_option("scene", arguments.scene, "Scene file (TOML)")->required();
+  add_common(*command, arguments);
+  return command;
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+
+  Arguments arguments;
+  CLI::App app("What the structure of a ring gear does to load sharing and vibration of a planetary gear set.",
+               "annulus");
+  app.set_version_flag("--version", std::string("annulus ") + version());
+  app.require_subcommand(1);
+  add_common(app, arguments);
+
+  const auto out = [&](CLI::App* command) {
+    command->add_option("-o,--out", arguments.out, "Folder of the results; default out/<scene name>");
+    return command;
+  };
+  out(add_command(app, arguments, "run", "Everything the scene asks for, and the report"));
+  out(add_command(app, arguments, "solve", "Meshes, loaded transmission error, stiffness tables"));
+  auto* dynamics =
+      out(add_command(app, arguments, "dynamics", "The lumped model from tables, solved first if missing"));
+  dynamics->add_option("--tables", arguments.tables,
+                       "Folder of an earlier run whose tables are used if they still fit");
+  auto* plan = add_command(app, arguments, "plan", "What will be modelled and why; computes nothing");
+  plan->add_flag("--json", arguments.json, "As JSON");
+  add_command(app, arguments, "check", "Check the scene only");
+  auto* explain_key = app.add_subcommand("explain", "The keys of a scene file");
+  explain_key->add_option("key", arguments.key, "Key, key path or table; absent: all");
+  explain_key->add_flag("--markdown", arguments.markdown, "The scene reference as Markdown");
+  add_common(*explain_key, arguments);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int status = app.exit(error);
+    return status == 0 ? done : wrong_input;
+  }
+  log::set_level(arguments.quiet ? log::Level::quiet : arguments.verbose ? log::Level::verbose : log::Level::normal);
+  show_progress(!arguments.quiet);
+
+  const auto fail = [](const std::exception& error, ExitStatus status) {
+    fmt::print(stderr, "{}\n", error.what());
+    return status;
+  };
+  try {
+    const std::string command = app.get_subcommands().front()->get_name();
+    if (command == "run") run_and_print(arguments, true);
+    if (command == "solve") run_and_print(arguments, false);
+    if (command == "dynamics") dynamics_command(arguments);
+    if (command == "plan") plan_command(arguments);
+    if (command == "check") check_command(arguments);
+    if (command == "explain") explain_command(arguments);
+    return done;
+  } catch (const InputError& error) {
+    return fail(error, wrong_input);
+  } catch (const Error& error) {
+    return fail(error, refused);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(error, wrong_input);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "defect in annulus, please report it: ");
+    return fail(error, defect);
+  }
+}
+
+}  // namespace annulus::app

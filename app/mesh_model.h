@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/gear_geometry.h"
+#include "app/scene.h"
+#include "fem/loaded_mesh.h"
+
+namespace annulus::app {
+
+inline constexpr const char* sun_planet = "sun_planet";
+inline constexpr const char* ring_planet = "ring_planet";
+
+/// How the stiffness of one mesh is found, and why so: the decision of the planner, carried out by the pipeline.
+struct MeshModel {
+  std::string mesh{};                               ///< "sun_planet" or "ring_planet"
+  std::string ring{};                               ///< empty for the sun mesh, which all rings share
+  std::string rung{};                               ///< "plane", "solid", or "given" by the scene
+  std::string reason{};                             ///< why this rung
+  int positions = 1;                                ///< ring positions after which the mesh repeats
+  std::string repeats{};                            ///< why so many
+  std::optional<fem::LoadedMeshProblem> problem{};  ///< absent when the stiffness is given
+  fem::LoadedMeshSettings settings{};
+
+  [[nodiscard]] bool computed() const { return problem.has_value(); }
+  /// Identity of all inputs this mesh's results depend on.
+  [[nodiscard]] std::string id() const;
+  /// For messages: "sun-planet mesh", "planet mesh of ring 'pinned'".
+  [[nodiscard]] std::string label() const;
+};
+
+/// Loads of every table, as multiples of the nominal mean mesh force: around it, so that the table can be interpolated,
+/// and down to a quarter, where the load no longer spreads over all teeth.
+inline constexpr double table_load_factors[] = {0.25, 0.5, 1, 1.5, 2};
+inline constexpr std::size_t nominal_load_index = 2;
+/// Positions per mesh cycle: resolves the handover of two pairs to a sixteenth of the cycle.
+inline constexpr int table_phases = 16;
+
+[[nodiscard]] MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry);
+[[nodiscard]] MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring);
+
+}  // namespace annulus::app

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "app/mesh_model.h"
+#include "core/csv.h"
+#include "core/stiffness_table.h"
+
+namespace annulus::app {
+
+/// A figure of merit with its estimated error, relative to the value.
+struct Estimate {
+  double value = 0;
+  double error_relative = 0;
+};
+
+/// What is known about one mesh after its solve, and kept in files so that it need not be solved again.
+struct MeshResult {
+  MeshModel model;
+  double contact_ratio = 0;
+  StiffnessTable table;
+  Csv positions{};  ///< lte_<mesh>.csv: every position and load, with tooth pair shares and invariants; may be empty
+  Csv pins{};       ///< pins_<mesh>.csv: pin states at the nominal load; empty without pins
+  std::string picture{};  ///< SVG of the meshes in contact; empty when the stiffness was given
+  /// Invariants and sizes by name: force_balance_relative, max_penetration_m, unknowns, mesh_seconds ...
+  std::map<std::string, double> facts{};
+  std::size_t nominal = 0;  ///< index of the nominal load in the table
+  bool reused = false;
+
+  [[nodiscard]] Estimate mean_stiffness() const;             ///< N/m, secant, at the nominal load
+  [[nodiscard]] Estimate lte_mean() const;                   ///< m, at the nominal load
+  [[nodiscard]] Estimate lte_peak_to_peak() const;           ///< m, at the nominal load, over all ring positions
+  [[nodiscard]] double fact(const std::string& name) const;  ///< NaN when not known
+};
+
+/// Packs the finite-element result of a model into its tables and pictures.
+[[nodiscard]] MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved);
+/// The stiffness a scene gives instead: a table read from its file, or the wave sampled over one cycle.
+[[nodiscard]] MeshResult given_stiffness(const MeshModel& model, const MeshInput& input, const Scene& scene,
+                                         double contact_ratio, double nominal_load);
+
+/// Writes lte_, stiffness_ and pins_<mesh>.csv and the picture into `folder` (OUT/<ring>).
+void save(const MeshResult& result, const std::filesystem::path& folder);
+/// The result kept in `folder`, if its inputs are those of `model`.
+[[nodiscard]] std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::path& folder);
+
+}  // namespace annulus::app

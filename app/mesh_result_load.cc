@@ -1,0 +1,98 @@
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+
+#include "app/content_id.h"
+#include "app/mesh_result.h"
+#include "core/errors.h"
+
+namespace annulus::app {
+
+namespace {
+
+std::string header_value(const std::vector<std::pair<std::string, std::string>>& header, const std::string& key) {
+  for (const auto& [k, v] : header) {
+    if (k == key) return v;
+  }
+  return "";
+}
+
+std::string file_text(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::size_t nearest_load(const StiffnessTable& table, double load) {
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < table.loads().size(); ++i) {
+    if (std::abs(table.loads()[i] - load) < std::abs(table.loads()[best] - load)) best = i;
+  }
+  return best;
+}
+
+/// One cycle of a given wave, as the dynamics sees it; for figures and plots only.
+StiffnessTable sampled(const std::string& mesh, const MeshInput& input, double load) {
+  constexpr int samples = 64;
+  std::vector<StiffnessEntry> entries;
+  for (int i = 0; i < samples; ++i) {
+    const double phase = static_cast<double>(i) / samples - input.phase.value_or(0);
+    double wave = 0;
+    if (input.stiffness == StiffnessShape::harmonic) wave = std::cos(2 * std::numbers::pi * phase);
+    if (input.stiffness == StiffnessShape::rectangular)
+      wave = (phase - std::floor(phase) < *input.duty ? 1 : 0) - *input.duty;
+    const double k = *input.mean * (1 + input.ripple.value_or(0) * wave);
+    entries.push_back(
+        {.unloaded_te = 0, .lte = load / k, .stiffness_secant = k, .stiffness_tangent = k, .error_relative = 0});
+  }
+  return {mesh, samples, {0}, {load}, std::move(entries)};
+}
+
+}  // namespace
+
+MeshResult given_stiffness(const MeshModel& model, const MeshInput& input, const Scene& scene, double contact_ratio,
+                           double nominal_load) {
+  if (input.stiffness == StiffnessShape::table) {
+    auto table = StiffnessTable::read_csv(scene.file.parent_path() / *input.file);
+    if (table.mesh() != model.mesh) {
+      throw InputError("mesh." + model.mesh + ".file = " + *input.file + ": is the table of a " + table.mesh() +
+                       " mesh");
+    }
+    const auto nominal = nearest_load(table, nominal_load);
+    return {.model = model, .contact_ratio = contact_ratio, .table = std::move(table), .nominal = nominal};
+  }
+  return {.model = model, .contact_ratio = contact_ratio, .table = sampled(model.mesh, input, nominal_load)};
+}
+
+std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::path& folder) {
+  const auto table_file = folder / ("stiffness_" + model.mesh + ".csv");
+  const auto positions_file = folder / ("lte_" + model.mesh + ".csv");
+  if (!std::filesystem::exists(table_file) || !std::filesystem::exists(positions_file)) return std::nullopt;
+  const std::string id = model.id();
+  try {
+    auto table = StiffnessTable::read_csv(table_file);
+    auto positions = Csv::read(positions_file);
+    if (header_value(table.provenance, "inputs_id") != id || header_value(positions.header, "inputs_id") != id)
+      return std::nullopt;
+    MeshResult result{.model = model, .table = std::move(table), .nominal = nominal_load_index, .reused = true};
+    for (const auto& [key, value] : positions.header) {
+      if (key == "contact_ratio") {
+        result.contact_ratio = std::stod(value);
+      } else if (key != "annulus_version" && key != "inputs_id" && key != "mesh" && key != "rung") {
+        result.facts[key] = std::stod(value);
+      }
+    }
+    positions.header.clear();
+    result.positions = std::move(positions);
+    if (const auto pins_file = folder / ("pins_" + model.mesh + ".csv"); std::filesystem::exists(pins_file)) {
+      auto pins = Csv::read(pins_file);
+      if (header_value(pins.header, "inputs_id") == id) result.pins = std::move(pins);
+    }
+    result.picture = file_text(folder / "mesh" / (model.mesh + ".svg"));
+    return result;
+  } catch (const std::exception&) {
+    return std::nullopt;  // damaged or from another version: solved again and overwritten
+  }
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,180 @@
+#include "app/pipeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <thread>
+
+#include "app/progress.h"
+#include "app/report.h"
+#include "app/summary.h"
+#include "core/csv.h"
+#include "core/log.h"
+
+namespace annulus::app {
+
+namespace {
+
+/// Independent tasks on `threads` threads; the first exception of any task is thrown again at the end.
+template <class Task>
+void for_each_task(std::size_t tasks, int threads, Task task) {
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::exception_ptr> failures(tasks);
+  const auto work = [&] {
+    for (std::size_t i = next++; i < tasks; i = next++) {
+      try {
+        task(i);
+      } catch (...) {
+        failures[i] = std::current_exception();
+      }
+    }
+  };
+  std::vector<std::thread> pool;
+  for (int i = 1; i < threads && static_cast<std::size_t>(i) < tasks; ++i) pool.emplace_back(work);
+  work();
+  for (auto& thread : pool) thread.join();
+  for (const auto& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+}
+
+void write_meshes(const MeshModel& model, const fem::LoadedMeshResult& solved, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  const std::string wheel = model.mesh == sun_planet ? "_sun" : "_ring";
+  for (const auto& [mesh, name] :
+       {std::pair{&solved.planet_sector, model.mesh + "_planet"}, {&solved.wheel_sector, model.mesh + wheel}}) {
+    geometry::write_msh(*mesh, folder / (name + ".msh"));
+    geometry::write_vtu(*mesh, folder / (name + ".vtu"));
+  }
+}
+
+/// The sun mesh belongs to all rings: one added later gets its files from the others.
+void copy_meshes(const MeshModel& model, const std::filesystem::path& from, const std::filesystem::path& to) {
+  if (from == to || !std::filesystem::exists(from)) return;
+  std::filesystem::create_directories(to);
+  for (const auto& file : std::filesystem::directory_iterator(from)) {
+    const auto name = file.path().filename();
+    if (!name.string().starts_with(model.mesh + "_")) continue;
+    std::filesystem::copy_file(file.path(), to / name, std::filesystem::copy_options::skip_existing);
+  }
+}
+
+std::vector<std::string> ring_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const auto& ring : scene.rings) names.push_back(ring.name);
+  return names;
+}
+
+std::vector<std::pair<std::string, double>> timings_of(const RunResult& result, const StageTimers& timers) {
+  double mesh = 0, condense = 0, contact = 0;
+  const auto add = [&](const MeshResult& r) {
+    if (r.reused || !r.model.computed()) return;
+    mesh += r.fact("mesh_seconds");
+    condense += r.fact("condense_seconds");
+    contact += r.fact("contact_seconds");
+  };
+  add(result.sun_mesh);
+  for (const auto& ring : result.rings) add(ring.mesh);
+  double total = 0;
+  for (const auto& [stage, seconds] : timers.report()) {
+    if (stage == "total") total = seconds;
+  }
+  const double dynamics = timers.seconds("dynamics");
+  return {{"mesh", mesh},
+          {"condense", condense},
+          {"contact", contact},
+          {"dynamics", dynamics},
+          {"other", std::max(0.0, total - mesh - condense - contact - dynamics)},
+          {"total", total}};
+}
+
+}  // namespace
+
+fem::LoadedMeshResult solve_contact(const MeshModel& model, int threads) {
+  Progress progress(model.label());
+  fem::LoadedMeshSettings settings = model.settings;
+  settings.threads = threads;
+  settings.progress = [&](double fraction) { progress.update(fraction); };
+  auto solved = fem::solve_loaded_mesh(*model.problem, settings);
+  progress.finish(fmt::format(
+      "{} positions, {} unknowns per pair of sectors; mesh {:.2f} s, condense {:.2f} s, contact {:.2f} s",
+      solved.positions.size(), solved.unknowns, solved.mesh_seconds, solved.condense_seconds, solved.contact_seconds));
+  return solved;
+}
+
+MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
+                          const std::vector<std::string>& rings, const RunOptions& options) {
+  const bool sun = model.mesh == sun_planet;
+  if (!model.computed()) {
+    const auto& pair = sun ? geometry.sun_mesh() : geometry.rings.front().set.ring_mesh();
+    return given_stiffness(model, sun ? scene.sun_planet : scene.ring_planet, scene, pair.contact_ratio(),
+                           geometry.operating_point.mean_mesh_force);
+  }
+  std::optional<MeshResult> result;
+  std::filesystem::path source;
+  for (const auto& ring : rings) {
+    for (const auto& root : {options.out, options.tables.value_or(options.out)}) {
+      if (result) continue;
+      result = load(model, root / ring);
+      source = root / ring;
+    }
+  }
+  if (result) {
+    log::info(fmt::format("{}: unchanged, reused", model.label()));
+    for (const auto& ring : rings) copy_meshes(model, source / "mesh", options.out / ring / "mesh");
+  } else {
+    const auto solved = solve_contact(model, options.threads);
+    result = pack(model, solved);
+    for (const auto& ring : rings) write_meshes(model, solved, options.out / ring / "mesh");
+  }
+  for (const auto& ring : rings) save(*result, options.out / ring);
+  return std::move(*result);
+}
+
+StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                               const MeshResult& sun_mesh, const MeshResult& ring_mesh, const RunOptions& options) {
+  const auto& name = scene.rings.at(ring).name;
+  const auto folder = options.out / name / "dynamics";
+  const auto stage = make_stage(scene, geometry, ring, sun_mesh, ring_mesh);
+  const auto simulation = simulation_options(scene, stage);
+  const auto id = response_id(stage, simulation, sun_mesh, ring_mesh);
+  if (auto kept = load_response(id, folder)) {
+    log::info(fmt::format("dynamics of '{}': unchanged, reused", name));
+    return std::move(*kept);
+  }
+  auto response = simulate_and_save(stage, simulation, id, folder);
+  log::info(fmt::format("dynamics of '{}': {} mesh cycles, {} steps, {}", name, response.figures.total_cycles,
+                        response.figures.statistics.steps,
+                        response.figures.steady ? "periodic steady state" : "no periodic steady state"));
+  return response;
+}
+
+RunResult run(const Scene& scene, const RunOptions& options) {
+  StageTimers timers;
+  GearGeometry geometry = make_geometry(scene);
+  Plan plan = make_plan(scene, geometry);
+  auto sun_mesh = mesh_stiffness(scene, geometry, plan.meshes.front(), ring_names(scene), options);
+  RunResult result{
+      .scene = scene, .geometry = std::move(geometry), .plan = std::move(plan), .sun_mesh = std::move(sun_mesh)};
+  for (std::size_t i = 0; i < scene.rings.size(); ++i) {
+    const auto& name = scene.rings[i].name;
+    result.rings.push_back({name, mesh_stiffness(scene, result.geometry, result.plan.meshes[i + 1], {name}, options)});
+  }
+  if (options.with_dynamics && scene.dynamics) {
+    const auto timer = timers.measure("dynamics");
+    for_each_task(scene.rings.size(), options.threads, [&](std::size_t i) {
+      auto& ring = result.rings[i];
+      ring.response = dynamic_response(scene, result.geometry, i, result.sun_mesh, ring.mesh, options);
+    });
+  }
+  result.timings = timings_of(result, timers);
+  result.peak_memory_MB = peak_memory_MB();
+  std::filesystem::create_directories(options.out);
+  write_file(options.out / "summary.json", summary_json(result));
+  write_file(options.out / "report.html", report_html(result));
+  return result;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/gear_geometry.h"
+#include "app/mesh_result.h"
+#include "app/plan.h"
+#include "app/scene.h"
+#include "app/stage_response.h"
+
+/// annulus from a scene file to a report. Start reading here: the whole program is six functions in a row,
+///
+///     Scene ─► GearGeometry ─► contact ─► StiffnessTable ─► DynamicResponse ─► report
+///
+/// and `run` calls them. Every stage leaves files from which the next one can start again: a result whose inputs have
+/// not changed is read back instead of computed.
+namespace annulus::app {
+
+struct RunOptions {
+  std::filesystem::path out{};                    ///< folder of all results
+  std::optional<std::filesystem::path> tables{};  ///< where to look for earlier tables; absent: `out`
+  int threads = 1;
+  bool with_dynamics = true;  ///< false: meshes, transmission error and stiffness only
+};
+
+struct RingResult {
+  std::string name;
+  MeshResult mesh;                          ///< ring-planet mesh
+  std::optional<StageResponse> response{};  ///< absent without dynamics
+};
+
+/// Everything a report needs.
+struct RunResult {
+  Scene scene;
+  GearGeometry geometry;
+  Plan plan;
+  MeshResult sun_mesh;  ///< solved once, the same for all rings
+  std::vector<RingResult> rings{};
+  std::vector<std::pair<std::string, double>> timings{};  ///< wall seconds by stage, then "other" and "total"
+  double peak_memory_MB = 0;
+};
+
+// 1. Scene: what the user wants, checked, SI (scene.h):
+//      Scene read_scene(const std::filesystem::path& file);
+// 2. Geometry: gears, working angles, phasing, operating point (gear_geometry.h):
+//      GearGeometry make_geometry(const Scene& scene);
+
+// 3. Contact: gmsh meshes, elastic bodies, contact of one gear mesh at every position and load. Writes meshes to
+//    `folders` (OUT/<ring>/mesh; the sun mesh goes to every ring's folder).
+[[nodiscard]] fem::LoadedMeshResult solve_contact(const MeshModel& model, int threads);
+
+// 4. Stiffness table with pictures, shares and invariants: read back if unchanged, else solved, packed and saved.
+[[nodiscard]] MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
+                                        const std::vector<std::string>& rings, const RunOptions& options);
+
+// 5. Dynamics of one ring on its tables: read back if unchanged, else simulated and saved.
+[[nodiscard]] StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                             const MeshResult& sun_mesh, const MeshResult& ring_mesh,
+                                             const RunOptions& options);
+
+// 6. Report: OUT/report.html and OUT/summary.json (report.h, summary.h).
+
+/// All stages. Throws what the stages throw; what is finished by then stays on disk and is reused.
+RunResult run(const Scene& scene, const RunOptions& options);
+
+}  // namespace annulus::app

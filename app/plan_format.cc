@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/content_id.h"
+#include "app/plan.h"
+
+namespace annulus::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// printf pads bytes; this pads characters, so that "µm" and "kg m²" line up.
+std::string pad(const std::string& text, std::size_t width) {
+  std::size_t characters = 0;
+  for (const char c : text) characters += (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  return characters < width ? text + std::string(width - characters, ' ') : text;
+}
+
+std::string quantity_lines(const std::vector<Quantity>& quantities) {
+  std::string text;
+  for (const auto& q : quantities) text += "  " + pad(to_text(q.value, 8) + " " + q.unit, 26) + q.meaning + "\n";
+  return text;
+}
+
+std::string mesh_lines(const MeshModel& mesh) {
+  std::string text = fmt::format("  {}: {}\n    {}\n", mesh.label(), mesh.rung, mesh.reason);
+  if (!mesh.computed()) return text;
+  text += fmt::format("    {} positions per mesh cycle x {} ring position{} ({})\n", mesh.problem->phases,
+                      mesh.positions, mesh.positions == 1 ? "" : "s", mesh.repeats);
+  std::string loads;
+  for (const double load : mesh.problem->loads) loads += (loads.empty() ? "" : ", ") + to_text(load / 1e3, 5);
+  return text + "    loads " + loads + " kN\n";
+}
+
+Json value_json(const Value& value) {
+  if (const auto* v = std::get_if<long>(&value)) return *v;
+  if (const auto* v = std::get_if<double>(&value)) return std::isinf(*v) ? Json("inf") : Json(*v);
+  if (const auto* v = std::get_if<std::string>(&value)) return *v;
+  if (const auto* v = std::get_if<std::vector<double>>(&value)) return *v;
+  return nullptr;
+}
+
+Json quantities_json(const std::vector<Quantity>& quantities) {
+  Json json = Json::object();
+  for (const auto& q : quantities) json[q.key] = q.value;
+  return json;
+}
+
+}  // namespace
+
+std::string to_text(const Plan& plan) {
+  std::string text = plan.title + "\n\nInputs (origin: scene, default, derived; * assumed)\n";
+  std::string ring;
+  for (const auto& input : plan.inputs) {
+    if (!input.ring.empty() && input.ring != ring) text += "  ring '" + input.ring + "'\n";
+    ring = input.ring;
+    text += "  " + pad(input.key, 36) + pad(to_text(input.value) + " " + input.unit, 30) +
+            (input.assumed.empty() ? "  " : "* ") + to_text(input.origin);
+    if (input.origin != Origin::scene && !input.note.empty()) text += " (" + input.note + ")";
+    text += "\n";
+  }
+  text += "\nDerived\n" + quantity_lines(plan.quantities);
+  for (const auto& [name, quantities] : plan.rings) text += "  ring '" + name + "'\n" + quantity_lines(quantities);
+
+  text += "\nMeshes and bodies\n";
+  for (const auto& mesh : plan.meshes) text += mesh_lines(mesh);
+  text +=
+      fmt::format("  {} contact problems per level of resolution; time and memory are not predicted in this version\n",
+                  plan.contact_problems());
+
+  if (!plan.freedoms.empty()) text += "\nLumped model\n";
+  for (const auto& f : plan.freedoms)
+    text += fmt::format("  {} {} {}\n", f.kept ? "kept   " : "dropped", pad(f.name, 18), f.reason);
+
+  text += "\nRemarks\n";
+  for (const auto& remark : plan.remarks) text += "  " + remark + "\n";
+
+  std::string assumed, last;
+  for (const auto& input : plan.inputs) {
+    if (input.assumed.empty() || input.key + input.assumed == last) continue;
+    last = input.key + input.assumed;
+    if (assumed.find("  " + input.key + ": ") != std::string::npos) continue;  // the same for several rings
+    assumed += "  " + input.key + ": " + input.assumed + "\n";
+  }
+  if (!assumed.empty()) text += "\nAssumed inputs, and why\n" + assumed;
+  return text;
+}
+
+std::string to_json(const Plan& plan) {
+  Json json;
+  json["annulus_version"] = version();
+  json["title"] = plan.title;
+  for (const auto& input : plan.inputs) {
+    Json item = {{"key", input.key},
+                 {"value", value_json(input.value)},
+                 {"unit", input.unit},
+                 {"origin", to_text(input.origin)}};
+    if (!input.ring.empty()) item["ring"] = input.ring;
+    if (!input.assumed.empty()) item["assumed"] = input.assumed;
+    if (!input.note.empty() && input.origin != Origin::scene) item["note"] = input.note;
+    json["inputs"].push_back(std::move(item));
+  }
+  json["stage"] = quantities_json(plan.quantities);
+  for (const auto& [name, quantities] : plan.rings) json["rings"][name] = quantities_json(quantities);
+  for (const auto& mesh : plan.meshes) {
+    Json item = {{"mesh", mesh.mesh}, {"rung", mesh.rung}, {"reason", mesh.reason}};
+    if (!mesh.ring.empty()) item["ring"] = mesh.ring;
+    if (mesh.computed()) {
+      item["phases"] = mesh.problem->phases;
+      item["ring_positions"] = mesh.positions;
+      item["loads_N"] = mesh.problem->loads;
+    }
+    json["meshes"].push_back(std::move(item));
+  }
+  json["freedoms"] = Json::array();
+  for (const auto& f : plan.freedoms)
+    json["freedoms"].push_back({{"name", f.name}, {"kept", f.kept}, {"reason", f.reason}});
+  json["remarks"] = plan.remarks;
+  json["contact_problems"] = plan.contact_problems();
+  return json.dump(2) + "\n";
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "app/pipeline.h"
+
+namespace annulus::app {
+
+/// report.html: one self-contained page without external references.
+[[nodiscard]] std::string report_html(const RunResult& result);
+
+}  // namespace annulus::app

@@ -1,0 +1,160 @@
+#include "app/stage_response.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/content_id.h"
+#include "app/response_json.h"
+#include "dynamics/modes.h"
+
+namespace annulus::app {
+
+namespace {
+
+using Header = std::vector<std::pair<std::string, std::string>>;
+constexpr int waveform_cycles = 6;
+constexpr double highest_order = 8;  // multiples of the mesh frequency kept in the spectrum
+
+Csv time_series_table(const dynamics::TimeSeries& series) {
+  Csv csv;
+  csv.columns.emplace_back("time_s");
+  for (const auto& name : series.freedoms) csv.columns.push_back(name + "_m");
+  for (const auto& name : series.meshes) csv.columns.push_back(name + "_force_N");
+  csv.rows.reserve(static_cast<std::size_t>(series.time.size()));
+  for (Eigen::Index i = 0; i < series.time.size(); ++i) {
+    auto& row = csv.rows.emplace_back();
+    row.reserve(csv.columns.size());
+    row.push_back(series.time[i]);
+    row.insert(row.end(), series.displacement.col(i).begin(), series.displacement.col(i).end());
+    row.insert(row.end(), series.force.col(i).begin(), series.force.col(i).end());
+  }
+  return csv;
+}
+
+std::vector<std::string> columns(const std::string& first, const std::vector<std::string>& branches,
+                                 const std::vector<std::string>& suffixes) {
+  std::vector<std::string> names = {first};
+  for (const auto& branch : branches) {
+    for (const auto& suffix : suffixes) names.push_back(branch + suffix);
+  }
+  return names;
+}
+
+/// Branch factor N F / sum F, the sum over the branches of the same kind (sun meshes first, then ring meshes).
+Eigen::MatrixXd sharing(const Eigen::MatrixXd& force, Eigen::Index planets) {
+  Eigen::MatrixXd result(force.rows(), force.cols());
+  result.topRows(planets) = dynamics::load_sharing_over_time(force.topRows(planets));
+  result.bottomRows(planets) = dynamics::load_sharing_over_time(force.bottomRows(planets));
+  return result;
+}
+
+/// Mean over each mesh cycle; columns span whole cycles.
+Eigen::MatrixXd cycle_means(const Eigen::MatrixXd& values, int cycles) {
+  const Eigen::Index samples = values.cols() / cycles;
+  Eigen::MatrixXd means(values.rows(), cycles);
+  for (int c = 0; c < cycles; ++c) means.col(c) = values.middleCols(c * samples, samples).rowwise().mean();
+  return means;
+}
+
+void tabulate(StageResponse& result, const dynamics::DynamicResponse& response, int planets) {
+  const auto& series = response.series;
+  const int cycles = response.window_cycles;
+  const Eigen::Index samples = series.time.size() / cycles;
+  const Eigen::MatrixXd factor = series.force / response.mean_mesh_force;
+  const Eigen::MatrixXd momentary = sharing(series.force, planets);
+  const Eigen::MatrixXd averaged = sharing(cycle_means(series.force, cycles), planets);
+
+  result.load_sharing.columns = columns("mesh_cycle", series.meshes, {"_averaged", "_min", "_max"});
+  result.dynamic_factor.columns = columns("mesh_cycle", series.meshes, {"_min", "_max"});
+  for (int c = 0; c < cycles; ++c) {
+    const auto shares = momentary.middleCols(c * samples, samples);
+    const auto factors = factor.middleCols(c * samples, samples);
+    auto& sharing_row = result.load_sharing.rows.emplace_back(1, c);
+    auto& factor_row = result.dynamic_factor.rows.emplace_back(1, c);
+    for (Eigen::Index b = 0; b < factor.rows(); ++b) {
+      sharing_row.insert(sharing_row.end(), {averaged(b, c), shares.row(b).minCoeff(), shares.row(b).maxCoeff()});
+      factor_row.insert(factor_row.end(), {factors.row(b).minCoeff(), factors.row(b).maxCoeff()});
+    }
+  }
+
+  result.waveform.columns = columns("mesh_cycle", series.meshes, {""});
+  for (Eigen::Index i = 0; i < std::min(waveform_cycles, cycles) * samples; ++i) {
+    auto& row = result.waveform.rows.emplace_back(1, static_cast<double>(i) / static_cast<double>(samples));
+    row.insert(row.end(), factor.col(i).begin(), factor.col(i).end());
+  }
+
+  result.spectrum.columns = columns("frequency_Hz", series.meshes, {"_N"});
+  std::vector<dynamics::Spectrum> spectra;
+  for (Eigen::Index b = 0; b < factor.rows(); ++b) {
+    spectra.push_back(dynamics::spectrum(Eigen::VectorXd(series.force.row(b).transpose()), cycles));
+  }
+  for (Eigen::Index i = 0; i < spectra.front().order.size() && spectra.front().order[i] <= highest_order; ++i) {
+    auto& row = result.spectrum.rows.emplace_back(1, spectra.front().order[i] * response.mesh_frequency);
+    for (const auto& s : spectra) row.push_back(s.amplitude[i]);
+  }
+}
+
+void write(Csv csv, const Header& header, const std::filesystem::path& file) {
+  csv.header = header;
+  csv.write(file);
+}
+
+void save(const StageResponse& result, const std::string& id, const std::filesystem::path& folder) {
+  const Header header = {{"annulus_version", version()}, {"inputs_id", id}};
+  write(result.load_sharing, header, folder / "load_sharing.csv");
+  write(result.dynamic_factor, header, folder / "dynamic_factor.csv");
+  write(result.waveform, header, folder / "waveform.csv");
+  write(result.spectrum, header, folder / "spectrum.csv");
+  std::string modes;
+  for (const auto& [key, value] : header) modes += "# " + key + ": " + value + "\n";
+  modes += "index,frequency_Hz,kind\n";
+  for (std::size_t i = 0; i < result.modes.size(); ++i) {
+    modes += fmt::format("{},{:.17g},{}\n", i + 1, result.modes[i].frequency, result.modes[i].kind);
+  }
+  write_file(folder / "modes.csv", modes);
+  // Written last: its presence says that the others are complete.
+  write_file(folder / "figures.json", response_json(result, id));
+}
+
+}  // namespace
+
+StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage, const dynamics::SimulationOptions& options,
+                                const std::string& id, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  StageResponse result;
+  for (const auto& mode : dynamics::modes(stage).modes) {
+    result.modes.push_back({mode.frequency, dynamics::to_string(mode.kind)});
+  }
+  auto response = dynamics::simulate(stage, options);
+  tabulate(result, response, stage.planets());
+  write(time_series_table(response.series), {{"annulus_version", version()}, {"inputs_id", id}},
+        folder / "time_series.csv");
+  response.series = {};
+  result.figures = std::move(response);
+  save(result, id, folder);
+  return result;
+}
+
+std::optional<StageResponse> load_response(const std::string& id, const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / "figures.json")) return std::nullopt;
+  try {
+    auto result = parse_response_json(folder / "figures.json", id);
+    if (!result || !std::filesystem::exists(folder / "time_series.csv")) return std::nullopt;
+    const auto read = [&](const char* name) {
+      Csv csv = Csv::read(folder / name);
+      if (csv.header.size() < 2 || csv.header[1].second != id) throw InputError("another run's file");
+      return csv;
+    };
+    result->load_sharing = read("load_sharing.csv");
+    result->dynamic_factor = read("dynamic_factor.csv");
+    result->waveform = read("waveform.csv");
+    result->spectrum = read("spectrum.csv");
+    result->reused = true;
+    return result;
+  } catch (const std::exception&) {
+    return std::nullopt;  // damaged or from another run: simulated again and overwritten
+  }
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/gear_geometry.h"
+#include "app/mesh_result.h"
+#include "app/scene.h"
+#include "core/csv.h"
+#include "dynamics/response.h"
+
+namespace annulus::app {
+
+/// The lumped model's answer for one ring, and what is kept of it in OUT/<ring>/dynamics.
+struct StageResponse {
+  struct Mode {
+    double frequency = 0;  ///< Hz
+    std::string kind;
+  };
+  dynamics::DynamicResponse figures;  ///< all but the time series
+  std::vector<Mode> modes;
+  Csv load_sharing;    ///< per mesh cycle: N F / sum F of every branch, forces averaged over the cycle
+  Csv dynamic_factor;  ///< per mesh cycle: smallest and largest F / mean mesh force of every branch
+  Csv waveform;        ///< F / mean mesh force of every branch over the first mesh cycles of the window
+  Csv spectrum;        ///< force amplitude of every branch over frequency
+  bool reused = false;
+};
+
+/// The stage of one ring as lumped masses: the scene, its kinematics and its mesh stiffnesses put together.
+[[nodiscard]] dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                                  const MeshResult& sun_mesh, const MeshResult& ring_mesh);
+[[nodiscard]] dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamics::PlanetaryStage& stage);
+
+/// Identity of everything the response depends on.
+[[nodiscard]] std::string response_id(const dynamics::PlanetaryStage& stage, const dynamics::SimulationOptions& options,
+                                      const MeshResult& sun_mesh, const MeshResult& ring_mesh);
+
+/// Simulates, writes all files of `folder` (OUT/<ring>/dynamics) including the time series, and returns what is kept.
+[[nodiscard]] StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage,
+                                              const dynamics::SimulationOptions& options, const std::string& id,
+                                              const std::filesystem::path& folder);
+/// The response kept in `folder`, if its inputs are those of `id`.
+[[nodiscard]] std::optional<StageResponse> load_response(const std::string& id, const std::filesystem::path& folder);
+
+}  // namespace annulus::app

@@ -1,0 +1,273 @@
+#include "app/svg_plot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace annulus::app {
+
+const char* palette(std::size_t index) {
+  static constexpr const char* colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                            "#E69F00", "#56B4E9", "#444444"};
+  return colours[index % std::size(colours)];
+}
+
+std::string escape(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::vector<double> nice_ticks(double low, double high, int count) {
+  if (!(high > low) || count < 1) return {low};
+  const double raw = (high - low) / count;
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  double step = 10 * power;
+  for (const double candidate : {1.0, 2.0, 5.0}) {
+    if (candidate * power >= raw * 0.999) {
+      step = candidate * power;
+      break;
+    }
+  }
+  std::vector<double> ticks;
+  // Multiples of the step, so that rounding does not add up; the slack admits an end that is off by an ulp.
+  for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
+    ticks.push_back(i == 0 ? 0.0 : i * step);
+  return ticks;
+}
+
+std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
+  std::vector<std::string> labels;
+  const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
+  const double largest = std::max(std::abs(ticks.front()), std::abs(ticks.back()));
+  const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-6)), 0, 12);
+  for (const double t : ticks) {
+    labels.push_back(largest >= 1e6 || step < 1e-5 ? fmt::format("{:.3g}", t) : fmt::format("{:.{}f}", t, decimals));
+  }
+  return labels;
+}
+
+void RangeFinder::add(double value) {
+  if (!std::isfinite(value)) return;
+  low_ = any_ ? std::min(low_, value) : value;
+  high_ = any_ ? std::max(high_, value) : value;
+  any_ = true;
+}
+
+void RangeFinder::add(const std::vector<double>& values) {
+  for (const double v : values) add(v);
+}
+
+Range RangeFinder::range(double margin) const {
+  if (!any_) return {0, 1};
+  const double span = high_ - low_;
+  if (span <= 1e-12 * std::max(std::abs(low_), std::abs(high_))) {
+    const double around = low_ == 0 ? 1 : 0.1 * std::abs(low_);
+    return {low_ - around, high_ + around};
+  }
+  return {low_ - margin * span, high_ + margin * span};
+}
+
+namespace {
+
+/// Page coordinates of the data rectangle.
+struct Frame {
+  double left, right, top, bottom;
+  Range x, y;
+  [[nodiscard]] double at_x(double v) const { return left + (v - x.low) / (x.high - x.low) * (right - left); }
+  [[nodiscard]] double at_y(double v) const { return bottom - (v - y.low) / (y.high - y.low) * (bottom - top); }
+};
+
+/// Keeps first, smallest, largest and last value of every pixel column of a long ascending series.
+std::vector<std::size_t> visible_points(const Frame& frame, const std::vector<double>& x,
+                                        const std::vector<double>& y) {
+  std::vector<std::size_t> kept;
+  const auto columns = static_cast<std::size_t>(frame.right - frame.left);
+  if (x.size() <= 4 * columns || !std::is_sorted(x.begin(), x.end())) {
+    for (std::size_t i = 0; i < x.size(); ++i) kept.push_back(i);
+    return kept;
+  }
+  for (std::size_t begin = 0; begin < x.size();) {
+    const double column = std::floor(frame.at_x(x[begin]));
+    std::size_t end = begin, low = begin, high = begin;
+    for (; end < x.size() && std::floor(frame.at_x(x[end])) == column; ++end) {
+      if (y[end] < y[low]) low = end;
+      if (y[end] > y[high]) high = end;
+    }
+    std::vector<std::size_t> column_points = {begin, low, high, end - 1};
+    std::sort(column_points.begin(), column_points.end());
+    column_points.erase(std::unique(column_points.begin(), column_points.end()), column_points.end());
+    kept.insert(kept.end(), column_points.begin(), column_points.end());
+    begin = end;
+  }
+  return kept;
+}
+
+std::string path(const Frame& frame, const std::vector<double>& x, const std::vector<double>& y) {
+  std::string d;
+  bool pen_down = false;
+  for (const std::size_t i : visible_points(frame, x, y)) {
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i])) {
+      pen_down = false;
+      continue;
+    }
+    d += fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", frame.at_x(x[i]), frame.at_y(y[i]));
+    pen_down = true;
+  }
+  return d;
+}
+
+std::string band(const Frame& frame, const Series& s) {
+  std::vector<double> x = s.x, y = s.high;
+  std::string points;
+  for (const std::size_t i : visible_points(frame, s.x, s.high))
+    points += fmt::format("{:.1f},{:.1f} ", frame.at_x(s.x[i]), frame.at_y(s.high[i]));
+  auto lower = visible_points(frame, s.x, s.low);
+  for (auto i = lower.rbegin(); i != lower.rend(); ++i)
+    points += fmt::format("{:.1f},{:.1f} ", frame.at_x(s.x[*i]), frame.at_y(s.low[*i]));
+  return fmt::format("<polygon points=\"{}\" fill=\"{}\" fill-opacity=\"0.16\" stroke=\"none\"/>", points,
+                     palette(s.colour));
+}
+
+std::string draw(const Frame& frame, const Series& s) {
+  std::string svg = "<g><title>" + escape(s.label) + "</title>";
+  const char* colour = palette(s.colour);
+  if (!s.low.empty() && s.low.size() == s.x.size() && s.high.size() == s.x.size()) svg += band(frame, s);
+  switch (s.style) {
+    case Series::Style::line:
+      svg +=
+          fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{}/>",
+                      path(frame, s.x, s.y), colour, s.dashed ? " stroke-dasharray=\"5 3\"" : "");
+      break;
+    case Series::Style::dots:
+      for (std::size_t i = 0; i < s.x.size(); ++i) {
+        if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
+        svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\" fill=\"{}\"/>", frame.at_x(s.x[i]),
+                           frame.at_y(s.y[i]), colour);
+      }
+      break;
+    case Series::Style::bars: {
+      std::string d;
+      const double base = std::clamp(frame.at_y(0), frame.top, frame.bottom);
+      for (std::size_t i = 0; i < s.x.size(); ++i) {
+        const double top = frame.at_y(s.y[i]);
+        // A line no higher than half a pixel would only make the file larger.
+        if (std::isfinite(top) && std::abs(top - base) > 0.5)
+          d += fmt::format("M{:.1f} {:.1f}V{:.1f}", frame.at_x(s.x[i]), base, top);
+      }
+      svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"/>", d, colour);
+      break;
+    }
+  }
+  return svg + "</g>";
+}
+
+std::string axes(const Frame& frame, const Plot& plot) {
+  std::string svg;
+  const auto x_ticks = nice_ticks(frame.x.low, frame.x.high, static_cast<int>((frame.right - frame.left) / 60));
+  const auto y_ticks = nice_ticks(frame.y.low, frame.y.high, static_cast<int>((frame.bottom - frame.top) / 38));
+  const auto x_labels = tick_labels(x_ticks), y_labels = tick_labels(y_ticks);
+  for (std::size_t i = 0; i < y_ticks.size(); ++i) {
+    const double y = frame.at_y(y_ticks[i]);
+    svg += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\" stroke=\"#e4e4e4\"/>", frame.left, y, frame.right);
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", frame.left - 6, y + 3.5,
+                       y_labels[i]);
+  }
+  for (std::size_t i = 0; i < x_ticks.size(); ++i) {
+    const double x = frame.at_x(x_ticks[i]);
+    svg += fmt::format("<path d=\"M{:.1f} {:.1f}v4\" stroke=\"#888\"/>", x, frame.bottom);
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>", x, frame.bottom + 16,
+                       x_labels[i]);
+  }
+  svg += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\" fill=\"none\" stroke=\"#888\"/>", frame.left, frame.top,
+                     frame.bottom, frame.right);
+  svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>", (frame.left + frame.right) / 2,
+                     plot.height - 6, escape(plot.x_label));
+  svg += fmt::format("<text transform=\"translate(13 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+                     (frame.top + frame.bottom) / 2, escape(plot.y_label));
+  return svg;
+}
+
+std::string legend(const Frame& frame, const Plot& plot) {
+  std::string svg;
+  double x = frame.left;
+  for (const auto& s : plot.series) {
+    if (s.label.empty()) continue;
+    svg += fmt::format("<path d=\"M{:.1f} {:.1f}h14\" stroke=\"{}\" stroke-width=\"2.5\"{}/>", x, frame.top - 9,
+                       palette(s.colour), s.dashed ? " stroke-dasharray=\"5 3\"" : "");
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 18, frame.top - 5.5, escape(s.label));
+    x += 30 + 6.2 * static_cast<double>(s.label.size());
+  }
+  return svg;
+}
+
+Frame frame_of(const Plot& plot) {
+  RangeFinder x, y;
+  for (const auto& s : plot.series) {
+    x.add(s.x);
+    y.add(s.y);
+    y.add(s.low);
+    y.add(s.high);
+    if (s.style == Series::Style::bars) y.add(0);
+  }
+  for (const auto& [value, label] : plot.levels) y.add(value);
+  const double top = (plot.title.empty() ? 10 : 26) + (plot.legend ? 18 : 0);
+  return {62,
+          plot.width - 12.0,
+          top,
+          plot.height - 42.0,
+          plot.x_range.value_or(x.range(0)),
+          plot.y_range.value_or(y.range())};
+}
+
+}  // namespace
+
+std::string to_svg(const Plot& plot) {
+  const Frame frame = frame_of(plot);
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" "
+      "font-family=\"system-ui, "
+      "sans-serif\" font-size=\"11\" fill=\"#333\">",
+      plot.width, plot.height, escape(plot.title));
+  if (!plot.title.empty())
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"15\" font-size=\"13\" font-weight=\"600\">{}</text>", frame.left,
+                       escape(plot.title));
+  svg += axes(frame, plot);
+  if (plot.legend) svg += legend(frame, plot);
+  // A nested <svg> clips what it shows, without an identifier that would have to be unique within the page.
+  const double left = frame.left - 2, top = frame.top - 2, w = frame.right - frame.left + 4,
+               h = frame.bottom - frame.top + 4;
+  svg += fmt::format(
+      "<svg x=\"{0:.1f}\" y=\"{1:.1f}\" width=\"{2:.1f}\" height=\"{3:.1f}\" viewBox=\"{0:.1f} {1:.1f} {2:.1f} "
+      "{3:.1f}\">",
+      left, top, w, h);
+  for (const auto& [value, label] : plot.levels) {
+    svg += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\" stroke=\"#777\" stroke-dasharray=\"2 3\"/>", frame.left,
+                       frame.at_y(value), frame.right);
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\" fill=\"#666\">{}</text>", frame.right - 3,
+                       frame.at_y(value) - 4, escape(label));
+  }
+  for (const auto& s : plot.series) svg += draw(frame, s);
+  return svg + "</svg></svg>";
+}
+
+}  // namespace annulus::app
