@@ -85,10 +85,17 @@ class Run {
     statistics_.stiffness_restarts += s.stiffness_restarts;
   }
 
+  /// Energy at the end of what has been integrated, a stiffness jump at this very instant not yet done.
   [[nodiscard]] double energy() {
     Eigen::VectorXd y(2 * system_.freedoms());
     y << state_.q, state_.v;
     return system_.energy(state_.time, y.data(), workspace_);
+  }
+
+  /// Does a stiffness jump at this very instant: whole mesh cycles are where waves jump.
+  void pass_jump() {
+    const double next = system_.next_jump(state_.time);
+    if (std::isfinite(next)) system_.hold_waves((state_.time + next) / 2, workspace_);
   }
 
   void loosen(double factor) {
@@ -277,6 +284,7 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
   }
 
   const SystemState begin = run.state();
+  run.pass_jump();
   const double energy_before = run.energy();
   Run loose_run = run;
   run.advance(cycles, &window, true);

@@ -42,7 +42,7 @@ struct TimeSeries {
 
 /// One branch of the power flow: the mesh of one planet with sun or ring.
 struct BranchResult {
-  Figure dynamic_factor_max;      ///< max F / mean mesh force over the window
+  Figure dynamic_factor_max;      ///< max F / mean mesh force over the window (peaks refined between the samples)
   double dynamic_factor_min = 0;  ///< min F / mean mesh force
   double mean_force = 0;          ///< N
   double contact_loss = 0;        ///< fraction of the time without contact
@@ -73,15 +73,18 @@ struct DynamicResponse {
   MeshKindResult sun_planet, ring_planet;
   EnergyBalance energy;
   /// Momentum balance of the sun's rotation over the window, relative to T_s: mean of sum F_sn r_bs (and of its
-  /// torsional support, and the change of angular momentum) against T_s.
+  /// torsional support, and the change of angular momentum) against T_s. The mean is taken over the samples: with jumps
+  /// of the stiffness it is exact to jumps / samples only.
   double force_balance_relative = 0;
   IntegratorStatistics statistics;
   TimeSeries series;
 };
 
 /// Time response of the stage, from its quasi-static state at time 0 to the periodic steady state, and its figures.
-/// Throws InputError when the stage or the options are not usable (no speed, no torque, an unbalanced load: nothing
-/// holds the ring), SolverError when the integrator fails.
+/// The error of a figure adds up what the sampling misses, the change from the window before and, with
+/// `estimate_error`, the change under a looser integration. An infinite load sharing means instants at which the stage
+/// carries no load. Throws InputError when the stage or the options are not usable (no speed, no torque, an unbalanced
+/// load: nothing holds the ring), SolverError when the integrator fails.
 [[nodiscard]] DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& options = {});
 
 }  // namespace annulus::dynamics

@@ -216,6 +216,24 @@ BOOST_AUTO_TEST_CASE(mesh_damping_follows_its_formula) {
   BOOST_TEST(std::abs(assemble(stage).meshes()[9].damping / alone - 1) <= 1e-14);
 }
 
+BOOST_AUTO_TEST_CASE(supports_and_bearings_are_damped_by_their_ratio) {
+  const auto stage = stages::ring_paper();
+  const auto system = assemble(stage);
+  const auto diagonal = [&](const std::string& name) {
+    const int i = system.find(name);
+    return system.damping()(i, i);
+  };
+  BOOST_TEST(std::abs(diagonal("sun_x") / (2 * 0.03 * std::sqrt(1e7 * 66)) - 1) <= 1e-14);
+  BOOST_TEST(std::abs(diagonal("planet3_y") / (2 * 0.03 * std::sqrt(1e9 * 8.51)) - 1) <= 1e-14);
+  BOOST_TEST(diagonal("sun_u") == 0.0);
+  const double ring_mass = stage.ring.inertia / std::pow(stage.ring.radius, 2);
+  BOOST_TEST(std::abs(diagonal("ring_u") / (2 * 0.03 * std::sqrt(1e10 * ring_mass)) - 1) <= 1e-14);
+  // The dampers to the housing couple x and y through the speed, the planet bearings do not.
+  const int x = system.find("sun_x"), y = system.find("sun_y");
+  BOOST_TEST(std::abs(system.rotating_stiffness()(x, y) + stage.carrier_speed * diagonal("sun_x")) <= 1e-9);
+  BOOST_TEST(system.rotating_stiffness()(system.find("planet1_x"), system.find("planet1_y")) == 0.0);
+}
+
 BOOST_AUTO_TEST_CASE(rigid_supports_drop_their_freedoms) {
   auto stage = stages::ring_paper();
   BOOST_TEST(assemble(stage).freedoms() == 9 + 15);
