@@ -148,6 +148,7 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   std::vector<double> ring_angles;
   std::vector<StiffnessEntry> entries;
   for (std::size_t i = 0; i < table_size; ++i) entries.push_back(positions[i].entry);
+  ring_angles.reserve(cycles);
   for (int c = 0; c < cycles; ++c)
     ring_angles.push_back(positions[static_cast<std::size_t>(c) * problem.phases * loads].ring_angle);
   double closure = 0;

@@ -37,7 +37,7 @@ std::vector<Eigen::VectorXcd> rigid_motions(const CondensedSector& sector, int h
     add([&](const Eigen::Vector3d& p) { return cross(Eigen::Vector3cd(0, 0, 1), p); });
     if (dim == 3) add([](const Eigen::Vector3d&) { return Eigen::Vector3cd(0, 0, 1); });
   } else if (harmonic == 1) {
-    add([&](const Eigen::Vector3d&) { return axis; });
+    add([&](const Eigen::Vector3d&) -> const Eigen::Vector3cd& { return axis; });
     if (dim == 3) add([&](const Eigen::Vector3d& p) { return cross(axis, p); });
   }
   // Orthonormal, so that one stiffness serves all.
