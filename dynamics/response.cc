@@ -309,7 +309,7 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
                              (end.dissipated + std::max(std::abs(energy_before), std::abs(energy_after)));
   response.force_balance_relative = force_balance(stage, run.system(), window, begin, end);
 
-  const QuasiStatic path = quasi_static(stage, 16, options.max_window_cycles);
+  const QuasiStatic path = quasi_static(stage, options.samples_per_cycle, options.max_window_cycles);
   const Evidence evidence{window, compared ? before : window, options.estimate_error ? loose : window,
                           options.samples_per_cycle, response.mean_mesh_force};
   const Eigen::Index n = stage.planets();
