@@ -146,7 +146,19 @@ HalfTooth add_half(const Gear& gear, const SectorResolution& n, bool leading, in
   return s;
 }
 
-ToothLines add_tooth(const Gear& gear, const SectorResolution& n, BlockBuilder& b) {
+/// Radii at which rows of rim blocks end, from the root to the support.
+std::vector<double> row_radii(const Gear& gear, const Rim& rim) {
+  const double sign = sign_of(gear);
+  std::vector<double> radii = rim.circles;
+  radii.push_back(rim.support_radius);
+  std::ranges::sort(radii, [&](double p, double q) { return sign * p > sign * q; });
+  const auto same = [&](double p, double q) { return std::abs(p - q) < 1e-9 * gear.parameters().module; };
+  const auto rest = std::ranges::unique(radii, same);
+  radii.erase(rest.begin(), rest.end());
+  return radii;
+}
+
+ToothLines add_tooth(const Gear& gear, const Rim& rim, const SectorResolution& n, BlockBuilder& b) {
   const ToothProfile profile(gear);
   const double bump = bump_coefficient(n.flank_layer);
   const double sign = sign_of(gear);
@@ -156,12 +168,13 @@ ToothLines add_tooth(const Gear& gear, const SectorResolution& n, BlockBuilder& 
   lines.leading = add_half(gear, n, true, lines.centre, b);
 
   // The dipping line: at the middle of a fillet a straight angle is shared by tooth, lower fillet and rim, so the line
-  // leaves the fillet at 60 degrees as far as its dip stays flat.
+  // leaves the fillet at 60 degrees as far as its dip stays flat and leaves room for the first row of the rim.
   const Eigen::Vector2d middle = profile.fillet_point(0.5);
   const Eigen::Vector2d upwards = -profile.fillet_tangent(0.5);
   const double half_width = middle.y();
   const double dip_angle = std::atan2(sign * upwards.x(), upwards.y()) + std::numbers::pi / 3 - std::numbers::pi;
-  const double slope = std::tan(std::clamp(dip_angle, 0.0, 35 * units::deg));
+  const double room = sign * (middle.x() - row_radii(gear, rim).front());
+  const double slope = std::min(std::tan(std::clamp(dip_angle, 0.0, 35 * units::deg)), 0.8 * room / half_width);
   std::vector<Eigen::Vector2d> dip;
   constexpr int dip_points = 16;
   for (int i = 1; i < dip_points; ++i) {
@@ -175,18 +188,6 @@ ToothLines add_tooth(const Gear& gear, const SectorResolution& n, BlockBuilder& 
   b.block({crest, high.flank, high.upper_fillet, -lines.bottom, -low.upper_fillet, -low.flank},
           {low.tip, high.tip, high.middle, low.middle}, Mesh::Region::tooth);
   return lines;
-}
-
-/// Radii at which rows of rim blocks end, from the root to the support.
-std::vector<double> row_radii(const Gear& gear, const Rim& rim) {
-  const double sign = sign_of(gear);
-  std::vector<double> radii = rim.circles;
-  radii.push_back(rim.support_radius);
-  std::ranges::sort(radii, [&](double p, double q) { return sign * p > sign * q; });
-  const auto same = [&](double p, double q) { return std::abs(p - q) < 1e-9 * gear.parameters().module; };
-  const auto rest = std::ranges::unique(radii, same);
-  radii.erase(rest.begin(), rest.end());
-  return radii;
 }
 
 void add_rim(const Gear& gear, const Rim& rim, const SectorResolution& n, const ToothLines& lines, BlockBuilder& b) {
@@ -250,7 +251,7 @@ void add_rim(const Gear& gear, const Rim& rim, const SectorResolution& n, const 
 
 SectorBlocks describe_sector(const Gear& gear, const Rim& rim, const SectorResolution& resolution) {
   BlockBuilder builder(gear.parameters().module);
-  const ToothLines lines = add_tooth(gear, resolution, builder);
+  const ToothLines lines = add_tooth(gear, rim, resolution, builder);
   add_rim(gear, rim, resolution, lines, builder);
   return builder.result();
 }

@@ -9,7 +9,7 @@ namespace annulus::geometry {
 /// The body under the teeth.
 struct Rim {
   double support_radius = 0;    ///< m: bore radius (external) or outside radius (internal)
-  std::vector<double> circles;  ///< m: radii inside the rim that have to be mesh lines (a sleeve's inside radius)
+  std::vector<double> circles{};  ///< m: radii inside the rim that have to be mesh lines (a sleeve's inside radius)
 };
 
 /// Cell counts of the structured tooth sector.

@@ -1,0 +1,201 @@
+#include "geometry/gear_pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gears.h"
+#include "geometry/profile.h"
+
+namespace annulus::geometry::test {
+
+BOOST_AUTO_TEST_SUITE(gear_pair)
+
+BOOST_AUTO_TEST_CASE(ring_paper_pairs) {
+  const GearPair sun(paper_planet(), paper_sun(), paper_centre_distance);
+  const GearPair ring(paper_planet(), paper_ring(), paper_centre_distance);
+  // Half of the last printed digit.
+  BOOST_TEST(std::abs(sun.working_pressure_angle() / units::deg - 25.905148) < 5e-7);
+  BOOST_TEST(std::abs(ring.working_pressure_angle() / units::deg - 20.860323) < 5e-7);
+  // The printed shifts leave about 0.3 um (four digits of x are worth 0.3 um each).
+  BOOST_TEST(sun.normal_backlash() > 0.2 * units::um);
+  BOOST_TEST(sun.normal_backlash() < 0.4 * units::um);
+  BOOST_TEST(ring.normal_backlash() > 0.2 * units::um);
+  BOOST_TEST(ring.normal_backlash() < 0.4 * units::um);
+}
+
+// Independent of the tooth thicknesses: normal backlash from the profile shifts and the involute function alone,
+// j = 2 r_b (...) in the form of ISO 21771: m cos(a) [ (z2 +- z1)(inv a_w - inv a) -+ 2 (x2 +- x1) tan a ].
+BOOST_AUTO_TEST_CASE(backlash_agrees_with_the_profile_shift_sum) {
+  const auto inv = [](double a) { return std::tan(a) - a; };
+  const double alpha = 20 * units::deg;
+  const double m = 2 * units::mm;
+  const GearPair external(Gear(plain_gear(GearKind::external, 24, 0.2)), Gear(plain_gear(GearKind::external, 31, 0.1)),
+                          55.8 * units::mm);
+  double expected =
+      m * std::cos(alpha) * (55 * (inv(external.working_pressure_angle()) - inv(alpha)) - 2 * 0.3 * std::tan(alpha));
+  BOOST_TEST(external.normal_backlash() == expected, boost::test_tools::tolerance(1e-10));  // cancellation of 1e-3 m
+  const GearPair internal(Gear(plain_gear(GearKind::external, 24, 0.1)), Gear(plain_gear(GearKind::internal, 75, 0.4)),
+                          51.3 * units::mm);
+  expected =
+      m * std::cos(alpha) * (2 * 0.3 * std::tan(alpha) - 51 * (inv(internal.working_pressure_angle()) - inv(alpha)));
+  BOOST_TEST(internal.normal_backlash() == expected, boost::test_tools::tolerance(1e-10));
+  BOOST_TEST(internal.normal_backlash() > 0);
+}
+
+BOOST_AUTO_TEST_CASE(path_of_contact) {
+  // Textbook: two equal standard gears, contact ratio 2 (sqrt(ra^2 - rb^2) - r sin a) / (pi m cos a).
+  const Gear g(plain_gear(GearKind::external, 40));
+  const GearPair pair(g, g, 80 * units::mm);
+  const double rb = 40 * std::cos(20 * units::deg);
+  const double expected =
+      2 * (std::sqrt(42.0 * 42.0 - rb * rb) - 40 * std::sin(20 * units::deg)) / (2 * std::numbers::pi * rb / 40);
+  BOOST_TEST(pair.contact_ratio() == expected, boost::test_tools::tolerance(1e-12));
+  // A point of contact is one point: both roll lengths give the same place on the line of centres and its distance.
+  for (const GearPair& mesh : {GearPair(paper_planet(), paper_sun(), paper_centre_distance),
+                               GearPair(paper_planet(), paper_ring(), paper_centre_distance)}) {
+    const double rho = mesh.roll_length_low() + 1 * units::mm;
+    const double aw = mesh.working_pressure_angle();
+    const double sign = mesh.internal() ? -1 : 1;
+    // Seen from the planet's centre: tangent point at the angle aw from the line of centres, contact along the line.
+    const double rp = mesh.planet().base_radius();
+    const Eigen::Vector2d contact(rp * std::cos(aw) + rho * std::sin(aw), rp * std::sin(aw) - rho * std::cos(aw));
+    const Eigen::Vector2d wheel_centre(sign * mesh.centre_distance(), 0);
+    const double wheel_radius = std::hypot(mesh.wheel().base_radius(), mesh.wheel_roll_length(rho));
+    BOOST_TEST((contact - wheel_centre).norm() == wheel_radius, boost::test_tools::tolerance(1e-12));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(impossible_pairs_are_refused_with_the_reason) {
+  const auto refuse = [](const GearParameters& p, const GearParameters& w, double a, const std::string& part) {
+    const Gear planet(p);
+    const Gear wheel(w);
+    check_refused([&] { (void)GearPair(planet, wheel, a); }, part);
+  };
+  auto planet = plain_gear(GearKind::external, 24, 0.2);
+  auto sun = plain_gear(GearKind::external, 31, 0.1);
+  BOOST_CHECK_NO_THROW(GearPair(Gear(planet), Gear(sun), 55.8 * units::mm));
+  refuse(planet, sun, 51 * units::mm, "no working pressure angle");
+  refuse(planet, sun, 55.3 * units::mm, "backlash");
+  refuse(planet, sun, 58.9 * units::mm, "contact ratio");
+  auto other = sun;
+  other.module = 2.1 * units::mm;
+  refuse(planet, other, 55.8 * units::mm, "modules");
+  // Shallow roots raise the form circles above the start of contact.
+  auto shallow = planet;
+  shallow.root_diameter = 45.0 * units::mm;
+  refuse(shallow, sun, 55.8 * units::mm, "touches the planet");
+  shallow = sun;
+  shallow.root_diameter = 58.8 * units::mm;
+  refuse(planet, shallow, 55.8 * units::mm, "touches the sun");
+
+  auto ring = plain_gear(GearKind::internal, 75, 0.4);
+  BOOST_CHECK_NO_THROW(GearPair(Gear(planet), Gear(ring), 51.2 * units::mm));
+  refuse(ring, planet, 51.2 * units::mm, "external");
+  refuse(plain_gear(GearKind::external, 80), ring, 51.2 * units::mm, "more teeth");
+  // The tip of a ring with few teeth reaches beyond the tangent point on the base circle of a small planet.
+  refuse(plain_gear(GearKind::external, 18), plain_gear(GearKind::internal, 50), 32 * units::mm,
+         "involute interference");
+}
+
+BOOST_AUTO_TEST_CASE(tips_of_internal_gears_with_few_teeth_difference_foul) {
+  // A well-known rule for 20 deg full-depth teeth: about ten teeth difference are needed.
+  const auto pair = [](int difference) {
+    auto planet = plain_gear(GearKind::external, 60, 0.0);
+    auto ring = plain_gear(GearKind::internal, 60 + difference, 0.0);
+    ring.tip_diameter = ring.module * (ring.teeth - 1.6);  // short: no contact below the planet's form circle
+    return GearPair(Gear(planet), Gear(ring), difference * units::mm);
+  };
+  BOOST_CHECK_NO_THROW(pair(12));
+  check_refused([&] { (void)pair(4); }, "foul");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(mating)
+
+/// Half the angle of material at a radius from the outline itself: involute, fillet (searched), nothing beyond the tip.
+double outline_half_angle(const ToothProfile& profile, double radius) {
+  const Gear& g = profile.gear();
+  const double sign = g.kind() == GearKind::external ? 1 : -1;
+  if (sign * (radius - g.tip_radius()) > 0) return 0;
+  if (sign * (radius - g.root_radius()) <= 0) return g.pitch_angle() / 2;
+  if (sign * (radius - g.form_radius()) >= 0) {
+    const Eigen::Vector2d p = profile.flank_point(profile.roll_length_at(radius));
+    return std::atan2(p.y(), p.x());
+  }
+  double low = 0;
+  double high = 1;
+  for (int i = 0; i < 60; ++i) {
+    const double t = 0.5 * (low + high);
+    (sign * (profile.fillet_point(t).norm() - radius) > 0 ? low : high) = t;
+  }
+  const Eigen::Vector2d p = profile.fillet_point(0.5 * (low + high));
+  return std::atan2(p.y(), p.x());
+}
+
+/// How deep a point lies inside a gear turned by `angle` about `centre`, measured along the circle; negative outside.
+double depth_inside(const ToothProfile& profile, const Eigen::Vector2d& centre, double angle,
+                    const Eigen::Vector2d& q) {
+  const Eigen::Vector2d d = q - centre;
+  const double pitch = profile.gear().pitch_angle();
+  const double from_tooth = std::remainder(std::atan2(d.y(), d.x()) - angle, pitch);
+  const double half = outline_half_angle(profile, d.norm());
+  return half == 0 ? -1 : (half - std::abs(from_tooth)) * d.norm();
+}
+
+// Turn a pair through one pitch with the drive flanks in contact: no point of the planet's outline enters the wheel,
+// and the drive flanks keep touching (the gap stays zero: involutes are conjugate).
+BOOST_AUTO_TEST_CASE(gears_turn_in_contact_without_overlap) {
+  struct Case {
+    Gear planet, wheel;
+    double a;
+  };
+  const std::vector<Case> cases{
+      {paper_planet(), paper_sun(), paper_centre_distance},
+      {paper_planet(), paper_ring(), paper_centre_distance},
+      {Gear(plain_gear(GearKind::external, 24, 0.2)), Gear(plain_gear(GearKind::external, 31, 0.1)), 55.8 * units::mm},
+      {Gear(plain_gear(GearKind::external, 24, 0.2)), Gear(plain_gear(GearKind::internal, 75, 0.4)), 51.2 * units::mm}};
+  for (const auto& [planet, wheel, a] : cases) {
+    const GearPair pair(planet, wheel, a);
+    const ToothProfile p(planet);
+    const ToothProfile w(wheel);
+    const double cosine = std::cos(pair.working_pressure_angle());
+    // Wheel at the origin, planet at (a, 0). The planet's leading flank stands at the pitch point; in the sun mesh it
+    // touches the sun's leading flank, in the ring mesh the trailing flank of the ring tooth ahead.
+    const double planet_start =
+        (pair.internal() ? 0 : std::numbers::pi) - planet.tooth_half_angle(planet.base_radius() / cosine);
+    const double wheel_half = wheel.tooth_half_angle(wheel.base_radius() / cosine);
+    const double wheel_start = pair.internal() ? wheel_half : -wheel_half;
+    const double wheel_turn = (pair.internal() ? 1.0 : -1.0) * planet.teeth() / wheel.teeth();
+    double deepest = -1;
+    for (int step = 0; step < 24; ++step) {
+      const double turn = planet.pitch_angle() * step / 24;
+      double deepest_here = -1;
+      for (int tooth = -4; tooth <= 4; ++tooth) {
+        const double angle = planet_start + turn + tooth * planet.pitch_angle();
+        const auto probe = [&](const Eigen::Vector2d& local) {
+          const double c = std::cos(angle);
+          const double s = std::sin(angle);
+          const Eigen::Vector2d q(a + c * local.x() - s * local.y(), s * local.x() + c * local.y());
+          deepest_here = std::max(deepest_here, depth_inside(w, {0, 0}, wheel_start + wheel_turn * turn, q));
+        };
+        for (int i = 0; i <= 200; ++i) {
+          const double roll = p.roll_length_form() + (p.roll_length_tip() - p.roll_length_form()) * i / 200;
+          for (const auto& local : {p.flank_point(roll), p.fillet_point(i / 200.0)}) {
+            probe(local);
+            probe({local.x(), -local.y()});
+          }
+        }
+      }
+      // Sampled at 0.05 modules: the chord of the curvature radii of some ten modules is below 1e-4 modules.
+      BOOST_TEST(deepest_here > -2e-4 * planet.parameters().module);
+      deepest = std::max(deepest, deepest_here);
+    }
+    BOOST_TEST(deepest < 1e-12);  // m, rounding of the angles times the radius
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace annulus::geometry::test

@@ -1,0 +1,235 @@
+#include "geometry/gear.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "gears.h"
+#include "geometry/profile.h"
+
+namespace annulus::geometry::test {
+
+BOOST_AUTO_TEST_SUITE(gear)
+
+BOOST_AUTO_TEST_CASE(base_tangent_lengths_of_a_published_pair) {
+  GearParameters p = plain_gear(GearKind::external, 21, 0.4380);
+  p.module = 1.75 * units::mm;
+  // Half of the last printed digit (0.05 um), and the printed x may be off by 5e-5: 2 * 5e-5 m sin(alpha) = 0.06 um.
+  const double printed = 0.11 * units::um;
+  BOOST_TEST(std::abs(Gear(p).base_tangent_length(3) - 13.9546 * units::mm) < printed);
+  p.teeth = 43;
+  p.profile_shift = 0.0426;
+  BOOST_TEST(std::abs(Gear(p).base_tangent_length(5) - 24.3530 * units::mm) < printed);
+}
+
+// Independent of the formula: W_k is the distance of two parallel tangents, that is the base tooth thickness (external)
+// or base space width (internal) and k - 1 base pitches.
+BOOST_AUTO_TEST_CASE(base_tangent_length_agrees_with_the_tooth_on_the_base_circle) {
+  for (const auto& [kind, teeth, x] : {std::tuple{GearKind::external, 55, 0.7361}, {GearKind::internal, 162, 0.1516}}) {
+    const Gear g(paper_gear(kind, teeth, x));
+    const double tooth = g.tooth_thickness(g.base_radius());
+    const double width = kind == GearKind::external ? tooth : g.base_pitch() - tooth;
+    BOOST_TEST(g.base_tangent_length(4) == width + 3 * g.base_pitch(),
+               boost::test_tools::tolerance(1e-13));  // rounding
+  }
+}
+
+BOOST_AUTO_TEST_CASE(derived_dimensions_follow_the_sign_rule) {
+  const double rounding = 1e-14;
+  const Gear external(plain_gear(GearKind::external, 30, 0.25));
+  BOOST_TEST(external.tip_radius() == 32.5 * units::mm, boost::test_tools::tolerance(rounding));
+  BOOST_TEST(external.root_radius() == 28.0 * units::mm, boost::test_tools::tolerance(rounding));
+  const Gear internal(plain_gear(GearKind::internal, 80, 0.25));
+  BOOST_TEST(internal.tip_radius() == 78.5 * units::mm, boost::test_tools::tolerance(rounding));
+  BOOST_TEST(internal.root_radius() == 83.0 * units::mm, boost::test_tools::tolerance(rounding));
+  // A positive shift makes the external tooth thicker and the internal one thinner by the same amount.
+  const double half_pitch = std::numbers::pi * units::mm;
+  const double gain = 2 * 0.25 * 2 * units::mm * std::tan(20 * units::deg);
+  BOOST_TEST(external.tooth_thickness(external.reference_radius()) == half_pitch + gain,
+             boost::test_tools::tolerance(rounding));
+  BOOST_TEST(internal.tooth_thickness(internal.reference_radius()) == half_pitch - gain,
+             boost::test_tools::tolerance(rounding));
+}
+
+BOOST_AUTO_TEST_CASE(inverse_involute_inverts) {
+  for (const double angle : {1e-4, 0.01, 0.3, 0.8, 1.2, 1.5}) {
+    // d angle = d inv / tan^2; inv itself is the difference tan - angle, which carries the rounding of tan.
+    const double error = 8e-16 * std::tan(angle) / std::pow(std::tan(angle), 2);
+    BOOST_TEST(std::abs(inverse_involute(involute(angle)) - angle) <= error + 4e-16 * angle);
+  }
+  BOOST_TEST(inverse_involute(0) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(impossible_gears_are_refused_with_the_reason) {
+  const auto refuse = [](const GearParameters& p, const std::string& part) {
+    check_refused([&] { (void)Gear(p); }, part);
+  };
+  auto p = plain_gear(GearKind::external, 14);
+  refuse(p, "undercut");
+  p.profile_shift = 0.3;
+  BOOST_CHECK_NO_THROW(Gear{p});
+  p.profile_shift = 1.0;
+  p.teeth = 9;
+  refuse(p, "pointed");
+  p = plain_gear(GearKind::internal, 24);
+  refuse(p, "base circle");
+  p = plain_gear(GearKind::external, 30);
+  p.root_diameter = 66 * units::mm;
+  refuse(p, "wrong side");
+  p = plain_gear(GearKind::external, 30);
+  p.root_diameter = 46 * units::mm;
+  refuse(p, "rack");
+  p = plain_gear(GearKind::internal, 80);
+  p.root_diameter = 176 * units::mm;
+  refuse(p, "no room");
+  p = plain_gear(GearKind::external, 30);
+  p.tip_diameter = 57 * units::mm;
+  refuse(p, "usable flank");
+  p = plain_gear(GearKind::external, 30);
+  p.tip_relief = 10 * units::um;
+  refuse(p, "tip relief length");
+  p.tip_relief_length = 30 * units::mm;
+  refuse(p, "longer than its flank");
+  p = plain_gear(GearKind::external, 30);
+  p.module = std::numeric_limits<double>::quiet_NaN();
+  refuse(p, "module");
+  p = plain_gear(GearKind::external, 30);
+  p.face_width = 0;
+  refuse(p, "face width");
+  p = plain_gear(GearKind::external, 4);
+  refuse(p, "teeth");
+}
+
+// The message of an undercut gear names the shift that cures it, and a little less does not.
+BOOST_AUTO_TEST_CASE(undercut_starts_at_the_limit_of_the_generating_rack) {
+  auto p = plain_gear(GearKind::external, 12);
+  // The straight rack flank ends at the depth 1.25 - x - rho (1 - sin a) modules and must stay above r sin^2 a.
+  const double sine = std::sin(p.pressure_angle);
+  const double limit = 1.25 - p.root_fillet_factor * (1 - sine) - p.teeth / 2.0 * sine * sine;
+  p.profile_shift = limit + 1e-6;
+  BOOST_CHECK_NO_THROW(Gear{p});
+  p.profile_shift = limit - 1e-6;
+  check_refused([&] { (void)Gear(p); }, "undercut");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(generation)
+
+/// The rounded tooth of the generating rack: every point within `radius` of a wedge with flat bottom. Rack coordinates:
+/// x along the pitch line from the tooth's centre, y outwards.
+struct RackTooth {
+  double radius, corner_x, corner_y, alpha;
+
+  RackTooth(const GearParameters& p, double pitch_radius, double root_radius)
+      : radius(p.root_fillet_factor * p.module),
+        corner_y(root_radius + radius - pitch_radius),
+        alpha(p.pressure_angle) {
+    // The flank of the wedge is the rack flank moved inwards by the radius; on the datum line the rack tooth is pi m
+    // / 2.
+    const double datum = p.profile_shift * p.module;
+    corner_x = std::numbers::pi * p.module / 4 - (datum - corner_y) * std::tan(alpha) - radius / std::cos(alpha);
+  }
+  /// Signed distance, negative inside the rack tooth (near its surface, outside of the wedge).
+  [[nodiscard]] double distance(double x, double y) const {
+    const double dx = std::abs(x) - corner_x;
+    const double dy = y - corner_y;
+    const double across = dx * std::cos(alpha) - dy * std::sin(alpha);
+    const double along = dx * std::sin(alpha) + dy * std::cos(alpha);
+    if (along > 0) return across - radius;
+    if (dx < 0) return -dy - radius;
+    return std::hypot(dx, dy) - radius;
+  }
+};
+
+/// Smallest distance between a gear point and the rack tooth while the rack rolls through.
+double generated_gap(const RackTooth& rack, double pitch_radius, const Eigen::Vector2d& p, double space_angle) {
+  const auto gap = [&](double phi) {
+    const double c = std::cos(space_angle + phi);
+    const double s = std::sin(space_angle + phi);
+    return rack.distance(-p.x() * s + p.y() * c + pitch_radius * phi, p.x() * c + p.y() * s - pitch_radius);
+  };
+  constexpr int samples = 4000;
+  constexpr double range = 0.6;  // rad: the rack tooth has left the gear on both sides
+  const double step = 2 * range / samples;
+  double best = 0;
+  double least = gap(0);
+  for (int i = 0; i <= samples; ++i) {
+    const double phi = -range + i * step;
+    if (gap(phi) < least) {
+      least = gap(phi);
+      best = phi;
+    }
+  }
+  double a = best - step;
+  double b = best + step;
+  for (int i = 0; i < 80; ++i) {  // ternary search in the bracket
+    const double l = a + (b - a) / 3;
+    const double r = b - (b - a) / 3;
+    (gap(l) < gap(r) ? b : a) = gap(l) < gap(r) ? r : l;
+  }
+  return std::min(least, gap(0.5 * (a + b)));
+}
+
+// Flank, fillet and root of an external gear are exactly what the rolling rack leaves: it touches every point and cuts
+// into none.
+BOOST_AUTO_TEST_CASE(external_outline_is_the_envelope_of_the_rack) {
+  for (const auto& [teeth, x] : {std::pair{19, 0.0}, {17, 0.6}, {40, -0.4}, {150, 0.9}}) {
+    const auto p = plain_gear(GearKind::external, teeth, x);
+    const Gear g(p);
+    const ToothProfile profile(g);
+    const RackTooth rack(p, g.reference_radius(), g.root_radius());
+    const double space = g.pitch_angle() / 2;
+    const double tolerance = 1e-9 * p.module;  // a minimum found by comparing values is flat to sqrt(eps)^2 * size
+    for (int i = 0; i <= 20; ++i) {
+      const double t = i / 20.0;
+      const double gap = generated_gap(rack, g.reference_radius(), profile.fillet_point(t), space);
+      BOOST_TEST(std::abs(gap) < tolerance, "fillet " << teeth << " " << x << " t " << t << " gap " << gap);
+      const double roll = profile.roll_length_form() + t * (profile.roll_length_tip() - profile.roll_length_form());
+      const double flank_gap = generated_gap(rack, g.reference_radius(), profile.flank_point(roll), space);
+      BOOST_TEST(std::abs(flank_gap) < tolerance, "flank " << teeth << " " << x << " t " << t << " gap " << flank_gap);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(internal_fillet_is_the_tangent_arc) {
+  const auto p = plain_gear(GearKind::internal, 80, 0.2);
+  const Gear g(p);
+  const ToothProfile profile(g);
+  // Curvature from three points of the arc: circumscribed circle.
+  const Eigen::Vector2d a = profile.fillet_point(0);
+  const Eigen::Vector2d b = profile.fillet_point(0.5);
+  const Eigen::Vector2d c = profile.fillet_point(1);
+  const double twice_area = std::abs((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x());
+  const double radius = (b - a).norm() * (c - b).norm() * (a - c).norm() / (2 * twice_area);
+  BOOST_TEST(radius == p.root_fillet_factor * p.module, boost::test_tools::tolerance(1e-11));  // differences of 1e-3
+}
+
+// Both kinds: the fillet starts on the involute with its tangent and ends on the root circle with its tangent.
+BOOST_AUTO_TEST_CASE(fillets_join_smoothly) {
+  auto full = plain_gear(GearKind::external, 30, 0.1);
+  full.root_fillet_factor = 2;  // limited to the full root rounding
+  auto full_internal = plain_gear(GearKind::internal, 80, 0.1);
+  full_internal.root_fillet_factor = 2;
+  for (const auto& p :
+       {plain_gear(GearKind::external, 25, 0.3), plain_gear(GearKind::internal, 60, -0.2), full, full_internal}) {
+    const Gear g(p);
+    const ToothProfile profile(g);
+    const double form = profile.roll_length_form();
+    const double rounding = 1e-13 * g.tip_radius();
+    BOOST_TEST((profile.fillet_point(0) - profile.flank_point(form)).norm() < rounding);
+    BOOST_TEST(std::abs(profile.fillet_tangent(0).dot(profile.flank_normal(form))) < 1e-12);
+    BOOST_TEST(std::abs(profile.fillet_point(1).norm() - g.root_radius()) < rounding);
+    BOOST_TEST(std::abs(profile.fillet_tangent(1).dot(profile.fillet_point(1).normalized())) < 1e-12);
+    BOOST_TEST(std::abs(g.form_radius() - profile.fillet_point(0).norm()) < rounding);
+    // Half the root land stays 0.02 modules wide on the rack, a little less on the smaller root circle.
+    const Eigen::Vector2d end = profile.fillet_point(1);
+    const double land = (g.pitch_angle() / 2 - std::atan2(end.y(), end.x())) * g.root_radius();
+    BOOST_TEST(land >= 0.018 * p.module);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace annulus::geometry::test

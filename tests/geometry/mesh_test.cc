@@ -1,0 +1,263 @@
+#include "geometry/mesh.h"
+
+#include <gmsh.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <random>
+#include <set>
+#include <sstream>
+
+#include "gears.h"
+#include "geometry/sector_mesh.h"
+
+namespace annulus::geometry::test {
+
+namespace {
+
+constexpr double outside_radius = 331.8 * units::mm;
+constexpr double sleeve_radius = 321.2 * units::mm;
+
+Mesh ring_sector() {
+  return make_sector_mesh(paper_ring(), {.support_radius = outside_radius, .circles = {sleeve_radius}},
+                          {.flank_cells = 6, .fillet_cells = 2, .thickness_cells = 4, .root_cells = 1, .rim_cells = 3});
+}
+
+/// Volume enclosed by the faces (divergence theorem, faces as two triangles): that of the cells when the faces close
+/// around them with the normals outwards. Exact where the faces are plane, as in an extruded body.
+double volume_by_faces(const Mesh& mesh) {
+  double volume = 0;
+  for (const auto& face : mesh.faces) {
+    const auto& v = face.vertices;
+    const auto& p = mesh.vertices[v[0]];
+    for (int i = 1; i < 3; ++i) volume += p.dot(mesh.vertices[v[i]].cross(mesh.vertices[v[i + 1]])) / 6;
+  }
+  return volume;
+}
+
+std::map<Boundary, int> count_faces(const Mesh& mesh) {
+  std::map<Boundary, int> count;
+  for (const auto& face : mesh.faces) ++count[face.boundary];
+  return count;
+}
+
+Mesh single_cell(const std::vector<Eigen::Vector3d>& vertices) {
+  Mesh mesh;
+  mesh.dimension = vertices.size() == 4 ? 2 : 3;
+  mesh.vertices = vertices;
+  mesh.cells = {{0, 1, 2, 3, 4, 5, 6, 7}};
+  mesh.regions = {Mesh::Region::rim};
+  return mesh;
+}
+
+struct TemporaryFolder {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("annulus_mesh_test_" + std::to_string(std::random_device{}()));
+  TemporaryFolder() { std::filesystem::create_directory(path); }
+  ~TemporaryFolder() { std::filesystem::remove_all(path); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(mesh)
+
+BOOST_AUTO_TEST_CASE(scaled_jacobian_and_measure_of_known_cells) {
+  const double rounding = 1e-14;
+  const auto close = boost::test_tools::tolerance(rounding);
+  const Mesh rectangle = single_cell({{0, 0, 0}, {3, 0, 0}, {3, 2, 0}, {0, 2, 0}});
+  BOOST_TEST(rectangle.worst_scaled_jacobian() == 1.0, close);
+  BOOST_TEST(rectangle.area_or_volume() == 6.0, close);
+  const Mesh rhombus = single_cell({{0, 0, 0}, {2, 0, 0}, {3, std::sqrt(3.0), 0}, {1, std::sqrt(3.0), 0}});
+  BOOST_TEST(rhombus.worst_scaled_jacobian() == std::sqrt(0.75), close);  // 60 degrees
+  const Mesh inverted = single_cell({{0, 0, 0}, {0, 2, 0}, {3, 2, 0}, {3, 0, 0}});
+  BOOST_TEST(inverted.worst_scaled_jacobian() == -1.0, close);
+  const Mesh box =
+      single_cell({{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 3}, {1, 0, 3}, {1, 2, 3}, {0, 2, 3}});
+  BOOST_TEST(box.worst_scaled_jacobian() == 1.0, close);
+  BOOST_TEST(box.area_or_volume() == 6.0, close);
+  const Mesh sheared =
+      single_cell({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 1}, {2, 0, 1}, {2, 1, 1}, {1, 1, 1}});
+  BOOST_TEST(sheared.worst_scaled_jacobian() == std::sqrt(0.5), close);  // 45 degrees
+  BOOST_TEST(sheared.area_or_volume() == 1.0, close);
+  // A frustum with bottom side 2, top side 1, height 1: (4 + 2 + 1) / 3.
+  const Mesh frustum = single_cell(
+      {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-.5, -.5, 1}, {.5, -.5, 1}, {.5, .5, 1}, {-.5, .5, 1}});
+  BOOST_TEST(frustum.area_or_volume() == 7.0 / 3, close);
+}
+
+BOOST_AUTO_TEST_CASE(repeated_sectors_share_their_sides) {
+  const Mesh sector = ring_sector();
+  const auto side = static_cast<std::size_t>(count_faces(sector)[Boundary::side_low]) + 1;  // vertices
+  for (const int count : {1, 2, 7, 162}) {
+    const Mesh part = repeat(sector, 162, count);
+    const std::size_t shared = count == 162 ? 162 : static_cast<std::size_t>(count) - 1;
+    BOOST_TEST(part.vertices.size() == count * sector.vertices.size() - shared * side);
+    BOOST_TEST(part.cells.size() == count * sector.cells.size());
+    BOOST_TEST(part.regions.size() == part.cells.size());
+    auto faces = count_faces(part);
+    BOOST_TEST(faces[Boundary::side_low] == (count == 162 ? 0 : static_cast<int>(side) - 1));
+    BOOST_TEST(faces[Boundary::side_high] == faces[Boundary::side_low]);
+    BOOST_TEST(faces[Boundary::leading_flank] == count * 6);
+    BOOST_TEST(part.area_or_volume() == count * sector.area_or_volume(),
+               boost::test_tools::tolerance(1e-12));  // rounding
+    BOOST_TEST(part.worst_scaled_jacobian() == sector.worst_scaled_jacobian(), boost::test_tools::tolerance(1e-9));
+    // Every edge belongs to two cells or is a boundary face: nothing is left unmerged.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    for (const auto& cell : part.cells) {
+      for (int i = 0; i < 4; ++i) ++edges[std::minmax({cell[i], cell[(i + 1) % 4]})];
+    }
+    const auto open = std::ranges::count_if(edges, [](const auto& e) { return e.second == 1; });
+    BOOST_TEST(open == static_cast<long>(part.faces.size()));
+  }
+  // Counter-clockwise: the second copy lies one pitch further.
+  const Mesh two = repeat(sector, 162, 2);
+  const auto& first = two.vertices[two.cells[0][0]];
+  const auto& second = two.vertices[two.cells[sector.cells.size()][0]];
+  const Eigen::Vector3d turned = Eigen::AngleAxisd(2 * std::numbers::pi / 162, Eigen::Vector3d::UnitZ()) * first;
+  BOOST_TEST((turned - second).norm() < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(extruded_prism) {
+  const Mesh sector = ring_sector();
+  const Mesh solid = extrude(sector, {{.z_low = 0, .z_high = 0.04, .cells = 3, .grading = 4}});
+  BOOST_TEST(solid.cells.size() == 3 * sector.cells.size());
+  BOOST_TEST(solid.vertices.size() == 4 * sector.vertices.size());
+  BOOST_TEST(solid.area_or_volume() == 0.04 * sector.area_or_volume(), boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(volume_by_faces(solid) == solid.area_or_volume(), boost::test_tools::tolerance(1e-9));  // r^2 z cancels
+  BOOST_TEST(solid.worst_scaled_jacobian() == sector.worst_scaled_jacobian(), boost::test_tools::tolerance(1e-9));
+  auto plane_faces = count_faces(sector);
+  auto faces = count_faces(solid);
+  BOOST_TEST(faces[Boundary::leading_flank] == 3 * plane_faces[Boundary::leading_flank]);
+  BOOST_TEST(faces[Boundary::side_low] == 3 * plane_faces[Boundary::side_low]);
+  BOOST_TEST(faces[Boundary::end_low] == static_cast<int>(sector.cells.size()));
+  BOOST_TEST(faces[Boundary::end_high] == static_cast<int>(sector.cells.size()));
+  BOOST_TEST(faces[Boundary::inner] == 0);
+  // Layers of 1, 2 and 4 sevenths.
+  std::set<double> levels;
+  for (const auto& v : solid.vertices) levels.insert(std::round(v.z() * 7 / 0.04 * 1e6) / 1e6);
+  BOOST_TEST((levels == std::set<double>{0, 1, 3, 7}));
+}
+
+BOOST_AUTO_TEST_CASE(sleeve_below_the_teeth) {
+  const Mesh sector = ring_sector();
+  double sleeve_area = 0;
+  std::size_t sleeve_cells = 0;
+  for (std::size_t c = 0; c < sector.cells.size(); ++c) {
+    Mesh one = sector;
+    one.cells = {sector.cells[c]};
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 4; ++i) centre += sector.vertices[sector.cells[c][i]] / 4;
+    if (centre.norm() < sleeve_radius) continue;
+    sleeve_area += one.area_or_volume();
+    ++sleeve_cells;
+  }
+  const Mesh solid = extrude(sector, {{.z_low = -0.018,
+                                       .z_high = 0,
+                                       .cells = 2,
+                                       .region = Mesh::Region::sleeve,
+                                       .toothed = false,
+                                       .radius_low = sleeve_radius},
+                                      {.z_low = 0, .z_high = 0.088, .cells = 4}});
+  BOOST_TEST(solid.cells.size() == 2 * sleeve_cells + 4 * sector.cells.size());
+  BOOST_TEST(solid.area_or_volume() == 0.018 * sleeve_area + 0.088 * sector.area_or_volume(),
+             boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(volume_by_faces(solid) == solid.area_or_volume(), boost::test_tools::tolerance(1e-9));
+  auto faces = count_faces(solid);
+  BOOST_TEST(faces[Boundary::end_low] == static_cast<int>(sleeve_cells));
+  BOOST_TEST(faces[Boundary::end_high] == static_cast<int>(sector.cells.size()));
+  const int across = 4 + 2 + 2;  // cells along the sleeve's inside: thickness, two half fillets, two root lands
+  BOOST_TEST(faces[Boundary::inner] == static_cast<int>(sector.cells.size() - sleeve_cells) + 2 * across);
+  for (const auto& face : solid.faces) {
+    if (face.boundary != Boundary::end_low) continue;
+    for (const auto v : face.vertices) BOOST_TEST(solid.vertices[v].z() == -0.018);
+  }
+  BOOST_TEST(std::ranges::count(solid.regions, Mesh::Region::sleeve) == static_cast<long>(2 * sleeve_cells));
+  BOOST_TEST(std::ranges::count(solid.regions, Mesh::Region::tooth) > 0);
+  // A solid sector repeats like a plane one.
+  const Mesh three = repeat(solid, 162, 3);
+  BOOST_TEST(three.area_or_volume() == 3 * solid.area_or_volume(), boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(volume_by_faces(three) == three.area_or_volume(), boost::test_tools::tolerance(1e-9));
+}
+
+BOOST_AUTO_TEST_CASE(written_msh_reads_back) {
+  const TemporaryFolder folder;
+  const Mesh plane = ring_sector();
+  for (const Mesh& written : {plane, extrude(plane, {{.z_low = 0, .z_high = 0.01, .cells = 2}})}) {
+    const auto file = folder.path / "sector.msh";
+    write_msh(written, file);
+    gmsh::open(file.string());
+    std::vector<std::size_t> tags;
+    std::vector<double> coordinates;
+    std::vector<double> parameters;
+    gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+    BOOST_TEST(tags.size() == written.vertices.size());
+    std::size_t cells = 0;
+    std::map<std::string, std::size_t> groups;
+    gmsh::vectorpair physical;
+    gmsh::model::getPhysicalGroups(physical);
+    for (const auto& [dimension, group] : physical) {
+      std::string name;
+      gmsh::model::getPhysicalName(dimension, group, name);
+      std::vector<int> entities;
+      gmsh::model::getEntitiesForPhysicalGroup(dimension, group, entities);
+      for (const int entity : entities) {
+        std::vector<int> types;
+        std::vector<std::vector<std::size_t>> elements;
+        std::vector<std::vector<std::size_t>> nodes;
+        gmsh::model::mesh::getElements(types, elements, nodes, dimension, entity);
+        for (const auto& e : elements) groups[name] += e.size();
+        if (dimension == written.dimension) {
+          for (const auto& e : elements) cells += e.size();
+        }
+      }
+    }
+    BOOST_TEST(cells == written.cells.size());
+    auto faces = count_faces(written);
+    BOOST_TEST(groups["leading_flank"] == static_cast<std::size_t>(faces[Boundary::leading_flank]));
+    BOOST_TEST(groups["support"] == static_cast<std::size_t>(faces[Boundary::support]));
+    BOOST_TEST(groups["tooth"] + groups["rim"] == cells);
+    // Extreme coordinates survive to the last digit but the rounding of the text form (17 digits).
+    double radius = 0;
+    for (std::size_t i = 0; i < tags.size(); ++i)
+      radius = std::max(radius, std::hypot(coordinates[3 * i], coordinates[3 * i + 1]));
+    BOOST_TEST(radius == outside_radius, boost::test_tools::tolerance(1e-14));
+    gmsh::model::remove();
+  }
+  BOOST_CHECK_THROW(write_msh(plane, folder.path / "missing" / "sector.msh"), Error);
+  int files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path)) ++files;
+  BOOST_TEST(files == 1);  // no temporary file is left behind
+}
+
+BOOST_AUTO_TEST_CASE(written_vtu_holds_the_cells) {
+  const TemporaryFolder folder;
+  const Mesh plane = ring_sector();
+  write_vtu(plane, folder.path / "sector.vtu");
+  std::ifstream in(folder.path / "sector.vtu");
+  std::stringstream text;
+  text << in.rdbuf();
+  const std::string s = text.str();
+  BOOST_TEST(s.find("NumberOfPoints=\"" + std::to_string(plane.vertices.size()) + "\" NumberOfCells=\"" +
+                    std::to_string(plane.cells.size()) + "\"") != std::string::npos);
+  const auto values = [&](const std::string& name) {
+    const auto begin = s.find('>', s.find("Name=\"" + name + "\"")) + 1;
+    std::istringstream data(s.substr(begin, s.find('<', begin) - begin));
+    std::vector<long> result;
+    for (long v = 0; data >> v;) result.push_back(v);
+    return result;
+  };
+  BOOST_TEST(values("connectivity").size() == 4 * plane.cells.size());
+  BOOST_TEST(values("offsets").back() == static_cast<long>(4 * plane.cells.size()));
+  BOOST_TEST(values("types").front() == 9);  // VTK_QUAD
+  BOOST_TEST(values("region").size() == plane.cells.size());
+  BOOST_TEST(values("region").front() == static_cast<long>(plane.regions.front()));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace annulus::geometry::test
