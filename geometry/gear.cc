@@ -59,8 +59,8 @@ void check_tip(const Gear& gear) {
                   2 * gear.tip_radius() / units::mm, 2 * gear.base_radius() / units::mm));
   const double thickness = gear.tooth_thickness(gear.tip_radius());
   require_gear(thickness >= min_tip_thickness * p.module, p,
-               fmt::format("has pointed teeth: {:.4f} mm thick at the tip, at least {} modules = {:.4f} mm are needed; "
-                           "reduce the profile shift or bring the tip diameter nearer to the root",
+               fmt::format("has pointed teeth: {:.4f} mm thick at the tip, at least {} modules = {:.4f} mm are "
+                           "needed; reduce the profile shift or bring the tip diameter nearer to the root",
                            thickness / units::mm, min_tip_thickness, min_tip_thickness * p.module / units::mm));
 }
 

@@ -44,8 +44,8 @@ double checked_working_angle(const Gear& planet, const Gear& wheel, double centr
       internal ? wheel.base_radius() - planet.base_radius() : wheel.base_radius() + planet.base_radius();
   if (!(centre_distance > base_distance)) {
     throw GeometryError(
-        fmt::format("{}: no working pressure angle exists at the centre distance {:.4f} mm; it has to be "
-                    "larger than {:.4f} mm (reference centre distance {:.4f} mm)",
+        fmt::format("{}: no working pressure angle exists at the centre distance {:.4f} mm; it has to be larger than "
+                    "{:.4f} mm (reference centre distance {:.4f} mm)",
                     name, centre_distance / units::mm, base_distance / units::mm,
                     base_distance / std::cos(p.pressure_angle) / units::mm));
   }
@@ -87,8 +87,8 @@ GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance
   if (internal()) check_internal_tips();
   if (contact_ratio() < 1) {
     throw GeometryError(
-        fmt::format("{} has a contact ratio of {:.4f}; at least 1 is needed: enlarge the tip diameters or "
-                    "reduce the working pressure angle ({:.4f} deg)",
+        fmt::format("{} has a contact ratio of {:.4f}; at least 1 is needed: enlarge the tip diameters or reduce the "
+                    "working pressure angle ({:.4f} deg)",
                     pair_name(planet_, wheel_), contact_ratio(), working_pressure_angle_ / units::deg));
   }
 }
@@ -124,9 +124,9 @@ void GearPair::check_tips() const {
   const double wheel_form = roll_at(wheel_, wheel_.form_radius());
   if (internal() ? wheel_roll > wheel_form : wheel_roll < wheel_form) {
     throw GeometryError(fmt::format(
-        "{}: tip interference: the tip of the planet touches the {} at roll length {:.4f} mm, its involute ends "
-        "at {:.4f} mm (form diameter {:.4f} mm); reduce the planet's tip diameter (now {:.4f} mm) or the root "
-        "fillet factor of the {}",
+        "{}: tip interference: the tip of the planet touches the {} at roll length {:.4f} mm, its involute ends at "
+        "{:.4f} mm (form diameter {:.4f} mm); reduce the planet's tip diameter (now {:.4f} mm) or the root fillet "
+        "factor of the {}",
         name, wheel_word, wheel_roll / units::mm, wheel_form / units::mm, 2 * wheel_.form_radius() / units::mm,
         2 * planet_.tip_radius() / units::mm, wheel_word));
   }
@@ -137,8 +137,8 @@ void GearPair::check_tips() const {
       internal() ? wheel_.tip_radius() - a - planet_.root_radius() : a - wheel_.tip_radius() - planet_.root_radius();
   if (std::min(at_wheel_root, at_planet_root) <= 0) {
     throw GeometryError(
-        fmt::format("{}: a tip runs into a root: clearance {:.4f} mm at the root of the {}, {:.4f} mm at the "
-                    "root of the planet; reduce the tip or root diameters",
+        fmt::format("{}: a tip runs into a root: clearance {:.4f} mm at the root of the {}, {:.4f} mm at the root of "
+                    "the planet; reduce the tip or root diameters",
                     name, at_wheel_root / units::mm, wheel_word, at_planet_root / units::mm));
   }
 }
@@ -163,8 +163,8 @@ void GearPair::check_internal_tips() const {
     const double ahead = ring_corner + (planet_angle + planet_corner) * ratio - ring_angle;
     if (ahead < 0) {
       throw GeometryError(
-          fmt::format("{}: the tips foul each other by {:.4f} mm where the planet's teeth leave the ring (too "
-                      "small a difference of teeth); reduce the planet's tip diameter or enlarge the ring's",
+          fmt::format("{}: the tips foul each other by {:.4f} mm where the planet's teeth leave the ring (too small a "
+                      "difference of teeth); reduce the planet's tip diameter or enlarge the ring's",
                       name, -ahead * wheel_.tip_radius() / units::mm));
     }
   }

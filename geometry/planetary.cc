@@ -30,8 +30,8 @@ PlanetarySet::PlanetarySet(const Gear& sun, const Gear& planet, const Gear& ring
   const int teeth = sun.teeth() + ring.teeth();
   if (teeth % planets != 0) {
     throw GeometryError(
-        fmt::format("assembly condition violated: (z_sun + z_ring) / planets = ({} + {}) / {} = {:.4f} has to "
-                    "be a whole number; change a tooth number or the number of planets",
+        fmt::format("assembly condition violated: (z_sun + z_ring) / planets = ({} + {}) / {} = {:.4f} has to be a "
+                    "whole number; change a tooth number or the number of planets",
                     sun.teeth(), ring.teeth(), planets, static_cast<double>(teeth) / planets));
   }
   if (planets > 1) {
@@ -39,8 +39,8 @@ PlanetarySet::PlanetarySet(const Gear& sun, const Gear& planet, const Gear& ring
     const double needed = planet_clearance * planet.parameters().module;
     if (gap < needed) {
       throw GeometryError(
-          fmt::format("neighbouring planets collide: their tip circles are {:.4f} mm apart, at least {} modules "
-                      "= {:.4f} mm are needed; use fewer planets or a smaller tip diameter (now {:.4f} mm)",
+          fmt::format("neighbouring planets collide: their tip circles are {:.4f} mm apart, at least {} modules = "
+                      "{:.4f} mm are needed; use fewer planets or a smaller tip diameter (now {:.4f} mm)",
                       gap / units::mm, planet_clearance, needed / units::mm, 2 * planet.tip_radius() / units::mm));
     }
   }

@@ -54,9 +54,9 @@ void RootFillet::generate(const Gear& gear) {
   radius_ = std::min(p.root_fillet_factor * m, (half_tip - min_root_land * m) / setback);
   if (radius_ < min_radius * m) {
     throw GeometryError(fmt::format(
-        "the root of the external gear with {} teeth cannot be generated: the rack tooth that cuts the root "
-        "diameter {:.4f} mm is {:.4f} mm wide at its tip; use a larger root diameter, a smaller pressure "
-        "angle or a root fillet factor of at least {}",
+        "the root of the external gear with {} teeth cannot be generated: the rack tooth that cuts the root diameter "
+        "{:.4f} mm is {:.4f} mm wide at its tip; use a larger root diameter, a smaller pressure angle or a root "
+        "fillet factor of at least {}",
         p.teeth, 2 * root_radius_ / units::mm, 2 * half_tip / units::mm, min_radius));
   }
   corner_x_ = half_tip - radius_ * setback;
@@ -74,8 +74,7 @@ void RootFillet::generate(const Gear& gear) {
   if (reference_radius_ * radius_ + (corner_depth_ / c + radius_) * corner_depth_ / (c * c) <= 0) {
     throw GeometryError(
         fmt::format("the root fillet of the external gear with {} teeth and profile shift {:.4f} cannot be generated; "
-                    "use a smaller "
-                    "profile shift or root diameter",
+                    "use a smaller profile shift or root diameter",
                     p.teeth, p.profile_shift));
   }
 }
@@ -98,8 +97,8 @@ void RootFillet::inscribe(const Gear& gear) {
   const double smallest = min_radius * m;
   if (radius_ < smallest || excess(smallest) > 0) {
     throw GeometryError(fmt::format(
-        "the space of the internal gear with {} teeth has no room for a root fillet of {} modules at the root diameter "
-        "{:.4f} mm; use a smaller root diameter or a fillet factor of at least {}",
+        "the space of the internal gear with {} teeth has no room for a root fillet of {} modules at the root "
+        "diameter {:.4f} mm; use a smaller root diameter or a fillet factor of at least {}",
         p.teeth, min_radius, 2 * root_radius_ / units::mm, min_radius));
   }
   if (excess(radius_) > 0) radius_ = bracketed_root(excess, smallest, radius_, excess(smallest), excess(radius_));

@@ -30,8 +30,7 @@ void check_rim(const Gear& gear, const Rim& rim, const SectorResolution& n) {
   if (rim.support_radius <= 0 || thickness < needed) {
     throw GeometryError(fmt::format(
         "the {} with {} teeth has no rim: its {} diameter {:.4f} mm leaves {:.4f} mm beyond the root diameter {:.4f} "
-        "mm, at "
-        "least {} modules = {:.4f} mm are needed; {} the {} diameter",
+        "mm, at least {} modules = {:.4f} mm are needed; {} the {} diameter",
         external ? "external gear" : "ring", gear.teeth(), external ? "bore" : "outside",
         2 * rim.support_radius / units::mm, thickness / units::mm, 2 * gear.root_radius() / units::mm,
         min_circle_distance, needed / units::mm, external ? "reduce" : "enlarge", external ? "bore" : "outside"));
@@ -40,9 +39,8 @@ void check_rim(const Gear& gear, const Rim& rim, const SectorResolution& n) {
     const double below_root = sign * (gear.root_radius() - circle);
     if (below_root < needed * (1 - 1e-9) || below_root >= thickness) {
       throw GeometryError(
-          fmt::format("the mesh circle with diameter {:.4f} mm does not lie in the rim between the diameters {:.4f} "
-                      "and {:.4f} mm (the "
-                      "root with {} modules of distance, and the {})",
+          fmt::format("the mesh circle (inside of a sleeve) with diameter {:.4f} mm does not lie in the rim between "
+                      "the diameters {:.4f} and {:.4f} mm (the root with {} modules of distance, and the {})",
                       2 * circle / units::mm, 2 * (gear.root_radius() - sign * needed) / units::mm,
                       2 * rim.support_radius / units::mm, min_circle_distance, external ? "bore" : "outside diameter"));
     }
@@ -172,8 +170,8 @@ Mesh make_sector_mesh(const Gear& gear, const Rim& rim, const SectorResolution& 
   const double worst = mesh.worst_scaled_jacobian();
   if (!(worst > 0)) {
     throw GeometryError(
-        fmt::format("the tooth sector of the gear with {} teeth cannot be meshed without inverted cells (worst "
-                    "scaled Jacobian {:.3f}); thicken the rim or change the root fillet",
+        fmt::format("the tooth sector of the gear with {} teeth cannot be meshed without inverted cells (worst scaled "
+                    "Jacobian {:.3f}); thicken the rim or change the root fillet",
                     gear.teeth(), worst));
   }
   return mesh;

@@ -8,7 +8,7 @@ namespace annulus::geometry {
 
 /// The body under the teeth.
 struct Rim {
-  double support_radius = 0;    ///< m: bore radius (external) or outside radius (internal)
+  double support_radius = 0;      ///< m: bore radius (external) or outside radius (internal)
   std::vector<double> circles{};  ///< m: radii inside the rim that have to be mesh lines (a sleeve's inside radius)
 };
 
@@ -25,7 +25,7 @@ struct SectorResolution {
 
 /// Distance that every mesh circle keeps from the root circle, modules: between them the rim's cells have to follow the
 /// root fillets.
-inline constexpr double min_circle_distance = 0.25;
+inline constexpr double min_circle_distance = 0.1;
 
 /// One tooth sector between the mid-space radial cuts, meshed by gmsh with structured quadrilaterals; the vertices of
 /// `side_low` and `side_high` match under rotation by one pitch. Regions: tooth (down to a line between the middles of
