@@ -14,7 +14,7 @@ namespace annulus::app {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t most_pairs(const fem::LoadedMeshResult& solved) {
   std::size_t pairs = 0;
@@ -57,7 +57,7 @@ Csv position_table(const fem::LoadedMeshResult& solved) {
                                p.max_penetration / units::um};
     for (std::size_t i = 0; i < pairs; ++i) {
       const bool there = i < p.pair_share.size() && i < p.pair_roll.size();
-      row.push_back(there ? p.pair_roll[i] / units::mm : nan);
+      row.push_back(there ? p.pair_roll[i] / units::mm : not_known);
       row.push_back(there ? p.pair_share[i] : 0);
     }
     csv.rows.push_back(std::move(row));
@@ -148,7 +148,7 @@ Estimate MeshResult::lte_peak_to_peak() const {
 
 double MeshResult::fact(const std::string& name) const {
   const auto found = facts.find(name);
-  return found == facts.end() ? nan : found->second;
+  return found == facts.end() ? not_known : found->second;
 }
 
 MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {

@@ -153,11 +153,14 @@ StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry,
 
 RunResult run(const Scene& scene, const RunOptions& options) {
   StageTimers timers;
+  std::optional<Reference> reference;
+  if (scene.reference) reference = read_reference(scene.file.parent_path() / *scene.reference);
   GearGeometry geometry = make_geometry(scene);
   Plan plan = make_plan(scene, geometry);
   auto sun_mesh = mesh_stiffness(scene, geometry, plan.meshes.front(), ring_names(scene), options);
   RunResult result{
       .scene = scene, .geometry = std::move(geometry), .plan = std::move(plan), .sun_mesh = std::move(sun_mesh)};
+  result.reference = std::move(reference);
   for (std::size_t i = 0; i < scene.rings.size(); ++i) {
     const auto& name = scene.rings[i].name;
     result.rings.push_back({name, mesh_stiffness(scene, result.geometry, result.plan.meshes[i + 1], {name}, options)});

@@ -9,6 +9,7 @@
 #include "app/gear_geometry.h"
 #include "app/mesh_result.h"
 #include "app/plan.h"
+#include "app/reference.h"
 #include "app/scene.h"
 #include "app/stage_response.h"
 
@@ -40,6 +41,7 @@ struct RunResult {
   Plan plan;
   MeshResult sun_mesh;  ///< solved once, the same for all rings
   std::vector<RingResult> rings{};
+  std::optional<Reference> reference{};                   ///< published results to compare with
   std::vector<std::pair<std::string, double>> timings{};  ///< wall seconds by stage, then "other" and "total"
   double peak_memory_MB = 0;
 };

@@ -97,6 +97,7 @@ struct Scene {
   std::string title;
   double accuracy = 0;
   Rung rung = Rung::automatic;
+  std::optional<std::string> reference;
   StageInput stage;
   MaterialInput material;
   HubGearInput sun, planet;

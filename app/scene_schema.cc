@@ -104,6 +104,8 @@ std::vector<Table> declare_tables() {
               {"resolved", Rung::resolved}},
              "Kind of model of the elastic bodies.")
       .fallback(std::string("automatic"), "the cheapest that the ring structure permits");
+  top.key("reference", &Scene::reference, "File of published values to compare with, relative to the scene.")
+      .absent("no comparison");
   tables.push_back(top.done());
 
   Declarations<StageInput> stage("stage", "The gear set and its operating point.",

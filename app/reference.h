@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace annulus::app {
+
+/// Published statements about the rings of a scene, read from a file with their source (data/reference).
+struct Reference {
+  /// "The first ring has the largest value, the last the smallest."
+  struct Order {
+    std::string quantity;            ///< one of comparison.cc's quantities: "ring_stiffness", "load_sharing", ...
+    std::vector<std::string> rings;  ///< largest first; a single one: larger than all others
+    std::vector<double> values;      ///< published numbers, one per ring, or none
+    std::string statement, where;
+  };
+  /// "Stiffer where a pin stands behind the contact than between the pins."
+  struct AtPin {
+    std::string ring, statement, where;
+  };
+  std::string source, doi, note;
+  std::vector<Order> orders;
+  std::vector<AtPin> at_pins;
+};
+
+/// Throws InputError naming the file and what is wrong with it.
+[[nodiscard]] Reference read_reference(const std::filesystem::path& file);
+
+}  // namespace annulus::app

@@ -1,0 +1,117 @@
+#include "app/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/content_id.h"
+#include "app/report_parts.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr const char* style = R"css(
+:root { color-scheme: light; }
+body { margin: 0; font: 15px/1.5 system-ui, -apple-system, "Segoe UI", sans-serif; color: #222; background: #fff; }
+main { max-width: 1320px; margin: 0 auto; padding: 24px 28px 80px; }
+h1 { font-size: 27px; line-height: 1.25; margin: 12px 0 4px; }
+h2 { font-size: 20px; margin: 44px 0 10px; padding-bottom: 4px; border-bottom: 1px solid #ddd; }
+h3 { font-size: 16px; margin: 26px 0 6px; }
+p, li { max-width: 84ch; }
+.sub { color: #666; margin: 0 0 18px; }
+.verdict { background: #f4f7fa; border-left: 4px solid #0072B2; padding: 10px 18px; margin: 18px 0; }
+.verdict p { margin: 6px 0; }
+nav { font-size: 14px; margin: 8px 0 0; } nav a { margin-right: 14px; color: #0072B2; text-decoration: none; }
+table { border-collapse: collapse; font-size: 14px; margin: 10px 0; font-variant-numeric: tabular-nums; }
+th, td { padding: 4px 12px 4px 0; text-align: left; vertical-align: top; border-bottom: 1px solid #eee; }
+th { font-weight: 600; border-bottom: 1px solid #bbb; }
+table.numbers td:not(:first-child), table.numbers th:not(:first-child) { text-align: right; padding: 4px 0 4px 18px; }
+table.numbers td.group { text-align: left; font-weight: 600; padding-top: 12px; }
+.wide { overflow-x: auto; }
+figure { margin: 14px 0 26px; }
+figure .row { display: grid; grid-template-columns: repeat(auto-fit, minmax(360px, 1fr)); gap: 10px 14px; align-items: end; }
+figure .row.one { grid-template-columns: minmax(360px, 900px); }
+figure .row > div { min-width: 0; } figure svg { width: 100%; height: auto; display: block; }
+figure.meshes .row { align-items: start; } figure.meshes svg { max-height: 420px; } figure.meshes h3 { margin-top: 0; }
+figcaption { color: #555; font-size: 13.5px; max-width: 110ch; margin-top: 6px; }
+.legend { font-size: 13px; color: #333; margin: 2px 0 4px; } .legend span { margin-right: 16px; white-space: nowrap; }
+.legend i { display: inline-block; width: 18px; height: 3px; vertical-align: middle; margin-right: 6px; }
+.tag { display: inline-block; border-radius: 3px; padding: 0 7px; font-size: 13px; font-weight: 600; white-space: nowrap; }
+.agrees { background: #d9efe7; color: #00563f; } .disagrees { background: #fbe0d1; color: #8a3a00; }
+.undecided { background: #ececec; color: #444; } .assumed { background: #fdf0d5; color: #7a4f00; }
+.muted { color: #777; } code { font-size: 13px; }
+details { margin: 10px 0; } summary { cursor: pointer; color: #0072B2; }
+@media print { main { max-width: none; } nav { display: none; } figure { break-inside: avoid; } }
+)css";
+
+}  // namespace
+
+std::string measured(double value, double error) {
+  if (!std::isfinite(value)) return "not known";
+  error = std::abs(error);
+  if (!(error > 0) || !std::isfinite(error)) return to_text(value, 5);
+  // Two digits of the error, and the value to the same place.
+  const int place = static_cast<int>(std::floor(std::log10(error))) - 1;
+  const int decimals = std::clamp(-place, 0, 8);
+  if (error < 1e-8 * std::max(1.0, std::abs(value))) return to_text(value, 6) + " ± &lt;1e-8";
+  return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
+}
+
+std::string html(const HtmlTable& table) {
+  std::string text =
+      "<div class=\"wide\"><table" + (table.css_class.empty() ? "" : " class=\"" + table.css_class + "\"") + "><tr>";
+  for (const auto& cell : table.head) text += "<th>" + cell + "</th>";
+  text += "</tr>\n";
+  for (const auto& row : table.rows) {
+    text += "<tr>";
+    if (row.size() == 1) {
+      text += fmt::format("<td class=\"group\" colspan=\"{}\">{}</td>", table.head.size(), row.front());
+    } else {
+      for (const auto& cell : row) text += "<td>" + cell + "</td>";
+    }
+    text += "</tr>\n";
+  }
+  return text + "</table></div>\n";
+}
+
+std::string figure(const std::vector<std::string>& pictures, const std::string& legend, const std::string& caption) {
+  std::string text = "<figure>" + legend + "<div class=\"row" + (pictures.size() == 1 ? " one" : "") + "\">";
+  for (const auto& picture : pictures) text += "<div>" + picture + "</div>\n";
+  return text + "</div><figcaption>" + caption + "</figcaption></figure>\n";
+}
+
+std::string legend_html(const std::vector<std::pair<std::string, std::size_t>>& entries) {
+  std::string text = "<div class=\"legend\">";
+  for (const auto& [label, colour] : entries) {
+    text += fmt::format("<span><i style=\"background:{}\"></i>{}</span>", palette(colour), escape(label));
+  }
+  return text + "</div>";
+}
+
+std::string report_html(const RunResult& result) {
+  const std::string title = escape(result.scene.title);
+  std::string page = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title +
+                     "</title><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><style>" + style +
+                     "</style></head><body><main>\n";
+  page += "<h1>" + title + "</h1>\n";
+  page += fmt::format(
+      "<p class=\"sub\">annulus {} · scene <code>{}</code> · {} planets, {} kW at {} r/min of the sun</p>\n", version(),
+      escape(result.scene.file.filename().string()), result.scene.stage.planets,
+      to_text(result.scene.stage.power / 1e3),
+      to_text(result.geometry.operating_point.sun_speed * 30 / 3.14159265358979323846, 6));
+  page += verdict_section(result);
+  page +=
+      "<nav><a href=\"#figures\">Key figures</a><a href=\"#comparison\">Comparison with the source</a>"
+      "<a href=\"#meshes\">Meshes</a><a href=\"#stiffness\">Transmission error and stiffness</a>"
+      "<a href=\"#dynamics\">Load sharing and dynamic factors</a><a href=\"#modes\">Natural frequencies</a>"
+      "<a href=\"#model\">What was modelled</a><a href=\"#inputs\">Inputs</a><a href=\"#quality\">Checks and "
+      "cost</a></nav>\n";
+  page += key_figures_section(result) + comparison_section(result) + meshes_section(result) +
+          stiffness_section(result) + dynamics_section(result) + modes_section(result) + model_section(result) +
+          inputs_section(result) + quality_section(result);
+  return page + "</main></body></html>\n";
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "app/content_id.h"
+#include "app/report_parts.h"
+
+namespace annulus::app {
+
+namespace {
+
+std::string small(double x) { return std::isfinite(x) ? fmt::format("{:.1e}", x) : "–"; }
+
+std::vector<std::string> check_row(const std::string& label, const MeshResult& mesh) {
+  return {escape(label),
+          small(mesh.fact("force_balance_relative")),
+          small(mesh.fact("energy_balance_relative")),
+          small(mesh.fact("closure_relative")),
+          small(mesh.fact("reciprocity_relative")),
+          small(mesh.fact("max_penetration_m")),
+          small(mesh.fact("worst_error_relative")),
+          std::isfinite(mesh.fact("worst_scaled_jacobian")) ? fmt::format("{:.2f}", mesh.fact("worst_scaled_jacobian"))
+                                                            : "–",
+          std::isfinite(mesh.fact("unknowns")) ? fmt::format("{:.0f}", mesh.fact("unknowns")) : "–"};
+}
+
+}  // namespace
+
+std::string model_section(const RunResult& result) {
+  std::string text = "<h2 id=\"model\">What was modelled, and why</h2>\n";
+  HtmlTable meshes{.head = {"mesh", "model", "why", "positions", "why so many"}, .rows = {}};
+  for (const auto& m : result.plan.meshes) {
+    meshes.rows.push_back({escape(m.label()), m.rung, escape(m.reason),
+                           m.computed() ? fmt::format("{} × {}", m.problem->phases, m.positions) : "–",
+                           escape(m.repeats)});
+  }
+  text += html(meshes);
+  if (!result.plan.freedoms.empty()) {
+    HtmlTable freedoms{.head = {"freedom of the lumped model", "", "why"}, .rows = {}};
+    for (const auto& f : result.plan.freedoms)
+      freedoms.rows.push_back({escape(f.name), f.kept ? "kept" : "dropped", escape(f.reason)});
+    text += html(freedoms);
+  }
+  text += "<ul>";
+  for (const auto& remark : result.plan.remarks) text += "<li>" + escape(remark) + "</li>";
+  return text + "</ul>\n";
+}
+
+std::string inputs_section(const RunResult& result) {
+  std::string text = "<h2 id=\"inputs\">Inputs</h2>\n";
+  HtmlTable assumed{.head = {"assumed input", "value", "reason"}, .rows = {}};
+  std::set<std::string> seen;
+  for (const auto& input : result.plan.inputs) {
+    const std::string value = to_text(input.value) + " " + input.unit;
+    if (input.assumed.empty() || !seen.insert(input.key + value).second) continue;
+    assumed.rows.push_back({"<code>" + escape(input.key) + "</code>", escape(value), escape(input.assumed)});
+  }
+  if (!assumed.rows.empty()) {
+    text += fmt::format(
+        "<p><span class=\"tag assumed\">assumed</span> {} inputs are not published and were chosen; the results depend "
+        "on them.</p>\n",
+        assumed.rows.size());
+    text += html(assumed);
+  }
+  HtmlTable all{.head = {"key", "value", "origin", "meaning"}, .rows = {}};
+  for (const auto& input : result.plan.inputs) {
+    std::string origin = to_text(input.origin);
+    if (!input.assumed.empty()) origin += " <span class=\"tag assumed\">assumed</span>";
+    if (input.origin != Origin::scene && !input.note.empty()) origin += ": " + escape(input.note);
+    all.rows.push_back({"<code>" + escape(input.key) + "</code>" +
+                            (input.ring.empty() ? "" : " <span class=\"muted\">" + escape(input.ring) + "</span>"),
+                        escape(to_text(input.value) + " " + input.unit), origin, escape(input.meaning)});
+  }
+  for (const auto& q : result.plan.quantities) {
+    all.rows.push_back({"<code>" + escape(q.key) + "</code>", escape(to_text(q.value, 8) + " " + q.unit), "derived",
+                        escape(q.meaning)});
+  }
+  for (const auto& [ring, quantities] : result.plan.rings) {
+    for (const auto& q : quantities) {
+      all.rows.push_back({"<code>" + escape(q.key) + "</code> <span class=\"muted\">" + escape(ring) + "</span>",
+                          escape(to_text(q.value, 8) + " " + q.unit), "derived", escape(q.meaning)});
+    }
+  }
+  return text + "<details><summary>All inputs with their origin, and what follows from them</summary>" + html(all) +
+         "</details>\n";
+}
+
+std::string quality_section(const RunResult& result) {
+  std::string text = "<h2 id=\"quality\">Checks and cost</h2>\n";
+  HtmlTable checks{
+      .head = {"mesh", "Σ force × lever arm – torque", "work – strain energy", "LTE(1) – LTE(0)", "reciprocity",
+               "largest penetration, m", "largest error estimate", "worst cell", "unknowns"},
+      .rows = {},
+      .css_class = "numbers"};
+  if (result.sun_mesh.model.computed()) checks.rows.push_back(check_row("sun mesh", result.sun_mesh));
+  for (const auto& ring : result.rings) {
+    if (ring.mesh.model.computed()) checks.rows.push_back(check_row("ring mesh, " + ring.name, ring.mesh));
+  }
+  if (!checks.rows.empty()) {
+    text +=
+        "<p>Invariants of every contact solve, the worst over all positions and loads; relative unless a unit is "
+        "given. "
+        "Worst cell: scaled Jacobian, 1 for a rectangle, 0 for a collapsed cell.</p>\n" +
+        html(checks);
+  }
+  HtmlTable dynamics{.head = {"dynamics", "steady state", "evaluated window", "integrated", "force balance",
+                              "energy balance", "steps"},
+                     .rows = {},
+                     .css_class = "numbers"};
+  for (const auto& ring : result.rings) {
+    if (!ring.response) continue;
+    const auto& f = ring.response->figures;
+    const std::string steady = f.steady ? "reached" : "not reached";
+    dynamics.rows.push_back(
+        {escape(ring.name), steady + (f.steady_difference ? fmt::format(" ({:.1e})", *f.steady_difference) : ""),
+         fmt::format("{} mesh cycles{}", f.window_cycles, f.whole_error_period ? "" : ", less than an error period"),
+         fmt::format("{} mesh cycles", f.total_cycles), small(f.force_balance_relative), small(f.energy.relative),
+         fmt::format("{}", f.statistics.steps)});
+  }
+  if (!dynamics.rows.empty()) text += html(dynamics);
+  HtmlTable times{.head = {"stage", "wall time, s"}, .rows = {}, .css_class = "numbers"};
+  for (const auto& [stage, seconds] : result.timings) times.rows.push_back({stage, fmt::format("{:.2f}", seconds)});
+  text += html(times);
+  return text + fmt::format(
+                    "<p class=\"muted\">Peak memory {:.0f} MB. annulus {}. Results that were unchanged since an "
+                    "earlier run were "
+                    "read back and cost no time here.</p>\n",
+                    result.peak_memory_MB, version());
+}
+
+}  // namespace annulus::app

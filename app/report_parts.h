@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/pipeline.h"
+#include "app/svg_plot.h"
+
+/// The parts of report.html, each a piece of HTML made from the results alone.
+namespace annulus::app {
+
+/// "1.364 ± 0.012": as many digits as the error leaves, five when there is no error.
+[[nodiscard]] std::string measured(double value, double error);
+
+struct HtmlTable {
+  std::vector<std::string> head;
+  std::vector<std::vector<std::string>> rows;  ///< cells are HTML
+  std::string css_class{};
+};
+[[nodiscard]] std::string html(const HtmlTable& table);
+
+/// Plots side by side under one legend and one caption (HTML).
+[[nodiscard]] std::string figure(const std::vector<std::string>& pictures, const std::string& legend,
+                                 const std::string& caption);
+/// Legend shared by the plots of a figure: label and palette index.
+[[nodiscard]] std::string legend_html(const std::vector<std::pair<std::string, std::size_t>>& entries);
+
+// report_tables.cc
+[[nodiscard]] std::string verdict_section(const RunResult& result);  ///< what came out, in plain words
+[[nodiscard]] std::string key_figures_section(const RunResult& result);
+[[nodiscard]] std::string comparison_section(const RunResult& result);  ///< with the published results
+[[nodiscard]] std::string modes_section(const RunResult& result);
+// report_inputs.cc
+[[nodiscard]] std::string model_section(const RunResult& result);  ///< what was modelled and why
+[[nodiscard]] std::string inputs_section(
+    const RunResult& result);  ///< every input with its origin, the assumed ones first
+[[nodiscard]] std::string quality_section(const RunResult& result);  ///< invariants, timings, versions
+// report_stiffness.cc
+[[nodiscard]] std::string meshes_section(const RunResult& result);
+[[nodiscard]] std::string stiffness_section(const RunResult& result);  ///< transmission error, stiffness, shares, pins
+// report_dynamics.cc
+[[nodiscard]] std::string dynamics_section(const RunResult& result);  ///< load sharing, dynamic factors, spectra
+
+}  // namespace annulus::app
