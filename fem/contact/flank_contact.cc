@@ -5,6 +5,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <limits>
 
 #include "core/errors.h"
 
@@ -40,53 +41,80 @@ double FlankContact::wheel_tooth_angle(double contact_roll) const {
   return turned - alpha + (pair_.internal() ? wheel_base_half_angle_ : -wheel_base_half_angle_);
 }
 
-FlankContact::Match FlankContact::match(double planet_roll, double contact_roll) const {
+std::pair<double, double> FlankContact::opposite(double planet_roll, double contact_roll) const {
   const double planet_angle = planet_tooth_angle(contact_roll);
   const Eigen::Rotation2Dd turn(wheel_tooth_angle(contact_roll) - planet_angle);
   const Eigen::Vector2d wheel_axis = -(Eigen::Rotation2Dd(-planet_angle) * Eigen::Vector2d(pair_.centre_distance(), 0));
   const double side = pair_.internal() ? -1 : 1;  // trailing flank: the mirror image of the leading one
-
-  const Eigen::Vector2d point = planet_.flank_point(planet_roll), normal = planet_.flank_normal(planet_roll);
   const double base = pair_.wheel().base_radius();
-  double roll = std::max(pair_.wheel_roll_length(planet_roll), 1e-3 * base);
-  Eigen::Vector2d distance;
-  for (int step = 0;; ++step) {
-    Eigen::Vector2d on_wheel = wheel_.flank_point(roll), out = wheel_.flank_normal(roll);
+  const Eigen::Vector2d point = planet_.flank_point(planet_roll), normal = planet_.flank_normal(planet_roll);
+
+  const auto distance = [&](double roll) -> Eigen::Vector2d {
+    Eigen::Vector2d on_wheel = wheel_.flank_point(roll);
     on_wheel.y() *= side;
-    out.y() *= side;
-    distance = turn * on_wheel + wheel_axis - point;
-    const Eigen::Vector2d tangent = turn * (side * Eigen::Vector2d(out.y(), -out.x())) * (roll / base);
-    const double change = cross(distance, normal) / cross(tangent, normal);
-    roll -= change;
-    if (std::abs(change) < 1e-13 * base) {
-      distance -= change * tangent;
-      break;
-    }
-    if (step == 50 || !(roll > 0)) throw SolverError("no point of the wheel flank lies opposite to the planet flank");
+    return turn * on_wheel + wheel_axis - point;
+  };
+  // Unit tangent of the wheel flank across the planet's normal.
+  const auto slope = [&](double roll) {
+    const Eigen::Vector2d out = wheel_.flank_normal(roll);
+    return cross(turn * Eigen::Vector2d(out.y(), -side * out.x()), normal);
+  };
+  // Both normals turn by roll / base radius. While they are less than a right angle from being opposed, the distance
+  // from the planet's normal grows (or falls) with the wheel's roll: that brackets the opposite point.
+  const double opposed =
+      pair_.wheel_roll_length(contact_roll) + (planet_roll - contact_roll) * base / pair_.planet().base_radius();
+  double low = std::max(0.0, opposed - 1.5 * base), high = opposed + 1.5 * base;
+  if (high <= low) return {0, 0};
+  const double sense = slope(high) > 0 ? 1 : -1;
+  const auto offset = [&](double roll) { return sense * cross(distance(roll), normal); };
+  if (offset(low) >= 0) return {0, 0};
+  if (offset(high) <= 0) return {std::numeric_limits<double>::infinity(), 0};
+  double roll = std::clamp(pair_.wheel_roll_length(planet_roll), low, high);
+  for (int step = 0; step < 200; ++step) {
+    const double off = offset(roll);
+    (off > 0 ? high : low) = roll;
+    double next = roll - off * sense / (slope(roll) * roll / base);
+    if (!(next > low && next < high)) next = (low + high) / 2;
+    const double change = std::abs(next - roll);
+    roll = next;
+    if (change < 1e-15 * base) break;
   }
-  return {roll, distance.dot(normal) + planet_.modification(planet_roll) + wheel_.modification(roll)};
+  return {roll, distance(roll).dot(normal)};
+}
+
+FlankContact::Match FlankContact::match(double planet_roll, double contact_roll) const {
+  const auto [roll, gap] = opposite(planet_roll, contact_roll);
+  if (!(roll > 0 && std::isfinite(roll)))
+    throw SolverError("no point of the wheel flank lies opposite to the planet flank");
+  return {roll, gap + planet_.modification(planet_roll) + wheel_.modification(roll)};
 }
 
 FlankContact::Interval FlankContact::domain(double contact_roll) const {
   const double low = planet_.roll_length_form(), high = planet_.roll_length_tip();
   const double wheel_low = std::min(wheel_.roll_length_form(), wheel_.roll_length_tip());
   const double wheel_high = std::max(wheel_.roll_length_form(), wheel_.roll_length_tip());
-  const auto wheel_roll = [&](double roll) { return match(roll, contact_roll).wheel_roll; };
   // The opposite point moves monotonously along the wheel flank.
+  const auto wheel_roll = [&](double roll) { return std::min(opposite(roll, contact_roll).first, 2 * wheel_high); };
   const auto crossing = [&](double bound) {
     boost::math::tools::eps_tolerance<double> tolerance(50);
     std::uintmax_t iterations = 100;
-    const auto [a, b] = boost::math::tools::toms748_solve([&](double r) { return wheel_roll(r) - bound; }, low, high,
-                                                          tolerance, iterations);
-    return (a + b) / 2;
+    return boost::math::tools::toms748_solve([&](double r) { return wheel_roll(r) - bound; }, low, high, tolerance,
+                                             iterations);
   };
   const double at_low = wheel_roll(low), at_high = wheel_roll(high);
   const double least = std::min(at_low, at_high), most = std::max(at_low, at_high);
   if (most <= wheel_low || least >= wheel_high) return {};
   Interval interval{low, high};
   const bool rising = at_high > at_low;
-  if (least < wheel_low) (rising ? interval.low : interval.high) = crossing(wheel_low);
-  if (most > wheel_high) (rising ? interval.high : interval.low) = crossing(wheel_high);
+  // Of each bracket the end inside the domain: a point of the wheel lies opposite to it.
+  for (const double bound : {wheel_low, wheel_high}) {
+    if (bound <= least || bound >= most) continue;
+    const auto [below, above] = crossing(bound);
+    if (rising == (bound == wheel_low))
+      interval.low = above;
+    else
+      interval.high = below;
+  }
   return interval;
 }
 

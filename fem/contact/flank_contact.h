@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 
 #include "geometry/gear_pair.h"
 #include "geometry/profile.h"
@@ -22,7 +23,8 @@ class FlankContact {
     double wheel_roll = 0;  ///< roll length of the wheel point on the planet's normal, m
     double gap = 0;         ///< distance along the planet's normal, modifications included, m; < 0: overlap
   };
-  /// The wheel point opposite to planet roll `planet_roll`; `contact_roll` tells the position.
+  /// The wheel point opposite to planet roll `planet_roll`; `contact_roll` tells the position. Throws SolverError when
+  /// the planet's normal misses the wheel's involute.
   [[nodiscard]] Match match(double planet_roll, double contact_roll) const;
 
   struct Interval {
@@ -50,6 +52,9 @@ class FlankContact {
   [[nodiscard]] double wheel_tooth_angle(double contact_roll) const;
 
  private:
+  /// Wheel roll and distance of the unmodified flanks; roll 0 (below the base circle) or infinity: no opposite point.
+  [[nodiscard]] std::pair<double, double> opposite(double planet_roll, double contact_roll) const;
+
   geometry::GearPair pair_;
   geometry::ToothProfile planet_, wheel_;
   double planet_base_half_angle_, wheel_base_half_angle_;
