@@ -123,7 +123,8 @@ Eigen::MatrixXd schur_complement(const Eigen::SparseMatrix<double>& matrix, cons
   cholmod_sparse interior_view = lower_view(interior_matrix);
   std::vector<int> interior_order(interior.size());
   // Nested dissection pays for itself in three dimensions and on large plane sectors.
-  const bool ordered = interior.size() > 3000
+  const bool ordered = interior.empty() ? true
+                       : interior.size() > 3000
                            ? cholmod_metis(&interior_view, nullptr, 0, 1, interior_order.data(), &common) != 0
                            : cholmod_amd(&interior_view, nullptr, 0, interior_order.data(), &common) != 0;
   require(ordered, "the fill-reducing ordering failed");
@@ -142,10 +143,15 @@ Eigen::MatrixXd schur_complement(const Eigen::SparseMatrix<double>& matrix, cons
   if (factor != nullptr) cholmod_factorize(&view, factor, &common);
   check_factor(workspace, factor, "stiffness matrix of the sector");
 
-  // Read the columns of the retained freedoms out of the supernodes. CHOLMOD postorders the elimination tree; the
-  // retained freedoms keep their order, only columns of independent interior branches may stand between them.
-  Eigen::MatrixXd trailing = Eigen::MatrixXd::Zero(kept, kept);
+  // Read the columns of the retained freedoms out of the supernodes. CHOLMOD postorders the elimination tree: columns
+  // of independent interior branches may stand between the retained ones, and where the interior falls into pieces the
+  // retained freedoms change their own order.
   const auto* order = static_cast<const int*>(factor->Perm);
+  std::vector<int> rank(kept);
+  int ranks = 0;
+  for (int column = 0; column < n; ++column)
+    if (position[order[column]] >= 0) rank[position[order[column]]] = ranks++;
+  Eigen::MatrixXd trailing = Eigen::MatrixXd::Zero(kept, kept);
   const auto* first_column = static_cast<const int*>(factor->super);
   const auto* row_start = static_cast<const int*>(factor->pi);
   const auto* value_start = static_cast<const int*>(factor->px);
@@ -154,13 +160,13 @@ Eigen::MatrixXd schur_complement(const Eigen::SparseMatrix<double>& matrix, cons
   for (std::size_t s = 0; s < factor->nsuper; ++s) {
     const int height = row_start[s + 1] - row_start[s];
     for (int column = first_column[s]; column < first_column[s + 1]; ++column) {
-      const int k = position[order[column]];
-      if (k < 0) continue;
+      if (position[order[column]] < 0) continue;
+      const int k = rank[position[order[column]]];
       const int local = column - first_column[s];
       for (int r = local; r < height; ++r) {
-        const int row = position[order[rows[row_start[s] + r]]];
-        require(row >= k, "the retained freedoms were not eliminated last");
-        trailing(row, k) =
+        const int retained_row = position[order[rows[row_start[s] + r]]];
+        require(retained_row >= 0 && rank[retained_row] >= k, "the retained freedoms were not eliminated last");
+        trailing(rank[retained_row], k) =
             values[static_cast<std::ptrdiff_t>(value_start[s]) + static_cast<std::ptrdiff_t>(local) * height + r];
       }
     }
@@ -169,7 +175,11 @@ Eigen::MatrixXd schur_complement(const Eigen::SparseMatrix<double>& matrix, cons
   trailing.transposeInPlace();
   Eigen::MatrixXd complement = lapack::gram(trailing);  // L L^T
   complement.diagonal().array() -= shift_retained;
-  return complement;
+  if (std::is_sorted(rank.begin(), rank.end())) return complement;
+  Eigen::MatrixXd result(kept, kept);
+  for (int j = 0; j < kept; ++j)
+    for (int i = 0; i < kept; ++i) result(i, j) = complement(rank[i], rank[j]);
+  return result;
 }
 
 }  // namespace annulus::fem
