@@ -1,0 +1,269 @@
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "core/errors.h"
+#include "discretised_body.h"
+#include "fem/condensation/sparse_schur.h"
+#include "fem/gear_body.h"
+#include "geometry/sector_mesh.h"
+
+/// The condensed ring against a monolithic solve of the same mesh, node by node.
+BOOST_AUTO_TEST_SUITE(condensation)
+
+using annulus::fem::GearBody;
+using annulus::fem::GearBodyOptions;
+using annulus::fem::HeldBoundary;
+using annulus::fem::Material;
+using annulus::geometry::Boundary;
+using annulus::geometry::Gear;
+using annulus::geometry::GearKind;
+using annulus::geometry::Mesh;
+using annulus::geometry::ToothProfile;
+using annulus::tests::DiscretisedBody;
+using annulus::tests::FreeSystem;
+
+struct Case {
+  Gear gear;
+  double support_radius;
+  Mesh sector;
+  GearBodyOptions options;
+};
+
+Case plane_case(GearKind kind, int teeth) {
+  annulus::geometry::GearParameters p;
+  p.kind = kind;
+  p.teeth = teeth;
+  p.module = 2e-3;
+  p.pressure_angle = 20 * M_PI / 180;
+  p.profile_shift = 0.2;
+  p.face_width = 0.01;
+  const Gear gear(p);
+  Case c{gear, gear.root_radius() + (kind == GearKind::external ? -3e-3 : 4e-3), {}, {}};
+  annulus::geometry::SectorResolution coarse;
+  coarse.flank_cells = 3;
+  coarse.fillet_cells = 2;
+  coarse.thickness_cells = 4;
+  coarse.root_cells = 1;
+  coarse.rim_cells = 2;
+  c.sector = annulus::geometry::make_sector_mesh(gear, {c.support_radius, {}}, coarse);
+  c.options.max_offset = teeth;
+  if (kind == GearKind::internal) c.options.sector.flank = Boundary::trailing_flank;
+  return c;
+}
+
+GearBody condensed(const Case& c) {
+  return make_gear_body(c.sector, ToothProfile(c.gear), c.support_radius, Material{}, c.options);
+}
+
+DiscretisedBody monolithic(const Case& c) {
+  const ToothProfile profile(c.gear);
+  const double pitch = c.gear.pitch_angle(), support = c.support_radius;
+  // The projection of sector 0, turned to where the point is.
+  const auto project = [profile, pitch, support](Boundary boundary, const Eigen::Vector2d& point) -> Eigen::Vector2d {
+    const Eigen::Rotation2Dd turn(pitch * std::round(std::atan2(point.y(), point.x()) / pitch));
+    return turn * profile.project(boundary, turn.inverse() * point, support);
+  };
+  const int teeth = c.gear.teeth();
+  return annulus::tests::discretise_body(repeat(c.sector, teeth, teeth), project, Material{}, c.options.sector.degree);
+}
+
+int nearest_node(const DiscretisedBody& ring, const Eigen::Vector3d& point) {
+  int best = 0;
+  for (std::size_t n = 1; n < ring.nodes.size(); ++n)
+    if ((ring.nodes[n] - point).squaredNorm() < (ring.nodes[best] - point).squaredNorm()) best = static_cast<int>(n);
+  BOOST_TEST_REQUIRE((ring.nodes[best] - point).norm() < 1e-12);  // round-off of two ways to turn 0.1 m
+  return best;
+}
+
+/// Unit load of a port of a sector as a load vector of the whole ring.
+Eigen::VectorXd unit_load(const DiscretisedBody& ring, const GearBody& body, int port, int sector) {
+  const Eigen::AngleAxisd turn(sector * body.pitch_angle, Eigen::Vector3d::UnitZ());
+  const int node = nearest_node(ring, turn * body.port_points[port]);
+  const Eigen::Vector3d direction = turn * body.ports[port].direction;
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(ring.stiffness.rows());
+  for (int d = 0; d < ring.dimension; ++d) load[ring.freedom[node * ring.dimension + d]] = direction[d];
+  return load;
+}
+
+/// Largest difference of the compliances between some ports of some teeth, relative to the largest compliance.
+double worst_difference(const Case& c, Boundary held) {
+  const GearBody body = condensed(c);
+  const DiscretisedBody ring = monolithic(c);
+  std::vector<bool> fixed(ring.stiffness.rows(), false);
+  const auto held_nodes = ring.boundary_nodes(held);
+  BOOST_TEST_REQUIRE(!held_nodes.empty());
+  for (const int n : held_nodes)
+    for (int d = 0; d < ring.dimension; ++d) fixed[ring.freedom[n * ring.dimension + d]] = true;
+  const FreeSystem system(ring.stiffness, fixed);
+
+  const int teeth = c.gear.teeth(), last = static_cast<int>(body.ports.size()) - 1;
+  std::vector<std::pair<int, int>> points;  // port, sector
+  for (const int sector : {0, 1, 2, teeth / 2, teeth / 2 + 1, teeth - 1})
+    for (const int port : {0, last / 3, last}) points.emplace_back(port, sector);
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd loads(ring.stiffness.rows(), n);
+  for (Eigen::Index i = 0; i < n; ++i) loads.col(i) = unit_load(ring, body, points[i].first, points[i].second);
+  const Eigen::MatrixXd free_loads = system.restrict_rows(loads);
+  const Eigen::MatrixXd exact = free_loads.transpose() * annulus::fem::SparseCholesky(system.matrix).solve(free_loads);
+  double worst = 0, smallest = exact.cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const auto [port_i, sector_i] = points[i];
+      const auto [port_j, sector_j] = points[j];
+      const double value = body.compliance.block(sector_i - sector_j)(port_i, port_j);
+      worst = std::max(worst, std::abs(value - exact(i, j)) / exact.cwiseAbs().maxCoeff());
+      smallest = std::min(smallest, std::abs(exact(i, j)));
+    }
+  BOOST_TEST_MESSAGE(teeth << " teeth, " << ring.dimension << "D, " << ring.stiffness.rows() << " freedoms: " << worst
+                           << ", smallest compliance " << smallest / exact.cwiseAbs().maxCoeff());
+  return worst;
+}
+
+// Both ways are exact; what differs is round-off: 2e-16 times a condition number of some 1e6.
+constexpr double round_off = 1e-9;
+
+BOOST_AUTO_TEST_CASE(plane_gears_held_at_the_bore) {
+  for (const int teeth : {18, 19})
+    BOOST_TEST(worst_difference(plane_case(GearKind::external, teeth), Boundary::support) < round_off);
+}
+
+BOOST_AUTO_TEST_CASE(plane_ring_held_outside) {
+  BOOST_TEST(worst_difference(plane_case(GearKind::internal, 41), Boundary::support) < round_off);
+}
+
+BOOST_AUTO_TEST_CASE(other_degrees_and_refinements_of_the_elements) {
+  for (const int degree : {1, 3}) {
+    auto c = plane_case(GearKind::external, 19);
+    c.options.sector.degree = degree;
+    BOOST_TEST(worst_difference(c, Boundary::support) < round_off);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(solid_gear_held_at_the_bore) {
+  auto c = plane_case(GearKind::external, 17);
+  c.sector = extrude(c.sector, {{0, 0.01, 2}});
+  BOOST_TEST(worst_difference(c, Boundary::support) < round_off);
+}
+
+BOOST_AUTO_TEST_CASE(thin_walled_ring_held_at_the_end_of_its_sleeve) {
+  auto c = plane_case(GearKind::internal, 29);
+  const double sleeve_radius = c.gear.root_radius() + 2e-3;
+  annulus::geometry::SectorResolution coarse;
+  coarse.flank_cells = 2;
+  coarse.fillet_cells = 2;
+  coarse.thickness_cells = 2;
+  coarse.root_cells = 1;
+  coarse.rim_cells = 2;
+  c.sector = annulus::geometry::make_sector_mesh(c.gear, {c.support_radius, {sleeve_radius}}, coarse);
+  annulus::geometry::Layers sleeve{-0.006, 0, 2};
+  sleeve.region = Mesh::Region::sleeve;
+  sleeve.toothed = false;
+  sleeve.radius_low = sleeve_radius;
+  c.sector = extrude(c.sector, {sleeve, {0, 0.01, 2}});
+  c.options.sector.held = HeldBoundary::end_low;
+  BOOST_TEST(worst_difference(c, Boundary::end_low) < round_off);
+}
+
+/// Energies of self-equilibrated port loads on several teeth of a ring that nothing holds.
+void check_floating(const Case& c, const std::vector<std::pair<Eigen::Vector3d, int>>& pinned) {
+  const GearBody body = condensed(c);
+  const DiscretisedBody ring = monolithic(c);
+  const int dim = ring.dimension, rigid_motions = dim == 2 ? 3 : 6;
+  std::vector<bool> fixed(ring.stiffness.rows(), false);
+  for (const auto& [point, component] : pinned) fixed[ring.freedom[nearest_node(ring, point) * dim + component]] = true;
+  BOOST_TEST_REQUIRE(std::count(fixed.begin(), fixed.end(), true) == rigid_motions);
+  const FreeSystem system(ring.stiffness, fixed);
+
+  std::vector<std::pair<int, int>> points;
+  const int ports = static_cast<int>(body.ports.size());
+  for (const int sector : {0, 1, c.gear.teeth() / 3, c.gear.teeth() / 2 + 1})
+    for (int port = 0; port < ports; port += std::max(1, ports / 6)) points.emplace_back(port, sector);
+  const auto n = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd unit(ring.stiffness.rows(), n), resultants(n, rigid_motions);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto [port, sector] = points[i];
+    unit.col(i) = unit_load(ring, body, port, sector);
+    const Eigen::AngleAxisd turn(sector * body.pitch_angle, Eigen::Vector3d::UnitZ());
+    const Eigen::Vector3d force = turn * body.ports[port].direction, at = turn * body.port_points[port];
+    const Eigen::Vector3d moment = at.cross(force);
+    if (dim == 2)
+      resultants.row(i) << force.x(), force.y(), moment.z();
+    else
+      resultants.row(i) << force.transpose(), moment.transpose();
+    const Eigen::RowVector3d plane(force.x(), force.y(), moment.z());
+    BOOST_TEST((body.rigid_motion(port, sector) - plane).norm() < 1e-14);  // round-off of numbers up to one
+  }
+  std::mt19937 random(11);
+  for (int trial = 0; trial < 5; ++trial) {
+    Eigen::VectorXd f = Eigen::VectorXd::NullaryExpr(n, [&] { return 2.0 * random() / std::mt19937::max() - 1; });
+    f -= resultants *
+         (resultants.transpose() * resultants).completeOrthogonalDecomposition().solve(resultants.transpose() * f);
+    BOOST_TEST_REQUIRE((resultants.transpose() * f).norm() < 1e-13 * n);
+    double energy = 0;
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j)
+        energy +=
+            f[i] * f[j] * body.compliance.block(points[i].second - points[j].second)(points[i].first, points[j].first);
+    const Eigen::MatrixXd load = system.restrict_rows(unit * f);
+    const double exact = load.col(0).dot(annulus::fem::SparseCholesky(system.matrix).solve(load).col(0));
+    BOOST_TEST_MESSAGE(dim << "D floating: energy differs by " << energy / exact - 1);
+    BOOST_TEST(energy == exact, boost::test_tools::tolerance(round_off));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_floating_ring_stores_the_right_energy_under_balanced_loads) {
+  auto c = plane_case(GearKind::internal, 41);
+  c.options.sector.held = HeldBoundary::none;
+  c.options.sector.want_outside = true;
+  const double pitch = c.gear.pitch_angle(), r = c.support_radius;
+  // The outside at the cuts of sectors 0 and 10: x, y of one, and what is across of the other.
+  const Eigen::Vector3d a(r * std::cos(pitch / 2), r * std::sin(pitch / 2), 0);
+  const Eigen::Vector3d b(r * std::cos(10.5 * pitch), r * std::sin(10.5 * pitch), 0);
+  check_floating(c, {{a, 0}, {a, 1}, {b, 0}});
+}
+
+BOOST_AUTO_TEST_CASE(a_floating_solid_ring_as_well) {
+  auto c = plane_case(GearKind::internal, 28);
+  c.sector = extrude(c.sector, {{0, 0.01, 1}});
+  c.options.sector.held = HeldBoundary::none;
+  const double pitch = c.gear.pitch_angle(), r = c.support_radius;
+  const auto at = [&](double sector, double z) {
+    return Eigen::Vector3d(r * std::cos((sector + 0.5) * pitch), r * std::sin((sector + 0.5) * pitch), z);
+  };
+  check_floating(c, {{at(0, 0), 0}, {at(0, 0), 1}, {at(0, 0), 2}, {at(14, 0), 1}, {at(14, 0), 2}, {at(7, 0), 2}});
+}
+
+BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_nothing) {
+  auto c = plane_case(GearKind::external, 19);
+  const GearBody one = condensed(c);
+  for (const int threads : {2, 5, 16}) {
+    c.options.threads = threads;
+    const GearBody many = condensed(c);
+    for (int d = 0; d <= one.compliance.max_offset(); ++d)
+      BOOST_TEST((one.compliance.block(d).array() == many.compliance.block(d).array()).all());  // bitwise
+  }
+}
+
+BOOST_AUTO_TEST_CASE(blocks_of_both_directions_are_each_others_transpose) {
+  const GearBody body = condensed(plane_case(GearKind::external, 18));
+  BOOST_TEST(body.compliance.max_offset() == 9);
+  BOOST_TEST((body.compliance.block(-4).array() == body.compliance.block(4).transpose().array()).all());
+  BOOST_TEST((body.compliance.block(14).array() == body.compliance.block(-4).array()).all());
+  // Reciprocity within a tooth and across the ring, formed by different sums: round-off.
+  const Eigen::MatrixXd own = body.compliance.block(0), far = body.compliance.block(9);
+  BOOST_TEST((own - own.transpose()).norm() < 1e-14 * own.norm());
+  BOOST_TEST((far - far.transpose()).norm() < 1e-12 * own.norm());
+  auto c = plane_case(GearKind::external, 18);
+  c.options.max_offset = 2;
+  BOOST_CHECK_THROW((void)condensed(c).compliance.block(3), annulus::InternalError);
+  const Eigen::MatrixXd x = Eigen::MatrixXd::Identity(3, 3);
+  for (const int offset : {3, -3})
+    BOOST_TEST((body.compliance.apply(offset, 1, 2, 0, x) - body.compliance.block(offset).block(1, 0, 2, 3)).norm() ==
+               0.0);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
