@@ -112,13 +112,16 @@ void GearPair::check_tips() const {
   }
   const double planet_form = roll_at(planet_, planet_.form_radius());
   if (roll_low_ < planet_form) {
-    throw GeometryError(fmt::format(
-        "{}: tip interference: the tip of the {} touches the planet at the diameter {:.4f} mm, below its form "
-        "diameter {:.4f} mm (start of the involute); {} the tip diameter of the {} (now {:.4f} mm), reduce the "
-        "planet's root diameter or its root fillet factor",
-        name, wheel_word, 2 * std::hypot(planet_.base_radius(), roll_low_) / units::mm,
-        2 * planet_.form_radius() / units::mm, internal() ? "enlarge" : "reduce", wheel_word,
-        2 * wheel_.tip_radius() / units::mm));
+    throw GeometryError(
+        fmt::format("{}: tip interference: the tip of the {} (diameter {:.4f} mm) touches the planet at the diameter "
+                    "{:.4f} mm, below "
+                    "its form diameter {:.4f} mm (start of the involute); {} that tip diameter to {:.4f} mm, or reduce "
+                    "the planet's "
+                    "root diameter or its root fillet factor",
+                    name, wheel_word, 2 * wheel_.tip_radius() / units::mm,
+                    2 * std::hypot(planet_.base_radius(), roll_low_) / units::mm, 2 * planet_.form_radius() / units::mm,
+                    internal() ? "enlarge" : "reduce",
+                    2 * std::hypot(wheel_.base_radius(), wheel_roll_length(planet_form)) / units::mm));
   }
   const double wheel_roll = wheel_roll_length(roll_high_);
   const double wheel_form = roll_at(wheel_, wheel_.form_radius());

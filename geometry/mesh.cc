@@ -71,8 +71,7 @@ std::vector<Index> side_vertices(const Mesh& mesh, Boundary side) {
     found.insert(found.end(), face.vertices.begin(), face.vertices.begin() + (mesh.dimension == 2 ? 2 : 4));
   }
   std::ranges::sort(found);
-  const auto rest = std::ranges::unique(found);
-  found.erase(rest.begin(), rest.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   std::ranges::sort(found, [&](Index i, Index j) {
     const auto& a = mesh.vertices[i];
     const auto& b = mesh.vertices[j];

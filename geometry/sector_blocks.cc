@@ -153,8 +153,7 @@ std::vector<double> row_radii(const Gear& gear, const Rim& rim) {
   radii.push_back(rim.support_radius);
   std::ranges::sort(radii, [&](double p, double q) { return sign * p > sign * q; });
   const auto same = [&](double p, double q) { return std::abs(p - q) < 1e-9 * gear.parameters().module; };
-  const auto rest = std::ranges::unique(radii, same);
-  radii.erase(rest.begin(), rest.end());
+  radii.erase(std::unique(radii.begin(), radii.end(), same), radii.end());
   return radii;
 }
 

@@ -98,6 +98,26 @@ BOOST_AUTO_TEST_CASE(impossible_pairs_are_refused_with_the_reason) {
          "involute interference");
 }
 
+// The message names the tip diameter at which contact starts at the form circle: 0.1 um to either side decides (the
+// printed value is rounded to that).
+BOOST_AUTO_TEST_CASE(tip_interference_names_the_cure) {
+  const Gear planet(plain_gear(GearKind::external, 25));
+  auto ring = plain_gear(GearKind::internal, 80);
+  std::string message;
+  try {
+    (void)GearPair(planet, Gear(ring), 55 * units::mm);
+  } catch (const GeometryError& e) {
+    message = e.what();
+  }
+  const std::string before = "that tip diameter to ";
+  BOOST_REQUIRE(message.find(before) != std::string::npos);
+  const double named = std::stod(message.substr(message.find(before) + before.size())) * units::mm;
+  ring.tip_diameter = named + 0.1 * units::um;
+  BOOST_CHECK_NO_THROW(GearPair(planet, Gear(ring), 55 * units::mm));
+  ring.tip_diameter = named - 0.1 * units::um;
+  check_refused([&] { (void)GearPair(planet, Gear(ring), 55 * units::mm); }, "tip interference");
+}
+
 BOOST_AUTO_TEST_CASE(tips_of_internal_gears_with_few_teeth_difference_foul) {
   // A well-known rule for 20 deg full-depth teeth: about ten teeth difference are needed.
   const auto pair = [](int difference) {
