@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "app/svg_plot.h"
 #include "core/units.h"
@@ -57,18 +58,22 @@ Verdict::Outcome larger(const Measured& a, const Measured& b) {
   return a.value > b.value ? Verdict::Outcome::agrees : Verdict::Outcome::disagrees;
 }
 
-void worsen(Verdict& verdict, const Measured& a, const Measured& b, int digits) {
+void worsen(Verdict& verdict, const Measured& a, const Measured& b, double margin, int digits) {
   const auto outcome = larger(a, b);
-  if (outcome == Verdict::Outcome::agrees) return;
-  const bool wrong = outcome == Verdict::Outcome::disagrees;
-  verdict.why += (verdict.why.empty() ? "" : "; ") +
-                 fmt::format("'{}' ({}) is {} '{}' ({})", a.ring, to_text(a.value, digits),
-                             wrong ? "below" : "within the error bars of", b.ring, to_text(b.value, digits));
-  if (wrong || verdict.outcome == Verdict::Outcome::disagrees) {
-    verdict.outcome = Verdict::Outcome::disagrees;
-  } else {
-    verdict.outcome = Verdict::Outcome::undecided;
+  const double ahead = a.value / b.value - 1;
+  const bool too_close = outcome == Verdict::Outcome::agrees && ahead < margin;
+  if (outcome == Verdict::Outcome::agrees && !too_close) return;
+  const std::string values =
+      fmt::format("'{}' {} and '{}' {}", a.ring, to_text(a.value, digits), b.ring, to_text(b.value, digits));
+  verdict.why += verdict.why.empty() ? "" : "; ";
+  if (outcome == Verdict::Outcome::undecided) {
+    verdict.why += values + " differ by less than the error bars";
+    if (verdict.outcome == Verdict::Outcome::agrees) verdict.outcome = Verdict::Outcome::undecided;
+    return;
   }
+  verdict.why += too_close ? fmt::format("{} differ by only {:.2g} %", values, 100 * ahead)
+                           : values + " are in the opposite order";
+  verdict.outcome = Verdict::Outcome::disagrees;
 }
 
 /// What stands behind a load sharing order, from the numbers: how far the rings' path stiffnesses are apart at all.
@@ -107,50 +112,98 @@ Verdict judge(const Reference::Order& order, const RingQuantity& quantity, const
   if (order.rings.size() == 1) {
     const auto* first = find(quantity, order.rings.front());
     for (const auto& other : quantity.rings) {
-      if (other.ring != first->ring) worsen(verdict, *first, other, quantity.digits);
+      if (other.ring != first->ring) worsen(verdict, *first, other, order.margin, quantity.digits);
     }
   }
   for (std::size_t i = 0; i + 1 < order.rings.size(); ++i) {
-    worsen(verdict, *find(quantity, order.rings[i]), *find(quantity, order.rings[i + 1]), quantity.digits);
+    worsen(verdict, *find(quantity, order.rings[i]), *find(quantity, order.rings[i + 1]), order.margin,
+           quantity.digits);
   }
   if (verdict.outcome != Verdict::Outcome::agrees && order.quantity == "load_sharing")
     verdict.why += sharing_reason(result);
   return verdict;
 }
 
-Verdict judge_pin(const Reference::AtPin& statement, const RunResult& result) {
+struct NominalRow {
+  double angle = 0, stiffness = 0;
+};
+/// Contact positions at the nominal load in order, the closure position left out.
+std::vector<NominalRow> nominal_rows(const MeshResult& mesh) {
+  const auto& csv = mesh.positions;
+  const auto angle = csv.column("ring_angle_deg"), load = csv.column("load_N"), phase = csv.column("mesh_phase");
+  const auto lte = csv.column("lte_um"), unloaded = csv.column("unloaded_te_um");
+  const double nominal = mesh.table.loads()[mesh.nominal];
+  std::vector<NominalRow> rows;
+  for (const auto& row : csv.rows) {
+    if (row[load] != nominal || row[phase] >= 1) continue;
+    rows.push_back({row[angle] * units::deg, nominal / ((row[lte] - row[unloaded]) * units::um)});
+  }
+  return rows;
+}
+
+/// Angle from the contact to the pin that carries the largest radial force, over all positions.
+double most_loaded_pin(const Csv& pins, double pitch, double first_pin) {
+  const auto angle = pins.column("ring_angle_deg"), pin = pins.column("pin"), force = pins.column("radial_force_N");
+  const auto largest = std::max_element(pins.rows.begin(), pins.rows.end(),
+                                        [&](const auto& a, const auto& b) { return a[force] < b[force]; });
+  return std::remainder(first_pin + ((*largest)[pin] - 1) * pitch - (*largest)[angle] * units::deg,
+                        2 * std::numbers::pi);
+}
+
+/// Mean of the samples within a quarter pitch of the places, over the mean of the others, less one.
+double near_over_far(const std::vector<std::pair<double, double>>& samples, double place, double pitch) {
+  double near = 0, far = 0;
+  int near_count = 0, far_count = 0;
+  for (const auto& [angle, value] : samples) {
+    const bool is_near = std::abs(std::remainder(angle - place, pitch)) < pitch / 4;
+    (is_near ? near : far) += value;
+    (is_near ? near_count : far_count) += 1;
+  }
+  return near_count && far_count ? (near / near_count) / (far / far_count) - 1 : 0;
+}
+
+/// Two readings of "at a pin": the contact itself passes a pin, or the pin that carries most stands in the path of
+/// force.
+std::vector<Verdict> judge_pin(const Reference::AtPin& statement, const RunResult& result) {
   Verdict verdict{.statement = statement.statement,
                   .where = statement.where,
-                  .quantity = "ring mesh stiffness at a pin against between pins",
+                  .quantity = "ring mesh stiffness over the pin pitch",
                   .computed = {},
                   .published = "stiffer at a pin",
                   .outcome = Verdict::Outcome::undecided,
                   .why = {}};
-  for (std::size_t i = 0; i < result.rings.size(); ++i) {
-    const auto& ring = result.rings[i];
-    if (ring.name != statement.ring) continue;
-    if (ring.mesh.model.positions < 2) {
-      verdict.why = "this ring's stiffness does not depend on its position";
-      return verdict;
-    }
-    const auto effect = pin_effect(result, i);
-    verdict.computed = fmt::format("{:+.1f} % at a pin; stiffest {:+.1f} teeth from the nearest pin",
-                                   100 * effect.relative(), effect.stiffest_teeth);
-    const double error = ring.mesh.mean_stiffness().error_relative;
-    if (std::abs(effect.relative()) > error) {
-      verdict.outcome = effect.relative() > 0 ? Verdict::Outcome::agrees : Verdict::Outcome::disagrees;
-    }
-    if (verdict.outcome == Verdict::Outcome::disagrees) {
-      verdict.why =
-          "the line of force passes the rim some teeth away from the contact, so the stiffest place is not the pin "
-          "itself";
-    } else if (verdict.outcome == Verdict::Outcome::undecided) {
-      verdict.why = "the difference is within the error bars";
-    }
-    return verdict;
+  const auto found =
+      std::find_if(result.rings.begin(), result.rings.end(), [&](const auto& r) { return r.name == statement.ring; });
+  if (found == result.rings.end()) {
+    verdict.why = "ring '" + statement.ring + "' is not part of this run";
+    return {verdict};
   }
-  verdict.why = "ring '" + statement.ring + "' is not part of this run";
-  return verdict;
+  const auto effect = pin_effect(result, static_cast<std::size_t>(found - result.rings.begin()));
+  if (!effect) {
+    verdict.why = "the stiffness of this ring was not computed over its pins";
+    return {verdict};
+  }
+  const double error = found->mesh.mean_stiffness().error_relative;
+  const auto outcome = [&](double relative) {
+    if (std::abs(relative) <= error) return Verdict::Outcome::undecided;
+    return relative > 0 ? Verdict::Outcome::agrees : Verdict::Outcome::disagrees;
+  };
+  Verdict loaded = verdict;
+  verdict.quantity = "ring mesh stiffness with the contact at a pin against between pins";
+  verdict.computed = fmt::format("{:+.1f} % at a pin; stiffest with the contact {:+.1f} teeth from the nearest pin",
+                                 100 * effect->contact_at_pin, effect->stiffest_teeth);
+  verdict.outcome = outcome(effect->contact_at_pin);
+  if (verdict.outcome != Verdict::Outcome::agrees) {
+    verdict.why = fmt::format(
+        "the force does not reach the housing behind the contact: the pin that carries most stands {:+.1f} teeth from "
+        "it",
+        effect->loaded_pin_teeth);
+  }
+  loaded.quantity = "ring mesh stiffness with a pin in the path of the force against between pins";
+  loaded.computed = fmt::format("{:+.1f} % with a pin {:+.1f} teeth from the contact, where a pin carries most",
+                                100 * effect->force_at_pin, effect->loaded_pin_teeth);
+  loaded.outcome = outcome(effect->force_at_pin);
+  return {loaded, verdict};
 }
 
 }  // namespace
@@ -211,7 +264,10 @@ std::vector<Verdict> compare(const Reference& reference, const RunResult& result
       if (quantity.key == order.quantity) verdicts.push_back(judge(order, quantity, result));
     }
   }
-  for (const auto& statement : reference.at_pins) verdicts.push_back(judge_pin(statement, result));
+  for (const auto& statement : reference.at_pins) {
+    const auto both = judge_pin(statement, result);
+    verdicts.insert(verdicts.end(), both.begin(), both.end());
+  }
   return verdicts;
 }
 
@@ -226,45 +282,33 @@ PathStiffness path_stiffness(const RunResult& result, std::size_t ring) {
   return {1 / compliance, mesh / compliance, sun / compliance, bearing / compliance};
 }
 
-PinEffect pin_effect(const RunResult& result, std::size_t ring) {
+std::optional<PinEffect> pin_effect(const RunResult& result, std::size_t ring) {
   const auto& mesh = result.rings.at(ring).mesh;
   const auto& input = result.scene.rings.at(ring);
-  const double pitch = 2 * std::numbers::pi / input.pins.value_or(1);
-  const double tooth = 2 * std::numbers::pi / input.teeth;
-  double at = 0, between = 0, stiffest = 0;
-  int at_count = 0, between_count = 0;
+  if (!input.pins || mesh.positions.rows.empty() || mesh.pins.rows.empty()) return std::nullopt;
+  const double pitch = 2 * std::numbers::pi / *input.pins, tooth = 2 * std::numbers::pi / input.teeth;
+  const double first_pin = input.first_pin_angle.value_or(0);
+
   PinEffect effect;
-  const auto& positions = mesh.positions;
-  if (positions.rows.empty()) return {1, 1, 0};
-  const auto angle_column = positions.column("ring_angle_deg"), load_column = positions.column("load_N");
-  const auto lte_column = positions.column("lte_um"), unloaded_column = positions.column("unloaded_te_um");
-  const auto phase_column = positions.column("mesh_phase");
-  const double load = mesh.table.loads()[mesh.nominal];
-  double cycle_sum = 0, cycle_angle = 0;
-  int cycle_count = 0;
-  const auto close_cycle = [&] {
-    if (cycle_count > 0 && cycle_sum / cycle_count > stiffest) {
-      stiffest = cycle_sum / cycle_count;
-      effect.stiffest_teeth =
-          std::remainder(cycle_angle / cycle_count - input.first_pin_angle.value_or(0), pitch) / tooth;
+  const auto loaded_pin = most_loaded_pin(mesh.pins, pitch, first_pin);
+  effect.loaded_pin_teeth = loaded_pin / tooth;
+  std::vector<std::pair<double, double>> samples;  // ring angle of the contact, stiffness
+  for (const auto& row : nominal_rows(mesh)) samples.emplace_back(row.angle, row.stiffness);
+  effect.contact_at_pin = near_over_far(samples, first_pin, pitch);
+  effect.force_at_pin = near_over_far(samples, first_pin - loaded_pin, pitch);
+  // Means over one tooth pitch take out the ripple of the teeth themselves.
+  const auto per_cycle = static_cast<std::size_t>(mesh.table.phases());
+  double stiffest = 0;
+  for (std::size_t i = 0; i + per_cycle <= samples.size(); ++i) {
+    double sum = 0, angle = 0;
+    for (std::size_t k = i; k < i + per_cycle; ++k) {
+      sum += samples[k].second;
+      angle += samples[k].first / static_cast<double>(per_cycle);
     }
-    cycle_sum = cycle_angle = cycle_count = 0;
-  };
-  for (const auto& row : positions.rows) {
-    if (row[load_column] != load || row[phase_column] >= 1) continue;
-    const double angle = row[angle_column] * units::deg;
-    const double k = load / ((row[lte_column] - row[unloaded_column]) * units::um);
-    const double from_pin = std::remainder(angle - input.first_pin_angle.value_or(0), pitch);
-    (std::abs(from_pin) < pitch / 4 ? at : between) += k;
-    (std::abs(from_pin) < pitch / 4 ? at_count : between_count) += 1;
-    if (row[phase_column] == 0) close_cycle();
-    cycle_sum += k;
-    cycle_angle += angle;
-    ++cycle_count;
+    if (sum <= stiffest) continue;
+    stiffest = sum;
+    effect.stiffest_teeth = std::remainder(angle - first_pin, pitch) / tooth;
   }
-  close_cycle();
-  effect.at_pin = at / std::max(1, at_count);
-  effect.between = between / std::max(1, between_count);
   return effect;
 }
 

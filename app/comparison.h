@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,12 +47,15 @@ struct PathStiffness {
 };
 [[nodiscard]] PathStiffness path_stiffness(const RunResult& result, std::size_t ring);
 
-/// Stiffness of a pinned ring where a pin stands within a quarter of a pin pitch, against between the pins.
+/// How the stiffness of a pinned ring depends on where the pins stand. Relative values: near over far, less one, near
+/// being within a quarter of the pin pitch.
 struct PinEffect {
-  double at_pin = 0, between = 0;  ///< N/m, means
-  double stiffest_teeth = 0;       ///< where the cycle mean is largest: teeth from the nearest pin
-  [[nodiscard]] double relative() const { return at_pin / between - 1; }
+  double contact_at_pin = 0;    ///< the contact itself at a pin
+  double force_at_pin = 0;      ///< a pin where the pins carry most, in the path of the force
+  double loaded_pin_teeth = 0;  ///< that place: ring teeth from the contact, counter-clockwise positive
+  double stiffest_teeth = 0;    ///< contact from the nearest pin where the mean over a tooth is stiffest
 };
-[[nodiscard]] PinEffect pin_effect(const RunResult& result, std::size_t ring);
+/// Nothing for a ring without pins, or whose stiffness was given.
+[[nodiscard]] std::optional<PinEffect> pin_effect(const RunResult& result, std::size_t ring);
 
 }  // namespace annulus::app

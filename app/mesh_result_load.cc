@@ -67,7 +67,10 @@ MeshResult given_stiffness(const MeshModel& model, const MeshInput& input, const
 std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::path& folder) {
   const auto table_file = folder / ("stiffness_" + model.mesh + ".csv");
   const auto positions_file = folder / ("lte_" + model.mesh + ".csv");
-  if (!std::filesystem::exists(table_file) || !std::filesystem::exists(positions_file)) return std::nullopt;
+  const auto picture_file = folder / "mesh" / (model.mesh + ".svg");
+  for (const auto& file : {table_file, positions_file, picture_file}) {
+    if (!std::filesystem::exists(file)) return std::nullopt;
+  }
   const std::string id = model.id();
   try {
     auto table = StiffnessTable::read_csv(table_file);
@@ -88,7 +91,7 @@ std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::pa
       auto pins = Csv::read(pins_file);
       if (header_value(pins.header, "inputs_id") == id) result.pins = std::move(pins);
     }
-    result.picture = file_text(folder / "mesh" / (model.mesh + ".svg"));
+    result.picture = file_text(picture_file);
     return result;
   } catch (const std::exception&) {
     return std::nullopt;  // damaged or from another version: solved again and overwritten

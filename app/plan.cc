@@ -99,22 +99,23 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
   bool computed = false;
   for (const auto& mesh : meshes) computed = computed || mesh.computed();
   if (computed) {
-    list.emplace_back(
-        "Only the driving flanks are solved: contact on the coast flank does not occur under the tabulated loads.");
+    list.push_back(
+        fmt::format("Only the driving flanks are solved. The backlash that follows from profile shifts and centre "
+                    "distance is {} µm in the sun mesh "
+                    "and {} µm in the ring mesh; where it is smaller than the deflection, the back flanks would touch "
+                    "as well, which is left out.",
+                    to_text(geometry.sun_mesh().normal_backlash() / units::um, 2),
+                    to_text(geometry.rings.front().set.ring_mesh().normal_backlash() / units::um, 2)));
     list.emplace_back("Friction is left out; the contact is hard and the sliding small.");
     if (meshes.front().computed()) list.emplace_back("The sun mesh is solved once and shared by all rings.");
     list.emplace_back("The given planet errors enter the dynamics; the contact solve itself is free of errors.");
   }
   if (scene.dynamics) {
-    const double tolerance = 1 * units::um;
-    for (const auto& ring : geometry.rings) {
-      const double half = ring.set.ring_mesh().normal_backlash() / 2;
-      if (scene.dynamics->half_backlash > half + tolerance) {
-        list.push_back(fmt::format(
-            "The given half backlash ({} µm) is larger than the geometry of ring '{}' leaves ({} µm): the dynamics "
-            "uses the given one.",
-            to_text(scene.dynamics->half_backlash / units::um, 4), ring.name, to_text(half / units::um, 3)));
-      }
+    const double half = geometry.rings.front().set.ring_mesh().normal_backlash() / 2;
+    if (scene.dynamics->half_backlash > half + 1 * units::um) {
+      list.push_back(
+          fmt::format("The dynamics uses the given half backlash of {} µm; the geometry leaves {} µm in the ring mesh.",
+                      to_text(scene.dynamics->half_backlash / units::um, 4), to_text(half / units::um, 2)));
     }
     if (!scene.dynamics->mesh_cycles) {
       list.emplace_back("The integration runs until the response repeats itself, then over one error period.");

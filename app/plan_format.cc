@@ -57,7 +57,7 @@ std::string to_text(const Plan& plan) {
   for (const auto& input : plan.inputs) {
     if (!input.ring.empty() && input.ring != ring) text += "  ring '" + input.ring + "'\n";
     ring = input.ring;
-    text += "  " + pad(input.key, 36) + pad(to_text(input.value) + " " + input.unit, 30) +
+    text += "  " + pad(input.key, 40) + pad(to_text(input.value) + " " + input.unit, 30) +
             (input.assumed.empty() ? "  " : "* ") + to_text(input.origin);
     if (input.origin != Origin::scene && !input.note.empty()) text += " (" + input.note + ")";
     text += "\n";

@@ -20,6 +20,7 @@ Reference::Order order_of(const toml::table& table, const std::string& file) {
   Reference::Order order{.quantity = text_of(table, "quantity", true, file),
                          .rings = {},
                          .values = {},
+                         .margin = table["margin"].value_or(0.0),
                          .statement = text_of(table, "statement", true, file),
                          .where = text_of(table, "where", false, file)};
   if (const auto* rings = table["rings"].as_array()) {

@@ -13,6 +13,7 @@ struct Reference {
     std::string quantity;            ///< one of comparison.cc's quantities: "ring_stiffness", "load_sharing", ...
     std::vector<std::string> rings;  ///< largest first; a single one: larger than all others
     std::vector<double> values;      ///< published numbers, one per ring, or none
+    double margin = 0;  ///< relative difference that the statement asks for ("clearly"); 0: any beyond the error bars
     std::string statement, where;
   };
   /// "Stiffer where a pin stands behind the contact than between the pins."

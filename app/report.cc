@@ -34,7 +34,7 @@ figure { margin: 14px 0 26px; }
 figure .row { display: grid; grid-template-columns: repeat(auto-fit, minmax(360px, 1fr)); gap: 10px 14px; align-items: end; }
 figure .row.one { grid-template-columns: minmax(360px, 900px); }
 figure .row > div { min-width: 0; } figure svg { width: 100%; height: auto; display: block; }
-figure.meshes .row { align-items: start; } figure.meshes svg { max-height: 420px; } figure.meshes h3 { margin-top: 0; }
+figure.meshes .row { align-items: start; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 24px; } figure.meshes svg { max-height: 470px; } figure.meshes h3 { margin-top: 0; }
 figcaption { color: #555; font-size: 13.5px; max-width: 110ch; margin-top: 6px; }
 .legend { font-size: 13px; color: #333; margin: 2px 0 4px; } .legend span { margin-right: 16px; white-space: nowrap; }
 .legend i { display: inline-block; width: 18px; height: 3px; vertical-align: middle; margin-right: 6px; }
@@ -52,10 +52,14 @@ std::string measured(double value, double error) {
   if (!std::isfinite(value)) return "not known";
   error = std::abs(error);
   if (!(error > 0) || !std::isfinite(error)) return to_text(value, 5);
-  // Two digits of the error, and the value to the same place.
-  const int place = static_cast<int>(std::floor(std::log10(error))) - 1;
-  const int decimals = std::clamp(-place, 0, 8);
-  if (error < 1e-8 * std::max(1.0, std::abs(value))) return to_text(value, 6) + " ± &lt;1e-8";
+  // Two digits of the error and the value to the same place, but no more than five digits of the value: beyond them the
+  // inputs are not known.
+  const auto place = [](double x) { return static_cast<int>(std::floor(std::log10(x))); };
+  const int wanted = 1 - place(error);
+  const int most = value == 0 ? wanted : 4 - place(std::abs(value));
+  const int decimals = std::clamp(std::min(wanted, most), 0, 9);
+  if (error < 0.5 * std::pow(10.0, -decimals))
+    return fmt::format("{:.{}f} ± &lt;{:.{}f}", value, decimals, std::pow(10.0, -decimals), decimals);
   return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
 }
 

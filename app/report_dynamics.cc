@@ -44,7 +44,7 @@ struct Lines {
 };
 
 std::string per_planet(const RunResult& result, const char* mesh, const Lines& lines, const char* y_label,
-                       const std::string& level, const std::string& caption) {
+                       const std::string& caption) {
   const int planets = result.scene.stage.planets;
   std::vector<Plot> plots;
   RangeFinder range;
@@ -54,7 +54,7 @@ std::string per_planet(const RunResult& result, const char* mesh, const Lines& l
     Plot plot{.title = ring->name,
               .x_label = "mesh cycle of the evaluated window",
               .y_label = y_label,
-              .levels = {{1.0, level}}};
+              .levels = {{1.0, ""}}};
     for (int n = 0; n < planets; ++n) {
       const auto name = branch(mesh, n);
       Series series{.label = fmt::format("planet {}", n + 1),
@@ -123,19 +123,19 @@ std::string dynamics_section(const RunResult& result) {
   text +=
       "<h3>Load sharing of the sun meshes</h3>\n" +
       per_planet(
-          result, sun_planet, sharing, "N F / ΣF", "equal",
+          result, sun_planet, sharing, "N F / ΣF",
           "Each planet's part of the power, forces averaged over a mesh cycle. The coefficient is the highest point." +
               cut);
   text += "<h3>Load sharing of the ring meshes</h3>\n" +
-          per_planet(result, ring_planet, sharing, "N F / ΣF", "equal", "The same for the ring meshes.");
+          per_planet(result, ring_planet, sharing, "N F / ΣF", "The same for the ring meshes.");
   text += "<h3>Dynamic factor of the sun meshes</h3>\n" +
-          per_planet(result, sun_planet, factor, "F / mean mesh force", "mean force",
+          per_planet(result, sun_planet, factor, "F / mean mesh force",
                      "Line: largest force of each mesh cycle; band: down to the smallest." + cut);
-  text += per_planet(result, sun_planet, waveform, "F / mean mesh force", "mean force",
+  text += per_planet(result, sun_planet, waveform, "F / mean mesh force",
                      "The first six mesh cycles of the window, at full resolution.");
   text += "<h3>Dynamic factor of the ring meshes</h3>\n" +
-          per_planet(result, ring_planet, factor, "F / mean mesh force", "mean force", "As above.");
-  text += per_planet(result, ring_planet, waveform, "F / mean mesh force", "mean force",
+          per_planet(result, ring_planet, factor, "F / mean mesh force", "As above.");
+  text += per_planet(result, ring_planet, waveform, "F / mean mesh force",
                      "The first six mesh cycles of the window, at full resolution.");
   text += "<h3>Spectrum of the mesh forces</h3>\n<p>Sun mesh</p>\n" + spectra(result, sun_planet) +
           "<p>Ring mesh</p>\n" + spectra(result, ring_planet);

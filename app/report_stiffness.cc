@@ -11,9 +11,12 @@ namespace annulus::app {
 
 namespace {
 
-/// One quantity over the mesh cycles of a table, closed at the end so that the curve fills the whole period.
+/// One quantity over the mesh cycles of a table: the solved positions, and the periodic curve through them that the
+/// dynamics uses, with the estimated error around it.
 struct Curve {
   std::vector<double> cycles, value, low, high;
+  std::vector<double> solved_cycles, solved;
+  double mean = 0;
 };
 
 template <class Pick>
@@ -21,15 +24,35 @@ Curve curve_of(const MeshResult& mesh, Pick pick) {
   Curve curve;
   const auto& table = mesh.table;
   const int phases = table.phases(), total = phases * table.positions();
-  for (int i = 0; i <= total; ++i) {
-    const auto& e = table.at((i / phases) % table.positions(), i % phases, static_cast<int>(mesh.nominal));
-    const double value = pick(e);
-    curve.cycles.push_back(static_cast<double>(i) / phases);
+  std::vector<double> error;
+  for (int i = 0; i < total; ++i) {
+    const auto& e = table.at(i / phases, i % phases, static_cast<int>(mesh.nominal));
+    curve.solved_cycles.push_back(static_cast<double>(i) / phases);
+    curve.solved.push_back(pick(e));
+    error.push_back(e.error_relative);
+  }
+  // A given wave is sampled densely already, and a rectangular one must not be rounded.
+  const int pieces = !mesh.model.computed() ? 1 : table.positions() > 1 ? 4 : 10;
+  const PeriodicCurve through(curve.solved, phases);
+  curve.mean = through.mean();
+  for (int i = 0; i <= total * pieces; ++i) {
+    const double cycle = static_cast<double>(i) / (phases * pieces);
+    const double value = pieces == 1 ? curve.solved[static_cast<std::size_t>(i % total)] : through(cycle);
+    const double e = error[static_cast<std::size_t>(((i + pieces / 2) / pieces) % total)];
+    curve.cycles.push_back(cycle);
     curve.value.push_back(value);
-    curve.low.push_back(value * (1 - e.error_relative));
-    curve.high.push_back(value * (1 + e.error_relative));
+    curve.low.push_back(value * (1 - e));
+    curve.high.push_back(value * (1 + e));
   }
   return curve;
+}
+
+/// The curve as a line with its band, and dots where it was solved when there are few enough to tell apart.
+void add_curve(Plot& plot, const std::string& label, const Curve& c, std::size_t colour, bool dots) {
+  plot.series.push_back({.label = label, .x = c.cycles, .y = c.value, .low = c.low, .high = c.high, .colour = colour});
+  if (dots)
+    plot.series.push_back(
+        {.label = {}, .x = c.solved_cycles, .y = c.solved, .colour = colour, .style = Series::Style::dots});
 }
 
 double lte_um(const StiffnessEntry& e) { return e.lte / units::um; }
@@ -49,10 +72,8 @@ std::string per_ring(const RunResult& result, const char* y_label, Pick pick, bo
   for (const auto& ring : result.rings) {
     auto curve = curve_of(ring.mesh, pick);
     if (about_mean) {
-      double mean = 0;
-      for (std::size_t i = 0; i + 1 < curve.value.size(); ++i) mean += curve.value[i];
-      mean /= static_cast<double>(curve.value.size() - 1);
-      for (auto& v : curve.value) v -= mean;
+      for (auto& v : curve.value) v -= curve.mean;
+      for (auto& v : curve.solved) v -= curve.mean;
       curve.low.clear();
       curve.high.clear();
     }
@@ -63,7 +84,7 @@ std::string per_ring(const RunResult& result, const char* y_label, Pick pick, bo
   }
   std::vector<std::string> plots;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    auto& c = curves[i];
+    const auto& c = curves[i];
     Plot plot{.title = result.rings[i].name,
               .x_label = cycle_label(result.rings[i].mesh),
               .y_label = y_label,
@@ -213,11 +234,11 @@ std::string meshes_section(const RunResult& result) {
   std::string cells;
   const auto add = [&](const std::string& title, const MeshResult& mesh) {
     if (mesh.picture.empty()) return;
-    cells +=
-        "<div><h3>" + escape(title) + "</h3>" + mesh.picture +
-        fmt::format("<figcaption>{}</figcaption></div>\n",
-                    mesh.model.rung == "solid" ? "Held faces orange, driven flanks blue."
-                                               : "Planet blue; what is held is orange; the dot is the pitch point.");
+    cells += "<div><h3>" + escape(title) + "</h3>" + mesh.picture +
+             fmt::format("<figcaption>{}</figcaption></div>\n",
+                         mesh.model.rung == "solid"
+                             ? "Held faces orange, driven flanks blue."
+                             : "Planet blue; what is held is orange; the circle marks the pitch point.");
   };
   for (const auto& ring : result.rings) add("Ring mesh, " + ring.name, ring.mesh);
   add("Sun mesh", result.sun_mesh);
@@ -240,12 +261,7 @@ std::string stiffness_section(const RunResult& result) {
   const auto sun = curve_of(result.sun_mesh, secant);
   Plot plot{
       .title = "Sun mesh stiffness (secant)", .x_label = "mesh cycle", .y_label = "N/µm", .width = 900, .height = 300};
-  plot.series.push_back({.label = "sun mesh",
-                         .x = sun.cycles,
-                         .y = sun.value,
-                         .low = sun.low,
-                         .high = sun.high,
-                         .colour = result.rings.size()});
+  add_curve(plot, "sun mesh", sun, result.rings.size(), result.sun_mesh.model.computed());
   text += figure({to_svg(plot)}, "", "The same for all rings.");
   return text + over_load(result) + shares(result) + pin_plots(result);
 }

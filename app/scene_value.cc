@@ -16,10 +16,15 @@ std::string to_text(double value, int digits) {
   if (rounded == 0) return "0";
   const bool large = std::abs(rounded) >= 1e6, small = std::abs(rounded) < 1e-4;
   if (!large && !small) return fmt::format("{}", rounded);
-  // 1e9, 1.364e9, 1e-6: without the plus sign and the leading zero of "1e+09".
-  const auto exponent = static_cast<int>(std::floor(std::log10(std::abs(rounded)) * (1 + 1e-15)));
-  return fmt::format("{}e{}", std::strtod(fmt::format("{:.12g}", rounded / std::pow(10.0, exponent)).c_str(), nullptr),
-                     exponent);
+  // 1e9, 1.364e9, 1e-6: without the zeros, plus sign and leading zero of "1.3640e+09".
+  std::string text = fmt::format("{:.{}e}", rounded, digits - 1);
+  const auto e = text.find('e');
+  std::string mantissa = text.substr(0, e);
+  if (mantissa.find('.') != std::string::npos) {
+    mantissa.erase(mantissa.find_last_not_of('0') + 1);
+    if (mantissa.back() == '.') mantissa.pop_back();
+  }
+  return mantissa + "e" + std::to_string(std::stoi(text.substr(e + 1)));
 }
 
 std::string to_text(const Value& value) {

@@ -40,12 +40,23 @@ std::string cells_path(const Mesh& mesh) {
   return d;
 }
 
+/// Free boundary of the sector, without the cuts to its neighbours.
+std::string outline_path(const Mesh& mesh) {
+  std::string d;
+  for (const auto& face : mesh.faces) {
+    if (face.boundary == Boundary::side_low || face.boundary == Boundary::side_high) continue;
+    const auto &a = mesh.vertices[face.vertices[0]], &b = mesh.vertices[face.vertices[1]];
+    d += "M" + page_point(a.x(), a.y()) + "L" + page_point(b.x(), b.y());
+  }
+  return d;
+}
+
 std::string teeth(const Mesh& sector, const std::string& id, const char* fill, double pitch, double first,
                   int each_side, double centre) {
   std::string svg = fmt::format(
-      "<defs><path id=\"{}\" d=\"{}\" fill=\"{}\" stroke=\"#5a6a78\" stroke-width=\"0.35\" "
-      "vector-effect=\"non-scaling-stroke\"/></defs>",
-      id, cells_path(sector), fill);
+      "<defs><g id=\"{}\"><path d=\"{}\" fill=\"{}\" stroke=\"#46586a\" stroke-opacity=\"0.6\" stroke-width=\"0.025\"/>"
+      "<path d=\"{}\" fill=\"none\" stroke=\"#2c3a48\" stroke-width=\"0.22\" stroke-linecap=\"round\"/></g></defs>",
+      id, cells_path(sector), fill, outline_path(sector));
   for (int i = -each_side; i <= each_side; ++i) {
     // On the page the y axis points down and x became upright: a counter-clockwise angle turns by minus the angle.
     svg += fmt::format("<use href=\"#{}\" transform=\"translate(0 {:.3f}) rotate({:.5f})\"/>", id, -centre / units::mm,
@@ -112,7 +123,8 @@ std::string plane_picture(const fem::LoadedMeshProblem& problem, const fem::Load
   svg +=
       teeth(solved.planet_sector, "planet-" + name, planet_fill, planet.pitch_angle(), planet_first, each_side, centre);
   svg += supports(problem, wheel_first, (each_side + 0.5) * wheel.pitch_angle());
-  svg += fmt::format("<circle cx=\"0\" cy=\"{:.3f}\" r=\"0.8\" fill=\"#000\"/>", -wheel_pitch / units::mm);
+  svg += fmt::format("<circle cx=\"0\" cy=\"{:.3f}\" r=\"0.9\" fill=\"none\" stroke=\"#000\" stroke-width=\"0.35\"/>",
+                     -wheel_pitch / units::mm);
   return svg + "</svg>";
 }
 
@@ -124,7 +136,7 @@ struct Camera {
 
 /// From inside the ring, looking outwards and a little upwards: teeth, sleeve and the held face below all show.
 Camera camera() {
-  const double azimuth = 32 * units::deg, elevation = -24 * units::deg;
+  const double azimuth = -32 * units::deg, elevation = -24 * units::deg;
   Camera c;
   c.towards = {-std::cos(elevation) * std::cos(azimuth), -std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
   c.right = Eigen::Vector3d::UnitZ().cross(c.towards).normalized();
@@ -140,7 +152,7 @@ struct Facet {
 
 std::string shade(const char* base, double light) {
   const auto rgb = std::stoul(base + 1, nullptr, 16);
-  const double k = 0.62 + 0.38 * light;
+  const double k = 0.74 + 0.26 * light;
   const auto channel = [&](unsigned shift) { return static_cast<int>(static_cast<double>((rgb >> shift) & 0xFF) * k); };
   return fmt::format("#{:02x}{:02x}{:02x}", channel(16), channel(8), channel(0));
 }
@@ -193,7 +205,7 @@ std::string solid_picture(const fem::LoadedMeshProblem& problem, const fem::Load
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.2f} {:.2f} {:.2f} {:.2f}\" role=\"img\" "
       "aria-label=\"mesh\">"
-      "<g stroke=\"#5a6a78\" stroke-width=\"0.12\" stroke-linejoin=\"round\">",
+      "<g stroke=\"#5a6a78\" stroke-width=\"0.06\" stroke-linejoin=\"round\">",
       low.x(), low.y(), size.x(), size.y());
   for (const auto& facet : list) {
     const auto& c = facet.corners;

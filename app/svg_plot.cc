@@ -207,15 +207,39 @@ std::string axes(const Frame& frame, const Plot& plot) {
   return svg;
 }
 
+constexpr double legend_line = 17;
+
+/// Legend entries in rows: x of each labelled series, and its row.
+struct LegendPlace {
+  const Series* series;
+  double x;
+  int row;
+};
+std::vector<LegendPlace> legend_places(const Plot& plot, double left, double right) {
+  std::vector<LegendPlace> places;
+  double x = left;
+  int row = 0;
+  for (const auto& s : plot.series) {
+    if (s.label.empty() || !plot.legend) continue;
+    const double width = 30 + 6.4 * static_cast<double>(s.label.size());
+    if (x + width > right && x > left) {
+      x = left;
+      ++row;
+    }
+    places.push_back({&s, x, row});
+    x += width;
+  }
+  return places;
+}
+
 std::string legend(const Frame& frame, const Plot& plot) {
   std::string svg;
-  double x = frame.left;
-  for (const auto& s : plot.series) {
-    if (s.label.empty()) continue;
-    svg += fmt::format("<path d=\"M{:.1f} {:.1f}h14\" stroke=\"{}\" stroke-width=\"2.5\"{}/>", x, frame.top - 9,
-                       palette(s.colour), s.dashed ? " stroke-dasharray=\"5 3\"" : "");
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 18, frame.top - 5.5, escape(s.label));
-    x += 30 + 6.2 * static_cast<double>(s.label.size());
+  const auto places = legend_places(plot, frame.left, frame.right);
+  for (const auto& [s, x, row] : places) {
+    const double y = frame.top - 9 - legend_line * (places.back().row - row);
+    svg += fmt::format("<path d=\"M{:.1f} {:.1f}h14\" stroke=\"{}\" stroke-width=\"2.5\"{}/>", x, y, palette(s->colour),
+                       s->dashed ? " stroke-dasharray=\"5 3\"" : "");
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x + 18, y + 3.5, escape(s->label));
   }
   return svg;
 }
@@ -230,9 +254,11 @@ Frame frame_of(const Plot& plot) {
     if (s.style == Series::Style::bars) y.add(0);
   }
   for (const auto& [value, label] : plot.levels) y.add(value);
-  const double top = (plot.title.empty() ? 10 : 26) + (plot.legend ? 18 : 0);
-  return {62,
-          plot.width - 12.0,
+  constexpr double left = 62, right_margin = 12;
+  const auto places = legend_places(plot, left, plot.width - right_margin);
+  const double top = (plot.title.empty() ? 10 : 26) + (places.empty() ? 0 : 1 + legend_line * (places.back().row + 1));
+  return {left,
+          plot.width - right_margin,
           top,
           plot.height - 42.0,
           plot.x_range.value_or(x.range(0)),
@@ -263,8 +289,9 @@ std::string to_svg(const Plot& plot) {
   for (const auto& [value, label] : plot.levels) {
     svg += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\" stroke=\"#777\" stroke-dasharray=\"2 3\"/>", frame.left,
                        frame.at_y(value), frame.right);
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\" fill=\"#666\">{}</text>", frame.right - 3,
-                       frame.at_y(value) - 4, escape(label));
+    if (!label.empty())
+      svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\" fill=\"#666\">{}</text>", frame.right - 3,
+                         frame.at_y(value) - 4, escape(label));
   }
   for (const auto& s : plot.series) svg += draw(frame, s);
   return svg + "</svg></svg>";
