@@ -3,6 +3,7 @@
 #include <cholmod.h>
 
 #include <algorithm>
+#include <mutex>
 #include <numeric>
 
 #include "core/errors.h"
@@ -123,10 +124,15 @@ Eigen::MatrixXd schur_complement(const Eigen::SparseMatrix<double>& matrix, cons
   cholmod_sparse interior_view = lower_view(interior_matrix);
   std::vector<int> interior_order(interior.size());
   // Nested dissection pays for itself in three dimensions and on large plane sectors.
-  const bool ordered = interior.empty() ? true
-                       : interior.size() > 3000
-                           ? cholmod_metis(&interior_view, nullptr, 0, 1, interior_order.data(), &common) != 0
-                           : cholmod_amd(&interior_view, nullptr, 0, interior_order.data(), &common) != 0;
+  const bool ordered = [&] {
+    if (interior.empty()) return true;
+    if (interior.size() <= 3000) return cholmod_amd(&interior_view, nullptr, 0, interior_order.data(), &common) != 0;
+    // METIS seeds and draws from the C library's one random generator: side by side, two calls would disturb each
+    // other's orderings and with them the last digits of the result.
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
+    return cholmod_metis(&interior_view, nullptr, 0, 1, interior_order.data(), &common) != 0;
+  }();
   require(ordered, "the fill-reducing ordering failed");
   std::vector<int> permutation;
   permutation.reserve(n);
