@@ -41,19 +41,23 @@ class PositionRun {
   [[nodiscard]] std::vector<LoadedPosition> solve(const std::function<void(double)>& progress) const {
     const int loads = static_cast<int>(problem_.loads.size()), phases = problem_.phases;
     std::vector<LoadedPosition> positions(static_cast<std::size_t>(cycles_ * phases + 1) * loads);
-    // One task per cycle and load: neighbouring phases warm-start each other, whatever the number of threads.
-    const int tasks = cycles_ * loads;
+    // A ring that repeats with every tooth: one task per load, neighbouring phases warm-start each other. Otherwise one
+    // task per load and phase, in which the pins move on from cycle to cycle. Never dependent on the number of threads.
+    const bool one_cycle = cycles_ == 1;
+    const int tasks = one_cycle ? loads : loads * (phases + 1);
     std::atomic<int> next{0}, done{0};
     std::mutex failure_lock;
     std::exception_ptr failure;
     const auto worker = [&] {
       for (int task = next++; task < tasks; task = next++) try {
-          const int cycle = task / loads, load = task % loads;
+          const int load = task % loads;
+          const int first_phase = one_cycle ? 0 : task / loads, last_phase = one_cycle ? phases : first_phase;
           ContactSystem::WarmStart warm;
-          const int last = cycle + 1 == cycles_ ? phases : phases - 1;
-          for (int phase = 0; phase <= last; ++phase)
-            positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load] =
-                system_.solve(cycle, static_cast<double>(phase) / phases, problem_.loads[load], warm);
+          ContactSystem::PairsCache pairs;
+          for (int phase = first_phase; phase <= last_phase; ++phase)
+            for (int cycle = phase == phases ? cycles_ - 1 : 0; cycle < cycles_; ++cycle)
+              positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load] =
+                  system_.solve(cycle, static_cast<double>(phase) / phases, problem_.loads[load], pairs, warm);
           ++done;
           if (progress) {
             const std::lock_guard lock(failure_lock);

@@ -17,14 +17,23 @@ double hertz_half_width(double line_load, double relative_curvature, const Mater
 
 /// One tooth pair that may touch: its window, cut into pressure elements, on both flanks.
 struct ContactSystem::Pair {
-  int tooth = 0;  ///< number of the pair; planet tooth
-  int wheel_tooth = 0;
+  int index = 0;    ///< number of the pair, and of the planet's tooth in cycle 0
   double roll = 0;  ///< theoretical contact on the planet
   double smallest_gap = 0;
   bool low_is_edge = false, high_is_edge = false;  ///< the window ends at the end of a flank
   Eigen::VectorXd gap, length;                     ///< per element: mean gap (m), arc length (m)
   ContactBody::Weights planet, wheel;
   std::vector<std::vector<double>> planet_rolls, wheel_rolls, weights;  ///< quadrature points behind the elements
+};
+
+/// All pairs of one phase and load, and what they have in common in every mesh cycle.
+struct ContactSystem::Pairs {
+  double phase = 0, load = 0, window = 0;
+  std::vector<Pair> pairs;
+  std::vector<Eigen::Index> start;  ///< first unknown of every pair
+  Eigen::Index contacts = 0;        ///< number of unknown contact forces, [pair][element][slice]
+  Eigen::MatrixXd compliance;       ///< contacts x contacts
+  double asymmetry = 0;             ///< of the compliance, formed in both directions
 };
 
 ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel,
@@ -38,7 +47,7 @@ ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& plan
       slice_edges_(std::move(slice_edges)),
       options_(options) {}
 
-std::vector<ContactSystem::Pair> ContactSystem::find_pairs(int cycle, double phase, double load, double window) const {
+std::vector<ContactSystem::Pair> ContactSystem::find_pairs(double phase, double load, double window) const {
   const auto& pair = flanks_.pair();
   const double pitch = pair.planet().base_pitch();
   const double width = slice_edges_.back() - slice_edges_.front();
@@ -56,8 +65,7 @@ std::vector<ContactSystem::Pair> ContactSystem::find_pairs(int cycle, double pha
     if (p.roll <= 0) continue;
     const auto domain = flanks_.domain(p.roll);
     if (domain.empty()) continue;
-    p.tooth = k - static_cast<int>(direction) * cycle;
-    p.wheel_tooth = pair.internal() ? p.tooth : -p.tooth;
+    p.index = k;
     const double centre = flanks_.nearest_roll(p.roll);
     p.smallest_gap = flanks_.match(centre, p.roll).gap;
     const double base = pair.planet().base_radius();
@@ -107,104 +115,139 @@ std::vector<ContactSystem::Pair> ContactSystem::find_pairs(int cycle, double pha
   return pairs;
 }
 
-LoadedPosition ContactSystem::solve(int cycle, double phase, double load, WarmStart& warm) const {
-  const int slices = planet_.slices();
-  double window = options_.window;
-  for (int attempt = 0; attempt < 6; ++attempt, window *= 1.5) {
-    const auto pairs = find_pairs(cycle, phase, load, window);
-    std::vector<Eigen::Index> start;
-    Eigen::Index contacts = 0;
-    for (const auto& p : pairs) {
-      start.push_back(contacts);
-      contacts += p.gap.size() * slices;
-    }
-    const Eigen::Index pin_forces = pins_ != nullptr ? 2 * pins_->size() : 0, n = contacts + pin_forces;
+int ContactSystem::wheel_tooth(int index, int cycle) const {
+  return flanks_.pair().internal() ? index - cycle : -(index + cycle);
+}
 
-    ComplementarityProblem problem;
-    problem.compliance = Eigen::MatrixXd::Zero(n, n);
-    problem.gap = Eigen::VectorXd::Zero(n);
-    problem.rigid = Eigen::MatrixXd::Zero(n, pins_ != nullptr ? 4 : 1);
-    problem.load = Eigen::VectorXd::Zero(problem.rigid.cols());
-    problem.load[0] = load;
-    double asymmetry = 0;
-    problem.unilateral.assign(n, true);
-    std::vector<bool> guess(n, false);
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const auto& p = pairs[i];
+ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, double window) const {
+  const int slices = planet_.slices();
+  auto result = std::make_shared<Pairs>();
+  result->phase = phase;
+  result->load = load;
+  result->window = window;
+  result->pairs = find_pairs(phase, load, window);
+  const auto& pairs = result->pairs;
+  auto& start = result->start;
+  for (const auto& p : pairs) {
+    start.push_back(result->contacts);
+    result->contacts += p.gap.size() * slices;
+  }
+  auto& compliance = result->compliance;
+  compliance = Eigen::MatrixXd::Zero(result->contacts, result->contacts);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto& p = pairs[i];
+    const Eigen::Index size = p.gap.size() * slices;
+    const int tooth = wheel_tooth(p.index, 0);
+    for (std::size_t j = 0; j <= i; ++j) {
+      const auto& o = pairs[j];
+      const int other = wheel_tooth(o.index, 0);
+      // Both directions are formed on their own: what they differ by measures reciprocity (Betti).
+      const Eigen::MatrixXd block =
+          planet_.compliance(p.planet, p.index, o.planet, o.index) + wheel_.compliance(p.wheel, tooth, o.wheel, other);
+      const Eigen::MatrixXd opposite =
+          planet_.compliance(o.planet, o.index, p.planet, p.index) + wheel_.compliance(o.wheel, other, p.wheel, tooth);
+      result->asymmetry = std::max(result->asymmetry,
+                                   (block - opposite.transpose()).cwiseAbs().maxCoeff() / block.cwiseAbs().maxCoeff());
+      compliance.block(start[i], start[j], size, block.cols()) = (block + opposite.transpose()) / 2;
+      compliance.block(start[j], start[i], block.cols(), size) =
+          compliance.block(start[i], start[j], size, block.cols()).transpose();
+    }
+    compliance.block(start[i], start[i], size, size) +=
+        planet_.near_field(p.planet_rolls, p.weights) + wheel_.near_field(p.wheel_rolls, p.weights);
+  }
+  return result;
+}
+
+ComplementarityProblem ContactSystem::assemble(const Pairs& setup, int cycle) const {
+  const int slices = planet_.slices();
+  const Eigen::Index contacts = setup.contacts, pin_forces = pins_ != nullptr ? 2 * pins_->size() : 0;
+  const Eigen::Index n = contacts + pin_forces;
+  ComplementarityProblem problem;
+  problem.compliance = Eigen::MatrixXd::Zero(n, n);
+  problem.compliance.topLeftCorner(contacts, contacts) = setup.compliance;
+  problem.gap = Eigen::VectorXd::Zero(n);
+  problem.rigid = Eigen::MatrixXd::Zero(n, pins_ != nullptr ? 4 : 1);
+  problem.rigid.col(0).head(contacts).setOnes();
+  problem.load = Eigen::VectorXd::Zero(problem.rigid.cols());
+  problem.load[0] = setup.load;
+  problem.unilateral.assign(n, true);
+  for (std::size_t i = 0; i < setup.pairs.size(); ++i)
+    for (Eigen::Index e = 0; e < setup.pairs[i].gap.size(); ++e)
+      problem.gap.segment(setup.start[i] + e * slices, slices).setConstant(setup.pairs[i].gap[e]);
+  if (pins_ == nullptr) return problem;
+
+  problem.compliance.bottomRightCorner(pin_forces, pin_forces) = pins_->compliance();
+  for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
+    const auto& p = setup.pairs[i];
+    const int tooth = wheel_tooth(p.index, cycle);
+    const Eigen::MatrixXd coupling = pins_->to_flank(p.wheel, tooth);
+    problem.compliance.block(setup.start[i], contacts, coupling.rows(), pin_forces) = coupling;
+    problem.compliance.block(contacts, setup.start[i], pin_forces, coupling.rows()) = coupling.transpose();
+    problem.rigid.block(setup.start[i], 1, coupling.rows(), 3) = -wheel_.resultants(p.wheel, tooth);
+  }
+  problem.rigid.block(contacts, 1, pin_forces, 3) = -pins_->resultants();
+  problem.rigid.col(3) /= flanks_.pair().wheel().reference_radius();  // makes the rotation a displacement
+  for (int q = 0; q < pins_->size(); ++q) {
+    problem.gap[contacts + 2 * q] = pins_->parameters().clearance;
+    problem.unilateral[contacts + 2 * q] = pins_->parameters().unilateral;
+    problem.unilateral[contacts + 2 * q + 1] = false;
+  }
+  return problem;
+}
+
+LoadedPosition ContactSystem::solve(int cycle, double phase, double load, PairsCache& cache, WarmStart& warm) const {
+  const int slices = planet_.slices();
+  if (!cache || cache->phase != phase || cache->load != load) cache = prepare(phase, load, options_.window);
+  constexpr double largest_window = 12;  // in Hertz half-widths: longer than any flank at a sensible load
+  for (;;) {
+    const Pairs& setup = *cache;
+    const ComplementarityProblem problem = assemble(setup, cycle);
+    std::vector<bool> guess(problem.gap.size(), true);
+    for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
+      const auto& p = setup.pairs[i];
       const Eigen::Index size = p.gap.size() * slices;
-      for (Eigen::Index e = 0; e < p.gap.size(); ++e)
-        problem.gap.segment(start[i] + e * slices, slices).setConstant(p.gap[e]);
-      problem.rigid.col(0).segment(start[i], size).setOnes();
-      for (std::size_t j = 0; j <= i; ++j) {
-        const auto& o = pairs[j];
-        // Both directions are formed on their own: what they differ by measures reciprocity (Betti).
-        const Eigen::MatrixXd block = planet_.compliance(p.planet, p.tooth, o.planet, o.tooth) +
-                                      wheel_.compliance(p.wheel, p.wheel_tooth, o.wheel, o.wheel_tooth);
-        const Eigen::MatrixXd opposite = planet_.compliance(o.planet, o.tooth, p.planet, p.tooth) +
-                                         wheel_.compliance(o.wheel, o.wheel_tooth, p.wheel, p.wheel_tooth);
-        const double largest = block.cwiseAbs().maxCoeff();
-        asymmetry = std::max(asymmetry, (block - opposite.transpose()).cwiseAbs().maxCoeff() / largest);
-        problem.compliance.block(start[i], start[j], size, block.cols()) = (block + opposite.transpose()) / 2;
-        problem.compliance.block(start[j], start[i], block.cols(), size) =
-            problem.compliance.block(start[i], start[j], size, block.cols()).transpose();
-      }
-      problem.compliance.block(start[i], start[i], size, size) +=
-          planet_.near_field(p.planet_rolls, p.weights) + wheel_.near_field(p.wheel_rolls, p.weights);
-      const auto known = warm.find(p.tooth);
+      const auto known = warm.find(p.index);
       const bool reuse = known != warm.end() && static_cast<Eigen::Index>(known->second.size()) == size;
       for (Eigen::Index e = 0; e < size; ++e)
-        guess[start[i] + e] = reuse ? known->second[e] : p.smallest_gap < 1e-9 && std::abs(e - size / 2) < size / 4;
+        guess[setup.start[i] + e] =
+            reuse ? known->second[e] : p.smallest_gap < 1e-9 && std::abs(e - size / 2) < size / 4;
     }
-    if (pins_ != nullptr) {
-      problem.compliance.bottomRightCorner(pin_forces, pin_forces) = pins_->compliance();
-      const double length = flanks_.pair().wheel().reference_radius();  // makes the rotation a displacement
-      for (std::size_t i = 0; i < pairs.size(); ++i) {
-        const auto& p = pairs[i];
-        const Eigen::MatrixXd coupling = pins_->to_flank(p.wheel, p.wheel_tooth);
-        problem.compliance.block(start[i], contacts, coupling.rows(), pin_forces) = coupling;
-        problem.compliance.block(contacts, start[i], pin_forces, coupling.rows()) = coupling.transpose();
-        problem.rigid.block(start[i], 1, coupling.rows(), 3) = -wheel_.resultants(p.wheel, p.wheel_tooth);
-      }
-      problem.rigid.block(contacts, 1, pin_forces, 3) = -pins_->resultants();
-      problem.rigid.col(3) /= length;
-      for (int q = 0; q < pins_->size(); ++q) {
-        problem.gap[contacts + 2 * q] = pins_->parameters().clearance;
-        problem.unilateral[contacts + 2 * q] = pins_->parameters().unilateral;
-        problem.unilateral[contacts + 2 * q + 1] = false;
-        guess[contacts + 2 * q] = true;
-      }
-    }
-
-    const auto solution = solve_complementarity(problem, guess);
+    const auto solution = solve_complementarity(problem, std::move(guess));
     warm.clear();
     bool window_too_small = false;
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const auto& p = pairs[i];
+    for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
+      const auto& p = setup.pairs[i];
       const Eigen::Index size = p.gap.size() * slices;
-      warm[p.tooth] = std::vector<bool>(solution.active.begin() + start[i], solution.active.begin() + start[i] + size);
-      for (int s = 0; s < slices; ++s) {
-        window_too_small |= !p.low_is_edge && solution.active[start[i] + s];
-        window_too_small |= !p.high_is_edge && solution.active[start[i] + size - slices + s];
-      }
+      const auto first = solution.active.begin() + setup.start[i];
+      warm[p.index] = std::vector<bool>(first, first + size);
+      for (int s = 0; s < slices; ++s)
+        window_too_small |= (!p.low_is_edge && first[s]) || (!p.high_is_edge && first[size - slices + s]);
     }
-    if (window_too_small) continue;
-    LoadedPosition position = evaluate(pairs, problem, solution, load);
+    if (window_too_small) {
+      if (setup.window > largest_window)
+        throw SolverError(
+            fmt::format("mesh phase {:.4f}: the contact at {:.4g} N does not fit its window", phase, load));
+      cache = prepare(phase, load, 1.5 * setup.window);
+      continue;
+    }
+    LoadedPosition position = evaluate(setup, problem, solution);
     position.mesh_phase = phase;
     position.ring_tooth = cycle;
-    position.reciprocity_relative = asymmetry;
-    const auto& reference = pairs.front();
+    position.reciprocity_relative = setup.asymmetry;
+    const auto& reference = setup.pairs.front();
     // Angle of the pitch point in the wheel's own frame; the ring mesh is solved in a mirror image of the real one.
-    const double tooth = reference.wheel_tooth * flanks_.pair().wheel().pitch_angle();
+    const double tooth = wheel_tooth(reference.index, cycle) * flanks_.pair().wheel().pitch_angle();
     const double angle = flanks_.wheel_tooth_angle(reference.roll) - tooth;
     position.ring_angle = flanks_.pair().internal() ? angle : -angle;
     return position;
   }
-  throw SolverError(fmt::format("mesh phase {:.4f}: the contact at {:.4g} N does not fit its window", phase, load));
 }
 
-LoadedPosition ContactSystem::evaluate(const std::vector<Pair>& pairs, const ComplementarityProblem& problem,
-                                       const ComplementaritySolution& solution, double load) const {
+LoadedPosition ContactSystem::evaluate(const Pairs& setup, const ComplementarityProblem& problem,
+                                       const ComplementaritySolution& solution) const {
   const int slices = planet_.slices();
+  const auto& pairs = setup.pairs;
+  const double load = setup.load;
   LoadedPosition result;
   result.load = load;
   result.entry.lte = solution.rigid[0];
@@ -220,7 +263,7 @@ LoadedPosition ContactSystem::evaluate(const std::vector<Pair>& pairs, const Com
   for (const auto& p : pairs) {
     const Eigen::Index size = p.gap.size() * slices;
     const Eigen::VectorXd force = solution.force.segment(at, size);
-    moment -= (planet_.resultants(p.planet, p.tooth).col(2)).dot(force);
+    moment -= (planet_.resultants(p.planet, p.index).col(2)).dot(force);
     result.pair_share.push_back(force.sum() / load);
     result.pair_roll.push_back(p.roll);
     for (Eigen::Index e = 0; e < p.gap.size(); ++e)

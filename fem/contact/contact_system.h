@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "fem/contact/complementarity.h"
@@ -28,17 +29,25 @@ class ContactSystem {
   ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel, const PinRow* pins,
                 const Material& material, std::vector<double> slice_edges, ContactOptions options);
 
-  /// Active elements by tooth, to start the neighbouring position from.
+  /// Active elements by pair, to start the neighbouring position from.
   using WarmStart = std::map<int, std::vector<bool>>;
+  /// The tooth pairs of one phase and load: the same in every mesh cycle, only the pins move on.
+  struct Pairs;
+  using PairsCache = std::shared_ptr<const Pairs>;
 
-  /// Position in mesh cycles from the pitch-point contact of teeth 0; `warm` is read and replaced.
-  [[nodiscard]] LoadedPosition solve(int cycle, double phase, double load, WarmStart& warm) const;
+  /// Position in mesh cycles from the pitch-point contact of teeth 0. `cache` and `warm` are used when they fit, and
+  /// replaced.
+  [[nodiscard]] LoadedPosition solve(int cycle, double phase, double load, PairsCache& cache, WarmStart& warm) const;
 
  private:
   struct Pair;
-  [[nodiscard]] std::vector<Pair> find_pairs(int cycle, double phase, double load, double window) const;
-  [[nodiscard]] LoadedPosition evaluate(const std::vector<Pair>& pairs, const ComplementarityProblem& problem,
-                                        const ComplementaritySolution& solution, double load) const;
+  [[nodiscard]] std::vector<Pair> find_pairs(double phase, double load, double window) const;
+  [[nodiscard]] PairsCache prepare(double phase, double load, double window) const;
+  /// Number of the wheel's tooth in pair `index` during mesh cycle `cycle`.
+  [[nodiscard]] int wheel_tooth(int index, int cycle) const;
+  [[nodiscard]] ComplementarityProblem assemble(const Pairs& pairs, int cycle) const;
+  [[nodiscard]] LoadedPosition evaluate(const Pairs& pairs, const ComplementarityProblem& problem,
+                                        const ComplementaritySolution& solution) const;
 
   const FlankContact& flanks_;
   const ContactBody& planet_;
