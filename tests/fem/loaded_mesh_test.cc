@@ -1,0 +1,122 @@
+#include "fem/loaded_mesh.h"
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <vector>
+
+#include "core/errors.h"
+#include "ring_paper_problems.h"
+
+BOOST_AUTO_TEST_SUITE(loaded_mesh)
+
+using namespace annulus::tests;
+using annulus::fem::EndFaceHeld;
+using annulus::fem::OutsideHeld;
+
+BOOST_AUTO_TEST_CASE(balances_hold_at_every_position) {
+  const std::vector<double> loads = {nominal_load / 4, nominal_load, 2 * nominal_load};
+  check_invariants(solve_plane(sun_mesh(8, loads)));
+  check_invariants(solve_plane(ring_mesh(OutsideHeld{}, 8, loads)));
+}
+
+BOOST_AUTO_TEST_CASE(the_tangent_is_the_slope_of_the_load) {
+  const double step = 0.05;
+  const std::vector<double> loads = {nominal_load * (1 - step), nominal_load, nominal_load * (1 + step)};
+  for (const auto& problem : {ring_mesh(OutsideHeld{}, 8, loads), sun_mesh(8, loads)}) {
+    const auto result = solve_plane(problem);
+    for (int phase = 0; phase < 8; ++phase) {
+      const double slope =
+          2 * step * nominal_load / (result.table.at(0, phase, 2).lte - result.table.at(0, phase, 0).lte);
+      const double ratio = result.table.at(0, phase, 1).stiffness_tangent / slope;
+      BOOST_TEST_MESSAGE(result.table.mesh() << " phase " << phase << ": tangent / slope - 1 = " << ratio - 1);
+      // The contact grows by whole pressure elements, of which some thirty are in contact. Where a pair is about to
+      // enter, the stiffness itself changes by some percent over the step.
+      const auto& shares = result.positions[3 * phase + 1].pair_share;
+      const bool entering = std::any_of(shares.begin(), shares.end(), [](double s) { return s > 0 && s < 0.1; });
+      BOOST_TEST(std::abs(ratio - 1) < (entering ? 0.06 : 0.02));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_nothing_at_all) {
+  const auto problem = ring_mesh(OutsideHeld{}, 3, {nominal_load / 2, nominal_load});
+  const auto one = solve_plane(problem, 1, 1);
+  for (int repetition = 0; repetition < 3; ++repetition) check_identical(one, solve_plane(problem, 1, 3));
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_modelled_is_refused) {
+  using annulus::InputError;
+  BOOST_CHECK_THROW((void)solve_plane(ring_mesh(EndFaceHeld{18e-3, 10.6e-3}, 2)), InputError);
+  BOOST_CHECK_THROW((void)solve_solid(ring_mesh(paper_pins(24, 0), 2)), InputError);
+  BOOST_CHECK_THROW((void)solve_plane(ring_mesh(OutsideHeld{}, 2, {})), InputError);
+  BOOST_CHECK_THROW((void)solve_plane(ring_mesh(OutsideHeld{}, 2, {2, 1})), InputError);
+  BOOST_CHECK_THROW((void)solve_plane(ring_mesh(OutsideHeld{}, 2, {-1, 1})), InputError);
+  BOOST_CHECK_THROW((void)solve_plane(ring_mesh(OutsideHeld{}, 1)), InputError);
+  BOOST_CHECK_THROW((void)solve_plane(ring_mesh(OutsideHeld{}, 2), 99), InputError);
+  BOOST_CHECK_THROW((void)solve_plane(ring_mesh(paper_pins(0, 0), 2)), InputError);
+  auto sun = sun_mesh(2);
+  sun.structure = paper_pins(24, 0);
+  BOOST_CHECK_THROW((void)solve_plane(sun), InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(error_estimate)
+
+using namespace annulus::tests;
+using annulus::fem::OutsideHeld;
+
+BOOST_AUTO_TEST_CASE(the_estimate_is_of_the_size_of_the_error) {
+  const auto problem = ring_mesh(OutsideHeld{}, 16);
+  const auto fine = solve_plane(problem, 5);  // cells five times smaller than at level 1
+  BOOST_TEST(fine.worst_error_relative < 2e-3);
+  for (const int level : {1, 2}) {
+    const auto result = solve_plane(problem, level);
+    double worst = 0;
+    for (int phase = 0; phase < 16; ++phase) {
+      const auto& entry = result.table.at(0, phase, 0);
+      const double error = std::abs(entry.stiffness_secant / fine.table.at(0, phase, 0).stiffness_secant - 1);
+      worst = std::max(worst, error);
+      // At most positions both are some 1e-4, where the difference of two levels depends on how their elements happen
+      // to lie; what counts are the positions where a pair enters at its tip edge.
+      BOOST_TEST(error < std::max(3.0 * entry.error_relative, 3e-4));
+      BOOST_TEST_MESSAGE("level " << level << " phase " << phase << ": error " << error << ", estimate "
+                                  << entry.error_relative);
+    }
+    const double effectivity = result.worst_error_relative / worst;
+    BOOST_TEST_MESSAGE("level " << level << ": worst error " << worst << ", effectivity " << effectivity);
+    BOOST_TEST(effectivity > 0.3);
+    BOOST_TEST(effectivity < 5);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(solid_ring)
+
+using namespace annulus::tests;
+
+BOOST_AUTO_TEST_CASE(the_thin_walled_ring_keeps_its_balances_and_is_softer_than_a_held_one) {
+  const auto thin = solve_solid(ring_mesh(annulus::fem::EndFaceHeld{18e-3, 10.6e-3}, 2));
+  check_invariants(thin);
+  const auto held = solve_plane(ring_mesh(annulus::fem::OutsideHeld{}, 2));
+  for (std::size_t i = 0; i < held.positions.size(); ++i)
+    BOOST_TEST(thin.positions[i].entry.lte > 1.5 * held.positions[i].entry.lte);
+}
+
+BOOST_AUTO_TEST_CASE(a_wide_ring_lies_between_plane_strain_and_plane_stress) {
+  const auto problem = ring_mesh(annulus::fem::OutsideHeld{}, 4);
+  const auto solid = solve_solid(problem), plane = solve_plane(problem);
+  check_invariants(solid);
+  for (std::size_t i = 0; i < plane.positions.size(); ++i) {
+    const double ratio = solid.positions[i].entry.lte / plane.positions[i].entry.lte;
+    BOOST_TEST_MESSAGE("solid / plane strain: " << ratio);
+    // Plane stress is softer by 1 / (1 - nu^2) at most; both solutions are within their estimated errors.
+    const double slack = solid.positions[i].entry.error_relative + plane.positions[i].entry.error_relative;
+    BOOST_TEST(ratio > 1 - slack);
+    BOOST_TEST(ratio < 1 / (1 - 0.3 * 0.3) + slack);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,150 @@
+#include <Eigen/Core>
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "fem/loaded_mesh.h"
+#include "ring_paper_problems.h"
+
+BOOST_AUTO_TEST_SUITE(pinned_ring)
+
+using namespace annulus::tests;
+using annulus::fem::LoadedMeshResult;
+
+constexpr double first_pin = 0.03;  // rad: no symmetry with the teeth
+
+/// 24 pins that may lift off, the ring paper's; two positions per mesh cycle. Solved once for all cases.
+const LoadedMeshResult& pinned() {
+  static const LoadedMeshResult result = solve_plane(ring_mesh(paper_pins(24, first_pin), 2));
+  return result;
+}
+
+BOOST_AUTO_TEST_CASE(balances_hold_at_every_position) {
+  check_invariants(pinned());
+  BOOST_TEST(pinned().table.positions() == 27);  // 162 / gcd(162, 24)
+}
+
+BOOST_AUTO_TEST_CASE(the_pins_carry_what_the_planet_presses_on_the_ring) {
+  const auto problem = ring_mesh(paper_pins(24, first_pin), 2);
+  const double alpha = problem.pair.working_pressure_angle();
+  double worst_size = 0, worst_angle = 0, worst_moment = 0;
+  int lifted = 0;
+  for (const auto& p : pinned().positions) {
+    Eigen::Vector2d force = Eigen::Vector2d::Zero();
+    double moment = 0;
+    BOOST_TEST_REQUIRE(p.pins.size() == 24U);
+    for (std::size_t q = 0; q < p.pins.size(); ++q) {
+      const double angle = first_pin + 2 * M_PI * static_cast<double>(q) / 24;
+      const Eigen::Vector2d radial(std::cos(angle), std::sin(angle)), tangential(-radial.y(), radial.x());
+      force += p.pins[q].radial_force * radial + p.pins[q].tangential_force * tangential;
+      moment += p.pins[q].tangential_force * ring_outside;
+      BOOST_TEST(p.pins[q].radial_force >= 0);
+      BOOST_TEST(p.pins[q].touching == (p.pins[q].radial_force > 0));
+      lifted += !p.pins[q].touching;
+    }
+    // Seen from the carrier the planet turns clockwise: at the pitch point it presses the ring outwards and clockwise.
+    const double c = std::cos(p.ring_angle), s = std::sin(p.ring_angle);
+    const double outwards = c * force.x() + s * force.y(), clockwise = s * force.x() - c * force.y();
+    worst_size = std::max(worst_size, std::abs(force.norm() / p.load - 1));
+    worst_angle = std::max(worst_angle, std::abs(std::atan2(outwards, clockwise) - alpha));
+    const double torque = p.load * problem.pair.wheel().base_radius();
+    // Lever arm of a parabola over an arc of +- beta: R (1 - beta^2 / 10).
+    const double beta = pin_diameter / 2 / ring_outside;
+    worst_moment = std::max(worst_moment, std::abs(moment * (1 - beta * beta / 10) / torque + 1));
+  }
+  BOOST_TEST_MESSAGE("size " << worst_size << ", direction " << worst_angle << " rad, moment " << worst_moment);
+  BOOST_TEST(lifted > 0);
+  // The teeth bend by about 10 micrometres over their height of 9 mm: contacts shift along the flanks and their normals
+  // turn by some 1e-3 rad, differently for each pair; the sum of their forces loses the square of that in size, a few
+  // times as much when a third pair bears at its tip edge.
+  BOOST_TEST(worst_angle < 3e-3);
+  BOOST_TEST(worst_size < 5e-5);
+  BOOST_TEST(worst_moment < 1e-8);  // beta^4
+}
+
+BOOST_AUTO_TEST_CASE(turning_the_pins_by_a_tooth_shifts_the_table) {
+  const auto problem = ring_mesh(paper_pins(24, first_pin), 2);
+  const double pitch = problem.pair.wheel().pitch_angle();
+  const auto turned = solve_plane(ring_mesh(paper_pins(24, first_pin + pitch), 2));
+  const auto& table = pinned().table;
+  BOOST_TEST(table.ring_angles()[1] - table.ring_angles()[0] == pitch, boost::test_tools::tolerance(1e-12));
+  double worst = 0, least = 1, most = 0;
+  for (int i = 0; i < 27; ++i)
+    for (int phase = 0; phase < 2; ++phase) {
+      const double lte = table.at(i, phase, 0).lte;
+      worst = std::max(worst, std::abs(turned.table.at((i + 1) % 27, phase, 0).lte / lte - 1));
+      if (phase == 0) least = std::min(least, lte), most = std::max(most, lte);
+    }
+  BOOST_TEST(worst < 1e-9);        // round-off
+  BOOST_TEST(most / least > 1.1);  // otherwise any shift would do
+}
+
+BOOST_AUTO_TEST_CASE(the_ring_is_stiffest_where_the_line_of_action_leaves_through_a_pin) {
+  const double pin = 0.2;
+  const auto problem = ring_mesh(paper_pins(6, pin), 2);
+  const auto result = solve_plane(problem);
+  int best = 0;
+  for (int i = 0; i < result.table.positions(); ++i)
+    if (result.table.at(i, 0, 0).lte < result.table.at(best, 0, 0).lte) best = i;
+  // From the pitch point outwards and clockwise along the line of action to the outside: length t, polar angle back.
+  const double alpha = problem.pair.working_pressure_angle();
+  const double r = problem.pair.wheel().base_radius() / std::cos(alpha);
+  const double t =
+      -r * std::sin(alpha) + std::sqrt(std::pow(r * std::sin(alpha), 2) + ring_outside * ring_outside - r * r);
+  const double back = std::atan2(t * std::cos(alpha), r + t * std::sin(alpha));
+  const double spacing = 2 * M_PI / 6;
+  const double off = std::remainder(result.table.ring_angles()[best] - back - pin, spacing);
+  BOOST_TEST_MESSAGE("stiffest " << off << " rad from where the line of action meets a pin");
+  // Positions are a tooth pitch apart (0.039 rad), the load is spread over two teeth; half the spacing is 0.52 rad.
+  BOOST_TEST(std::abs(off) < 1.5 * problem.pair.wheel().pitch_angle());
+}
+
+BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_nothing_at_all) {
+  check_identical(pinned(), solve_plane(ring_mesh(paper_pins(24, first_pin), 2), 1, 1));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(bolted_ring)
+
+using namespace annulus::tests;
+
+BOOST_AUTO_TEST_CASE(lift_off_only_ever_softens) {
+  auto pins = paper_pins(24, 0);
+  const auto loose = solve_plane(ring_mesh(pins, 2));
+  pins.unilateral = false;
+  const auto bolted = solve_plane(ring_mesh(pins, 2));
+  check_invariants(bolted);
+  for (std::size_t i = 0; i < loose.positions.size(); ++i)
+    BOOST_TEST(loose.positions[i].entry.lte >= bolted.positions[i].entry.lte);
+  BOOST_TEST(largest_lte_difference(loose, bolted) > 1e-3);
+}
+
+BOOST_AUTO_TEST_CASE(pins_that_do_not_lift_are_bolts) {
+  auto pins = paper_pins(24, 0);
+  pins.clearance = -50e-6;  // pressed in: all touch
+  const auto pressed = solve_plane(ring_mesh(pins, 2));
+  for (const auto& p : pressed.positions)
+    for (const auto& pin : p.pins) BOOST_TEST_REQUIRE(pin.touching);
+  pins.unilateral = false;
+  const auto bolted = solve_plane(ring_mesh(pins, 2));
+  BOOST_TEST(largest_lte_difference(pressed, bolted) < 1e-9);  // round-off: the same equations
+}
+
+BOOST_AUTO_TEST_CASE(many_stiff_bolts_hold_the_outside) {
+  auto bolts = paper_pins(162, 0);
+  bolts.unilateral = false;
+  bolts.pin_diameter = 12.8e-3;  // nearly all of the pitch of 12.87 mm
+  bolts.radial_stiffness = 1e14;
+  const auto bolted = solve_plane(ring_mesh(bolts, 4)), held = solve_plane(ring_mesh(annulus::fem::OutsideHeld{}, 4));
+  for (std::size_t i = 0; i < held.positions.size(); ++i) {
+    const double ratio = bolted.positions[i].entry.lte / held.positions[i].entry.lte;
+    BOOST_TEST_MESSAGE("bolted / held - 1 = " << ratio - 1);
+    BOOST_TEST(ratio > 1);
+    // A bolt holds a weighted mean over a tooth pitch: what it leaves free fades over a pitch / 2 pi = 2 mm of the
+    // rim's depth of 18 mm, and carries a small part of the deflection.
+    BOOST_TEST(ratio < 1.01);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

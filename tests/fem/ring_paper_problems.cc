@@ -1,0 +1,93 @@
+#include "ring_paper_problems.h"
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "ring_paper.h"
+
+namespace annulus::tests {
+
+fem::LoadedMeshProblem ring_mesh(const fem::RingStructure& structure, int phases, std::vector<double> loads) {
+  return {ring_paper_pair(true), {}, 88e-3, 86e-3, ring_outside, structure, std::move(loads), phases};
+}
+
+fem::LoadedMeshProblem sun_mesh(int phases, std::vector<double> loads) {
+  return {ring_paper_pair(false), {}, 88e-3, 86e-3, 65e-3, fem::OutsideHeld{}, std::move(loads), phases};
+}
+
+fem::PinHeld paper_pins(int pins, double first_pin_angle) {
+  fem::PinHeld held;
+  held.pins = pins;
+  held.pin_diameter = pin_diameter;
+  held.first_pin_angle = first_pin_angle;
+  return held;
+}
+
+fem::LoadedMeshResult solve_plane(const fem::LoadedMeshProblem& problem, int level, int threads) {
+  fem::LoadedMeshSettings settings;
+  settings.level = level;
+  settings.threads = threads;
+  return solve_loaded_mesh(problem, settings);
+}
+
+fem::LoadedMeshResult solve_solid(const fem::LoadedMeshProblem& problem) {
+  fem::LoadedMeshSettings settings;
+  settings.rung = fem::Rung::solid;
+  settings.level = 1;
+  settings.threads = 2;
+  return solve_loaded_mesh(problem, settings);
+}
+
+void check_invariants(const fem::LoadedMeshResult& result) {
+  // Round-off: sums of some hundred forces, systems of condition number up to 1e6 (stiff pins on a floating ring).
+  constexpr double round_off = 1e-9;
+  double force = 0, energy = 0, share = 0, least_share = 1, penetration = 0;
+  BOOST_TEST_REQUIRE(!result.positions.empty());
+  for (const auto& p : result.positions) {
+    force = std::max(force, p.force_balance_relative);
+    energy = std::max(energy, p.energy_balance_relative);
+    penetration = std::max(penetration, p.max_penetration);
+    share = std::max(share, std::abs(std::accumulate(p.pair_share.begin(), p.pair_share.end(), 0.0) - 1));
+    for (const double s : p.pair_share) least_share = std::min(least_share, s);
+    BOOST_TEST(p.entry.lte > p.entry.unloaded_te);
+    BOOST_TEST(std::abs(p.entry.unloaded_te) < 1e-12);  // m; unmodified flanks: see the tests of the flank geometry
+    BOOST_TEST(p.pair_share.size() == p.pair_roll.size());
+    // Growing contacts and more teeth only ever stiffen.
+    BOOST_TEST(p.entry.stiffness_tangent >= p.entry.stiffness_secant);
+  }
+  BOOST_TEST_MESSAGE("force " << force << ", energy " << energy << ", shares " << share << ", penetration "
+                              << penetration << " m, reciprocity " << result.reciprocity_relative << ", closure "
+                              << result.closure_relative << ", estimated error " << result.worst_error_relative);
+  BOOST_TEST(force < round_off);
+  BOOST_TEST(energy < round_off);
+  BOOST_TEST(share < round_off);
+  BOOST_TEST(least_share >= 0);
+  BOOST_TEST(penetration < 1e-14);  // m: round-off of deflections of some 10 micrometres
+  BOOST_TEST(result.reciprocity_relative < round_off);
+  BOOST_TEST(result.closure_relative < round_off);
+}
+
+void check_identical(const fem::LoadedMeshResult& a, const fem::LoadedMeshResult& b) {
+  BOOST_TEST_REQUIRE(a.positions.size() == b.positions.size());
+  int different = 0;
+  for (std::size_t i = 0; i < a.positions.size(); ++i) {
+    const auto &p = a.positions[i], &q = b.positions[i];
+    different += !(p.entry.lte == q.entry.lte && p.entry.stiffness_tangent == q.entry.stiffness_tangent &&
+                   p.entry.error_relative == q.entry.error_relative && p.max_pressure == q.max_pressure &&
+                   p.pair_share == q.pair_share);
+  }
+  BOOST_TEST(different == 0);
+}
+
+double largest_lte_difference(const fem::LoadedMeshResult& a, const fem::LoadedMeshResult& b) {
+  BOOST_TEST_REQUIRE(a.positions.size() == b.positions.size());
+  double worst = 0;
+  for (std::size_t i = 0; i < a.positions.size(); ++i)
+    worst = std::max(worst, std::abs(a.positions[i].entry.lte / b.positions[i].entry.lte - 1));
+  return worst;
+}
+
+}  // namespace annulus::tests

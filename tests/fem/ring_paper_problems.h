@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fem/loaded_mesh.h"
+
+namespace annulus::tests {
+
+inline constexpr double nominal_load = 59460;     ///< N, normal force of one mesh
+inline constexpr double ring_outside = 331.8e-3;  ///< m, outside radius of the ring
+inline constexpr double pin_diameter = 15.5e-3;   ///< m
+
+/// The gear meshes of the ring-type paper; `phases` positions per mesh cycle.
+fem::LoadedMeshProblem ring_mesh(const fem::RingStructure& structure, int phases,
+                                 std::vector<double> loads = {nominal_load});
+fem::LoadedMeshProblem sun_mesh(int phases, std::vector<double> loads = {nominal_load});
+/// Pins in equal spacing.
+fem::PinHeld paper_pins(int pins, double first_pin_angle);
+
+fem::LoadedMeshResult solve_plane(const fem::LoadedMeshProblem& problem, int level = 1, int threads = 2);
+fem::LoadedMeshResult solve_solid(const fem::LoadedMeshProblem& problem);
+
+/// What has to hold at every position, whatever the structure: balances, load shares, no penetration, closure.
+void check_invariants(const fem::LoadedMeshResult& result);
+/// Every figure of two results bit by bit.
+void check_identical(const fem::LoadedMeshResult& a, const fem::LoadedMeshResult& b);
+/// Largest relative difference of the transmission errors of two results at the same positions.
+double largest_lte_difference(const fem::LoadedMeshResult& a, const fem::LoadedMeshResult& b);
+
+}  // namespace annulus::tests
