@@ -1,0 +1,139 @@
+#include "app/plan.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/scenes.h"
+
+namespace annulus {
+
+namespace {
+
+app::Plan plan_of(const std::string& text) {
+  const auto scene = app::parse_scene(text, "scene.toml");
+  return app::make_plan(scene, app::make_geometry(scene));
+}
+
+nlohmann::json ring_types() {
+  const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
+  return nlohmann::json::parse(app::to_json(app::make_plan(scene, app::make_geometry(scene))));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(plan)
+
+BOOST_AUTO_TEST_CASE(operating_point_of_the_ring_paper) {
+  const auto json = ring_types();
+  const auto& stage = json["stage"];
+  // By hand from tables 1 and 2 of the ring paper; the tolerance is half a unit of the last digit given there.
+  BOOST_TEST(stage["carrier_speed_rpm"].get<double>() == 1128.0 * 48 / (48 + 162), boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(std::abs(stage["sun_torque_N_m"].get<double>() - 25048) < 0.5);
+  BOOST_TEST(std::abs(stage["mesh_frequency_Hz"].get<double>() - 696.1) < 0.05);
+  BOOST_TEST(std::abs(stage["mean_mesh_force_kN"].get<double>() - 59.46) < 0.005);
+  BOOST_TEST(std::abs(stage["sun_mesh_working_pressure_angle_deg"].get<double>() - 25.905148) < 5e-7);
+  BOOST_TEST(std::abs(json["rings"]["pinned"]["ring_mesh_working_pressure_angle_deg"].get<double>() - 20.860323) <
+             5e-7);
+}
+
+BOOST_AUTO_TEST_CASE(carrier_speed_gives_the_same_operating_point) {
+  const auto by_sun = app::make_geometry(app::parse_scene(test::quick_scene(), "s"));
+  const auto text =
+      test::replaced(test::quick_scene(), "sun_speed_rpm = 1128", "carrier_speed_rpm = 257.82857142857142");
+  const auto by_carrier = app::make_geometry(app::parse_scene(text, "s"));
+  // Both go through the same handful of products; the decimal speed carries its own rounding.
+  BOOST_TEST(by_sun.operating_point.sun_torque == by_carrier.operating_point.sun_torque,
+             boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(by_sun.operating_point.mesh_frequency == by_carrier.operating_point.mesh_frequency,
+             boost::test_tools::tolerance(1e-14));
+}
+
+BOOST_AUTO_TEST_CASE(rungs_and_positions) {
+  const auto json = ring_types();
+  const auto& meshes = json["meshes"];
+  BOOST_TEST_REQUIRE(meshes.size() == 4U);
+  BOOST_TEST(meshes[0]["mesh"] == "sun_planet");
+  BOOST_TEST(meshes[0]["rung"] == "plane");
+  BOOST_TEST(meshes[1]["rung"] == "plane");  // traditional
+  BOOST_TEST(meshes[2]["rung"] == "solid");  // thin-walled
+  BOOST_TEST(meshes[3]["rung"] == "plane");  // pinned
+  BOOST_TEST(meshes[1]["ring_positions"] == 1);
+  BOOST_TEST(meshes[3]["ring_positions"] == 27);  // 162 / gcd(162, 24)
+  for (const auto& mesh : meshes) BOOST_TEST(!mesh["reason"].get<std::string>().empty());
+  // The nominal load is among the tabulated ones, with others on both sides.
+  const double nominal = 1e3 * json["stage"]["mean_mesh_force_kN"].get<double>();
+  BOOST_TEST(meshes[0]["loads_N"][app::nominal_load_index].get<double>() == nominal,
+             boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(every_input_has_an_origin) {
+  const auto json = ring_types();
+  int derived = 0, assumed = 0;
+  for (const auto& input : json["inputs"]) {
+    const std::string origin = input["origin"];
+    BOOST_TEST((origin == "scene" || origin == "default" || origin == "derived"));
+    BOOST_TEST(!input["value"].is_null(), input["key"]);
+    derived += origin == "derived";
+    assumed += input.contains("assumed");
+  }
+  BOOST_TEST(derived > 0);
+  BOOST_TEST(assumed > 10);
+}
+
+BOOST_AUTO_TEST_CASE(rigid_supports_drop_their_freedoms) {
+  const auto plan = plan_of(test::quick_scene());
+  const auto kept = [&](const std::string& name) {
+    for (const auto& f : plan.freedoms) {
+      if (f.name == name) return f.kept;
+    }
+    throw std::logic_error(name);
+  };
+  BOOST_TEST(kept("sun x, y"));
+  BOOST_TEST(kept("sun u"));
+  BOOST_TEST(!kept("ring x, y"));
+  BOOST_TEST(!kept("ring u"));
+  BOOST_TEST(!kept("carrier x, y"));
+  BOOST_TEST(plan.contact_problems() == 0L);
+  BOOST_TEST(plan.meshes.front().rung == "given");
+}
+
+BOOST_AUTO_TEST_CASE(impossible_geometry_names_the_body) {
+  const auto message = [](const std::string& text) -> std::string {
+    try {
+      (void)app::make_geometry(app::parse_scene(text, "s"));
+    } catch (const GeometryError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto four = test::replaced(test::quick_scene(), "[15, 36, 17, 38, 19]", "[15, 36, 17, 38]");
+  BOOST_TEST(!message(test::replaced(four, "planets = 5", "planets = 4")).empty());  // (48 + 162) / 4 is not whole
+  BOOST_TEST(message(test::replaced(test::quick_scene(), "outside_diameter_mm = 663.6", "outside_diameter_mm = 620"))
+                 .find("ring 'held'") == 0U);
+  BOOST_TEST(
+      !message(test::replaced(test::quick_scene(), "centre_distance_mm = 201", "centre_distance_mm = 230")).empty());
+}
+
+BOOST_AUTO_TEST_CASE(identity_follows_the_inputs_that_matter) {
+  const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
+  const auto geometry = app::make_geometry(scene);
+  const auto id = [&](const app::Scene& s) { return app::ring_mesh_model(s, app::make_geometry(s), 1).id(); };
+  auto other = scene;
+  other.title = "another title";
+  other.supports.sun = 2e7;
+  BOOST_TEST(id(other) == id(scene));  // no influence on the mesh
+  other.rings[1].free_length = 19e-3;
+  BOOST_TEST(id(other) != id(scene));
+  other = scene;
+  other.rings[0].outside_diameter = 0.7;
+  BOOST_TEST(id(other) == id(scene));  // another ring
+  other = scene;
+  other.stage.power *= 1.0 + 1e-15;
+  BOOST_TEST(id(other) != id(scene));  // the last bit of a load counts
+  BOOST_TEST(app::sun_mesh_model(scene, geometry).id() != id(scene));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace annulus

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace annulus::test {
+
+/// A complete scene with given stiffness: nothing elastic has to be solved. Made of lines that tests replace.
+inline std::string quick_scene() {
+  return R"(title = "Quick"
+[stage]
+kind = "planetary"
+planets = 5
+module_mm = 3.8
+pressure_angle_deg = 22.5
+face_width_mm = 88
+centre_distance_mm = 201
+power_kW = 2958.8
+sun_speed_rpm = 1128
+[material]
+youngs_modulus_GPa = 206
+[sun]
+teeth = 48
+profile_shift = 0.7608
+mass_kg = 66
+inertia_kg_m2 = 0.54895
+[planet]
+teeth = 55
+profile_shift = 0.7361
+mass_kg = 8.51
+inertia_kg_m2 = 0.09282
+[carrier]
+mass_kg = 400.1
+inertia_kg_m2 = 15.3193
+[[ring]]
+name = "held"
+structure = "traditional"
+teeth = 162
+profile_shift = 0.1516
+outside_diameter_mm = 663.6
+mass_kg = 31.25
+inertia_kg_m2 = 2.9606
+[errors]
+planet_eccentricity_um = [15, 36, 17, 38, 19]
+[supports]
+sun_N_per_m = 1e7
+planet_N_per_m = 1e9
+[mesh.sun_planet]
+stiffness = "harmonic"
+mean_N_per_m = 1.364e9
+ripple = 0.2258
+[mesh.ring_planet]
+stiffness = "harmonic"
+mean_N_per_m = 1.87e9
+ripple = 0.1294
+[dynamics]
+half_backlash_um = 50
+mesh_damping_ratio = 0.07
+support_damping_ratio = 0.03
+mesh_cycles = 110
+)";
+}
+
+/// `text` with the only occurrence of `what` replaced.
+inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const auto at = text.find(what);
+  if (at == std::string::npos) throw std::logic_error("test scene has no '" + what + "'");
+  return text.replace(at, what.size(), by);
+}
+
+/// An empty folder of its own for each test, removed at the end.
+class TemporaryFolder {
+ public:
+  explicit TemporaryFolder(const std::string& name)
+      : path_(std::filesystem::temp_directory_path() / ("annulus_test_" + name)) {
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace annulus::test

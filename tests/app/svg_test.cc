@@ -1,0 +1,75 @@
+#include "app/svg_plot.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "app/report_parts.h"
+
+namespace annulus {
+
+BOOST_AUTO_TEST_SUITE(svg)
+
+BOOST_AUTO_TEST_CASE(ticks_are_round_and_inside) {
+  for (const auto& [low, high] : {std::pair{0.0, 1.0}, {-3.7, 12.2}, {1e-9, 7e-9}, {2963.0, 2964.5}, {-1e6, 1e6}}) {
+    const auto ticks = app::nice_ticks(low, high, 6);
+    BOOST_TEST(ticks.size() >= 3U);
+    BOOST_TEST(ticks.size() <= 9U);
+    const double step = ticks[1] - ticks[0], slack = 1e-6 * step;
+    BOOST_TEST(ticks.front() >= low - slack);
+    BOOST_TEST(ticks.back() <= high + slack);
+    const double leading = step / std::pow(10.0, std::floor(std::log10(step * (1 + 1e-9))));
+    BOOST_TEST((std::abs(leading - 1) < 1e-6 || std::abs(leading - 2) < 1e-6 || std::abs(leading - 5) < 1e-6 ||
+                std::abs(leading - 10) < 1e-6));
+    const auto labels = app::tick_labels(ticks);
+    for (std::size_t i = 1; i < labels.size(); ++i) BOOST_TEST(labels[i] != labels[i - 1]);
+  }
+  BOOST_TEST(app::nice_ticks(1, 1, 5).size() == 1U);
+}
+
+BOOST_AUTO_TEST_CASE(text_is_escaped) {
+  BOOST_TEST(app::escape("<a href=\"x\">&") == "&lt;a href=&quot;x&quot;&gt;&amp;");
+  app::Plot plot{.title = "<script>", .series = {{.label = "a<b", .x = {0, 1}, .y = {0, 1}}}, .legend = true};
+  BOOST_TEST(app::to_svg(plot).find("<script>") == std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(ranges) {
+  app::RangeFinder range;
+  range.add({1, 3, std::nan(""), INFINITY});
+  BOOST_TEST(range.range(0).low == 1);
+  BOOST_TEST(range.range(0).high == 3);
+  app::RangeFinder constant;
+  constant.add(5);
+  BOOST_TEST(constant.range().low < 5);
+  BOOST_TEST(constant.range().high > 5);
+}
+
+BOOST_AUTO_TEST_CASE(gaps_break_lines) {
+  const app::Plot plot{.series = {{.label = "s", .x = {0, 1, 2, 3}, .y = {0, std::nan(""), 1, 2}}}};
+  const auto svg = app::to_svg(plot);
+  BOOST_TEST(svg.find("nan") == std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(long_series_keep_their_peaks) {
+  app::Series series{.label = "s"};
+  for (int i = 0; i < 100000; ++i) {
+    series.x.push_back(i);
+    series.y.push_back(i == 77777 ? 1.0 : 0.0);
+  }
+  const app::Plot plot{.y_range = app::Range{0, 1}, .series = {series}};
+  const auto svg = app::to_svg(plot);
+  BOOST_TEST(svg.size() < 40000U);  // far below the million characters of all points
+  const double top = 10;            // where y = 1 is drawn in a plot without title
+  BOOST_TEST(svg.find(" " + std::to_string(static_cast<int>(top)) + ".0L") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(measured_values_carry_their_error) {
+  BOOST_TEST(app::measured(1.36412, 0.0123) == "1.364 ± 0.012");
+  BOOST_TEST(app::measured(2963.94, 1.3) == "2963.9 ± 1.3");
+  BOOST_TEST(app::measured(1.12042592, 1.6e-7) == "1.1204 ± &lt;0.0001");
+  BOOST_TEST(app::measured(0.5, 0) == "0.5");
+  BOOST_TEST(app::measured(std::nan(""), 0) == "not known");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace annulus
