@@ -114,9 +114,7 @@ void LumpedSystem::detect_contact(double t, const double* q, Workspace& w) const
   for (std::size_t m = 0; m < compiled_->meshes.size(); ++m) {
     const CompiledMesh& mesh = compiled_->meshes[m];
     w.delta[m] = dot(compiled_->b, m, q) - w.error[m];
-    if (mesh.linear)
-      w.contact[m] = Contact::drive;
-    else if (w.delta[m] > mesh.half_backlash)
+    if (mesh.linear || w.delta[m] > mesh.half_backlash)
       w.contact[m] = Contact::drive;
     else
       w.contact[m] = w.delta[m] < -mesh.half_backlash ? Contact::back : Contact::open;
