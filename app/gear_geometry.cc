@@ -56,7 +56,7 @@ GearGeometry make_geometry(const Scene& scene) {
   for (const auto& input : scene.rings) {
     const std::string name = "ring '" + input.name + "'";
     const auto ring = named(name, [&] { return make_gear(scene, input, GearKind::internal); });
-    auto set = named(name, [&] {
+    const auto set = named(name, [&] {
       return geometry::PlanetarySet(sun, planet, ring, scene.stage.centre_distance, scene.stage.planets);
     });
     const double outside =
@@ -66,7 +66,7 @@ GearGeometry make_geometry(const Scene& scene) {
                           " mm is not larger than the root " + "diameter " + to_text(2e3 * ring.root_radius(), 7) +
                           " mm; make outside_diameter_mm larger");
     }
-    result.rings.push_back({input.name, std::move(set), outside});
+    result.rings.push_back({input.name, set, outside});
   }
   result.operating_point = operate(scene.stage, result.rings.front().set);
   return result;

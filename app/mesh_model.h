@@ -35,8 +35,8 @@ struct MeshModel {
 /// and down to a quarter, where the load no longer spreads over all teeth.
 inline constexpr double table_load_factors[] = {0.25, 0.5, 1, 1.5, 2};
 inline constexpr std::size_t nominal_load_index = 2;
-/// Positions per mesh cycle. On the ring paper's traditional ring, 16, 32 and 64 positions give a largest dynamic factor of
-/// 1.184, 1.193 and 1.195 and the same averaged load sharing to 1e-5.
+/// Positions per mesh cycle. On the ring paper's traditional ring, 16, 32 and 64 positions give a largest dynamic
+/// factor of 1.184, 1.193 and 1.195 and the same averaged load sharing to 1e-5.
 inline constexpr int table_phases = 32;
 
 [[nodiscard]] MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry);

@@ -32,6 +32,7 @@ std::vector<const RingResult*> with_response(const RunResult& result) {
 
 std::vector<std::pair<std::string, std::size_t>> planet_legend(int planets) {
   std::vector<std::pair<std::string, std::size_t>> entries;
+  entries.reserve(static_cast<std::size_t>(planets));
   for (int n = 0; n < planets; ++n) entries.emplace_back(fmt::format("planet {}", n + 1), static_cast<std::size_t>(n));
   return entries;
 }

@@ -89,8 +89,8 @@ std::string per_ring(const RunResult& result, const char* y_label, Pick pick, bo
               .x_label = cycle_label(result.rings[i].mesh),
               .y_label = y_label,
               .y_range = range.range()};
-    plot.series.push_back(
-        {.label = result.rings[i].name, .x = c.cycles, .y = c.value, .low = c.low, .high = c.high, .colour = i});
+    const auto& mesh = result.rings[i].mesh;
+    add_curve(plot, result.rings[i].name, c, i, mesh.model.computed() && mesh.table.positions() == 1);
     plots.push_back(to_svg(plot));
   }
   return figure(plots, "", caption);

@@ -68,6 +68,7 @@ std::string sharing_sentence(const RingQuantity& q) {
 std::string factor_sentence(const RingQuantity& q) {
   const auto rings = sorted(q);
   std::vector<std::string> words;
+  words.reserve(rings.size());
   for (const auto& r : rings) words.push_back(fmt::format("{} with <b>{}</b>", to_text(r.value, 4), escape(r.ring)));
   return fmt::format("<p>Dynamic factor ({}): {}.</p>\n", q.name.substr(q.name.find(',') + 2), enumerate(words));
 }

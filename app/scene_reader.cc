@@ -222,8 +222,11 @@ class Reader {
           fmt::format("{}: unknown {}", name, node.is_table() || node.is_array_of_tables() ? "table" : "key");
       const auto& later = unavailable_tables();
       const auto match = std::find_if(later.begin(), later.end(), [&](const auto& t) { return t.first == name; });
-      what = match != later.end() ? fmt::format("[{}] ({}) is not yet available in this version", name, match->second)
-                                  : what + suggestion("", name, names);
+      if (match != later.end()) {
+        what = fmt::format("[{}] ({}) is not yet available in this version", name, match->second);
+      } else {
+        what += suggestion("", name, names);
+      }
       problem(place_of(key.source()), what);
     }
     if (const auto* mesh = root_["mesh"].as_table()) {

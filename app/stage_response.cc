@@ -107,7 +107,7 @@ void save(const StageResponse& result, const std::string& id, const std::filesys
   write(result.waveform, header, folder / "waveform.csv");
   write(result.spectrum, header, folder / "spectrum.csv");
   std::string modes;
-  for (const auto& [key, value] : header) modes += "# " + key + ": " + value + "\n";
+  for (const auto& [key, value] : header) modes.append("# ").append(key).append(": ").append(value).append("\n");
   modes += "index,frequency_Hz,kind\n";
   for (std::size_t i = 0; i < result.modes.size(); ++i) {
     modes += fmt::format("{},{:.17g},{}\n", i + 1, result.modes[i].frequency, result.modes[i].kind);

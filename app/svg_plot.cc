@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <set>
 
 namespace annulus::app {
 
@@ -57,6 +57,7 @@ std::vector<double> nice_ticks(double low, double high, int count) {
 
 std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
   std::vector<std::string> labels;
+  labels.reserve(ticks.size());
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
   const double largest = std::max(std::abs(ticks.front()), std::abs(ticks.back()));
   const int decimals = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-6)), 0, 12);
@@ -158,13 +159,18 @@ std::string draw(const Frame& frame, const Series& s) {
           fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{}/>",
                       path(frame, s.x, s.y), colour, s.dashed ? " stroke-dasharray=\"5 3\"" : "");
       break;
-    case Series::Style::dots:
+    case Series::Style::dots: {
+      // Lines of no length with round ends; points that fall on the same place of the page are drawn once.
+      std::set<std::string> places;
       for (std::size_t i = 0; i < s.x.size(); ++i) {
         if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
-        svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\" fill=\"{}\"/>", frame.at_x(s.x[i]),
-                           frame.at_y(s.y[i]), colour);
+        places.insert(fmt::format("M{:.1f} {:.1f}h0", frame.at_x(s.x[i]), frame.at_y(s.y[i])));
       }
+      std::string d;
+      for (const auto& place : places) d += place;
+      svg += fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"4\" stroke-linecap=\"round\"/>", d, colour);
       break;
+    }
     case Series::Style::bars: {
       std::string d;
       const double base = std::clamp(frame.at_y(0), frame.top, frame.bottom);
