@@ -103,7 +103,10 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   const auto now = [] { return std::chrono::steady_clock::now(); };
   const auto since = [&](auto start) { return std::chrono::duration<double>(now() - start).count(); };
 
-  const int last_level = settings.rung == Rung::solid ? last_solid_level : last_plane_level;
+  const double half_width = nominal_half_width(problem, flanks);
+  const int last_plane = std::min(last_contact_level(problem.pair.planet(), half_width),
+                                  last_contact_level(problem.pair.wheel(), half_width));
+  const int last_level = settings.rung == Rung::solid ? std::min(last_solid_level, last_plane) : last_plane;
   const int first_level = settings.level.value_or(1);
   if (first_level < 1 || first_level > last_level)
     throw InputError(fmt::format("level {} is not available: 1 to {} are", first_level, last_level));

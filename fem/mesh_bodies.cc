@@ -61,6 +61,12 @@ std::vector<double> uniform_edges(double width, int cells) {
 
 }  // namespace
 
+double nominal_half_width(const LoadedMeshProblem& problem, const FlankContact& flanks) {
+  const double nominal = problem.loads[problem.loads.size() / 2];
+  return hertz_half_width(nominal / problem.face_width, flanks.relative_curvature(problem.pair.roll_length_pitch()),
+                          problem.material);
+}
+
 double derived_pin_stiffness(const Material& material, double length) {
   return M_PI * material.youngs_modulus * length / (4 * (1 - material.poisson_ratio * material.poisson_ratio));
 }
@@ -77,10 +83,7 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   if (pinned != nullptr && solid)
     throw InputError("pinned and bolted rings are modelled in the plane in this version: use rung = \"plane\"");
 
-  // The mesh is made for the load the table centres on.
-  const double nominal = problem.loads[problem.loads.size() / 2];
-  const double half_width = hertz_half_width(nominal / problem.face_width,
-                                             flanks.relative_curvature(pair.roll_length_pitch()), problem.material);
+  const double half_width = nominal_half_width(problem, flanks);
   const BodyResolution solid_counts = solid ? solid_resolution(level) : BodyResolution{};
 
   geometry::Rim planet_rim{problem.planet_bore_radius, {}}, wheel_rim{problem.wheel_support_radius, {}};

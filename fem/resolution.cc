@@ -9,22 +9,47 @@
 
 namespace annulus::fem {
 
-BodyResolution contact_resolution(const geometry::Gear& gear, double half_width, int level) {
+namespace {
+
+double flank_length(const geometry::Gear& gear) {
   const geometry::ToothProfile profile(gear);
-  const double base = gear.base_radius();
   const double tip = profile.roll_length_tip(), form = profile.roll_length_form();
-  const double flank = std::abs(tip * tip - form * form) / (2 * base);
+  return std::abs(tip * tip - form * form) / (2 * gear.base_radius());  // s = rho^2 / (2 r_b)
+}
+
+/// Wanted cell size at a level, m. Bounded so that every level really differs from its neighbours.
+double cell_size(const geometry::Gear& gear, double half_width, int level) {
+  const double flank = flank_length(gear);
+  const double finest_first = flank * level_ratio * level_ratio / most_flank_cells, coarsest_first = flank / 12;
+  return std::clamp(half_width / 6, finest_first, coarsest_first) / std::pow(level_ratio, level - 1);
+}
+
+int flank_cells(const geometry::Gear& gear, double half_width, int level) {
+  // The bound of the first level makes an exact count; do not let round-off add a cell.
+  return static_cast<int>(std::ceil(flank_length(gear) / cell_size(gear, half_width, level) * (1 - 1e-12)));
+}
+
+}  // namespace
+
+int last_contact_level(const geometry::Gear& gear, double half_width) {
+  int level = 1;
+  while (flank_cells(gear, half_width, level + 1) <= most_flank_cells) ++level;
+  return level;
+}
+
+BodyResolution contact_resolution(const geometry::Gear& gear, double half_width, int level) {
+  require(level <= last_contact_level(gear, half_width), "no such level of plane resolution");
   const double refine = std::pow(level_ratio, level - 1);
-  const double cell = half_width / 6 / refine;
+  const double cell = cell_size(gear, half_width, level);
   const double thickness = gear.tooth_thickness(gear.reference_radius());
 
   BodyResolution r;
   auto& s = r.section;
-  s.flank_cells = std::clamp(static_cast<int>(std::ceil(flank / cell)), 8, 400);
+  s.flank_cells = flank_cells(gear, half_width, level);
   // Layers grow by about a third from either flank to the middle of the tooth.
   const double growth = 1 + 0.3 / refine;
   const double layers = 2 * std::log(1 + (growth - 1) * thickness / 2 / cell) / std::log(growth);
-  s.thickness_cells = std::clamp(2 * static_cast<int>(std::ceil(layers / 2)), 4, 80);
+  s.thickness_cells = std::clamp(2 * static_cast<int>(std::ceil(layers / 2)), 4, 160);
   s.flank_layer = std::clamp(cell * s.thickness_cells / thickness, 0.02, 1.0);
   s.fillet_cells = 2 * std::max(1, static_cast<int>(std::lround(3 * refine)));
   s.root_cells = std::max(1, static_cast<int>(std::lround(2 * refine)));

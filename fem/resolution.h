@@ -15,12 +15,14 @@ struct BodyResolution {
 /// Levels of resolution: every level has cells 1.5 times smaller than the one before, in the plane; results come from
 /// one level, their error estimate from the difference to the level before.
 inline constexpr double level_ratio = 1.5;
-inline constexpr int last_plane_level = 8;
+inline constexpr int most_flank_cells = 900;
 inline constexpr int last_solid_level = 2;
 
 /// Plane cross-section that resolves the contact. At level 1 the flank cells are a sixth of `half_width` (Hertz,
 /// nominal load), so that a quarter of the load still has three cells in its half-width.
 [[nodiscard]] BodyResolution contact_resolution(const geometry::Gear& gear, double half_width, int level);
+/// The last level whose flank has no more than `most_flank_cells`: levels beyond would not differ.
+[[nodiscard]] int last_contact_level(const geometry::Gear& gear, double half_width);
 /// Solid body: the flank is coarse, its near field is corrected from the plane.
 [[nodiscard]] BodyResolution solid_resolution(int level);
 

@@ -38,11 +38,9 @@ TraceGrid make_trace(const std::vector<int>& nodes, const std::vector<Eigen::Vec
     z.push_back(points[n].z());
   }
   trace.axial = distinct(z, 1e-9);
-  // The mapping places nodes inside curved faces a little (micrometres) off the line of their neighbours on the edges:
-  // tell stations apart by a twentieth of their mean distance.
+  // Nodes of one station agree to round-off.
   const auto [least, most] = std::minmax_element(u.begin(), u.end());
-  const double stations = static_cast<double>(nodes.size()) / static_cast<double>(trace.axial.size());
-  trace.profile = distinct(u, 0.05 * (*most - *least) / stations);
+  trace.profile = distinct(u, 1e-9 * (*most - *least));
   require(trace.profile.size() * trace.axial.size() == nodes.size(),
           "the nodes of a boundary do not form a tensor grid");
   trace.nodes.assign(nodes.size(), -1);
