@@ -70,7 +70,7 @@ struct LoadedMeshResult {
   double reciprocity_relative = 0;             ///< largest over the positions
   geometry::Mesh planet_sector, wheel_sector;  ///< as solved
   int level = 1;                               ///< level of resolution reached
-  double worst_error_relative = 0;             ///< largest estimated error of a table entry
+  double worst_error_relative = 0;             ///< largest estimated error at the middle load
   long unknowns = 0;                           ///< freedoms of the two sectors
   double pin_stiffness = 0;                    ///< N/m per pin as used; 0 without pins
   double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0;

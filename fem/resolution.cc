@@ -17,10 +17,12 @@ double flank_length(const geometry::Gear& gear) {
   return std::abs(tip * tip - form * form) / (2 * gear.base_radius());  // s = rho^2 / (2 r_b)
 }
 
-/// Wanted cell size at a level, m. Bounded so that every level really differs from its neighbours.
+/// Wanted cell size at a level, m. Bounded so that every level really differs from its neighbours, and so that light
+/// loads, whose contact is narrow but counts for little of the deflection, start coarse and are refined only as far as
+/// needed.
 double cell_size(const geometry::Gear& gear, double half_width, int level) {
   const double flank = flank_length(gear);
-  const double finest_first = flank * level_ratio * level_ratio / most_flank_cells, coarsest_first = flank / 12;
+  const double finest_first = flank / 120, coarsest_first = flank / 12;
   return std::clamp(half_width / 6, finest_first, coarsest_first) / std::pow(level_ratio, level - 1);
 }
 
@@ -51,7 +53,12 @@ BodyResolution contact_resolution(const geometry::Gear& gear, double half_width,
   const double layers = 2 * std::log(1 + (growth - 1) * thickness / 2 / cell) / std::log(growth);
   s.thickness_cells = std::clamp(2 * static_cast<int>(std::ceil(layers / 2)), 4, 160);
   s.flank_layer = std::clamp(cell * s.thickness_cells / thickness, 0.02, 1.0);
-  s.fillet_cells = 2 * std::max(1, static_cast<int>(std::lround(3 * refine)));
+  // A curved edge bulges by L^2 / (8 R) over its chord; under a fillet that must stay a small part of the thin first
+  // layer, or the mapping folds the cell.
+  const double radius = std::max(0.05, gear.parameters().root_fillet_factor) * gear.parameters().module;
+  const double longest = std::sqrt(0.4 * radius * cell);
+  const double by_curvature = 1.6 * radius / longest;  // a quarter turn
+  s.fillet_cells = 2 * static_cast<int>(std::ceil(std::max(3 * refine, by_curvature / 2)));
   s.root_cells = std::max(1, static_cast<int>(std::lround(2 * refine)));
   s.rim_cells = std::max(2, static_cast<int>(std::lround(6 * refine)));
   return r;

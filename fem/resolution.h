@@ -19,7 +19,8 @@ inline constexpr int most_flank_cells = 900;
 inline constexpr int last_solid_level = 2;
 
 /// Plane cross-section that resolves the contact. At level 1 the flank cells are a sixth of `half_width` (Hertz,
-/// nominal load), so that a quarter of the load still has three cells in its half-width.
+/// nominal load), so that a quarter of the load still has three cells in its half-width; at light loads level 1 has 120
+/// cells along the flank. A level beyond last_contact_level() is refused.
 [[nodiscard]] BodyResolution contact_resolution(const geometry::Gear& gear, double half_width, int level);
 /// The last level whose flank has no more than `most_flank_cells`: levels beyond would not differ.
 [[nodiscard]] int last_contact_level(const geometry::Gear& gear, double half_width);

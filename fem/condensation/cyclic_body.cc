@@ -107,7 +107,7 @@ CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, int ma
   const double rigid_stiffness = chained.diagonal.diagonal().mean();
 
   // The harmonics are summed in a fixed number of groups, in order: the same result for any number of threads.
-  constexpr int groups = 8;
+  constexpr int groups = 4;
   std::vector<std::vector<Eigen::MatrixXd>> partial(groups);
   std::vector<std::exception_ptr> failures(groups);
   const auto work = [&](int group) {
