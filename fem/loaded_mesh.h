@@ -29,8 +29,9 @@ enum class Rung { plane, solid };
 
 struct LoadedMeshSettings {
   Rung rung = Rung::plane;
-  double accuracy =
-      0.01;        ///< wanted relative accuracy of the stiffness: the mesh is refined until the estimate meets it
+  /// Wanted relative accuracy of the stiffness at the middle load of the table: the mesh is refined until the estimate
+  /// of every position meets it. Entries at other loads carry their own estimate.
+  double accuracy = 0.01;
   int degree = 2;  ///< polynomial degree of the elements
   /// Forces one level of resolution (1, 2, ...; its error estimated from the level before) instead of refining.
   std::optional<int> level{};
