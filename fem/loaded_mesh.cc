@@ -107,7 +107,9 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   const int last_plane = std::min(last_contact_level(problem.pair.planet(), half_width),
                                   last_contact_level(problem.pair.wheel(), half_width));
   const int last_level = settings.rung == Rung::solid ? std::min(last_solid_level, last_plane) : last_plane;
-  const int first_level = settings.level.value_or(1);
+  // The plane starts a level higher: it costs little, and where a pair enters at its tip edge the first level
+  // understates its error, which the dynamic factor feels.
+  const int first_level = settings.level.value_or(settings.rung == Rung::solid ? 1 : std::min(2, last_level));
   if (first_level < 1 || first_level > last_level)
     throw InputError(fmt::format("level {} is not available: 1 to {} are", first_level, last_level));
 
