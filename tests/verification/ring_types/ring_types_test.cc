@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(scene_to_report) {
   for (const auto& ring : {traditional, thin_walled, pinned}) {
     BOOST_TEST(ring.at("dynamics").at("steady").get<bool>());
     const auto& invariants = ring.at("invariants");
-    BOOST_TEST(invariants.at("force_balance_relative").get<double>() < 1e-5);
+    BOOST_TEST(invariants.at("force_balance_relative").get<double>() < 1e-9);
     BOOST_TEST(invariants.at("energy_balance_relative").get<double>() < 1e-9);
     BOOST_TEST(invariants.at("closure_relative").get<double>() < 1e-9);
     BOOST_TEST(invariants.at("max_penetration_m").get<double>() < 1e-12);  // a millionth of the deflection
