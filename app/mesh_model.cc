@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
-
 #include "app/content_id.h"
 
 namespace annulus::app {
@@ -20,11 +18,10 @@ fem::RingStructure structure_of(const RingInput& ring) {
     case Structure::bolted:
       break;
   }
-  return fem::PinHeld{.pins = *ring.pins,
+  return fem::PinHeld{.angles = fem::equal_angles(*ring.pins, ring.first_pin_angle.value_or(0)),
                       .pin_diameter = *ring.pin_diameter,
                       .clearance = ring.pin_clearance.value_or(0),
                       .radial_stiffness = ring.pin_radial_stiffness,
-                      .first_pin_angle = ring.first_pin_angle.value_or(0),
                       .unilateral = ring.structure == Structure::pinned};
 }
 
@@ -86,8 +83,9 @@ void add_structure(ContentId& id, const fem::RingStructure& structure) {
   if (const auto* sleeve = std::get_if<fem::EndFaceHeld>(&structure)) {
     id.add("free_length", sleeve->free_length).add("sleeve_thickness", sleeve->sleeve_thickness);
   } else if (const auto* pins = std::get_if<fem::PinHeld>(&structure)) {
-    id.add("pins", pins->pins).add("pin_diameter", pins->pin_diameter).add("clearance", pins->clearance);
-    id.add("pin_stiffness", pins->radial_stiffness.value_or(-1)).add("first_pin", pins->first_pin_angle);
+    for (const double angle : pins->angles) id.add("pin", angle);
+    id.add("pin_diameter", pins->pin_diameter).add("clearance", pins->clearance);
+    id.add("pin_stiffness", pins->radial_stiffness.value_or(-1));
     id.add("unilateral", pins->unilateral ? 1 : 0);
   }
 }
@@ -146,8 +144,7 @@ MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std:
   set_rung(model, scene, input.structure == Structure::thin_walled, plane_reason,
            "the ring hangs on one end face, so the deflection grows toward its free end");
   if (input.structure == Structure::pinned || input.structure == Structure::bolted) {
-    const int common = std::gcd(input.teeth, *input.pins);
-    model.positions = input.teeth / common;
+    model.positions = fem::repeating_teeth(structure_of(input), input.teeth);
     model.repeats = fmt::format("{} teeth on {} equal supports: the ring repeats after {} teeth", input.teeth,
                                 *input.pins, model.positions);
   } else {

@@ -82,8 +82,7 @@ std::string supports(const fem::LoadedMeshProblem& problem, double first, double
     return arc(radius, first - reach, first + reach, held);
   const auto* pins = std::get_if<fem::PinHeld>(&problem.structure);
   std::string svg;
-  for (int i = 0; pins && i < pins->pins; ++i) {
-    const double own = pins->first_pin_angle + 2 * std::numbers::pi * i / pins->pins;
+  for (const double own : pins ? pins->angles : std::vector<double>{}) {
     const double angle = std::remainder(own, 2 * std::numbers::pi) + first;
     if (std::abs(angle - first) > reach) continue;
     svg += fmt::format(

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
-#include <numeric>
 #include <thread>
 
 #include "core/errors.h"
@@ -20,10 +19,7 @@ namespace {
 
 /// Teeth after which the structure of the wheel repeats.
 int repeating_teeth(const LoadedMeshProblem& problem) {
-  const auto* pinned = std::get_if<PinHeld>(&problem.structure);
-  if (pinned == nullptr) return 1;
-  const int teeth = problem.pair.wheel().teeth();
-  return teeth / std::gcd(teeth, pinned->pins);
+  return repeating_teeth(problem.structure, problem.pair.wheel().teeth());
 }
 
 /// All positions of one level: [cycle][phase 0 ... phases][load]; the last phase of the last cycle is the closure,
@@ -91,7 +87,7 @@ void check(const LoadedMeshProblem& problem) {
       throw InputError("the loads of a stiffness table have to be positive and strictly increasing");
   if (!problem.pair.internal() && !std::holds_alternative<OutsideHeld>(problem.structure))
     throw InputError("a ring structure belongs to the ring mesh");
-  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure); pinned != nullptr && pinned->pins < 2)
+  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure); pinned != nullptr && pinned->angles.size() < 2)
     throw InputError("a ring on fewer than two pins turns about its pin: give at least two");
 }
 
@@ -168,19 +164,21 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   const double pin_stiffness = bodies.pins ? bodies.pins->stiffness() : 0;
   StiffnessTable table(problem.pair.internal() ? "ring_planet" : "sun_planet", problem.phases, std::move(ring_angles),
                        problem.loads, std::move(entries));
-  return {std::move(table),
-          std::move(positions),
-          closure,
-          reciprocity,
-          std::move(bodies.planet_sector),
-          std::move(bodies.wheel_sector),
-          level,
-          worst,
-          bodies.unknowns,
-          pin_stiffness,
-          mesh_seconds,
-          condense_seconds,
-          contact_seconds};
+  LoadedMeshResult result{std::move(table), std::move(positions)};
+  result.closure_relative = closure;
+  result.reciprocity_relative = reciprocity;
+  result.planet_sector = std::move(bodies.planet_sector);
+  result.wheel_sector = std::move(bodies.wheel_sector);
+  result.level = level;
+  result.worst_error_relative = worst;
+  result.unknowns = bodies.unknowns;
+  result.pin_stiffness = pin_stiffness;
+  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure)) result.pin_angles = pinned->angles;
+  result.slice_edges = bodies.slice_edges;
+  result.mesh_seconds = mesh_seconds;
+  result.condense_seconds = condense_seconds;
+  result.contact_seconds = contact_seconds;
+  return result;
 }
 
 }  // namespace annulus::fem

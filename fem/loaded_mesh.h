@@ -21,11 +21,12 @@ struct LoadedMeshProblem {
   double planet_bore_radius = 0;            ///< m, rigid hub
   double wheel_support_radius = 0;          ///< m: bore of the sun (rigid hub) or outside radius of the ring
   RingStructure structure = OutsideHeld{};  ///< ring mesh only
-  std::vector<double> loads;                ///< N, total normal forces, strictly increasing
+  double misalignment = 0;                  ///< m over the face width, normal to the flanks, > 0 opens towards +z
+  std::vector<double> loads{};              ///< N, total normal forces, strictly increasing
   int phases = 16;                          ///< positions per mesh cycle
 };
 
-enum class Rung { plane, solid };
+enum class Rung { closed_form, plane, solid, resolved_plane, resolved_solid };
 
 struct LoadedMeshSettings {
   Rung rung = Rung::plane;
@@ -39,11 +40,25 @@ struct LoadedMeshSettings {
   std::function<void(double fraction)> progress{};  ///< called now and then with the finished fraction
 };
 
-/// State of one pin at one position.
+/// State of one pin (or spline tooth) at one position.
 struct PinState {
   bool touching = false;
   double radial_force = 0;      ///< N, positive presses the pin outwards
   double tangential_force = 0;  ///< N, counter-clockwise on the pin
+};
+
+/// Mean contact pressure over one piece of a flank.
+struct PressurePatch {
+  int pair = 0;                        ///< index into LoadedPosition::pair_share
+  double z_low = 0, z_high = 0;        ///< m
+  double roll_low = 0, roll_high = 0;  ///< m, roll lengths of the planet
+  double pressure = 0;                 ///< Pa
+};
+
+/// Largest stresses of one body at one position, Pa, on its free surfaces (tangential: along the surface, tension > 0).
+struct BodyStress {
+  double root_tension = 0, root_compression = 0, root_von_mises = 0;  ///< in the fillets and root lands
+  double rim_tension = 0, rim_compression = 0, rim_von_mises = 0;     ///< on the other side of the rim
 };
 
 /// One position of the mesh under one load.
@@ -58,22 +73,38 @@ struct LoadedPosition {
   double max_pressure = 0;         ///< Pa
   bool tip_edge_contact = false;   ///< the peak pressure stands at a tip edge: singular, not to be compared
   std::vector<PinState> pins;
+  std::vector<double> line_load;        ///< N/m, of all pairs together, per slice of the face width from low to high z
+  double face_load_factor = 1;          ///< K_H_beta (ISO 6336-1): largest over mean line load
+  std::vector<PressurePatch> pressure;  ///< touching pieces, at the middle load of the table only
+  std::optional<BodyStress> planet_stress{}, wheel_stress{};
   double force_balance_relative = 0;   ///< |sum of force x lever arm - torque| / torque
   double energy_balance_relative = 0;  ///< |work of the load - 2 x strain energy - work against the gaps| / work
   double reciprocity_relative = 0;     ///< asymmetry of the compliance between tooth pairs, formed both ways
   double max_penetration = 0;          ///< m
 };
 
+/// Surface stress along a line, for pictures.
+struct StressCurve {
+  std::string name;              ///< "planet root", "wheel root", "wheel rim"
+  std::size_t position = 0;      ///< index into LoadedMeshResult::positions: where its largest von Mises stress occurs
+  std::vector<double> abscissa;  ///< root: arc length from the form circle of the trailing to that of the leading flank
+                                 ///< of the tooth space, m; rim: polar angle in the wheel's own frame, rad
+  std::vector<double> tangential, von_mises;  ///< Pa
+};
+
 struct LoadedMeshResult {
   StiffnessTable table;
-  std::vector<LoadedPosition> positions;       ///< at every load, [ring tooth][phase][load], then the closure positions
-  double closure_relative = 0;                 ///< |LTE(phase 1) - LTE(phase 0)| / LTE over all loads
-  double reciprocity_relative = 0;             ///< largest over the positions
-  geometry::Mesh planet_sector, wheel_sector;  ///< as solved
-  int level = 1;                               ///< level of resolution reached
-  double worst_error_relative = 0;             ///< largest estimated error at the middle load
-  long unknowns = 0;                           ///< freedoms of the two sectors
-  double pin_stiffness = 0;                    ///< N/m per pin as used; 0 without pins
+  std::vector<LoadedPosition> positions;  ///< at every load, [ring tooth][phase][load], then the closure positions
+  double closure_relative = 0;            ///< |LTE(phase 1) - LTE(phase 0)| / LTE over all loads
+  double reciprocity_relative = 0;        ///< largest over the positions
+  geometry::Mesh planet_sector{}, wheel_sector{};  ///< as solved
+  int level = 1;                                   ///< level of resolution reached
+  double worst_error_relative = 0;                 ///< largest estimated error at the middle load
+  long unknowns = 0;                               ///< freedoms of the two sectors
+  double pin_stiffness = 0;                        ///< N/m per pin or spline flank as used; 0 without
+  std::vector<double> pin_angles{};                ///< rad, from the centre of tooth 0; empty without pins
+  std::vector<double> slice_edges{};               ///< m, z of the slices of the face width
+  std::vector<StressCurve> stress_curves{};
   double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0;
 };
 

@@ -23,6 +23,8 @@ struct GearParameters {
   double tip_relief = 0;                  ///< m, material removed at the tip, normal to the flank
   double tip_relief_length = 0;           ///< m, along the line of action, linear relief
   double profile_crowning = 0;            ///< m, parabolic, at both ends of the usable flank
+  double lead_crowning = 0;               ///< m, parabolic, removed at both ends of the face width
+  double lead_slope = 0;                  ///< m, removed linearly towards +z (> 0) or -z (< 0), end to end
 };
 
 /// A gear with its derived dimensions (ISO 21771). Construction throws GeometryError with the reason when the gear

@@ -12,10 +12,7 @@ PinRow::PinRow(const PinHeld& pins, const GearBody& ring, double outside_radius,
     : pins_(pins), stiffness_(pins.radial_stiffness.value_or(derived_stiffness)) {
   const double half_arc = pins.pin_diameter / 2 / outside_radius, pitch = ring.pitch_angle;
   const int ports = static_cast<int>(ring.ports.size()), first_port = ring.flank_ports();
-  for (int p = 0; p < pins.pins; ++p) {
-    const double angle = pins.first_pin_angle + 2 * M_PI * p / pins.pins;
-    angles_.push_back(mirrored ? -angle : angle);
-  }
+  for (const double angle : pins.angles) angles_.push_back(mirrored ? -angle : angle);
   for (const double angle : angles_) {
     std::vector<std::pair<int, Eigen::MatrixXd>> pieces;
     const int lowest = static_cast<int>(std::floor((angle - half_arc) / pitch + 0.5));

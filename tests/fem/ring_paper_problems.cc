@@ -11,18 +11,23 @@
 namespace annulus::tests {
 
 fem::LoadedMeshProblem ring_mesh(const fem::RingStructure& structure, int phases, std::vector<double> loads) {
-  return {ring_paper_pair(true), {}, 88e-3, 86e-3, ring_outside, structure, std::move(loads), phases};
+  fem::LoadedMeshProblem problem{ring_paper_pair(true), {}, 88e-3, 86e-3, ring_outside, structure};
+  problem.loads = std::move(loads);
+  problem.phases = phases;
+  return problem;
 }
 
 fem::LoadedMeshProblem sun_mesh(int phases, std::vector<double> loads) {
-  return {ring_paper_pair(false), {}, 88e-3, 86e-3, 65e-3, fem::OutsideHeld{}, std::move(loads), phases};
+  fem::LoadedMeshProblem problem{ring_paper_pair(false), {}, 88e-3, 86e-3, 65e-3};
+  problem.loads = std::move(loads);
+  problem.phases = phases;
+  return problem;
 }
 
 fem::PinHeld paper_pins(int pins, double first_pin_angle) {
   fem::PinHeld held;
-  held.pins = pins;
+  held.angles = fem::equal_angles(pins, first_pin_angle);
   held.pin_diameter = pin_diameter;
-  held.first_pin_angle = first_pin_angle;
   return held;
 }
 

@@ -33,14 +33,10 @@ BOOST_AUTO_TEST_CASE(single_pair_of_the_sun_mesh) {
   const Gear sun({GearKind::external, 48, 3.8e-3, 22.5 * degree, 0.7608, width});
   // The formula is for solid bodies: the hubs are kept away from the teeth, the torsion down to them is taken off.
   const double planet_hub = 0.060, sun_hub = 0.045, load = 59460;
-  const annulus::fem::LoadedMeshProblem problem{annulus::geometry::GearPair(planet, sun, 0.201),
-                                                {},
-                                                width,
-                                                planet_hub,
-                                                sun_hub,
-                                                annulus::fem::OutsideHeld{},
-                                                {load},
-                                                32};
+  annulus::fem::LoadedMeshProblem problem{
+      annulus::geometry::GearPair(planet, sun, 0.201), {}, width, planet_hub, sun_hub};
+  problem.loads = {load};
+  problem.phases = 32;
   const auto result = annulus::fem::solve_loaded_mesh(problem, {});
 
   double largest = 0;
