@@ -27,11 +27,11 @@ int repeating_teeth(const LoadedMeshProblem& problem) {
 class PositionRun {
  public:
   PositionRun(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, const FlankContact& flanks,
-              const MeshBodies& bodies)
+              const MeshBodies& bodies, int level)
       : problem_(problem),
         settings_(settings),
         system_(flanks, *bodies.planet, *bodies.wheel, bodies.pins ? &*bodies.pins : nullptr, problem.material,
-                bodies.slice_edges, {1.1 * bodies.flank_cell}),
+                bodies.slice_edges, options(problem, settings, level)),
         cycles_(repeating_teeth(problem)) {}
 
   [[nodiscard]] std::vector<LoadedPosition> solve(const std::function<void(double)>& progress) const {
@@ -51,9 +51,11 @@ class PositionRun {
           ContactSystem::WarmStart warm;
           ContactSystem::PairsCache pairs;
           for (int phase = first_phase; phase <= last_phase; ++phase)
-            for (int cycle = phase == phases ? cycles_ - 1 : 0; cycle < cycles_; ++cycle)
-              positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load] =
-                  system_.solve(cycle, static_cast<double>(phase) / phases, problem_.loads[load], pairs, warm);
+            for (int cycle = phase == phases ? cycles_ - 1 : 0; cycle < cycles_; ++cycle) {
+              auto& position = positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load];
+              position = system_.solve(cycle, static_cast<double>(phase) / phases, problem_.loads[load], pairs, warm);
+              if (load != loads / 2) position.pressure.clear();
+            }
           ++done;
           if (progress) {
             const std::lock_guard lock(failure_lock);
@@ -74,6 +76,14 @@ class PositionRun {
   }
 
  private:
+  static ContactOptions options(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
+    const double first = settings.rung == Rung::solid ? 6 : 10;  // in a solid, every slice has as many
+    ContactOptions options;
+    options.elements = static_cast<int>(std::lround(first * std::pow(1.25, level - 1)));
+    options.misalignment = problem.misalignment;
+    return options;
+  }
+
   const LoadedMeshProblem& problem_;
   const LoadedMeshSettings& settings_;
   ContactSystem system_;
@@ -116,7 +126,7 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
     mesh_seconds += bodies.mesh_seconds;
     condense_seconds += bodies.condense_seconds;
     const auto start = now();
-    auto positions = PositionRun(problem, settings, flanks, bodies).solve([&](double f) {
+    auto positions = PositionRun(problem, settings, flanks, bodies, level).solve([&](double f) {
       if (settings.progress) settings.progress((level - first_level + f) / (level - first_level + 2));
     });
     contact_seconds += since(start);

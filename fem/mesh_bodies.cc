@@ -46,13 +46,6 @@ void condense_all(std::vector<Task>& tasks, const Material& material, int thread
     if (failure) std::rethrow_exception(failure);
 }
 
-/// Arc length of the flank cells, s = rho^2 / (2 r_b); they are uniform.
-double flank_cell(const Task& task) {
-  const auto& flank = task.body.flank;
-  const double low = flank.low(), high = flank.high();
-  return (high * high - low * low) / (2 * task.profile->gear().base_radius()) / flank.elements();
-}
-
 std::vector<double> uniform_edges(double width, int cells) {
   std::vector<double> edges;
   for (int i = 0; i <= cells; ++i) edges.push_back(width * i / cells);
@@ -151,25 +144,27 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   bodies.slice_edges =
       solid ? uniform_edges(problem.face_width, 2 * solid_counts.face_cells) : uniform_edges(problem.face_width, 1);
   const auto near_field = [&](std::size_t fine, std::size_t coarse) {
-    std::vector<NearFieldTerm> terms;
-    for (const auto& [index, sign] : {std::pair{fine, 1.0}, std::pair{coarse, -1.0}}) {
+    const auto compliance = [&](std::size_t index) -> Eigen::MatrixXd {
       const GearBody& body = tasks[index].body;
-      const int ports = body.flank_ports();
-      terms.push_back({body.flank, body.compliance.block(0).topLeftCorner(ports, ports), sign});
-    }
-    return terms;
+      return body.compliance.block(0).topLeftCorner(body.flank_ports(), body.flank_ports());
+    };
+    return NearField{tasks[fine].body.flank, tasks[coarse].body.flank, compliance(fine), compliance(coarse)};
   };
-  bodies.flank_cell = std::max(flank_cell(tasks[solid ? 2 : 0]), flank_cell(tasks[solid ? 4 : 1]));
   bodies.unknowns = tasks[0].body.unknowns + tasks[1].body.unknowns;
   bodies.planet_sector = std::move(tasks[0].mesh);
   bodies.wheel_sector = std::move(tasks[1].mesh);
   if (pinned != nullptr)
     bodies.pins.emplace(*pinned, tasks[1].body, problem.wheel_support_radius, problem.face_width, true,
                         derived_pin_stiffness(problem.material, problem.face_width));
-  auto planet_terms = solid ? near_field(2, 3) : std::vector<NearFieldTerm>{};
-  auto wheel_terms = solid ? near_field(4, 5) : std::vector<NearFieldTerm>{};
-  bodies.planet = std::make_unique<ContactBody>(std::move(tasks[0].body), bodies.slice_edges, std::move(planet_terms));
-  bodies.wheel = std::make_unique<ContactBody>(std::move(tasks[1].body), bodies.slice_edges, std::move(wheel_terms));
+  std::optional<NearField> planet_near_field, wheel_near_field;
+  if (solid) {
+    planet_near_field = near_field(2, 3);
+    wheel_near_field = near_field(4, 5);
+  }
+  bodies.planet = std::make_unique<ContactBody>(std::move(tasks[0].body), pair.planet().base_radius(), problem.material,
+                                                bodies.slice_edges, std::move(planet_near_field));
+  bodies.wheel = std::make_unique<ContactBody>(std::move(tasks[1].body), pair.wheel().base_radius(), problem.material,
+                                               bodies.slice_edges, std::move(wheel_near_field));
   bodies.condense_seconds = seconds_since(condense_start);
   return bodies;
 }

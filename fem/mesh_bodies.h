@@ -17,7 +17,6 @@ struct MeshBodies {
   std::unique_ptr<ContactBody> planet, wheel;
   std::optional<PinRow> pins;
   std::vector<double> slice_edges;
-  double flank_cell = 0;  ///< m, arc length of the largest flank cell that carries the near field
   geometry::Mesh planet_sector, wheel_sector;
   long unknowns = 0;
   double mesh_seconds = 0, condense_seconds = 0;

@@ -1,10 +1,10 @@
 #include "fem/contact/complementarity.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 
 #include "core/errors.h"
+#include "fem/condensation/lapack.h"
 
 namespace annulus::fem {
 namespace {
@@ -20,10 +20,13 @@ bool solve_active(const ComplementarityProblem& p, const std::vector<int>& set, 
     e.row(i) = p.rigid.row(set[i]);
     g[i] = p.gap[set[i]];
   }
-  const Eigen::LLT<Eigen::MatrixXd> factor(c);
-  if (factor.info() != Eigen::Success) throw SolverError("the contact compliance is not positive definite");
-  const Eigen::MatrixXd ce = factor.solve(e);
-  const Eigen::VectorXd cg = factor.solve(g);
+  if (!lapack::cholesky(c)) throw SolverError("the contact compliance is not positive definite");
+  Eigen::MatrixXd right(n, rigid + 1);
+  right << e, g;
+  lapack::solve_lower(c, right);
+  c.triangularView<Eigen::Lower>().transpose().solveInPlace(right);
+  const Eigen::MatrixXd ce = right.leftCols(rigid);
+  const Eigen::VectorXd cg = right.col(rigid);
   const Eigen::FullPivLU<Eigen::MatrixXd> schur(e.transpose() * ce);
   if (schur.rank() < rigid) return false;  // too few contacts to carry the load: the set has to grow
   s.tangent = schur.inverse();

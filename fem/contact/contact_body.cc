@@ -1,6 +1,8 @@
 #include "fem/contact/contact_body.h"
 
-#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "core/errors.h"
 #include "fem/condensation/lapack.h"
@@ -8,22 +10,34 @@
 namespace annulus::fem {
 namespace {
 
-/// (A kron I)^T M for A with few entries per column: rows of M are grouped in blocks of `group`.
-Eigen::MatrixXd gather_rows(const Eigen::MatrixXd& weights, const Eigen::MatrixXd& matrix, int group) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(weights.cols() * group, matrix.cols());
-  for (Eigen::Index e = 0; e < weights.cols(); ++e)
-    for (Eigen::Index u = 0; u < weights.rows(); ++u)
-      if (weights(u, e) != 0)
-        result.middleRows(e * group, group) += weights(u, e) * matrix.middleRows(u * group, group);
+/// Cells that a load on the mesh covers to either side of its centre: quadratic cells then resolve it to some tenths of
+/// a per cent of the near field.
+constexpr double cells_in_half_width = 2.5;
+
+/// Columns (station, slice) of `matrix` summed with the weights of every element of a patch.
+Eigen::MatrixXd gather_columns(const Eigen::MatrixXd& matrix, const FlankPatch& patch, int slices) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(matrix.rows(), static_cast<Eigen::Index>(patch.elements.size()));
+  for (std::size_t e = 0; e < patch.elements.size(); ++e) {
+    const auto [load, slice] = patch.elements[e];
+    for (Eigen::Index u = 0; u < patch.weights.rows(); ++u)
+      if (const double w = patch.weights(u, load); w != 0)
+        result.col(static_cast<Eigen::Index>(e)) += w * matrix.col(u * slices + slice);
+  }
   return result;
 }
 
 }  // namespace
 
-ContactBody::ContactBody(GearBody body, const std::vector<double>& slice_edges, std::vector<NearFieldTerm> near_field)
-    : body_(std::move(body)), slices_(static_cast<int>(slice_edges.size()) - 1), near_field_(std::move(near_field)) {
+ContactBody::ContactBody(GearBody body, double base_radius, const Material& material,
+                         const std::vector<double>& slice_edges, std::optional<NearField> near_field,
+                         double contact_slant)
+    : body_(std::move(body)),
+      base_radius_(base_radius),
+      half_plane_(material),
+      slices_(static_cast<int>(slice_edges.size()) - 1),
+      near_field_(std::move(near_field)) {
   require(slices_ >= 1, "a contact needs at least one slice");
-  for (int s = 0; s < slices_; ++s) slice_width_.push_back(slice_edges[s + 1] - slice_edges[s]);
+  for (int s = 0; s < slices_; ++s) slice_length_.push_back((slice_edges[s + 1] - slice_edges[s]) * contact_slant);
   const double width = slice_edges.back() - slice_edges.front();
   const int stations = body_.axial_stations();
   axial_ = Eigen::MatrixXd::Ones(stations, slices_);
@@ -51,51 +65,127 @@ ContactBody::ContactBody(GearBody body, const std::vector<double>& slice_edges, 
           lapack::transpose_product(axial_, Eigen::MatrixXd(columns.middleRows(u * stations, stations)));
     compressed_.push_back(per_width * both);
   }
+
+  const TraceBasis& resolving = near_field_ ? near_field_->fine : body_.flank;
+  const auto& rolls = resolving.stations();
+  for (int e = 0; e < resolving.elements(); ++e) {
+    const double low = rolls[e * resolving.degree()], high = rolls[(e + 1) * resolving.degree()];
+    cell_centres_.push_back((low * low + high * high) / (4 * base_radius_));
+    cell_lengths_.push_back((high * high - low * low) / (2 * base_radius_));
+  }
 }
 
-Eigen::MatrixXd ContactBody::compliance(const Weights& a, int tooth_a, const Weights& b, int tooth_b) const {
+double ContactBody::cell_length(double arc) const {
+  const auto above = std::upper_bound(cell_centres_.begin(), cell_centres_.end(), arc);
+  if (above == cell_centres_.begin()) return cell_lengths_.front();
+  if (above == cell_centres_.end()) return cell_lengths_.back();
+  const auto i = above - cell_centres_.begin();
+  const double t = (arc - cell_centres_[i - 1]) / (cell_centres_[i] - cell_centres_[i - 1]);
+  return (1 - t) * cell_lengths_[i - 1] + t * cell_lengths_[i];
+}
+
+FlankLoad ContactBody::make_load(double arc, double half_length) const {
+  const double low = body_.flank.low(), high = body_.flank.high();
+  const double to_end = std::min(arc - low * low / (2 * base_radius_), high * high / (2 * base_radius_) - arc);
+  // A semi-ellipse 2 / sqrt(3) as long as the element has its second moment.
+  const double own = 2 / std::sqrt(3.0) * half_length;
+  const double spread = std::min(std::max(own, cells_in_half_width * cell_length(arc)), to_end);
+  require(spread > 0, "a pressure element lies beyond the end of the flank");
+  return {arc, half_length, spread};
+}
+
+Eigen::MatrixXd ContactBody::weights_on(const TraceBasis& flank, const std::vector<FlankLoad>& loads) const {
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(flank.size(), static_cast<Eigen::Index>(loads.size()));
+  constexpr int points = 16;
+  for (std::size_t l = 0; l < loads.size(); ++l)
+    for (int i = 1; i <= points; ++i) {
+      const double angle = i * M_PI / (points + 1), sine = std::sin(angle);
+      const double arc = loads[l].arc + loads[l].spread * std::cos(angle);
+      const double roll = std::clamp(std::sqrt(2 * base_radius_ * std::max(arc, 0.0)), flank.low(), flank.high());
+      const auto values = flank(roll);
+      for (std::size_t k = 0; k < values.weights.size(); ++k)
+        weights(values.first + static_cast<int>(k), static_cast<Eigen::Index>(l)) +=
+            2 * sine * sine / (points + 1) * values.weights[k];
+    }
+  return weights;
+}
+
+void ContactBody::find_weights(FlankPatch& patch) const { patch.weights = weights_on(body_.flank, patch.loads); }
+
+Eigen::MatrixXd ContactBody::compliance(const FlankPatch& a, int tooth_a, const FlankPatch& b, int tooth_b) const {
   const int n = body_.teeth;
   int d = ((tooth_a - tooth_b) % n + n) % n;
   const bool mirrored = d > n - d;
   if (mirrored) d = n - d;
   require(d < static_cast<int>(compressed_.size()), "teeth too far apart for the formed compliance");
-  const auto& block = compressed_[d];
-  const Eigen::MatrixXd rows = gather_rows(a, mirrored ? Eigen::MatrixXd(block.transpose()) : block, slices_);
-  return gather_rows(b, rows.transpose(), slices_).transpose();
+  // block(-d) is the transpose of block(d).
+  const auto& first = mirrored ? a : b;
+  const auto& second = mirrored ? b : a;
+  const Eigen::MatrixXd columns = gather_columns(compressed_[d], first, slices_).transpose();
+  const Eigen::MatrixXd both = gather_columns(columns, second, slices_);
+  return mirrored ? both : Eigen::MatrixXd(both.transpose());
 }
 
-Eigen::MatrixXd ContactBody::near_field(const std::vector<std::vector<double>>& rolls,
-                                        const std::vector<std::vector<double>>& weights) const {
-  const auto elements = static_cast<Eigen::Index>(rolls.size());
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(elements * slices_, elements * slices_);
-  if (near_field_.empty()) return result;
-  Eigen::MatrixXd plane = Eigen::MatrixXd::Zero(elements, elements);
-  for (const auto& term : near_field_) {
-    Weights w = Weights::Zero(term.flank.size(), elements);
-    for (Eigen::Index e = 0; e < elements; ++e)
-      for (std::size_t q = 0; q < rolls[e].size(); ++q) {
-        const auto values = term.flank(rolls[e][q]);
-        for (std::size_t i = 0; i < values.weights.size(); ++i)
-          w(values.first + static_cast<int>(i), e) += weights[e][q] * values.weights[i];
-      }
-    plane += term.sign * gather_rows(w, gather_rows(w, term.compliance, 1).transpose(), 1);
+Eigen::MatrixXd ContactBody::near_field(const FlankPatch& patch) const {
+  const auto loads = static_cast<Eigen::Index>(patch.loads.size());
+  Eigen::MatrixXd correction = Eigen::MatrixXd::Zero(loads, loads);
+  if (near_field_) {
+    const Eigen::MatrixXd fine = weights_on(near_field_->fine, patch.loads);
+    const Eigen::MatrixXd coarse = weights_on(near_field_->coarse, patch.loads);
+    correction += fine.transpose() * near_field_->fine_compliance * fine;
+    correction -= coarse.transpose() * near_field_->coarse_compliance * coarse;
   }
-  for (Eigen::Index i = 0; i < elements; ++i)
-    for (Eigen::Index j = 0; j < elements; ++j)
-      for (int s = 0; s < slices_; ++s) result(i * slices_ + s, j * slices_ + s) = plane(i, j) / slice_width_[s];
+  // Loads that share no slice never meet.
+  std::vector<std::vector<std::size_t>> in_slice(slices_);
+  for (std::size_t e = 0; e < patch.elements.size(); ++e) in_slice[patch.elements[e].slice].push_back(e);
+  Eigen::MatrixXd half_plane = Eigen::MatrixXd::Constant(loads, loads, std::numeric_limits<double>::quiet_NaN());
+  const auto elements = static_cast<Eigen::Index>(patch.elements.size());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(elements, elements);
+  for (int s = 0; s < slices_; ++s)
+    for (const std::size_t i : in_slice[s])
+      for (const std::size_t j : in_slice[s]) {
+        const int l = std::min(patch.elements[i].load, patch.elements[j].load);
+        const int m = std::max(patch.elements[i].load, patch.elements[j].load);
+        double& value = half_plane(l, m);
+        if (std::isnan(value)) {
+          const FlankLoad &p = patch.loads[l], &q = patch.loads[m];
+          value = half_plane_.strips(p.arc - q.arc, p.half_length, q.half_length) -
+                  half_plane_.semi_ellipses(p.arc - q.arc, p.spread, q.spread);
+        }
+        result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+            (value + (correction(l, m) + correction(m, l)) / 2) / slice_length_[s];
+      }
   return result;
 }
 
-Eigen::MatrixXd ContactBody::resultants(const Weights& a, int tooth) const {
+Eigen::MatrixXd ContactBody::resultants(const FlankPatch& patch, int tooth) const {
   const int stations = body_.axial_stations();
-  Eigen::MatrixXd of_station(body_.flank.size() * slices_, 3);
+  Eigen::MatrixXd of_station(3, body_.flank.size() * slices_);
   for (int u = 0; u < body_.flank.size(); ++u)
     for (int s = 0; s < slices_; ++s) {
       Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
       for (int z = 0; z < stations; ++z) sum += axial_(z, s) * body_.rigid_motion(u * stations + z, tooth);
-      of_station.row(u * slices_ + s) = sum;
+      of_station.col(u * slices_ + s) = sum.transpose();
     }
-  return gather_rows(a, of_station, slices_);
+  return gather_columns(of_station, patch, slices_).transpose();
+}
+
+Eigen::VectorXd ContactBody::port_forces(const FlankPatch& patch, const Eigen::VectorXd& forces) const {
+  Eigen::MatrixXd by_slice = Eigen::MatrixXd::Zero(body_.flank.size(), slices_);
+  for (std::size_t e = 0; e < patch.elements.size(); ++e)
+    by_slice.col(patch.elements[e].slice) +=
+        forces[static_cast<Eigen::Index>(e)] * patch.weights.col(patch.elements[e].load);
+  // Ports: [profile station * axial stations + axial station].
+  const Eigen::MatrixXd ports = axial_ * by_slice.transpose();
+  return Eigen::Map<const Eigen::VectorXd>(ports.data(), ports.size());
+}
+
+Eigen::MatrixXd ContactBody::gather_ports(const FlankPatch& patch, const Eigen::MatrixXd& at_ports) const {
+  const int stations = body_.axial_stations();
+  Eigen::MatrixXd by_slice(at_ports.cols(), body_.flank.size() * slices_);
+  for (int u = 0; u < body_.flank.size(); ++u)
+    by_slice.middleCols(u * slices_, slices_) = at_ports.middleRows(u * stations, stations).transpose() * axial_;
+  return gather_columns(by_slice, patch, slices_).transpose();
 }
 
 }  // namespace annulus::fem

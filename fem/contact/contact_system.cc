@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <limits>
 
 #include "core/errors.h"
 
@@ -19,11 +20,18 @@ double hertz_half_width(double line_load, double relative_curvature, const Mater
 struct ContactSystem::Pair {
   int index = 0;    ///< number of the pair, and of the planet's tooth in cycle 0
   double roll = 0;  ///< theoretical contact on the planet
-  double smallest_gap = 0;
-  bool low_is_edge = false, high_is_edge = false;  ///< the window ends at the end of a flank
-  Eigen::VectorXd gap, length;                     ///< per element: mean gap (m), arc length (m)
-  ContactBody::Weights planet, wheel;
-  std::vector<std::vector<double>> planet_rolls, wheel_rolls, weights;  ///< quadrature points behind the elements
+  double smallest_gap = std::numeric_limits<double>::infinity();
+  FlankPatch planet, wheel;  ///< the same elements on both
+  struct Element {
+    double gap = 0;                      ///< mean, m
+    double roll_low = 0, roll_high = 0;  ///< on the planet, m
+    double area = 0;                     ///< m^2
+    double distance = 0;                 ///< from the centre of the window, m
+    bool tip_edge = false;               ///< ends at the end of a flank
+    bool outermost = false;              ///< ends where the window does: has to stay free
+  };
+  std::vector<Element> elements;
+  [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(elements.size()); }
 };
 
 /// All pairs of one phase and load, and what they have in common in every mesh cycle.
@@ -31,7 +39,7 @@ struct ContactSystem::Pairs {
   double phase = 0, load = 0, window = 0;
   std::vector<Pair> pairs;
   std::vector<Eigen::Index> start;  ///< first unknown of every pair
-  Eigen::Index contacts = 0;        ///< number of unknown contact forces, [pair][element][slice]
+  Eigen::Index contacts = 0;        ///< number of unknown contact forces
   Eigen::MatrixXd compliance;       ///< contacts x contacts
   double asymmetry = 0;             ///< of the compliance, formed in both directions
 };
@@ -45,12 +53,98 @@ ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& plan
       pins_(pins),
       material_(material),
       slice_edges_(std::move(slice_edges)),
-      options_(options) {}
+      options_(options) {
+  const double width = slice_edges_.back() - slice_edges_.front();
+  for (std::size_t s = 0; s + 1 < slice_edges_.size(); ++s) {
+    const auto gap = [&](double z) {
+      return flanks_.planet().lead_modification(z) + flanks_.wheel().lead_modification(z) +
+             options_.misalignment * (z / width - 0.5);
+    };
+    lead_gap_.push_back(
+        boost::math::quadrature::gauss<double, 7>::integrate(gap, slice_edges_[s], slice_edges_[s + 1]) /
+        (slice_edges_[s + 1] - slice_edges_[s]));
+  }
+}
+
+void ContactSystem::add_elements(Pair& pair, double load, double window) const {
+  const auto domain = flanks_.domain(pair.roll);
+  if (domain.empty()) return;
+  const double width = slice_edges_.back() - slice_edges_.front();
+  const double base = flanks_.pair().planet().base_radius(), wheel_base = flanks_.pair().wheel().base_radius();
+  const double centre_roll = flanks_.nearest_roll(pair.roll);
+  const double half_width =
+      hertz_half_width(load / width,
+                       flanks_.relative_curvature(
+                           std::clamp(pair.roll, flanks_.pair().roll_length_low(), flanks_.pair().roll_length_high())),
+                       material_);
+  const auto arc_of = [&](double roll) { return roll * roll / (2 * base); };
+  const auto roll_of = [&](double arc) {
+    return std::clamp(std::sqrt(2 * base * std::max(arc, 0.0)), domain.low, domain.high);
+  };
+  const double centre = arc_of(centre_roll), half = window * half_width;
+  // As many elements in a window that a tip edge cuts short as in a whole one: as the teeth move on, the elements
+  // change their lengths continuously, and so does the result.
+  const int per_side = static_cast<int>(std::ceil(options_.elements * std::max(1.0, window / options_.window)));
+  const double low_room = centre - arc_of(domain.low), high_room = arc_of(domain.high) - centre;
+  constexpr double negligible = 0.02;  // of a half-width: no place for elements
+  const double low_half = low_room < negligible * half_width ? 0 : std::min(half, low_room);
+  const double high_half = high_room < negligible * half_width ? 0 : std::min(half, high_room);
+  std::vector<double> edges;
+  // Shortest at the centre, where pairs that carry little have all their contact.
+  const auto at = [&](int i) {
+    const double t = static_cast<double>(i) / per_side;
+    constexpr double first = 0.35;
+    return t * (first + (1 - first) * t);
+  };
+  if (low_half > 0)
+    for (int i = per_side; i > 0; --i) edges.push_back(centre - low_half * at(i));
+  edges.push_back(low_half > 0 ? (high_half > 0 ? centre : arc_of(domain.high)) : arc_of(domain.low));
+  if (high_half > 0)
+    for (int i = 1; i <= per_side; ++i) edges.push_back(centre + high_half * at(i));
+  require(edges.size() > 1, "a flank shorter than its contact");
+
+  const int first_load = static_cast<int>(pair.planet.loads.size());
+  for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
+    const double low = edges[e], high = edges[e + 1];
+    Pair::Element element;
+    element.roll_low = roll_of(low);
+    element.roll_high = roll_of(high);
+    element.distance = (low + high) / 2 - centre;
+    const bool first = e == 0, last = e + 2 == edges.size();
+    const bool low_cut = low_half < half, high_cut = high_half < half;
+    element.tip_edge = (first && low_cut) || (last && high_cut);
+    element.outermost = (first && !low_cut) || (last && !high_cut);
+    double gap = 0, wheel_arc = 0, wheel_low = 0, wheel_high = 0;
+    using Rule = boost::math::quadrature::gauss<double, 4>;
+    for (std::size_t q = 0; q < Rule::abscissa().size(); ++q)
+      for (const double side : {-1.0, 1.0}) {
+        const double weight = Rule::weights()[q] / 2;
+        const auto match =
+            flanks_.match(roll_of((low + high) / 2 + side * Rule::abscissa()[q] * (high - low) / 2), pair.roll);
+        gap += weight * match.gap;
+        const double arc = match.wheel_roll * match.wheel_roll / (2 * wheel_base);
+        wheel_arc += weight * arc;
+        if (q + 1 == Rule::abscissa().size()) (side < 0 ? wheel_low : wheel_high) = arc;
+      }
+    pair.planet.loads.push_back(planet_.make_load((low + high) / 2, (high - low) / 2));
+    pair.wheel.loads.push_back(
+        wheel_.make_load(wheel_arc, std::abs(wheel_high - wheel_low) / 2 / Rule::abscissa().back()));
+    for (int s = 0; s < planet_.slices(); ++s) {
+      element.gap = gap + lead_gap_[s];
+      element.area = (high - low) * (slice_edges_[s + 1] - slice_edges_[s]);
+      pair.elements.push_back(element);
+      const FlankPatch::Element of_patch{first_load + static_cast<int>(e), s};
+      pair.planet.elements.push_back(of_patch);
+      pair.wheel.elements.push_back(of_patch);
+    }
+  }
+  const double profile_gap = flanks_.match(centre_roll, pair.roll).gap;
+  pair.smallest_gap = std::min(pair.smallest_gap, profile_gap + *std::min_element(lead_gap_.begin(), lead_gap_.end()));
+}
 
 std::vector<ContactSystem::Pair> ContactSystem::find_pairs(double phase, double load, double window) const {
   const auto& pair = flanks_.pair();
   const double pitch = pair.planet().base_pitch();
-  const double width = slice_edges_.back() - slice_edges_.front();
   // Along the path the contact of a tooth moves from the planet's root to its tip in the ring mesh (planet drives) and
   // from tip to root in the sun mesh (sun drives).
   const double direction = pair.internal() ? 1 : -1;
@@ -61,54 +155,13 @@ std::vector<ContactSystem::Pair> ContactSystem::find_pairs(double phase, double 
   std::vector<Pair> pairs;
   for (int k = first; k <= last; ++k) {
     Pair p;
+    p.index = k;
     p.roll = reference + k * pitch;
     if (p.roll <= 0) continue;
-    const auto domain = flanks_.domain(p.roll);
-    if (domain.empty()) continue;
-    p.index = k;
-    const double centre = flanks_.nearest_roll(p.roll);
-    p.smallest_gap = flanks_.match(centre, p.roll).gap;
-    const double base = pair.planet().base_radius();
-    const double half_width = hertz_half_width(
-        load / width, flanks_.relative_curvature(std::clamp(p.roll, pair.roll_length_low(), pair.roll_length_high())),
-        material_);
-    const double half = window * half_width * base / centre;  // arc length s = rho^2 / (2 r_b)
-    const double low = std::max(centre - half, domain.low), high = std::min(centre + half, domain.high);
-    p.low_is_edge = low == domain.low;
-    p.high_is_edge = high == domain.high;
-    const double wanted = (high * high - low * low) / (2 * base) / options_.element;
-    const int elements = std::max(1, static_cast<int>(std::lround(wanted)));
-
-    p.gap.resize(elements);
-    p.length.resize(elements);
-    p.planet = ContactBody::Weights::Zero(planet_.body().flank.size(), elements);
-    p.wheel = ContactBody::Weights::Zero(wheel_.body().flank.size(), elements);
-    p.planet_rolls.resize(elements);
-    p.wheel_rolls.resize(elements);
-    p.weights.resize(elements);
-    const auto add = [](ContactBody::Weights& weights, int e, const TraceBasis& basis, double roll, double weight) {
-      const auto values = basis(std::clamp(roll, basis.low(), basis.high()));
-      for (std::size_t i = 0; i < values.weights.size(); ++i)
-        weights(values.first + static_cast<int>(i), e) += weight * values.weights[i];
-    };
-    for (int e = 0; e < elements; ++e) {
-      const double a = low + (high - low) * e / elements, b = low + (high - low) * (e + 1) / elements;
-      p.length[e] = (b * b - a * a) / (2 * base);
-      p.gap[e] = 0;
-      using Rule = boost::math::quadrature::gauss<double, 4>;
-      for (std::size_t q = 0; q < Rule::abscissa().size(); ++q)
-        for (const double side : {-1.0, 1.0}) {
-          const double roll = (a + b) / 2 + side * Rule::abscissa()[q] * (b - a) / 2;
-          const double weight = Rule::weights()[q] * (b - a) / 2 * roll / base / p.length[e];
-          const auto match = flanks_.match(roll, p.roll);
-          p.gap[e] += weight * match.gap;
-          add(p.planet, e, planet_.body().flank, roll, weight);
-          add(p.wheel, e, wheel_.body().flank, match.wheel_roll, weight);
-          p.planet_rolls[e].push_back(roll);
-          p.wheel_rolls[e].push_back(match.wheel_roll);
-          p.weights[e].push_back(weight);
-        }
-    }
+    add_elements(p, load, window);
+    if (p.elements.empty()) continue;
+    planet_.find_weights(p.planet);
+    wheel_.find_weights(p.wheel);
     pairs.push_back(std::move(p));
   }
   require(!pairs.empty(), "no tooth pair faces another");
@@ -120,7 +173,6 @@ int ContactSystem::wheel_tooth(int index, int cycle) const {
 }
 
 ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, double window) const {
-  const int slices = planet_.slices();
   auto result = std::make_shared<Pairs>();
   result->phase = phase;
   result->load = load;
@@ -130,13 +182,13 @@ ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, doub
   auto& start = result->start;
   for (const auto& p : pairs) {
     start.push_back(result->contacts);
-    result->contacts += p.gap.size() * slices;
+    result->contacts += p.size();
   }
   auto& compliance = result->compliance;
   compliance = Eigen::MatrixXd::Zero(result->contacts, result->contacts);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto& p = pairs[i];
-    const Eigen::Index size = p.gap.size() * slices;
+    const Eigen::Index size = p.size();
     const int tooth = wheel_tooth(p.index, 0);
     for (std::size_t j = 0; j <= i; ++j) {
       const auto& o = pairs[j];
@@ -152,14 +204,12 @@ ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, doub
       compliance.block(start[j], start[i], block.cols(), size) =
           compliance.block(start[i], start[j], size, block.cols()).transpose();
     }
-    compliance.block(start[i], start[i], size, size) +=
-        planet_.near_field(p.planet_rolls, p.weights) + wheel_.near_field(p.wheel_rolls, p.weights);
+    compliance.block(start[i], start[i], size, size) += planet_.near_field(p.planet) + wheel_.near_field(p.wheel);
   }
   return result;
 }
 
 ComplementarityProblem ContactSystem::assemble(const Pairs& setup, int cycle) const {
-  const int slices = planet_.slices();
   const Eigen::Index contacts = setup.contacts, pin_forces = pins_ != nullptr ? 2 * pins_->size() : 0;
   const Eigen::Index n = contacts + pin_forces;
   ComplementarityProblem problem;
@@ -172,15 +222,15 @@ ComplementarityProblem ContactSystem::assemble(const Pairs& setup, int cycle) co
   problem.load[0] = setup.load;
   problem.unilateral.assign(n, true);
   for (std::size_t i = 0; i < setup.pairs.size(); ++i)
-    for (Eigen::Index e = 0; e < setup.pairs[i].gap.size(); ++e)
-      problem.gap.segment(setup.start[i] + e * slices, slices).setConstant(setup.pairs[i].gap[e]);
+    for (Eigen::Index e = 0; e < setup.pairs[i].size(); ++e)
+      problem.gap[setup.start[i] + e] = setup.pairs[i].elements[e].gap;
   if (pins_ == nullptr) return problem;
 
   problem.compliance.bottomRightCorner(pin_forces, pin_forces) = pins_->compliance();
   for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
     const auto& p = setup.pairs[i];
     const int tooth = wheel_tooth(p.index, cycle);
-    const Eigen::MatrixXd coupling = pins_->to_flank(p.wheel, tooth);
+    const Eigen::MatrixXd coupling = wheel_.gather_ports(p.wheel, pins_->to_ports(tooth));
     problem.compliance.block(setup.start[i], contacts, coupling.rows(), pin_forces) = coupling;
     problem.compliance.block(contacts, setup.start[i], pin_forces, coupling.rows()) = coupling.transpose();
     problem.rigid.block(setup.start[i], 1, coupling.rows(), 3) = -wheel_.resultants(p.wheel, tooth);
@@ -196,7 +246,6 @@ ComplementarityProblem ContactSystem::assemble(const Pairs& setup, int cycle) co
 }
 
 LoadedPosition ContactSystem::solve(int cycle, double phase, double load, PairsCache& cache, WarmStart& warm) const {
-  const int slices = planet_.slices();
   if (!cache || cache->phase != phase || cache->load != load) cache = prepare(phase, load, options_.window);
   constexpr double largest_window = 12;  // in Hertz half-widths: longer than any flank at a sensible load
   for (;;) {
@@ -205,23 +254,21 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double load, PairsC
     std::vector<bool> guess(problem.gap.size(), true);
     for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
       const auto& p = setup.pairs[i];
-      const Eigen::Index size = p.gap.size() * slices;
       const auto known = warm.find(p.index);
-      const bool reuse = known != warm.end() && static_cast<Eigen::Index>(known->second.size()) == size;
-      for (Eigen::Index e = 0; e < size; ++e)
+      const bool reuse = known != warm.end() && static_cast<Eigen::Index>(known->second.size()) == p.size();
+      const double reach = 0.6 * p.elements.back().distance;
+      for (Eigen::Index e = 0; e < p.size(); ++e)
         guess[setup.start[i] + e] =
-            reuse ? known->second[e] : p.smallest_gap < 1e-9 && std::abs(e - size / 2) < size / 4;
+            reuse ? known->second[e] : p.smallest_gap < 1e-9 && std::abs(p.elements[e].distance) < reach;
     }
     const auto solution = solve_complementarity(problem, std::move(guess));
     warm.clear();
     bool window_too_small = false;
     for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
       const auto& p = setup.pairs[i];
-      const Eigen::Index size = p.gap.size() * slices;
       const auto first = solution.active.begin() + setup.start[i];
-      warm[p.index] = std::vector<bool>(first, first + size);
-      for (int s = 0; s < slices; ++s)
-        window_too_small |= (!p.low_is_edge && first[s]) || (!p.high_is_edge && first[size - slices + s]);
+      warm[p.index] = std::vector<bool>(first, first + p.size());
+      for (Eigen::Index e = 0; e < p.size(); ++e) window_too_small |= p.elements[e].outermost && first[e];
     }
     if (window_too_small) {
       if (setup.window > largest_window)
@@ -245,7 +292,6 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double load, PairsC
 
 LoadedPosition ContactSystem::evaluate(const Pairs& setup, const ComplementarityProblem& problem,
                                        const ComplementaritySolution& solution) const {
-  const int slices = planet_.slices();
   const auto& pairs = setup.pairs;
   const double load = setup.load;
   LoadedPosition result;
@@ -259,22 +305,30 @@ LoadedPosition ContactSystem::evaluate(const Pairs& setup, const Complementarity
   result.entry.stiffness_tangent = 1 / solution.tangent(0, 0);
 
   double moment = 0;
+  const double width = slice_edges_.back() - slice_edges_.front();
+  result.line_load.assign(planet_.slices(), 0.0);
   Eigen::Index at = 0;
-  for (const auto& p : pairs) {
-    const Eigen::Index size = p.gap.size() * slices;
-    const Eigen::VectorXd force = solution.force.segment(at, size);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto& p = pairs[i];
+    const Eigen::VectorXd force = solution.force.segment(at, p.size());
     moment -= (planet_.resultants(p.planet, p.index).col(2)).dot(force);
     result.pair_share.push_back(force.sum() / load);
     result.pair_roll.push_back(p.roll);
-    for (Eigen::Index e = 0; e < p.gap.size(); ++e)
-      for (int s = 0; s < slices; ++s) {
-        const double pressure = force[e * slices + s] / (p.length[e] * (slice_edges_[s + 1] - slice_edges_[s]));
-        if (pressure <= result.max_pressure) continue;
-        result.max_pressure = pressure;
-        result.tip_edge_contact = (e == 0 && p.low_is_edge) || (e == p.gap.size() - 1 && p.high_is_edge);
-      }
-    at += size;
+    for (Eigen::Index e = 0; e < p.size(); ++e) {
+      if (force[e] <= 0) continue;
+      const auto& element = p.elements[e];
+      const int s = p.planet.elements[e].slice;
+      const double length = slice_edges_[s + 1] - slice_edges_[s], pressure = force[e] / element.area;
+      result.line_load[s] += force[e] / length;
+      result.pressure.push_back(
+          {static_cast<int>(i), slice_edges_[s], slice_edges_[s + 1], element.roll_low, element.roll_high, pressure});
+      if (pressure <= result.max_pressure) continue;
+      result.max_pressure = pressure;
+      result.tip_edge_contact = element.tip_edge;
+    }
+    at += p.size();
   }
+  result.face_load_factor = *std::max_element(result.line_load.begin(), result.line_load.end()) / (load / width);
   const double torque = load * flanks_.pair().planet().base_radius();
   result.force_balance_relative = std::abs(moment - torque) / torque;
   const double stored = solution.force.dot(problem.compliance * solution.force);

@@ -18,8 +18,11 @@ namespace annulus::fem {
 [[nodiscard]] double hertz_half_width(double line_load, double relative_curvature, const Material& material);
 
 struct ContactOptions {
-  double element = 0;    ///< m, length of a pressure element: no finer than the flank's cells, which could not tell
-  double window = 1.25;  ///< half-length of a pair's contact window in Hertz half-widths of the whole load
+  /// Pressure elements to either side of the centre of a pair, over a half-window of `window`: independent of the mesh,
+  /// fine at the centre, so that a pair that carries little has its share of them too.
+  int elements = 10;
+  double window = 1.25;     ///< half-length of a pair's contact window in Hertz half-widths of the whole load
+  double misalignment = 0;  ///< m, as in LoadedMeshProblem
 };
 
 /// All tooth pairs (and pins) of one gear mesh as one complementarity problem per position.
@@ -42,6 +45,7 @@ class ContactSystem {
  private:
   struct Pair;
   [[nodiscard]] std::vector<Pair> find_pairs(double phase, double load, double window) const;
+  void add_elements(Pair& pair, double load, double window) const;
   [[nodiscard]] PairsCache prepare(double phase, double load, double window) const;
   /// Number of the wheel's tooth in pair `index` during mesh cycle `cycle`.
   [[nodiscard]] int wheel_tooth(int index, int cycle) const;
@@ -55,6 +59,7 @@ class ContactSystem {
   const PinRow* pins_;
   Material material_;
   std::vector<double> slice_edges_;
+  std::vector<double> lead_gap_;  // mean over every slice, m
   ContactOptions options_;
 };
 

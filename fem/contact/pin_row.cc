@@ -83,9 +83,9 @@ PinRow::PinRow(const PinHeld& pins, const GearBody& ring, double outside_radius,
             ring.compliance.apply(tooth - sector, 0, first_port, first_port, load.bottomRows(outside)) / width;
 }
 
-Eigen::MatrixXd PinRow::to_flank(const ContactBody::Weights& elements, int tooth) const {
+const Eigen::MatrixXd& PinRow::to_ports(int tooth) const {
   const int teeth = static_cast<int>(to_stations_.size());
-  return elements.transpose() * to_stations_[((tooth % teeth) + teeth) % teeth];
+  return to_stations_[((tooth % teeth) + teeth) % teeth];
 }
 
 }  // namespace annulus::fem

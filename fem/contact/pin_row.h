@@ -25,8 +25,8 @@ class PinRow {
   /// 2 pins x 2 pins: displacements at the pins under unit pin forces, (radial inwards, tangential) per pin, m/N,
   /// the pins' own compliance included.
   [[nodiscard]] const Eigen::MatrixXd& compliance() const { return compliance_; }
-  /// Displacement of flank elements under unit pin forces, m/N: elements x 2 pins.
-  [[nodiscard]] Eigen::MatrixXd to_flank(const ContactBody::Weights& elements, int tooth) const;
+  /// Displacement of a tooth's flank ports under unit pin forces, m/N: flank ports x 2 pins.
+  [[nodiscard]] const Eigen::MatrixXd& to_ports(int tooth) const;
   /// Resultants (x, y, moment) of unit pin forces: 2 pins x 3.
   [[nodiscard]] const Eigen::MatrixXd& resultants() const { return resultants_; }
 
