@@ -109,13 +109,8 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   const auto now = [] { return std::chrono::steady_clock::now(); };
   const auto since = [&](auto start) { return std::chrono::duration<double>(now() - start).count(); };
 
-  const double half_width = nominal_half_width(problem, flanks);
-  const int last_plane = std::min(last_contact_level(problem.pair.planet(), half_width),
-                                  last_contact_level(problem.pair.wheel(), half_width));
-  const int last_level = settings.rung == Rung::solid ? std::min(last_solid_level, last_plane) : last_plane;
-  // The plane starts a level higher: it costs little, and where a pair enters at its tip edge the first level
-  // understates its error, which the dynamic factor feels.
-  const int first_level = settings.level.value_or(settings.rung == Rung::solid ? 1 : std::min(2, last_level));
+  const int last_level = settings.rung == Rung::solid ? last_solid_level : last_plane_level;
+  const int first_level = settings.level.value_or(1);
   if (first_level < 1 || first_level > last_level)
     throw InputError(fmt::format("level {} is not available: 1 to {} are", first_level, last_level));
 

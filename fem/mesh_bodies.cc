@@ -7,7 +7,6 @@
 
 #include "core/errors.h"
 #include "fem/condensation/lapack.h"
-#include "fem/contact/contact_system.h"
 
 namespace annulus::fem {
 namespace {
@@ -54,12 +53,6 @@ std::vector<double> uniform_edges(double width, int cells) {
 
 }  // namespace
 
-double nominal_half_width(const LoadedMeshProblem& problem, const FlankContact& flanks) {
-  const double nominal = problem.loads[problem.loads.size() / 2];
-  return hertz_half_width(nominal / problem.face_width, flanks.relative_curvature(problem.pair.roll_length_pitch()),
-                          problem.material);
-}
-
 double derived_pin_stiffness(const Material& material, double length) {
   return M_PI * material.youngs_modulus * length / (4 * (1 - material.poisson_ratio * material.poisson_ratio));
 }
@@ -76,7 +69,6 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   if (pinned != nullptr && solid)
     throw InputError("pinned and bolted rings are modelled in the plane in this version: use rung = \"plane\"");
 
-  const double half_width = nominal_half_width(problem, flanks);
   const BodyResolution solid_counts = solid ? solid_resolution(level) : BodyResolution{};
 
   geometry::Rim planet_rim{problem.planet_bore_radius, {}}, wheel_rim{problem.wheel_support_radius, {}};
@@ -117,9 +109,7 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     task.options.threads = settings.threads;
   };
 
-  const auto plane_counts = [&](bool wheel) {
-    return contact_resolution(wheel ? pair.wheel() : pair.planet(), half_width, level);
-  };
+  const auto plane_counts = [&](bool wheel) { return plane_resolution(wheel ? pair.wheel() : pair.planet(), level); };
   // The near field of a solid body comes from plane bodies held at the support circle: the far field cancels.
   SectorModelOptions planet_near = planet_model, wheel_near = wheel_model;
   if (solid) {

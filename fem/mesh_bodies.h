@@ -25,9 +25,6 @@ struct MeshBodies {
 [[nodiscard]] MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& flanks,
                                       const LoadedMeshSettings& settings, int level);
 
-/// Hertz half-width at the pitch point under the load the table centres on: the meshes are made for it.
-[[nodiscard]] double nominal_half_width(const LoadedMeshProblem& problem, const FlankContact& flanks);
-
 /// Stiffness of one pin between two conforming half-grooves, N/m: a solid cylinder of diameter D squeezed over its
 /// full width behaves like a prism of its mean width pi D / 4 and height D, k = pi E L / (4 (1 - nu^2)). An estimate:
 /// it leaves out the local compliance of a real housing.

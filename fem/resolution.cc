@@ -17,46 +17,50 @@ double flank_length(const geometry::Gear& gear) {
   return std::abs(tip * tip - form * form) / (2 * gear.base_radius());  // s = rho^2 / (2 r_b)
 }
 
-/// Wanted cell size at a level, m. Bounded so that every level really differs from its neighbours, and so that light
-/// loads, whose contact is narrow but counts for little of the deflection, start coarse and are refined only as far as
-/// needed.
-double cell_size(const geometry::Gear& gear, double half_width, int level) {
-  const double flank = flank_length(gear);
-  const double finest_first = flank / 120, coarsest_first = flank / 12;
-  return std::clamp(half_width / 6, finest_first, coarsest_first) / std::pow(level_ratio, level - 1);
-}
-
-int flank_cells(const geometry::Gear& gear, double half_width, int level) {
-  // The bound of the first level makes an exact count; do not let round-off add a cell.
-  return static_cast<int>(std::ceil(flank_length(gear) / cell_size(gear, half_width, level) * (1 - 1e-12)));
+/// Fractions of a length, from 0 to 1, in cells of `cell` that shrink towards both ends by `ratio` each, down to
+/// `first` at 0 and `last` at 1.
+std::vector<double> graded_fractions(double length, double cell, double ratio, double first, double last) {
+  const auto shrinking = [&](double smallest) {
+    std::vector<double> sizes;
+    for (double size = smallest; size < cell; size *= ratio) sizes.push_back(size);
+    return sizes;
+  };
+  std::vector<double> sizes = shrinking(first);
+  std::vector<double> end = shrinking(last);
+  double used = 0;
+  for (const auto* part : {&sizes, &end})
+    for (const double size : *part) used += size;
+  const int uniform = std::max(1, static_cast<int>(std::ceil((length - used) / cell)));
+  sizes.insert(sizes.end(), uniform, std::max(length - used, cell) / uniform);
+  sizes.insert(sizes.end(), end.rbegin(), end.rend());
+  std::vector<double> fractions = {0};
+  for (const double size : sizes) fractions.push_back(fractions.back() + size);
+  for (double& f : fractions) f /= fractions.back();
+  fractions.back() = 1;
+  return fractions;
 }
 
 }  // namespace
 
-int last_contact_level(const geometry::Gear& gear, double half_width) {
-  int level = 1;
-  while (flank_cells(gear, half_width, level + 1) <= most_flank_cells) ++level;
-  return level;
-}
-
-BodyResolution contact_resolution(const geometry::Gear& gear, double half_width, int level) {
-  require(level <= last_contact_level(gear, half_width), "no such level of plane resolution");
+BodyResolution plane_resolution(const geometry::Gear& gear, int level) {
+  require(level >= 0 && level <= last_plane_level, "no such level of plane resolution");
   const double refine = std::pow(level_ratio, level - 1);
-  const double cell = cell_size(gear, half_width, level);
-  const double thickness = gear.tooth_thickness(gear.reference_radius());
+  const double length = flank_length(gear), thickness = gear.tooth_thickness(gear.reference_radius());
+  const double cell = length / (20 * refine), at_tip = cell / 30, at_form = cell / 6;
 
   BodyResolution r;
   auto& s = r.section;
-  s.flank_cells = flank_cells(gear, half_width, level);
-  // Layers grow by about a third from either flank to the middle of the tooth.
-  const double growth = 1 + 0.3 / refine;
-  const double layers = 2 * std::log(1 + (growth - 1) * thickness / 2 / cell) / std::log(growth);
-  s.thickness_cells = std::clamp(2 * static_cast<int>(std::ceil(layers / 2)), 4, 160);
-  s.flank_layer = std::clamp(cell * s.thickness_cells / thickness, 0.02, 1.0);
+  s.flank_fractions = graded_fractions(length, cell, 1 + 0.2 / refine, at_form, at_tip);
+  // The first layer under the flank is as thin as the shortest cell along it; layers grow from either flank to the
+  // middle of the tooth.
+  const double growth = 1 + 0.35 / refine;
+  const double layers = 2 * std::log(1 + (growth - 1) * thickness / 2 / at_tip) / std::log(growth);
+  s.thickness_cells = 2 * static_cast<int>(std::ceil(layers / 2));
+  s.flank_layer = std::clamp(at_tip * s.thickness_cells / thickness, geometry::min_flank_layer, 1.0);
   // A curved edge bulges by L^2 / (8 R) over its chord; under a fillet that must stay a small part of the thin first
   // layer, or the mapping folds the cell.
   const double radius = std::max(0.05, gear.parameters().root_fillet_factor) * gear.parameters().module;
-  const double longest = std::sqrt(0.4 * radius * cell);
+  const double longest = std::sqrt(0.4 * radius * at_tip);
   const double by_curvature = 1.6 * radius / longest;  // a quarter turn
   s.fillet_cells = 2 * static_cast<int>(std::ceil(std::max(3 * refine, by_curvature / 2)));
   s.root_cells = std::max(1, static_cast<int>(std::lround(2 * refine)));

@@ -12,18 +12,17 @@ struct BodyResolution {
   int sleeve_cells = 0;  ///< along the free length of a sleeve
 };
 
-/// Levels of resolution: every level has cells 1.5 times smaller than the one before, in the plane; results come from
-/// one level, their error estimate from the difference to the level before.
+/// Levels of resolution: every level has cells 1.5 times smaller than the one before, and grades them more gently;
+/// results come from one level, their error estimate from the difference to the level before. The plane starts at level
+/// 0 and ends at `last_plane_level`.
 inline constexpr double level_ratio = 1.5;
-inline constexpr int most_flank_cells = 900;
+inline constexpr int last_plane_level = 6;
 inline constexpr int last_solid_level = 2;
 
-/// Plane cross-section that resolves the contact. At level 1 the flank cells are a sixth of `half_width` (Hertz,
-/// nominal load), so that a quarter of the load still has three cells in its half-width; at light loads level 1 has 120
-/// cells along the flank. A level beyond last_contact_level() is refused.
-[[nodiscard]] BodyResolution contact_resolution(const geometry::Gear& gear, double half_width, int level);
-/// The last level whose flank has no more than `most_flank_cells`: levels beyond would not differ.
-[[nodiscard]] int last_contact_level(const geometry::Gear& gear, double half_width);
+/// Plane cross-section. The load does not enter: what the flank's cells cannot resolve of a contact comes from the
+/// half-plane (see ContactBody). That needs smaller cells only near the ends of the flank, where the half-plane is no
+/// model: they shrink in proportion to the distance from the end, down to a thirtieth at the tip.
+[[nodiscard]] BodyResolution plane_resolution(const geometry::Gear& gear, int level);
 /// Solid body: the flank is coarse, its near field is corrected from the plane.
 [[nodiscard]] BodyResolution solid_resolution(int level);
 
