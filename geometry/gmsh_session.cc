@@ -30,10 +30,20 @@ struct GmshRuntime {
   GmshRuntime& operator=(const GmshRuntime&) = delete;
 };
 
+/// gmsh remembers the size of the last model, and the last digits of the next mesh depend on it: a model of fixed size
+/// in between makes the mesh of a gear depend on the gear alone.
+void forget_last_model() {
+  gmsh::model::add("unit");
+  gmsh::model::geo::addLine(gmsh::model::geo::addPoint(0, 0, 0), gmsh::model::geo::addPoint(1, 1, 1));
+  gmsh::model::geo::synchronize();
+  gmsh::model::remove();
+}
+
 }  // namespace
 
 GmshModel::GmshModel(const std::string& name) : lock_(gmsh_mutex()) {
   static GmshRuntime runtime;
+  forget_last_model();
   gmsh::model::add(name);
 }
 
