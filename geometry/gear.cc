@@ -38,8 +38,10 @@ void check_inputs(const GearParameters& p) {
   require_gear(p.root_fillet_factor >= RootFillet::min_radius, p,
                fmt::format("has a root fillet factor of {}; at least {} is needed", p.root_fillet_factor,
                            RootFillet::min_radius));
-  require_gear(p.tip_relief >= 0 && p.tip_relief_length >= 0 && p.profile_crowning >= 0, p,
-               "has a negative tip relief, tip relief length or profile crowning; they are material removed, >= 0");
+  require_gear(p.tip_relief >= 0 && p.tip_relief_length >= 0 && p.profile_crowning >= 0 && p.lead_crowning >= 0, p,
+               "has a negative tip relief, tip relief length, profile crowning or lead crowning; they are material "
+               "removed, >= 0");
+  require_gear(std::isfinite(p.lead_slope), p, "has a lead slope that is not a number");
   require_gear(
       p.tip_relief == 0 || p.tip_relief_length > 0, p,
       fmt::format("has a tip relief of {} um but no tip relief length; give the length along the line of action",

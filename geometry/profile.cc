@@ -52,6 +52,13 @@ double ToothProfile::modification(double roll_length) const {
   return removed;
 }
 
+double ToothProfile::lead_modification(double z) const {
+  const auto& p = gear_.parameters();
+  const double u = std::clamp(z / p.face_width, 0.0, 1.0);
+  const double slope = p.lead_slope > 0 ? p.lead_slope * u : -p.lead_slope * (1 - u);
+  return p.lead_crowning * (2 * u - 1) * (2 * u - 1) + slope;
+}
+
 Eigen::Vector2d ToothProfile::project(Boundary boundary, const Eigen::Vector2d& point, double support_radius) const {
   const auto on_circle = [&](double radius) -> Eigen::Vector2d { return point * (radius / point.norm()); };
   switch (boundary) {

@@ -46,6 +46,10 @@ class ToothProfile {
   /// Material removed normal to the flank, m, >= 0: tip relief rising linearly over the last `tip_relief_length` before
   /// the tip, and a parabola of height `profile_crowning` at the tip and form circles. Beyond them the end value holds.
   [[nodiscard]] double modification(double roll_length) const;
+  /// Material removed normal to the flank along the face width b, m, >= 0, z from 0 to b (ISO 21771 lead crowning and
+  /// helix slope): the parabola lead_crowning (2 z / b - 1)^2, plus lead_slope z / b when the slope is positive and
+  /// |lead_slope| (1 - z / b) when it is negative. Beyond the ends the end value holds.
+  [[nodiscard]] double lead_modification(double z) const;
 
   /// Fillet point of the leading side, t in [0, 1] from the form circle to the root circle.
   [[nodiscard]] Eigen::Vector2d fillet_point(double t) const { return fillet_.point(t); }

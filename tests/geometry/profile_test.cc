@@ -62,6 +62,28 @@ BOOST_AUTO_TEST_CASE(modifications_add_up) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(lead_modifications_add_up) {
+  auto p = paper_gear(GearKind::internal, 162, 0.1516);  // face width 88 mm
+  p.lead_crowning = 8 * units::um;
+  const auto um = [&p](double z_mm) { return ToothProfile(Gear(p)).lead_modification(z_mm * units::mm) / units::um; };
+  const double rounding = 1e-12;
+  BOOST_TEST(std::abs(um(0) - 8) < rounding);
+  BOOST_TEST(std::abs(um(44)) < rounding);
+  BOOST_TEST(std::abs(um(22) - 2) < rounding);  // half way from the middle: a quarter
+  BOOST_TEST(std::abs(um(88) - 8) < rounding);
+  p.lead_slope = 12 * units::um;
+  BOOST_TEST(std::abs(um(0) - 8) < rounding);
+  BOOST_TEST(std::abs(um(66) - (2 + 9)) < rounding);
+  BOOST_TEST(std::abs(um(88) - 20) < rounding);
+  BOOST_TEST(std::abs(um(90) - 20) < rounding);
+  p.lead_slope = -12 * units::um;
+  BOOST_TEST(std::abs(um(0) - 20) < rounding);
+  BOOST_TEST(std::abs(um(66) - (2 + 3)) < rounding);
+  BOOST_TEST(std::abs(um(88) - 8) < rounding);
+  p.lead_crowning = -1 * units::um;
+  check_refused([&] { (void)Gear(p); }, "lead crowning");
+}
+
 BOOST_AUTO_TEST_CASE(projection_is_exact_idempotent_and_mirrored) {
   const double rounding = 1e-14;  // m; coordinates of 0.3 m carry 5e-17
   auto few_teeth = plain_gear(GearKind::external, 18);
