@@ -66,7 +66,7 @@ BodyResolution contact_resolution(const geometry::Gear& gear, double half_width,
 
 BodyResolution solid_resolution(int level) {
   require(level >= 0 && level <= last_solid_level, "no such level of solid resolution");
-  static constexpr std::array<BodyResolution, last_solid_level + 1> levels = {{
+  static const std::array<BodyResolution, last_solid_level + 1> levels = {{
       {{7, 2, 4, 1, 2, 1.0}, 5, 2},
       {{10, 2, 6, 1, 3, 0.8}, 8, 3},
       {{15, 4, 8, 1, 4, 0.8}, 12, 4},

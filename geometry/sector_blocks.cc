@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/units.h"
+#include "geometry/spacing.h"
 
 namespace annulus::geometry {
 
@@ -23,23 +24,15 @@ namespace {
 //       |root|f|  tooth |f|root|          land, and again for every mesh circle further down
 //       |____|_|________|_|____|
 //                support
-enum class Spacing { uniform, both_ends, growing };
+//
+// gmsh fills the blocks by transfinite interpolation. Its own laws for the spacing of vertices on a curve know neither
+// a prescribed list nor thin layers to rounding, so every curve is handed over as a chain of one-cell lines between
+// vertices placed here, on the exact outline.
 
-/// gmsh's bump law makes the cell size a parabola along the curve with the end-to-centre ratio c; the end cell relative
-/// to a uniform one is then c atanh(k) / k with k = sqrt(1 - c).
-double bump_coefficient(double end_cell) {
-  if (end_cell >= 1) return 1;
-  double low = 1e-9;
-  double high = 1 - 1e-9;
-  for (int i = 0; i < 60; ++i) {
-    const double c = std::sqrt(low * high);
-    const double k = std::sqrt(1 - c);
-    (c * std::atanh(k) / k < end_cell ? low : high) = c;
-  }
-  return std::sqrt(low * high);
-}
+/// One-cell lines from point to point; gmsh tags.
+using Chain = std::vector<int>;
 
-/// Collects curves and blocks in gmsh's built-in kernel; mesh constraints follow after the synchronisation.
+/// Collects curves and blocks in gmsh's built-in kernel.
 class BlockBuilder {
  public:
   /// Lengths go to gmsh in modules: its absolute tolerances are made for numbers near one.
@@ -47,30 +40,23 @@ class BlockBuilder {
 
   int point(const Eigen::Vector2d& p) { return gmsh::model::geo::addPoint(p.x() / module_, p.y() / module_, 0); }
 
-  int curve(int tag, int cells, Boundary boundary, Spacing spacing = Spacing::uniform, double coefficient = 1) {
-    const bool plain = spacing == Spacing::uniform || std::abs(coefficient - 1) < 1e-6;
-    result_.curves.push_back({tag, boundary});
-    gmsh::model::geo::mesh::setTransfiniteCurve(
-        tag, cells + 1, !plain && spacing == Spacing::both_ends ? "Bump" : "Progression", plain ? 1.0 : coefficient);
-    return tag;
+  /// Lines over all `vertices`; the first and the last one are the existing points a and b.
+  Chain chain(int a, const std::vector<Eigen::Vector2d>& vertices, int b, Boundary boundary) {
+    Chain lines;
+    int from = a;
+    for (std::size_t i = 1; i < vertices.size(); ++i) {
+      const int to = i + 1 == vertices.size() ? b : point(vertices[i]);
+      lines.push_back(gmsh::model::geo::addLine(from, to));
+      gmsh::model::geo::mesh::setTransfiniteCurve(lines.back(), 2);
+      result_.curves.push_back({lines.back(), boundary});
+      from = to;
+    }
+    return lines;
   }
-  int line(int a, int b, int cells, Boundary boundary, Spacing spacing = Spacing::uniform, double coefficient = 1) {
-    return curve(gmsh::model::geo::addLine(a, b), cells, boundary, spacing, coefficient);
-  }
-  int arc(int a, int centre, int b, int cells, Boundary boundary, Spacing spacing = Spacing::uniform,
-          double coefficient = 1) {
-    return curve(gmsh::model::geo::addCircleArc(a, centre, b), cells, boundary, spacing, coefficient);
-  }
-  /// Interpolating curve from point a over the inner points to point b.
-  int spline(int a, const std::vector<Eigen::Vector2d>& inner, int b, int cells, Boundary boundary,
-             Spacing spacing = Spacing::uniform, double coefficient = 1) {
-    std::vector<int> tags{a};
-    for (const auto& p : inner) tags.push_back(point(p));
-    tags.push_back(b);
-    return curve(gmsh::model::geo::addSpline(tags), cells, boundary, spacing, coefficient);
-  }
-  void block(const std::vector<int>& loop, const std::vector<int>& corners, Mesh::Region region) {
-    const int tag = gmsh::model::geo::addPlaneSurface({gmsh::model::geo::addCurveLoop(loop)});
+  void block(const std::vector<Chain>& loop, const std::vector<int>& corners, Mesh::Region region) {
+    std::vector<int> curves;
+    for (const auto& side : loop) curves.insert(curves.end(), side.begin(), side.end());
+    const int tag = gmsh::model::geo::addPlaneSurface({gmsh::model::geo::addCurveLoop(curves)});
     gmsh::model::geo::mesh::setTransfiniteSurface(tag, "Left", corners);
     gmsh::model::geo::mesh::setRecombine(2, tag);
     result_.blocks.push_back({tag, region});
@@ -83,66 +69,83 @@ class BlockBuilder {
   SectorBlocks result_;
 };
 
-/// Ratio of neighbouring cells of a geometric row of n cells of given total length that starts with a cell of size
-/// `first`: 1 when that is no refinement, at most 1.7.
-double growth(double length, double first, int n) {
-  double low = 1;
-  double high = 1.7;
-  for (int i = 0; i < 50; ++i) {
-    const double q = 0.5 * (low + high);
-    const double sum = std::abs(q - 1) < 1e-12 ? n : (std::pow(q, n) - 1) / (q - 1);
-    (first * sum < length ? low : high) = q;
-  }
-  return 0.5 * (low + high);
+/// The chain walked the other way (gmsh: negative tags).
+Chain reversed(const Chain& chain) {
+  Chain result(chain.rbegin(), chain.rend());
+  for (int& curve : result) curve = -curve;
+  return result;
 }
 
 double sign_of(const Gear& gear) { return gear.kind() == GearKind::external ? 1.0 : -1.0; }
 
 Eigen::Vector2d at_angle(double radius, double angle) { return {radius * std::cos(angle), radius * std::sin(angle)}; }
 
+std::vector<Eigen::Vector2d> arc(double radius, double from, double to, const std::vector<double>& fractions) {
+  std::vector<Eigen::Vector2d> points;
+  for (const double f : fractions) points.push_back(at_angle(radius, from + f * (to - from)));
+  return points;
+}
+
+std::vector<Eigen::Vector2d> straight(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                                      const std::vector<double>& fractions) {
+  std::vector<Eigen::Vector2d> points;
+  for (const double f : fractions) points.push_back(from + f * (to - from));
+  return points;
+}
+
+/// Vertices of the leading flank from the tip to the form circle. The arc length of an involute grows with the square
+/// of the roll length.
+std::vector<Eigen::Vector2d> flank_vertices(const ToothProfile& profile, const SectorResolution& n) {
+  const auto fractions = n.flank_fractions.empty() ? uniform_fractions(n.flank_cells) : n.flank_fractions;
+  const double tip_square = std::pow(profile.roll_length_tip(), 2);
+  const double form_square = std::pow(profile.roll_length_form(), 2);
+  std::vector<Eigen::Vector2d> vertices;
+  for (auto f = fractions.rbegin(); f != fractions.rend(); ++f) {
+    vertices.push_back(profile.flank_point(std::sqrt(form_square + *f * (tip_square - form_square))));
+  }
+  return vertices;
+}
+
 /// Points and curves of one half of the tooth, gmsh tags.
 struct HalfTooth {
   int tip = 0, form = 0, middle = 0, end = 0, side = 0;
-  int flank = 0, upper_fillet = 0, lower_fillet = 0, root = 0;
+  Chain flank, upper_fillet, lower_fillet, root;  ///< from the tip to the middle of the space
 };
 
 struct ToothLines {
   HalfTooth trailing, leading;
-  int bottom = 0;  ///< the dipping line, from trailing to leading
-  int centre = 0;  ///< the axis
+  Chain bottom;  ///< the dipping line, from trailing to leading
 };
 
-HalfTooth add_half(const Gear& gear, const SectorResolution& n, bool leading, int centre, BlockBuilder& b) {
+HalfTooth add_half(const Gear& gear, const SectorResolution& n, bool leading, BlockBuilder& b) {
   const ToothProfile profile(gear);
-  const auto at = [&](const Eigen::Vector2d& p) { return Eigen::Vector2d(p.x(), leading ? p.y() : -p.y()); };
+  const auto mirrored = [&](std::vector<Eigen::Vector2d> points) {
+    if (!leading) {
+      for (auto& p : points) p.y() = -p.y();
+    }
+    return points;
+  };
+  const auto half_fillet = [&](double start) {
+    return mirrored(points_at([&](double t) { return profile.fillet_point(start + 0.5 * t); },
+                              uniform_fractions(n.fillet_cells / 2)));
+  };
+  const double end_angle = std::atan2(profile.fillet_point(1).y(), profile.fillet_point(1).x());
+  const auto flank = mirrored(flank_vertices(profile, n));
+  const auto upper = half_fillet(0);
+  const auto lower = half_fillet(0.5);
+  const auto root =
+      mirrored(arc(gear.root_radius(), end_angle, gear.pitch_angle() / 2, uniform_fractions(n.root_cells)));
   HalfTooth s;
-  s.tip = b.point(at(profile.flank_point(profile.roll_length_tip())));
-  s.form = b.point(at(profile.flank_point(profile.roll_length_form())));
-  s.middle = b.point(at(profile.fillet_point(0.5)));
-  s.end = b.point(at(profile.fillet_point(1)));
-  s.side = b.point(at(at_angle(gear.root_radius(), gear.pitch_angle() / 2)));
-  // Spline points equidistant in arc length, which grows with the square of the roll length.
-  constexpr int flank_points = 24;
-  constexpr int fillet_points = 12;
-  const double tip_square = std::pow(profile.roll_length_tip(), 2);
-  const double form_square = std::pow(profile.roll_length_form(), 2);
-  std::vector<Eigen::Vector2d> flank;
-  for (int i = 1; i < flank_points; ++i) {
-    const double u = static_cast<double>(i) / flank_points;
-    flank.push_back(at(profile.flank_point(std::sqrt(tip_square + u * (form_square - tip_square)))));
-  }
-  std::vector<Eigen::Vector2d> upper;
-  std::vector<Eigen::Vector2d> lower;
-  for (int i = 1; i < fillet_points; ++i) {
-    const double u = 0.5 * i / fillet_points;
-    upper.push_back(at(profile.fillet_point(u)));
-    lower.push_back(at(profile.fillet_point(0.5 + u)));
-  }
+  s.tip = b.point(flank.front());
+  s.form = b.point(flank.back());
+  s.middle = b.point(lower.front());
+  s.end = b.point(lower.back());
+  s.side = b.point(root.back());
   const auto fillet = leading ? Boundary::leading_fillet : Boundary::trailing_fillet;
-  s.flank = b.spline(s.tip, flank, s.form, n.flank_cells, leading ? Boundary::leading_flank : Boundary::trailing_flank);
-  s.upper_fillet = b.spline(s.form, upper, s.middle, n.fillet_cells / 2, fillet);
-  s.lower_fillet = b.spline(s.middle, lower, s.end, n.fillet_cells / 2, fillet);
-  s.root = b.arc(s.end, centre, s.side, n.root_cells, Boundary::root);
+  s.flank = b.chain(s.tip, flank, s.form, leading ? Boundary::leading_flank : Boundary::trailing_flank);
+  s.upper_fillet = b.chain(s.form, upper, s.middle, fillet);
+  s.lower_fillet = b.chain(s.middle, lower, s.end, fillet);
+  s.root = b.chain(s.end, root, s.side, Boundary::root);
   return s;
 }
 
@@ -159,12 +162,11 @@ std::vector<double> row_radii(const Gear& gear, const Rim& rim) {
 
 ToothLines add_tooth(const Gear& gear, const Rim& rim, const SectorResolution& n, BlockBuilder& b) {
   const ToothProfile profile(gear);
-  const double bump = bump_coefficient(n.flank_layer);
+  const auto across = both_ends_fractions(n.thickness_cells, n.flank_layer);
   const double sign = sign_of(gear);
   ToothLines lines;
-  lines.centre = b.point({0, 0});
-  lines.trailing = add_half(gear, n, false, lines.centre, b);
-  lines.leading = add_half(gear, n, true, lines.centre, b);
+  lines.trailing = add_half(gear, n, false, b);
+  lines.leading = add_half(gear, n, true, b);
 
   // The dipping line: at the middle of a fillet a straight angle is shared by tooth, lower fillet and rim, so the line
   // leaves the fillet at 60 degrees as far as its dip stays flat and leaves room for the first row of the rim.
@@ -174,24 +176,23 @@ ToothLines add_tooth(const Gear& gear, const Rim& rim, const SectorResolution& n
   const double dip_angle = std::atan2(sign * upwards.x(), upwards.y()) + std::numbers::pi / 3 - std::numbers::pi;
   const double room = sign * (middle.x() - row_radii(gear, rim).front());
   const double slope = std::min(std::tan(std::clamp(dip_angle, 0.0, 35 * units::deg)), 0.8 * room / half_width);
-  std::vector<Eigen::Vector2d> dip;
-  constexpr int dip_points = 16;
-  for (int i = 1; i < dip_points; ++i) {
-    const double v = 2.0 * i / dip_points - 1;
-    dip.emplace_back(middle.x() - sign * 0.5 * half_width * slope * (1 - v * v), v * half_width);
-  }
+  const auto dip = [&](double t) -> Eigen::Vector2d {
+    const double v = 2 * t - 1;
+    return {middle.x() - sign * 0.5 * half_width * slope * (1 - v * v), v * half_width};
+  };
+  const double tip_angle = gear.tooth_half_angle(gear.tip_radius());
   const auto& low = lines.trailing;
   const auto& high = lines.leading;
-  lines.bottom = b.spline(low.middle, dip, high.middle, n.thickness_cells, Boundary::none, Spacing::both_ends, bump);
-  const int crest = b.arc(low.tip, lines.centre, high.tip, n.thickness_cells, Boundary::tip, Spacing::both_ends, bump);
-  b.block({crest, high.flank, high.upper_fillet, -lines.bottom, -low.upper_fillet, -low.flank},
-          {low.tip, high.tip, high.middle, low.middle}, Mesh::Region::tooth);
+  lines.bottom = b.chain(low.middle, points_at(dip, across), high.middle, Boundary::none);
+  const Chain crest = b.chain(low.tip, arc(gear.tip_radius(), -tip_angle, tip_angle, across), high.tip, Boundary::tip);
+  b.block(
+      {crest, high.flank, high.upper_fillet, reversed(lines.bottom), reversed(low.upper_fillet), reversed(low.flank)},
+      {low.tip, high.tip, high.middle, low.middle}, Mesh::Region::tooth);
   return lines;
 }
 
 void add_rim(const Gear& gear, const Rim& rim, const SectorResolution& n, const ToothLines& lines, BlockBuilder& b) {
   const ToothProfile profile(gear);
-  const double bump = bump_coefficient(n.flank_layer);
   const double side_angle = gear.pitch_angle() / 2;
   const Eigen::Vector2d middle = profile.fillet_point(0.5);
   const Eigen::Vector2d end = profile.fillet_point(1);
@@ -201,10 +202,16 @@ void add_rim(const Gear& gear, const Rim& rim, const SectorResolution& n, const 
 
   const auto& low = lines.trailing;
   const auto& high = lines.leading;
+  constexpr double steepest_rim = 1.7;
+  std::array<Eigen::Vector2d, 6> above{
+      at_angle(gear.root_radius(), -side_angle), {end.x(), -end.y()}, {middle.x(), -middle.y()}, middle, end,
+      at_angle(gear.root_radius(), side_angle)};
   std::array<int, 6> points{low.side, low.end, low.middle, high.middle, high.end, high.side};
-  std::array<int, 5> tops{-low.root, -low.lower_fillet, lines.bottom, high.lower_fillet, high.root};
-  const std::array<int, 5> counts{n.root_cells, n.fillet_cells / 2, n.thickness_cells, n.fillet_cells / 2,
-                                  n.root_cells};
+  std::array<Chain, 5> tops{reversed(low.root), reversed(low.lower_fillet), lines.bottom, high.lower_fillet, high.root};
+  const auto root = uniform_fractions(n.root_cells);
+  const auto fillet = uniform_fractions(n.fillet_cells / 2);
+  const std::array<std::vector<double>, 5> across{root, fillet, both_ends_fractions(n.thickness_cells, n.flank_layer),
+                                                  fillet, root};
   const auto radii = row_radii(gear, rim);
   const double total = std::abs(gear.root_radius() - rim.support_radius);
   double upper_radius = gear.root_radius();
@@ -223,22 +230,25 @@ void add_rim(const Gear& gear, const Rim& rim, const SectorResolution& n, const 
       const double lean = 0.25 * std::min(height, half_width) / radius;
       middle_angle = std::max(middle_angle - lean, 0.4 * side_angle);
       end_angle = std::clamp(end_angle - 0.5 * lean, middle_angle + 0.1 * (side_angle - middle_angle), end_angle);
-      ratio = growth(height, 2 * half_width / n.thickness_cells, cells);
+      ratio = growth_ratio(height, 2 * half_width / n.thickness_cells, cells, steepest_rim);
     }
     const std::array<double, 6> angles{-side_angle, -end_angle, -middle_angle, middle_angle, end_angle, side_angle};
+    const auto down_fractions = growing_fractions(cells, ratio);
     std::array<int, 6> below{};
-    std::array<int, 6> down{};
+    std::array<Chain, 6> down{};
     for (std::size_t i = 0; i < 6; ++i) {
-      below[i] = b.point(at_angle(radius, angles[i]));
+      const Eigen::Vector2d foot = at_angle(radius, angles[i]);
+      below[i] = b.point(foot);
       const auto side = i == 0 ? Boundary::side_low : i == 5 ? Boundary::side_high : Boundary::none;
-      down[i] = b.line(points[i], below[i], cells, side, Spacing::growing, ratio);
+      down[i] = b.chain(points[i], straight(above[i], foot, down_fractions), below[i], side);
+      above[i] = foot;
     }
-    std::array<int, 5> bottoms{};
+    std::array<Chain, 5> bottoms{};
     for (std::size_t i = 0; i < 5; ++i) {
-      bottoms[i] = b.arc(below[i], lines.centre, below[i + 1], counts[i], last ? Boundary::support : Boundary::none,
-                         i == 2 ? Spacing::both_ends : Spacing::uniform, i == 2 ? bump : 1);
-      b.block({tops[i], down[i + 1], -bottoms[i], -down[i]}, {points[i], points[i + 1], below[i + 1], below[i]},
-              Mesh::Region::rim);
+      bottoms[i] = b.chain(below[i], arc(radius, angles[i], angles[i + 1], across[i]), below[i + 1],
+                           last ? Boundary::support : Boundary::none);
+      b.block({tops[i], down[i + 1], reversed(bottoms[i]), reversed(down[i])},
+              {points[i], points[i + 1], below[i + 1], below[i]}, Mesh::Region::rim);
     }
     points = below;
     tops = bottoms;

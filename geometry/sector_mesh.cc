@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -18,10 +19,17 @@ namespace annulus::geometry {
 
 namespace {
 
-void check_rim(const Gear& gear, const Rim& rim, const SectorResolution& n) {
+void check_resolution(const SectorResolution& n) {
   require(n.flank_cells >= 1 && n.fillet_cells >= 2 && n.fillet_cells % 2 == 0 && n.thickness_cells >= 1 &&
-              n.root_cells >= 1 && n.rim_cells >= 1 && n.flank_layer > 0 && n.flank_layer <= 1,
+              n.root_cells >= 1 && n.rim_cells >= 1 && n.flank_layer >= min_flank_layer && n.flank_layer <= 1,
           "sector resolution out of range");
+  const auto& f = n.flank_fractions;
+  require(f.empty() || (f.size() >= 2 && f.front() == 0 && f.back() == 1 &&
+                        std::ranges::adjacent_find(f, std::ranges::greater_equal{}) == f.end()),
+          "flank fractions have to increase strictly from 0 to 1");
+}
+
+void check_rim(const Gear& gear, const Rim& rim) {
   const bool external = gear.kind() == GearKind::external;
   const double module = gear.parameters().module;
   const double sign = external ? 1 : -1;
@@ -151,7 +159,8 @@ void match_sides(Mesh& mesh) {
 }  // namespace
 
 Mesh make_sector_mesh(const Gear& gear, const Rim& rim, const SectorResolution& resolution) {
-  check_rim(gear, rim, resolution);
+  check_resolution(resolution);
+  check_rim(gear, rim);
   Mesh mesh;
   try {
     const GmshModel model("annulus sector");
