@@ -25,8 +25,8 @@ struct SectorResolution {
   /// of the edges over it, L being the length of a flank or fillet edge and R its radius of curvature.
   double flank_layer = 0.5;
   /// Vertices of both flanks as fractions of the arc length, 0 at the form circle, 1 at the tip, strictly increasing
-  /// from 0 to 1 (`flank_cells` does not count then). They lie on the exact involute; the vertices on the radial cuts
-  /// do not depend on them, so that sectors with different fractions fit together.
+  /// from 0 to 1 (`flank_cells` does not count then). They lie on the exact involute. The vertices on the radial cuts
+  /// depend on `rim_cells` and `thickness_cells` only: sectors that differ in the rest fit together.
   std::vector<double> flank_fractions{};
 };
 
