@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.h"
+
 namespace annulus::geometry {
 
 namespace {
@@ -59,11 +61,15 @@ double ToothProfile::lead_modification(double z) const {
   return p.lead_crowning * (2 * u - 1) * (2 * u - 1) + slope;
 }
 
-Eigen::Vector2d ToothProfile::project(Boundary boundary, const Eigen::Vector2d& point, double support_radius) const {
+Eigen::Vector2d ToothProfile::project(Boundary boundary, const Eigen::Vector2d& point, double support_radius,
+                                      double outside_radius) const {
   const auto on_circle = [&](double radius) -> Eigen::Vector2d { return point * (radius / point.norm()); };
   switch (boundary) {
     case Boundary::support:
       return on_circle(support_radius);
+    case Boundary::outside:
+      require(std::isfinite(outside_radius), "projection onto an outside diameter that is not given");
+      return on_circle(outside_radius);
     case Boundary::tip:
       return on_circle(gear_.tip_radius());
     case Boundary::root:
@@ -91,6 +97,7 @@ Eigen::Vector2d ToothProfile::project(Boundary boundary, const Eigen::Vector2d& 
     case Boundary::end_low:
     case Boundary::end_high:
     case Boundary::inner:
+    case Boundary::flange_face:
       break;
   }
   return point;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "geometry/gear.h"
 #include "geometry/root_fillet.h"
@@ -20,9 +21,11 @@ enum class Boundary : int {
   leading_fillet = 7,
   trailing_fillet = 8,
   root = 9,
-  end_low = 10,   ///< face at the smallest z (3D)
-  end_high = 11,  ///< face at the largest z (3D)
-  inner = 12,     ///< other free surfaces (the inside of a sleeve)
+  end_low = 10,      ///< face at the smallest z (3D)
+  end_high = 11,     ///< face at the largest z (3D)
+  inner = 12,        ///< other free surfaces (the inside of a sleeve)
+  outside = 13,      ///< outside diameter of a ring whose hoop or flange (bounded by `support`) goes beyond it (3D)
+  flange_face = 14,  ///< bolted face of a flange: its lower face beyond the ring's outside diameter (3D)
 };
 
 /// The exact outline of one tooth: involute flanks with modifications kept apart, root fillets (generated trochoid for
@@ -57,10 +60,12 @@ class ToothProfile {
   [[nodiscard]] Eigen::Vector2d fillet_tangent(double t) const { return fillet_.tangent(t); }
 
   /// The point of the exact boundary curve of tooth 0 nearest to `point`, to rounding, without modifications; beyond
-  /// the ends of a flank or fillet its end point. Boundaries without a curve of their own (sides, ends, inner, none)
-  /// return `point`. Used for meshing and refinement: `point` has to lie nearer to the curve than its centre of
-  /// curvature.
-  [[nodiscard]] Eigen::Vector2d project(Boundary boundary, const Eigen::Vector2d& point, double support_radius) const;
+  /// the ends of a flank or fillet its end point. Boundaries without a curve of their own (sides, ends, inner,
+  /// flange_face, none) return `point`. Used for meshing and refinement: `point` has to lie nearer to the curve than
+  /// its centre of curvature. `outside_radius` is needed for Boundary::outside only (ExtrudeOptions::outside_radius),
+  /// m.
+  [[nodiscard]] Eigen::Vector2d project(Boundary boundary, const Eigen::Vector2d& point, double support_radius,
+                                        double outside_radius = std::numeric_limits<double>::quiet_NaN()) const;
 
  private:
   Gear gear_;

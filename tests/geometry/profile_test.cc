@@ -131,8 +131,11 @@ BOOST_AUTO_TEST_CASE(circles_and_free_boundaries) {
   BOOST_TEST((profile.project(Boundary::tip, q, support) - q.normalized() * g.tip_radius()).norm() < rounding);
   BOOST_TEST((profile.project(Boundary::root, q, support) - q.normalized() * g.root_radius()).norm() < rounding);
   BOOST_TEST((profile.project(Boundary::support, q, support) - q.normalized() * support).norm() < rounding);
+  const double outside = 0.325;
+  BOOST_TEST((profile.project(Boundary::outside, q, support, outside) - q.normalized() * outside).norm() < rounding);
+  BOOST_CHECK_THROW((void)profile.project(Boundary::outside, q, support), InternalError);
   for (const auto b : {Boundary::none, Boundary::side_low, Boundary::side_high, Boundary::end_low, Boundary::end_high,
-                       Boundary::inner}) {
+                       Boundary::inner, Boundary::flange_face}) {
     BOOST_TEST((profile.project(b, q, support) - q).norm() == 0);
   }
 }
