@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -94,14 +95,18 @@ std::vector<Edge> plane_edges(const Mesh& plane) {
 /// Vertices of one level, created when they are first used: a level beside a sleeve has no vertices at the teeth.
 class LevelVertices {
  public:
-  LevelVertices(const Mesh& plane, Mesh& solid, std::size_t levels)
-      : plane_(plane), solid_(solid), ids_(levels, std::vector<VertexId>(plane.vertices.size(), unused)) {}
+  LevelVertices(const Mesh& plane, Mesh& solid, std::size_t levels, double twist)
+      : plane_(plane),
+        solid_(solid),
+        twist_(twist),
+        ids_(levels, std::vector<VertexId>(plane.vertices.size(), unused)) {}
 
   VertexId operator()(std::size_t level, VertexId v, double z) {
     auto& id = ids_[level][v];
     if (id == unused) {
       id = static_cast<VertexId>(solid_.vertices.size());
-      solid_.vertices.emplace_back(plane_.vertices[v].x(), plane_.vertices[v].y(), z);
+      const Eigen::Vector2d p = Eigen::Rotation2Dd(twist_ * z) * plane_.vertices[v].head<2>();
+      solid_.vertices.emplace_back(p.x(), p.y(), z);
     }
     return id;
   }
@@ -110,6 +115,7 @@ class LevelVertices {
   static constexpr VertexId unused = std::numeric_limits<VertexId>::max();
   const Mesh& plane_;
   Mesh& solid_;
+  double twist_;
   std::vector<std::vector<VertexId>> ids_;
 };
 
@@ -137,7 +143,7 @@ Mesh extrude(const Mesh& plane, const std::vector<Layers>& stacks, const Extrude
 
   Mesh solid;
   solid.dimension = 3;
-  LevelVertices vertex(plane, solid, slabs.size() + 1);
+  LevelVertices vertex(plane, solid, slabs.size() + 1, options.twist);
   for (std::size_t k = 0; k < slabs.size(); ++k) {
     const Slab& slab = slabs[k];
     for (std::size_t c = 0; c < plane.cells.size(); ++c) {

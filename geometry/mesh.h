@@ -55,6 +55,9 @@ struct ExtrudeOptions {
   /// Outside radius of the ring itself, where a hoop or a flange goes beyond it, m: a mesh circle of the plane mesh,
   /// whose support circle is then the outside of the hoop or flange. Infinite: nothing lies beyond.
   double outside_radius = std::numeric_limits<double>::infinity();
+  /// Angle by which the section is turned counter-clockwise per metre of z, rad/m (ToothProfile::twist); the plane mesh
+  /// is the section at z = 0. The sides stay images of each other under rotation by a pitch.
+  double twist = 0;
 };
 
 /// Hexahedra from a plane mesh, stacks from low to high z, each starting where the one before ends. Side, flank, ...

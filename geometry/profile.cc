@@ -1,5 +1,6 @@
 #include "geometry/profile.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +16,8 @@ Eigen::Vector2d mirrored(const Eigen::Vector2d& v) { return {v.x(), -v.y()}; }
 
 ToothProfile::ToothProfile(const Gear& gear)
     : gear_(gear), fillet_(gear), base_angle_(gear.tooth_half_angle(gear.base_radius())) {}
+
+double ToothProfile::twist() const { return std::tan(gear_.helix_angle()) / gear_.reference_radius(); }
 
 double ToothProfile::roll_length_tip() const { return roll_length_at(gear_.tip_radius()); }
 double ToothProfile::roll_length_form() const { return fillet_.form_roll(); }
@@ -101,6 +104,14 @@ Eigen::Vector2d ToothProfile::project(Boundary boundary, const Eigen::Vector2d& 
       break;
   }
   return point;
+}
+
+Eigen::Vector3d ToothProfile::project_solid(Boundary boundary, const Eigen::Vector3d& point, double support_radius,
+                                            double outside_radius) const {
+  const Eigen::Rotation2Dd turned(twist() * point.z());
+  const Eigen::Vector2d section = turned.inverse() * point.head<2>();
+  const Eigen::Vector2d found = turned * project(boundary, section, support_radius, outside_radius);
+  return {found.x(), found.y(), point.z()};
 }
 
 }  // namespace annulus::geometry

@@ -191,6 +191,48 @@ BOOST_AUTO_TEST_CASE(sleeve_below_the_teeth) {
   BOOST_TEST(volume_by_faces(three) == three.area_or_volume(), boost::test_tools::tolerance(1e-9));
 }
 
+// Between two levels the vertices run straight while the section turns by theta: the section half way shrinks, and the
+// volume is the straight one times (2 + cos theta) / 3, less by theta^2 / 6.
+BOOST_AUTO_TEST_CASE(twisted_extrusion) {
+  constexpr double width = 88 * units::mm;
+  constexpr double support = 340 * units::mm;
+  const Gear gear(helical(paper_gear(GearKind::internal, 162, 0.1516), 14 * units::deg));
+  const ToothProfile profile(gear);
+  const Mesh sector =
+      make_sector_mesh(gear, {.support_radius = support},
+                       {.flank_cells = 6, .fillet_cells = 2, .thickness_cells = 4, .root_cells = 1, .rim_cells = 3});
+  const double straight = width * sector.area_or_volume();
+  std::vector<double> errors;
+  for (const int cells : {4, 8}) {
+    const Mesh solid = extrude(sector, {{.z_low = 0, .z_high = width, .cells = cells}}, {.twist = profile.twist()});
+    const double theta = profile.twist() * width / cells;
+    BOOST_TEST(solid.area_or_volume() == straight * (2 + std::cos(theta)) / 3,
+               boost::test_tools::tolerance(1e-10));  // r^2 cancels
+    errors.push_back(1 - solid.area_or_volume() / straight);
+    BOOST_TEST(solid.worst_scaled_jacobian() > 0.5);
+
+    double off_surface = 0;
+    for (const auto& face : solid.faces) {
+      for (const auto v : face.vertices) {
+        const auto& p = solid.vertices[v];
+        off_surface = std::max(off_surface, (profile.project_solid(face.boundary, p, support) - p).norm());
+      }
+    }
+    BOOST_TEST(off_surface < 1e-12);
+    auto faces = count_faces(solid);
+    auto plane_faces = count_faces(sector);
+    BOOST_TEST(faces[Boundary::leading_flank] == cells * plane_faces[Boundary::leading_flank]);
+    // The sides match, so that sectors share them; a closed ring has none left.
+    const Mesh two = repeat(solid, 162, 2);
+    BOOST_TEST(two.vertices.size() ==
+               2 * solid.vertices.size() - (plane_faces[Boundary::side_low] + 1) * static_cast<std::size_t>(cells + 1));
+    const Mesh ring = repeat(solid, 162, 162);
+    BOOST_TEST(ring.area_or_volume() == 162 * solid.area_or_volume(), boost::test_tools::tolerance(1e-10));
+    BOOST_TEST(count_faces(ring)[Boundary::side_low] == 0);
+  }
+  BOOST_TEST(std::abs(errors[0] / errors[1] - 4) < 0.01);  // second order
+}
+
 // Rings of the paper with a hoop at the free end and with a flange at the low end. The area of a straight-sided annulus
 // with the same angular cuts on both circles is known in closed form; so are the areas of the exposed faces.
 BOOST_AUTO_TEST_CASE(hoop_and_flange_around_the_ring) {
