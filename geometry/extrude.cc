@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,11 +21,15 @@ struct Slab {
   std::vector<bool> active;  ///< one per plane cell
 };
 
-bool belongs(const Mesh& plane, std::size_t cell, const Layers& stack) {
-  if (stack.toothed) return true;
+double centre_radius(const Mesh& plane, std::size_t cell) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (int i = 0; i < 4; ++i) centre += plane.vertices[plane.cells[cell][i]] / 4;
-  const double radius = centre.head<2>().norm();
+  return centre.head<2>().norm();
+}
+
+bool belongs(const Mesh& plane, std::size_t cell, const Layers& stack) {
+  if (!stack.toothed && plane.regions[cell] == Mesh::Region::tooth) return false;
+  const double radius = centre_radius(plane, cell);
   return radius >= stack.radius_low && radius <= stack.radius_high;
 }
 
@@ -54,11 +59,13 @@ std::vector<Slab> make_slabs(const Mesh& plane, const std::vector<Layers>& stack
   return slabs;
 }
 
-/// The two plane cells at an edge (the second is missing on the boundary) and its boundary tag; the edge runs
+constexpr std::size_t no_cell = std::numeric_limits<std::size_t>::max();
+
+/// The two plane cells at an edge (the second is `no_cell` on the boundary) and its boundary tag; the edge runs
 /// counter-clockwise about the first cell.
 struct Edge {
   VertexId a = 0, b = 0;
-  std::size_t cells[2] = {0, std::numeric_limits<std::size_t>::max()};
+  std::size_t cells[2] = {0, no_cell};
   Boundary boundary = Boundary::none;
 };
 
@@ -71,7 +78,7 @@ std::vector<Edge> plane_edges(const Mesh& plane) {
       const VertexId b = plane.cells[c][(i + 1) % 4];
       const auto [entry, added] = index.try_emplace(std::minmax(a, b), edges.size());
       if (added) {
-        edges.push_back({a, b, {c, std::numeric_limits<std::size_t>::max()}, Boundary::none});
+        edges.push_back({a, b, {c, no_cell}, Boundary::none});
       } else {
         edges[entry->second].cells[1] = c;
       }
@@ -88,14 +95,18 @@ std::vector<Edge> plane_edges(const Mesh& plane) {
 /// Vertices of one level, created when they are first used: a level beside a sleeve has no vertices at the teeth.
 class LevelVertices {
  public:
-  LevelVertices(const Mesh& plane, Mesh& solid, std::size_t levels)
-      : plane_(plane), solid_(solid), ids_(levels, std::vector<VertexId>(plane.vertices.size(), unused)) {}
+  LevelVertices(const Mesh& plane, Mesh& solid, std::size_t levels, double twist)
+      : plane_(plane),
+        solid_(solid),
+        twist_(twist),
+        ids_(levels, std::vector<VertexId>(plane.vertices.size(), unused)) {}
 
   VertexId operator()(std::size_t level, VertexId v, double z) {
     auto& id = ids_[level][v];
     if (id == unused) {
       id = static_cast<VertexId>(solid_.vertices.size());
-      solid_.vertices.emplace_back(plane_.vertices[v].x(), plane_.vertices[v].y(), z);
+      const Eigen::Vector2d p = Eigen::Rotation2Dd(twist_ * z) * plane_.vertices[v].head<2>();
+      solid_.vertices.emplace_back(p.x(), p.y(), z);
     }
     return id;
   }
@@ -104,16 +115,27 @@ class LevelVertices {
   static constexpr VertexId unused = std::numeric_limits<VertexId>::max();
   const Mesh& plane_;
   Mesh& solid_;
+  double twist_;
   std::vector<std::vector<VertexId>> ids_;
 };
 
-Mesh::Region region_of(const Mesh& plane, std::size_t cell, const Layers& stack) {
+Mesh::Region region_of(const Mesh& plane, std::size_t cell, const Layers& stack, double outside_radius) {
+  if (centre_radius(plane, cell) > outside_radius) return stack.band;
   return stack.region == Mesh::Region::rim ? plane.regions[cell] : stack.region;
+}
+
+/// Tag of the exposed side of an edge: its own on the boundary of the plane mesh, else by where it lies.
+Boundary exposed(const Mesh& plane, const Edge& edge, double outside_radius) {
+  if (edge.cells[1] == no_cell) return edge.boundary;
+  const auto on_outside = [&](VertexId v) {
+    return std::abs(plane.vertices[v].head<2>().norm() - outside_radius) < 1e-9 * outside_radius;
+  };
+  return on_outside(edge.a) && on_outside(edge.b) ? Boundary::outside : Boundary::inner;
 }
 
 }  // namespace
 
-Mesh extrude(const Mesh& plane, const std::vector<Layers>& stacks) {
+Mesh extrude(const Mesh& plane, const std::vector<Layers>& stacks, const ExtrudeOptions& options) {
   require(plane.dimension == 2, "only a plane mesh can be extruded");
   const auto slabs = make_slabs(plane, stacks);
   require(!slabs.empty(), "no stack of layers to extrude");
@@ -121,7 +143,7 @@ Mesh extrude(const Mesh& plane, const std::vector<Layers>& stacks) {
 
   Mesh solid;
   solid.dimension = 3;
-  LevelVertices vertex(plane, solid, slabs.size() + 1);
+  LevelVertices vertex(plane, solid, slabs.size() + 1, options.twist);
   for (std::size_t k = 0; k < slabs.size(); ++k) {
     const Slab& slab = slabs[k];
     for (std::size_t c = 0; c < plane.cells.size(); ++c) {
@@ -132,10 +154,12 @@ Mesh extrude(const Mesh& plane, const std::vector<Layers>& stacks) {
         cell[i + 4] = vertex(k + 1, plane.cells[c][i], slab.z_high);
       }
       solid.cells.push_back(cell);
-      solid.regions.push_back(region_of(plane, c, *slab.stack));
+      solid.regions.push_back(region_of(plane, c, *slab.stack, options.outside_radius));
       // Horizontal faces, seen counter-clockwise from outside the body.
       if (k == 0 || !slabs[k - 1].active[c]) {
-        solid.faces.push_back({{cell[0], cell[3], cell[2], cell[1]}, k == 0 ? Boundary::end_low : Boundary::inner});
+        const bool flange = solid.regions.back() == Mesh::Region::flange;
+        const auto boundary = flange ? Boundary::flange_face : k == 0 ? Boundary::end_low : Boundary::inner;
+        solid.faces.push_back({{cell[0], cell[3], cell[2], cell[1]}, boundary});
       }
       if (k + 1 == slabs.size() || !slabs[k + 1].active[c]) {
         solid.faces.push_back(
@@ -144,14 +168,13 @@ Mesh extrude(const Mesh& plane, const std::vector<Layers>& stacks) {
     }
     for (const auto& edge : edges) {
       const bool first = slab.active[edge.cells[0]];
-      const bool on_boundary = edge.cells[1] == std::numeric_limits<std::size_t>::max();
-      const bool second = !on_boundary && slab.active[edge.cells[1]];
+      const bool second = edge.cells[1] != no_cell && slab.active[edge.cells[1]];
       if (first == second) continue;
       const VertexId a = first ? edge.a : edge.b;
       const VertexId b = first ? edge.b : edge.a;
       solid.faces.push_back({{vertex(k, a, slab.z_low), vertex(k, b, slab.z_low), vertex(k + 1, b, slab.z_high),
                               vertex(k + 1, a, slab.z_high)},
-                             on_boundary ? edge.boundary : Boundary::inner});
+                             exposed(plane, edge, options.outside_radius)});
     }
   }
   return solid;

@@ -16,6 +16,7 @@ namespace annulus::geometry {
 namespace {
 
 constexpr double min_tip_thickness = 0.2;  // modules; the usual lower limit of the normal tip thickness
+constexpr double max_helix_angle = 45 * units::deg;
 
 std::string gear_name(const GearParameters& p) {
   return fmt::format("the {} gear with {} teeth", p.kind == GearKind::external ? "external" : "internal", p.teeth);
@@ -32,6 +33,9 @@ void check_inputs(const GearParameters& p) {
   require_gear(
       p.pressure_angle >= 10 * units::deg && p.pressure_angle <= 35 * units::deg, p,
       fmt::format("has a pressure angle of {:.3f} deg; 10 to 35 deg are supported", p.pressure_angle / units::deg));
+  require_gear(std::abs(p.helix_angle) <= max_helix_angle, p,
+               fmt::format("has a helix angle of {:.3f} deg; -45 (left hand) to 45 deg (right hand) are supported",
+                           p.helix_angle / units::deg));
   require_gear(std::isfinite(p.face_width) && p.face_width > 0, p,
                fmt::format("has a face width of {} mm; it has to be positive", p.face_width / units::mm));
   require_gear(std::isfinite(p.profile_shift), p, "has a profile shift that is not a number");
@@ -59,11 +63,12 @@ void check_tip(const Gear& gear) {
       fmt::format("has its tip circle (diameter {:.4f} mm) inside its base circle ({:.4f} mm): no involute there; "
                   "change the tip diameter, the profile shift or the number of teeth",
                   2 * gear.tip_radius() / units::mm, 2 * gear.base_radius() / units::mm));
-  const double thickness = gear.tooth_thickness(gear.tip_radius());
-  require_gear(thickness >= min_tip_thickness * p.module, p,
-               fmt::format("has pointed teeth: {:.4f} mm thick at the tip, at least {} modules = {:.4f} mm are "
-                           "needed; reduce the profile shift or bring the tip diameter nearer to the root",
-                           thickness / units::mm, min_tip_thickness, min_tip_thickness * p.module / units::mm));
+  const double thickness = gear.tooth_thickness(gear.tip_radius()) * std::cos(gear.helix_angle_at(gear.tip_radius()));
+  require_gear(
+      thickness >= min_tip_thickness * p.module, p,
+      fmt::format("has pointed teeth: {:.4f} mm thick at the tip (normal section), at least {} modules = {:.4f} mm are "
+                  "needed; reduce the profile shift or bring the tip diameter nearer to the root",
+                  thickness / units::mm, min_tip_thickness, min_tip_thickness * p.module / units::mm));
 }
 
 }  // namespace
@@ -103,8 +108,16 @@ Gear::Gear(const GearParameters& parameters) : p_(parameters) {
 }
 
 double Gear::pitch_angle() const { return 2 * std::numbers::pi / p_.teeth; }
-double Gear::reference_radius() const { return p_.module * p_.teeth / 2; }
-double Gear::base_radius() const { return reference_radius() * std::cos(p_.pressure_angle); }
+double Gear::helix_angle_at(double radius) const {
+  return std::atan(std::tan(p_.helix_angle) * radius / reference_radius());
+}
+double Gear::base_helix_angle() const { return helix_angle_at(base_radius()); }
+double Gear::transverse_module() const { return p_.module / std::cos(p_.helix_angle); }
+double Gear::transverse_pressure_angle() const {
+  return std::atan(std::tan(p_.pressure_angle) / std::cos(p_.helix_angle));
+}
+double Gear::reference_radius() const { return transverse_module() * p_.teeth / 2; }
+double Gear::base_radius() const { return reference_radius() * std::cos(transverse_pressure_angle()); }
 double Gear::base_pitch() const { return pitch_angle() * base_radius(); }
 
 double Gear::tip_radius() const {
@@ -124,17 +137,19 @@ double Gear::tooth_half_angle(double radius) const {
   require(radius >= base_radius() * (1 - 1e-12), "tooth_half_angle is asked inside the base circle");
   const double roll = std::sqrt(std::max(0.0, radius * radius - base_radius() * base_radius())) / base_radius();
   const double inv = roll - std::atan(roll);
-  // The material of an internal tooth is what the space (the shape of an external tooth of the same x) leaves over.
+  // The material of an internal tooth is what the space (the shape of an external tooth of the same x) leaves over. On
+  // the reference circle the normal thickness m_n (pi / 2 + 2 x tan(alpha_n)) covers this share of m_t z / 2:
   const double sign = kind() == GearKind::external ? 1 : -1;
   const double at_reference =
       (std::numbers::pi / 2 + sign * 2 * p_.profile_shift * std::tan(p_.pressure_angle)) / p_.teeth;
-  return at_reference + sign * (involute(p_.pressure_angle) - inv);
+  return at_reference + sign * (involute(transverse_pressure_angle()) - inv);
 }
 
 double Gear::base_tangent_length(int k) const {
   require(k >= 1, "base tangent length over less than one tooth");
   const double alpha = p_.pressure_angle;
-  return p_.module * std::cos(alpha) * (std::numbers::pi * (k - 0.5) + p_.teeth * involute(alpha)) +
+  return p_.module * std::cos(alpha) *
+             (std::numbers::pi * (k - 0.5) + p_.teeth * involute(transverse_pressure_angle())) +
          2 * p_.profile_shift * p_.module * std::sin(alpha);
 }
 

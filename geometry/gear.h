@@ -6,20 +6,22 @@ namespace annulus::geometry {
 
 enum class GearKind { external, internal };
 
-/// Input of one spur gear; SI. Sign rule for internal gears (ISO 21771 with positive diameters): every diameter and
-/// the tooth count are positive and a positive profile shift moves the tooth space outwards, so that x_r - x_p enters
-/// the internal mesh and x_s + x_p the external one.
+/// Input of one spur or helical gear; SI. Module, pressure angle, profile shift and the factors are those of the normal
+/// section (ISO 21771). Sign rule for internal gears (ISO 21771 with positive diameters): every diameter and the tooth
+/// count are positive and a positive profile shift moves the tooth space outwards, so that x_r - x_p enters the
+/// internal mesh and x_s + x_p the external one.
 struct GearParameters {
   GearKind kind = GearKind::external;
   int teeth = 0;
-  double module = 0;                      ///< m
-  double pressure_angle = 0;              ///< rad
+  double module = 0;                      ///< m_n, m
+  double pressure_angle = 0;              ///< alpha_n, rad
+  double helix_angle = 0;                 ///< beta at the reference cylinder, rad; 0 = spur, > 0 = right hand
   double profile_shift = 0;               ///< x, in modules
   double face_width = 0;                  ///< m
   std::optional<double> tip_diameter{};   ///< m; absent: addendum of one module
   std::optional<double> root_diameter{};  ///< m; absent: dedendum of 1.25 modules
-  double root_fillet_factor = 0.38;       ///< rack tip radius (external) or fillet radius (internal) in
-                                          ///< modules; limited to the full root rounding
+  double root_fillet_factor = 0.38;       ///< rack tip radius (external) or fillet radius (internal, in the
+                                          ///< transverse section) in modules; limited to the full root rounding
   double tip_relief = 0;                  ///< m, material removed at the tip, normal to the flank
   double tip_relief_length = 0;           ///< m, along the line of action, linear relief
   double profile_crowning = 0;            ///< m, parabolic, at both ends of the usable flank
@@ -27,9 +29,10 @@ struct GearParameters {
   double lead_slope = 0;                  ///< m, removed linearly towards +z (> 0) or -z (< 0), end to end
 };
 
-/// A gear with its derived dimensions (ISO 21771). Construction throws GeometryError with the reason when the gear
-/// cannot exist: tip below base, pointed tooth (thinner than 0.2 modules at the tip), undercut, no room for a root
-/// fillet, non-positive sizes, pressure angle outside 10 to 35 degrees.
+/// A gear with its derived dimensions (ISO 21771). Angles and thicknesses on circles are those of the transverse
+/// section unless they say otherwise. Construction throws GeometryError with the reason when the gear cannot exist: tip
+/// below base, pointed tooth (thinner than 0.2 modules at the tip, in the normal section), undercut, no room for a root
+/// fillet, non-positive sizes, pressure angle outside 10 to 35 degrees, helix angle beyond 45 degrees.
 class Gear {
  public:
   explicit Gear(const GearParameters& parameters);
@@ -37,19 +40,26 @@ class Gear {
   [[nodiscard]] const GearParameters& parameters() const { return p_; }
   [[nodiscard]] GearKind kind() const { return p_.kind; }
   [[nodiscard]] int teeth() const { return p_.teeth; }
-  [[nodiscard]] double pitch_angle() const;       ///< 2 pi / z, rad
-  [[nodiscard]] double reference_radius() const;  ///< m z / 2
-  [[nodiscard]] double base_radius() const;       ///< r_b
-  [[nodiscard]] double tip_radius() const;        ///< internal: smaller than the root radius
+  [[nodiscard]] double pitch_angle() const;  ///< 2 pi / z, rad
+  [[nodiscard]] double helix_angle() const { return p_.helix_angle; }
+  [[nodiscard]] double helix_angle_at(double radius) const;  ///< tan(beta_y) = tan(beta) r_y / r, with the sign of beta
+  [[nodiscard]] double base_helix_angle() const;             ///< beta_b, rad, with the sign of beta
+  [[nodiscard]] double transverse_module() const;            ///< m_t = m_n / cos(beta)
+  [[nodiscard]] double transverse_pressure_angle() const;    ///< tan(alpha_t) = tan(alpha_n) / cos(beta)
+  [[nodiscard]] double reference_radius() const;             ///< m_t z / 2
+  [[nodiscard]] double base_radius() const;                  ///< r_b
+  [[nodiscard]] double tip_radius() const;                   ///< internal: smaller than the root radius
   [[nodiscard]] double root_radius() const;
-  [[nodiscard]] double base_pitch() const;  ///< p_b = 2 pi r_b / z, distance of teeth along the line of action
+  /// p_bt = 2 pi r_b / z, distance of teeth along the line of action in the transverse section.
+  [[nodiscard]] double base_pitch() const;
   /// Radius at which the involute starts at the root side (form circle: end of the generated trochoid or fillet).
   [[nodiscard]] double form_radius() const { return form_radius_; }
   /// Half the angle a tooth (the material) covers at radius r >= r_b, from the involutes of both flanks, rad.
   [[nodiscard]] double tooth_half_angle(double radius) const;
   /// Tooth thickness along the arc at radius r, m.
   [[nodiscard]] double tooth_thickness(double radius) const { return 2 * radius * tooth_half_angle(radius); }
-  /// Base tangent length W_k over k teeth (external) or k spaces (internal), without backlash, ISO 21771, m.
+  /// Base tangent length W_k over k teeth (external) or k spaces (internal), without backlash, normal to the flanks,
+  /// ISO 21771, m. Of a helical gear it can be measured when the face width exceeds W_k sin(beta_b).
   [[nodiscard]] double base_tangent_length(int k) const;
 
  private:

@@ -37,6 +37,11 @@ double checked_working_angle(const Gear& planet, const Gear& wheel, double centr
         p.module / units::mm, w.module / units::mm, p.pressure_angle / units::deg, w.pressure_angle / units::deg));
   }
   const bool internal = wheel.kind() == GearKind::internal;
+  if (std::abs(w.helix_angle - (internal ? 1 : -1) * p.helix_angle) > 1e-9) {
+    throw GeometryError(fmt::format("{}: helix angles {:.4f} and {:.4f} deg do not fit; they have to be equal and {}",
+                                    name, p.helix_angle / units::deg, w.helix_angle / units::deg,
+                                    internal ? "of the same hand (the same sign)" : "of opposite hands (signs)"));
+  }
   if (internal && wheel.teeth() <= planet.teeth()) {
     throw GeometryError(fmt::format("{}: the internal gear needs more teeth than the planet", name));
   }
@@ -47,7 +52,7 @@ double checked_working_angle(const Gear& planet, const Gear& wheel, double centr
         fmt::format("{}: no working pressure angle exists at the centre distance {:.4f} mm; it has to be larger than "
                     "{:.4f} mm (reference centre distance {:.4f} mm)",
                     name, centre_distance / units::mm, base_distance / units::mm,
-                    base_distance / std::cos(p.pressure_angle) / units::mm));
+                    base_distance / std::cos(planet.transverse_pressure_angle()) / units::mm));
   }
   return std::acos(base_distance / centre_distance);
 }
@@ -64,8 +69,9 @@ GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance
   const double cosine = std::cos(working_pressure_angle_);
   const double planet_pitch_radius = planet_.base_radius() / cosine;
   const double wheel_pitch_radius = wheel_.base_radius() / cosine;
-  normal_backlash_ = planet_.base_pitch() - cosine * (planet_.tooth_thickness(planet_pitch_radius) +
-                                                      wheel_.tooth_thickness(wheel_pitch_radius));
+  const double along_action = planet_.base_pitch() - cosine * (planet_.tooth_thickness(planet_pitch_radius) +
+                                                               wheel_.tooth_thickness(wheel_pitch_radius));
+  normal_backlash_ = along_action * std::cos(planet_.base_helix_angle());
   const double module = planet_.parameters().module;
   if (normal_backlash_ < -backlash_tolerance * module) {
     const double shift = -normal_backlash_ / (2 * module * std::sin(planet_.parameters().pressure_angle));
@@ -85,15 +91,21 @@ GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance
   roll_high_ = roll_at(planet_, planet_.tip_radius());
   check_tips();
   if (internal()) check_internal_tips();
-  if (contact_ratio() < 1) {
+  if (total_contact_ratio() < 1) {
     throw GeometryError(
         fmt::format("{} has a contact ratio of {:.4f}; at least 1 is needed: enlarge the tip diameters or reduce the "
                     "working pressure angle ({:.4f} deg)",
-                    pair_name(planet_, wheel_), contact_ratio(), working_pressure_angle_ / units::deg));
+                    pair_name(planet_, wheel_), total_contact_ratio(), working_pressure_angle_ / units::deg));
   }
 }
 
 double GearPair::contact_ratio() const { return (roll_high_ - roll_low_) / planet_.base_pitch(); }
+
+double GearPair::overlap_ratio() const {
+  const auto& p = planet_.parameters();
+  const double width = std::min(p.face_width, wheel_.parameters().face_width);
+  return width * std::sin(std::abs(p.helix_angle)) / (std::numbers::pi * p.module);
+}
 
 double GearPair::wheel_roll_length(double planet_roll) const {
   const double length = centre_distance_ * std::sin(working_pressure_angle_);

@@ -7,10 +7,11 @@ namespace annulus::geometry {
 /// Two gears in mesh at a working centre distance: sun and planet (external), or planet and ring (internal).
 ///
 /// Lengths along the line of action are measured on the *planet* by its roll length rho = r_b tan(alpha_y), the
-/// distance from the tangent point on its base circle; rho grows from root to tip. Construction throws GeometryError
-/// with the reason: different base pitches, no working angle, negative backlash, tip interference (a tip that reaches
-/// below the mate's form circle or into its root), involute interference, fouling tips of internal gears with few teeth
-/// difference, contact ratio below 1.
+/// distance from the tangent point on its base circle; rho grows from root to tip. Of helical gears they are those of a
+/// transverse section. Construction throws GeometryError with the reason: different base pitches or helix angles, hands
+/// that do not fit (opposite ones for an external pair, equal ones for an internal pair), no working angle, negative
+/// backlash, tip interference (a tip that reaches below the mate's form circle or into its root), involute
+/// interference, fouling tips of internal gears with few teeth difference, total contact ratio below 1.
 class GearPair {
  public:
   /// `wheel` is the sun (external) or the ring (internal). Centre distance in m.
@@ -25,9 +26,12 @@ class GearPair {
   [[nodiscard]] const Gear& wheel() const { return wheel_; }
   [[nodiscard]] bool internal() const { return wheel_.kind() == GearKind::internal; }
   [[nodiscard]] double centre_distance() const { return centre_distance_; }
-  [[nodiscard]] double working_pressure_angle() const { return working_pressure_angle_; }
-  [[nodiscard]] double normal_backlash() const { return normal_backlash_; }  ///< m, along the line of action
-  [[nodiscard]] double contact_ratio() const;
+  [[nodiscard]] double working_pressure_angle() const { return working_pressure_angle_; }  ///< alpha_wt, transverse
+  [[nodiscard]] double normal_backlash() const { return normal_backlash_; }  ///< j_bn, m, normal to the flanks
+  [[nodiscard]] double contact_ratio() const;                                ///< epsilon_alpha, transverse
+  /// epsilon_beta = b sin|beta| / (pi m_n) with the smaller face width; 0 for spur gears.
+  [[nodiscard]] double overlap_ratio() const;
+  [[nodiscard]] double total_contact_ratio() const { return contact_ratio() + overlap_ratio(); }  ///< epsilon_gamma
   /// Theoretical path of contact on the planet: roll lengths at its two ends and at the pitch point.
   /// Internal mesh: rho_low is set by the ring's tip, rho_high by the planet's tip; external likewise by the sun's tip.
   [[nodiscard]] double roll_length_low() const { return roll_low_; }

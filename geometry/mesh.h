@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 #include "geometry/profile.h"
@@ -18,7 +19,7 @@ struct Mesh {
     std::array<std::uint32_t, 4> vertices{};  ///< 2 used in 2D, the body on their left
     Boundary boundary = Boundary::none;
   };
-  enum class Region : int { tooth = 0, rim = 1, sleeve = 2, hoop = 3 };
+  enum class Region : int { tooth = 0, rim = 1, sleeve = 2, hoop = 3, flange = 4 };
 
   int dimension = 2;
   std::vector<Eigen::Vector3d> vertices;            ///< m
@@ -38,21 +39,33 @@ struct Mesh {
 /// k * sector.cells.size() + c, and the side faces between copies disappear.
 [[nodiscard]] Mesh repeat(const Mesh& sector, int teeth, int count);
 
-/// One stack of layers for `extrude`.
+/// One stack of layers for `extrude`: the cells of the plane mesh whose centre radius lies in [radius_low,
+/// radius_high].
 struct Layers {
   double z_low = 0, z_high = 0;  ///< m
   int cells = 1;
-  double grading = 1;                       ///< ratio of the last to the first layer thickness
-  Mesh::Region region = Mesh::Region::rim;  ///< rim: cells keep the region they have in the plane mesh
-  bool toothed = true;                      ///< whole cross-section
-  double radius_low = 0;  ///< not toothed: only cells whose centre radius lies in [radius_low, radius_high]
-  double radius_high = 1e99;
+  double grading = 1;                         ///< ratio of the last to the first layer thickness
+  Mesh::Region region = Mesh::Region::rim;    ///< rim: cells keep the region they have in the plane mesh
+  bool toothed = true;                        ///< with the cells of the region tooth
+  double radius_low = 0, radius_high = 1e99;  ///< m
+  Mesh::Region band = Mesh::Region::hoop;     ///< of the cells beyond ExtrudeOptions::outside_radius: hoop or flange
 };
+
+struct ExtrudeOptions {
+  /// Outside radius of the ring itself, where a hoop or a flange goes beyond it, m: a mesh circle of the plane mesh,
+  /// whose support circle is then the outside of the hoop or flange. Infinite: nothing lies beyond.
+  double outside_radius = std::numeric_limits<double>::infinity();
+  /// Angle by which the section is turned counter-clockwise per metre of z, rad/m (ToothProfile::twist); the plane mesh
+  /// is the section at z = 0. The sides stay images of each other under rotation by a pitch.
+  double twist = 0;
+};
+
 /// Hexahedra from a plane mesh, stacks from low to high z, each starting where the one before ends. Side, flank, ...
 /// tags are carried over; the lower end of the lowest stack gets `end_low`, the upper end of the highest `end_high`,
-/// every other exposed face (inside of a sleeve, toothed end beside it) `inner`. Face vertices run counter-clockwise
-/// seen from outside the body.
-[[nodiscard]] Mesh extrude(const Mesh& plane, const std::vector<Layers>& stacks);
+/// an exposed cylinder face at the ring's own outside radius `outside`, an exposed lower face of a flange beyond that
+/// radius `flange_face`, every other exposed face (inside of a sleeve, toothed end beside it) `inner`. Face vertices
+/// run counter-clockwise seen from outside the body.
+[[nodiscard]] Mesh extrude(const Mesh& plane, const std::vector<Layers>& stacks, const ExtrudeOptions& options = {});
 
 /// gmsh MSH 4.1 in m: one entity and one named physical group per region and per boundary. Throws Error on a failed
 /// write.

@@ -15,10 +15,11 @@ namespace annulus::geometry {
 
 namespace {
 
-constexpr std::array<std::string_view, 13> boundary_names = {
-    "none",           "support",         "side_low", "side_high", "tip",      "leading_flank", "trailing_flank",
-    "leading_fillet", "trailing_fillet", "root",     "end_low",   "end_high", "inner"};
-constexpr std::array<std::string_view, 4> region_names = {"tooth", "rim", "sleeve", "hoop"};
+constexpr std::array<std::string_view, 15> boundary_names = {
+    "none",          "support",        "side_low",       "side_high",       "tip",
+    "leading_flank", "trailing_flank", "leading_fillet", "trailing_fillet", "root",
+    "end_low",       "end_high",       "inner",          "outside",         "flange_face"};
+constexpr std::array<std::string_view, 5> region_names = {"tooth", "rim", "sleeve", "hoop", "flange"};
 
 // Element types of the MSH format.
 constexpr int msh_line = 1;

@@ -6,9 +6,10 @@
 
 namespace annulus::geometry {
 
-/// A single-stage planetary set with equally spaced planets, ring fixed to its structure.
-/// Construction throws GeometryError with the reason: assembly condition (z_s + z_r) / N not whole, planets collide
-/// (tip circles nearer than `planet_clearance`), and all that GearPair refuses.
+/// A single-stage planetary set with equally spaced planets, ring fixed to its structure. The hands of helical gears
+/// follow from the planet's: the sun has the opposite one, the ring the same. Phases are those of the transverse
+/// sections at z = 0. Construction throws GeometryError with the reason: assembly condition (z_s + z_r) / N not whole,
+/// planets collide (tip circles nearer than `planet_clearance`), and all that GearPair refuses.
 class PlanetarySet {
  public:
   PlanetarySet(const Gear& sun, const Gear& planet, const Gear& ring, double centre_distance, int planets);

@@ -1,7 +1,10 @@
 #include "geometry/profile.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+
+#include "core/errors.h"
 
 namespace annulus::geometry {
 
@@ -13,6 +16,8 @@ Eigen::Vector2d mirrored(const Eigen::Vector2d& v) { return {v.x(), -v.y()}; }
 
 ToothProfile::ToothProfile(const Gear& gear)
     : gear_(gear), fillet_(gear), base_angle_(gear.tooth_half_angle(gear.base_radius())) {}
+
+double ToothProfile::twist() const { return std::tan(gear_.helix_angle()) / gear_.reference_radius(); }
 
 double ToothProfile::roll_length_tip() const { return roll_length_at(gear_.tip_radius()); }
 double ToothProfile::roll_length_form() const { return fillet_.form_roll(); }
@@ -59,11 +64,15 @@ double ToothProfile::lead_modification(double z) const {
   return p.lead_crowning * (2 * u - 1) * (2 * u - 1) + slope;
 }
 
-Eigen::Vector2d ToothProfile::project(Boundary boundary, const Eigen::Vector2d& point, double support_radius) const {
+Eigen::Vector2d ToothProfile::project(Boundary boundary, const Eigen::Vector2d& point, double support_radius,
+                                      double outside_radius) const {
   const auto on_circle = [&](double radius) -> Eigen::Vector2d { return point * (radius / point.norm()); };
   switch (boundary) {
     case Boundary::support:
       return on_circle(support_radius);
+    case Boundary::outside:
+      require(std::isfinite(outside_radius), "projection onto an outside diameter that is not given");
+      return on_circle(outside_radius);
     case Boundary::tip:
       return on_circle(gear_.tip_radius());
     case Boundary::root:
@@ -91,9 +100,18 @@ Eigen::Vector2d ToothProfile::project(Boundary boundary, const Eigen::Vector2d& 
     case Boundary::end_low:
     case Boundary::end_high:
     case Boundary::inner:
+    case Boundary::flange_face:
       break;
   }
   return point;
+}
+
+Eigen::Vector3d ToothProfile::project_solid(Boundary boundary, const Eigen::Vector3d& point, double support_radius,
+                                            double outside_radius) const {
+  const Eigen::Rotation2Dd turned(twist() * point.z());
+  const Eigen::Vector2d section = turned.inverse() * point.head<2>();
+  const Eigen::Vector2d found = turned * project(boundary, section, support_radius, outside_radius);
+  return {found.x(), found.y(), point.z()};
 }
 
 }  // namespace annulus::geometry

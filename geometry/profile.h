@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "geometry/gear.h"
 #include "geometry/root_fillet.h"
@@ -20,18 +21,23 @@ enum class Boundary : int {
   leading_fillet = 7,
   trailing_fillet = 8,
   root = 9,
-  end_low = 10,   ///< face at the smallest z (3D)
-  end_high = 11,  ///< face at the largest z (3D)
-  inner = 12,     ///< other free surfaces (the inside of a sleeve)
+  end_low = 10,      ///< face at the smallest z (3D)
+  end_high = 11,     ///< face at the largest z (3D)
+  inner = 12,        ///< other free surfaces (the inside of a sleeve)
+  outside = 13,      ///< outside diameter of a ring whose hoop or flange (bounded by `support`) goes beyond it (3D)
+  flange_face = 14,  ///< bolted face of a flange: its lower face beyond the ring's outside diameter (3D)
 };
 
 /// The exact outline of one tooth: involute flanks with modifications kept apart, root fillets (generated trochoid for
-/// external gears, circular for internal ones), root and tip circles.
+/// external gears, circular for internal ones), root and tip circles. Of a helical gear it is the transverse section at
+/// z = 0; at another z it is turned by twist() z about the axis.
 class ToothProfile {
  public:
   explicit ToothProfile(const Gear& gear);
 
   [[nodiscard]] const Gear& gear() const { return gear_; }
+  /// tan(beta) / r, rad/m: the angle by which the section turns (counter-clockwise for a right hand) per metre of z.
+  [[nodiscard]] double twist() const;
 
   /// Roll lengths rho = r_b tan(alpha_y) of the usable involute, m: at the tip and at the form circle. An internal gear
   /// has its tip at the smaller one.
@@ -41,7 +47,8 @@ class ToothProfile {
 
   /// Point of the leading flank (mirror in y for the trailing one) at roll length rho, without modifications.
   [[nodiscard]] Eigen::Vector2d flank_point(double roll_length) const;
-  /// Unit normal there, pointing out of the material.
+  /// Unit normal there in the transverse section, pointing out of the material. The normal of a helical flank leans out
+  /// of this section by the base helix angle: a thickness normal to the flank is 1 / cos(beta_b) times as long in it.
   [[nodiscard]] Eigen::Vector2d flank_normal(double roll_length) const;
   /// Material removed normal to the flank, m, >= 0: tip relief rising linearly over the last `tip_relief_length` before
   /// the tip, and a parabola of height `profile_crowning` at the tip and form circles. Beyond them the end value holds.
@@ -57,10 +64,15 @@ class ToothProfile {
   [[nodiscard]] Eigen::Vector2d fillet_tangent(double t) const { return fillet_.tangent(t); }
 
   /// The point of the exact boundary curve of tooth 0 nearest to `point`, to rounding, without modifications; beyond
-  /// the ends of a flank or fillet its end point. Boundaries without a curve of their own (sides, ends, inner, none)
-  /// return `point`. Used for meshing and refinement: `point` has to lie nearer to the curve than its centre of
-  /// curvature.
-  [[nodiscard]] Eigen::Vector2d project(Boundary boundary, const Eigen::Vector2d& point, double support_radius) const;
+  /// the ends of a flank or fillet its end point. Boundaries without a curve of their own (sides, ends, inner,
+  /// flange_face, none) return `point`. Used for meshing and refinement: `point` has to lie nearer to the curve than
+  /// its centre of curvature. `outside_radius` is needed for Boundary::outside only (ExtrudeOptions::outside_radius),
+  /// m.
+  [[nodiscard]] Eigen::Vector2d project(Boundary boundary, const Eigen::Vector2d& point, double support_radius,
+                                        double outside_radius = std::numeric_limits<double>::quiet_NaN()) const;
+  /// The same on the body extruded with twist(): the point of the boundary curve in the section at the point's own z.
+  [[nodiscard]] Eigen::Vector3d project_solid(Boundary boundary, const Eigen::Vector3d& point, double support_radius,
+                                              double outside_radius = std::numeric_limits<double>::quiet_NaN()) const;
 
  private:
   Gear gear_;

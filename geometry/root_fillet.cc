@@ -46,7 +46,10 @@ void RootFillet::generate(const Gear& gear) {
   const auto& p = gear.parameters();
   const double m = p.module;
   const double alpha = p.pressure_angle;
-  // Half the rack tooth at its tip, which cuts the root circle; the rack's datum line lies x m outside the pitch line.
+  const double transverse = gear.transverse_pressure_angle();
+  const double widening = 1 / std::cos(p.helix_angle);  // from the normal to the transverse section of the rack
+  // Half the rack tooth at its tip, which cuts the root circle, in the normal section; the rack's datum line lies x m
+  // outside the pitch line.
   const double depth = reference_radius_ + p.profile_shift * m - root_radius_;
   const double half_tip = std::numbers::pi * m / 4 - depth * std::tan(alpha);
   // From the sharp rack corner to the point where its rounding starts, per unit of radius.
@@ -59,24 +62,39 @@ void RootFillet::generate(const Gear& gear) {
         "fillet factor of at least {}",
         p.teeth, 2 * root_radius_ / units::mm, 2 * half_tip / units::mm, min_radius));
   }
-  corner_x_ = half_tip - radius_ * setback;
+  corner_x_ = (half_tip - radius_ * setback) * widening;
   corner_depth_ = reference_radius_ - root_radius_ - radius_;
-  beta_end_ = half_pi - alpha;
-  form_roll_ = reference_radius_ * std::sin(alpha) - (corner_depth_ / std::sin(alpha) + radius_);
+  corner_width_ = radius_ * widening;
+  beta_end_ = half_pi - transverse;
+  const double reach = rack_contact(beta_end_).reach;
+  form_roll_ = reference_radius_ * std::sin(transverse) - reach;
   if (form_roll_ < 0) {
     throw GeometryError(fmt::format(
         "the external gear with {} teeth is undercut: the rack corner reaches {:.4f} mm beyond the start of the "
         "involute; raise the profile shift from {:.4f} by {:.4f} or use more teeth",
-        p.teeth, -form_roll_ / units::mm, p.profile_shift, -form_roll_ * std::sin(alpha) / m));
+        p.teeth, -form_roll_ / units::mm, p.profile_shift, -form_roll_ * std::sin(transverse) / m));
   }
   // Regular envelope: the radius has to grow along the whole fillet (only far too large positive shifts fail).
   const double c = std::cos(beta_end_);
-  if (reference_radius_ * radius_ + (corner_depth_ / c + radius_) * corner_depth_ / (c * c) <= 0) {
+  const double curvature_radius =
+      std::pow(corner_width_ * radius_, 2) / std::pow(std::hypot(corner_width_ * std::sin(beta_end_), radius_ * c), 3);
+  if (reference_radius_ * curvature_radius + reach * (reach - curvature_radius) / c <= 0) {
     throw GeometryError(
         fmt::format("the root fillet of the external gear with {} teeth and profile shift {:.4f} cannot be generated; "
                     "use a smaller profile shift or root diameter",
                     p.teeth, p.profile_shift));
   }
+}
+
+// The contact point lies where the corner has the normal (sin beta, -cos beta) in rack coordinates, x along the pitch
+// line from the centre of the rack tooth, y outwards; its normal meets the pitch line at the pole.
+RootFillet::RackContact RootFillet::rack_contact(double beta) const {
+  const double c = std::cos(beta);
+  const double s = std::sin(beta);
+  const double support = std::hypot(corner_width_ * s, radius_ * c);
+  const double x = corner_x_ + corner_width_ * corner_width_ * s / support;
+  const double depth = corner_depth_ + radius_ * radius_ * c / support;
+  return {(x - depth * s / c) / reference_radius_, depth / c};
 }
 
 void RootFillet::inscribe(const Gear& gear) {
@@ -118,10 +136,7 @@ double RootFillet::root_angle() const {
 Eigen::Vector2d RootFillet::point(double t) const {
   if (kind_ == GearKind::internal) return centre_ + radius_ * radial_direction(arc_start_ + t * arc_sweep_);
   const double beta = (1 - t) * beta_end_;
-  // The corner's normal passes through the instantaneous pole, which sits on the pitch circle at the angle phi from the
-  // centre of the space; the fillet point lies `reach` further along it.
-  const double phi = (corner_x_ - corner_depth_ * std::tan(beta)) / reference_radius_;
-  const double reach = corner_depth_ / std::cos(beta) + radius_;
+  const auto [phi, reach] = rack_contact(beta);
   const Eigen::Vector2d pole = radial_direction(space_angle_ - phi);
   const Eigen::Vector2d towards_tooth(pole.y(), -pole.x());
   return (reference_radius_ - reach * std::cos(beta)) * pole + reach * std::sin(beta) * towards_tooth;
@@ -130,8 +145,7 @@ Eigen::Vector2d RootFillet::point(double t) const {
 Eigen::Vector2d RootFillet::tangent(double t) const {
   if (kind_ == GearKind::internal) return radial_direction(arc_start_ + t * arc_sweep_ + half_pi);
   const double beta = (1 - t) * beta_end_;
-  const double phi = (corner_x_ - corner_depth_ * std::tan(beta)) / reference_radius_;
-  return -radial_direction(space_angle_ - phi - half_pi + beta);
+  return -radial_direction(space_angle_ - rack_contact(beta).phi - half_pi + beta);
 }
 
 double RootFillet::nearest(const Eigen::Vector2d& q) const {

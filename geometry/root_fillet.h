@@ -10,8 +10,10 @@ namespace annulus::geometry {
 ///
 /// External: envelope of the rounded tip corner of the generating rack (Litvin and Fuentes, Gear Geometry and Applied
 /// Theory, ch. 6). The rack touches the fillet along its corner normal, which makes an angle beta with the centre line
-/// of the space: beta = 0 on the root circle, beta = pi/2 - alpha where the fillet meets the involute.
-/// Internal: a circular arc tangent to involute and root circle.
+/// of the space: beta = 0 on the root circle, beta = pi/2 - alpha_t where the fillet meets the involute. The rack of a
+/// helical gear has a circular corner in its normal section; its transverse section, which rolls on the transverse
+/// section of the gear, has an elliptic one, wider by 1 / cos(helix angle). That is exact, not an approximation.
+/// Internal: a circular arc tangent to involute and root circle, in the transverse section of a helical gear too.
 ///
 /// The radius is limited to what the tooth space can hold: half a root land of at least `min_root_land` modules stays,
 /// so that a wanted radius that is too large gives the full root rounding.
@@ -24,7 +26,7 @@ class RootFillet {
   static constexpr double min_root_land = 0.02;  ///< half the root land, modules
   static constexpr double min_radius = 0.05;     ///< smallest fillet radius accepted, modules
 
-  /// Rack tip radius (external) or fillet radius (internal), m.
+  /// Rack tip radius in the normal section (external) or fillet radius (internal), m.
   [[nodiscard]] double radius() const { return radius_; }
   /// Roll length r_b tan(alpha) at which the fillet leaves the involute, m.
   [[nodiscard]] double form_roll() const { return form_roll_; }
@@ -43,10 +45,18 @@ class RootFillet {
   void inscribe(const Gear& gear);  ///< internal
 
   GearKind kind_;
+  /// External: the contact of the rack's corner that touches along the normal angle beta.
+  struct RackContact {
+    double phi = 0;    ///< polar angle of the instantaneous pole, on the pitch circle, from the centre of the space
+    double reach = 0;  ///< from the pole to the contact point along the normal, m
+  };
+  [[nodiscard]] RackContact rack_contact(double beta) const;
+
   double space_angle_, reference_radius_, base_radius_, root_radius_;
   double radius_ = 0, form_roll_ = 0;
-  // external: rack corner centre beside the rack tooth's centre line and below the pitch line, largest beta
-  double corner_x_ = 0, corner_depth_ = 0, beta_end_ = 0;
+  // external: rack corner centre beside the rack tooth's centre line and below the pitch line, half width of the corner
+  // ellipse (its half height is the radius), largest beta
+  double corner_x_ = 0, corner_depth_ = 0, corner_width_ = 0, beta_end_ = 0;
   // internal: arc centre, polar angle of the arc's first normal, swept angle
   Eigen::Vector2d centre_ = Eigen::Vector2d::Zero();
   double arc_start_ = 0, arc_sweep_ = 0;

@@ -14,7 +14,7 @@ namespace {
 
 /// Half the tooth angle at the base circle, extrapolated along the involute for internal gears.
 double base_half_angle(const geometry::Gear& gear) {
-  const double inv = geometry::involute(gear.parameters().pressure_angle);
+  const double inv = geometry::involute(gear.transverse_pressure_angle());
   const double reference = gear.tooth_half_angle(gear.reference_radius());
   return gear.kind() == geometry::GearKind::internal ? reference - inv : reference + inv;
 }

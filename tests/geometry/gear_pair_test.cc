@@ -43,6 +43,62 @@ BOOST_AUTO_TEST_CASE(backlash_agrees_with_the_profile_shift_sum) {
   BOOST_TEST(internal.normal_backlash() > 0);
 }
 
+// A worked profile shift calculation after ISO 21771:2007 (equations 62 and 63): m_n = 3.5 mm, 20 deg, 31 and 30 teeth,
+// helix angle 21 deg (from the printed reference centre distance), working centre distance 116.5 mm.
+BOOST_AUTO_TEST_CASE(published_helical_pair) {
+  const double beta = 21 * units::deg;
+  const auto gear = [&](int teeth, double x, double hand) {
+    auto p = helical(plain_gear(GearKind::external, teeth, x), hand * beta);
+    p.module = 3.5 * units::mm;
+    return Gear(p);
+  };
+  const double x = 0.2910;
+  const auto pair = [&](double shift_sum) {
+    return GearPair(gear(31, x, 1), gear(30, shift_sum - x, -1), 116.5 * units::mm);
+  };
+  const GearPair tight = pair(0.651877131252);
+  BOOST_TEST(std::abs(tight.planet().transverse_pressure_angle() / units::deg - 21.2990642859) < 1e-10);
+  BOOST_TEST(std::abs(tight.working_pressure_angle() / units::deg - 23.8707609654) < 1e-10);
+  BOOST_TEST(std::abs((tight.planet().reference_radius() + tight.wheel().reference_radius()) / units::mm -
+                      114.3447280708) < 1e-10);
+  BOOST_TEST(std::abs(tight.normal_backlash()) < 1e-11 * units::mm);
+  // 0.03 mm normal backlash; a unit in the last digit of the printed shift is worth 2 m sin(alpha) 1e-9 = 2.4e-9 mm.
+  BOOST_TEST(std::abs(pair(0.639346541).normal_backlash() / units::mm - 0.03) < 2e-9);
+}
+
+BOOST_AUTO_TEST_CASE(helical_pairs) {
+  const double beta = 20 * units::deg;
+  const auto sun = helical(plain_gear(GearKind::external, 31, 0.1), -beta);
+  auto planet = helical(plain_gear(GearKind::external, 24, 0.2), beta);
+  const auto ring = helical(plain_gear(GearKind::internal, 75, 0.4), beta);
+  const GearPair external(Gear(planet), Gear(sun), 59.3 * units::mm);
+  const GearPair internal(Gear(planet), Gear(ring), 54.5 * units::mm);
+  for (const auto& pair : {external, internal}) {
+    // Face width over axial pitch, the height in which a tooth trace advances by a pitch.
+    const double axial_pitch = pair.planet().pitch_angle() / ToothProfile(pair.planet()).twist();
+    BOOST_TEST(pair.overlap_ratio() == 20 * units::mm / axial_pitch, boost::test_tools::tolerance(1e-13));
+    BOOST_TEST(pair.total_contact_ratio() == pair.contact_ratio() + pair.overlap_ratio());
+    // The line of contact in the plane of action: both sections advance by the same length per metre of z.
+    const double side = pair.internal() ? 1 : -1;
+    BOOST_TEST(ToothProfile(pair.planet()).twist() * pair.planet().base_radius() ==
+                   side * ToothProfile(pair.wheel()).twist() * pair.wheel().base_radius(),
+               boost::test_tools::tolerance(1e-13));
+  }
+  // The smaller face width counts.
+  planet.face_width = 5 * units::mm;
+  BOOST_TEST(GearPair(Gear(planet), Gear(sun), 59.3 * units::mm).overlap_ratio() == external.overlap_ratio() / 4,
+             boost::test_tools::tolerance(1e-13));
+  BOOST_TEST(GearPair(paper_planet(), paper_sun(), paper_centre_distance).overlap_ratio() == 0);
+
+  const auto refuse = [&](const GearParameters& wheel, double centre_distance) {
+    check_refused([&] { (void)GearPair(Gear(planet), Gear(wheel), centre_distance); }, "hand");
+  };
+  refuse(helical(sun, beta), 59.3 * units::mm);
+  refuse(helical(sun, -19 * units::deg), 59.3 * units::mm);
+  refuse(helical(sun, 0), 59.3 * units::mm);
+  refuse(helical(ring, -beta), 54.5 * units::mm);
+}
+
 BOOST_AUTO_TEST_CASE(path_of_contact) {
   // Textbook: two equal standard gears, contact ratio 2 (sqrt(ra^2 - rb^2) - r sin a) / (pi m cos a).
   const Gear g(plain_gear(GearKind::external, 40));
@@ -175,7 +231,11 @@ BOOST_AUTO_TEST_CASE(gears_turn_in_contact_without_overlap) {
       {paper_planet(), paper_sun(), paper_centre_distance},
       {paper_planet(), paper_ring(), paper_centre_distance},
       {Gear(plain_gear(GearKind::external, 24, 0.2)), Gear(plain_gear(GearKind::external, 31, 0.1)), 55.8 * units::mm},
-      {Gear(plain_gear(GearKind::external, 24, 0.2)), Gear(plain_gear(GearKind::internal, 75, 0.4)), 51.2 * units::mm}};
+      {Gear(plain_gear(GearKind::external, 24, 0.2)), Gear(plain_gear(GearKind::internal, 75, 0.4)), 51.2 * units::mm},
+      {Gear(helical(plain_gear(GearKind::external, 24, 0.2), 20 * units::deg)),
+       Gear(helical(plain_gear(GearKind::external, 31, 0.1), -20 * units::deg)), 59.3 * units::mm},
+      {Gear(helical(plain_gear(GearKind::external, 24, 0.2), 20 * units::deg)),
+       Gear(helical(plain_gear(GearKind::internal, 75, 0.4), 20 * units::deg)), 54.5 * units::mm}};
   for (const auto& [planet, wheel, a] : cases) {
     const GearPair pair(planet, wheel, a);
     const ToothProfile p(planet);

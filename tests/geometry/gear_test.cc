@@ -23,15 +23,55 @@ BOOST_AUTO_TEST_CASE(base_tangent_lengths_of_a_published_pair) {
   BOOST_TEST(std::abs(Gear(p).base_tangent_length(5) - 24.3530 * units::mm) < printed);
 }
 
-// Independent of the formula: W_k is the distance of two parallel tangents, that is the base tooth thickness (external)
-// or base space width (internal) and k - 1 base pitches.
+// Worked example of the span measurement of helical gears in KHK's gear technical reference: module 3 mm, 20 deg, 24
+// teeth, helix angle 25 deg, x = 0.4, five teeth: 42.0085 mm.
+BOOST_AUTO_TEST_CASE(base_tangent_length_of_a_published_helical_gear) {
+  auto p = helical(plain_gear(GearKind::external, 24, 0.4), 25 * units::deg);
+  p.module = 3 * units::mm;
+  BOOST_TEST(std::abs(Gear(p).base_tangent_length(5) - 42.0085 * units::mm) < 0.05 * units::um);  // printed digits
+}
+
+// Independent of the formula: W_k is the distance of two parallel tangent planes, that is the base tooth thickness
+// (external) or base space width (internal) and k - 1 base pitches, normal to the teeth on the base cylinder.
 BOOST_AUTO_TEST_CASE(base_tangent_length_agrees_with_the_tooth_on_the_base_circle) {
   for (const auto& [kind, teeth, x] : {std::tuple{GearKind::external, 55, 0.7361}, {GearKind::internal, 162, 0.1516}}) {
-    const Gear g(paper_gear(kind, teeth, x));
-    const double tooth = g.tooth_thickness(g.base_radius());
-    const double width = kind == GearKind::external ? tooth : g.base_pitch() - tooth;
-    BOOST_TEST(g.base_tangent_length(4) == width + 3 * g.base_pitch(),
-               boost::test_tools::tolerance(1e-13));  // rounding
+    for (const double beta : {0.0, 18.0, -31.0}) {
+      const Gear g(helical(paper_gear(kind, teeth, x), beta * units::deg));
+      const double tooth = g.tooth_thickness(g.base_radius());
+      const double width = kind == GearKind::external ? tooth : g.base_pitch() - tooth;
+      BOOST_TEST(g.base_tangent_length(4) == (width + 3 * g.base_pitch()) * std::cos(g.base_helix_angle()),
+                 boost::test_tools::tolerance(1e-13));  // rounding
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(normal_and_transverse_sections_of_helical_gears) {
+  const auto rounding = boost::test_tools::tolerance(1e-14);
+  const double m = 2 * units::mm;
+  const double alpha = 20 * units::deg;
+  const double x = 0.25;
+  for (const auto kind : {GearKind::external, GearKind::internal}) {
+    const double sign = kind == GearKind::external ? 1 : -1;
+    for (const double beta : {12 * units::deg, -30 * units::deg}) {
+      const Gear g(helical(plain_gear(kind, 60, x), beta));
+      // What the two sections share, ISO 21771: the normal base pitch, the normal tooth thickness, the heights.
+      BOOST_TEST(std::sin(g.base_helix_angle()) == std::sin(beta) * std::cos(alpha), rounding);
+      BOOST_TEST(
+          std::cos(g.base_helix_angle()) * std::cos(g.transverse_pressure_angle()) == std::cos(beta) * std::cos(alpha),
+          rounding);
+      BOOST_TEST(g.base_pitch() * std::cos(g.base_helix_angle()) == std::numbers::pi * m * std::cos(alpha), rounding);
+      BOOST_TEST(g.tooth_thickness(g.reference_radius()) * std::cos(beta) ==
+                     m * (std::numbers::pi / 2 + sign * 2 * x * std::tan(alpha)),
+                 rounding);
+      BOOST_TEST(g.reference_radius() == 60 * m / (2 * std::cos(beta)), rounding);
+      BOOST_TEST(g.tip_radius() == g.reference_radius() + sign * m * (1 + sign * x), rounding);
+      BOOST_TEST(g.root_radius() == g.reference_radius() - sign * m * (1.25 - sign * x), rounding);
+      BOOST_TEST(g.helix_angle_at(g.reference_radius()) == beta, rounding);
+      // The hand changes no transverse section.
+      const Gear mirror(helical(plain_gear(kind, 60, x), -beta));
+      BOOST_TEST(mirror.form_radius() == g.form_radius());
+      BOOST_TEST(mirror.tooth_half_angle(mirror.tip_radius()) == g.tooth_half_angle(g.tip_radius()));
+    }
   }
 }
 
@@ -99,26 +139,32 @@ BOOST_AUTO_TEST_CASE(impossible_gears_are_refused_with_the_reason) {
   refuse(p, "face width");
   p = plain_gear(GearKind::external, 4);
   refuse(p, "teeth");
+  refuse(helical(plain_gear(GearKind::external, 30), -46 * units::deg), "helix angle");
 }
 
 // The message of an undercut gear names the shift that cures it, and a little less does not.
 BOOST_AUTO_TEST_CASE(undercut_starts_at_the_limit_of_the_generating_rack) {
-  auto p = plain_gear(GearKind::external, 12);
-  // The straight rack flank ends at the depth 1.25 - x - rho (1 - sin a) modules and must stay above r sin^2 a.
-  const double sine = std::sin(p.pressure_angle);
-  const double limit = 1.25 - p.root_fillet_factor * (1 - sine) - p.teeth / 2.0 * sine * sine;
-  p.profile_shift = limit + 1e-6;
-  BOOST_CHECK_NO_THROW(Gear{p});
-  p.profile_shift = limit - 1e-6;
-  check_refused([&] { (void)Gear(p); }, "undercut");
+  for (const double beta : {0.0, 20 * units::deg}) {
+    auto p = helical(plain_gear(GearKind::external, 12), beta);
+    // The straight rack flank ends at the depth 1.25 - x - rho (1 - sin alpha_n) modules and must stay above r sin^2
+    // alpha_t.
+    const double transverse = std::atan(std::tan(p.pressure_angle) / std::cos(beta));
+    const double limit = 1.25 - p.root_fillet_factor * (1 - std::sin(p.pressure_angle)) -
+                         p.teeth / (2 * std::cos(beta)) * std::pow(std::sin(transverse), 2);
+    p.profile_shift = limit + 1e-6;
+    BOOST_CHECK_NO_THROW(Gear{p});
+    p.profile_shift = limit - 1e-6;
+    check_refused([&] { (void)Gear(p); }, "undercut");
+  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
 
 BOOST_AUTO_TEST_SUITE(generation)
 
-/// The rounded tooth of the generating rack: every point within `radius` of a wedge with flat bottom. Rack coordinates:
-/// x along the pitch line from the tooth's centre, y outwards.
+/// The rounded tooth of the generating rack: every point within `radius` of a wedge with flat bottom. Rack coordinates
+/// in the normal section: x along the pitch line from the tooth's centre, y outwards. The rack is a cylinder along its
+/// teeth: a point of the transverse section at x has the distance of the point at x cos(beta) in the normal section.
 struct RackTooth {
   double radius, corner_x, corner_y, alpha;
 
@@ -144,11 +190,13 @@ struct RackTooth {
 };
 
 /// Smallest distance between a gear point and the rack tooth while the rack rolls through.
-double generated_gap(const RackTooth& rack, double pitch_radius, const Eigen::Vector2d& p, double space_angle) {
+double generated_gap(const RackTooth& rack, double pitch_radius, double helix_angle, const Eigen::Vector2d& p,
+                     double space_angle) {
   const auto gap = [&](double phi) {
     const double c = std::cos(space_angle + phi);
     const double s = std::sin(space_angle + phi);
-    return rack.distance(-p.x() * s + p.y() * c + pitch_radius * phi, p.x() * c + p.y() * s - pitch_radius);
+    return rack.distance((-p.x() * s + p.y() * c + pitch_radius * phi) * std::cos(helix_angle),
+                         p.x() * c + p.y() * s - pitch_radius);
   };
   constexpr int samples = 4000;
   constexpr double range = 0.6;  // rad: the rack tooth has left the gear on both sides
@@ -175,8 +223,15 @@ double generated_gap(const RackTooth& rack, double pitch_radius, const Eigen::Ve
 // Flank, fillet and root of an external gear are exactly what the rolling rack leaves: it touches every point and cuts
 // into none.
 BOOST_AUTO_TEST_CASE(external_outline_is_the_envelope_of_the_rack) {
-  for (const auto& [teeth, x] : {std::pair{19, 0.0}, {17, 0.6}, {40, -0.4}, {150, 0.9}}) {
-    const auto p = plain_gear(GearKind::external, teeth, x);
+  for (const auto& [teeth, x, beta] : {std::tuple{19, 0.0, 0.0},
+                                       {17, 0.6, 0.0},
+                                       {40, -0.4, 0.0},
+                                       {150, 0.9, 0.0},
+                                       {19, 0.0, 15.0},
+                                       {17, 0.6, -30.0},
+                                       {40, -0.4, 30.0},
+                                       {150, 0.9, 42.0}}) {
+    const auto p = helical(plain_gear(GearKind::external, teeth, x), beta * units::deg);
     const Gear g(p);
     const ToothProfile profile(g);
     const RackTooth rack(p, g.reference_radius(), g.root_radius());
@@ -184,11 +239,14 @@ BOOST_AUTO_TEST_CASE(external_outline_is_the_envelope_of_the_rack) {
     const double tolerance = 1e-9 * p.module;  // a minimum found by comparing values is flat to sqrt(eps)^2 * size
     for (int i = 0; i <= 20; ++i) {
       const double t = i / 20.0;
-      const double gap = generated_gap(rack, g.reference_radius(), profile.fillet_point(t), space);
-      BOOST_TEST(std::abs(gap) < tolerance, "fillet " << teeth << " " << x << " t " << t << " gap " << gap);
+      const double gap = generated_gap(rack, g.reference_radius(), p.helix_angle, profile.fillet_point(t), space);
+      BOOST_TEST(std::abs(gap) < tolerance,
+                 "fillet " << teeth << " " << x << " " << beta << " t " << t << " gap " << gap);
       const double roll = profile.roll_length_form() + t * (profile.roll_length_tip() - profile.roll_length_form());
-      const double flank_gap = generated_gap(rack, g.reference_radius(), profile.flank_point(roll), space);
-      BOOST_TEST(std::abs(flank_gap) < tolerance, "flank " << teeth << " " << x << " t " << t << " gap " << flank_gap);
+      const double flank_gap =
+          generated_gap(rack, g.reference_radius(), p.helix_angle, profile.flank_point(roll), space);
+      BOOST_TEST(std::abs(flank_gap) < tolerance,
+                 "flank " << teeth << " " << x << " " << beta << " t " << t << " gap " << flank_gap);
     }
   }
 }
@@ -212,8 +270,8 @@ BOOST_AUTO_TEST_CASE(fillets_join_smoothly) {
   full.root_fillet_factor = 2;  // limited to the full root rounding
   auto full_internal = plain_gear(GearKind::internal, 80, 0.1);
   full_internal.root_fillet_factor = 2;
-  for (const auto& p :
-       {plain_gear(GearKind::external, 25, 0.3), plain_gear(GearKind::internal, 60, -0.2), full, full_internal}) {
+  for (const auto& p : {plain_gear(GearKind::external, 25, 0.3), plain_gear(GearKind::internal, 60, -0.2), full,
+                        full_internal, helical(full, 25 * units::deg), helical(full_internal, -25 * units::deg)}) {
     const Gear g(p);
     const ToothProfile profile(g);
     const double form = profile.roll_length_form();

@@ -34,6 +34,12 @@ inline GearParameters plain_gear(GearKind kind, int teeth, double profile_shift 
           .face_width = 20 * units::mm};
 }
 
+/// The same gear with a helix angle (of the wanted hand).
+inline GearParameters helical(GearParameters p, double helix_angle) {
+  p.helix_angle = helix_angle;
+  return p;
+}
+
 /// Checks that `action` throws GeometryError with `part` in its message.
 template <class Action>
 void check_refused(const Action& action, const std::string& part) {

@@ -38,6 +38,13 @@ double volume_by_faces(const Mesh& mesh) {
   return volume;
 }
 
+/// Of a plane quadrilateral.
+double face_area(const Mesh& mesh, const Mesh::Face& face) {
+  const auto& v = face.vertices;
+  const Eigen::Vector3d d = mesh.vertices[v[2]] - mesh.vertices[v[0]];
+  return 0.5 * d.cross(mesh.vertices[v[3]] - mesh.vertices[v[1]]).norm();
+}
+
 std::map<Boundary, int> count_faces(const Mesh& mesh) {
   std::map<Boundary, int> count;
   for (const auto& face : mesh.faces) ++count[face.boundary];
@@ -182,6 +189,133 @@ BOOST_AUTO_TEST_CASE(sleeve_below_the_teeth) {
   const Mesh three = repeat(solid, 162, 3);
   BOOST_TEST(three.area_or_volume() == 3 * solid.area_or_volume(), boost::test_tools::tolerance(1e-12));
   BOOST_TEST(volume_by_faces(three) == three.area_or_volume(), boost::test_tools::tolerance(1e-9));
+}
+
+// Between two levels the vertices run straight while the section turns by theta: the section half way shrinks, and the
+// volume is the straight one times (2 + cos theta) / 3, less by theta^2 / 6.
+BOOST_AUTO_TEST_CASE(twisted_extrusion) {
+  constexpr double width = 88 * units::mm;
+  constexpr double support = 340 * units::mm;
+  const Gear gear(helical(paper_gear(GearKind::internal, 162, 0.1516), 14 * units::deg));
+  const ToothProfile profile(gear);
+  const Mesh sector =
+      make_sector_mesh(gear, {.support_radius = support},
+                       {.flank_cells = 6, .fillet_cells = 2, .thickness_cells = 4, .root_cells = 1, .rim_cells = 3});
+  const double straight = width * sector.area_or_volume();
+  std::vector<double> errors;
+  for (const int cells : {4, 8}) {
+    const Mesh solid = extrude(sector, {{.z_low = 0, .z_high = width, .cells = cells}}, {.twist = profile.twist()});
+    const double theta = profile.twist() * width / cells;
+    BOOST_TEST(solid.area_or_volume() == straight * (2 + std::cos(theta)) / 3,
+               boost::test_tools::tolerance(1e-10));  // r^2 cancels
+    errors.push_back(1 - solid.area_or_volume() / straight);
+    BOOST_TEST(solid.worst_scaled_jacobian() > 0.5);
+
+    double off_surface = 0;
+    for (const auto& face : solid.faces) {
+      for (const auto v : face.vertices) {
+        const auto& p = solid.vertices[v];
+        off_surface = std::max(off_surface, (profile.project_solid(face.boundary, p, support) - p).norm());
+      }
+    }
+    BOOST_TEST(off_surface < 1e-12);
+    auto faces = count_faces(solid);
+    auto plane_faces = count_faces(sector);
+    BOOST_TEST(faces[Boundary::leading_flank] == cells * plane_faces[Boundary::leading_flank]);
+    // The sides match, so that sectors share them; a closed ring has none left.
+    const Mesh two = repeat(solid, 162, 2);
+    BOOST_TEST(two.vertices.size() ==
+               2 * solid.vertices.size() - (plane_faces[Boundary::side_low] + 1) * static_cast<std::size_t>(cells + 1));
+    const Mesh ring = repeat(solid, 162, 162);
+    BOOST_TEST(ring.area_or_volume() == 162 * solid.area_or_volume(), boost::test_tools::tolerance(1e-10));
+    BOOST_TEST(count_faces(ring)[Boundary::side_low] == 0);
+  }
+  BOOST_TEST(std::abs(errors[0] / errors[1] - 4) < 0.01);  // second order
+}
+
+// Rings of the paper with a hoop at the free end and with a flange at the low end. The area of a straight-sided annulus
+// with the same angular cuts on both circles is known in closed form; so are the areas of the exposed faces.
+BOOST_AUTO_TEST_CASE(hoop_and_flange_around_the_ring) {
+  constexpr double width = 88 * units::mm;
+  constexpr double band_width = 20 * units::mm;
+  constexpr double band_radius = 350 * units::mm;
+  constexpr double sleeve_length = 18 * units::mm;
+  const Mesh plane =
+      make_sector_mesh(paper_ring(), {.support_radius = band_radius, .circles = {sleeve_radius, outside_radius}},
+                       {.flank_cells = 6, .fillet_cells = 2, .thickness_cells = 4, .root_cells = 2, .rim_cells = 7});
+  std::set<double> cuts;
+  for (const auto& v : plane.vertices) {
+    if (std::abs(v.norm() - outside_radius) < 1e-9) cuts.insert(std::atan2(v.y(), v.x()));
+  }
+  BOOST_REQUIRE(cuts.size() == 4u + 4 + 2 + 1);  // land, half fillet, tooth, half fillet, land
+  double double_area = 0;                        // of the polygon per radius^2
+  for (auto a = cuts.begin(), b = std::next(a); b != cuts.end(); ++a, ++b) double_area += std::sin(*b - *a);
+  const auto annulus = [&](double inside, double outside) {
+    return 0.5 * double_area * (outside * outside - inside * inside);
+  };
+  const auto area_inside = [&](double radius) { return plane.area_or_volume() - annulus(radius, band_radius); };
+  const double ring_area = area_inside(outside_radius);
+  const double sleeve_area = annulus(sleeve_radius, outside_radius);
+  const double band_area = annulus(outside_radius, band_radius);
+  const auto rounding = boost::test_tools::tolerance(1e-11);  // r^2 cancels
+
+  const Layers sleeve{.z_low = -sleeve_length,
+                      .z_high = 0,
+                      .cells = 2,
+                      .region = Mesh::Region::sleeve,
+                      .toothed = false,
+                      .radius_low = sleeve_radius,
+                      .radius_high = outside_radius};
+  const Mesh hooped = extrude(plane,
+                              {sleeve,
+                               {.z_low = 0, .z_high = width - band_width, .cells = 3, .radius_high = outside_radius},
+                               {.z_low = width - band_width, .z_high = width, .cells = 2}},
+                              {.outside_radius = outside_radius});
+  const Mesh flanged = extrude(plane,
+                               {{.z_low = 0, .z_high = band_width, .cells = 2, .band = Mesh::Region::flange},
+                                {.z_low = band_width, .z_high = width, .cells = 3, .radius_high = outside_radius}},
+                               {.outside_radius = outside_radius});
+  const double arc = [&] {  // of the polygon per radius
+    double sum = 0;
+    for (auto a = cuts.begin(), b = std::next(a); b != cuts.end(); ++a, ++b) sum += 2 * std::sin((*b - *a) / 2);
+    return sum;
+  }();
+  for (const bool hoop : {true, false}) {
+    const Mesh& mesh = hoop ? hooped : flanged;
+    const double below = hoop ? sleeve_length : 0;
+    const auto band_region = hoop ? Mesh::Region::hoop : Mesh::Region::flange;
+    BOOST_TEST(mesh.area_or_volume() == below * sleeve_area + width * ring_area + band_width * band_area, rounding);
+    BOOST_TEST(volume_by_faces(mesh) == mesh.area_or_volume(), boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(mesh.worst_scaled_jacobian() == plane.worst_scaled_jacobian(), boost::test_tools::tolerance(1e-9));
+    std::map<Mesh::Region, double> volume;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+      Mesh one;
+      one.dimension = 3;
+      one.vertices = mesh.vertices;
+      one.cells = {mesh.cells[c]};
+      volume[mesh.regions[c]] += one.area_or_volume();
+    }
+    BOOST_TEST(volume[band_region] == band_width * band_area, rounding);
+    BOOST_TEST(volume[hoop ? Mesh::Region::flange : Mesh::Region::hoop] == 0);
+    BOOST_TEST(volume[Mesh::Region::sleeve] == below * sleeve_area, rounding);
+    BOOST_TEST(volume[Mesh::Region::tooth] + volume[Mesh::Region::rim] == width * ring_area, rounding);
+
+    std::map<Boundary, double> area;
+    for (const auto& face : mesh.faces) area[face.boundary] += face_area(mesh, face);
+    BOOST_TEST(area[Boundary::support] == arc * band_radius * band_width, rounding);
+    BOOST_TEST(area[Boundary::outside] == arc * outside_radius * (width - band_width + below), rounding);
+    BOOST_TEST(area[Boundary::flange_face] == (hoop ? 0 : band_area), rounding);
+    BOOST_TEST(area[Boundary::end_low] == (hoop ? sleeve_area : ring_area), rounding);
+    BOOST_TEST(area[Boundary::end_high] == ring_area + (hoop ? band_area : 0), rounding);
+    const double inside_of_sleeve = arc * sleeve_radius * below + (hoop ? area_inside(sleeve_radius) : 0);
+    BOOST_TEST(area[Boundary::inner] == inside_of_sleeve + band_area, rounding);
+    for (const auto& face : mesh.faces) {
+      if (face.boundary != Boundary::flange_face) continue;
+      for (const auto v : face.vertices) BOOST_TEST(mesh.vertices[v].z() == 0);
+    }
+    const Mesh three = repeat(mesh, 162, 3);
+    BOOST_TEST(volume_by_faces(three) == 3 * mesh.area_or_volume(), boost::test_tools::tolerance(1e-9));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(written_msh_reads_back) {

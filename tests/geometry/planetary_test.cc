@@ -19,6 +19,15 @@ struct SetCase {
   int planets;
 };
 
+/// A standard helical set; the ring of the wanted hand relative to the planets'.
+SetCase helical_set(double ring_hand) {
+  const double beta = 18 * units::deg;
+  auto ring = helical(plain_gear(GearKind::internal, 80), ring_hand * beta);
+  ring.tip_diameter = ring.module * (80 / std::cos(beta) - 1.6);  // short, as below
+  return {Gear(helical(plain_gear(GearKind::external, 30), -beta)),
+          Gear(helical(plain_gear(GearKind::external, 25), beta)), Gear(ring), 55 * units::mm / std::cos(beta), 5};
+}
+
 /// Sets with odd and even planets, equal and different working angles, in phase and sequentially phased.
 std::vector<SetCase> phasing_cases() {
   const auto external = [](int z, double x) { return Gear(plain_gear(GearKind::external, z, x)); };
@@ -31,7 +40,8 @@ std::vector<SetCase> phasing_cases() {
   return {{paper_sun(), paper_planet(), paper_ring(), paper_centre_distance, 5},
           {external(30, 0), external(25, 0), internal(80, 0), 55 * units::mm, 5},
           {external(30, 0), external(24, 0), internal(78, 0), 54 * units::mm, 4},
-          {external(28, 0.2), external(23, 0.3), internal(74, 0.85), 52 * units::mm, 3}};
+          {external(28, 0.2), external(23, 0.3), internal(74, 0.85), 52 * units::mm, 3},
+          helical_set(1)};
 }
 
 /// Distance between two numbers of cycles, whole cycles dropped.
@@ -51,6 +61,9 @@ BOOST_AUTO_TEST_CASE(impossible_sets_are_refused_with_the_reason) {
   check_refused([] { (void)PlanetarySet(paper_ring(), paper_planet(), paper_ring(), paper_centre_distance, 5); },
                 "external sun");
   BOOST_CHECK_NO_THROW(PlanetarySet(paper_sun(), paper_planet(), paper_ring(), paper_centre_distance, 1));
+  const auto build = [](const SetCase& c) { PlanetarySet(c.sun, c.planet, c.ring, c.centre_distance, c.planets); };
+  BOOST_CHECK_NO_THROW(build(helical_set(1)));
+  check_refused([&] { build(helical_set(-1)); }, "hand");
 }
 
 BOOST_AUTO_TEST_CASE(ring_tooth_offsets_make_positions_advance_evenly) {

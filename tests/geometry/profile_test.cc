@@ -1,5 +1,6 @@
 #include "geometry/profile.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -84,6 +85,37 @@ BOOST_AUTO_TEST_CASE(lead_modifications_add_up) {
   check_refused([&] { (void)Gear(p); }, "lead crowning");
 }
 
+// The surface swept by the twisted section is the involute helicoid of the right hand: its normal leans out of the
+// transverse section by the base helix angle and its trace on the reference cylinder by the helix angle.
+BOOST_AUTO_TEST_CASE(twisted_sections_make_helical_flanks) {
+  for (const auto kind : {GearKind::external, GearKind::internal}) {
+    for (const double beta : {20 * units::deg, -12 * units::deg}) {
+      const Gear g(helical(paper_gear(kind, 60, 0.1), beta));
+      const ToothProfile profile(g);
+      const auto surface = [&](double roll, double z) -> Eigen::Vector3d {
+        const Eigen::Vector2d p = Eigen::Rotation2Dd(profile.twist() * z) * profile.flank_point(roll);
+        return {p.x(), p.y(), z};
+      };
+      const double roll = profile.roll_length_at(g.reference_radius());
+      const double z = 10 * units::mm;
+      const double step = 1e-7;  // m; central differences, errors (step / 0.1 m)^2 and rounding 1e-17 / step
+      const Eigen::Vector3d along = (surface(roll, z + step) - surface(roll, z - step)) / (2 * step);
+      const Eigen::Vector3d up = (surface(roll + step, z) - surface(roll - step, z)) / (2 * step);
+      const Eigen::Vector3d normal = along.cross(up).normalized();
+      BOOST_TEST(std::abs(std::abs(normal.z()) - std::sin(std::abs(g.base_helix_angle()))) < 1e-8);
+      // Right hand: the trace climbs counter-clockwise.
+      const Eigen::Vector3d at = surface(roll, z);
+      const Eigen::Vector3d around = Eigen::Vector3d::UnitZ().cross(at).normalized();
+      BOOST_TEST(std::abs(std::atan2(along.dot(around), along.z()) - beta) < 1e-8);
+
+      const Eigen::Vector3d off = at + 0.01 * g.parameters().module * Eigen::Vector3d(normal.x(), normal.y(), 0);
+      const Eigen::Vector3d found = profile.project_solid(Boundary::leading_flank, off, 0);
+      BOOST_TEST((found - at).norm() < 1e-12);
+      BOOST_TEST((profile.project_solid(Boundary::end_high, off, 0) - off).norm() < 1e-16);  // turned back and forth
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(projection_is_exact_idempotent_and_mirrored) {
   const double rounding = 1e-14;  // m; coordinates of 0.3 m carry 5e-17
   auto few_teeth = plain_gear(GearKind::external, 18);
@@ -131,8 +163,11 @@ BOOST_AUTO_TEST_CASE(circles_and_free_boundaries) {
   BOOST_TEST((profile.project(Boundary::tip, q, support) - q.normalized() * g.tip_radius()).norm() < rounding);
   BOOST_TEST((profile.project(Boundary::root, q, support) - q.normalized() * g.root_radius()).norm() < rounding);
   BOOST_TEST((profile.project(Boundary::support, q, support) - q.normalized() * support).norm() < rounding);
+  const double outside = 0.325;
+  BOOST_TEST((profile.project(Boundary::outside, q, support, outside) - q.normalized() * outside).norm() < rounding);
+  BOOST_CHECK_THROW((void)profile.project(Boundary::outside, q, support), InternalError);
   for (const auto b : {Boundary::none, Boundary::side_low, Boundary::side_high, Boundary::end_low, Boundary::end_high,
-                       Boundary::inner}) {
+                       Boundary::inner, Boundary::flange_face}) {
     BOOST_TEST((profile.project(b, q, support) - q).norm() == 0);
   }
 }

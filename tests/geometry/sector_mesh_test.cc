@@ -137,6 +137,7 @@ BOOST_AUTO_TEST_CASE(no_bad_cells_over_the_range_of_legal_geometry) {
     p.teeth = static_cast<int>(internal ? 40 + 210 * spread : 17 + 183 * spread);
     p.pressure_angle = uniform(14.5, 30) * units::deg;
     p.root_fillet_factor = uniform(0.1, 0.45);
+    p.helix_angle = uniform(0, 1) < 0.3 ? uniform(-35, 35) * units::deg : 0;
     const double thickness = uniform(1, 8) * p.module;
     const bool circle = uniform(0, 1) < 0.5;
     const double circle_depth = uniform(min_circle_distance, 0.9 * thickness / p.module) * p.module;
@@ -161,10 +162,11 @@ BOOST_AUTO_TEST_CASE(no_bad_cells_over_the_range_of_legal_geometry) {
     if (!internal && rim.support_radius < 0.2 * gear->root_radius()) continue;  // no bore left
     if (circle) rim.circles.push_back(gear->root_radius() + sign * circle_depth);
     ++legal;
-    const std::string label =
-        fmt::format("{} teeth, {}, x {:.4f}, {:.3f} deg, fillet {:.3f}, rim {:.3f} modules, circle {:.3f} modules deep",
-                    p.teeth, internal ? "internal" : "external", p.profile_shift, p.pressure_angle / units::deg,
-                    p.root_fillet_factor, thickness / p.module, circle ? circle_depth / p.module : 0.0);
+    const std::string label = fmt::format(
+        "{} teeth, {}, x {:.4f}, {:.3f} deg, helix {:.3f} deg, fillet {:.3f}, rim {:.3f} modules, circle {:.3f} "
+        "modules deep",
+        p.teeth, internal ? "internal" : "external", p.profile_shift, p.pressure_angle / units::deg,
+        p.helix_angle / units::deg, p.root_fillet_factor, thickness / p.module, circle ? circle_depth / p.module : 0.0);
     BOOST_TEST_CHECKPOINT(label);
     const Mesh mesh = make_sector_mesh(*gear, rim, resolution);
     check_sector(mesh, *gear, rim);
