@@ -86,6 +86,15 @@ Eigen::MatrixXd ContactBody::near_field(const std::vector<std::vector<double>>& 
   return result;
 }
 
+Eigen::MatrixXd ContactBody::port_weights(const Weights& a) const {
+  const Eigen::Index stations = axial_.rows();
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(a.rows() * stations, a.cols() * slices_);
+  for (Eigen::Index e = 0; e < a.cols(); ++e)
+    for (Eigen::Index u = 0; u < a.rows(); ++u)
+      if (a(u, e) != 0) result.block(u * stations, e * slices_, stations, slices_) = a(u, e) * axial_;
+  return result;
+}
+
 Eigen::MatrixXd ContactBody::resultants(const Weights& a, int tooth) const {
   const int stations = body_.axial_stations();
   Eigen::MatrixXd of_station(body_.flank.size() * slices_, 3);

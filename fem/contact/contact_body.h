@@ -33,6 +33,8 @@ class ContactBody {
   /// Near-field terms for one pair; the arguments are the rolls at the quadrature points behind the elements.
   [[nodiscard]] Eigen::MatrixXd near_field(const std::vector<std::vector<double>>& rolls,
                                            const std::vector<std::vector<double>>& weights) const;
+  /// Port forces of unit (element, slice) forces: ports x (element, slice).
+  [[nodiscard]] Eigen::MatrixXd port_weights(const Weights& a) const;
   /// Resultants (x, y, moment about the axis) of unit (element, slice) forces on a tooth: 3 columns.
   [[nodiscard]] Eigen::MatrixXd resultants(const Weights& a, int tooth) const;
 
