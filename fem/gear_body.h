@@ -4,36 +4,44 @@
 #include <vector>
 
 #include "fem/condensation/cyclic_body.h"
+#include "fem/contact/arc_load.h"
 #include "fem/contact/trace_basis.h"
 #include "fem/elasticity/sector_model.h"
 
 namespace annulus::fem {
 
-/// A whole gear reduced to the ports its contacts need: compliance of all teeth from one condensed sector.
+/// Force (N) and moment about the origin (N m) of a load.
+using Wrench = Eigen::Matrix<double, 6, 1>;
+
+/// A whole gear reduced to the loads it takes and the stresses it is asked for, from one condensed sector.
 ///
-/// Flank ports come first, [profile station * axial stations + axial station], unit forces along the flank normal into
-/// the material; then the ports of a free outside, pairs of (radial outwards, tangential counter-clockwise) forces.
+/// Loads of a sector in the order of `compliance`: flank ports, [profile station * axial stations + axial station],
+/// unit forces along the flank normal into the material; loads on arcs of a free outside; stresses.
 struct GearBody {
   int teeth = 0;
   double pitch_angle = 0;
-  TraceBasis flank;    ///< over the planet's or wheel's own roll length
-  TraceBasis axial;    ///< over z; empty in the plane
-  TraceBasis outside;  ///< over the polar angle in the sector's frame; empty when the outside is held
+  TraceBasis flank;  ///< over the planet's or wheel's own roll length
+  TraceBasis axial;  ///< over z; empty in the plane
   std::vector<Port> ports;
   std::vector<Eigen::Vector3d> port_points;
+  std::vector<Wrench> arc_wrenches;  ///< of the arc loads, in the sector's frame
   CyclicCompliance compliance;
   long unknowns = 0;
 
   [[nodiscard]] int axial_stations() const { return axial.size() > 0 ? axial.size() : 1; }
-  [[nodiscard]] int flank_ports() const { return flank.size() * axial_stations(); }
+  [[nodiscard]] int flank_ports() const { return static_cast<int>(ports.size()); }
+  [[nodiscard]] int first_arc() const { return flank_ports(); }  ///< load number of the first arc load
   /// In-plane rigid-motion displacement (x, y, rotation about the axis) of a port of sector `sector`, m per (m, m,
   /// rad), in the frame of sector 0. Its transpose gives the resultant of a unit port load.
   [[nodiscard]] Eigen::RowVector3d rigid_motion(int port, int sector) const;
+  /// Resultant of a unit arc load of sector `sector` in the frame of sector 0.
+  [[nodiscard]] Wrench arc_wrench(int arc, int sector) const;
 };
 
 struct GearBodyOptions {
   SectorModelOptions sector;
-  int max_offset = 6;  ///< farthest teeth whose coupling is wanted
+  RingExtent extent;
+  std::vector<ArcLoad> arcs;  ///< loads on a free outside
   int threads = 1;
 };
 

@@ -30,8 +30,8 @@ class PositionRun {
               const MeshBodies& bodies, int level)
       : problem_(problem),
         settings_(settings),
-        system_(flanks, *bodies.planet, *bodies.wheel, bodies.pins ? &*bodies.pins : nullptr, problem.material,
-                bodies.slice_edges, options(problem, settings, level)),
+        system_(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.material, bodies.slice_edges,
+                options(problem, settings, level)),
         cycles_(repeating_teeth(problem)) {}
 
   [[nodiscard]] std::vector<LoadedPosition> solve(const std::function<void(double)>& progress) const {
@@ -97,8 +97,6 @@ void check(const LoadedMeshProblem& problem) {
       throw InputError("the loads of a stiffness table have to be positive and strictly increasing");
   if (!problem.pair.internal() && !std::holds_alternative<OutsideHeld>(problem.structure))
     throw InputError("a ring structure belongs to the ring mesh");
-  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure); pinned != nullptr && pinned->angles.size() < 2)
-    throw InputError("a ring on fewer than two pins turns about its pin: give at least two");
 }
 
 }  // namespace
@@ -178,7 +176,6 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   for (int l = 0; l < loads; ++l)
     closure = std::max(closure, std::abs(positions[table_size + l].entry.lte / positions[l].entry.lte - 1));
 
-  const double pin_stiffness = bodies.pins ? bodies.pins->stiffness() : 0;
   StiffnessTable table(problem.pair.internal() ? "ring_planet" : "sun_planet", problem.phases, std::move(ring_angles),
                        problem.loads, std::move(entries));
   LoadedMeshResult result{std::move(table), std::move(positions)};
@@ -189,8 +186,12 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   result.level = level;
   result.worst_error_relative = worst;
   result.unknowns = bodies.unknowns;
-  result.pin_stiffness = pin_stiffness;
-  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure)) result.pin_angles = pinned->angles;
+  if (bodies.supports) {
+    const auto& sites = bodies.supports->plan().sites();
+    result.pin_stiffness = sites.sites.front().directions.front().total_stiffness();
+    // The frame of the solve is the mirror image of the real ring.
+    for (int pin = 0; pin < sites.pins; ++pin) result.pin_angles.push_back(-sites.sites[pin].angle);
+  }
   result.slice_edges = bodies.slice_edges;
   result.mesh_seconds = mesh_seconds;
   result.condense_seconds = condense_seconds;

@@ -73,6 +73,7 @@ struct LoadedPosition {
   double max_pressure = 0;         ///< Pa
   bool tip_edge_contact = false;   ///< the peak pressure stands at a tip edge: singular, not to be compared
   std::vector<PinState> pins;
+  std::vector<PinState> housing;        ///< patches of the housing bore, one behind every tooth; empty without
   std::vector<double> line_load;        ///< N/m, of all pairs together, per slice of the face width from low to high z
   double face_load_factor = 1;          ///< K_H_beta (ISO 6336-1): largest over mean line load
   std::vector<PressurePatch> pressure;  ///< touching pieces, at the middle load of the table only

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <optional>
 #include <thread>
 
 #include "core/errors.h"
@@ -51,23 +52,28 @@ std::vector<double> uniform_edges(double width, int cells) {
   return edges;
 }
 
-}  // namespace
-
-double derived_pin_stiffness(const Material& material, double length) {
-  return M_PI * material.youngs_modulus * length / (4 * (1 - material.poisson_ratio * material.poisson_ratio));
+/// The supports of a floating ring; none when the structure holds the ring.
+std::optional<SupportSites> support_sites(const LoadedMeshProblem& problem) {
+  const SupportedRing ring{problem.pair.wheel().teeth(), problem.wheel_support_radius, problem.face_width,
+                           problem.material};
+  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure)) return pin_sites(*pinned, ring);
+  if (const auto* splined = std::get_if<SplineHeld>(&problem.structure)) return spline_sites(*splined, ring);
+  return std::nullopt;
 }
+
+}  // namespace
 
 MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& flanks,
                         const LoadedMeshSettings& settings, int level) {
   const auto start = std::chrono::steady_clock::now();
   const auto& pair = problem.pair;
   const bool solid = settings.rung == Rung::solid;
-  const auto* pinned = std::get_if<PinHeld>(&problem.structure);
+  const auto sites = support_sites(problem);
   const auto* cantilever = std::get_if<EndFaceHeld>(&problem.structure);
   if (cantilever != nullptr && !solid)
     throw InputError("a ring held at its end face is a solid problem: the plane rung cannot model it");
-  if (pinned != nullptr && solid)
-    throw InputError("pinned and bolted rings are modelled in the plane in this version: use rung = \"plane\"");
+  if (sites && solid)
+    throw InputError("pinned and splined rings are modelled in the plane in this version: use rung = \"plane\"");
 
   const BodyResolution solid_counts = solid ? solid_resolution(level) : BodyResolution{};
 
@@ -77,9 +83,11 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   SectorModelOptions planet_model, wheel_model;
   planet_model.degree = wheel_model.degree = settings.degree;
   wheel_model.flank = flanks.wheel_flank();
-  if (pinned != nullptr) {
+  std::optional<SupportPlan> plan;
+  if (sites) {
     wheel_model.held = HeldBoundary::none;
     wheel_model.want_outside = true;
+    plan.emplace(*sites, pair.wheel().teeth(), uniform_edges(problem.face_width, 1));
   }
 
   std::vector<Task> tasks;
@@ -89,7 +97,10 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     Task task{geometry::make_sector_mesh(profile.gear(), rim, counts.section), &profile, rim.support_radius, {}, {}};
     task.options.sector = model;
     task.options.threads = 1;
-    if (wheel && pinned != nullptr) task.options.max_offset = profile.gear().teeth();
+    if (wheel && plan) {
+      task.options.arcs = plan->arcs();
+      task.options.extent.whole_ring = true;
+    }
     tasks.push_back(std::move(task));
   };
   const auto solid_task = [&](bool wheel) {
@@ -143,9 +154,6 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   bodies.unknowns = tasks[0].body.unknowns + tasks[1].body.unknowns;
   bodies.planet_sector = std::move(tasks[0].mesh);
   bodies.wheel_sector = std::move(tasks[1].mesh);
-  if (pinned != nullptr)
-    bodies.pins.emplace(*pinned, tasks[1].body, problem.wheel_support_radius, problem.face_width, true,
-                        derived_pin_stiffness(problem.material, problem.face_width));
   std::optional<NearField> planet_near_field, wheel_near_field;
   if (solid) {
     planet_near_field = near_field(2, 3);
@@ -155,6 +163,7 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
                                                 bodies.slice_edges, std::move(planet_near_field));
   bodies.wheel = std::make_unique<ContactBody>(std::move(tasks[1].body), pair.wheel().base_radius(), problem.material,
                                                bodies.slice_edges, std::move(wheel_near_field));
+  if (plan) bodies.supports = std::make_unique<SupportRow>(std::move(*plan), bodies.wheel->body());
   bodies.condense_seconds = seconds_since(condense_start);
   return bodies;
 }

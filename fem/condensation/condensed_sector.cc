@@ -7,12 +7,34 @@
 #include "fem/condensation/sparse_schur.h"
 
 namespace annulus::fem {
+namespace {
 
-CondensedSector condense(const SectorModel& model, const std::vector<Port>& ports, bool floating) {
+/// Loads as columns over the freedoms that are not held.
+Eigen::SparseMatrix<double> load_columns(const SectorModel& model, const SectorLoads& loads) {
+  std::vector<Eigen::Triplet<double>> entries;
+  int column = 0;
+  for (const auto* group : {&loads.acting, &loads.observed})
+    for (const auto& load : *group) {
+      for (const auto& f : load)
+        for (int c = 0; c < model.dimension; ++c) {
+          const int row = model.freedom[f.node * model.dimension + c];
+          if (row >= 0 && f.force[c] != 0) entries.emplace_back(row, column, f.force[c]);
+        }
+      ++column;
+    }
+  Eigen::SparseMatrix<double> result(model.stiffness.rows(), column);
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+}  // namespace
+
+CondensedSector condense(const SectorModel& model, const SectorLoads& loads, bool floating) {
   const int dim = model.dimension;
   CondensedSector sector;
   sector.dimension = dim;
   sector.pitch_angle = model.pitch_angle;
+  sector.ports = static_cast<int>(loads.ports.size());
 
   // Retained: the freedoms of both cuts first, then what only the ports touch.
   std::vector<int> retained;
@@ -26,33 +48,36 @@ CondensedSector condense(const SectorModel& model, const std::vector<Port>& port
   for (const int node : model.low_nodes) sector.cut_points.push_back(model.nodes[node]);
   const int cuts = static_cast<int>(retained.size());
   require(cuts == 2 * dim * static_cast<int>(model.low_nodes.size()), "the radial cuts have unequal freedoms");
-  for (const auto& port : ports)
+  for (const auto& port : loads.ports)
     for (int c = 0; c < dim; ++c)
       if (port.direction[c] != 0) keep(model.freedom[port.node * dim + c]);
-  const int inner = static_cast<int>(retained.size()) - cuts;
-
-  Eigen::MatrixXd loads =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(retained.size()), static_cast<Eigen::Index>(ports.size()));
-  for (std::size_t p = 0; p < ports.size(); ++p)
-    for (int c = 0; c < dim; ++c) {
-      const int row = model.freedom[ports[p].node * dim + c];
-      if (ports[p].direction[c] != 0 && row >= 0)
-        loads(place.at(row), static_cast<Eigen::Index>(p)) = ports[p].direction[c];
-    }
+  const int kept = static_cast<int>(retained.size()), inner = kept - cuts;
 
   // A floating sector can move rigidly: its complement is singular and needs the shift, of the size of its entries.
   const double shift = floating ? model.stiffness.diagonal().mean() : 0.0;
-  const Eigen::MatrixXd s = schur_complement(model.stiffness, retained, shift);
+  const int acting = static_cast<int>(loads.acting.size());
+  const SchurComplement s = schur_complement(model.stiffness, retained, shift, load_columns(model, loads), acting);
 
-  Eigen::MatrixXd factor = s.bottomRightCorner(inner, inner);
+  const int ports = sector.ports, others = loads.columns() - ports;
+  Eigen::MatrixXd on_retained = Eigen::MatrixXd::Zero(kept, loads.columns());
+  for (int p = 0; p < ports; ++p)
+    for (int c = 0; c < dim; ++c) {
+      const int row = model.freedom[loads.ports[p].node * dim + c];
+      if (loads.ports[p].direction[c] != 0 && row >= 0) on_retained(place.at(row), p) = loads.ports[p].direction[c];
+    }
+  if (others > 0) on_retained.rightCols(others) = s.loads;
+
+  Eigen::MatrixXd factor = s.matrix.bottomRightCorner(inner, inner);
   if (!lapack::cholesky(factor)) throw SolverError("the condensed stiffness of a tooth is not positive definite");
-  Eigen::MatrixXd to_cuts = s.bottomLeftCorner(inner, cuts);
+  Eigen::MatrixXd to_cuts = s.matrix.bottomLeftCorner(inner, cuts);
   lapack::solve_lower(factor, to_cuts);
-  Eigen::MatrixXd from_ports = loads.bottomRows(inner);
-  lapack::solve_lower(factor, from_ports);
-  sector.cut_stiffness = s.topLeftCorner(cuts, cuts) - lapack::gram(to_cuts);
-  sector.cut_load = loads.topRows(cuts) - lapack::transpose_product(to_cuts, from_ports);
-  sector.port_compliance = lapack::gram(from_ports);
+  Eigen::MatrixXd from_loads = on_retained.bottomRows(inner);
+  lapack::solve_lower(factor, from_loads);
+  sector.cut_stiffness = s.matrix.topLeftCorner(cuts, cuts) - lapack::gram(to_cuts);
+  sector.cut_load = on_retained.topRows(cuts) - lapack::transpose_product(to_cuts, from_loads);
+  sector.compliance =
+      lapack::transpose_product(from_loads, Eigen::MatrixXd(from_loads.leftCols(loads.acting_columns())));
+  if (others > 0) sector.compliance.bottomRightCorner(others, acting) += s.compliance;
   return sector;
 }
 

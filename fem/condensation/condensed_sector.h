@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "fem/elasticity/nodal_load.h"
 #include "fem/elasticity/sector_model.h"
 
 namespace annulus::fem {
@@ -13,17 +14,28 @@ struct Port {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< in the sector's own frame
 };
 
-/// A sector reduced exactly to its two radial cuts (low, then high) and its ports.
+/// What a sector is loaded with and asked for. The nodes of ports are retained: there are many, all coupled. Other
+/// loads are eliminated with the interior: a few patterns over many nodes.
+struct SectorLoads {
+  std::vector<Port> ports;
+  std::vector<NodalLoad> acting;    ///< loads
+  std::vector<NodalLoad> observed;  ///< functionals of the displacement that are only asked for
+  [[nodiscard]] int columns() const { return static_cast<int>(ports.size() + acting.size() + observed.size()); }
+  [[nodiscard]] int acting_columns() const { return static_cast<int>(ports.size() + acting.size()); }
+};
+
+/// A sector reduced exactly to its two radial cuts (low, then high) and its loads: ports, acting, observed.
 struct CondensedSector {
   int dimension = 2;
   double pitch_angle = 0;
   std::vector<Eigen::Vector3d> cut_points;  ///< of the low cut
   Eigen::MatrixXd cut_stiffness;            ///< 2m x 2m, low freedoms then high ones
-  Eigen::MatrixXd cut_load;                 ///< 2m x ports: load on the cuts equivalent to a unit port load
-  Eigen::MatrixXd port_compliance;          ///< ports x ports, with both cuts held
+  Eigen::MatrixXd cut_load;                 ///< 2m x loads: load on the cuts equivalent to a unit load
+  Eigen::MatrixXd compliance;               ///< loads x (ports and acting), with both cuts held
+  int ports = 0;
 };
 
 /// `floating`: no boundary of the sector is held.
-[[nodiscard]] CondensedSector condense(const SectorModel& model, const std::vector<Port>& ports, bool floating);
+[[nodiscard]] CondensedSector condense(const SectorModel& model, const SectorLoads& loads, bool floating);
 
 }  // namespace annulus::fem

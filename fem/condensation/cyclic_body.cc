@@ -75,67 +75,103 @@ ChainedSector chain(const CondensedSector& sector) {
   return result;
 }
 
-}  // namespace
-
-std::pair<int, bool> CyclicCompliance::locate(int offset) const {
-  int d = offset % sectors_;
-  if (d < 0) d += sectors_;
-  const bool mirrored = d > sectors_ - d;
-  if (mirrored) d = sectors_ - d;
-  require(d <= max_offset(), "a compliance block beyond the formed offsets was asked for");
+/// Stored offset and whether the block has to be transposed.
+std::pair<int, bool> locate(int offset, int sectors, int max_offset) {
+  int d = offset % sectors;
+  if (d < 0) d += sectors;
+  const bool mirrored = d > sectors - d;
+  if (mirrored) d = sectors - d;
+  require(d <= max_offset, "a compliance beyond the formed offsets was asked for");
   return {d, mirrored};
 }
 
+/// Inverses of the harmonics h = first, first + step, ... summed to compliances between cuts: m^2 x offsets.
+Eigen::MatrixXd sum_harmonics(const CondensedSector& sector, const ChainedSector& chained, int sectors, int offsets,
+                              int first, int step, bool floating) {
+  constexpr int chunk = 8;  // harmonics summed by one matrix product
+  const auto m = chained.diagonal.rows();
+  const double rigid_stiffness = chained.diagonal.diagonal().mean();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(m * m, offsets);
+  Eigen::MatrixXd inverses(m * m, 2 * chunk), turns(2 * chunk, offsets);
+  const int harmonics = sectors / 2 + 1;
+  for (int h = first, k = 0; h < harmonics; h += step) {
+    const Complex shift = std::polar(1.0, h * sector.pitch_angle);
+    Eigen::MatrixXcd matrix = chained.diagonal.cast<Complex>() + shift * chained.coupling.cast<Complex>() +
+                              std::conj(shift) * chained.coupling.transpose().cast<Complex>();
+    if (floating)
+      for (const auto& motion : rigid_motions(sector, h)) matrix += rigid_stiffness * motion * motion.adjoint();
+    if (!lapack::cholesky(matrix))
+      throw SolverError("the ring is not held against its harmonic " + std::to_string(h) + " of deformation");
+    lapack::invert_from_cholesky(matrix);
+    inverses.col(2 * k) = matrix.real().reshaped();
+    inverses.col(2 * k + 1) = matrix.imag().reshaped();
+    // Harmonics h and N - h are conjugate.
+    const double weight = (h == 0 || 2 * h == sectors ? 1.0 : 2.0) / sectors;
+    for (int d = 0; d < offsets; ++d) {
+      const Complex turn = std::polar(weight, h * d * sector.pitch_angle);
+      turns(2 * k, d) = turn.real();
+      turns(2 * k + 1, d) = -turn.imag();
+    }
+    if (++k < chunk && h + step < harmonics) continue;
+    inverses.rightCols(2 * (chunk - k)).setZero();
+    turns.bottomRows(2 * (chunk - k)).setZero();
+    lapack::add_product(inverses, turns, sum);
+    k = 0;
+  }
+  return sum;
+}
+
+}  // namespace
+
+CyclicCompliance::CyclicCompliance(int sectors, int ports, int max_offset, std::vector<Eigen::MatrixXd> cuts,
+                                   Eigen::MatrixXd low, Eigen::MatrixXd high, Eigen::MatrixXd within)
+    : sectors_(sectors),
+      cuts_(std::move(cuts)),
+      low_(std::move(low)),
+      high_(std::move(high)),
+      within_(std::move(within)) {
+  const Eigen::MatrixXd port_low = low_.leftCols(ports), port_high = high_.leftCols(ports);
+  for (int d = 0; d <= max_offset; ++d) {
+    Eigen::MatrixXd at_low = Eigen::MatrixXd::Zero(cut_size(), ports), at_high = at_low;
+    add_cut_displacement(d, port_low, at_low);
+    add_cut_displacement(d - 1, port_high, at_low);
+    add_cut_displacement(d + 1, port_low, at_high);
+    add_cut_displacement(d, port_high, at_high);
+    blocks_.push_back(lapack::transpose_product(port_low, at_low) + lapack::transpose_product(port_high, at_high));
+  }
+  blocks_.front() += within_.topLeftCorner(ports, ports);
+  blocks_.front() = (0.5 * (blocks_.front() + blocks_.front().transpose())).eval();
+}
+
 Eigen::MatrixXd CyclicCompliance::block(int offset) const {
-  const auto [d, mirrored] = locate(offset);
+  const auto [d, mirrored] = locate(offset, sectors_, max_offset());
   return mirrored ? Eigen::MatrixXd(blocks_[d].transpose()) : blocks_[d];
 }
 
-Eigen::MatrixXd CyclicCompliance::apply(int offset, int first_row, int rows, int first_column,
-                                        const Eigen::MatrixXd& x) const {
-  const auto [d, mirrored] = locate(offset);
-  if (mirrored) return blocks_[d].block(first_column, first_row, x.rows(), rows).transpose() * x;
-  return blocks_[d].block(first_row, first_column, rows, x.rows()) * x;
+void CyclicCompliance::add_cut_displacement(int offset, const Eigen::MatrixXd& cut_load,
+                                            Eigen::MatrixXd& displacement) const {
+  const auto [d, mirrored] = locate(offset, sectors_, max_cut_offset());
+  if (mirrored)
+    displacement += lapack::transpose_product(cuts_[d], cut_load);
+  else
+    lapack::add_product(cuts_[d], cut_load, displacement);
 }
 
-CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, int max_offset, bool floating, int threads) {
+CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, const RingExtent& extent, bool floating,
+                              int threads) {
   require(sectors >= 3, "a ring needs at least three sectors");
-  max_offset = std::min(max_offset, sectors / 2);
-  const ChainedSector chained = chain(sector);
-  const auto ports = chained.load_low.cols();
-  const int harmonics = sectors / 2 + 1;
-  const double rigid_stiffness = chained.diagonal.diagonal().mean();
+  const int max_offset = std::min(extent.max_offset, sectors / 2);
+  const int offsets = extent.whole_ring ? sectors / 2 + 1 : std::min(max_offset + 1, sectors / 2) + 1;
+  ChainedSector chained = chain(sector);
 
   // The harmonics are summed in a fixed number of groups, in order: the same result for any number of threads.
   constexpr int groups = 4;
-  std::vector<std::vector<Eigen::MatrixXd>> partial(groups);
+  std::vector<Eigen::MatrixXd> partial(groups);
   std::vector<std::exception_ptr> failures(groups);
-  const auto work = [&](int group) {
-    auto& sum = partial[group];
-    sum.assign(max_offset + 1, Eigen::MatrixXd::Zero(ports, ports));
-    for (int h = group; h < harmonics; h += groups) {
-      const Complex shift = std::polar(1.0, h * sector.pitch_angle);
-      Eigen::MatrixXcd matrix = chained.diagonal.cast<Complex>() + shift * chained.coupling.cast<Complex>() +
-                                std::conj(shift) * chained.coupling.transpose().cast<Complex>();
-      if (floating)
-        for (const auto& motion : rigid_motions(sector, h)) matrix += rigid_stiffness * motion * motion.adjoint();
-      if (!lapack::cholesky(matrix))
-        throw SolverError("the ring is not held against its harmonic " + std::to_string(h) + " of deformation");
-      Eigen::MatrixXcd loads = chained.load_low.cast<Complex>() + std::conj(shift) * chained.load_high.cast<Complex>();
-      lapack::solve_lower(matrix, loads);
-      const Eigen::MatrixXcd product = lapack::gram(loads);
-      // Harmonics h and N - h are conjugate.
-      const double weight = (h == 0 || 2 * h == sectors ? 1.0 : 2.0) / sectors;
-      for (int d = 0; d <= max_offset; ++d) {
-        const Complex turn = std::polar(weight, h * d * sector.pitch_angle);
-        sum[d] += turn.real() * product.real() - turn.imag() * product.imag();
-      }
-    }
-  };
   std::atomic<int> next{0};
   const auto worker = [&] {
     for (int group = next++; group < groups; group = next++) try {
-        work(group);
+        partial[group] = sum_harmonics(sector, chained, sectors, offsets, group, groups, floating);
       } catch (...) {
         failures[group] = std::current_exception();
       }
@@ -146,12 +182,18 @@ CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, int ma
   for (auto& t : pool) t.join();
   for (const auto& failure : failures)
     if (failure) std::rethrow_exception(failure);
+  for (int group = 1; group < groups; ++group) partial.front() += partial[group];
 
-  std::vector<Eigen::MatrixXd> blocks(max_offset + 1, Eigen::MatrixXd::Zero(ports, ports));
-  blocks[0] = sector.port_compliance;
-  for (const auto& group : partial)
-    for (int d = 0; d <= max_offset; ++d) blocks[d] += group[d];
-  return {sectors, std::move(blocks)};
+  const auto m = chained.diagonal.rows();
+  std::vector<Eigen::MatrixXd> cuts;
+  for (int d = 0; d < offsets; ++d) cuts.emplace_back(partial.front().col(d).reshaped(m, m));
+  return {sectors,
+          sector.ports,
+          max_offset,
+          std::move(cuts),
+          std::move(chained.load_low),
+          std::move(chained.load_high),
+          sector.compliance};
 }
 
 }  // namespace annulus::fem

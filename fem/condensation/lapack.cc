@@ -7,18 +7,14 @@
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 void zpotrf_(const char* uplo, const int* n, std::complex<double>* a, const int* lda, int* info);
+void zpotri_(const char* uplo, const int* n, std::complex<double>* a, const int* lda, int* info);
 void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
             const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
-void ztrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
-            const std::complex<double>* alpha, const std::complex<double>* a, const int* lda, std::complex<double>* b,
-            const int* ldb);
 void dgemm_(const char* ta, const char* tb, const int* m, const int* n, const int* k, const double* alpha,
             const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
             const int* ldc);
 void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha, const double* a,
             const int* lda, const double* beta, double* c, const int* ldc);
-void zherk_(const char* uplo, const char* trans, const int* n, const int* k, const double* alpha,
-            const std::complex<double>* a, const int* lda, const double* beta, std::complex<double>* c, const int* ldc);
 }
 
 namespace annulus::fem::lapack {
@@ -47,10 +43,12 @@ void solve_lower(const Eigen::MatrixXd& factor, Eigen::MatrixXd& rhs) {
   if (m > 0 && n > 0) dtrsm_("L", "L", "N", "N", &m, &n, &one, factor.data(), &lda, rhs.data(), &ldb);
 }
 
-void solve_lower(const Eigen::MatrixXcd& factor, Eigen::MatrixXcd& rhs) {
-  const int m = size(rhs.rows()), n = size(rhs.cols()), lda = leading(factor.rows()), ldb = leading(m);
-  const std::complex<double> one = 1;
-  if (m > 0 && n > 0) ztrsm_("L", "L", "N", "N", &m, &n, &one, factor.data(), &lda, rhs.data(), &ldb);
+void invert_from_cholesky(Eigen::MatrixXcd& factor) {
+  const int n = size(factor.rows()), lda = leading(n);
+  int info = 0;
+  zpotri_("L", &n, factor.data(), &lda, &info);
+  require(info == 0, "the inverse of a factor with a zero on its diagonal was asked for");
+  factor.triangularView<Eigen::StrictlyUpper>() = factor.adjoint();
 }
 
 Eigen::MatrixXd transpose_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
@@ -64,13 +62,17 @@ Eigen::MatrixXd transpose_product(const Eigen::MatrixXd& a, const Eigen::MatrixX
 }
 
 Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  require(a.cols() == b.rows(), "product of unequal sizes");
-  Eigen::MatrixXd c(a.rows(), b.cols());
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(a.rows(), b.cols());
+  add_product(a, b, c);
+  return c;
+}
+
+void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& c) {
+  require(a.cols() == b.rows() && c.rows() == a.rows() && c.cols() == b.cols(), "product of unequal sizes");
   const int m = size(a.rows()), n = size(b.cols()), k = size(a.cols());
   const int lda = leading(m), ldb = leading(k), ldc = leading(m);
-  const double one = 1, zero = 0;
-  if (c.size() > 0) dgemm_("N", "N", &m, &n, &k, &one, a.data(), &lda, b.data(), &ldb, &zero, c.data(), &ldc);
-  return c;
+  const double one = 1;
+  if (c.size() > 0) dgemm_("N", "N", &m, &n, &k, &one, a.data(), &lda, b.data(), &ldb, &one, c.data(), &ldc);
 }
 
 Eigen::MatrixXd gram(const Eigen::MatrixXd& y) {
@@ -79,15 +81,6 @@ Eigen::MatrixXd gram(const Eigen::MatrixXd& y) {
   const double one = 1, zero = 0;
   if (n > 0) dsyrk_("L", "T", &n, &k, &one, y.data(), &lda, &zero, c.data(), &ldc);
   c.triangularView<Eigen::StrictlyUpper>() = c.transpose();
-  return c;
-}
-
-Eigen::MatrixXcd gram(const Eigen::MatrixXcd& y) {
-  Eigen::MatrixXcd c = Eigen::MatrixXcd::Zero(y.cols(), y.cols());
-  const int n = size(y.cols()), k = size(y.rows()), lda = leading(k), ldc = leading(n);
-  const double one = 1, zero = 0;
-  if (n > 0) zherk_("L", "C", &n, &k, &one, y.data(), &lda, &zero, c.data(), &ldc);
-  c.triangularView<Eigen::StrictlyUpper>() = c.adjoint();
   return c;
 }
 

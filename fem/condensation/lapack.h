@@ -11,15 +11,18 @@ namespace annulus::fem::lapack {
 /// In-place Cholesky factor L (lower) of a symmetric or Hermitian positive definite matrix; false when it is not.
 [[nodiscard]] bool cholesky(Eigen::MatrixXd& matrix);
 [[nodiscard]] bool cholesky(Eigen::MatrixXcd& matrix);
+/// The full inverse from such a factor, in place.
+void invert_from_cholesky(Eigen::MatrixXcd& factor);
 /// rhs <- L^-1 rhs
 void solve_lower(const Eigen::MatrixXd& factor, Eigen::MatrixXd& rhs);
 void solve_lower(const Eigen::MatrixXcd& factor, Eigen::MatrixXcd& rhs);
 /// a^T b
 [[nodiscard]] Eigen::MatrixXd transpose_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 [[nodiscard]] Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
-/// y^H y, both triangles filled.
+/// c <- c + a b
+void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& c);
+/// y^T y, both triangles filled.
 [[nodiscard]] Eigen::MatrixXd gram(const Eigen::MatrixXd& y);
-[[nodiscard]] Eigen::MatrixXcd gram(const Eigen::MatrixXcd& y);
 /// One BLAS thread: annulus runs its own threads over independent tasks.
 void use_one_thread();
 

@@ -53,6 +53,69 @@ void check_factor(const CholmodWorkspace& workspace, const cholmod_factor* facto
                       " is not positive definite: the body is not held, or a cell of its mesh is inverted");
 }
 
+cholmod_dense dense_view(const Eigen::MatrixXd& matrix) {
+  cholmod_dense view{};
+  view.nrow = static_cast<std::size_t>(matrix.rows());
+  view.ncol = static_cast<std::size_t>(matrix.cols());
+  view.nzmax = view.nrow * view.ncol;
+  view.d = view.nrow;
+  view.x = const_cast<double*>(matrix.data());
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  return view;
+}
+
+/// One of CHOLMOD's solves with a factor.
+Eigen::MatrixXd solve_with(cholmod_factor* factor, int system, const Eigen::MatrixXd& rhs, cholmod_common& common) {
+  cholmod_dense view = dense_view(rhs);
+  cholmod_dense* solution = cholmod_solve(system, factor, &view, &common);
+  if (solution == nullptr) throw SolverError("out of memory while solving with the factorised stiffness matrix");
+  Eigen::MatrixXd result =
+      Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x), rhs.rows(), rhs.cols());
+  cholmod_free_dense(&solution, &common);
+  return result;
+}
+
+/// Forward solves L y = P b of loads a few at a time: y of the interior enters the compliance, y of the retained
+/// freedoms times their own factor is the load that they see.
+/// `rank`: place of a row of L among the retained ones in order of elimination, -1 inside.
+void condense_loads(cholmod_factor* factor, const Eigen::MatrixXd& retained_factor, const std::vector<int>& rank,
+                    const Eigen::SparseMatrix<double>& loads, int acting, cholmod_common& common,
+                    SchurComplement& result) {
+  constexpr int chunk = 64;
+  const int n = static_cast<int>(factor->n), count = static_cast<int>(loads.cols());
+  const auto* order = static_cast<const int*>(factor->Perm);
+  std::vector<int> row_of(n);
+  for (int row = 0; row < n; ++row) row_of[order[row]] = row;
+  result.loads.resize(retained_factor.rows(), count);
+  result.compliance.resize(count, acting);
+  Eigen::MatrixXd acting_inside(n, acting);
+  for (int first = 0, columns = 0; first < count; first += columns) {
+    columns = std::min(first < acting ? acting - first : count - first, chunk);
+    Eigen::MatrixXd permuted = Eigen::MatrixXd::Zero(n, columns);
+    for (int c = 0; c < columns; ++c)
+      for (Eigen::SparseMatrix<double>::InnerIterator it(loads, first + c); it; ++it)
+        permuted(row_of[it.row()], c) = it.value();
+    Eigen::MatrixXd y = solve_with(factor, CHOLMOD_L, permuted, common);
+    Eigen::MatrixXd retained(retained_factor.rows(), columns);
+    for (int row = 0; row < n; ++row)
+      if (rank[row] >= 0) {
+        retained.row(rank[row]) = y.row(row);
+        y.row(row).setZero();
+      }
+    result.loads.middleCols(first, columns) = lapack::product(retained_factor, retained);
+    if (first < acting) {
+      acting_inside.middleCols(first, columns) = y;
+      const int until = first + columns;  // the acting ones so far; the rest by symmetry
+      const Eigen::MatrixXd block = lapack::transpose_product(y, acting_inside.leftCols(until));
+      result.compliance.block(first, 0, columns, until) = block;
+      result.compliance.block(0, first, until, columns) = block.transpose();
+    } else {
+      result.compliance.middleRows(first, columns) = lapack::transpose_product(y, acting_inside);
+    }
+  }
+}
+
 }  // namespace
 
 struct SparseCholesky::Impl {
@@ -75,24 +138,11 @@ SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_hand_sides) const {
   require(right_hand_sides.rows() == static_cast<Eigen::Index>(impl_->factor->n), "right-hand side of the wrong size");
-  cholmod_dense rhs{};
-  rhs.nrow = static_cast<std::size_t>(right_hand_sides.rows());
-  rhs.ncol = static_cast<std::size_t>(right_hand_sides.cols());
-  rhs.nzmax = rhs.nrow * rhs.ncol;
-  rhs.d = rhs.nrow;
-  rhs.x = const_cast<double*>(right_hand_sides.data());
-  rhs.xtype = CHOLMOD_REAL;
-  rhs.dtype = CHOLMOD_DOUBLE;
-  cholmod_dense* solution = cholmod_solve(CHOLMOD_A, impl_->factor, &rhs, &impl_->workspace.common);
-  if (solution == nullptr) throw SolverError("out of memory while solving with the factorised stiffness matrix");
-  Eigen::MatrixXd result = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x),
-                                                             right_hand_sides.rows(), right_hand_sides.cols());
-  cholmod_free_dense(&solution, &impl_->workspace.common);
-  return result;
+  return solve_with(impl_->factor, CHOLMOD_A, right_hand_sides, impl_->workspace.common);
 }
 
-Eigen::MatrixXd schur_complement(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& retained,
-                                 double shift_retained) {
+SchurComplement schur_complement(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& retained,
+                                 double shift_retained, const Eigen::SparseMatrix<double>& loads, int acting) {
   const int n = static_cast<int>(matrix.rows()), kept = static_cast<int>(retained.size());
   std::vector<int> position(n, -1);  // place of a freedom among the retained ones
   for (int k = 0; k < kept; ++k) {
@@ -153,10 +203,10 @@ Eigen::MatrixXd schur_complement(const Eigen::SparseMatrix<double>& matrix, cons
   // of independent interior branches may stand between the retained ones, and where the interior falls into pieces the
   // retained freedoms change their own order.
   const auto* order = static_cast<const int*>(factor->Perm);
-  std::vector<int> rank(kept);
+  std::vector<int> rank(kept), rank_of_row(n, -1);
   int ranks = 0;
   for (int column = 0; column < n; ++column)
-    if (position[order[column]] >= 0) rank[position[order[column]]] = ranks++;
+    if (position[order[column]] >= 0) rank[position[order[column]]] = rank_of_row[column] = ranks++;
   Eigen::MatrixXd trailing = Eigen::MatrixXd::Zero(kept, kept);
   const auto* first_column = static_cast<const int*>(factor->super);
   const auto* row_start = static_cast<const int*>(factor->pi);
@@ -177,14 +227,19 @@ Eigen::MatrixXd schur_complement(const Eigen::SparseMatrix<double>& matrix, cons
       }
     }
   }
+  SchurComplement result;
+  if (loads.cols() > 0) condense_loads(factor, trailing, rank_of_row, loads, acting, common, result);
   cholmod_free_factor(&factor, &common);
   trailing.transposeInPlace();
-  Eigen::MatrixXd complement = lapack::gram(trailing);  // L L^T
-  complement.diagonal().array() -= shift_retained;
-  if (std::is_sorted(rank.begin(), rank.end())) return complement;
-  Eigen::MatrixXd result(kept, kept);
+  result.matrix = lapack::gram(trailing);  // L L^T
+  result.matrix.diagonal().array() -= shift_retained;
+  if (std::is_sorted(rank.begin(), rank.end())) return result;
+  const Eigen::MatrixXd matrix_by_rank = std::move(result.matrix), loads_by_rank = std::move(result.loads);
+  result.matrix.resize(kept, kept);
   for (int j = 0; j < kept; ++j)
-    for (int i = 0; i < kept; ++i) result(i, j) = complement(rank[i], rank[j]);
+    for (int i = 0; i < kept; ++i) result.matrix(i, j) = matrix_by_rank(rank[i], rank[j]);
+  result.loads.resize(kept, loads_by_rank.cols());
+  for (int i = 0; i < kept && loads_by_rank.cols() > 0; ++i) result.loads.row(i) = loads_by_rank.row(rank[i]);
   return result;
 }
 

@@ -23,14 +23,24 @@ class SparseCholesky {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Schur complement of the retained freedoms, K_rr - K_ri K_ii^-1 K_ir, in the order given.
+/// A stiffness matrix and loads condensed to some of the freedoms, r; the others, i, are eliminated.
+struct SchurComplement {
+  Eigen::MatrixXd matrix;      ///< K_rr - K_ri K_ii^-1 K_ir
+  Eigen::MatrixXd loads;       ///< b_r - K_ri K_ii^-1 b_i, one column per load
+  Eigen::MatrixXd compliance;  ///< b_i^T K_ii^-1 b_i, loads x acting loads: the retained freedoms are held
+};
+
+/// Condenses to the retained freedoms, in the order given.
 ///
-/// The retained freedoms are eliminated last, so that the trailing block of one sparse factorisation is the Cholesky
-/// factor of the complement: exact, and cheaper than solving for every retained column.
+/// They are eliminated last, so that the trailing block of one sparse factorisation is the Cholesky factor of the
+/// complement: exact, and cheaper than solving for every retained column. Loads take part through forward solves with
+/// the same factor, a few columns at a time; of their compliance only the columns of the first `acting` are formed (the
+/// others are observed, never applied).
 /// Throws SolverError when the matrix is not positive definite. A complement that is itself singular (a body that can
 /// still move rigidly) is allowed when `shift_retained` > 0: that multiple of the identity is added to the retained
 /// block before the factorisation and taken off the result.
-[[nodiscard]] Eigen::MatrixXd schur_complement(const Eigen::SparseMatrix<double>& matrix,
-                                               const std::vector<int>& retained, double shift_retained = 0);
+[[nodiscard]] SchurComplement schur_complement(const Eigen::SparseMatrix<double>& matrix,
+                                               const std::vector<int>& retained, double shift_retained = 0,
+                                               const Eigen::SparseMatrix<double>& loads = {}, int acting = 0);
 
 }  // namespace annulus::fem

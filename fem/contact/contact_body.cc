@@ -170,22 +170,16 @@ Eigen::MatrixXd ContactBody::resultants(const FlankPatch& patch, int tooth) cons
   return gather_columns(of_station, patch, slices_).transpose();
 }
 
-Eigen::VectorXd ContactBody::port_forces(const FlankPatch& patch, const Eigen::VectorXd& forces) const {
-  Eigen::MatrixXd by_slice = Eigen::MatrixXd::Zero(body_.flank.size(), slices_);
+Eigen::MatrixXd ContactBody::port_weights(const FlankPatch& patch) const {
+  const Eigen::Index stations = axial_.rows();
+  Eigen::MatrixXd result =
+      Eigen::MatrixXd::Zero(patch.weights.rows() * stations, static_cast<Eigen::Index>(patch.elements.size()));
   for (std::size_t e = 0; e < patch.elements.size(); ++e)
-    by_slice.col(patch.elements[e].slice) +=
-        forces[static_cast<Eigen::Index>(e)] * patch.weights.col(patch.elements[e].load);
-  // Ports: [profile station * axial stations + axial station].
-  const Eigen::MatrixXd ports = axial_ * by_slice.transpose();
-  return Eigen::Map<const Eigen::VectorXd>(ports.data(), ports.size());
-}
-
-Eigen::MatrixXd ContactBody::gather_ports(const FlankPatch& patch, const Eigen::MatrixXd& at_ports) const {
-  const int stations = body_.axial_stations();
-  Eigen::MatrixXd by_slice(at_ports.cols(), body_.flank.size() * slices_);
-  for (int u = 0; u < body_.flank.size(); ++u)
-    by_slice.middleCols(u * slices_, slices_) = at_ports.middleRows(u * stations, stations).transpose() * axial_;
-  return gather_columns(by_slice, patch, slices_).transpose();
+    for (Eigen::Index u = 0; u < patch.weights.rows(); ++u)
+      if (const double w = patch.weights(u, patch.elements[e].load); w != 0)
+        result.col(static_cast<Eigen::Index>(e)).segment(u * stations, stations) =
+            w * axial_.col(patch.elements[e].slice);
+  return result;
 }
 
 }  // namespace annulus::fem

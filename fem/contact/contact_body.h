@@ -42,10 +42,8 @@ class ContactBody {
   [[nodiscard]] Eigen::MatrixXd near_field(const FlankPatch& patch) const;
   /// Resultants (x, y, moment about the axis) of unit element forces on a tooth: elements x 3.
   [[nodiscard]] Eigen::MatrixXd resultants(const FlankPatch& patch, int tooth) const;
-  /// Forces at the body's flank ports that element forces mean, N.
-  [[nodiscard]] Eigen::VectorXd port_forces(const FlankPatch& patch, const Eigen::VectorXd& forces) const;
-  /// Rows of a matrix over the flank ports, gathered to the elements of a patch.
-  [[nodiscard]] Eigen::MatrixXd gather_ports(const FlankPatch& patch, const Eigen::MatrixXd& at_ports) const;
+  /// Port forces of unit element forces: flank ports x elements.
+  [[nodiscard]] Eigen::MatrixXd port_weights(const FlankPatch& patch) const;
 
  private:
   [[nodiscard]] Eigen::MatrixXd weights_on(const TraceBasis& flank, const std::vector<FlankLoad>& loads) const;

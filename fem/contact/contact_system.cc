@@ -45,12 +45,12 @@ struct ContactSystem::Pairs {
 };
 
 ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel,
-                             const PinRow* pins, const Material& material, std::vector<double> slice_edges,
+                             const SupportRow* supports, const Material& material, std::vector<double> slice_edges,
                              ContactOptions options)
     : flanks_(flanks),
       planet_(planet),
       wheel_(wheel),
-      pins_(pins),
+      supports_(supports),
       material_(material),
       slice_edges_(std::move(slice_edges)),
       options_(options) {
@@ -210,13 +210,13 @@ ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, doub
 }
 
 ComplementarityProblem ContactSystem::assemble(const Pairs& setup, int cycle) const {
-  const Eigen::Index contacts = setup.contacts, pin_forces = pins_ != nullptr ? 2 * pins_->size() : 0;
-  const Eigen::Index n = contacts + pin_forces;
+  const Eigen::Index contacts = setup.contacts, support_forces = supports_ != nullptr ? supports_->size() : 0;
+  const Eigen::Index n = contacts + support_forces, motions = supports_ != nullptr ? supports_->rigid_motions() : 0;
   ComplementarityProblem problem;
   problem.compliance = Eigen::MatrixXd::Zero(n, n);
   problem.compliance.topLeftCorner(contacts, contacts) = setup.compliance;
   problem.gap = Eigen::VectorXd::Zero(n);
-  problem.rigid = Eigen::MatrixXd::Zero(n, pins_ != nullptr ? 4 : 1);
+  problem.rigid = Eigen::MatrixXd::Zero(n, 1 + motions);
   problem.rigid.col(0).head(contacts).setOnes();
   problem.load = Eigen::VectorXd::Zero(problem.rigid.cols());
   problem.load[0] = setup.load;
@@ -224,25 +224,35 @@ ComplementarityProblem ContactSystem::assemble(const Pairs& setup, int cycle) co
   for (std::size_t i = 0; i < setup.pairs.size(); ++i)
     for (Eigen::Index e = 0; e < setup.pairs[i].size(); ++e)
       problem.gap[setup.start[i] + e] = setup.pairs[i].elements[e].gap;
-  if (pins_ == nullptr) return problem;
+  if (supports_ == nullptr) return problem;
 
-  problem.compliance.bottomRightCorner(pin_forces, pin_forces) = pins_->compliance();
+  problem.compliance.bottomRightCorner(support_forces, support_forces) = supports_->compliance();
   for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
     const auto& p = setup.pairs[i];
     const int tooth = wheel_tooth(p.index, cycle);
-    const Eigen::MatrixXd coupling = wheel_.gather_ports(p.wheel, pins_->to_ports(tooth));
-    problem.compliance.block(setup.start[i], contacts, coupling.rows(), pin_forces) = coupling;
-    problem.compliance.block(contacts, setup.start[i], pin_forces, coupling.rows()) = coupling.transpose();
-    problem.rigid.block(setup.start[i], 1, coupling.rows(), 3) = -wheel_.resultants(p.wheel, tooth);
+    const Eigen::MatrixXd coupling = supports_->at_ports(tooth, wheel_.port_weights(p.wheel));
+    problem.compliance.block(setup.start[i], contacts, coupling.rows(), support_forces) = coupling;
+    problem.compliance.block(contacts, setup.start[i], support_forces, coupling.rows()) = coupling.transpose();
+    problem.rigid.block(setup.start[i], 1, coupling.rows(), motions) = -wheel_resultants(p, tooth).leftCols(motions);
   }
-  problem.rigid.block(contacts, 1, pin_forces, 3) = -pins_->resultants();
-  problem.rigid.col(3) /= flanks_.pair().wheel().reference_radius();  // makes the rotation a displacement
-  for (int q = 0; q < pins_->size(); ++q) {
-    problem.gap[contacts + 2 * q] = pins_->parameters().clearance;
-    problem.unilateral[contacts + 2 * q] = pins_->parameters().unilateral;
-    problem.unilateral[contacts + 2 * q + 1] = false;
-  }
+  problem.rigid.block(contacts, 1, support_forces, motions) = -supports_->resultants();
+  // Makes rotations displacements.
+  problem.rigid.rightCols(motions - 2) /= flanks_.pair().wheel().reference_radius();
+  problem.gap.tail(support_forces) = supports_->gap();
+  std::copy(supports_->unilateral().begin(), supports_->unilateral().end(), problem.unilateral.begin() + contacts);
   return problem;
+}
+
+Eigen::MatrixXd ContactSystem::wheel_resultants(const Pair& pair, int tooth) const {
+  const Eigen::MatrixXd plane = wheel_.resultants(pair.wheel, tooth);
+  Eigen::MatrixXd all(plane.rows(), 5);
+  all.leftCols(3) = plane;
+  for (Eigen::Index i = 0; i < plane.rows(); ++i) {
+    const int slice = pair.wheel.elements[i].slice;
+    const double z = (slice_edges_[slice] + slice_edges_[slice + 1]) / 2;
+    all.row(i).tail<2>() << -z * plane(i, 1), z * plane(i, 0);
+  }
+  return all;
 }
 
 LoadedPosition ContactSystem::solve(int cycle, double phase, double load, PairsCache& cache, WarmStart& warm) const {
@@ -335,12 +345,7 @@ LoadedPosition ContactSystem::evaluate(const Pairs& setup, const Complementarity
   const double against_gaps = solution.force.dot(problem.gap), work = load * result.entry.lte;
   result.energy_balance_relative = std::abs(work - stored - against_gaps) / work;
   result.max_penetration = std::max(0.0, -solution.gap.minCoeff());
-  if (pins_ != nullptr)
-    for (int q = 0; q < pins_->size(); ++q) {
-      const double radial = solution.force[at + 2 * q];
-      // The pin feels the opposite of what it does to the rim; mirrored frame: tangential forces change sign twice.
-      result.pins.push_back({radial > 0, radial, solution.force[at + 2 * q + 1]});
-    }
+  if (supports_ != nullptr) supports_->fill_states(solution.force.tail(supports_->size()), result);
   return result;
 }
 

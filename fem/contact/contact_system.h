@@ -8,7 +8,7 @@
 #include "fem/contact/complementarity.h"
 #include "fem/contact/contact_body.h"
 #include "fem/contact/flank_contact.h"
-#include "fem/contact/pin_row.h"
+#include "fem/contact/support_row.h"
 #include "fem/loaded_mesh.h"
 
 namespace annulus::fem {
@@ -25,16 +25,17 @@ struct ContactOptions {
   double misalignment = 0;  ///< m, as in LoadedMeshProblem
 };
 
-/// All tooth pairs (and pins) of one gear mesh as one complementarity problem per position.
+/// All tooth pairs (and supports) of one gear mesh as one complementarity problem per position.
 class ContactSystem {
  public:
-  /// References are kept; `pins` may be null. `slice_edges` as for the bodies.
-  ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel, const PinRow* pins,
-                const Material& material, std::vector<double> slice_edges, ContactOptions options);
+  /// References are kept; `supports` may be null. `slice_edges` as for the bodies.
+  ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel,
+                const SupportRow* supports, const Material& material, std::vector<double> slice_edges,
+                ContactOptions options);
 
   /// Active elements by pair, to start the neighbouring position from.
   using WarmStart = std::map<int, std::vector<bool>>;
-  /// The tooth pairs of one phase and load: the same in every mesh cycle, only the pins move on.
+  /// The tooth pairs of one phase and load: the same in every mesh cycle, only the supports move on.
   struct Pairs;
   using PairsCache = std::shared_ptr<const Pairs>;
 
@@ -50,13 +51,15 @@ class ContactSystem {
   /// Number of the wheel's tooth in pair `index` during mesh cycle `cycle`.
   [[nodiscard]] int wheel_tooth(int index, int cycle) const;
   [[nodiscard]] ComplementarityProblem assemble(const Pairs& pairs, int cycle) const;
+  /// Resultants on the wheel (x, y, moments about z, x, y) of unit (element, slice) forces of a pair.
+  [[nodiscard]] Eigen::MatrixXd wheel_resultants(const Pair& pair, int tooth) const;
   [[nodiscard]] LoadedPosition evaluate(const Pairs& pairs, const ComplementarityProblem& problem,
                                         const ComplementaritySolution& solution) const;
 
   const FlankContact& flanks_;
   const ContactBody& planet_;
   const ContactBody& wheel_;
-  const PinRow* pins_;
+  const SupportRow* supports_;
   Material material_;
   std::vector<double> slice_edges_;
   std::vector<double> lead_gap_;  // mean over every slice, m

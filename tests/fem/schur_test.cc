@@ -69,16 +69,16 @@ BOOST_AUTO_TEST_CASE(schur_complement_equals_the_dense_one_in_the_order_asked_fo
   for (const int kept : {1, 7, 40, 144}) {
     const auto retained = some_nodes(144, kept);
     const Eigen::MatrixXd expected = dense_complement(matrix, retained);
-    BOOST_TEST((schur_complement(matrix, retained) - expected).cwiseAbs().maxCoeff() < round_off);
+    BOOST_TEST((schur_complement(matrix, retained).matrix - expected).cwiseAbs().maxCoeff() < round_off);
     // A shift is taken off again.
-    BOOST_TEST((schur_complement(matrix, retained, 2.0) - expected).cwiseAbs().maxCoeff() < round_off);
+    BOOST_TEST((schur_complement(matrix, retained, 2.0).matrix - expected).cwiseAbs().maxCoeff() < round_off);
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_singular_complement_needs_and_survives_the_shift) {
   const auto matrix = spring_net(12, 0);  // all nodes may move together
   const auto retained = some_nodes(144, 20);
-  const Eigen::MatrixXd shifted = schur_complement(matrix, retained, 1.5);
+  const Eigen::MatrixXd shifted = schur_complement(matrix, retained, 1.5).matrix;
   BOOST_TEST((shifted - dense_complement(matrix, retained)).cwiseAbs().maxCoeff() < round_off);
   BOOST_TEST((shifted * Eigen::VectorXd::Ones(20)).cwiseAbs().maxCoeff() < round_off);
 }
@@ -86,13 +86,37 @@ BOOST_AUTO_TEST_CASE(a_singular_complement_needs_and_survives_the_shift) {
 BOOST_AUTO_TEST_CASE(large_matrices_take_the_nested_dissection_and_agree) {
   const auto matrix = spring_net(64, 0.1);  // 4096 - 30 > 3000 inner freedoms
   const auto retained = some_nodes(64 * 64, 30);
-  const Eigen::MatrixXd complement = schur_complement(matrix, retained);
+  const Eigen::MatrixXd complement = schur_complement(matrix, retained).matrix;
   // (K^-1)_rr = S^-1, from Eigen's own factorisation.
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> reference(matrix);
   Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(64 * 64, 30);
   for (int i = 0; i < 30; ++i) unit(retained[i], i) = 1;
   const Eigen::MatrixXd inverse = unit.transpose() * reference.solve(unit);
   BOOST_TEST((complement * inverse - Eigen::MatrixXd::Identity(30, 30)).cwiseAbs().maxCoeff() < 1e-11);
+}
+
+BOOST_AUTO_TEST_CASE(loads_are_condensed_as_by_dense_elimination) {
+  std::mt19937 random(17);
+  for (const int n : {12, 64}) {  // both orderings
+    const auto matrix = spring_net(n, 0.1);
+    const auto retained = some_nodes(n * n, 30);
+    constexpr int count = 150, acting = 70;  // more than one chunk of either kind
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int load = 0; load < count; ++load)
+      for (int k = 0; k < 3; ++k)
+        entries.emplace_back(static_cast<int>(random() % (n * n)), load, 1.0 * random() / std::mt19937::max());
+    entries.emplace_back(retained[3], 5, 1.0);
+    Eigen::SparseMatrix<double> loads(n * n, count);
+    loads.setFromTriplets(entries.begin(), entries.end());
+    for (const double shift : {0.0, 1.5}) {
+      const auto result = schur_complement(matrix, retained, shift, loads, acting);
+      // Free loads: b_r^T S^-1 b_r and the part with the retained freedoms held make b^T K^-1 b.
+      const Eigen::MatrixXd dense = loads;
+      const Eigen::MatrixXd exact = dense.transpose() * SparseCholesky(matrix).solve(dense).leftCols(acting);
+      const Eigen::MatrixXd moved = result.loads.transpose() * result.matrix.llt().solve(result.loads.leftCols(acting));
+      BOOST_TEST((result.compliance + moved - exact).cwiseAbs().maxCoeff() < round_off * exact.cwiseAbs().maxCoeff());
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_condensed_is_refused) {

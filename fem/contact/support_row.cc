@@ -1,0 +1,167 @@
+#include "fem/contact/support_row.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.h"
+#include "fem/condensation/lapack.h"
+
+namespace annulus::fem {
+
+SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges)
+    : sites_(std::move(sites)), slice_edges_(std::move(slice_edges)) {
+  const double pitch = 2 * M_PI / teeth;
+  const int slices = static_cast<int>(slice_edges_.size()) - 1;
+  constexpr double same = 1e-10;  // rad: round-off of angles of a few turns
+  const auto arc_number = [&](const ArcLoad& wanted) {
+    const auto equal = [&](const ArcLoad& a) {
+      return std::abs(a.centre - wanted.centre) < same && std::abs(a.half_arc - wanted.half_arc) < same &&
+             std::abs(std::remainder(a.direction - wanted.direction, 2 * M_PI)) < same &&
+             a.parabolic == wanted.parabolic && a.z_low == wanted.z_low;
+    };
+    const auto number = std::find_if(arcs_.begin(), arcs_.end(), equal) - arcs_.begin();
+    if (number == static_cast<std::ptrdiff_t>(arcs_.size())) arcs_.push_back(wanted);
+    return static_cast<int>(number);
+  };
+  for (int site = 0; site < static_cast<int>(sites_.sites.size()); ++site) {
+    const auto& s = sites_.sites[site];
+    const auto sector_of = [&](double angle) { return static_cast<int>(std::floor(angle / pitch + 0.5)); };
+    // An arc that ends at a border does not reach over it.
+    const double inside = s.half_arc * (1 - 1e-9);
+    for (int direction = 0; direction < static_cast<int>(s.directions.size()); ++direction) {
+      const auto& d = s.directions[direction];
+      for (int slice = 0; slice < slices; ++slice) {
+        Force force{site, direction, slice, {}};
+        for (int sector = sector_of(s.angle - inside); sector <= sector_of(s.angle + inside); ++sector) {
+          ArcLoad arc;
+          arc.centre = s.angle - sector * pitch;
+          arc.half_arc = s.half_arc;
+          arc.direction = arc.centre + M_PI - std::atan2(d.counter_clockwise, d.inward);
+          arc.parabolic = s.parabolic;
+          arc.z_low = slice_edges_[slice];
+          arc.z_high = slice_edges_[slice + 1];
+          force.pieces.emplace_back(((sector % teeth) + teeth) % teeth, arc_number(arc));
+        }
+        forces_.push_back(std::move(force));
+      }
+    }
+  }
+}
+
+SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
+    : plan_(std::move(plan)), ring_(ring), on_sector_(ring.teeth), cuts_(std::make_unique<Cut[]>(ring.teeth)) {
+  const bool solid = ring.axial_stations() > 1;
+  const auto& edges = plan_.slice_edges();
+  const double width = edges.back() - edges.front();
+  require(solid || edges.size() == 2, "a plane body has one slice");
+  if (!solid) per_width_ = 1 / width;
+  const int n = size(), arcs = static_cast<int>(plan_.arcs().size());
+  resultants_ = Eigen::MatrixXd::Zero(n, solid ? 5 : 3);
+  gap_.resize(n);
+  for (int i = 0; i < n; ++i) {
+    const auto& force = plan_.forces()[i];
+    Wrench wrench = Wrench::Zero();
+    for (const auto& [sector, arc] : force.pieces) {
+      wrench += ring.arc_wrench(arc, sector);
+      on_sector_[sector].force.push_back(i);
+      on_sector_[sector].arc.push_back(arc);
+    }
+    require(std::abs(wrench.head<3>().norm() - 1) < 1e-9, "a support is not wholly on the rim");
+    resultants_.row(i).head<3>() << wrench[0], wrench[1], wrench[5];
+    if (solid) resultants_.row(i).tail<2>() << wrench[3], wrench[4];
+    gap_[i] = plan_.direction(force).clearance;
+    unilateral_.push_back(plan_.direction(force).unilateral);
+  }
+
+  compliance_ = Eigen::MatrixXd::Zero(n, n);
+  for (int sector = 0; sector < ring.teeth; ++sector) {
+    const auto& here = on_sector_[sector];
+    if (here.force.empty()) continue;
+    const Eigen::MatrixXd arc_displacement = at_loads(sector, ring.first_arc(), arcs);
+    for (std::size_t i = 0; i < here.force.size(); ++i)
+      compliance_.row(here.force[i]) += arc_displacement.row(here.arc[i]);
+  }
+  compliance_ = (0.5 * (compliance_ + compliance_.transpose())).eval();
+  for (int i = 0; i < n; ++i) {
+    const auto& force = plan_.forces()[i];
+    const auto& direction = plan_.direction(force);
+    const auto middle = [&](int slice) { return ((edges[slice] + edges[slice + 1]) / 2 - edges.front()) / width; };
+    compliance_(i, i) += width / (edges[force.slice + 1] - edges[force.slice]) / direction.stiffness;
+    // The pin stays straight between its ends: a force at z divides between them by the lever rule.
+    const int first = i - force.slice;
+    for (int j = first; j < first + static_cast<int>(edges.size()) - 1; ++j) {
+      const double a = middle(force.slice), b = middle(j - first);
+      compliance_(i, j) += ((1 - a) * (1 - b) + a * b) * 2 / direction.end_stiffness;
+    }
+  }
+}
+
+const Eigen::MatrixXd& SupportRow::at_cut(int cut) const {
+  const int number = tooth_number(cut);
+  auto& slot = cuts_[number];
+  std::call_once(slot.formed, [&] {
+    const auto& c = ring_.compliance;
+    slot.displacement = Eigen::MatrixXd::Zero(c.cut_size(), size());
+    for (int sector = 0; sector < ring_.teeth; ++sector) {
+      const auto& here = on_sector_[sector];
+      const auto count = static_cast<Eigen::Index>(here.force.size());
+      if (count == 0) continue;
+      Eigen::MatrixXd low(c.cut_size(), count), high(c.cut_size(), count);
+      for (Eigen::Index i = 0; i < count; ++i) {
+        low.col(i) = c.low().col(ring_.first_arc() + here.arc[i]);
+        high.col(i) = c.high().col(ring_.first_arc() + here.arc[i]);
+      }
+      Eigen::MatrixXd displacement = Eigen::MatrixXd::Zero(c.cut_size(), count);
+      c.add_cut_displacement(number - sector, low, displacement);
+      c.add_cut_displacement(number - sector - 1, high, displacement);
+      for (Eigen::Index i = 0; i < count; ++i) slot.displacement.col(here.force[i]) += displacement.col(i);
+    }
+    slot.displacement *= per_width_;
+  });
+  return slot.displacement;
+}
+
+Eigen::MatrixXd SupportRow::at_loads(int sector, int first, int count) const {
+  const auto& c = ring_.compliance;
+  Eigen::MatrixXd result =
+      lapack::transpose_product(Eigen::MatrixXd(c.low().middleCols(first, count)), at_cut(sector)) +
+      lapack::transpose_product(Eigen::MatrixXd(c.high().middleCols(first, count)), at_cut(sector + 1));
+  const auto& here = on_sector_[tooth_number(sector)];
+  for (std::size_t i = 0; i < here.force.size(); ++i)
+    result.col(here.force[i]) += per_width_ * c.within().col(ring_.first_arc() + here.arc[i]).segment(first, count);
+  return result;
+}
+
+Eigen::MatrixXd SupportRow::at_ports(int tooth, const Eigen::MatrixXd& port_weights) const {
+  const auto& c = ring_.compliance;
+  const int ports = ring_.flank_ports();
+  const Eigen::MatrixXd low = lapack::product(c.low().leftCols(ports), port_weights);
+  const Eigen::MatrixXd high = lapack::product(c.high().leftCols(ports), port_weights);
+  Eigen::MatrixXd result =
+      lapack::transpose_product(low, at_cut(tooth)) + lapack::transpose_product(high, at_cut(tooth + 1));
+  const auto& here = on_sector_[tooth_number(tooth)];
+  for (std::size_t i = 0; i < here.force.size(); ++i)
+    result.col(here.force[i]) +=
+        per_width_ * port_weights.transpose() * c.within().col(ring_.first_arc() + here.arc[i]).head(ports);
+  return result;
+}
+
+void SupportRow::fill_states(const Eigen::VectorXd& forces, LoadedPosition& position) const {
+  const auto& sites = plan_.sites();
+  std::vector<PinState> states(sites.sites.size());
+  for (int i = 0; i < size(); ++i) {
+    const auto& force = plan_.forces()[i];
+    const auto& direction = plan_.direction(force);
+    auto& state = states[force.site];
+    // A support feels the opposite of what it does to the rim; in the mirrored frame of the solve tangential forces
+    // change their sign twice.
+    state.radial_force += forces[i] * direction.inward;
+    state.tangential_force += forces[i] * direction.counter_clockwise;
+    const bool tells = unilateral_[i] || direction.inward == 1;
+    if (tells && forces[i] > 0) state.touching = true;
+  }
+  position.pins.assign(states.begin(), states.begin() + sites.pins);
+  position.housing.assign(states.begin() + sites.pins, states.end());
+}
+
+}  // namespace annulus::fem

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "fem/contact/support_sites.h"
+#include "fem/gear_body.h"
+#include "fem/loaded_mesh.h"
+
+namespace annulus::fem {
+
+/// How a row of supports lies on the sectors of a ring: which distinct arc loads a sector has to be prepared for, and
+/// which of them make up each support force. Equal supports on N teeth share p / gcd(p, N) places.
+class SupportPlan {
+ public:
+  /// `slice_edges`: z of the slices of the face width, each with its own forces; in the plane one slice.
+  SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges);
+
+  struct Force {
+    int site = 0, direction = 0, slice = 0;
+    std::vector<std::pair<int, int>> pieces;  ///< sector, arc
+  };
+  [[nodiscard]] const SupportSites& sites() const { return sites_; }
+  [[nodiscard]] const std::vector<double>& slice_edges() const { return slice_edges_; }
+  /// [site][direction][slice]
+  [[nodiscard]] const std::vector<Force>& forces() const { return forces_; }
+  [[nodiscard]] const std::vector<ArcLoad>& arcs() const { return arcs_; }
+  [[nodiscard]] const SupportDirection& direction(const Force& force) const {
+    return sites_.sites[force.site].directions[force.direction];
+  }
+
+ private:
+  SupportSites sites_;
+  std::vector<double> slice_edges_;
+  std::vector<Force> forces_;
+  std::vector<ArcLoad> arcs_;
+};
+
+/// The supports around a floating ring as unknown forces of the contact problem.
+class SupportRow {
+ public:
+  /// `ring` has the plan's arcs as its arc loads; it is referred to.
+  SupportRow(SupportPlan plan, const GearBody& ring);
+
+  [[nodiscard]] int size() const { return static_cast<int>(plan_.forces().size()); }  ///< number of forces
+  [[nodiscard]] const SupportPlan& plan() const { return plan_; }
+  /// Rigid motions of the ring: x, y, rotation about z; of a solid one also about x and y. Axial motion is not
+  /// resisted, and not loaded.
+  [[nodiscard]] int rigid_motions() const { return static_cast<int>(resultants_.cols()); }
+  /// forces x rigid motions: resultants of unit forces (N, N m)
+  [[nodiscard]] const Eigen::MatrixXd& resultants() const { return resultants_; }
+  /// Displacements at the supports under unit support forces, m/N, the supports' own compliance included.
+  [[nodiscard]] const Eigen::MatrixXd& compliance() const { return compliance_; }
+  [[nodiscard]] const Eigen::VectorXd& gap() const { return gap_; }  ///< m
+  [[nodiscard]] const std::vector<bool>& unilateral() const { return unilateral_; }
+
+  /// Displacement of loads of a tooth under unit support forces, m/N: the work of `port_weights` (ports x k) is asked
+  /// for; k x forces.
+  [[nodiscard]] Eigen::MatrixXd at_ports(int tooth, const Eigen::MatrixXd& port_weights) const;
+  /// Displacements of cut `cut` under unit support forces, m/N: m x forces. Formed when first asked for.
+  [[nodiscard]] const Eigen::MatrixXd& at_cut(int cut) const;
+  /// Work of loads first ... first + count - 1 of a sector under unit support forces, per N: count x forces.
+  [[nodiscard]] Eigen::MatrixXd at_loads(int sector, int first, int count) const;
+
+  /// What forces mean for pins (or spline teeth), and for the patches of a housing bore.
+  void fill_states(const Eigen::VectorXd& forces, LoadedPosition& position) const;
+
+ private:
+  /// Support forces that act on one sector through one of its arcs.
+  struct OnSector {
+    std::vector<int> force, arc;
+  };
+  [[nodiscard]] int tooth_number(int tooth) const { return ((tooth % ring_.teeth) + ring_.teeth) % ring_.teeth; }
+
+  SupportPlan plan_;
+  const GearBody& ring_;
+  double per_width_ = 1;  ///< plane compliances are per unit of width
+  std::vector<OnSector> on_sector_;
+  Eigen::MatrixXd compliance_, resultants_;
+  Eigen::VectorXd gap_;
+  std::vector<bool> unilateral_;
+  struct Cut {
+    std::once_flag formed;
+    Eigen::MatrixXd displacement;
+  };
+  std::unique_ptr<Cut[]> cuts_;
+};
+
+}  // namespace annulus::fem
