@@ -16,8 +16,8 @@ SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slic
   const auto arc_number = [&](const ArcLoad& wanted) {
     const auto equal = [&](const ArcLoad& a) {
       return std::abs(a.centre - wanted.centre) < same && std::abs(a.half_arc - wanted.half_arc) < same &&
-             std::abs(std::remainder(a.direction - wanted.direction, 2 * M_PI)) < same && a.parabolic == wanted.parabolic &&
-             a.z_low == wanted.z_low;
+             std::abs(std::remainder(a.direction - wanted.direction, 2 * M_PI)) < same &&
+             a.parabolic == wanted.parabolic && a.z_low == wanted.z_low;
     };
     const auto number = std::find_if(arcs_.begin(), arcs_.end(), equal) - arcs_.begin();
     if (number == static_cast<std::ptrdiff_t>(arcs_.size())) arcs_.push_back(wanted);

@@ -37,8 +37,7 @@ SupportSites pin_sites(const PinHeld& pins, const SupportedRing& ring) {
     bore.clearance = *pins.housing_clearance;
     bore.stiffness = local;  // the width of a squeezed prism over its height does not depend on its size
     const double pitch = 2 * M_PI / ring.teeth;
-    for (int tooth = 0; tooth < ring.teeth; ++tooth)
-      result.sites.push_back({-tooth * pitch, pitch / 2, false, {bore}});
+    for (int tooth = 0; tooth < ring.teeth; ++tooth) result.sites.push_back({-tooth * pitch, pitch / 2, false, {bore}});
   }
   return result;
 }
