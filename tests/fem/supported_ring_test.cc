@@ -40,8 +40,8 @@ void check_equilibrium(const LoadedMeshProblem& problem, const LoadedMeshResult&
     const Eigen::Vector3d sum = support_resultant(result, p);
     const double c = std::cos(p.ring_angle), s = std::sin(p.ring_angle);
     // Seen from the carrier the planet turns clockwise: at the pitch point it presses the ring outwards and clockwise.
-    const Eigen::Vector2d expected = p.load * Eigen::Vector2d(c * std::sin(alpha) + s * std::cos(alpha),
-                                                              s * std::sin(alpha) - c * std::cos(alpha));
+    const Eigen::Vector2d expected =
+        p.load * Eigen::Vector2d(c * std::sin(alpha) + s * std::cos(alpha), s * std::sin(alpha) - c * std::cos(alpha));
     worst_force = std::max(worst_force, (sum.head<2>() - expected).norm() / p.load / p.entry.lte);
     const double torque = p.load * problem.pair.wheel().base_radius();
     worst_moment = std::max(worst_moment, std::abs(sum[2] * ring_outside * (1 - lever_loss) / torque + 1));
