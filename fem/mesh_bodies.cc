@@ -1,5 +1,6 @@
 #include "fem/mesh_bodies.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -72,8 +73,6 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   const auto* cantilever = std::get_if<EndFaceHeld>(&problem.structure);
   if (cantilever != nullptr && !solid)
     throw InputError("a ring held at its end face is a solid problem: the plane rung cannot model it");
-  if (sites && solid)
-    throw InputError("pinned and splined rings are modelled in the plane in this version: use rung = \"plane\"");
 
   const BodyResolution solid_counts = solid ? solid_resolution(level) : BodyResolution{};
 
@@ -87,7 +86,8 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   if (sites) {
     wheel_model.held = HeldBoundary::none;
     wheel_model.want_outside = true;
-    plan.emplace(*sites, pair.wheel().teeth(), uniform_edges(problem.face_width, 1));
+    // A slice per layer of elements: unilateral on its own.
+    plan.emplace(*sites, pair.wheel().teeth(), uniform_edges(problem.face_width, std::max(1, solid_counts.face_cells)));
   }
 
   std::vector<Task> tasks;
@@ -97,7 +97,7 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     Task task{geometry::make_sector_mesh(profile.gear(), rim, counts.section), &profile, rim.support_radius, {}, {}};
     task.options.sector = model;
     task.options.threads = 1;
-    if (wheel && plan) {
+    if (wheel && model.want_outside) {
       task.options.arcs = plan->arcs();
       task.options.extent.whole_ring = true;
     }
@@ -129,6 +129,7 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     for (const bool wheel : {false, true}) {
       auto& model = wheel ? wheel_near : planet_near;
       model.held = HeldBoundary::support;
+      model.want_outside = false;
       plane_task(wheel, plane_counts(wheel), model);
       plane_task(wheel, solid_counts, model);
     }

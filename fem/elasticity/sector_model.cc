@@ -50,6 +50,18 @@ TraceGrid make_trace(const std::vector<int>& nodes, const std::vector<Eigen::Vec
   return trace;
 }
 
+geometry::Boundary boundary_of(HeldBoundary held) {
+  switch (held) {
+    case HeldBoundary::support:
+      return geometry::Boundary::support;
+    case HeldBoundary::end_low:
+      return geometry::Boundary::end_low;
+    case HeldBoundary::none:
+      break;
+  }
+  return geometry::Boundary::none;  // no face of a mesh
+}
+
 template <int dim>
 SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile& profile, double support_radius,
                        const Material& material, const SectorModelOptions& options) {
@@ -68,10 +80,7 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
   }
 
   std::vector<bool> held(model.nodes.size(), false);
-  if (options.held != HeldBoundary::none)
-    for (const int n : problem.boundary_nodes(options.held == HeldBoundary::support ? geometry::Boundary::support
-                                                                                    : geometry::Boundary::end_low))
-      held[n] = true;
+  for (const int n : problem.boundary_nodes(boundary_of(options.held))) held[n] = true;
   std::vector<int> row_of_freedom(problem.freedoms(), -1);
   model.freedom.assign(model.nodes.size() * dim, -1);
   int rows = 0;
