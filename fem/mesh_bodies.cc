@@ -160,9 +160,9 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     planet_near_field = near_field(2, 3);
     wheel_near_field = near_field(4, 5);
   }
-  bodies.planet = std::make_unique<ContactBody>(std::move(tasks[0].body), pair.planet().base_radius(), problem.material,
+  bodies.planet = std::make_unique<CondensedBody>(std::move(tasks[0].body), pair.planet().base_radius(), problem.material,
                                                 bodies.slice_edges, std::move(planet_near_field));
-  bodies.wheel = std::make_unique<ContactBody>(std::move(tasks[1].body), pair.wheel().base_radius(), problem.material,
+  bodies.wheel = std::make_unique<CondensedBody>(std::move(tasks[1].body), pair.wheel().base_radius(), problem.material,
                                                bodies.slice_edges, std::move(wheel_near_field));
   if (plan) bodies.supports = std::make_unique<SupportRow>(std::move(*plan), bodies.wheel->body());
   bodies.condense_seconds = seconds_since(condense_start);

@@ -13,7 +13,7 @@ namespace annulus::fem {
 
 /// The two condensed bodies of a loaded mesh at one level of resolution, ready for contact.
 struct MeshBodies {
-  std::unique_ptr<ContactBody> planet, wheel;
+  std::unique_ptr<CondensedBody> planet, wheel;
   std::unique_ptr<SupportRow> supports;  ///< of a floating ring
   std::vector<double> slice_edges;
   geometry::Mesh planet_sector, wheel_sector;

@@ -10,10 +10,6 @@
 namespace annulus::fem {
 namespace {
 
-/// Cells that a load on the mesh covers to either side of its centre: quadratic cells then resolve it to some tenths of
-/// a per cent of the near field.
-constexpr double cells_in_half_width = 2.5;
-
 /// Columns (station, slice) of `matrix` summed with the weights of every element of a patch.
 Eigen::MatrixXd gather_columns(const Eigen::MatrixXd& matrix, const FlankPatch& patch, int slices) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(matrix.rows(), static_cast<Eigen::Index>(patch.elements.size()));
@@ -26,72 +22,38 @@ Eigen::MatrixXd gather_columns(const Eigen::MatrixXd& matrix, const FlankPatch& 
   return result;
 }
 
+/// A semi-ellipse 2 / sqrt(3) as long as an element has its second moment.
+double own_spread(double half_length) { return 2 / std::sqrt(3.0) * half_length; }
+
 }  // namespace
 
-ContactBody::ContactBody(GearBody body, double base_radius, const Material& material,
-                         const std::vector<double>& slice_edges, std::optional<NearField> near_field,
-                         double contact_slant)
-    : body_(std::move(body)),
-      base_radius_(base_radius),
-      half_plane_(material),
-      slices_(static_cast<int>(slice_edges.size()) - 1),
-      near_field_(std::move(near_field)) {
+ContactBody::ContactBody(double base_radius, const TraceBasis& axial, const std::vector<double>& slice_edges)
+    : base_radius_(base_radius), slices_(static_cast<int>(slice_edges.size()) - 1) {
   require(slices_ >= 1, "a contact needs at least one slice");
-  for (int s = 0; s < slices_; ++s) slice_length_.push_back((slice_edges[s + 1] - slice_edges[s]) * contact_slant);
-  const double width = slice_edges.back() - slice_edges.front();
-  const int stations = body_.axial_stations();
+  const int stations = std::max(1, axial.size());
   axial_ = Eigen::MatrixXd::Ones(stations, slices_);
-  double per_width = 1;
   if (stations > 1) {
     for (int s = 0; s < slices_; ++s) {
-      const auto mean = body_.axial.mean_over(slice_edges[s], slice_edges[s + 1]);
+      const auto mean = axial.mean_over(slice_edges[s], slice_edges[s + 1]);
       for (int i = 0; i < stations; ++i) axial_(i, s) = mean[i];
     }
   } else {
     require(slices_ == 1, "a plane body has one slice");
-    per_width = 1 / width;  // plane compliances are per unit of width
-  }
-
-  // Condense the axial direction once: compliance between profile stations and slices.
-  const int profile = body_.flank.size(), ports = body_.flank_ports();
-  for (int d = 0; d <= body_.compliance.max_offset(); ++d) {
-    const Eigen::MatrixXd full = body_.compliance.block(d).topLeftCorner(ports, ports);
-    Eigen::MatrixXd columns(ports, profile * slices_);
-    for (int u = 0; u < profile; ++u)
-      columns.middleCols(u * slices_, slices_) = lapack::product(full.middleCols(u * stations, stations), axial_);
-    Eigen::MatrixXd both(profile * slices_, profile * slices_);
-    for (int u = 0; u < profile; ++u)
-      both.middleRows(u * slices_, slices_) =
-          lapack::transpose_product(axial_, Eigen::MatrixXd(columns.middleRows(u * stations, stations)));
-    compressed_.push_back(per_width * both);
-  }
-
-  const TraceBasis& resolving = near_field_ ? near_field_->fine : body_.flank;
-  const auto& rolls = resolving.stations();
-  for (int e = 0; e < resolving.elements(); ++e) {
-    const double low = rolls[e * resolving.degree()], high = rolls[(e + 1) * resolving.degree()];
-    cell_centres_.push_back((low * low + high * high) / (4 * base_radius_));
-    cell_lengths_.push_back((high * high - low * low) / (2 * base_radius_));
+    per_width_ = 1 / (slice_edges.back() - slice_edges.front());
   }
 }
 
-double ContactBody::cell_length(double arc) const {
-  const auto above = std::upper_bound(cell_centres_.begin(), cell_centres_.end(), arc);
-  if (above == cell_centres_.begin()) return cell_lengths_.front();
-  if (above == cell_centres_.end()) return cell_lengths_.back();
-  const auto i = above - cell_centres_.begin();
-  const double t = (arc - cell_centres_[i - 1]) / (cell_centres_[i] - cell_centres_[i - 1]);
-  return (1 - t) * cell_lengths_[i - 1] + t * cell_lengths_[i];
-}
-
-FlankLoad ContactBody::make_load(double arc, double half_length) const {
-  const double low = body_.flank.low(), high = body_.flank.high();
-  const double to_end = std::min(arc - low * low / (2 * base_radius_), high * high / (2 * base_radius_) - arc);
-  // A semi-ellipse 2 / sqrt(3) as long as the element has its second moment.
-  const double own = 2 / std::sqrt(3.0) * half_length;
-  const double spread = std::min(std::max(own, cells_in_half_width * cell_length(arc)), to_end);
-  require(spread > 0, "a pressure element lies beyond the end of the flank");
-  return {arc, half_length, spread};
+Eigen::MatrixXd ContactBody::compress(const Eigen::MatrixXd& ports) const {
+  const Eigen::Index stations = axial_.rows(), rows = ports.rows() / stations, columns = ports.cols() / stations;
+  if (stations == 1) return per_width_ * ports;
+  Eigen::MatrixXd half(ports.rows(), columns * slices_);
+  for (Eigen::Index u = 0; u < columns; ++u)
+    half.middleCols(u * slices_, slices_) = lapack::product(ports.middleCols(u * stations, stations), axial_);
+  Eigen::MatrixXd both(rows * slices_, columns * slices_);
+  for (Eigen::Index u = 0; u < rows; ++u)
+    both.middleRows(u * slices_, slices_) =
+        lapack::transpose_product(axial_, Eigen::MatrixXd(half.middleRows(u * stations, stations)));
+  return both;
 }
 
 Eigen::MatrixXd ContactBody::weights_on(const TraceBasis& flank, const std::vector<FlankLoad>& loads) const {
@@ -110,23 +72,97 @@ Eigen::MatrixXd ContactBody::weights_on(const TraceBasis& flank, const std::vect
   return weights;
 }
 
-void ContactBody::find_weights(FlankPatch& patch) const { patch.weights = weights_on(body_.flank, patch.loads); }
-
-Eigen::MatrixXd ContactBody::compliance(const FlankPatch& a, int tooth_a, const FlankPatch& b, int tooth_b) const {
-  const int n = body_.teeth;
-  int d = ((tooth_a - tooth_b) % n + n) % n;
-  const bool mirrored = d > n - d;
-  if (mirrored) d = n - d;
-  require(d < static_cast<int>(compressed_.size()), "teeth too far apart for the formed compliance");
-  // block(-d) is the transpose of block(d).
-  const auto& first = mirrored ? a : b;
-  const auto& second = mirrored ? b : a;
-  const Eigen::MatrixXd columns = gather_columns(compressed_[d], first, slices_).transpose();
-  const Eigen::MatrixXd both = gather_columns(columns, second, slices_);
-  return mirrored ? both : Eigen::MatrixXd(both.transpose());
+double ContactBody::distance_to_end(const TraceBasis& flank, double arc) const {
+  const double low = flank.low(), high = flank.high();
+  const double distance =
+      std::min(arc - low * low / (2 * base_radius_), high * high / (2 * base_radius_) - arc);
+  require(distance > 0, "a pressure element lies beyond the end of the flank");
+  return distance;
 }
 
-Eigen::MatrixXd ContactBody::near_field(const FlankPatch& patch) const {
+void ContactBody::find_weights(FlankPatch& patch, int tooth) const {
+  patch.weights = weights_on(ports_of(tooth).first.flank, patch.loads);
+}
+
+Eigen::MatrixXd ContactBody::compliance(const FlankPatch& a, int tooth_a, const FlankPatch& b, int tooth_b) const {
+  const auto [matrix, transposed] = block(tooth_a, tooth_b);
+  const auto& first = transposed ? a : b;
+  const auto& second = transposed ? b : a;
+  const Eigen::MatrixXd columns = gather_columns(matrix, first, slices_).transpose();
+  const Eigen::MatrixXd both = gather_columns(columns, second, slices_);
+  return transposed ? both : Eigen::MatrixXd(both.transpose());
+}
+
+Eigen::MatrixXd ContactBody::resultants(const FlankPatch& patch, int tooth) const {
+  const auto [body, number] = ports_of(tooth);
+  const int stations = body.axial_stations();
+  Eigen::MatrixXd of_station(3, body.flank.size() * slices_);
+  for (int u = 0; u < body.flank.size(); ++u)
+    for (int s = 0; s < slices_; ++s) {
+      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+      for (int z = 0; z < stations; ++z) sum += axial_(z, s) * body.rigid_motion(u * stations + z, number);
+      of_station.col(u * slices_ + s) = sum.transpose();
+    }
+  return gather_columns(of_station, patch, slices_).transpose();
+}
+
+Eigen::MatrixXd ContactBody::port_weights(const FlankPatch& patch) const {
+  const Eigen::Index stations = axial_.rows();
+  Eigen::MatrixXd result =
+      Eigen::MatrixXd::Zero(patch.weights.rows() * stations, static_cast<Eigen::Index>(patch.elements.size()));
+  for (std::size_t e = 0; e < patch.elements.size(); ++e)
+    for (Eigen::Index u = 0; u < patch.weights.rows(); ++u)
+      if (const double w = patch.weights(u, patch.elements[e].load); w != 0)
+        result.col(static_cast<Eigen::Index>(e)).segment(u * stations, stations) =
+            w * axial_.col(patch.elements[e].slice);
+  return result;
+}
+
+CondensedBody::CondensedBody(GearBody body, double base_radius, const Material& material,
+                             const std::vector<double>& slice_edges, std::optional<NearField> near_field,
+                             double contact_slant)
+    : ContactBody(base_radius, body.axial, slice_edges),
+      body_(std::move(body)),
+      half_plane_(material),
+      near_field_(std::move(near_field)) {
+  for (int s = 0; s < slices(); ++s) slice_length_.push_back((slice_edges[s + 1] - slice_edges[s]) * contact_slant);
+  for (int d = 0; d <= body_.compliance.max_offset(); ++d) compressed_.push_back(compress(body_.compliance.block(d)));
+  const TraceBasis& resolving = near_field_ ? near_field_->fine : body_.flank;
+  const auto& rolls = resolving.stations();
+  for (int e = 0; e < resolving.elements(); ++e) {
+    const double low = rolls[e * resolving.degree()], high = rolls[(e + 1) * resolving.degree()];
+    cell_centres_.push_back((low * low + high * high) / (4 * base_radius));
+    cell_lengths_.push_back((high * high - low * low) / (2 * base_radius));
+  }
+}
+
+double CondensedBody::cell_length(double arc) const {
+  const auto above = std::upper_bound(cell_centres_.begin(), cell_centres_.end(), arc);
+  if (above == cell_centres_.begin()) return cell_lengths_.front();
+  if (above == cell_centres_.end()) return cell_lengths_.back();
+  const auto i = above - cell_centres_.begin();
+  const double t = (arc - cell_centres_[i - 1]) / (cell_centres_[i] - cell_centres_[i - 1]);
+  return (1 - t) * cell_lengths_[i - 1] + t * cell_lengths_[i];
+}
+
+FlankLoad CondensedBody::make_load(int, double arc, double half_length) const {
+  // Cells to either side of the centre: quadratic cells then resolve the load to some tenths of a per cent of the near
+  // field.
+  constexpr double cells_in_half_width = 2.5;
+  const double resolved = std::max(own_spread(half_length), cells_in_half_width * cell_length(arc));
+  return {arc, half_length, std::min(resolved, distance_to_end(body_.flank, arc))};
+}
+
+ContactBody::Block CondensedBody::block(int tooth_a, int tooth_b) const {
+  const int n = body_.teeth;
+  int d = ((tooth_a - tooth_b) % n + n) % n;
+  const bool mirrored = d > n - d;  // block(-d) is the transpose of block(d)
+  if (mirrored) d = n - d;
+  require(d < static_cast<int>(compressed_.size()), "teeth too far apart for the formed compliance");
+  return {compressed_[d], mirrored};
+}
+
+Eigen::MatrixXd CondensedBody::near_field(const FlankPatch& patch) const {
   const auto loads = static_cast<Eigen::Index>(patch.loads.size());
   Eigen::MatrixXd correction = Eigen::MatrixXd::Zero(loads, loads);
   if (near_field_) {
@@ -136,12 +172,12 @@ Eigen::MatrixXd ContactBody::near_field(const FlankPatch& patch) const {
     correction -= coarse.transpose() * near_field_->coarse_compliance * coarse;
   }
   // Loads that share no slice never meet.
-  std::vector<std::vector<std::size_t>> in_slice(slices_);
+  std::vector<std::vector<std::size_t>> in_slice(slices());
   for (std::size_t e = 0; e < patch.elements.size(); ++e) in_slice[patch.elements[e].slice].push_back(e);
   Eigen::MatrixXd half_plane = Eigen::MatrixXd::Constant(loads, loads, std::numeric_limits<double>::quiet_NaN());
   const auto elements = static_cast<Eigen::Index>(patch.elements.size());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(elements, elements);
-  for (int s = 0; s < slices_; ++s)
+  for (int s = 0; s < slices(); ++s)
     for (const std::size_t i : in_slice[s])
       for (const std::size_t j : in_slice[s]) {
         const int l = std::min(patch.elements[i].load, patch.elements[j].load);
@@ -158,28 +194,39 @@ Eigen::MatrixXd ContactBody::near_field(const FlankPatch& patch) const {
   return result;
 }
 
-Eigen::MatrixXd ContactBody::resultants(const FlankPatch& patch, int tooth) const {
-  const int stations = body_.axial_stations();
-  Eigen::MatrixXd of_station(3, body_.flank.size() * slices_);
-  for (int u = 0; u < body_.flank.size(); ++u)
-    for (int s = 0; s < slices_; ++s) {
-      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-      for (int z = 0; z < stations; ++z) sum += axial_(z, s) * body_.rigid_motion(u * stations + z, tooth);
-      of_station.col(u * slices_ + s) = sum.transpose();
+ResolvedBody::ResolvedBody(std::vector<GearBody> teeth, int first_tooth, const Eigen::MatrixXd& compliance,
+                           double base_radius, const std::vector<double>& slice_edges)
+    : ContactBody(base_radius, teeth.front().axial, slice_edges), teeth_(std::move(teeth)), first_tooth_(first_tooth) {
+  Eigen::Index row = 0;
+  for (const auto& a : teeth_) {
+    compressed_.emplace_back();
+    Eigen::Index column = 0;
+    for (const auto& b : teeth_) {
+      compressed_.back().push_back(compress(compliance.block(row, column, a.flank_ports(), b.flank_ports())));
+      column += b.flank_ports();
     }
-  return gather_columns(of_station, patch, slices_).transpose();
+    row += a.flank_ports();
+  }
 }
 
-Eigen::MatrixXd ContactBody::port_weights(const FlankPatch& patch) const {
-  const Eigen::Index stations = axial_.rows();
-  Eigen::MatrixXd result =
-      Eigen::MatrixXd::Zero(patch.weights.rows() * stations, static_cast<Eigen::Index>(patch.elements.size()));
-  for (std::size_t e = 0; e < patch.elements.size(); ++e)
-    for (Eigen::Index u = 0; u < patch.weights.rows(); ++u)
-      if (const double w = patch.weights(u, patch.elements[e].load); w != 0)
-        result.col(static_cast<Eigen::Index>(e)).segment(u * stations, stations) =
-            w * axial_.col(patch.elements[e].slice);
-  return result;
+FlankLoad ResolvedBody::make_load(int tooth, double arc, double half_length) const {
+  return {arc, half_length, std::min(own_spread(half_length), distance_to_end(ports_of(tooth).first.flank, arc))};
+}
+
+Eigen::MatrixXd ResolvedBody::near_field(const FlankPatch& patch) const {
+  const auto n = static_cast<Eigen::Index>(patch.elements.size());
+  return Eigen::MatrixXd::Zero(n, n);
+}
+
+ContactBody::Block ResolvedBody::block(int tooth_a, int tooth_b) const {
+  (void)ports_of(tooth_a);
+  (void)ports_of(tooth_b);
+  return {compressed_[tooth_a - first_tooth_][tooth_b - first_tooth_], false};
+}
+
+std::pair<const GearBody&, int> ResolvedBody::ports_of(int tooth) const {
+  require(tooth >= first_tooth_ && tooth < first_tooth_ + static_cast<int>(teeth_.size()), "a tooth without a mesh");
+  return {teeth_[tooth - first_tooth_], tooth};
 }
 
 }  // namespace annulus::fem

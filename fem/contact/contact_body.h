@@ -10,6 +10,59 @@
 
 namespace annulus::fem {
 
+/// A gear prepared for contact: the compliance of its flanks under loads on pressure elements that are constant over
+/// slices of the face width.
+class ContactBody {
+ public:
+  virtual ~ContactBody() = default;
+  ContactBody(const ContactBody&) = delete;
+  ContactBody& operator=(const ContactBody&) = delete;
+
+  [[nodiscard]] int slices() const { return slices_; }
+
+  /// The load that stands for an element on the mesh of a tooth.
+  [[nodiscard]] virtual FlankLoad make_load(int tooth, double arc, double half_length) const = 0;
+  /// Fills the weights of a patch whose loads are given.
+  void find_weights(FlankPatch& patch, int tooth) const;
+
+  /// Mean displacement into the material over the elements of `a` on tooth `tooth_a` under unit forces on those of `b`,
+  /// m/N, as the mesh gives it.
+  [[nodiscard]] Eigen::MatrixXd compliance(const FlankPatch& a, int tooth_a, const FlankPatch& b, int tooth_b) const;
+  /// What is missing within one patch: the near field of loads that the mesh does not resolve.
+  [[nodiscard]] virtual Eigen::MatrixXd near_field(const FlankPatch& patch) const = 0;
+  /// Resultants (x, y, moment about the axis) of unit element forces on a tooth: elements x 3.
+  [[nodiscard]] Eigen::MatrixXd resultants(const FlankPatch& patch, int tooth) const;
+  /// Port forces of unit element forces: flank ports x elements.
+  [[nodiscard]] Eigen::MatrixXd port_weights(const FlankPatch& patch) const;
+
+ protected:
+  /// `slice_edges`: z of the slice borders (m), ascending; in the plane {0, width} with one slice. `axial`: empty in
+  /// the plane.
+  ContactBody(double base_radius, const TraceBasis& axial, const std::vector<double>& slice_edges);
+
+  /// Compliance between profile stations and slices, rows and columns [station * slices + slice], from that between all
+  /// flank ports.
+  [[nodiscard]] Eigen::MatrixXd compress(const Eigen::MatrixXd& ports) const;
+  [[nodiscard]] Eigen::MatrixXd weights_on(const TraceBasis& flank, const std::vector<FlankLoad>& loads) const;
+  /// Distance to the nearer end of a flank, m.
+  [[nodiscard]] double distance_to_end(const TraceBasis& flank, double arc) const;
+  [[nodiscard]] double base_radius() const { return base_radius_; }
+
+  struct Block {
+    const Eigen::MatrixXd& compliance;  ///< compressed
+    bool transposed = false;
+  };
+  [[nodiscard]] virtual Block block(int tooth_a, int tooth_b) const = 0;
+  /// A body that has the flank ports of a tooth, and what its number is there.
+  [[nodiscard]] virtual std::pair<const GearBody&, int> ports_of(int tooth) const = 0;
+
+ private:
+  double base_radius_;
+  int slices_ = 1;
+  Eigen::MatrixXd axial_;  // axial stations x slices, column sum 1
+  double per_width_ = 1;   // plane compliances are per unit of width
+};
+
 /// What a fine plane mesh adds to the near field of a solid body's coarse flank, applied slice by slice: the compliance
 /// of the fine plane tooth less that of a plane tooth as coarse as the solid, m per N/m.
 struct NearField {
@@ -17,48 +70,53 @@ struct NearField {
   Eigen::MatrixXd fine_compliance, coarse_compliance;
 };
 
-/// A gear body prepared for contact: the compliance of its flanks under loads on pressure elements that are constant
-/// over slices of the face width.
-class ContactBody {
+/// A body of equal teeth whose mesh does not follow the contact: a load on its mesh is as wide as the mesh needs to
+/// resolve it, as near to the ends of the flank as it fits; the rest is added from the half-plane.
+class CondensedBody : public ContactBody {
  public:
-  /// `slice_edges`: z of the slice borders (m), ascending; in the plane {0, width} with one slice. `near_field`: solid
-  /// bodies only. `base_radius` of the gear; `contact_slant`: length of a contact line per face width.
-  ContactBody(GearBody body, double base_radius, const Material& material, const std::vector<double>& slice_edges,
-              std::optional<NearField> near_field = {}, double contact_slant = 1);
+  /// `near_field`: solid bodies only. `contact_slant`: length of a contact line per face width.
+  CondensedBody(GearBody body, double base_radius, const Material& material, const std::vector<double>& slice_edges,
+                std::optional<NearField> near_field = {}, double contact_slant = 1);
 
   [[nodiscard]] const GearBody& body() const { return body_; }
-  [[nodiscard]] int slices() const { return slices_; }
+  [[nodiscard]] FlankLoad make_load(int tooth, double arc, double half_length) const override;
+  [[nodiscard]] Eigen::MatrixXd near_field(const FlankPatch& patch) const override;
 
-  /// The load that stands for an element on this body's mesh: as wide as the mesh needs to resolve it, as near to the
-  /// ends of the flank as it fits.
-  [[nodiscard]] FlankLoad make_load(double arc, double half_length) const;
-  /// Fills the weights of a patch whose loads are given.
-  void find_weights(FlankPatch& patch) const;
-
-  /// Mean displacement into the material over the elements of `a` on tooth `tooth_a` under unit forces on those of `b`,
-  /// m/N, as the mesh gives it.
-  [[nodiscard]] Eigen::MatrixXd compliance(const FlankPatch& a, int tooth_a, const FlankPatch& b, int tooth_b) const;
-  /// What is missing within one patch: the near field of loads that the mesh does not resolve.
-  [[nodiscard]] Eigen::MatrixXd near_field(const FlankPatch& patch) const;
-  /// Resultants (x, y, moment about the axis) of unit element forces on a tooth: elements x 3.
-  [[nodiscard]] Eigen::MatrixXd resultants(const FlankPatch& patch, int tooth) const;
-  /// Port forces of unit element forces: flank ports x elements.
-  [[nodiscard]] Eigen::MatrixXd port_weights(const FlankPatch& patch) const;
+ protected:
+  [[nodiscard]] Block block(int tooth_a, int tooth_b) const override;
+  [[nodiscard]] std::pair<const GearBody&, int> ports_of(int tooth) const override { return {body_, tooth}; }
 
  private:
-  [[nodiscard]] Eigen::MatrixXd weights_on(const TraceBasis& flank, const std::vector<FlankLoad>& loads) const;
   /// Length of the mesh's cells at a place of the flank, m, continuous along it.
   [[nodiscard]] double cell_length(double arc) const;
 
   GearBody body_;
-  double base_radius_;
   HalfPlane half_plane_;
-  int slices_ = 1;
   std::vector<double> slice_length_;         // of the contact line, m
-  Eigen::MatrixXd axial_;                    // axial stations x slices, column sum 1
   std::vector<Eigen::MatrixXd> compressed_;  // per offset: (station, slice) x (station, slice)
   std::optional<NearField> near_field_;
   std::vector<double> cell_centres_, cell_lengths_;
+};
+
+/// A body some neighbouring teeth of which have meshes of their own that resolve their contact.
+class ResolvedBody : public ContactBody {
+ public:
+  /// `teeth`: neighbours counter-clockwise from `first_tooth`, without compliance; `compliance` of all their flank
+  /// ports, tooth by tooth.
+  ResolvedBody(std::vector<GearBody> teeth, int first_tooth, const Eigen::MatrixXd& compliance, double base_radius,
+               const std::vector<double>& slice_edges);
+
+  [[nodiscard]] FlankLoad make_load(int tooth, double arc, double half_length) const override;
+  [[nodiscard]] Eigen::MatrixXd near_field(const FlankPatch& patch) const override;
+
+ protected:
+  [[nodiscard]] Block block(int tooth_a, int tooth_b) const override;
+  [[nodiscard]] std::pair<const GearBody&, int> ports_of(int tooth) const override;
+
+ private:
+  std::vector<GearBody> teeth_;
+  int first_tooth_;
+  std::vector<std::vector<Eigen::MatrixXd>> compressed_;  // [tooth][tooth]
 };
 
 }  // namespace annulus::fem

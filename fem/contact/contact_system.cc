@@ -68,7 +68,6 @@ ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& plan
 
 void ContactSystem::add_elements(Pair& pair, double load, double window) const {
   const auto domain = flanks_.domain(pair.roll);
-  if (domain.empty()) return;
   const double width = slice_edges_.back() - slice_edges_.front();
   const double base = flanks_.pair().planet().base_radius(), wheel_base = flanks_.pair().wheel().base_radius();
   const double centre_roll = flanks_.nearest_roll(pair.roll);
@@ -93,8 +92,7 @@ void ContactSystem::add_elements(Pair& pair, double load, double window) const {
   // Shortest at the centre, where pairs that carry little have all their contact.
   const auto at = [&](int i) {
     const double t = static_cast<double>(i) / per_side;
-    constexpr double first = 0.35;
-    return t * (first + (1 - first) * t);
+    return t * (options_.first + (1 - options_.first) * t);
   };
   if (low_half > 0)
     for (int i = per_side; i > 0; --i) edges.push_back(centre - low_half * at(i));
@@ -126,9 +124,9 @@ void ContactSystem::add_elements(Pair& pair, double load, double window) const {
         wheel_arc += weight * arc;
         if (q + 1 == Rule::abscissa().size()) (side < 0 ? wheel_low : wheel_high) = arc;
       }
-    pair.planet.loads.push_back(planet_.make_load((low + high) / 2, (high - low) / 2));
+    pair.planet.loads.push_back(planet_.make_load(pair.index, (low + high) / 2, (high - low) / 2));
     pair.wheel.loads.push_back(
-        wheel_.make_load(wheel_arc, std::abs(wheel_high - wheel_low) / 2 / Rule::abscissa().back()));
+        wheel_.make_load(wheel_tooth(pair.index, 0), wheel_arc, std::abs(wheel_high - wheel_low) / 2 / Rule::abscissa().back()));
     for (int s = 0; s < planet_.slices(); ++s) {
       element.gap = gap + lead_gap_[s];
       element.area = (high - low) * (slice_edges_[s + 1] - slice_edges_[s]);
@@ -142,8 +140,8 @@ void ContactSystem::add_elements(Pair& pair, double load, double window) const {
   pair.smallest_gap = std::min(pair.smallest_gap, profile_gap + *std::min_element(lead_gap_.begin(), lead_gap_.end()));
 }
 
-std::vector<ContactSystem::Pair> ContactSystem::find_pairs(double phase, double load, double window) const {
-  const auto& pair = flanks_.pair();
+std::vector<std::pair<int, double>> ContactSystem::possible_pairs(const FlankContact& flanks, double phase) {
+  const auto& pair = flanks.pair();
   const double pitch = pair.planet().base_pitch();
   // Along the path the contact of a tooth moves from the planet's root to its tip in the ring mesh (planet drives) and
   // from tip to root in the sun mesh (sun drives).
@@ -152,25 +150,33 @@ std::vector<ContactSystem::Pair> ContactSystem::find_pairs(double phase, double 
   // Under load teeth meet before and after the theoretical path: look one base pitch beyond both its ends.
   const int first = static_cast<int>(std::ceil((pair.roll_length_low() - reference) / pitch - 1));
   const int last = static_cast<int>(std::floor((pair.roll_length_high() - reference) / pitch + 1));
-  std::vector<Pair> pairs;
-  for (int k = first; k <= last; ++k) {
-    Pair p;
-    p.index = k;
-    p.roll = reference + k * pitch;
-    if (p.roll <= 0) continue;
-    add_elements(p, load, window);
-    if (p.elements.empty()) continue;
-    planet_.find_weights(p.planet);
-    wheel_.find_weights(p.wheel);
-    pairs.push_back(std::move(p));
-  }
+  std::vector<std::pair<int, double>> pairs;
+  for (int k = first; k <= last; ++k)
+    if (const double roll = reference + k * pitch; roll > 0 && !flanks.domain(roll).empty())
+      pairs.emplace_back(k, roll);
   require(!pairs.empty(), "no tooth pair faces another");
   return pairs;
 }
 
-int ContactSystem::wheel_tooth(int index, int cycle) const {
-  return flanks_.pair().internal() ? index - cycle : -(index + cycle);
+std::vector<ContactSystem::Pair> ContactSystem::find_pairs(double phase, double load, double window) const {
+  std::vector<Pair> pairs;
+  for (const auto& [index, roll] : possible_pairs(flanks_, phase)) {
+    Pair p;
+    p.index = index;
+    p.roll = roll;
+    add_elements(p, load, window);
+    planet_.find_weights(p.planet, p.index);
+    wheel_.find_weights(p.wheel, wheel_tooth(p.index, 0));
+    pairs.push_back(std::move(p));
+  }
+  return pairs;
 }
+
+int ContactSystem::wheel_tooth(const FlankContact& flanks, int index, int cycle) {
+  return flanks.pair().internal() ? index - cycle : -(index + cycle);
+}
+
+int ContactSystem::wheel_tooth(int index, int cycle) const { return wheel_tooth(flanks_, index, cycle); }
 
 ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, double window) const {
   auto result = std::make_shared<Pairs>();

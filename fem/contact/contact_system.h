@@ -21,6 +21,7 @@ struct ContactOptions {
   /// Pressure elements to either side of the centre of a pair, over a half-window of `window`: independent of the mesh,
   /// fine at the centre, so that a pair that carries little has its share of them too.
   int elements = 10;
+  double first = 0.35;      ///< length of the elements at the centre relative to a uniform split
   double window = 1.25;     ///< half-length of a pair's contact window in Hertz half-widths of the whole load
   double misalignment = 0;  ///< m, as in LoadedMeshProblem
 };
@@ -43,12 +44,16 @@ class ContactSystem {
   /// replaced.
   [[nodiscard]] LoadedPosition solve(int cycle, double phase, double load, PairsCache& cache, WarmStart& warm) const;
 
+  /// Tooth pairs that may touch at a position: number, and planet roll length of their theoretical contact.
+  [[nodiscard]] static std::vector<std::pair<int, double>> possible_pairs(const FlankContact& flanks, double phase);
+  /// Number of the wheel's tooth in pair `index` during mesh cycle `cycle`.
+  [[nodiscard]] static int wheel_tooth(const FlankContact& flanks, int index, int cycle);
+
  private:
   struct Pair;
   [[nodiscard]] std::vector<Pair> find_pairs(double phase, double load, double window) const;
   void add_elements(Pair& pair, double load, double window) const;
   [[nodiscard]] PairsCache prepare(double phase, double load, double window) const;
-  /// Number of the wheel's tooth in pair `index` during mesh cycle `cycle`.
   [[nodiscard]] int wheel_tooth(int index, int cycle) const;
   [[nodiscard]] ComplementarityProblem assemble(const Pairs& pairs, int cycle) const;
   /// Resultants on the wheel (x, y, moments about z, x, y) of unit (element, slice) forces of a pair.
