@@ -15,7 +15,6 @@ struct GearParameters {
   int teeth = 0;
   double module = 0;                      ///< m_n, m
   double pressure_angle = 0;              ///< alpha_n, rad
-  double helix_angle = 0;                 ///< beta at the reference cylinder, rad; 0 = spur, > 0 = right hand
   double profile_shift = 0;               ///< x, in modules
   double face_width = 0;                  ///< m
   std::optional<double> tip_diameter{};   ///< m; absent: addendum of one module
@@ -27,6 +26,7 @@ struct GearParameters {
   double profile_crowning = 0;            ///< m, parabolic, at both ends of the usable flank
   double lead_crowning = 0;               ///< m, parabolic, removed at both ends of the face width
   double lead_slope = 0;                  ///< m, removed linearly towards +z (> 0) or -z (< 0), end to end
+  double helix_angle = 0;                 ///< beta at the reference cylinder, rad; 0 = spur, > 0 = right hand
 };
 
 /// A gear with its derived dimensions (ISO 21771). Angles and thicknesses on circles are those of the transverse

@@ -82,6 +82,7 @@ Eigen::Vector2d at_angle(double radius, double angle) { return {radius * std::co
 
 std::vector<Eigen::Vector2d> arc(double radius, double from, double to, const std::vector<double>& fractions) {
   std::vector<Eigen::Vector2d> points;
+  points.reserve(fractions.size());
   for (const double f : fractions) points.push_back(at_angle(radius, from + f * (to - from)));
   return points;
 }
@@ -89,6 +90,7 @@ std::vector<Eigen::Vector2d> arc(double radius, double from, double to, const st
 std::vector<Eigen::Vector2d> straight(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                                       const std::vector<double>& fractions) {
   std::vector<Eigen::Vector2d> points;
+  points.reserve(fractions.size());
   for (const double f : fractions) points.push_back(from + f * (to - from));
   return points;
 }
