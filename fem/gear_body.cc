@@ -20,6 +20,19 @@ Wrench GearBody::arc_wrench(int arc, int sector) const {
   return turned;
 }
 
+namespace {
+
+/// Unit normal of the flank (side 1: leading, -1: trailing) out of the material; of a helical gear in its section at z.
+Eigen::Vector3d flank_normal(const geometry::ToothProfile& profile, double roll, double side, double z) {
+  const Eigen::Vector2d normal = profile.flank_normal(roll), point = profile.flank_point(roll);
+  // The normal stands on the tangent (twist e_z x p) + e_z of the helix through the point.
+  const double moment = side * (point.x() * normal.y() - point.y() * normal.x());
+  const Eigen::Vector3d all(normal.x(), side * normal.y(), -profile.twist() * moment);
+  return Eigen::AngleAxisd(profile.twist() * z, Eigen::Vector3d::UnitZ()) * all.normalized();
+}
+
+}  // namespace
+
 GearBody make_gear_body(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile, double support_radius,
                         const Material& material, const GearBodyOptions& options) {
   const SectorModel model = make_sector_model(sector_mesh, profile, support_radius, material, options.sector);
@@ -34,9 +47,9 @@ GearBody make_gear_body(const geometry::Mesh& sector_mesh, const geometry::Tooth
   SectorLoads loads;
   const double side = options.sector.flank == geometry::Boundary::trailing_flank ? -1 : 1;
   for (std::size_t i = 0; i < model.flank.nodes.size(); ++i) {
-    Eigen::Vector2d normal = profile.flank_normal(model.flank.profile[i / model.flank.axial.size()]);
-    normal.y() *= side;
-    loads.ports.push_back({model.flank.nodes[i], Eigen::Vector3d(-normal.x(), -normal.y(), 0)});
+    loads.ports.push_back(
+        {model.flank.nodes[i], -flank_normal(profile, model.flank.profile[i / model.flank.axial.size()], side,
+                                             model.flank.axial[i % model.flank.axial.size()])});
     body.port_points.push_back(model.nodes[model.flank.nodes[i]]);
   }
   for (const auto& arc : options.arcs) {

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/errors.h"
+#include "fem/body_plan.h"
 #include "fem/condensation/lapack.h"
 
 namespace annulus::fem {
@@ -69,74 +70,40 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   const auto start = std::chrono::steady_clock::now();
   const auto& pair = problem.pair;
   const bool solid = settings.rung == Rung::solid;
-  const auto sites = support_sites(problem);
-  const auto* cantilever = std::get_if<EndFaceHeld>(&problem.structure);
-  if (cantilever != nullptr && !solid)
-    throw InputError("a ring held at its end face is a solid problem: the plane rung cannot model it");
-
+  const BodyPlan planet(problem, flanks.planet(), false, geometry::Boundary::leading_flank, settings.degree, solid);
+  const BodyPlan wheel(problem, flanks.wheel(), true, flanks.wheel_flank(), settings.degree, solid);
   const BodyResolution solid_counts = solid ? solid_resolution(level) : BodyResolution{};
-
-  geometry::Rim planet_rim{problem.planet_bore_radius, {}}, wheel_rim{problem.wheel_support_radius, {}};
-  if (cantilever != nullptr) wheel_rim.circles = {problem.wheel_support_radius - cantilever->sleeve_thickness};
-
-  SectorModelOptions planet_model, wheel_model;
-  planet_model.degree = wheel_model.degree = settings.degree;
-  wheel_model.flank = flanks.wheel_flank();
-  std::optional<SupportPlan> plan;
-  if (sites) {
-    wheel_model.held = HeldBoundary::none;
-    wheel_model.want_outside = true;
+  std::optional<SupportPlan> supports;
+  if (const auto sites = support_sites(problem))
     // A slice per layer of elements: unilateral on its own.
-    plan.emplace(*sites, pair.wheel().teeth(), uniform_edges(problem.face_width, std::max(1, solid_counts.face_cells)));
-  }
+    supports.emplace(*sites, pair.wheel().teeth(),
+                     uniform_edges(problem.face_width, std::max(1, solid_counts.face_cells)));
 
   std::vector<Task> tasks;
-  const auto plane_task = [&](bool wheel, const BodyResolution& counts, SectorModelOptions model) {
-    const auto& profile = wheel ? flanks.wheel() : flanks.planet();
-    const auto& rim = wheel ? wheel_rim : planet_rim;
-    Task task{geometry::make_sector_mesh(profile.gear(), rim, counts.section), &profile, rim.support_radius, {}, {}};
-    task.options.sector = model;
-    task.options.threads = 1;
-    if (wheel && model.want_outside) {
-      task.options.arcs = plan->arcs();
+  const auto add_body = [&](const BodyPlan& plan) {
+    const BodyResolution counts = solid ? solid_counts : plane_resolution(plan.profile().gear(), level);
+    Task task{plan.sector(counts), &plan.profile(), plan.support_radius(), {}, {}};
+    task.options.sector = plan.model();
+    task.options.threads = solid ? settings.threads : 1;
+    if (plan.floating()) {
+      task.options.arcs = supports->arcs();
       task.options.extent.whole_ring = true;
     }
     tasks.push_back(std::move(task));
   };
-  const auto solid_task = [&](bool wheel) {
-    plane_task(wheel, solid_counts, wheel ? wheel_model : planet_model);
-    Task& task = tasks.back();
-    std::vector<geometry::Layers> stacks;
-    if (wheel && cantilever != nullptr) {
-      geometry::Layers sleeve{-cantilever->free_length, 0, solid_counts.sleeve_cells};
-      sleeve.region = geometry::Mesh::Region::sleeve;
-      sleeve.toothed = false;
-      sleeve.radius_low = wheel_rim.circles.front();
-      stacks.push_back(sleeve);
-      task.options.sector.held = HeldBoundary::end_low;
-    }
-    stacks.push_back({0, problem.face_width, solid_counts.face_cells});
-    task.mesh = geometry::extrude(task.mesh, stacks);
-    task.options.threads = settings.threads;
+  const auto add_section = [&](const BodyPlan& plan, const geometry::SectorResolution& resolution) {
+    Task task{plan.section(resolution), &plan.profile(), plan.support_radius(), {}, {}};
+    task.options.sector = plan.near_field_model();
+    tasks.push_back(std::move(task));
   };
-
-  const auto plane_counts = [&](bool wheel) { return plane_resolution(wheel ? pair.wheel() : pair.planet(), level); };
-  // The near field of a solid body comes from plane bodies held at the support circle: the far field cancels.
-  SectorModelOptions planet_near = planet_model, wheel_near = wheel_model;
-  if (solid) {
-    solid_task(false);
-    solid_task(true);
-    for (const bool wheel : {false, true}) {
-      auto& model = wheel ? wheel_near : planet_near;
-      model.held = HeldBoundary::support;
-      model.want_outside = false;
-      plane_task(wheel, plane_counts(wheel), model);
-      plane_task(wheel, solid_counts, model);
+  add_body(planet);
+  add_body(wheel);
+  if (solid)
+    // The near field of a solid body comes from plane bodies: the far field cancels.
+    for (const auto* plan : {&planet, &wheel}) {
+      add_section(*plan, plane_resolution(plan->profile().gear(), level).section);
+      add_section(*plan, solid_counts.section);
     }
-  } else {
-    plane_task(false, plane_counts(false), planet_model);
-    plane_task(true, plane_counts(true), wheel_model);
-  }
 
   MeshBodies bodies;
   bodies.mesh_seconds = seconds_since(start);
@@ -160,11 +127,13 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     planet_near_field = near_field(2, 3);
     wheel_near_field = near_field(4, 5);
   }
-  bodies.planet = std::make_unique<CondensedBody>(std::move(tasks[0].body), pair.planet().base_radius(), problem.material,
-                                                bodies.slice_edges, std::move(planet_near_field));
+  const double slant = 1 / std::cos(pair.planet().base_helix_angle());
+  bodies.planet =
+      std::make_unique<CondensedBody>(std::move(tasks[0].body), pair.planet().base_radius(), problem.material,
+                                      bodies.slice_edges, std::move(planet_near_field), slant);
   bodies.wheel = std::make_unique<CondensedBody>(std::move(tasks[1].body), pair.wheel().base_radius(), problem.material,
-                                               bodies.slice_edges, std::move(wheel_near_field));
-  if (plan) bodies.supports = std::make_unique<SupportRow>(std::move(*plan), bodies.wheel->body());
+                                                 bodies.slice_edges, std::move(wheel_near_field), slant);
+  if (supports) bodies.supports = std::make_unique<SupportRow>(std::move(*supports), bodies.wheel->body());
   bodies.condense_seconds = seconds_since(condense_start);
   return bodies;
 }

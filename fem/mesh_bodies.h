@@ -24,5 +24,4 @@ struct MeshBodies {
 [[nodiscard]] MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& flanks,
                                       const LoadedMeshSettings& settings, int level);
 
-
 }  // namespace annulus::fem

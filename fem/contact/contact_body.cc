@@ -74,8 +74,7 @@ Eigen::MatrixXd ContactBody::weights_on(const TraceBasis& flank, const std::vect
 
 double ContactBody::distance_to_end(const TraceBasis& flank, double arc) const {
   const double low = flank.low(), high = flank.high();
-  const double distance =
-      std::min(arc - low * low / (2 * base_radius_), high * high / (2 * base_radius_) - arc);
+  const double distance = std::min(arc - low * low / (2 * base_radius_), high * high / (2 * base_radius_) - arc);
   require(distance > 0, "a pressure element lies beyond the end of the flank");
   return distance;
 }

@@ -6,6 +6,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/errors.h"
 
@@ -53,7 +54,9 @@ ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& plan
       supports_(supports),
       material_(material),
       slice_edges_(std::move(slice_edges)),
-      options_(options) {
+      options_(options),
+      normal_factor_(std::cos(flanks.pair().planet().base_helix_angle())),
+      roll_per_z_(roll_per_z(flanks)) {
   const double width = slice_edges_.back() - slice_edges_.front();
   for (std::size_t s = 0; s + 1 < slice_edges_.size(); ++s) {
     const auto gap = [&](double z) {
@@ -66,17 +69,19 @@ ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& plan
   }
 }
 
-void ContactSystem::add_elements(Pair& pair, double load, double window) const {
-  const auto domain = flanks_.domain(pair.roll);
+void ContactSystem::add_elements(Pair& pair, double roll, const std::vector<int>& slices, double load,
+                                 double window) const {
+  const auto domain = flanks_.domain(roll);
+  if (domain.empty()) return;
   const double width = slice_edges_.back() - slice_edges_.front();
   const double base = flanks_.pair().planet().base_radius(), wheel_base = flanks_.pair().wheel().base_radius();
-  const double centre_roll = flanks_.nearest_roll(pair.roll);
+  const double centre_roll = flanks_.nearest_roll(roll);
   const double half_width =
       hertz_half_width(load / width,
-                       flanks_.relative_curvature(
-                           std::clamp(pair.roll, flanks_.pair().roll_length_low(), flanks_.pair().roll_length_high())),
+                       normal_factor_ * flanks_.relative_curvature(std::clamp(roll, flanks_.pair().roll_length_low(),
+                                                                              flanks_.pair().roll_length_high())),
                        material_);
-  const auto arc_of = [&](double roll) { return roll * roll / (2 * base); };
+  const auto arc_of = [&](double planet_roll) { return planet_roll * planet_roll / (2 * base); };
   const auto roll_of = [&](double arc) {
     return std::clamp(std::sqrt(2 * base * std::max(arc, 0.0)), domain.low, domain.high);
   };
@@ -118,26 +123,27 @@ void ContactSystem::add_elements(Pair& pair, double load, double window) const {
       for (const double side : {-1.0, 1.0}) {
         const double weight = Rule::weights()[q] / 2;
         const auto match =
-            flanks_.match(roll_of((low + high) / 2 + side * Rule::abscissa()[q] * (high - low) / 2), pair.roll);
+            flanks_.match(roll_of((low + high) / 2 + side * Rule::abscissa()[q] * (high - low) / 2), roll);
         gap += weight * match.gap;
         const double arc = match.wheel_roll * match.wheel_roll / (2 * wheel_base);
         wheel_arc += weight * arc;
         if (q + 1 == Rule::abscissa().size()) (side < 0 ? wheel_low : wheel_high) = arc;
       }
     pair.planet.loads.push_back(planet_.make_load(pair.index, (low + high) / 2, (high - low) / 2));
-    pair.wheel.loads.push_back(
-        wheel_.make_load(wheel_tooth(pair.index, 0), wheel_arc, std::abs(wheel_high - wheel_low) / 2 / Rule::abscissa().back()));
-    for (int s = 0; s < planet_.slices(); ++s) {
-      element.gap = gap + lead_gap_[s];
-      element.area = (high - low) * (slice_edges_[s + 1] - slice_edges_[s]);
+    pair.wheel.loads.push_back(wheel_.make_load(wheel_tooth(pair.index, 0), wheel_arc,
+                                                std::abs(wheel_high - wheel_low) / 2 / Rule::abscissa().back()));
+    for (const int s : slices) {
+      element.gap = normal_factor_ * gap + lead_gap_[s];
+      element.area = (high - low) * (slice_edges_[s + 1] - slice_edges_[s]) / normal_factor_;
       pair.elements.push_back(element);
       const FlankPatch::Element of_patch{first_load + static_cast<int>(e), s};
       pair.planet.elements.push_back(of_patch);
       pair.wheel.elements.push_back(of_patch);
     }
   }
-  const double profile_gap = flanks_.match(centre_roll, pair.roll).gap;
-  pair.smallest_gap = std::min(pair.smallest_gap, profile_gap + *std::min_element(lead_gap_.begin(), lead_gap_.end()));
+  const double profile_gap = normal_factor_ * flanks_.match(centre_roll, roll).gap;
+  for (const int s : slices)
+    pair.smallest_gap = std::min(pair.smallest_gap, (profile_gap + lead_gap_[s]) / normal_factor_);
 }
 
 std::vector<std::pair<int, double>> ContactSystem::possible_pairs(const FlankContact& flanks, double phase) {
@@ -147,15 +153,27 @@ std::vector<std::pair<int, double>> ContactSystem::possible_pairs(const FlankCon
   // from tip to root in the sun mesh (sun drives).
   const double direction = pair.internal() ? 1 : -1;
   const double reference = pair.roll_length_pitch() + direction * phase * pitch;
-  // Under load teeth meet before and after the theoretical path: look one base pitch beyond both its ends.
-  const int first = static_cast<int>(std::ceil((pair.roll_length_low() - reference) / pitch - 1));
-  const int last = static_cast<int>(std::floor((pair.roll_length_high() - reference) / pitch + 1));
+  // Under load teeth meet before and after the theoretical path: look one base pitch beyond both its ends. The ends of
+  // helical teeth are ahead of their middle, and behind it.
+  const double ahead = std::abs(roll_per_z(flanks)) * pair.planet().parameters().face_width / 2;
+  const int first = static_cast<int>(std::ceil((pair.roll_length_low() - ahead - reference) / pitch - 1));
+  const int last = static_cast<int>(std::floor((pair.roll_length_high() + ahead - reference) / pitch + 1));
   std::vector<std::pair<int, double>> pairs;
-  for (int k = first; k <= last; ++k)
-    if (const double roll = reference + k * pitch; roll > 0 && !flanks.domain(roll).empty())
-      pairs.emplace_back(k, roll);
+  for (int k = first; k <= last; ++k) {
+    const double roll = reference + k * pitch;
+    if (ahead > 0 || (roll > 0 && !flanks.domain(roll).empty())) pairs.emplace_back(k, roll);
+  }
   require(!pairs.empty(), "no tooth pair faces another");
   return pairs;
+}
+
+double ContactSystem::roll_per_z(const FlankContact& flanks) {
+  return flanks.planet().twist() * flanks.pair().planet().base_radius();
+}
+
+double ContactSystem::slice_roll(int slice) const {
+  const double middle = (slice_edges_.front() + slice_edges_.back()) / 2;
+  return roll_per_z_ * ((slice_edges_[slice] + slice_edges_[slice + 1]) / 2 - middle);
 }
 
 std::vector<ContactSystem::Pair> ContactSystem::find_pairs(double phase, double load, double window) const {
@@ -164,7 +182,15 @@ std::vector<ContactSystem::Pair> ContactSystem::find_pairs(double phase, double 
     Pair p;
     p.index = index;
     p.roll = roll;
-    add_elements(p, load, window);
+    // The section of a helical gear turns along the face width, and the contact moves with it.
+    if (roll_per_z_ == 0) {
+      std::vector<int> all(planet_.slices());
+      std::iota(all.begin(), all.end(), 0);
+      add_elements(p, roll, all, load, window);
+    } else {
+      for (int s = 0; s < planet_.slices(); ++s) add_elements(p, roll + slice_roll(s), {s}, load, window);
+    }
+    if (p.elements.empty()) continue;
     planet_.find_weights(p.planet, p.index);
     wheel_.find_weights(p.wheel, wheel_tooth(p.index, 0));
     pairs.push_back(std::move(p));
@@ -223,7 +249,7 @@ ComplementarityProblem ContactSystem::assemble(const Pairs& setup, int cycle) co
   problem.compliance.topLeftCorner(contacts, contacts) = setup.compliance;
   problem.gap = Eigen::VectorXd::Zero(n);
   problem.rigid = Eigen::MatrixXd::Zero(n, 1 + motions);
-  problem.rigid.col(0).head(contacts).setOnes();
+  problem.rigid.col(0).head(contacts).setConstant(normal_factor_);
   problem.load = Eigen::VectorXd::Zero(problem.rigid.cols());
   problem.load[0] = setup.load;
   problem.unilateral.assign(n, true);
@@ -328,14 +354,14 @@ LoadedPosition ContactSystem::evaluate(const Pairs& setup, const Complementarity
     const auto& p = pairs[i];
     const Eigen::VectorXd force = solution.force.segment(at, p.size());
     moment -= (planet_.resultants(p.planet, p.index).col(2)).dot(force);
-    result.pair_share.push_back(force.sum() / load);
+    result.pair_share.push_back(normal_factor_ * force.sum() / load);
     result.pair_roll.push_back(p.roll);
     for (Eigen::Index e = 0; e < p.size(); ++e) {
       if (force[e] <= 0) continue;
       const auto& element = p.elements[e];
       const int s = p.planet.elements[e].slice;
       const double length = slice_edges_[s + 1] - slice_edges_[s], pressure = force[e] / element.area;
-      result.line_load[s] += force[e] / length;
+      result.line_load[s] += normal_factor_ * force[e] / length;
       result.pressure.push_back(
           {static_cast<int>(i), slice_edges_[s], slice_edges_[s + 1], element.roll_low, element.roll_high, pressure});
       if (pressure <= result.max_pressure) continue;

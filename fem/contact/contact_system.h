@@ -52,7 +52,11 @@ class ContactSystem {
  private:
   struct Pair;
   [[nodiscard]] std::vector<Pair> find_pairs(double phase, double load, double window) const;
-  void add_elements(Pair& pair, double load, double window) const;
+  /// Elements of the given slices, in which the theoretical contact stands at planet roll `roll`.
+  void add_elements(Pair& pair, double roll, const std::vector<int>& slices, double load, double window) const;
+  /// Change of the planet's roll at the contact along the face width: tan(base helix angle), signed.
+  [[nodiscard]] static double roll_per_z(const FlankContact& flanks);
+  [[nodiscard]] double slice_roll(int slice) const;
   [[nodiscard]] PairsCache prepare(double phase, double load, double window) const;
   [[nodiscard]] int wheel_tooth(int index, int cycle) const;
   [[nodiscard]] ComplementarityProblem assemble(const Pairs& pairs, int cycle) const;
@@ -69,6 +73,8 @@ class ContactSystem {
   std::vector<double> slice_edges_;
   std::vector<double> lead_gap_;  // mean over every slice, m
   ContactOptions options_;
+  double normal_factor_;  // cos(base helix angle): normal approach of the flanks per transmission error
+  double roll_per_z_;
 };
 
 }  // namespace annulus::fem

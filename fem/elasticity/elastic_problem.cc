@@ -27,7 +27,7 @@ class ExactBoundary : public dealii::Manifold<dim> {
                                    const dealii::ArrayView<const double>& weights) const override {
     dealii::Point<dim> mean;
     for (std::size_t i = 0; i < points.size(); ++i) mean += weights[i] * points[i];
-    const Eigen::Vector2d exact = project_(boundary_, {mean[0], mean[1]});
+    const Eigen::Vector3d exact = project_(boundary_, {mean[0], mean[1], dim == 3 ? mean[dim - 1] : 0});
     mean[0] = exact.x();
     mean[1] = exact.y();
     return mean;
@@ -48,6 +48,7 @@ bool is_curved(geometry::Boundary boundary) {
     case Boundary::leading_fillet:
     case Boundary::trailing_fillet:
     case Boundary::root:
+    case Boundary::outside:
       return true;
     default:
       return false;

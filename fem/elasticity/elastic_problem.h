@@ -20,8 +20,9 @@
 
 namespace annulus::fem {
 
-/// Nearest point of the exact boundary curve in the cross-section; identity where the boundary is straight.
-using BoundaryProjection = std::function<Eigen::Vector2d(geometry::Boundary, const Eigen::Vector2d&)>;
+/// Nearest point of the exact boundary curve in the cross-section at the point's z; identity where the boundary is
+/// straight.
+using BoundaryProjection = std::function<Eigen::Vector3d(geometry::Boundary, const Eigen::Vector3d&)>;
 
 /// Small-strain isotropic elasticity (plane strain in 2D) on isoparametric Lagrange elements, any degree and dimension.
 template <int dim>

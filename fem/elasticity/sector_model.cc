@@ -56,6 +56,8 @@ geometry::Boundary boundary_of(HeldBoundary held) {
       return geometry::Boundary::support;
     case HeldBoundary::end_low:
       return geometry::Boundary::end_low;
+    case HeldBoundary::flange_face:
+      return geometry::Boundary::flange_face;
     case HeldBoundary::none:
       break;
   }
@@ -65,8 +67,8 @@ geometry::Boundary boundary_of(HeldBoundary held) {
 template <int dim>
 SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile& profile, double support_radius,
                        const Material& material, const SectorModelOptions& options) {
-  const auto project = [&profile, support_radius](geometry::Boundary boundary, const Eigen::Vector2d& point) {
-    return profile.project(boundary, point, support_radius);
+  const auto project = [&profile, support_radius, &options](geometry::Boundary boundary, const Eigen::Vector3d& point) {
+    return profile.project_solid(boundary, point, support_radius, options.outside_radius);
   };
   const ElasticProblem<dim> problem(mesh, project, material, options.degree, options.refinements);
 

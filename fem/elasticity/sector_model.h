@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <limits>
 #include <vector>
 
 #include "fem/material.h"
@@ -21,7 +22,7 @@ struct TraceGrid {
 };
 
 /// Which boundary of a sector is held.
-enum class HeldBoundary { none, support, end_low };
+enum class HeldBoundary { none, support, end_low, flange_face };
 
 /// One discretised tooth sector, free of deal.II: stiffness over the freedoms that are not held, and the nodes that
 /// matter to the outside.
@@ -42,6 +43,8 @@ struct SectorModelOptions {
   HeldBoundary held = HeldBoundary::support;
   geometry::Boundary flank = geometry::Boundary::leading_flank;
   bool want_outside = false;
+  /// Of a ring whose hoop or flange goes beyond it, m (see geometry::ExtrudeOptions).
+  double outside_radius = std::numeric_limits<double>::quiet_NaN();
 };
 
 [[nodiscard]] SectorModel make_sector_model(const geometry::Mesh& mesh, const geometry::ToothProfile& profile,

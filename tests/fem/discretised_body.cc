@@ -10,7 +10,11 @@ namespace {
 template <int dim>
 DiscretisedBody discretise_in(const geometry::Mesh& mesh, const Projection& project, const fem::Material& material,
                               int degree) {
-  const auto problem = std::make_shared<fem::ElasticProblem<dim>>(mesh, project, material, degree);
+  const auto exact = [project](geometry::Boundary boundary, const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    const Eigen::Vector2d on_curve = project(boundary, p.head<2>());
+    return {on_curve.x(), on_curve.y(), p.z()};
+  };
+  const auto problem = std::make_shared<fem::ElasticProblem<dim>>(mesh, exact, material, degree);
   DiscretisedBody body;
   body.dimension = dim;
   for (std::size_t n = 0; n < problem->node_points().size(); ++n) {

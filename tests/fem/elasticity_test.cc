@@ -225,9 +225,9 @@ double exact_displacement(double r) {
          ((1 - 2 * nu) * r + outside * outside / r);
 }
 
-Eigen::Vector2d on_circle(Boundary boundary, const Eigen::Vector2d& point) {
-  if (boundary != Boundary::root && boundary != Boundary::support) return point;
-  return point * ((boundary == Boundary::root ? inside : outside) / point.norm());
+Eigen::Vector3d on_circle(Boundary boundary, const Eigen::Vector3d& point) {
+  const double radius = boundary == Boundary::root ? inside : outside, scale = radius / point.head<2>().norm();
+  return {scale * point.x(), scale * point.y(), point.z()};
 }
 
 /// A quarter ring of one by two cells, straight-sided: all curvature comes from the projection.
