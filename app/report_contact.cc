@@ -168,9 +168,7 @@ std::string pressure_profile(const std::string& title, const MeshResult& mesh, c
   Plot plot{.title = title,
             .x_label = "roll length from the theoretical contact point, mm",
             .y_label = "pressure, MPa",
-            .legend = true,
-            .width = 900,
-            .height = 300};
+            .legend = true};
   for (const auto& [number, patches] : pairs) {
     const double centre = column_at(mesh, fmt::format("pair{}_roll_mm", number), at);
     Series series{.label = pair_title(mesh, number, at), .colour = plot.series.size()};
@@ -196,7 +194,8 @@ std::string pressure_profile(const std::string& title, const MeshResult& mesh, c
 }
 
 std::string pressures(const RunResult& result) {
-  std::string maps, profiles;
+  std::string maps;
+  std::vector<std::string> profiles;
   for (const auto& [name, mesh] : all_meshes(result)) {
     if (mesh->pressure.rows.empty()) continue;
     const auto at = shown_position(*mesh);
@@ -211,7 +210,7 @@ std::string pressures(const RunResult& result) {
     if (slices.size() > 1) {
       maps += figure({pressure_map(title, *mesh, *at, pairs)}, "", "");
     } else {
-      profiles += figure({pressure_profile(title, *mesh, *at, pairs)}, "", "");
+      profiles.push_back(pressure_profile(title, *mesh, *at, pairs));
     }
   }
   if (maps.empty() && profiles.empty()) return "";
@@ -225,9 +224,9 @@ std::string pressures(const RunResult& result) {
   }
   if (!profiles.empty()) {
     text +=
-        "<p>Contact pressure of every tooth pair at the nominal load where nothing changes along the face width, at "
-        "the position with the largest pressure away from tip edges.</p>\n" +
-        profiles;
+        figure(profiles, "",
+               "Contact pressure of every tooth pair at the nominal load where nothing changes along the face width, "
+               "at the position with the largest pressure away from tip edges.");
   }
   return text;
 }

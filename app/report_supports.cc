@@ -42,6 +42,28 @@ States states_of(const MeshResult& mesh) {
   return states;
 }
 
+/// A ring that repeats after a few teeth is continued: turned by its period, every support takes the place of another.
+void continue_to(States& states, double period_deg, int copies) {
+  auto& supports = states.supports;
+  const std::size_t positions = supports.front().size();
+  for (int copy = 1; copy < copies; ++copy) {
+    const double turn = copy * period_deg;
+    for (auto& support : supports) {
+      const double angle = support.front().angle;
+      const auto before = std::find_if(supports.begin(), supports.end(), [&](const auto& other) {
+        return std::abs(std::remainder(other.front().angle + turn - angle, 360.0)) < 1e-6;
+      });
+      if (before == supports.end()) return;
+      for (std::size_t k = 0; k < positions; ++k) {
+        State state = (*before)[k];
+        state.angle = angle;
+        state.contact += turn;
+        support.push_back(state);
+      }
+    }
+  }
+}
+
 /// What the colour of a support means: a pin presses outwards, a bolt pulls as well, a spline flank has two directions.
 double shown_force(const State& s, Structure structure) {
   return structure == Structure::splined ? std::hypot(s.radial, s.tangential) : s.radial;
@@ -76,8 +98,12 @@ const char* support_name(Structure structure) {
 }
 
 /// Support number over ring position. Columns narrower than two pixels are joined: the largest force is shown.
-std::string state_map(const std::string& ring, const MeshResult& mesh, Structure structure) {
-  const auto states = states_of(mesh);
+std::string state_map(const RingInput& input, const MeshResult& mesh) {
+  const auto structure = input.structure;
+  auto states = states_of(mesh);
+  constexpr int enough = 24;  // teeth
+  const int period = mesh.table.positions();
+  continue_to(states, 360.0 * period / input.teeth, std::min((enough + period - 1) / period, input.teeth / period));
   const auto count = states.supports.size(), positions = states.supports.front().size();
   const double cycles = static_cast<double>(positions) / states.per_cycle;
   constexpr std::size_t most_columns = 370;
@@ -106,15 +132,16 @@ std::string state_map(const std::string& ring, const MeshResult& mesh, Structure
   }
   panel.line = contact_line(states);
   const std::string what = support_name(structure);
-  ColourMap map{.title = fmt::format("{}: {}", ring, structure == Structure::splined ? "spline teeth" : what + "s"),
-                .x_label = "ring teeth passed by the planet (mesh cycles)",
-                .y_label = what + " number",
-                .value_label = structure == Structure::splined ? "force, kN" : "radial force, kN",
-                .y_range = {0.5, static_cast<double>(count) + 0.5},
-                .y_ticks = static_cast<int>(std::min<std::size_t>(count, 8)),
-                .values = range.range(0),
-                .grey = lifted ? "lifted off" : "",
-                .height = static_cast<int>(std::clamp<std::size_t>(130 + 9 * count, 190, 480))};
+  ColourMap map{
+      .title = fmt::format("{}: {}", input.name, structure == Structure::splined ? "spline teeth" : what + "s"),
+      .x_label = "ring teeth passed by the planet (mesh cycles)",
+      .y_label = what + " number",
+      .value_label = structure == Structure::splined ? "force, kN" : "radial force, kN",
+      .y_range = {0.5, static_cast<double>(count) + 0.5},
+      .y_ticks = static_cast<int>(std::min<std::size_t>(count, 8)),
+      .values = range.range(0),
+      .grey = lifted ? "lifted off" : "",
+      .height = static_cast<int>(std::clamp<std::size_t>(130 + 9 * count, 190, 480))};
   map.panels.push_back(std::move(panel));
   return to_svg(map);
 }
@@ -151,7 +178,7 @@ std::string caption(Structure structure) {
     text += ", coloured by the resultant of its flanks, grey while neither of them touches";
   }
   return text +
-         ". The orange line follows the contact of the teeth. Below: the same forces over the distance from the "
+         ". The black line follows the contact of the teeth. Below: the same forces over the distance from the "
          "contact.";
 }
 
@@ -162,8 +189,8 @@ std::string supports_section(const RunResult& result) {
   for (std::size_t i = 0; i < result.rings.size(); ++i) {
     const auto& ring = result.rings[i];
     if (ring.mesh.pins.rows.empty()) continue;
-    const auto structure = result.scene.rings[i].structure;
-    text += figure({state_map(ring.name, ring.mesh, structure)}, "", caption(structure));
+    const auto& input = result.scene.rings[i];
+    text += figure({state_map(input, ring.mesh)}, "", caption(input.structure));
     text += figure({force_plot(ring.name, ring.mesh)}, "", "");
   }
   return text.empty() ? "" : "<h2 id=\"supports\">Pins and splines</h2>\n" + text;

@@ -125,7 +125,9 @@ std::vector<Table> declare_tables() {
   stage.key("pressure_angle_deg", &StageInput::pressure_angle, "Pressure angle of the basic rack.")
       .required()
       .from(10, 35);
-  stage.key("helix_angle_deg", &StageInput::helix_angle, "Helix angle at the reference circle.")
+  stage
+      .key("helix_angle_deg", &StageInput::helix_angle,
+           "Helix angle at the reference circle; positive: planets and ring right-handed, the sun left-handed.")
       .fallback(0.0, "spur gears")
       .from(-45, 45)
       .unavailable("helical gears are not yet meshed");

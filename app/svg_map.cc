@@ -21,7 +21,7 @@ constexpr std::array<Rgb, 7> one_way = {
 constexpr std::array<Rgb, 5> both_ways = {
     {{0, 84, 140}, {110, 170, 210}, {247, 247, 247}, {240, 160, 100}, {180, 70, 0}}};
 constexpr const char* grey_fill = "#dfe3e6";
-constexpr int levels = 32;
+constexpr int levels = 33;  // odd: the middle one is the neutral colour of a scale both ways
 constexpr int no_value = -1;
 
 template <std::size_t N>
@@ -96,7 +96,7 @@ std::string line(const Frame& frame, const std::vector<std::pair<double, double>
   }
   return fmt::format(
       "<path d=\"{0}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"3\" stroke-opacity=\"0.7\"/>"
-      "<path d=\"{0}\" fill=\"none\" stroke=\"#D55E00\" stroke-width=\"1.4\"/>",
+      "<path d=\"{0}\" fill=\"none\" stroke=\"#111\" stroke-width=\"1.2\"/>",
       d);
 }
 
@@ -116,7 +116,8 @@ std::string colour_bar(const ColourMap& map, const ColourScale& scale, double le
   for (std::size_t i = 0; i < ticks.size(); ++i)
     svg +=
         fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", left + width + 5, bar.at_y(ticks[i]) + 3.5, labels[i]);
-  svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", left, top - 8, escape(map.value_label));
+  svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", map.width - 2.0, top - 8,
+                     escape(map.value_label));
   if (!map.grey.empty()) {
     svg += fmt::format(
         "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"12\" fill=\"{}\" stroke=\"#aaa\" "

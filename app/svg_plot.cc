@@ -11,8 +11,8 @@
 namespace annulus::app {
 
 const char* palette(std::size_t index) {
-  static constexpr const char* colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                            "#E69F00", "#56B4E9", "#444444"};
+  static constexpr const char* colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",
+                                            "#444444", "#882255", "#999933", "#332288", "#661100", "#88CCEE"};
   return colours[index % std::size(colours)];
 }
 

@@ -30,7 +30,7 @@ fem::PinState pin_state(const fem::RingStructure& structure, double from_contact
   const double tangential = 0.3 * load * std::exp(-at * at / 0.4);
   const auto* pins = std::get_if<fem::PinHeld>(&structure);
   if (pins && !pins->unilateral) return {true, radial, tangential};
-  return {radial > 0, std::max(0.0, radial), tangential};
+  return {radial > 1, radial > 1 ? radial : 0, tangential};
 }
 
 /// Two pairs, one base pitch apart, with elliptic pressure.
