@@ -82,15 +82,21 @@ struct Patch {
   double pressure = 0;
 };
 
-/// The position to show: where the load is most uneven, else where the pressure away from tip edges is largest.
+/// The position to show: where the load is most uneven, else where the pressure is largest, away from tip edges if it
+/// can be.
 std::optional<PositionKey> shown_position(const MeshResult& mesh) {
   if (const auto worst = mesh.peak("face_load_factor")) return worst->at;
-  MeshResult smooth = mesh;
-  const auto edge = smooth.positions.column("tip_edge_contact");
-  std::erase_if(smooth.positions.rows, [&](const auto& row) { return row[edge] != 0; });
-  const auto smooth_peak = smooth.peak("max_pressure_MPa");
-  const auto peak = smooth_peak ? smooth_peak : mesh.peak("max_pressure_MPa");
-  return peak ? std::optional(peak->at) : std::nullopt;
+  const auto& csv = mesh.positions;
+  const auto load = csv.column("load_N"), phase = csv.column("mesh_phase"), tooth = csv.column("ring_tooth"),
+             edge = csv.column("tip_edge_contact"), pressure = csv.column("max_pressure_MPa");
+  const std::vector<double>* best = nullptr;
+  const auto rank = [&](const std::vector<double>& row) { return std::pair(row[edge] == 0, row[pressure]); };
+  for (const auto& row : csv.rows) {
+    if (row[load] != mesh.table.loads()[mesh.nominal] || row[phase] >= 1) continue;
+    if (!best || rank(row) > rank(*best)) best = &row;
+  }
+  if (!best) return std::nullopt;
+  return PositionKey{(*best)[phase], static_cast<int>((*best)[tooth])};
 }
 
 std::map<int, std::vector<Patch>> patches_at(const Csv& csv, const PositionKey& at) {

@@ -15,12 +15,19 @@ namespace {
 
 using Rgb = std::array<double, 3>;
 
-// Viridis (van der Walt and Smith): even steps of lightness, readable without colour vision.
-constexpr std::array<Rgb, 7> one_way = {
-    {{68, 1, 84}, {68, 57, 131}, {49, 104, 142}, {33, 145, 140}, {53, 183, 121}, {144, 215, 67}, {253, 231, 37}}};
+// ColorBrewer's YlGnBu without its palest step (Harrower and Brewer): what carries little stays pale, also without
+// colour vision.
+constexpr std::array<Rgb, 8> one_way = {{{237, 248, 177},
+                                         {199, 233, 180},
+                                         {127, 205, 187},
+                                         {65, 182, 196},
+                                         {29, 145, 192},
+                                         {34, 94, 168},
+                                         {37, 52, 148},
+                                         {8, 29, 88}}};
 constexpr std::array<Rgb, 5> both_ways = {
     {{0, 84, 140}, {110, 170, 210}, {247, 247, 247}, {240, 160, 100}, {180, 70, 0}}};
-constexpr const char* grey_fill = "#dfe3e6";
+constexpr const char* grey_fill = "#bcc2c7";
 constexpr int levels = 33;  // odd: the middle one is the neutral colour of a scale both ways
 constexpr int no_value = -1;
 

@@ -25,7 +25,7 @@ struct ColourMap {
   std::string x_label{}, y_label{}, value_label{};  ///< with units
   Range y_range{};
   std::optional<int> y_ticks{};  ///< about so many; absent: as many as fit
-  Range values{};      ///< of the colour scale: from dark to light, or both ways from zero when it reaches below zero
+  Range values{};      ///< of the colour scale: from pale to dark, or both ways from zero when it reaches below zero
   std::string grey{};  ///< "lifted off"; empty: no such cells
   std::vector<Panel> panels{};
   int width = 900, height = 320;

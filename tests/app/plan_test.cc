@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(structures_their_rung_and_why) {
 }
 
 BOOST_AUTO_TEST_CASE(misalignment_and_lead_need_solids) {
-  const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/misaligned_set.toml");
+  auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/misaligned_set.toml");
   const auto geometry = app::make_geometry(scene);
   const auto sun = app::sun_mesh_model(scene, geometry), ring = app::ring_mesh_model(scene, geometry, 0);
   for (const auto* mesh : {&sun, &ring}) {
@@ -124,6 +124,8 @@ BOOST_AUTO_TEST_CASE(misalignment_and_lead_need_solids) {
   }
   BOOST_TEST(sun.problem->misalignment == 10e-6, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(ring.problem->misalignment == 20e-6, boost::test_tools::tolerance(1e-15));
+  scene.stage.helix_angle = 0.2;
+  BOOST_TEST(app::solid_reason(scene).find("helical") == 0U);
   const auto sloped = app::ring_mesh_model(scene, geometry, 2);
   BOOST_TEST(sloped.problem->pair.wheel().parameters().lead_slope == -20e-6, boost::test_tools::tolerance(1e-15));
 }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
 
 #include "app/report_parts.h"
+#include "app/summary.h"
 #include "app/svg_map.h"
 #include "tests/app/made_up_solution.h"
 #include "tests/app/scenes.h"
@@ -111,6 +113,22 @@ BOOST_AUTO_TEST_CASE(nothing_is_shown_of_what_is_not_known) {
   const auto page = app::report_html(result);
   BOOST_TEST(!contains(page, "#contact"));
   BOOST_TEST(!contains(page, "#supports"));
+}
+
+BOOST_AUTO_TEST_CASE(summary_has_the_peaks_with_their_position) {
+  const auto json = nlohmann::json::parse(app::summary_json(run_of("misaligned_set")));
+  const auto tolerance = boost::test_tools::tolerance(1e-12);
+  const auto& mesh = json["rings"]["thin-walled"]["ring_planet"];
+  BOOST_TEST(mesh["face_load_factor"]["value"].get<double>() == 1.5, tolerance);
+  BOOST_TEST(mesh["face_load_factor"]["mesh_phase"].get<double>() == 0.0);
+  BOOST_TEST(mesh["face_load_factor"]["ring_tooth"].get<int>() == 0);
+  BOOST_TEST(mesh["max_stress_Pa"]["ring_root_von_mises"]["value"].get<double>() == 160e6, tolerance);
+  BOOST_TEST(mesh["max_stress_Pa"]["planet_root_compression"]["value"].get<double>() == -180e6, tolerance);
+  BOOST_TEST(json["rings"]["thin-walled"]["sun_planet"]["max_stress_Pa"].contains("sun_root_tension"));
+  // Plane meshes have no face load factor.
+  const auto plane = nlohmann::json::parse(app::summary_json(run_of("ring_structures")));
+  BOOST_TEST(!plane["rings"]["traditional"]["ring_planet"].contains("face_load_factor"));
+  BOOST_TEST(plane["rings"]["flange"]["ring_planet"].contains("face_load_factor"));
 }
 
 BOOST_AUTO_TEST_CASE(whole_page) {
