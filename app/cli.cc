@@ -101,6 +101,22 @@ CLI::App* add_command(CLI::App& app, Arguments& arguments, const char* name, con
   return command;
 }
 
+/// The message about a first word that is not a command; empty when the arguments are wrong in another way.
+std::string unknown_command(const CLI::App& app) {
+  const auto words = app.remaining();
+  if (!app.get_subcommands().empty() || words.empty() || words.front().starts_with('-')) return "";
+  const std::string& word = words.front();
+  std::vector<std::string> commands;
+  std::string known;
+  for (const auto* command : app.get_subcommands({})) {
+    commands.push_back(command->get_name());
+    known += (known.empty() ? "" : ", ") + commands.back();
+  }
+  const std::string near = nearest(word, commands);
+  return fmt::format("{}: there is no such command{}; the commands are {} (annulus --help tells more)", word,
+                     near.empty() ? "" : ", did you mean " + near + "?", known);
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
@@ -135,6 +151,10 @@ int run_command_line(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (const std::string unknown = unknown_command(app); !unknown.empty()) {
+      fmt::print(stderr, "{}\n", unknown);
+      return wrong_input;
+    }
     const int status = app.exit(error);
     return status == 0 ? done : wrong_input;
   }

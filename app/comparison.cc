@@ -52,9 +52,10 @@ std::string numbers_text(const RingQuantity& quantity) {
   return text;
 }
 
-/// Outcome of "a is larger than b": undecided when the error bars overlap.
+/// Outcome of "a is larger than b": undecided when the error bars overlap or are not known.
 Verdict::Outcome larger(const Measured& a, const Measured& b) {
-  if (std::abs(a.value - b.value) <= a.error + b.error) return Verdict::Outcome::undecided;
+  const double errors = a.error + b.error;
+  if (!std::isfinite(errors) || std::abs(a.value - b.value) <= errors) return Verdict::Outcome::undecided;
   return a.value > b.value ? Verdict::Outcome::agrees : Verdict::Outcome::disagrees;
 }
 
@@ -67,7 +68,8 @@ void worsen(Verdict& verdict, const Measured& a, const Measured& b, double margi
       fmt::format("'{}' {} and '{}' {}", a.ring, to_text(a.value, digits), b.ring, to_text(b.value, digits));
   verdict.why += verdict.why.empty() ? "" : "; ";
   if (outcome == Verdict::Outcome::undecided) {
-    verdict.why += values + " differ by less than the error bars";
+    verdict.why +=
+        values + (std::isfinite(a.error + b.error) ? " differ by less than the error bars" : " have no known error");
     if (verdict.outcome == Verdict::Outcome::agrees) verdict.outcome = Verdict::Outcome::undecided;
     return;
   }
@@ -142,12 +144,12 @@ std::vector<NominalRow> nominal_rows(const MeshResult& mesh) {
 }
 
 /// Angle from the contact to the pin that carries the largest radial force, over all positions.
-double most_loaded_pin(const Csv& pins, double pitch, double first_pin) {
-  const auto angle = pins.column("ring_angle_deg"), pin = pins.column("pin"), force = pins.column("radial_force_N");
+double most_loaded_pin(const Csv& pins) {
+  const auto angle = pins.column("ring_angle_deg"), pin = pins.column("pin_angle_deg"),
+             force = pins.column("radial_force_N");
   const auto largest = std::max_element(pins.rows.begin(), pins.rows.end(),
                                         [&](const auto& a, const auto& b) { return a[force] < b[force]; });
-  return std::remainder(first_pin + ((*largest)[pin] - 1) * pitch - (*largest)[angle] * units::deg,
-                        2 * std::numbers::pi);
+  return std::remainder(((*largest)[pin] - (*largest)[angle]) * units::deg, 2 * std::numbers::pi);
 }
 
 /// Mean of the samples within a quarter pitch of the places, over the mean of the others, less one.
@@ -290,7 +292,7 @@ std::optional<PinEffect> pin_effect(const RunResult& result, std::size_t ring) {
   const double first_pin = input.first_pin_angle.value_or(0);
 
   PinEffect effect;
-  const auto loaded_pin = most_loaded_pin(mesh.pins, pitch, first_pin);
+  const auto loaded_pin = most_loaded_pin(mesh.pins);
   effect.loaded_pin_teeth = loaded_pin / tooth;
   std::vector<std::pair<double, double>> samples;  // ring angle of the contact, stiffness
   for (const auto& row : nominal_rows(mesh)) samples.emplace_back(row.angle, row.stiffness);

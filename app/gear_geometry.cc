@@ -20,7 +20,9 @@ geometry::Gear make_gear(const Scene& scene, const GearInput& input, geometry::G
                          .root_fillet_factor = input.root_fillet_factor,
                          .tip_relief = input.tip_relief,
                          .tip_relief_length = input.tip_relief_length,
-                         .profile_crowning = input.profile_crowning});
+                         .profile_crowning = input.profile_crowning,
+                         .lead_crowning = input.lead_crowning,
+                         .lead_slope = input.lead_slope});
 }
 
 template <class Make>
@@ -48,6 +50,11 @@ OperatingPoint operate(const StageInput& stage, const geometry::PlanetarySet& se
 
 }  // namespace
 
+double outside_radius(const Scene& scene, const RingInput& ring) {
+  if (ring.outside_diameter) return *ring.outside_diameter / 2;
+  return make_gear(scene, ring, geometry::GearKind::internal).root_radius() + ring.rim_thickness.value_or(0);
+}
+
 GearGeometry make_geometry(const Scene& scene) {
   using geometry::GearKind;
   const auto sun = named("sun", [&] { return make_gear(scene, scene.sun, GearKind::external); });
@@ -59,11 +66,10 @@ GearGeometry make_geometry(const Scene& scene) {
     const auto set = named(name, [&] {
       return geometry::PlanetarySet(sun, planet, ring, scene.stage.centre_distance, scene.stage.planets);
     });
-    const double outside =
-        input.outside_diameter ? *input.outside_diameter / 2 : ring.root_radius() + input.rim_thickness.value_or(0);
+    const double outside = outside_radius(scene, input);
     if (outside <= ring.root_radius()) {
       throw GeometryError(name + ": outside diameter " + to_text(2e3 * outside, 7) +
-                          " mm is not larger than the root " + "diameter " + to_text(2e3 * ring.root_radius(), 7) +
+                          " mm is not larger than the root diameter " + to_text(2e3 * ring.root_radius(), 7) +
                           " mm; make outside_diameter_mm larger");
     }
     result.rings.push_back({input.name, set, outside});

@@ -33,6 +33,9 @@ struct GearGeometry {
   [[nodiscard]] const geometry::GearPair& sun_mesh() const { return rings.front().set.sun_mesh(); }
 };
 
+/// m. Throws GeometryError when it follows from a gear that cannot exist.
+[[nodiscard]] double outside_radius(const Scene& scene, const RingInput& ring);
+
 /// Throws GeometryError, naming the ring, when the gears cannot exist or mesh.
 [[nodiscard]] GearGeometry make_geometry(const Scene& scene);
 

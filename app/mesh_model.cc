@@ -11,18 +11,32 @@ namespace {
 fem::RingStructure structure_of(const RingInput& ring) {
   switch (ring.structure) {
     case Structure::traditional:
+      if (ring.flange_width) return fem::FlangeHeld{*ring.flange_width, *ring.flange_diameter / 2};
       return fem::OutsideHeld{};
-    case Structure::thin_walled:
-      return fem::EndFaceHeld{*ring.free_length, *ring.sleeve_thickness};
+    case Structure::thin_walled: {
+      fem::EndFaceHeld held{.free_length = *ring.free_length, .sleeve_thickness = *ring.sleeve_thickness};
+      if (ring.hoop_width) held.hoop = fem::Hoop{*ring.hoop_width, *ring.hoop_thickness};
+      return held;
+    }
+    case Structure::splined:
+      return fem::SplineHeld{.teeth = *ring.splines,
+                             .flank_angle = *ring.spline_flank_angle,
+                             .clearance = ring.spline_clearance.value_or(0),
+                             .flank_stiffness = ring.spline_stiffness,
+                             .first_tooth_angle = ring.first_spline_angle.value_or(0)};
     case Structure::pinned:
     case Structure::bolted:
       break;
   }
-  return fem::PinHeld{.angles = fem::equal_angles(*ring.pins, ring.first_pin_angle.value_or(0)),
-                      .pin_diameter = *ring.pin_diameter,
-                      .clearance = ring.pin_clearance.value_or(0),
-                      .radial_stiffness = ring.pin_radial_stiffness,
-                      .unilateral = ring.structure == Structure::pinned};
+  return fem::PinHeld{
+      .angles = ring.pins ? fem::equal_angles(*ring.pins, ring.first_pin_angle.value_or(0)) : ring.pin_angles,
+      .pin_diameter = *ring.pin_diameter,
+      .clearance = ring.pin_clearance.value_or(0),
+      .free_span = ring.pin_free_span.value_or(0),
+      .radial_stiffness = ring.pin_radial_stiffness,
+      .tangential_stiffness = ring.pin_tangential_stiffness,
+      .housing_clearance = ring.housing_clearance,
+      .unilateral = ring.structure == Structure::pinned};
 }
 
 fem::LoadedMeshProblem problem_of(const Scene& scene, const GearGeometry& geometry, const geometry::GearPair& pair) {
@@ -36,15 +50,101 @@ fem::LoadedMeshProblem problem_of(const Scene& scene, const GearGeometry& geomet
           .phases = table_phases};
 }
 
-void set_rung(MeshModel& model, const Scene& scene, bool needs_solid, const char* plane_reason,
-              const char* solid_reason) {
-  const bool solid = needs_solid || scene.rung == Rung::solid;
-  model.rung = solid ? "solid" : "plane";
-  model.settings.rung = solid ? fem::Rung::solid : fem::Rung::plane;
+void use(MeshModel& model, fem::Rung rung) {
+  model.settings.rung = rung;
+  switch (rung) {
+    case fem::Rung::closed_form:
+      model.rung = "closed_form";
+      return;
+    case fem::Rung::plane:
+      model.rung = "plane";
+      return;
+    case fem::Rung::solid:
+      model.rung = "solid";
+      return;
+    case fem::Rung::resolved_plane:
+      model.rung = "resolved_plane";
+      return;
+    case fem::Rung::resolved_solid:
+      model.rung = "resolved_solid";
+      return;
+  }
+}
+
+/// The cheapest rung whose error is controlled, unless the scene asks for another.
+void set_rung(MeshModel& model, const Scene& scene, const std::string& why_solid, const std::string& why_plane) {
+  const bool needs_solid = !why_solid.empty();
+  const std::string& why = needs_solid ? why_solid : why_plane;
+  constexpr const char* asked = "the scene asks for it (rung)";
+  switch (scene.rung) {
+    case Rung::automatic:
+      use(model, needs_solid ? fem::Rung::solid : fem::Rung::plane);
+      model.reason = why;
+      break;
+    case Rung::closed_form:
+      use(model, fem::Rung::closed_form);
+      model.reason = asked;
+      break;
+    case Rung::plane:
+      use(model, fem::Rung::plane);
+      model.reason = asked;
+      break;
+    case Rung::solid:
+      use(model, fem::Rung::solid);
+      model.reason = needs_solid ? why_solid : asked;
+      break;
+    case Rung::resolved:
+      use(model, needs_solid ? fem::Rung::resolved_solid : fem::Rung::resolved_plane);
+      model.reason = std::string(asked) + "; " + why;
+      break;
+  }
   model.settings.accuracy = scene.accuracy;
-  model.reason = needs_solid                     ? solid_reason
-                 : scene.rung == Rung::automatic ? plane_reason
-                                                 : "the scene asks for it (rung)";
+}
+
+std::string plane_reason(const RingInput& ring) {
+  constexpr const char* rest = ": nothing changes along the face width";
+  switch (ring.structure) {
+    case Structure::pinned:
+      return std::string("the pins carry over the full width") + rest;
+    case Structure::bolted:
+      return std::string("the bolts hold over the full width") + rest;
+    case Structure::splined:
+      return std::string("the splines carry over the full width") + rest;
+    case Structure::traditional:
+    case Structure::thin_walled:
+      break;
+  }
+  return std::string("the outer surface is held over the full width") + rest;
+}
+
+/// Why the mesh of a ring with single supports repeats after so many teeth.
+std::string repeats_text(const RingInput& ring, int positions) {
+  std::string supports = fmt::format("{} supports at given places", ring.pin_count());
+  if (ring.structure == Structure::splined) supports = fmt::format("{} splines", *ring.splines);
+  if (ring.pins) supports = fmt::format("{} equal supports", *ring.pins);
+  if (ring.has_pins() && ring.pin_count() == 1) supports = "a single support";
+  if (positions == ring.teeth)
+    return fmt::format("{} teeth on {}: no smaller turn repeats the ring", ring.teeth, supports);
+  return fmt::format("{} teeth on {}: the ring repeats after {} teeth", ring.teeth, supports, positions);
+}
+
+void add_reason(std::string& reasons, bool applies, const std::string& reason) {
+  if (applies) reasons += (reasons.empty() ? "" : "; ") + reason;
+}
+
+bool lead_modified(const GearInput& gear) { return gear.lead_crowning != 0 || gear.lead_slope != 0; }
+
+/// What both meshes have in common: the teeth themselves.
+std::string tooth_reasons(const Scene& scene, const GearInput& wheel, const std::string& wheel_name,
+                          double misalignment) {
+  constexpr const char* lead = "the lead of the {} is modified, so the load varies along the face width";
+  std::string reasons;
+  add_reason(reasons, scene.stage.helix_angle != 0,
+             "helical teeth enter the contact progressively along the face width");
+  add_reason(reasons, lead_modified(wheel), fmt::format(lead, wheel_name));
+  add_reason(reasons, lead_modified(scene.planet), fmt::format(lead, "planet"));
+  add_reason(reasons, misalignment != 0, "the flanks are misaligned, so the load varies along the face width");
+  return reasons;
 }
 
 void set_given(MeshModel& model, const std::string& shape) {
@@ -76,17 +176,28 @@ void add_gear(ContentId& id, const std::string& name, const geometry::Gear& gear
   id.add(name + ".root_radius", gear.root_radius()).add(name + ".root_fillet", p.root_fillet_factor);
   id.add(name + ".tip_relief", p.tip_relief).add(name + ".tip_relief_length", p.tip_relief_length);
   id.add(name + ".profile_crowning", p.profile_crowning);
+  id.add(name + ".lead_crowning", p.lead_crowning).add(name + ".lead_slope", p.lead_slope);
 }
 
 void add_structure(ContentId& id, const fem::RingStructure& structure) {
+  constexpr double absent = -1;
   id.add("structure", static_cast<double>(structure.index()));
   if (const auto* sleeve = std::get_if<fem::EndFaceHeld>(&structure)) {
     id.add("free_length", sleeve->free_length).add("sleeve_thickness", sleeve->sleeve_thickness);
+    if (sleeve->hoop) id.add("hoop_width", sleeve->hoop->width).add("hoop_thickness", sleeve->hoop->thickness);
   } else if (const auto* pins = std::get_if<fem::PinHeld>(&structure)) {
     for (const double angle : pins->angles) id.add("pin", angle);
-    id.add("pin_diameter", pins->pin_diameter).add("clearance", pins->clearance);
-    id.add("pin_stiffness", pins->radial_stiffness.value_or(-1));
+    id.add("pin_diameter", pins->pin_diameter).add("clearance", pins->clearance).add("free_span", pins->free_span);
+    id.add("pin_stiffness", pins->radial_stiffness.value_or(absent));
+    id.add("pin_tangential_stiffness", pins->tangential_stiffness.value_or(absent));
+    id.add("housing_clearance", pins->housing_clearance.value_or(absent));
     id.add("unilateral", pins->unilateral ? 1 : 0);
+  } else if (const auto* flange = std::get_if<fem::FlangeHeld>(&structure)) {
+    id.add("flange_width", flange->width).add("flange_radius", flange->outside_radius);
+  } else if (const auto* spline = std::get_if<fem::SplineHeld>(&structure)) {
+    id.add("splines", spline->teeth).add("first_spline", spline->first_tooth_angle);
+    id.add("flank_angle", spline->flank_angle).add("clearance", spline->clearance);
+    id.add("flank_stiffness", spline->flank_stiffness.value_or(absent));
   }
 }
 
@@ -102,6 +213,7 @@ std::string MeshModel::id() const {
     id.add("E", problem->material.youngs_modulus).add("nu", problem->material.poisson_ratio);
     id.add("face_width", problem->face_width).add("planet_bore", problem->planet_bore_radius);
     id.add("wheel_support", problem->wheel_support_radius).add("phases", problem->phases);
+    id.add("misalignment", problem->misalignment);
     for (const double load : problem->loads) id.add("load", load);
     if (problem->pair.internal()) add_structure(id, problem->structure);
     id.add("accuracy", settings.accuracy).add("degree", settings.degree).add("level", settings.level.value_or(0));
@@ -113,18 +225,34 @@ std::string MeshModel::label() const {
   return ring.empty() ? "sun-planet mesh" : fmt::format("ring-planet mesh of '{}'", ring);
 }
 
+std::string solid_reason(const Scene& scene, const RingInput& ring) {
+  std::string reasons;
+  add_reason(reasons, ring.structure == Structure::thin_walled,
+             "the ring hangs on one end face, so the deflection grows toward its free end");
+  add_reason(reasons, ring.flange_width.has_value(),
+             "a flange holds the ring at one end, so the deflection grows toward the other");
+  add_reason(reasons, ring.hoop_width.has_value(), "a hoop stiffens the free end");
+  const std::string teeth = tooth_reasons(scene, ring, "ring", scene.errors.ring_planet_misalignment);
+  add_reason(reasons, !teeth.empty(), teeth);
+  return reasons;
+}
+
+std::string solid_reason(const Scene& scene) {
+  return tooth_reasons(scene, scene.sun, "sun", scene.errors.sun_planet_misalignment);
+}
+
 MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry) {
   MeshModel model{.mesh = sun_planet};
   if (scene.sun_planet.stiffness != StiffnessShape::computed) {
     set_given(model, shape_text(scene.sun_planet.stiffness));
     return model;
   }
-  set_rung(model, scene, false,
-           "spur gears without lead modifications on hubs over the full width: nothing changes along the face width",
-           "");
+  set_rung(model, scene, solid_reason(scene),
+           "spur gears without lead modifications on hubs over the full width: nothing changes along the face width");
   model.repeats = "equal teeth on concentric hubs: one mesh cycle tells all";
   model.problem = problem_of(scene, geometry, geometry.sun_mesh());
   model.problem->wheel_support_radius = scene.sun.bore_diameter.value_or(0) / 2;
+  model.problem->misalignment = scene.errors.sun_planet_misalignment;
   return model;
 }
 
@@ -136,23 +264,16 @@ MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std:
     set_given(model, shape_text(scene.ring_planet.stiffness));
     return model;
   }
-  const char* plane_reason = input.structure == Structure::traditional
-                                 ? "the outer surface is held over the full width: nothing changes along the face width"
-                             : input.structure == Structure::pinned
-                                 ? "the pins carry over the full width: nothing changes along the face width"
-                                 : "the bolts hold over the full width: nothing changes along the face width";
-  set_rung(model, scene, input.structure == Structure::thin_walled, plane_reason,
-           "the ring hangs on one end face, so the deflection grows toward its free end");
-  if (input.structure == Structure::pinned || input.structure == Structure::bolted) {
-    model.positions = fem::repeating_teeth(structure_of(input), input.teeth);
-    model.repeats = fmt::format("{} teeth on {} equal supports: the ring repeats after {} teeth", input.teeth,
-                                *input.pins, model.positions);
-  } else {
-    model.repeats = "the support is the same behind every tooth: one mesh cycle tells all";
-  }
+  set_rung(model, scene, solid_reason(scene, input), plane_reason(input));
+  const auto structure = structure_of(input);
+  model.positions = fem::repeating_teeth(structure, input.teeth);
+  model.repeats = input.has_pins() || input.structure == Structure::splined
+                      ? repeats_text(input, model.positions)
+                      : "the support is the same behind every tooth: one mesh cycle tells all";
   model.problem = problem_of(scene, geometry, ring_geometry.set.ring_mesh());
   model.problem->wheel_support_radius = ring_geometry.outside_radius;
-  model.problem->structure = structure_of(input);
+  model.problem->structure = structure;
+  model.problem->misalignment = scene.errors.ring_planet_misalignment;
   return model;
 }
 

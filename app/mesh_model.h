@@ -15,9 +15,9 @@ inline constexpr const char* ring_planet = "ring_planet";
 
 /// How the stiffness of one mesh is found, and why so: the decision of the planner, carried out by the pipeline.
 struct MeshModel {
-  std::string mesh{};                               ///< "sun_planet" or "ring_planet"
-  std::string ring{};                               ///< empty for the sun mesh, which all rings share
-  std::string rung{};                               ///< "plane", "solid", or "given" by the scene
+  std::string mesh{};  ///< "sun_planet" or "ring_planet"
+  std::string ring{};  ///< empty for the sun mesh, which all rings share
+  std::string rung{};  ///< "closed_form", "plane", "solid", "resolved_plane", "resolved_solid", or "given" by the scene
   std::string reason{};                             ///< why this rung
   int positions = 1;                                ///< ring positions after which the mesh repeats
   std::string repeats{};                            ///< why so many
@@ -38,6 +38,10 @@ inline constexpr std::size_t nominal_load_index = 2;
 /// Positions per mesh cycle. On the ring paper's traditional ring, 16, 32 and 64 positions give a largest dynamic
 /// factor of 1.184, 1.193 and 1.195 and the same averaged load sharing to 1e-5.
 inline constexpr int table_phases = 32;
+
+/// Why a mesh needs a solid model: what changes along its face width. Empty when nothing does.
+[[nodiscard]] std::string solid_reason(const Scene& scene, const RingInput& ring);  ///< ring-planet mesh
+[[nodiscard]] std::string solid_reason(const Scene& scene);                         ///< sun-planet mesh
 
 [[nodiscard]] MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry);
 [[nodiscard]] MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring);

@@ -18,6 +18,17 @@ std::string header_value(const std::vector<std::pair<std::string, std::string>>&
   return "";
 }
 
+/// The header without the lines that every file carries.
+std::vector<std::pair<std::string, std::string>> without_stamp(
+    const std::vector<std::pair<std::string, std::string>>& header) {
+  std::vector<std::pair<std::string, std::string>> own;
+  for (const auto& line : header) {
+    if (line.first != "annulus_version" && line.first != "inputs_id" && line.first != "mesh" && line.first != "rung")
+      own.push_back(line);
+  }
+  return own;
+}
+
 std::string file_text(const std::filesystem::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -69,7 +80,8 @@ std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::pa
   const auto positions_file = folder / ("lte_" + model.mesh + ".csv");
   const auto picture_file = folder / "mesh" / (model.mesh + ".svg");
   for (const auto& file : {table_file, positions_file, picture_file}) {
-    if (!std::filesystem::exists(file)) return std::nullopt;
+    const bool needed = file != picture_file || model.settings.rung != fem::Rung::closed_form;
+    if (needed && !std::filesystem::exists(file)) return std::nullopt;
   }
   const std::string id = model.id();
   try {
@@ -78,20 +90,24 @@ std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::pa
     if (header_value(table.provenance, "inputs_id") != id || header_value(positions.header, "inputs_id") != id)
       return std::nullopt;
     MeshResult result{.model = model, .table = std::move(table), .nominal = nominal_load_index, .reused = true};
-    for (const auto& [key, value] : positions.header) {
+    for (const auto& [key, value] : without_stamp(positions.header)) {
       if (key == "contact_ratio") {
         result.contact_ratio = std::stod(value);
-      } else if (key != "annulus_version" && key != "inputs_id" && key != "mesh" && key != "rung") {
+      } else {
         result.facts[key] = std::stod(value);
       }
     }
     positions.header.clear();
     result.positions = std::move(positions);
-    if (const auto pins_file = folder / ("pins_" + model.mesh + ".csv"); std::filesystem::exists(pins_file)) {
-      auto pins = Csv::read(pins_file);
-      if (header_value(pins.header, "inputs_id") == id) result.pins = std::move(pins);
+    for (const auto& [name, member] : side_tables) {
+      const auto file = folder / (std::string(name) + "_" + model.mesh + ".csv");
+      if (!std::filesystem::exists(file)) continue;
+      auto csv = Csv::read(file);
+      if (header_value(csv.header, "inputs_id") != id) continue;
+      csv.header = without_stamp(csv.header);
+      result.*member = std::move(csv);
     }
-    result.picture = file_text(picture_file);
+    if (std::filesystem::exists(picture_file)) result.picture = file_text(picture_file);
     return result;
   } catch (const std::exception&) {
     return std::nullopt;  // damaged or from another version: solved again and overwritten

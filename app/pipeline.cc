@@ -45,6 +45,7 @@ void write_meshes(const MeshModel& model, const fem::LoadedMeshResult& solved, c
   const std::string wheel = model.mesh == sun_planet ? "_sun" : "_ring";
   for (const auto& [mesh, name] :
        {std::pair{&solved.planet_sector, model.mesh + "_planet"}, {&solved.wheel_sector, model.mesh + wheel}}) {
+    if (mesh->cells.empty()) continue;  // a closed form meshes nothing
     geometry::write_msh(*mesh, folder / (name + ".msh"));
     geometry::write_vtu(*mesh, folder / (name + ".vtu"));
   }

@@ -93,6 +93,14 @@ std::vector<FreedomPlan> freedoms(const SupportInput& supports, int planets) {
   return list;
 }
 
+void add_single_pin(std::vector<std::string>& list, const RingInput& ring) {
+  if (!ring.has_pins() || ring.pin_count() != 1) return;
+  list.push_back(fmt::format(
+      "Ring '{}' has a single {}, which cannot hold it in equilibrium: its rim rests in the bore of the housing, with "
+      "a radial play of {} µm (housing_clearance_um).",
+      ring.name, ring.structure == Structure::pinned ? "pin" : "bolt", to_text(*ring.housing_clearance / units::um)));
+}
+
 std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometry,
                                  const std::vector<MeshModel>& meshes) {
   std::vector<std::string> list;
@@ -108,7 +116,16 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
                     to_text(geometry.rings.front().set.ring_mesh().normal_backlash() / units::um, 2)));
     list.emplace_back("Friction is left out; the contact is hard and the sliding small.");
     if (meshes.front().computed()) list.emplace_back("The sun mesh is solved once and shared by all rings.");
-    list.emplace_back("The given planet errors enter the dynamics; the contact solve itself is free of errors.");
+    const bool misaligned = scene.errors.sun_planet_misalignment != 0 || scene.errors.ring_planet_misalignment != 0;
+    list.emplace_back(misaligned ? "Eccentricities and installation errors enter the dynamics; of all errors only the "
+                                   "misalignments enter the contact solve."
+                                 : "The given planet errors enter the dynamics; the contact solve itself is free of "
+                                   "errors.");
+    if (scene.rung == Rung::closed_form) {
+      list.emplace_back(
+          "The error of the closed-form stiffness is not controlled: the wanted accuracy is not checked.");
+    }
+    for (const auto& ring : scene.rings) add_single_pin(list, ring);
   }
   if (scene.dynamics) {
     const double half = geometry.rings.front().set.ring_mesh().normal_backlash() / 2;

@@ -7,6 +7,7 @@
 
 #include "app/content_id.h"
 #include "app/report_parts.h"
+#include "core/units.h"
 
 namespace annulus::app {
 
@@ -94,6 +95,13 @@ std::string legend_html(const std::vector<std::pair<std::string, std::size_t>>& 
   return text + "</div>";
 }
 
+std::vector<std::pair<std::string, const MeshResult*>> all_meshes(const RunResult& result) {
+  std::vector<std::pair<std::string, const MeshResult*>> list;
+  for (const auto& ring : result.rings) list.emplace_back(ring.name, &ring.mesh);
+  list.emplace_back("sun mesh", &result.sun_mesh);
+  return list;
+}
+
 std::string report_html(const RunResult& result) {
   const std::string title = escape(result.scene.title);
   std::string page = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title +
@@ -103,19 +111,26 @@ std::string report_html(const RunResult& result) {
   page += fmt::format(
       "<p class=\"sub\">annulus {} · scene <code>{}</code> · {} planets, {} kW at {} r/min of the sun</p>\n", version(),
       escape(result.scene.file.filename().string()), result.scene.stage.planets,
-      to_text(result.scene.stage.power / 1e3),
-      to_text(result.geometry.operating_point.sun_speed * 30 / 3.14159265358979323846, 6));
+      to_text(result.scene.stage.power / 1e3), to_text(result.geometry.operating_point.sun_speed / units::rpm, 6));
   page += verdict_section(result);
-  page +=
-      "<nav><a href=\"#figures\">Key figures</a><a href=\"#comparison\">Comparison with the source</a>"
-      "<a href=\"#meshes\">Meshes</a><a href=\"#stiffness\">Transmission error and stiffness</a>"
-      "<a href=\"#dynamics\">Load sharing and dynamic factors</a><a href=\"#modes\">Natural frequencies</a>"
-      "<a href=\"#model\">What was modelled</a><a href=\"#inputs\">Inputs</a><a href=\"#quality\">Checks and "
-      "cost</a></nav>\n";
-  page += key_figures_section(result) + comparison_section(result) + meshes_section(result) +
-          stiffness_section(result) + dynamics_section(result) + modes_section(result) + model_section(result) +
-          inputs_section(result) + quality_section(result);
-  return page + "</main></body></html>\n";
+  std::string links, body;
+  const auto add = [&](const char* anchor, const char* name, const std::string& section) {
+    if (section.empty()) return;
+    links += fmt::format("<a href=\"#{}\">{}</a>", anchor, name);
+    body += section;
+  };
+  add("figures", "Key figures", key_figures_section(result));
+  add("comparison", "Comparison with the source", comparison_section(result));
+  add("meshes", "Meshes", meshes_section(result));
+  add("stiffness", "Transmission error and stiffness", stiffness_section(result));
+  add("supports", "Pins and splines", supports_section(result));
+  add("contact", "Face width, pressure, stress", contact_section(result));
+  add("dynamics", "Load sharing and dynamic factors", dynamics_section(result));
+  add("modes", "Natural frequencies", modes_section(result));
+  add("model", "What was modelled", model_section(result));
+  add("inputs", "Inputs", inputs_section(result));
+  add("quality", "Checks and cost", quality_section(result));
+  return page + "<nav>" + links + "</nav>\n" + body + "</main></body></html>\n";
 }
 
 }  // namespace annulus::app

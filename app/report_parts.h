@@ -22,6 +22,9 @@ struct HtmlTable {
 /// Plots side by side under one legend and one caption (HTML).
 [[nodiscard]] std::string figure(const std::vector<std::string>& pictures, const std::string& legend,
                                  const std::string& caption);
+/// All meshes of a run with a name for people, the rings' first, then the sun's; the index is their colour.
+[[nodiscard]] std::vector<std::pair<std::string, const MeshResult*>> all_meshes(const RunResult& result);
+
 /// Legend shared by the plots of a figure: label and palette index.
 [[nodiscard]] std::string legend_html(const std::vector<std::pair<std::string, std::size_t>>& entries);
 
@@ -37,7 +40,11 @@ struct HtmlTable {
 [[nodiscard]] std::string quality_section(const RunResult& result);  ///< invariants, timings, versions
 // report_stiffness.cc
 [[nodiscard]] std::string meshes_section(const RunResult& result);
-[[nodiscard]] std::string stiffness_section(const RunResult& result);  ///< transmission error, stiffness, shares, pins
+[[nodiscard]] std::string stiffness_section(const RunResult& result);  ///< transmission error, stiffness, shares
+// report_supports.cc
+[[nodiscard]] std::string supports_section(const RunResult& result);  ///< pins, bolts and splines; empty without
+// report_contact.cc
+[[nodiscard]] std::string contact_section(const RunResult& result);  ///< face width, pressure, stress; empty if unknown
 // report_dynamics.cc
 [[nodiscard]] std::string dynamics_section(const RunResult& result);  ///< load sharing, dynamic factors, spectra
 

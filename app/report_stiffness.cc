@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/report_parts.h"
 #include "core/units.h"
@@ -195,39 +194,6 @@ std::string shares(const RunResult& result) {
                 "part late.");
 }
 
-std::string pin_plots(const RunResult& result) {
-  std::vector<std::string> plots;
-  for (std::size_t i = 0; i < result.rings.size(); ++i) {
-    const auto& csv = result.rings[i].mesh.pins;
-    if (csv.rows.empty() || !result.scene.rings[i].pins) continue;
-    const auto angle = csv.column("ring_angle_deg"), pin = csv.column("pin"), radial = csv.column("radial_force_N"),
-               tangential = csv.column("tangential_force_N");
-    const double pitch = 360.0 / *result.scene.rings[i].pins,
-                 first = result.scene.rings[i].first_pin_angle.value_or(0) / units::deg;
-    Series out{.label = "radial, outwards", .colour = 0, .style = Series::Style::dots},
-        along{.label = "tangential", .colour = 1, .style = Series::Style::dots};
-    for (const auto& row : csv.rows) {
-      const double from_contact = std::remainder(first + (row[pin] - 1) * pitch - row[angle], 360.0);
-      out.x.push_back(from_contact);
-      out.y.push_back(row[radial] / 1e3);
-      along.x.push_back(from_contact);
-      along.y.push_back(row[tangential] / 1e3);
-    }
-    const Plot plot{.title = "Pin forces, " + result.rings[i].name,
-                    .x_label = "angle of the pin from the contact, °",
-                    .y_label = "force on the pin, kN",
-                    .series = {out, along},
-                    .legend = true,
-                    .width = 900,
-                    .height = 320};
-    plots.push_back(to_svg(plot));
-  }
-  if (plots.empty()) return "";
-  return "<h3>Pins</h3>\n" + figure(plots, "",
-                                    "Every pin at every position of the planet, one planet alone at the nominal load. "
-                                    "A pin without force has lifted off.");
-}
-
 }  // namespace
 
 std::string meshes_section(const RunResult& result) {
@@ -236,7 +202,7 @@ std::string meshes_section(const RunResult& result) {
     if (mesh.picture.empty()) return;
     cells += "<div><h3>" + escape(title) + "</h3>" + mesh.picture +
              fmt::format("<figcaption>{}</figcaption></div>\n",
-                         mesh.model.rung == "solid"
+                         mesh.model.rung.ends_with("solid")
                              ? "Held faces orange, driven flanks blue."
                              : "Planet blue; what is held is orange; the circle marks the pitch point.");
   };
@@ -263,7 +229,7 @@ std::string stiffness_section(const RunResult& result) {
       .title = "Sun mesh stiffness (secant)", .x_label = "mesh cycle", .y_label = "N/µm", .width = 900, .height = 300};
   add_curve(plot, "sun mesh", sun, result.rings.size(), result.sun_mesh.model.computed());
   text += figure({to_svg(plot)}, "", "The same for all rings.");
-  return text + over_load(result) + shares(result) + pin_plots(result);
+  return text + over_load(result) + shares(result);
 }
 
 }  // namespace annulus::app

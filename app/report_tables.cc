@@ -98,6 +98,18 @@ void add_row(HtmlTable& table, const std::string& label, const RunResult& result
   table.rows.push_back(std::move(row));
 }
 
+/// What the positions may tell beyond the transmission error: label and column.
+std::vector<std::pair<std::string, std::string>> peak_rows(bool sun) {
+  std::vector<std::pair<std::string, std::string>> rows = {
+      {"face load factor K<sub>Hβ</sub>, largest", "face_load_factor"}};
+  for (const std::string body : {"planet", sun ? "sun" : "ring"}) {
+    rows.emplace_back("root stress of the " + body + ", tension, largest, MPa", body + "_root_tension_MPa");
+    rows.emplace_back("root stress of the " + body + ", von Mises, largest, MPa", body + "_root_von_mises_MPa");
+  }
+  if (!sun) rows.emplace_back("rim stress of the ring, von Mises, largest, MPa", "ring_rim_von_mises_MPa");
+  return rows;
+}
+
 void add_mesh_rows(HtmlTable& table, const RunResult& result, bool sun) {
   const auto mesh = [&](const RingResult& ring) -> const MeshResult& { return sun ? result.sun_mesh : ring.mesh; };
   table.rows.push_back({sun ? "Sun mesh (the same for all rings)" : "Ring mesh"});
@@ -109,6 +121,14 @@ void add_mesh_rows(HtmlTable& table, const RunResult& result, bool sun) {
           [&](const auto& r) { return estimate_text(mesh(r).lte_mean(), 1e6); });
   add_row(table, "transmission error, peak to peak, µm", result,
           [&](const auto& r) { return estimate_text(mesh(r).lte_peak_to_peak(), 1e6); });
+  for (const auto& [label, column] : peak_rows(sun)) {
+    const auto there = [&](const RingResult& r) { return mesh(r).peak(column).has_value(); };
+    if (std::none_of(result.rings.begin(), result.rings.end(), there)) continue;
+    add_row(table, label, result, [&](const auto& r) {
+      const auto peak = mesh(r).peak(column);
+      return peak ? to_text(peak->value, 4) : std::string("–");
+    });
+  }
 }
 
 void add_dynamic_rows(HtmlTable& table, const RunResult& result, bool sun) {

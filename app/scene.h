@@ -16,7 +16,7 @@ namespace annulus::app {
 
 enum class StageKind { planetary, helical_pair, two_k_v };
 enum class Rung { automatic, closed_form, plane, solid, resolved };
-enum class Structure { traditional, thin_walled, pinned, bolted };
+enum class Structure { traditional, thin_walled, pinned, bolted, splined };
 enum class StiffnessShape { computed, constant, harmonic, rectangular, table };
 enum class MeshDamping { in_contact, always };
 
@@ -25,7 +25,7 @@ inline constexpr double rigid = std::numeric_limits<double>::infinity();
 struct StageInput {
   StageKind kind = StageKind::planetary;
   int planets = 0;
-  double module = 0, pressure_angle = 0, face_width = 0, centre_distance = 0;
+  double module = 0, pressure_angle = 0, helix_angle = 0, face_width = 0, centre_distance = 0;
   double power = 0;
   std::optional<double> sun_speed, carrier_speed;  ///< rad/s; exactly one is given
 };
@@ -56,10 +56,20 @@ struct CarrierInput {
 struct RingInput : GearInput {
   std::string name;
   Structure structure = Structure::traditional;
-  std::optional<double> outside_diameter, rim_thickness;  ///< exactly one is given
-  std::optional<double> free_length, sleeve_thickness, hoop_width, hoop_thickness;
-  std::optional<int> pins;
-  std::optional<double> pin_diameter, pin_clearance, pin_radial_stiffness, first_pin_angle;
+  std::optional<double> outside_diameter, rim_thickness;                            ///< exactly one is given
+  std::optional<double> flange_width, flange_diameter;                              ///< both or none
+  std::optional<double> free_length, sleeve_thickness, hoop_width, hoop_thickness;  ///< hoop: both or none
+  std::optional<int> pins;                                                          ///< this or `pin_angles`
+  std::vector<double> pin_angles;
+  std::optional<double> first_pin_angle, pin_diameter, pin_clearance, pin_free_span, housing_clearance;
+  std::optional<double> pin_radial_stiffness, pin_tangential_stiffness;
+  std::optional<int> splines;
+  std::optional<double> first_spline_angle, spline_flank_angle, spline_clearance, spline_stiffness;
+
+  [[nodiscard]] bool has_pins() const { return structure == Structure::pinned || structure == Structure::bolted; }
+  [[nodiscard]] int pin_count() const {
+    return pin_angles.empty() ? pins.value_or(0) : static_cast<int>(pin_angles.size());
+  }
 };
 
 /// An eccentricity turns with its body, an installation error stands still in the housing (or on the carrier).
@@ -69,6 +79,7 @@ struct ErrorInput {
   double ring_eccentricity = 0, ring_eccentricity_phase = 0, ring_installation = 0, ring_installation_phase = 0;
   double carrier_eccentricity = 0, carrier_eccentricity_phase = 0;
   double carrier_installation = 0, carrier_installation_phase = 0;
+  double sun_planet_misalignment = 0, ring_planet_misalignment = 0;  ///< over the face width, normal to the flanks
 };
 
 /// N/m; `rigid` drops the freedom. Torsional values are in the coordinate u = base radius x angle.

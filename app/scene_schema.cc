@@ -38,15 +38,15 @@ void declare_gear(Declarations<Section>& t, bool internal) {
   t.key("profile_crowning_um", &Section::profile_crowning, "Parabolic crowning at both ends of the flank's profile.")
       .fallback(0.0, "unmodified flanks")
       .from(0, 1000);
-  constexpr const char* no_lead = "lead modifications are not yet part of the contact solve";
-  t.key("lead_crowning_um", &Section::lead_crowning, "Crowning along the face width.")
+  t.key("lead_crowning_um", &Section::lead_crowning,
+        "Parabolic crowning along the face width, removed at both ends. The mesh becomes solid.")
       .fallback(0.0, "unmodified flanks")
-      .from(0, 1000)
-      .unavailable(no_lead);
-  t.key("lead_slope_um", &Section::lead_slope, "Slope along the face width, end to end.")
+      .from(0, 1000);
+  t.key("lead_slope_um", &Section::lead_slope,
+        "Slope along the face width, end to end; positive removes material towards +z, the free end of a thin_walled "
+        "ring. The mesh becomes solid.")
       .fallback(0.0, "unmodified flanks")
-      .from(-1000, 1000)
-      .unavailable(no_lead);
+      .from(-1000, 1000);
 }
 
 Table hub_gear_table(const char* path, const char* meaning, HubGearInput& (*section)(Scene&, std::size_t)) {
@@ -96,14 +96,17 @@ std::vector<Table> declare_tables() {
   top.key("accuracy", &Scene::accuracy, "Wanted relative accuracy of the mesh stiffness.")
       .fallback(0.01, "well below the spread of unknown inputs such as support stiffnesses")
       .from(1e-5, 0.2);
-  top.choice("rung", &Scene::rung,
-             {{"automatic", Rung::automatic},
-              {"closed_form", Rung::closed_form},
-              {"plane", Rung::plane},
-              {"solid", Rung::solid},
-              {"resolved", Rung::resolved}},
-             "Kind of model of the elastic bodies.")
-      .fallback(std::string("automatic"), "the cheapest that the ring structure permits");
+  top.choice(
+         "rung", &Scene::rung,
+         {{"automatic", Rung::automatic},
+          {"closed_form", Rung::closed_form},
+          {"plane", Rung::plane},
+          {"solid", Rung::solid},
+          {"resolved", Rung::resolved}},
+         "Kind of model of the elastic bodies: closed_form, tooth and curved-beam formulas, seconds, its error is "
+         "not controlled; plane or solid, finite elements with condensed flanks; resolved, the contact patch itself "
+         "is meshed, plane or solid as the scene requires.")
+      .fallback(std::string("automatic"), "the cheapest with a controlled error that the scene permits");
   top.key("reference", &Scene::reference, "File of published values to compare with, relative to the scene.")
       .absent("no comparison");
   tables.push_back(top.done());
@@ -122,6 +125,12 @@ std::vector<Table> declare_tables() {
   stage.key("pressure_angle_deg", &StageInput::pressure_angle, "Pressure angle of the basic rack.")
       .required()
       .from(10, 35);
+  stage
+      .key("helix_angle_deg", &StageInput::helix_angle,
+           "Helix angle at the reference circle; positive: planets and ring right-handed, the sun left-handed.")
+      .fallback(0.0, "spur gears")
+      .from(-45, 45)
+      .unavailable("helical gears are not yet meshed");
   stage.key("face_width_mm", &StageInput::face_width, "Common face width.").required().above(0, 5000);
   stage.key("centre_distance_mm", &StageInput::centre_distance, "Working centre distance of sun and planet.")
       .required()
@@ -168,10 +177,12 @@ std::vector<Table> declare_tables() {
               {{"traditional", Structure::traditional},
                {"thin_walled", Structure::thin_walled},
                {"pinned", Structure::pinned},
-               {"bolted", Structure::bolted}},
-              "traditional: outer surface held; thin_walled: cantilever on a sleeve whose end face is held, outside "
-              "free; pinned: pins around the outside that carry outward pressure only; bolted: the same places held "
-              "both ways.")
+               {"bolted", Structure::bolted},
+               {"splined", Structure::splined}},
+              "traditional: outer surface held, or a bolted flange if one is given; thin_walled: cantilever on a "
+              "sleeve whose end face is held, outside free, with a hoop if one is given; pinned: pins around the "
+              "outside that carry outward pressure only; bolted: the same places held both ways; splined: spline "
+              "teeth around the outside in a rigid mate.")
       .required();
   declare_gear(ring, true);
   ring.key("outside_diameter_mm", &RingInput::outside_diameter, "Outside diameter; give this or rim_thickness_mm.")
@@ -180,6 +191,13 @@ std::vector<Table> declare_tables() {
   ring.key("rim_thickness_mm", &RingInput::rim_thickness, "From the root circle to the outside.")
       .above(0, 1e4)
       .absent("follows from outside_diameter_mm");
+  ring.key("flange_width_mm", &RingInput::flange_width,
+           "traditional: axial width of a toothless flange at the lower end of the ring, held by its end face.")
+      .above(0, 5000)
+      .absent("no flange: the outer surface is held");
+  ring.key("flange_diameter_mm", &RingInput::flange_diameter, "traditional: outside diameter of the flange.")
+      .above(0, 1e5)
+      .absent("no flange: the outer surface is held");
   ring.key("free_length_mm", &RingInput::free_length,
            "thin_walled: toothless sleeve between the held face and the teeth.")
       .above(0, 1e4)
@@ -188,29 +206,62 @@ std::vector<Table> declare_tables() {
            "thin_walled: thickness of the sleeve, at the outside diameter.")
       .above(0, 1e4)
       .absent("thin_walled only");
-  constexpr const char* no_hoop = "stiffening hoops are not yet meshed";
   ring.key("hoop_width_mm", &RingInput::hoop_width, "thin_walled: axial width of a stiffening hoop at the free end.")
-      .from(0, 1e4)
-      .absent("no hoop")
-      .unavailable(no_hoop);
-  ring.key("hoop_thickness_mm", &RingInput::hoop_thickness, "thin_walled: radial thickness of the hoop.")
-      .from(0, 1e4)
-      .absent("no hoop")
-      .unavailable(no_hoop);
-  ring.key("pins", &RingInput::pins, "pinned, bolted: number of equally spaced pins or bolts.")
+      .above(0, 1e4)
+      .absent("no hoop");
+  ring.key("hoop_thickness_mm", &RingInput::hoop_thickness,
+           "thin_walled: radial thickness of the hoop, beyond the outside diameter.")
+      .above(0, 1e4)
+      .absent("no hoop");
+  ring.key("pins", &RingInput::pins,
+           "pinned, bolted: number of equally spaced pins or bolts; give this or pin_angles_deg.")
       .from(1, 2000)
       .absent("pinned and bolted only");
+  ring.key("pin_angles_deg", &RingInput::pin_angles,
+           "pinned, bolted: place of every pin, counter-clockwise from the centre of tooth 0; give this or pins.")
+      .from(-360, 360)
+      .absent("equally spaced");
+  ring.key("first_pin_angle_deg", &RingInput::first_pin_angle,
+           "pinned, bolted: first of equally spaced pins, from the centre of tooth 0.")
+      .from(-360, 360)
+      .absent("0: behind tooth 0");
   ring.key("pin_diameter_mm", &RingInput::pin_diameter, "pinned, bolted: diameter.")
       .above(0, 1000)
       .absent("pinned and bolted only");
-  ring.key("pin_clearance_um", &RingInput::pin_clearance, "pinned: radial play.").from(0, 1e4).absent("no play");
+  ring.key("pin_clearance_um", &RingInput::pin_clearance, "pinned: radial play.").from(0, 1e4).absent("0: no play");
   ring.key("pin_radial_stiffness_N_per_m", &RingInput::pin_radial_stiffness,
            "pinned, bolted: radial stiffness of one pin.")
       .above(0, 1e14)
       .absent("derived from the pin");
-  ring.key("first_pin_angle_deg", &RingInput::first_pin_angle, "pinned, bolted: first pin, from the centre of tooth 0.")
+  ring.key("pin_tangential_stiffness_N_per_m", &RingInput::pin_tangential_stiffness,
+           "pinned, bolted: tangential stiffness of one pin.")
+      .above(0, 1e14)
+      .absent("as the radial one");
+  ring.key("pin_free_span_mm", &RingInput::pin_free_span,
+           "pinned, bolted: length of pin between ring and housing, where it bends and shears.")
+      .from(0, 1000)
+      .absent("0: no bending of the pin");
+  ring.key("housing_clearance_um", &RingInput::housing_clearance,
+           "pinned, bolted: radial play of the rim in a rigid housing bore, on which it can rest; absent: no bore.")
+      .from(0, 1e4)
+      .absent("no bore; 0 with a single pin, which cannot hold the ring alone");
+  ring.key("splines", &RingInput::splines, "splined: number of spline teeth around the outside.")
+      .from(3, 2000)
+      .absent("splined only");
+  ring.key("first_spline_angle_deg", &RingInput::first_spline_angle,
+           "splined: centre of the first spline tooth, from the centre of tooth 0.")
       .from(-360, 360)
       .absent("0: behind tooth 0");
+  ring.key("spline_flank_angle_deg", &RingInput::spline_flank_angle,
+           "splined: angle between a spline flank and the radius, at the outside diameter.")
+      .from(0, 60)
+      .absent("30, the pressure angle of ISO 4156");
+  ring.key("spline_clearance_um", &RingInput::spline_clearance, "splined: play of each flank, normal to it.")
+      .from(0, 1e4)
+      .absent("0: no play");
+  ring.key("spline_stiffness_N_per_m", &RingInput::spline_stiffness, "splined: normal stiffness of one flank.")
+      .above(0, 1e14)
+      .absent("derived from the spline tooth");
   tables.push_back(ring.done());
 
   Declarations<ErrorInput> errors(
@@ -241,6 +292,14 @@ std::vector<Table> declare_tables() {
   single("carrier_eccentricity_phase_deg", &ErrorInput::carrier_eccentricity_phase, "Its direction.", 360);
   single("carrier_installation_um", &ErrorInput::carrier_installation, "Misplacement of the carrier's axis.", 1e4);
   single("carrier_installation_phase_deg", &ErrorInput::carrier_installation_phase, "Its direction.", 360);
+  single("sun_planet_misalignment_um", &ErrorInput::sun_planet_misalignment,
+         "Misalignment of the sun mesh over the face width, normal to the flanks; positive opens it towards +z. The "
+         "mesh becomes solid.",
+         1000);
+  single("ring_planet_misalignment_um", &ErrorInput::ring_planet_misalignment,
+         "Misalignment of the ring mesh over the face width, normal to the flanks; positive opens it towards +z. The "
+         "mesh becomes solid.",
+         1000);
   tables.push_back(errors.done());
 
   Declarations<SupportInput> supports(

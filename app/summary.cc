@@ -21,6 +21,10 @@ SummaryJson estimate_json(const Estimate& e) {
 }
 SummaryJson figure_json(const dynamics::Figure& f) { return {{"value", known(f.value)}, {"error", known(f.error)}}; }
 
+SummaryJson peak_json(const Peak& peak, double unit) {
+  return {{"value", known(peak.value * unit)}, {"mesh_phase", peak.at.mesh_phase}, {"ring_tooth", peak.at.ring_tooth}};
+}
+
 SummaryJson mesh_json(const MeshResult& mesh) {
   SummaryJson json = {{"rung", mesh.model.rung},
                       {"contact_ratio", mesh.contact_ratio},
@@ -31,6 +35,12 @@ SummaryJson mesh_json(const MeshResult& mesh) {
                       {"reused", mesh.reused},
                       {"inputs_id", mesh.model.id()}};
   for (const auto& [name, value] : mesh.facts) json[name] = known(value);
+  if (const auto factor = mesh.peak("face_load_factor")) json["face_load_factor"] = peak_json(*factor, 1);
+  for (const auto& column : mesh.positions.columns) {
+    if (!column.ends_with("_MPa") || column == "max_pressure_MPa") continue;
+    const std::string name = column.substr(0, column.size() - 4);
+    if (const auto stress = mesh.peak(column)) json["max_stress_Pa"][name] = peak_json(*stress, 1e6);
+  }
   return json;
 }
 
@@ -109,8 +119,11 @@ std::string summary_text(const RunResult& result) {
                                  "p-p um", "load sharing", "dyn. factor");
   const auto row = [&](const std::string& name, const MeshResult& mesh, const StageResponse* response) {
     const auto k = mesh.mean_stiffness();
-    text += fmt::format("{:<20} {:>10.4g} +-{:>2.1f}% {:>12.3f} {:>12.3f}", name, k.value, 100 * k.error_relative,
-                        1e6 * mesh.lte_mean().value, 1e6 * mesh.lte_peak_to_peak().value);
+    // A closed form has no error estimate.
+    const std::string error =
+        std::isfinite(k.error_relative) ? fmt::format("+-{:>2.1f}%", 100 * k.error_relative) : "+-?   ";
+    text += fmt::format("{:<20} {:>10.4g} {} {:>12.3f} {:>12.3f}", name, k.value, error, 1e6 * mesh.lte_mean().value,
+                        1e6 * mesh.lte_peak_to_peak().value);
     if (response) {
       double factor = 0;
       for (const auto& b : response->figures.sun_planet.branches) factor = std::max(factor, b.dynamic_factor_max.value);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,14 +76,43 @@ std::string arc(double radius, double from, double to, const char* style) {
   return fmt::format("<path d=\"{}\" fill=\"none\" {} vector-effect=\"non-scaling-stroke\"/>", d, style);
 }
 
+constexpr double least_margin = 6 * units::mm;
+
+/// Outline of spline teeth with their flank angle, as wide as their spaces; a sketch, for their height is not an input.
+std::string spline_teeth(const fem::SplineHeld& spline, double radius, double first, double reach) {
+  std::string d;
+  const double quarter = std::numbers::pi / 2 / spline.teeth;
+  const double height = std::min(quarter * radius, least_margin - 1 * units::mm);
+  const double top = quarter - height * std::tan(spline.flank_angle) / radius;
+  for (const double own : fem::equal_angles(spline.teeth, spline.first_tooth_angle)) {
+    const double angle = std::remainder(own, 2 * std::numbers::pi) + first;
+    if (std::abs(angle - first) > reach) continue;
+    const auto corner = [&](double r, double a) {
+      return page_point(r * std::cos(angle + a), r * std::sin(angle + a));
+    };
+    d += "M" + corner(radius, -quarter) + "L" + corner(radius + height, -top) + "L" + corner(radius + height, top) +
+         "L" + corner(radius, quarter) + "Z";
+  }
+  return fmt::format(
+      "<path d=\"{}\" fill=\"#D55E00\" fill-opacity=\"0.75\" stroke=\"#7a3600\" stroke-width=\"0.8\" "
+      "vector-effect=\"non-scaling-stroke\"/>",
+      d);
+}
+
 std::string supports(const fem::LoadedMeshProblem& problem, double first, double reach) {
   const double radius = problem.wheel_support_radius;
   constexpr const char* held = "stroke=\"#D55E00\" stroke-width=\"3.5\"";
   if (!problem.pair.internal() || std::holds_alternative<fem::OutsideHeld>(problem.structure))
     return arc(radius, first - reach, first + reach, held);
+  if (const auto* spline = std::get_if<fem::SplineHeld>(&problem.structure))
+    return spline_teeth(*spline, radius, first, reach);
   const auto* pins = std::get_if<fem::PinHeld>(&problem.structure);
+  if (!pins) return "";
   std::string svg;
-  for (const double own : pins ? pins->angles : std::vector<double>{}) {
+  if (pins->housing_clearance)
+    svg +=
+        arc(radius, first - reach, first + reach, "stroke=\"#D55E00\" stroke-width=\"1.5\" stroke-dasharray=\"6 3\"");
+  for (const double own : pins->angles) {
     const double angle = std::remainder(own, 2 * std::numbers::pi) + first;
     if (std::abs(angle - first) > reach) continue;
     svg += fmt::format(
@@ -92,6 +122,12 @@ std::string supports(const fem::LoadedMeshProblem& problem, double first, double
         pins->pin_diameter / 2 / units::mm);
   }
   return svg;
+}
+
+/// Air around the bodies, enough for the pins.
+double margin_of(const fem::LoadedMeshProblem& problem) {
+  const auto* pins = std::get_if<fem::PinHeld>(&problem.structure);
+  return pins ? std::max(least_margin, pins->pin_diameter / 2 + 1 * units::mm) : least_margin;
 }
 
 std::string plane_picture(const fem::LoadedMeshProblem& problem, const fem::LoadedMeshResult& solved,
@@ -112,7 +148,7 @@ std::string plane_picture(const fem::LoadedMeshProblem& problem, const fem::Load
   const double half_width = 3.4 * wheel.pitch_angle() * wheel_pitch;
   const double low = pair.internal() ? centre + problem.planet_bore_radius : problem.wheel_support_radius;
   const double high = pair.internal() ? problem.wheel_support_radius : centre - problem.planet_bore_radius;
-  const double margin = 6 * units::mm;
+  const double margin = margin_of(problem);
   const double width = 2 * half_width / units::mm, height = (high - low + 2 * margin) / units::mm;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.2f} {:.2f} {:.2f} {:.2f}\" role=\"img\" "
@@ -156,20 +192,15 @@ std::string shade(const char* base, double light) {
   return fmt::format("#{:02x}{:02x}{:02x}", channel(16), channel(8), channel(0));
 }
 
-const char* facet_colour(Boundary boundary, bool end_held, bool external) {
-  switch (boundary) {
-    case Boundary::end_low:
-      return end_held ? held_fill : wheel_fill;
-    case Boundary::support:
-      return end_held ? wheel_fill : external ? wheel_fill : held_fill;
-    case Boundary::leading_flank:
-      return planet_fill;
-    default:
-      return wheel_fill;
-  }
+/// The held surface of a ring; a sun is held at its bore, which the teeth hide.
+std::optional<Boundary> held_boundary(const fem::LoadedMeshProblem& problem) {
+  if (!problem.pair.internal()) return std::nullopt;
+  if (std::holds_alternative<fem::OutsideHeld>(problem.structure)) return Boundary::support;
+  if (std::holds_alternative<fem::EndFaceHeld>(problem.structure)) return Boundary::end_low;
+  return std::nullopt;
 }
 
-std::vector<Facet> facets(const Mesh& mesh, const Camera& eye, bool end_held, bool external) {
+std::vector<Facet> facets(const Mesh& mesh, const Camera& eye, std::optional<Boundary> held) {
   const Eigen::Vector3d lamp = (eye.towards + 0.5 * eye.up - 0.6 * eye.right).normalized();
   std::vector<Facet> list;
   for (const auto& face : mesh.faces) {
@@ -182,7 +213,10 @@ std::vector<Facet> facets(const Mesh& mesh, const Camera& eye, bool end_held, bo
     facet.depth = middle.dot(eye.towards);
     for (std::size_t i = 0; i < 4; ++i)
       facet.corners[i] = {p[i].dot(eye.right) / units::mm, -p[i].dot(eye.up) / units::mm};
-    facet.fill = shade(facet_colour(face.boundary, end_held, external), std::clamp(normal.dot(lamp), 0.0, 1.0));
+    const char* colour = face.boundary == held                      ? held_fill
+                         : face.boundary == Boundary::leading_flank ? planet_fill
+                                                                    : wheel_fill;
+    facet.fill = shade(colour, std::clamp(normal.dot(lamp), 0.0, 1.0));
     list.push_back(std::move(facet));
   }
   std::sort(list.begin(), list.end(), [](const Facet& a, const Facet& b) { return a.depth < b.depth; });
@@ -194,8 +228,7 @@ std::string solid_picture(const fem::LoadedMeshProblem& problem, const fem::Load
   const auto& sector = solved.wheel_sector;
   const int wanted = sector.faces.size() > most_faces / 5 ? (sector.faces.size() > most_faces / 3 ? 1 : 3) : 5;
   const Mesh mesh = wanted == 1 ? sector : geometry::repeat(sector, problem.pair.wheel().teeth(), wanted);
-  const bool end_held = std::holds_alternative<fem::EndFaceHeld>(problem.structure) && problem.pair.internal();
-  const auto list = facets(mesh, camera(), end_held, !problem.pair.internal());
+  const auto list = facets(mesh, camera(), held_boundary(problem));
   Eigen::AlignedBox2d box;
   for (const auto& facet : list) {
     for (const auto& corner : facet.corners) box.extend(corner);

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <set>
 
+#include "app/svg_frame.h"
+
 namespace annulus::app {
 
 const char* palette(std::size_t index) {
-  static constexpr const char* colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                            "#E69F00", "#56B4E9", "#444444"};
+  static constexpr const char* colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",
+                                            "#444444", "#882255", "#999933", "#332288", "#661100", "#88CCEE"};
   return colours[index % std::size(colours)];
 }
 
@@ -89,14 +91,6 @@ Range RangeFinder::range(double margin) const {
 }
 
 namespace {
-
-/// Page coordinates of the data rectangle.
-struct Frame {
-  double left, right, top, bottom;
-  Range x, y;
-  [[nodiscard]] double at_x(double v) const { return left + (v - x.low) / (x.high - x.low) * (right - left); }
-  [[nodiscard]] double at_y(double v) const { return bottom - (v - y.low) / (y.high - y.low) * (bottom - top); }
-};
 
 /// Keeps first, smallest, largest and last value of every pixel column of a long ascending series.
 std::vector<std::size_t> visible_points(const Frame& frame, const std::vector<double>& x,
@@ -187,32 +181,6 @@ std::string draw(const Frame& frame, const Series& s) {
   return svg + "</g>";
 }
 
-std::string axes(const Frame& frame, const Plot& plot) {
-  std::string svg;
-  const auto x_ticks = nice_ticks(frame.x.low, frame.x.high, static_cast<int>((frame.right - frame.left) / 60));
-  const auto y_ticks = nice_ticks(frame.y.low, frame.y.high, static_cast<int>((frame.bottom - frame.top) / 38));
-  const auto x_labels = tick_labels(x_ticks), y_labels = tick_labels(y_ticks);
-  for (std::size_t i = 0; i < y_ticks.size(); ++i) {
-    const double y = frame.at_y(y_ticks[i]);
-    svg += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\" stroke=\"#e4e4e4\"/>", frame.left, y, frame.right);
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", frame.left - 6, y + 3.5,
-                       y_labels[i]);
-  }
-  for (std::size_t i = 0; i < x_ticks.size(); ++i) {
-    const double x = frame.at_x(x_ticks[i]);
-    svg += fmt::format("<path d=\"M{:.1f} {:.1f}v4\" stroke=\"#888\"/>", x, frame.bottom);
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>", x, frame.bottom + 16,
-                       x_labels[i]);
-  }
-  svg += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\" fill=\"none\" stroke=\"#888\"/>", frame.left, frame.top,
-                     frame.bottom, frame.right);
-  svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>", (frame.left + frame.right) / 2,
-                     plot.height - 6, escape(plot.x_label));
-  svg += fmt::format("<text transform=\"translate(13 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-                     (frame.top + frame.bottom) / 2, escape(plot.y_label));
-  return svg;
-}
-
 constexpr double legend_line = 17;
 
 /// Legend entries in rows: x of each labelled series, and its row.
@@ -275,15 +243,8 @@ Frame frame_of(const Plot& plot) {
 
 std::string to_svg(const Plot& plot) {
   const Frame frame = frame_of(plot);
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" "
-      "font-family=\"system-ui, "
-      "sans-serif\" font-size=\"11\" fill=\"#333\">",
-      plot.width, plot.height, escape(plot.title));
-  if (!plot.title.empty())
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"15\" font-size=\"13\" font-weight=\"600\">{}</text>", frame.left,
-                       escape(plot.title));
-  svg += axes(frame, plot);
+  std::string svg = open_svg(plot.title, plot.width, plot.height, frame.left);
+  svg += axes(frame, plot.x_label, plot.y_label);
   if (plot.legend) svg += legend(frame, plot);
   // A nested <svg> clips what it shows, without an identifier that would have to be unique within the page.
   const double left = frame.left - 2, top = frame.top - 2, w = frame.right - frame.left + 4,

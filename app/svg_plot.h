@@ -7,7 +7,7 @@
 
 namespace annulus::app {
 
-/// Okabe and Ito's palette, safe for colour-blind readers; the index wraps around.
+/// Okabe and Ito's palette, continued with Tol's muted one, safe for colour-blind readers; the index wraps around.
 [[nodiscard]] const char* palette(std::size_t index);
 
 /// `text` with &, <, > and " made harmless in XML and HTML.

@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "tests/app/made_up_solution.h"
 #include "tests/app/scenes.h"
 
 namespace annulus {
@@ -73,6 +74,96 @@ BOOST_AUTO_TEST_CASE(survives_the_round_trip_through_files) {
   BOOST_TEST(kept->pins.rows.size() == 1U);
   BOOST_TEST(kept->fact("unknowns") == 1234);
   BOOST_TEST(kept->picture == result.picture);
+}
+
+BOOST_AUTO_TEST_CASE(everything_known_is_kept) {
+  const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/misaligned_set.toml");
+  const auto geometry = app::make_geometry(scene);
+  auto model = app::ring_mesh_model(scene, geometry, 1);
+  model.problem->phases = 4;
+  auto result = app::pack(model, test::made_up_solution(model));
+  result.picture = "<svg/>";
+  BOOST_TEST(result.positions.columns.size() == result.positions.rows.front().size());
+  const auto check_peaks = [](const app::MeshResult& r) {
+    const auto tolerance = boost::test_tools::tolerance(1e-12);
+    BOOST_TEST_REQUIRE(r.peak("face_load_factor").has_value());
+    BOOST_TEST(r.peak("face_load_factor")->value == 1.5, tolerance);
+    BOOST_TEST(r.peak("face_load_factor")->at.mesh_phase == 0.0);
+    BOOST_TEST(r.peak("planet_root_tension_MPa")->value == 150, tolerance);
+    BOOST_TEST(r.peak("planet_root_compression_MPa")->value == -180, tolerance);  // by magnitude, with its sign
+    BOOST_TEST(r.peak("ring_rim_von_mises_MPa")->value == 50, tolerance);
+    BOOST_TEST(!r.peak("no such column").has_value());
+    BOOST_TEST(!r.peak("sun_root_tension_MPa").has_value());
+  };
+  check_peaks(result);
+  BOOST_TEST(result.line_load.rows.size() == 4U * 12);
+  BOOST_TEST(result.pressure.rows.size() == 4U * 12 * 2 * 12);
+  // Line load times slice width adds up to the load; the sum of a dozen roundings.
+  double force = 0;
+  for (std::size_t i = 0; i < 12; ++i) {
+    const auto& row = result.line_load.rows[i];
+    force += row[4] * (row[3] - row[2]);
+  }
+  BOOST_TEST(force == model.problem->loads[app::nominal_load_index], boost::test_tools::tolerance(1e-13));
+
+  const test::TemporaryFolder folder("everything");
+  app::save(result, folder.path());
+  const auto kept = app::load(model, folder.path());
+  BOOST_TEST_REQUIRE(kept.has_value());
+  check_peaks(*kept);
+  for (const auto& [name, table] : app::side_tables) {
+    BOOST_TEST(((*kept).*table).rows.size() == (result.*table).rows.size(), name);
+    BOOST_TEST(std::filesystem::exists(folder.path() / (std::string(name) + "_ring_planet.csv")) ==
+                   !(result.*table).rows.empty(),
+               name);
+  }
+  BOOST_TEST((kept->stress.header == result.stress.header));
+  BOOST_TEST(kept->stress.header.at(1).second == "ring root");
+  // A later result without these tables leaves none behind.
+  for (const auto& [name, table] : app::side_tables) (result.*table).rows.clear();
+  app::save(result, folder.path());
+  BOOST_TEST(!std::filesystem::exists(folder.path() / "pressure_ring_planet.csv"));
+}
+
+BOOST_AUTO_TEST_CASE(pins_and_splines_carry_their_angle) {
+  const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_structures.toml");
+  const auto run = test::made_up_run(scene, 2);
+  const auto angle = [&](const std::string& ring, std::size_t row) {
+    for (const auto& r : run.rings) {
+      if (r.name == ring) return r.mesh.pins.rows.at(row)[r.mesh.pins.column("pin_angle_deg")];
+    }
+    throw std::logic_error(ring);
+  };
+  const auto tolerance = boost::test_tools::tolerance(1e-12);
+  BOOST_TEST(angle("irregular-pins", 2) == 31, tolerance);
+  BOOST_TEST(angle("splined", 1) == 360.0 / 54, tolerance);
+  BOOST_TEST(angle("one-pin", 5) == 0, tolerance);
+  for (const auto& ring : run.rings) {
+    BOOST_TEST(ring.mesh.line_load.rows.empty() == (ring.mesh.model.rung == "plane"), ring.name);
+    BOOST_TEST(ring.mesh.peak("face_load_factor").has_value() == (ring.mesh.model.rung == "solid"), ring.name);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_closed_form_has_no_mesh_and_no_known_error) {
+  auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
+  scene.rung = app::Rung::closed_form;
+  const auto model = app::ring_mesh_model(scene, app::make_geometry(scene), 0);
+  auto solved = test::made_up_solution(model);
+  std::vector<StiffnessEntry> entries;
+  for (int phase = 0; phase < solved.table.phases(); ++phase) {
+    for (int load = 0; load < static_cast<int>(model.problem->loads.size()); ++load) {
+      entries.push_back(solved.table.at(0, phase, load));
+      entries.back().error_relative = 0;
+    }
+  }
+  solved.table = StiffnessTable(model.mesh, solved.table.phases(), {0.0}, model.problem->loads, entries);
+  const auto result = app::pack(model, solved);
+  BOOST_TEST(result.picture.empty());
+  BOOST_TEST(std::isnan(result.mean_stiffness().error_relative));
+  BOOST_TEST(std::isnan(result.lte_mean().error_relative));
+  const test::TemporaryFolder folder("closed_form");
+  app::save(result, folder.path());
+  BOOST_TEST(app::load(model, folder.path()).has_value());
 }
 
 BOOST_AUTO_TEST_CASE(is_not_reused_for_other_inputs_or_when_damaged) {

@@ -1,5 +1,6 @@
 #include "app/plan.h"
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -67,6 +68,86 @@ BOOST_AUTO_TEST_CASE(rungs_and_positions) {
              boost::test_tools::tolerance(1e-12));
 }
 
+BOOST_AUTO_TEST_CASE(structures_their_rung_and_why) {
+  const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_structures.toml");
+  const auto plan = app::make_plan(scene, app::make_geometry(scene));
+  const auto mesh = [&](const std::string& ring) {
+    for (const auto& m : plan.meshes) {
+      if (m.ring == ring) return m;
+    }
+    throw std::logic_error(ring);
+  };
+  const auto check = [&](const std::string& ring, const std::string& rung, int positions, const std::string& word) {
+    const auto m = mesh(ring);
+    BOOST_TEST(m.rung == rung, ring);
+    BOOST_TEST(m.positions == positions, ring << ": " << m.positions);
+    BOOST_TEST(m.reason.find(word) != std::string::npos, m.reason);
+  };
+  check("traditional", "plane", 1, "held over the full width");
+  check("flange", "solid", 1, "flange");
+  check("thin-walled", "solid", 1, "one end face");
+  check("thin-walled-hoop", "solid", 1, "hoop");
+  check("pins24", "plane", 27, "pins");
+  check("bolts24", "plane", 27, "bolts");
+  check("irregular-pins", "plane", 54, "pins");  // a third of 162
+  check("one-pin", "plane", 162, "pins");
+  check("splined", "plane", 3, "splines");  // 162 / gcd(162, 54)
+  const auto text = app::to_text(plan);
+  BOOST_TEST(text.find("Ring 'one-pin' has a single pin") != std::string::npos);
+  BOOST_TEST(text.find("radial play of 30 µm (housing_clearance_um)") != std::string::npos);
+  BOOST_TEST(text.find("ring.pin_free_span_mm") != std::string::npos);
+  BOOST_TEST(text.find("162 teeth on 24 supports at given places: the ring repeats after 54 teeth") !=
+             std::string::npos);
+
+  const auto structure = [&](const std::string& ring) { return mesh(ring).problem->structure; };
+  const auto flange = std::get<fem::FlangeHeld>(structure("flange"));
+  BOOST_TEST(flange.outside_radius == 0.37, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(std::get<fem::EndFaceHeld>(structure("thin-walled-hoop")).hoop.has_value());
+  BOOST_TEST(!std::get<fem::EndFaceHeld>(structure("thin-walled")).hoop.has_value());
+  const auto pin = std::get<fem::PinHeld>(structure("one-pin"));
+  BOOST_TEST(*pin.housing_clearance == 30e-6, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(!std::get<fem::PinHeld>(structure("bolts24")).unilateral);
+  const auto spline = std::get<fem::SplineHeld>(structure("splined"));
+  BOOST_TEST(spline.teeth == 54);
+  BOOST_TEST(spline.clearance == 5e-6, boost::test_tools::tolerance(1e-15));
+}
+
+BOOST_AUTO_TEST_CASE(misalignment_and_lead_need_solids) {
+  auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/misaligned_set.toml");
+  const auto geometry = app::make_geometry(scene);
+  const auto sun = app::sun_mesh_model(scene, geometry), ring = app::ring_mesh_model(scene, geometry, 0);
+  for (const auto* mesh : {&sun, &ring}) {
+    BOOST_TEST(mesh->rung == "solid");
+    BOOST_TEST(mesh->reason.find("lead of the planet is modified") != std::string::npos, mesh->reason);
+    BOOST_TEST(mesh->reason.find("misaligned") != std::string::npos, mesh->reason);
+    BOOST_TEST(mesh->problem->pair.planet().parameters().lead_crowning == 8e-6, boost::test_tools::tolerance(1e-15));
+  }
+  BOOST_TEST(sun.problem->misalignment == 10e-6, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(ring.problem->misalignment == 20e-6, boost::test_tools::tolerance(1e-15));
+  scene.stage.helix_angle = 0.2;
+  BOOST_TEST(app::solid_reason(scene).find("helical") == 0U);
+  const auto sloped = app::ring_mesh_model(scene, geometry, 2);
+  BOOST_TEST(sloped.problem->pair.wheel().parameters().lead_slope == -20e-6, boost::test_tools::tolerance(1e-15));
+}
+
+BOOST_AUTO_TEST_CASE(asked_rungs) {
+  auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
+  const auto geometry = app::make_geometry(scene);
+  const auto rung = [&](std::size_t ring) { return app::ring_mesh_model(scene, geometry, ring); };
+  scene.rung = app::Rung::resolved;
+  BOOST_TEST(rung(0).rung == "resolved_plane");
+  BOOST_TEST(rung(1).rung == "resolved_solid");  // thin-walled
+  BOOST_CHECK(rung(1).settings.rung == fem::Rung::resolved_solid);
+  BOOST_TEST(rung(1).reason.find("the scene asks for it") == 0U);
+  scene.rung = app::Rung::closed_form;
+  BOOST_CHECK(rung(2).settings.rung == fem::Rung::closed_form);
+  const auto remarks = app::make_plan(scene, geometry).remarks;
+  BOOST_TEST(std::any_of(remarks.begin(), remarks.end(),
+                         [](const auto& r) { return r.find("not controlled") != std::string::npos; }));
+  scene.rung = app::Rung::solid;
+  BOOST_CHECK(rung(0).settings.rung == fem::Rung::solid);
+}
+
 BOOST_AUTO_TEST_CASE(every_input_has_an_origin) {
   const auto json = ring_types();
   int derived = 0, assumed = 0;
@@ -132,6 +213,40 @@ BOOST_AUTO_TEST_CASE(identity_follows_the_inputs_that_matter) {
   other.stage.power *= 1.0 + 1e-15;
   BOOST_TEST(id(other) != id(scene));  // the last bit of a load counts
   BOOST_TEST(app::sun_mesh_model(scene, geometry).id() != id(scene));
+}
+
+BOOST_AUTO_TEST_CASE(identity_follows_every_structure_key) {
+  const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_structures.toml");
+  const auto changed = [&](const std::string& ring, auto change) {
+    auto other = scene;
+    std::size_t i = 0;
+    while (other.rings.at(i).name != ring) ++i;
+    change(other.rings[i]);
+    const auto id = [&](const app::Scene& s) { return app::ring_mesh_model(s, app::make_geometry(s), i).id(); };
+    return id(other) != id(scene);
+  };
+  BOOST_TEST(changed("flange", [](auto& r) { r.flange_width = 21e-3; }));
+  BOOST_TEST(changed("flange", [](auto& r) { r.flange_diameter = 0.75; }));
+  BOOST_TEST(changed("flange", [](auto& r) { r.flange_width.reset(); }));
+  BOOST_TEST(changed("thin-walled-hoop", [](auto& r) { r.hoop_width = 16e-3; }));
+  BOOST_TEST(changed("thin-walled-hoop", [](auto& r) { r.hoop_thickness = 16e-3; }));
+  BOOST_TEST(changed("irregular-pins", [](auto& r) { r.pin_angles[3] += 1e-3; }));
+  BOOST_TEST(changed("pins24", [](auto& r) { r.pin_free_span = 5e-3; }));
+  BOOST_TEST(changed("pins24", [](auto& r) { r.pin_tangential_stiffness = 1e9; }));
+  BOOST_TEST(changed("pins24", [](auto& r) { r.housing_clearance = 0; }));
+  BOOST_TEST(changed("pins24", [](auto& r) { r.structure = app::Structure::bolted; }));
+  BOOST_TEST(changed("splined", [](auto& r) { r.splines = 27; }));
+  BOOST_TEST(changed("splined", [](auto& r) { r.spline_flank_angle = 0.6; }));
+  BOOST_TEST(changed("splined", [](auto& r) { r.spline_clearance = 0; }));
+  BOOST_TEST(changed("splined", [](auto& r) { r.spline_stiffness = 1e9; }));
+  BOOST_TEST(changed("splined", [](auto& r) { r.first_spline_angle = 0.01; }));
+  BOOST_TEST(changed("traditional", [](auto& r) { r.lead_slope = 1e-6; }));
+  BOOST_TEST(changed("traditional", [](auto& r) { r.lead_crowning = 1e-6; }));
+  auto misaligned = scene;
+  misaligned.errors.ring_planet_misalignment = 1e-6;
+  const auto geometry = app::make_geometry(scene);
+  BOOST_TEST(app::ring_mesh_model(misaligned, geometry, 2).id() != app::ring_mesh_model(scene, geometry, 2).id());
+  BOOST_TEST(app::sun_mesh_model(misaligned, geometry).id() == app::sun_mesh_model(scene, geometry).id());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -53,6 +53,14 @@ BOOST_AUTO_TEST_CASE(help_version_and_wrong_arguments) {
   BOOST_TEST(annulus_program(folder.path(), "").status == 2);
   BOOST_TEST(annulus_program(folder.path(), "walk scene.toml").status == 2);
   BOOST_TEST(annulus_program(folder.path(), "run scene.toml --threads 0").status == 2);
+  for (const auto* arguments : {"frob", "frob scene.toml", "--quiet frob"}) {
+    const auto unknown = annulus_program(folder.path(), arguments);
+    BOOST_TEST(unknown.status == 2);
+    BOOST_TEST(unknown.err.find("frob: there is no such command") == 0U, unknown.err);
+    for (const auto* known : {"run", "solve", "dynamics", "plan", "check", "explain"})
+      BOOST_TEST(unknown.err.find(known) != std::string::npos, known);
+  }
+  BOOST_TEST(annulus_program(folder.path(), "pln scene.toml").err.find("did you mean plan?") != std::string::npos);
   const auto missing = annulus_program(folder.path(), "check nowhere.toml");
   BOOST_TEST(missing.status == 2);
   BOOST_TEST(missing.err.find("nowhere.toml") != std::string::npos);

@@ -32,9 +32,26 @@ void check_refused(const std::string& what, const std::string& by, const std::ve
   }
 }
 
+/// The quick scene with another structure of its ring, whose keys follow.
+std::string ring_with(const std::string& structure, const std::string& keys) {
+  return test::replaced(test::quick_scene(), "structure = \"traditional\"",
+                        "structure = \"" + structure + "\"\n" + keys);
+}
+
 int line_of(const std::string& text, const std::string& what) {
   const auto head = text.substr(0, text.find(what));
   return 1 + static_cast<int>(std::count(head.begin(), head.end(), '\n'));
+}
+
+/// This ring must be refused with one problem at the line of `key`, holding all the given words.
+void check_ring_refused(const std::string& structure, const std::string& keys, const std::string& key,
+                        const std::vector<std::string>& words) {
+  const auto text = ring_with(structure, keys);
+  const auto problems = problems_of(text);
+  BOOST_TEST_REQUIRE(problems.size() == 1U, keys << ": " << problems.size() << " problems");
+  BOOST_TEST(problems.front().line == line_of(text, key), key << ": line " << problems.front().line);
+  for (const auto& word : words)
+    BOOST_TEST(problems.front().message.find(word) != std::string::npos, problems.front().message << " lacks " << word);
 }
 
 const app::Input& input(const app::Scene& scene, const std::string& key) {
@@ -133,9 +150,126 @@ BOOST_AUTO_TEST_CASE(ring_names_are_unique) {
 BOOST_AUTO_TEST_CASE(what_is_not_available_is_said_so) {
   check_refused("kind = \"planetary\"", "kind = \"helical_pair\"", {"not yet available"});
   check_refused("[errors]", "[monte_carlo]\nsamples = 3\n[errors]", {"monte_carlo", "not yet available"});
-  check_refused("title = \"Quick\"", "rung = \"closed_form\"", {"not yet available"});
-  check_refused("profile_shift = 0.7608", "profile_shift = 0.7608\nlead_crowning_um = 5",
-                {"lead_crowning_um", "not yet available"});
+  check_refused("planets = 5", "planets = 5\nhelix_angle_deg = 12",
+                {"stage.helix_angle_deg = 12", "not yet available"});
+  BOOST_TEST(
+      problems_of(test::replaced(test::quick_scene(), "planets = 5", "planets = 5\nhelix_angle_deg = 0")).empty());
+}
+
+BOOST_AUTO_TEST_CASE(pins_by_number_or_by_place) {
+  const auto scene =
+      app::parse_scene(ring_with("pinned", "pin_angles_deg = [0, 100, 250]\npin_diameter_mm = 15\n"), "s");
+  const auto& ring = scene.rings.front();
+  BOOST_TEST(ring.pin_count() == 3);
+  BOOST_TEST(ring.pin_angles.at(1) == 100 * units::deg, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(!ring.housing_clearance.has_value());
+  BOOST_TEST(*ring.pin_free_span == 0.0);
+  BOOST_CHECK(input(scene, "ring.pin_clearance_um").origin == app::Origin::default_value);
+
+  const std::string d = "pin_diameter_mm = 15\n";
+  check_ring_refused("pinned", d, "[[ring]]", {"ring.pins", "pin_angles_deg", "is required"});
+  check_ring_refused("pinned", d + "pins = 3\npin_angles_deg = [0, 120]", "pin_angles_deg", {"either pins"});
+  check_ring_refused("pinned", d + "first_pin_angle_deg = 3\npin_angles_deg = [0, 120]", "first_pin_angle_deg",
+                     {"first_pin_angle_deg = 3", "only with pins"});
+  check_ring_refused("pinned", d + "pin_angles_deg = []", "pin_angles_deg",
+                     {"at least one", "-360 <= each value <= 360 °"});
+  check_ring_refused("pinned", d + "pin_angles_deg = [0, 400]", "pin_angles_deg",
+                     {"[ 0, 400 ]", "value 2", "-360 <= each value <= 360 °"});
+  check_ring_refused("bolted", d + "pin_angles_deg = [-90, 0, 270]", "pin_angles_deg",
+                     {"pins 1 and 3 (-90° and 270°) are at the same place"});
+  // 2° on 663.6 mm are 11.58 mm, less than the diameter of 15 mm.
+  check_ring_refused("pinned", d + "pin_angles_deg = [0, 90, 92]", "pin_angles_deg",
+                     {"pins 2 and 3", "overlap", "11.58 mm", "pin_diameter_mm = 15"});
+  check_ring_refused("pinned", d + "pins = 180", "pins = 180", {"ring.pins = 180", "overlap", "11.58 mm"});
+  check_ring_refused("pinned", d + "pins = 0", "pins = 0", {"1 <= value <= 2000"});
+  check_ring_refused("pinned", d + "pins = 6\npin_free_span_mm = -1", "pin_free_span_mm", {"0 <= value <= 1000 mm"});
+  check_ring_refused("pinned", d + "pins = 6\nhousing_clearance_um = -1", "housing_clearance_um",
+                     {"0 <= value <= 10000 µm"});
+  check_ring_refused("bolted", d + "pins = 6\npin_clearance_um = 5", "pin_clearance_um",
+                     {"only with structure = \"pinned\""});
+  check_ring_refused("traditional", "housing_clearance_um = 5\n", "housing_clearance_um", {"\"pinned\" or \"bolted\""});
+  check_ring_refused("thin_walled", "free_length_mm = 18\nsleeve_thickness_mm = 10\npin_angles_deg = [0]",
+                     "pin_angles_deg", {"\"pinned\" or \"bolted\""});
+}
+
+BOOST_AUTO_TEST_CASE(a_single_pin_rests_in_a_bore) {
+  const std::string keys = "pins = 1\npin_diameter_mm = 15\n";
+  for (const auto* structure : {"pinned", "bolted"}) {
+    const auto scene = app::parse_scene(ring_with(structure, keys), "s");
+    BOOST_TEST_REQUIRE(scene.rings.front().housing_clearance.has_value());
+    BOOST_TEST(*scene.rings.front().housing_clearance == 0.0);
+    const auto& told = input(scene, "ring.housing_clearance_um");
+    BOOST_CHECK(told.origin == app::Origin::default_value);
+    BOOST_TEST(told.note.find("bore") != std::string::npos);
+  }
+  const auto given = app::parse_scene(ring_with("pinned", keys + "housing_clearance_um = 30\n"), "s");
+  BOOST_TEST(*given.rings.front().housing_clearance == 30e-6, boost::test_tools::tolerance(1e-15));
+}
+
+BOOST_AUTO_TEST_CASE(splines) {
+  const auto scene = app::parse_scene(ring_with("splined", "splines = 54\n"), "s");
+  const auto& ring = scene.rings.front();
+  BOOST_TEST(*ring.spline_flank_angle == 30 * units::deg, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(*ring.spline_clearance == 0.0);
+  BOOST_TEST(!ring.spline_stiffness.has_value());
+  check_ring_refused("splined", "", "[[ring]]", {"ring.splines", "is required"});
+  check_ring_refused("splined", "splines = 2", "splines = 2", {"3 <= value <= 2000"});
+  check_ring_refused("splined", "splines = 54\nspline_flank_angle_deg = 75", "spline_flank_angle_deg",
+                     {"0 <= value <= 60 °"});
+  check_ring_refused("splined", "splines = 54\nspline_stiffness_N_per_m = 0", "spline_stiffness_N_per_m",
+                     {"0 < value <= 1e14 N/m"});
+  check_ring_refused("splined", "splines = 54\npins = 24", "pins = 24", {"\"pinned\" or \"bolted\""});
+  check_ring_refused("traditional", "splines = 54", "splines = 54", {"only with structure = \"splined\""});
+}
+
+BOOST_AUTO_TEST_CASE(flanges_and_hoops_come_in_pairs) {
+  const std::string sleeve = "free_length_mm = 18\nsleeve_thickness_mm = 10.6\n";
+  const auto flange =
+      app::parse_scene(ring_with("traditional", "flange_width_mm = 20\nflange_diameter_mm = 740\n"), "s");
+  BOOST_TEST(*flange.rings.front().flange_diameter == 0.74, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(problems_of(ring_with("thin_walled", sleeve + "hoop_width_mm = 15\nhoop_thickness_mm = 15\n")).empty());
+  check_ring_refused("traditional", "flange_width_mm = 20", "flange_width_mm",
+                     {"flange_width_mm = 20", "flange_diameter_mm"});
+  check_ring_refused("traditional", "flange_width_mm = 90\nflange_diameter_mm = 740", "flange_width_mm",
+                     {"face width", "value <= 88 mm"});
+  check_ring_refused("traditional", "flange_width_mm = 20\nflange_diameter_mm = 660", "flange_diameter_mm",
+                     {"value > 663.6 mm"});
+  check_ring_refused("bolted", "pins = 6\npin_diameter_mm = 15\nflange_width_mm = 20", "flange_width_mm",
+                     {"traditional"});
+  check_ring_refused("thin_walled", sleeve + "hoop_thickness_mm = 15", "hoop_thickness_mm", {"hoop_width_mm"});
+  check_ring_refused("thin_walled", sleeve + "hoop_width_mm = 89\nhoop_thickness_mm = 15", "hoop_width_mm",
+                     {"value <= 88 mm"});
+  check_ring_refused("traditional", "hoop_width_mm = 5", "hoop_width_mm", {"thin_walled"});
+}
+
+BOOST_AUTO_TEST_CASE(plane_models_are_refused_where_the_face_width_matters) {
+  const auto paper = [](const std::string& what, const std::string& by) {
+    std::ifstream in(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
+    const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    return test::replaced(text, what, by);
+  };
+  for (const std::string rung : {"plane", "closed_form"}) {
+    const auto forced = paper("accuracy = 0.01", "accuracy = 0.01\nrung = \"" + rung + "\"");
+    const auto problems = problems_of(forced);
+    BOOST_TEST_REQUIRE(problems.size() == 1U);
+    const auto& message = problems.front().message;
+    BOOST_TEST(problems.front().line == line_of(forced, "rung ="));
+    BOOST_TEST(message.find("rung = " + rung + ": ") == 0U, message);
+    BOOST_TEST(message.find("'thin-walled'") != std::string::npos, message);
+    BOOST_TEST(message.find("free end") != std::string::npos, message);
+  }
+  for (const auto* rung : {"solid", "resolved"})
+    BOOST_TEST(problems_of(paper("accuracy = 0.01", std::string("rung = \"") + rung + "\"")).empty());
+  // The planet's lead touches the sun mesh and every ring mesh.
+  const auto lead = test::replaced(paper("accuracy = 0.01", "rung = \"closed_form\""), "bore_diameter_mm = 172",
+                                   "bore_diameter_mm = 172\nlead_crowning_um = 5");
+  const auto problems = problems_of(lead);
+  BOOST_TEST_REQUIRE(problems.size() == 4U);
+  for (const auto& p : problems) BOOST_TEST(p.message.find("lead of the planet") != std::string::npos, p.message);
+  const auto misaligned = problems_of(test::replaced(paper("accuracy = 0.01", "rung = \"plane\""), "[errors]",
+                                                     "[errors]\nsun_planet_misalignment_um = 5"));
+  BOOST_TEST_REQUIRE(misaligned.size() == 2U);  // the sun mesh, and the cantilever as ever
+  BOOST_TEST(misaligned.front().message.find("misaligned") != std::string::npos, misaligned.front().message);
 }
 
 BOOST_AUTO_TEST_CASE(misplaced_keys_and_tables) {

@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "app/report_parts.h"
+#include "app/svg_mesh.h"
+#include "geometry/sector_mesh.h"
+#include "tests/app/made_up_solution.h"
 
 namespace annulus {
 
@@ -60,6 +63,34 @@ BOOST_AUTO_TEST_CASE(long_series_keep_their_peaks) {
   BOOST_TEST(svg.size() < 40000U);  // far below the million characters of all points
   const double top = 10;            // where y = 1 is drawn in a plot without title
   BOOST_TEST(svg.find(" " + std::to_string(static_cast<int>(top)) + ".0L") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(pictures_of_supports) {
+  const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_structures.toml");
+  const auto geometry = app::make_geometry(scene);
+  const auto picture = [&](std::size_t ring) {
+    const auto model = app::ring_mesh_model(scene, geometry, ring);
+    const auto& problem = *model.problem;
+    auto solved = test::made_up_solution(model);
+    const geometry::SectorResolution coarse{.flank_cells = 6, .fillet_cells = 2, .thickness_cells = 4, .root_cells = 1};
+    solved.planet_sector =
+        geometry::make_sector_mesh(problem.pair.planet(), {.support_radius = problem.planet_bore_radius}, coarse);
+    solved.wheel_sector =
+        geometry::make_sector_mesh(problem.pair.wheel(), {.support_radius = problem.wheel_support_radius}, coarse);
+    return app::mesh_picture(problem, solved, "p");
+  };
+  const auto find = [&](const std::string& name) {
+    std::size_t i = 0;
+    while (scene.rings.at(i).name != name) ++i;
+    return i;
+  };
+  const auto pin = picture(find("one-pin"));
+  BOOST_TEST(pin.find("<circle") != std::string::npos);
+  BOOST_TEST(pin.find("stroke-dasharray") != std::string::npos);  // the bore of the housing
+  BOOST_TEST(picture(find("pins24")).find("stroke-dasharray") == std::string::npos);
+  const auto spline = picture(find("splined"));
+  BOOST_TEST(spline.find("#7a3600") != std::string::npos);
+  BOOST_TEST(spline.find("nan") == std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(measured_values_carry_their_error) {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/svg_plot.h"
+
+/// What plots and maps have in common.
+namespace annulus::app {
+
+/// Page coordinates of the data rectangle.
+struct Frame {
+  double left, right, top, bottom;
+  Range x, y;
+  [[nodiscard]] double at_x(double v) const { return left + (v - x.low) / (x.high - x.low) * (right - left); }
+  [[nodiscard]] double at_y(double v) const { return bottom - (v - y.low) / (y.high - y.low) * (bottom - top); }
+};
+
+/// Grid, ticks and labels around a frame; about `y_ticks` ticks upright, as many as fit when absent, 0 for no labels.
+[[nodiscard]] std::string axes(const Frame& frame, const std::string& x_label, const std::string& y_label,
+                               std::optional<int> y_ticks = {});
+
+/// The opening tag with size and font, and the title when there is one.
+[[nodiscard]] std::string open_svg(const std::string& title, int width, int height, double title_left);
+
+}  // namespace annulus::app

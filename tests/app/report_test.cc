@@ -1,0 +1,144 @@
+#include "app/report.h"
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/report_parts.h"
+#include "app/summary.h"
+#include "app/svg_map.h"
+#include "tests/app/made_up_solution.h"
+#include "tests/app/scenes.h"
+
+namespace annulus {
+
+namespace {
+
+app::RunResult run_of(const char* scene) {
+  return test::made_up_run(app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/" + scene + ".toml"), 4);
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t times = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++times;
+  return times;
+}
+
+bool contains(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+
+/// Every tag that is opened is closed, and nothing that is not a number was printed as one.
+void check_svg(const std::string& text) {
+  BOOST_TEST(count(text, "<svg") == count(text, "</svg>"));
+  BOOST_TEST(count(text, "<g") == count(text, "</g>"));
+  BOOST_TEST(!contains(text, "nan"));
+  BOOST_TEST(!contains(text, "inf\""));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(report)
+
+BOOST_AUTO_TEST_CASE(maps_join_equal_neighbours) {
+  app::ColourMap map{.title = "m", .y_range = {0, 2}, .values = {0, 10}, .grey = "none"};
+  app::ColourMap::Panel panel{.title = "a<b", .x_range = {0, 4}};
+  for (int i = 0; i < 4; ++i) panel.cells.push_back({.x = {0.0 + i, 1.0 + i}, .y = {0, 1}, .value = 5});
+  panel.cells.push_back({.x = {0, 4}, .y = {1, 2}});
+  map.panels = {panel};
+  const auto svg = app::to_svg(map);
+  check_svg(svg);
+  BOOST_TEST(contains(svg, "a&lt;b"));
+  // One rectangle of four equal cells and one grey one: two paths of one subpath each between the group tags.
+  const auto cells = svg.substr(svg.find("crispEdges"), svg.find("</g>") - svg.find("crispEdges"));
+  BOOST_TEST(count(cells, "<path") == 2U);
+  BOOST_TEST(count(cells, "M") == 2U);
+  BOOST_TEST(contains(svg, ">none<"));
+}
+
+BOOST_AUTO_TEST_CASE(scale_goes_both_ways_below_zero) {
+  app::ColourMap map{.y_range = {0, 1}, .values = {-4, 2}};
+  map.panels.push_back({.title = {}, .x_range = {0, 1}, .cells = {{.x = {0, 1}, .y = {0, 1}, .value = 0}}});
+  const auto svg = app::to_svg(map);
+  check_svg(svg);
+  // Symmetric about zero, where the colour is the neutral one up to half a step of the scale.
+  BOOST_TEST(contains(svg, ">-4<"));
+  BOOST_TEST(contains(svg, ">4<"));
+}
+
+BOOST_AUTO_TEST_CASE(supports_show_who_touches) {
+  const auto result = run_of("ring_structures");
+  const auto section = app::supports_section(result);
+  check_svg(section);
+  for (const auto* title :
+       {"pins24: pins", "bolts24: bolts", "irregular-pins: pins", "one-pin: pins", "splined: spline teeth"})
+    BOOST_TEST(contains(section, title), title);
+  BOOST_TEST(!contains(section, "traditional"));
+  BOOST_TEST(contains(section, "lifted off"));
+  BOOST_TEST(section.size() < 1500000U);
+  // Without pins there is no section.
+  auto held = result;
+  held.rings.erase(held.rings.begin() + 1, held.rings.end());
+  BOOST_TEST(app::supports_section(held).empty());
+}
+
+BOOST_AUTO_TEST_CASE(contact_shows_face_width_pressure_and_stress) {
+  const auto section = app::contact_section(run_of("misaligned_set"));
+  check_svg(section);
+  BOOST_TEST(contains(section, "Load over the face width"));
+  BOOST_TEST(contains(section, "thin-walled (KHβ 1.5)"));
+  BOOST_TEST(contains(section, "pair 1, 60 % of the load"));
+  BOOST_TEST(contains(section, "traditional, mesh phase 0<"));
+  for (const auto* curve :
+       {"Tooth root of the planet", "Tooth root of the ring", "Tooth root of the sun", "Rim of the ring, outside"})
+    BOOST_TEST(contains(section, curve), curve);
+}
+
+BOOST_AUTO_TEST_CASE(plane_meshes_show_their_pressure_as_lines) {
+  auto result = run_of("ring_structures");
+  result.rings.erase(result.rings.begin() + 1, result.rings.end());
+  const auto section = app::contact_section(result);
+  check_svg(section);
+  BOOST_TEST(!contains(section, "Load over the face width"));
+  BOOST_TEST(contains(section, "roll length from the theoretical contact point"));
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_shown_of_what_is_not_known) {
+  auto result = run_of("ring_structures");
+  const auto strip = [](app::MeshResult& mesh) {
+    for (const auto& [name, table] : app::side_tables) (mesh.*table).rows.clear();
+  };
+  strip(result.sun_mesh);
+  for (auto& ring : result.rings) strip(ring.mesh);
+  BOOST_TEST(app::contact_section(result).empty());
+  BOOST_TEST(app::supports_section(result).empty());
+  const auto page = app::report_html(result);
+  BOOST_TEST(!contains(page, "#contact"));
+  BOOST_TEST(!contains(page, "#supports"));
+}
+
+BOOST_AUTO_TEST_CASE(summary_has_the_peaks_with_their_position) {
+  const auto json = nlohmann::json::parse(app::summary_json(run_of("misaligned_set")));
+  const auto tolerance = boost::test_tools::tolerance(1e-12);
+  const auto& mesh = json["rings"]["thin-walled"]["ring_planet"];
+  BOOST_TEST(mesh["face_load_factor"]["value"].get<double>() == 1.5, tolerance);
+  BOOST_TEST(mesh["face_load_factor"]["mesh_phase"].get<double>() == 0.0);
+  BOOST_TEST(mesh["face_load_factor"]["ring_tooth"].get<int>() == 0);
+  BOOST_TEST(mesh["max_stress_Pa"]["ring_root_von_mises"]["value"].get<double>() == 160e6, tolerance);
+  BOOST_TEST(mesh["max_stress_Pa"]["planet_root_compression"]["value"].get<double>() == -180e6, tolerance);
+  BOOST_TEST(json["rings"]["thin-walled"]["sun_planet"]["max_stress_Pa"].contains("sun_root_tension"));
+  // Plane meshes have no face load factor.
+  const auto plane = nlohmann::json::parse(app::summary_json(run_of("ring_structures")));
+  BOOST_TEST(!plane["rings"]["traditional"]["ring_planet"].contains("face_load_factor"));
+  BOOST_TEST(plane["rings"]["flange"]["ring_planet"].contains("face_load_factor"));
+}
+
+BOOST_AUTO_TEST_CASE(whole_page) {
+  const auto page = app::report_html(run_of("misaligned_set"));
+  check_svg(page.substr(page.find("<main>")));
+  BOOST_TEST(contains(page, "face load factor K<sub>Hβ</sub>, largest"));
+  BOOST_TEST(contains(page, "root stress of the ring, tension, largest, MPa"));
+  BOOST_TEST(contains(page, "href=\"#contact\""));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace annulus
