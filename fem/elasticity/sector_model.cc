@@ -32,21 +32,25 @@ TraceGrid make_trace(const std::vector<int>& nodes, const std::vector<Eigen::Vec
                      const std::function<double(const Eigen::Vector3d&)>& profile_coordinate) {
   TraceGrid trace;
   trace.degree = degree;
-  std::vector<double> u, z;
-  for (const int n : nodes) {
-    u.push_back(profile_coordinate(points[n]));
-    z.push_back(points[n].z());
-  }
+  std::vector<double> z;
+  for (const int n : nodes) z.push_back(points[n].z());
   trace.axial = distinct(z, 1e-9);
-  // Nodes of one station agree to round-off.
-  const auto [least, most] = std::minmax_element(u.begin(), u.end());
-  trace.profile = distinct(u, 1e-9 * (*most - *least));
-  require(trace.profile.size() * trace.axial.size() == nodes.size(),
-          "the nodes of a boundary do not form a tensor grid");
-  trace.nodes.assign(nodes.size(), -1);
+  std::vector<std::vector<std::pair<double, int>>> rows(trace.axial.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    trace.nodes[station(trace.profile, u[i]) * trace.axial.size() + station(trace.axial, z[i])] = nodes[i];
-  require(std::find(trace.nodes.begin(), trace.nodes.end(), -1) == trace.nodes.end(), "a trace node is missing");
+    rows[station(trace.axial, z[i])].emplace_back(profile_coordinate(points[nodes[i]]), nodes[i]);
+  for (auto& row : rows) {
+    std::sort(row.begin(), row.end());
+    require(row.size() == rows.front().size(), "the nodes of a boundary do not form a tensor grid");
+  }
+  // On a helical flank the nodes between the vertices of an edge along z lie off the profile coordinate of the vertices
+  // by a small part of a cell: one common coordinate serves the row.
+  trace.profile.assign(rows.front().size(), 0.0);
+  trace.nodes.assign(nodes.size(), -1);
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    for (std::size_t i = 0; i < rows[k].size(); ++i) {
+      trace.profile[i] += rows[k][i].first / static_cast<double>(rows.size());
+      trace.nodes[i * rows.size() + k] = rows[k][i].second;
+    }
   return trace;
 }
 

@@ -226,6 +226,7 @@ double exact_displacement(double r) {
 }
 
 Eigen::Vector3d on_circle(Boundary boundary, const Eigen::Vector3d& point) {
+  if (boundary != Boundary::root && boundary != Boundary::support) return point;
   const double radius = boundary == Boundary::root ? inside : outside, scale = radius / point.head<2>().norm();
   return {scale * point.x(), scale * point.y(), point.z()};
 }
