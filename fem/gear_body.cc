@@ -33,11 +33,12 @@ Eigen::Vector3d flank_normal(const geometry::ToothProfile& profile, double roll,
 
 }  // namespace
 
-GearBody make_gear_body(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile, double support_radius,
-                        const Material& material, const GearBodyOptions& options) {
+CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
+                              double support_radius, const Material& material, const GearBodyOptions& options) {
   const SectorModel model = make_sector_model(sector_mesh, profile, support_radius, material, options.sector);
 
-  GearBody body;
+  CondensedTooth tooth;
+  GearBody& body = tooth.body;
   body.teeth = profile.gear().teeth();
   body.pitch_angle = profile.gear().pitch_angle();
   body.flank = TraceBasis(model.flank.profile, model.flank.degree);
@@ -62,11 +63,17 @@ GearBody make_gear_body(const geometry::Mesh& sector_mesh, const geometry::Tooth
     body.arc_wrenches.push_back(wrench);
   }
 
-  const bool floating = options.sector.held == HeldBoundary::none;
-  const CondensedSector sector = condense(model, loads, floating);
-  body.compliance = compose_ring(sector, body.teeth, options.extent, floating, options.threads);
+  tooth.sector = condense(model, loads, options.sector.held == HeldBoundary::none);
   body.ports = std::move(loads.ports);
-  return body;
+  return tooth;
+}
+
+GearBody make_gear_body(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile, double support_radius,
+                        const Material& material, const GearBodyOptions& options) {
+  CondensedTooth tooth = condense_tooth(sector_mesh, profile, support_radius, material, options);
+  tooth.body.compliance = compose_ring(tooth.sector, tooth.body.teeth, options.extent,
+                                       options.sector.held == HeldBoundary::none, options.threads);
+  return std::move(tooth.body);
 }
 
 }  // namespace annulus::fem

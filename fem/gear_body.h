@@ -45,6 +45,16 @@ struct GearBodyOptions {
   int threads = 1;
 };
 
+/// One tooth by itself: the body without its compliance, and the condensed sector.
+struct CondensedTooth {
+  GearBody body;
+  CondensedSector sector;
+};
+
+[[nodiscard]] CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
+                                            double support_radius, const Material& material,
+                                            const GearBodyOptions& options);
+
 [[nodiscard]] GearBody make_gear_body(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
                                       double support_radius, const Material& material, const GearBodyOptions& options);
 

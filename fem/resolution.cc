@@ -68,6 +68,39 @@ BodyResolution plane_resolution(const geometry::Gear& gear, int level) {
   return r;
 }
 
+geometry::SectorResolution resolving_section(const geometry::Gear& gear, const geometry::SectorResolution& regular,
+                                             double centre, double reach, double cell, double growth) {
+  const geometry::ToothProfile profile(gear);
+  const auto arc = [&](double roll) { return roll * roll / (2 * gear.base_radius()); };
+  const double form = arc(profile.roll_length_form()), tip = arc(profile.roll_length_tip());
+  const double length = std::abs(tip - form), place = std::clamp(std::abs(centre - form), 0.0, length);
+  // Cells from the centre towards one end, stretched to end there.
+  const auto outwards = [&](double room) {
+    std::vector<double> edges;
+    double at = 0, size = cell;
+    while (at < room) {
+      if (at > reach) size *= growth;
+      edges.push_back(at += size);
+    }
+    if (edges.size() > 1 && edges.back() - room > size / 2) edges.pop_back();
+    if (!edges.empty())
+      for (double& edge : edges) edge *= room / edges.back();
+    return edges;
+  };
+  geometry::SectorResolution s = regular;
+  s.flank_fractions.clear();
+  auto down = outwards(place);
+  for (auto edge = down.rbegin(); edge != down.rend(); ++edge) s.flank_fractions.push_back((place - *edge) / length);
+  // A centre at an end of the flank is that end.
+  s.flank_fractions.push_back(place / length);
+  for (const double edge : outwards(length - place)) s.flank_fractions.push_back((place + edge) / length);
+  s.flank_fractions.front() = 0;
+  s.flank_fractions.back() = 1;
+  const double thickness = gear.tooth_thickness(gear.reference_radius());
+  s.flank_layer = std::clamp(cell * s.thickness_cells / thickness, geometry::min_flank_layer, 1.0);
+  return s;
+}
+
 BodyResolution solid_resolution(int level) {
   require(level >= 0 && level <= last_solid_level, "no such level of solid resolution");
   static const std::array<BodyResolution, last_solid_level + 1> levels = {{

@@ -1,0 +1,156 @@
+#include "fem/resolved_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.h"
+#include "fem/body_plan.h"
+#include "fem/condensation/altered_ring.h"
+#include "fem/condensation/lapack.h"
+#include "fem/contact/contact_system.h"
+
+namespace annulus::fem {
+namespace {
+
+constexpr int most_pairs = 6;         // that may touch at once
+constexpr double patch_reach = 1.6;   // in Hertz half-widths of the whole load
+constexpr double patch_window = 1.4;  // half-length of the pressure elements' window, likewise
+
+/// Numbers of a level: nested by the ratio of all levels.
+struct PatchResolution {
+  double cells = 0;   ///< in a half-width
+  double growth = 0;  ///< of the cells beyond the patch
+  BodyResolution regular;
+};
+
+PatchResolution patch_resolution(const geometry::Gear& gear, bool solid, int level) {
+  const double refine = std::pow(level_ratio, level - 1);
+  PatchResolution r;
+  if (solid) {
+    r.cells = 3 * refine;
+    r.growth = 1 + 0.7 / refine;
+    r.regular = solid_resolution(level);
+    r.regular.section.thickness_cells = 2 * static_cast<int>(std::lround(5 * refine));
+    r.regular.section.rim_cells = std::max(2, static_cast<int>(std::lround(3 * refine)));
+  } else {
+    r.cells = 6 * refine;
+    r.growth = 1 + 0.3 / refine;
+    r.regular = plane_resolution(gear, level);
+  }
+  return r;
+}
+
+/// A gear whose teeth can be exchanged.
+struct Exchangeable {
+  BodyPlan plan;
+  PatchResolution resolution;
+  CondensedTooth regular;
+  AlteredRing ring;
+
+  static CondensedTooth condense(const BodyPlan& plan, const Material& material, const BodyResolution& resolution) {
+    GearBodyOptions options;
+    options.sector = plan.model();
+    return condense_tooth(plan.sector(resolution), plan.profile(), plan.support_radius(), material, options);
+  }
+  Exchangeable(BodyPlan body_plan, const Material& material, bool solid, int level, int threads)
+      : plan(std::move(body_plan)),
+        resolution(patch_resolution(plan.profile().gear(), solid, level)),
+        regular(condense(plan, material, resolution.regular)),
+        ring(regular.sector, plan.profile().gear().teeth(), most_pairs, threads) {}
+
+  /// `centres`: arc lengths of the contacts on neighbouring teeth from `first_tooth` counter-clockwise.
+  [[nodiscard]] ResolvedBody body(const std::vector<double>& centres, int first_tooth, double half_width,
+                                  const Material& material, const std::vector<double>& slice_edges) const {
+    const auto& gear = plan.profile().gear();
+    std::vector<CondensedTooth> teeth;
+    for (const double centre : centres) {
+      BodyResolution patch = resolution.regular;
+      patch.section = resolving_section(gear, resolution.regular.section, centre, patch_reach * half_width,
+                                        half_width / resolution.cells, resolution.growth);
+      teeth.push_back(condense(plan, material, patch));
+    }
+    std::vector<const CondensedSector*> sectors;
+    std::vector<GearBody> bodies;
+    for (auto& tooth : teeth) {
+      sectors.push_back(&tooth.sector);
+      bodies.push_back(std::move(tooth.body));
+    }
+    return {std::move(bodies), first_tooth, ring.compliance(sectors), gear.base_radius(), slice_edges};
+  }
+};
+
+void refuse_what_is_not_resolved(const LoadedMeshProblem& problem) {
+  if (std::holds_alternative<PinHeld>(problem.structure) || std::holds_alternative<SplineHeld>(problem.structure))
+    throw InputError("the resolved rung does not model rings on pins or splines: use the plane or solid rung");
+  if (problem.pair.planet().helix_angle() != 0)
+    throw InputError("the resolved rung does not model helical gears: use the solid rung");
+}
+
+}  // namespace
+
+struct ResolvedMesh::Impl {
+  const LoadedMeshProblem& problem;
+  const FlankContact& flanks;
+  bool solid;
+  Exchangeable planet, wheel;
+  std::vector<double> slice_edges;
+
+  Impl(const LoadedMeshProblem& p, const LoadedMeshSettings& settings, const FlankContact& f, int level)
+      : problem(p),
+        flanks(f),
+        solid(settings.rung == Rung::resolved_solid),
+        planet({p, f.planet(), false, geometry::Boundary::leading_flank, settings.degree, solid}, p.material, solid,
+               level, settings.threads),
+        wheel({p, f.wheel(), true, f.wheel_flank(), settings.degree, solid}, p.material, solid, level,
+              settings.threads) {
+    const int slices = solid ? 2 * planet.resolution.regular.face_cells : 1;
+    for (int i = 0; i <= slices; ++i) slice_edges.push_back(p.face_width * i / slices);
+  }
+};
+
+ResolvedMesh::ResolvedMesh(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
+                           const FlankContact& flanks, int level) {
+  refuse_what_is_not_resolved(problem);
+  lapack::use_one_thread();
+  impl_ = std::make_unique<Impl>(problem, settings, flanks, level);
+}
+
+ResolvedMesh::~ResolvedMesh() = default;
+
+long ResolvedMesh::unknowns() const { return impl_->planet.regular.body.unknowns + impl_->wheel.regular.body.unknowns; }
+
+const std::vector<double>& ResolvedMesh::slice_edges() const { return impl_->slice_edges; }
+
+LoadedPosition ResolvedMesh::solve(double phase, double load) const {
+  const auto& [problem, flanks, solid, planet, wheel, slice_edges] = *impl_;
+  const auto pairs = ContactSystem::possible_pairs(flanks, phase);
+  require(static_cast<int>(pairs.size()) <= most_pairs, "more tooth pairs than the resolved rung exchanges");
+  const auto& pair = problem.pair;
+  const double half_width = hertz_half_width(
+      load / problem.face_width, flanks.relative_curvature(pair.roll_length_pitch()), problem.material);
+  std::vector<double> on_planet, on_wheel;
+  for (const auto& [index, roll] : pairs) {
+    const double centre = flanks.nearest_roll(roll), opposite = flanks.match(centre, roll).wheel_roll;
+    on_planet.push_back(centre * centre / (2 * pair.planet().base_radius()));
+    on_wheel.push_back(opposite * opposite / (2 * pair.wheel().base_radius()));
+  }
+  const int first = ContactSystem::wheel_tooth(flanks, pairs.front().first, 0);
+  const int last = ContactSystem::wheel_tooth(flanks, pairs.back().first, 0);
+  if (last < first) std::reverse(on_wheel.begin(), on_wheel.end());
+  const ResolvedBody planet_body =
+      planet.body(on_planet, pairs.front().first, half_width, problem.material, slice_edges);
+  const ResolvedBody wheel_body =
+      wheel.body(on_wheel, std::min(first, last), half_width, problem.material, slice_edges);
+
+  ContactOptions options;
+  options.misalignment = problem.misalignment;
+  options.window = patch_window;
+  options.first = 1;  // elements as long as the cells
+  options.elements = static_cast<int>(std::lround(patch_window * planet.resolution.cells / 1.1));
+  const ContactSystem system(flanks, planet_body, wheel_body, nullptr, problem.material, slice_edges, options);
+  ContactSystem::PairsCache cache;
+  ContactSystem::WarmStart warm;
+  return system.solve(0, phase, load, cache, warm);
+}
+
+}  // namespace annulus::fem
