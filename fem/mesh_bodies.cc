@@ -97,6 +97,7 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   SectorModelOptions planet_model, wheel_model;
   planet_model.degree = wheel_model.degree = settings.degree;
   wheel_model.flank = flanks.wheel_flank();
+  planet_model.want_stress = wheel_model.want_stress = true;
   std::optional<SupportPlan> plan;
   if (sites) {
     wheel_model.held = HeldBoundary::none;
@@ -112,10 +113,9 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     Task task{geometry::make_sector_mesh(profile.gear(), rim, counts.section), &profile, rim.support_radius, {}, {}};
     task.options.sector = model;
     task.options.threads = 1;
-    if (wheel && model.want_outside) {
-      task.options.arcs = plan->arcs();
-      task.options.extent.whole_ring = true;
-    }
+    if (wheel && model.want_outside) task.options.arcs = plan->arcs();
+    // In the plane the coupling all around costs little, and stresses are wanted there.
+    task.options.extent.whole_ring = model.want_outside || (!solid && model.want_stress);
     tasks.push_back(std::move(task));
   };
   const auto solid_task = [&](bool wheel) {
@@ -146,7 +146,7 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     for (const bool wheel : {false, true}) {
       auto& model = wheel ? wheel_near : planet_near;
       model.held = HeldBoundary::support;
-      model.want_outside = false;
+      model.want_outside = model.want_stress = false;
       plane_task(wheel, plane_counts(wheel), model);
       plane_task(wheel, solid_counts, model);
     }
@@ -180,6 +180,10 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   bodies.planet = std::make_unique<ContactBody>(std::move(tasks[0].body), bodies.slice_edges, std::move(planet_terms));
   bodies.wheel = std::make_unique<ContactBody>(std::move(tasks[1].body), bodies.slice_edges, std::move(wheel_terms));
   if (plan) bodies.supports = std::make_unique<SupportRow>(std::move(*plan), bodies.wheel->body());
+  const double nu = problem.material.poisson_ratio;
+  bodies.planet_stress = std::make_unique<StressRecovery>(bodies.planet->body(), problem.face_width, nu, nullptr);
+  bodies.wheel_stress =
+      std::make_unique<StressRecovery>(bodies.wheel->body(), problem.face_width, nu, bodies.supports.get());
   bodies.condense_seconds = seconds_since(condense_start);
   return bodies;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
+#include "fem/elasticity/nodal_load.h"
 #include "fem/material.h"
 #include "geometry/mesh.h"
 #include "geometry/profile.h"
@@ -20,6 +21,12 @@ struct TraceGrid {
   [[nodiscard]] int size() const { return static_cast<int>(nodes.size()); }
 };
 
+/// Nodes of a free surface, by polar angle in the sector's frame and z, with their stress; [as `trace.nodes`].
+struct StressSurface {
+  TraceGrid trace;
+  std::vector<SurfaceStress> stress;
+};
+
 /// Which boundary of a sector is held.
 enum class HeldBoundary { none, support, end_low };
 
@@ -34,6 +41,8 @@ struct SectorModel {
   std::vector<int> low_nodes, high_nodes;  ///< matched pairs on the two radial cuts, held nodes left out
   TraceGrid flank;                         ///< of the contact flank
   TraceGrid outside;                       ///< of the support circle (empty when held)
+  StressSurface root_low, root_high;       ///< root land and fillet of the trailing (y < 0) and of the leading side
+  StressSurface rim;                       ///< of the support circle (empty when held)
 };
 
 struct SectorModelOptions {
@@ -42,6 +51,7 @@ struct SectorModelOptions {
   HeldBoundary held = HeldBoundary::support;
   geometry::Boundary flank = geometry::Boundary::leading_flank;
   bool want_outside = false;
+  bool want_stress = false;  ///< root_low, root_high, and rim where the support circle is free
 };
 
 [[nodiscard]] SectorModel make_sector_model(const geometry::Mesh& mesh, const geometry::ToothProfile& profile,
