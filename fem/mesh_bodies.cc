@@ -88,6 +88,9 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   if (cantilever != nullptr && !solid)
     throw InputError("a ring held at its end face is a solid problem: the plane rung cannot model it");
 
+  if (std::holds_alternative<FlangeHeld>(problem.structure) || (cantilever != nullptr && cantilever->hoop))
+    throw InputError("rings with a flange or a hoop cannot be meshed yet");
+
   const double half_width = nominal_half_width(problem, flanks);
   const BodyResolution solid_counts = solid ? solid_resolution(level) : BodyResolution{};
 
