@@ -1,11 +1,43 @@
 #include "fem/gear_body.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "core/errors.h"
 
 namespace annulus::fem {
+namespace {
+
+/// Appends the stresses of a surface to what is observed. At most about `most` elements along the line are told apart:
+/// every so many nodes, and the last one.
+StressLine observe(const StressSurface& surface, const SectorModel& model, int most, SectorLoads& loads) {
+  StressLine line;
+  const auto& trace = surface.trace;
+  if (trace.nodes.empty()) return line;
+  line.first_load = loads.columns();
+  line.axial_stations = static_cast<int>(trace.axial.size());
+  line.components = model.dimension == 3 ? 3 : 1;
+  const int nodes = static_cast<int>(trace.profile.size()), step = std::max(1, (nodes - 1) / most);
+  double arc = 0;
+  for (int u = 0; u < nodes; ++u) {
+    const auto at = [&](int station) { return model.nodes[trace.nodes[station * line.axial_stations]]; };
+    if (u > 0) arc += (at(u) - at(u - 1)).norm();
+    if (u % step != 0 && u != nodes - 1) continue;
+    line.angle.push_back(trace.profile[u]);
+    line.arc.push_back(arc);
+    for (int z = 0; z < line.axial_stations; ++z) {
+      const auto& stress = surface.stress[u * line.axial_stations + z];
+      loads.observed.push_back(stress.tangential);
+      if (line.components == 1) continue;
+      loads.observed.push_back(stress.axial);
+      loads.observed.push_back(stress.shear);
+    }
+  }
+  return line;
+}
+
+}  // namespace
 
 Eigen::RowVector3d GearBody::rigid_motion(int port, int sector) const {
   const Eigen::AngleAxisd turn(sector * pitch_angle, Eigen::Vector3d::UnitZ());
@@ -62,6 +94,11 @@ CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry:
     }
     body.arc_wrenches.push_back(wrench);
   }
+
+  constexpr int root_points = 60, rim_points = 24;
+  body.root_low = observe(model.root_low, model, root_points, loads);
+  body.root_high = observe(model.root_high, model, root_points, loads);
+  body.rim = observe(model.rim, model, rim_points, loads);
 
   tooth.sector = condense(model, loads, options.sector.held == HeldBoundary::none);
   body.ports = std::move(loads.ports);

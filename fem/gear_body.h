@@ -13,6 +13,17 @@ namespace annulus::fem {
 /// Force (N) and moment about the origin (N m) of a load.
 using Wrench = Eigen::Matrix<double, 6, 1>;
 
+/// Where a body is asked for its surface stress: a line of the cross-section at every axial station.
+struct StressLine {
+  int first_load = 0;  ///< number of its first observed load, [point][axial station][component]
+  int components = 1;  ///< tangential; of a solid also axial and shear
+  int axial_stations = 1;
+  std::vector<double> angle;  ///< rad, of its points in the sector's frame, ascending
+  std::vector<double> arc;    ///< m, length of the line up to each point
+  [[nodiscard]] int points() const { return static_cast<int>(angle.size()); }
+  [[nodiscard]] int loads() const { return points() * axial_stations * components; }
+};
+
 /// A whole gear reduced to the loads it takes and the stresses it is asked for, from one condensed sector.
 ///
 /// Loads of a sector in the order of `compliance`: flank ports, [profile station * axial stations + axial station],
@@ -25,6 +36,9 @@ struct GearBody {
   std::vector<Port> ports;
   std::vector<Eigen::Vector3d> port_points;
   std::vector<Wrench> arc_wrenches;  ///< of the arc loads, in the sector's frame
+  /// Root land and fillet of the trailing side (from the cut to the form circle) and of the leading side (from the form
+  /// circle to the cut); the rim opposite, where it is free. Empty when stresses are not asked for.
+  StressLine root_low, root_high, rim;
   CyclicCompliance compliance;
   long unknowns = 0;
 

@@ -30,6 +30,7 @@ class PositionRun {
               const MeshBodies& bodies, int level)
       : problem_(problem),
         settings_(settings),
+        bodies_(bodies),
         system_(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.material, bodies.slice_edges,
                 options(problem, settings, level)),
         cycles_(repeating_teeth(problem)) {}
@@ -52,8 +53,12 @@ class PositionRun {
           ContactSystem::PairsCache pairs;
           for (int phase = first_phase; phase <= last_phase; ++phase)
             for (int cycle = phase == phases ? cycles_ - 1 : 0; cycle < cycles_; ++cycle) {
+              ContactForces forces;
               auto& position = positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load];
-              position = system_.solve(cycle, static_cast<double>(phase) / phases, problem_.loads[load], pairs, warm);
+              position =
+                  system_.solve(cycle, static_cast<double>(phase) / phases, problem_.loads[load], pairs, warm, &forces);
+              position.planet_stress = bodies_.planet_stress->stresses(forces.planet, {}).largest;
+              position.wheel_stress = bodies_.wheel_stress->stresses(forces.wheel, forces.supports).largest;
               if (load != loads / 2) position.pressure.clear();
             }
           ++done;
@@ -75,6 +80,29 @@ class PositionRun {
     return positions;
   }
 
+  /// The stress curves at the positions with the largest stresses.
+  [[nodiscard]] std::vector<StressCurve> curves(const std::vector<LoadedPosition>& positions) const {
+    std::vector<StressCurve> result;
+    const auto add = [&](const char* name, double BodyStress::*value, bool wheel,
+                         StressRecovery::Line StressRecovery::Result::*line) {
+      const auto stress = [&](const LoadedPosition& p) { return (wheel ? *p.wheel_stress : *p.planet_stress).*value; };
+      const auto worst = std::max_element(positions.begin(), positions.end(),
+                                          [&](const auto& a, const auto& b) { return stress(a) < stress(b); });
+      if (stress(*worst) == 0) return;  // no such line
+      ContactSystem::WarmStart warm;
+      ContactSystem::PairsCache pairs;
+      ContactForces forces;
+      (void)system_.solve(worst->ring_tooth, worst->mesh_phase, worst->load, pairs, warm, &forces);
+      const auto all = wheel ? bodies_.wheel_stress->stresses(forces.wheel, forces.supports)
+                             : bodies_.planet_stress->stresses(forces.planet, {});
+      result.push_back(make_curve(name, worst - positions.begin(), all.*line));
+    };
+    add("planet root", &BodyStress::root_von_mises, false, &StressRecovery::Result::root);
+    add("wheel root", &BodyStress::root_von_mises, true, &StressRecovery::Result::root);
+    add("wheel rim", &BodyStress::rim_von_mises, true, &StressRecovery::Result::rim);
+    return result;
+  }
+
  private:
   static ContactOptions options(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
     const double first = settings.rung == Rung::solid ? 6 : 10;  // in a solid, every slice has as many
@@ -84,8 +112,32 @@ class PositionRun {
     return options;
   }
 
+  /// A line of the solve as a curve of the real body, at the axial station with the largest stress. The ring mesh is
+  /// solved in a mirror image.
+  [[nodiscard]] StressCurve make_curve(const char* name, std::ptrdiff_t position,
+                                       const StressRecovery::Line& line) const {
+    StressCurve curve;
+    curve.name = name;
+    curve.position = static_cast<std::size_t>(position);
+    Eigen::Index point = 0, station = 0;
+    line.von_mises.maxCoeff(&point, &station);
+    for (std::size_t i = 0; i < line.abscissa.size(); ++i) {
+      curve.abscissa.push_back(line.abscissa[i]);
+      curve.tangential.push_back(line.tangential(static_cast<Eigen::Index>(i), station));
+      curve.von_mises.push_back(line.von_mises(static_cast<Eigen::Index>(i), station));
+    }
+    if (!problem_.pair.internal()) return curve;
+    const bool along_arc = curve.name != "wheel rim";
+    const double length = curve.abscissa.back();
+    for (auto& a : curve.abscissa) a = along_arc ? length - a : -a;
+    for (auto* values : {&curve.abscissa, &curve.tangential, &curve.von_mises})
+      std::reverse(values->begin(), values->end());
+    return curve;
+  }
+
   const LoadedMeshProblem& problem_;
   const LoadedMeshSettings& settings_;
+  const MeshBodies& bodies_;
   ContactSystem system_;
   int cycles_;
 };
@@ -161,6 +213,7 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
                       worst, settings.accuracy));
     coarser = std::move(positions);
   }
+  std::vector<StressCurve> curves = PositionRun(problem, settings, flanks, bodies).curves(positions);
   double reciprocity = 0;
   for (const auto& p : positions) reciprocity = std::max(reciprocity, p.reciprocity_relative);
 
@@ -193,6 +246,7 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
     for (int pin = 0; pin < sites.pins; ++pin) result.pin_angles.push_back(-sites.sites[pin].angle);
   }
   result.slice_edges = bodies.slice_edges;
+  result.stress_curves = std::move(curves);
   result.mesh_seconds = mesh_seconds;
   result.condense_seconds = condense_seconds;
   result.contact_seconds = contact_seconds;

@@ -55,7 +55,8 @@ struct PressurePatch {
   double pressure = 0;                 ///< Pa
 };
 
-/// Largest stresses of one body at one position, Pa, on its free surfaces (tangential: along the surface, tension > 0).
+/// Largest stresses of one body at one position, Pa, on its free surfaces: tangential ones along the surface in the
+/// cross-section, compression negative.
 struct BodyStress {
   double root_tension = 0, root_compression = 0, root_von_mises = 0;  ///< in the fillets and root lands
   double rim_tension = 0, rim_compression = 0, rim_von_mises = 0;     ///< on the other side of the rim
@@ -88,8 +89,8 @@ struct LoadedPosition {
 struct StressCurve {
   std::string name;              ///< "planet root", "wheel root", "wheel rim"
   std::size_t position = 0;      ///< index into LoadedMeshResult::positions: where its largest von Mises stress occurs
-  std::vector<double> abscissa;  ///< root: arc length from the form circle of the trailing to that of the leading flank
-                                 ///< of the tooth space, m; rim: polar angle in the wheel's own frame, rad
+  std::vector<double> abscissa;  ///< root: arc length counter-clockwise through the tooth space, from form circle to
+                                 ///< form circle, m; rim: polar angle in the wheel's own frame, rad
   std::vector<double> tangential, von_mises;  ///< Pa
 };
 

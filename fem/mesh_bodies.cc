@@ -84,11 +84,11 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     const BodyResolution counts = solid ? solid_counts : plane_resolution(plan.profile().gear(), level);
     Task task{plan.sector(counts), &plan.profile(), plan.support_radius(), {}, {}};
     task.options.sector = plan.model();
+    task.options.sector.want_stress = true;
     task.options.threads = solid ? settings.threads : 1;
-    if (plan.floating()) {
-      task.options.arcs = supports->arcs();
-      task.options.extent.whole_ring = true;
-    }
+    if (plan.floating()) task.options.arcs = supports->arcs();
+    // In the plane the coupling all around costs little, and stresses are wanted there.
+    task.options.extent.whole_ring = plan.floating() || !solid;
     tasks.push_back(std::move(task));
   };
   const auto add_section = [&](const BodyPlan& plan, const geometry::SectorResolution& resolution) {
@@ -134,6 +134,10 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   bodies.wheel = std::make_unique<CondensedBody>(std::move(tasks[1].body), pair.wheel().base_radius(), problem.material,
                                                  bodies.slice_edges, std::move(wheel_near_field), slant);
   if (supports) bodies.supports = std::make_unique<SupportRow>(std::move(*supports), bodies.wheel->body());
+  const double nu = problem.material.poisson_ratio;
+  bodies.planet_stress = std::make_unique<StressRecovery>(bodies.planet->body(), problem.face_width, nu, nullptr);
+  bodies.wheel_stress =
+      std::make_unique<StressRecovery>(bodies.wheel->body(), problem.face_width, nu, bodies.supports.get());
   bodies.condense_seconds = seconds_since(condense_start);
   return bodies;
 }

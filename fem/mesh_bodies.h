@@ -8,6 +8,7 @@
 #include "fem/contact/support_row.h"
 #include "fem/loaded_mesh.h"
 #include "fem/resolution.h"
+#include "fem/stress_recovery.h"
 
 namespace annulus::fem {
 
@@ -15,6 +16,7 @@ namespace annulus::fem {
 struct MeshBodies {
   std::unique_ptr<CondensedBody> planet, wheel;
   std::unique_ptr<SupportRow> supports;  ///< of a floating ring
+  std::unique_ptr<StressRecovery> planet_stress, wheel_stress;
   std::vector<double> slice_edges;
   geometry::Mesh planet_sector, wheel_sector;
   long unknowns = 0;

@@ -287,7 +287,8 @@ Eigen::MatrixXd ContactSystem::wheel_resultants(const Pair& pair, int tooth) con
   return all;
 }
 
-LoadedPosition ContactSystem::solve(int cycle, double phase, double load, PairsCache& cache, WarmStart& warm) const {
+LoadedPosition ContactSystem::solve(int cycle, double phase, double load, PairsCache& cache, WarmStart& warm,
+                                    ContactForces* forces) const {
   if (!cache || cache->phase != phase || cache->load != load) cache = prepare(phase, load, options_.window);
   constexpr double largest_window = 12;  // in Hertz half-widths: longer than any flank at a sensible load
   for (;;) {
@@ -320,6 +321,7 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double load, PairsC
       continue;
     }
     LoadedPosition position = evaluate(setup, problem, solution);
+    if (forces != nullptr) *forces = port_forces(setup, cycle, solution);
     position.mesh_phase = phase;
     position.ring_tooth = cycle;
     position.reciprocity_relative = setup.asymmetry;
@@ -330,6 +332,19 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double load, PairsC
     position.ring_angle = flanks_.pair().internal() ? angle : -angle;
     return position;
   }
+}
+
+ContactForces ContactSystem::port_forces(const Pairs& setup, int cycle, const ComplementaritySolution& solution) const {
+  ContactForces result;
+  for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
+    const auto& p = setup.pairs[i];
+    const Eigen::VectorXd force = solution.force.segment(setup.start[i], p.size());
+    if ((force.array() == 0).all()) continue;
+    result.planet.push_back({p.index, planet_.port_weights(p.planet) * force});
+    result.wheel.push_back({wheel_tooth(p.index, cycle), wheel_.port_weights(p.wheel) * force});
+  }
+  if (supports_ != nullptr) result.supports = solution.force.tail(supports_->size());
+  return result;
 }
 
 LoadedPosition ContactSystem::evaluate(const Pairs& setup, const ComplementarityProblem& problem,

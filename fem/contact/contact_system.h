@@ -7,6 +7,7 @@
 
 #include "fem/contact/complementarity.h"
 #include "fem/contact/contact_body.h"
+#include "fem/contact/contact_forces.h"
 #include "fem/contact/flank_contact.h"
 #include "fem/contact/support_row.h"
 #include "fem/loaded_mesh.h"
@@ -41,8 +42,9 @@ class ContactSystem {
   using PairsCache = std::shared_ptr<const Pairs>;
 
   /// Position in mesh cycles from the pitch-point contact of teeth 0. `cache` and `warm` are used when they fit, and
-  /// replaced.
-  [[nodiscard]] LoadedPosition solve(int cycle, double phase, double load, PairsCache& cache, WarmStart& warm) const;
+  /// replaced. `forces` may be null.
+  [[nodiscard]] LoadedPosition solve(int cycle, double phase, double load, PairsCache& cache, WarmStart& warm,
+                                     ContactForces* forces) const;
 
   /// Tooth pairs that may touch at a position: number, and planet roll length of their theoretical contact.
   [[nodiscard]] static std::vector<std::pair<int, double>> possible_pairs(const FlankContact& flanks, double phase);
@@ -62,6 +64,8 @@ class ContactSystem {
   [[nodiscard]] ComplementarityProblem assemble(const Pairs& pairs, int cycle) const;
   /// Resultants on the wheel (x, y, moments about z, x, y) of unit (element, slice) forces of a pair.
   [[nodiscard]] Eigen::MatrixXd wheel_resultants(const Pair& pair, int tooth) const;
+  /// Final forces at the ports of both bodies and at the supports.
+  [[nodiscard]] ContactForces port_forces(const Pairs& pairs, int cycle, const ComplementaritySolution& solution) const;
   [[nodiscard]] LoadedPosition evaluate(const Pairs& pairs, const ComplementarityProblem& problem,
                                         const ComplementaritySolution& solution) const;
 

@@ -132,6 +132,15 @@ Eigen::MatrixXd SupportRow::at_loads(int sector, int first, int count) const {
   return result;
 }
 
+Eigen::VectorXd SupportRow::within_sector(int sector, int first, int count, const Eigen::VectorXd& forces) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(count);
+  const auto& here = on_sector_[tooth_number(sector)];
+  for (std::size_t i = 0; i < here.force.size(); ++i)
+    result += per_width_ * forces[here.force[i]] *
+              ring_.compliance.within().col(ring_.first_arc() + here.arc[i]).segment(first, count);
+  return result;
+}
+
 Eigen::MatrixXd SupportRow::at_ports(int tooth, const Eigen::MatrixXd& port_weights) const {
   const auto& c = ring_.compliance;
   const int ports = ring_.flank_ports();

@@ -65,6 +65,9 @@ class SupportRow {
   /// Work of loads first ... first + count - 1 of a sector under unit support forces, per N: count x forces.
   [[nodiscard]] Eigen::MatrixXd at_loads(int sector, int first, int count) const;
 
+  /// The part of such work that passes inside the sector, its cuts held, under given support forces: count.
+  [[nodiscard]] Eigen::VectorXd within_sector(int sector, int first, int count, const Eigen::VectorXd& forces) const;
+
   /// What forces mean for pins (or spline teeth), and for the patches of a housing bore.
   void fill_states(const Eigen::VectorXd& forces, LoadedPosition& position) const;
 

@@ -7,6 +7,10 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold.h>
 
+#include <algorithm>
+#include <array>
+#include <map>
+
 #include "core/errors.h"
 
 namespace annulus::fem {
@@ -234,6 +238,68 @@ Eigen::VectorXd ElasticProblem<dim>::surface_load(
       }
     }
   return load;
+}
+
+template <int dim>
+std::vector<SurfaceStress> ElasticProblem<dim>::surface_stress(
+    const std::vector<geometry::Boundary>& boundaries) const {
+  const double E = material_.youngs_modulus, nu = material_.poisson_ratio;
+  const double plane_stress = E / (1 - nu * nu), shear_modulus = E / (2 * (1 + nu));
+  // Evaluated at the nodes of each face.
+  const dealii::Quadrature<dim - 1> at_nodes(dealii::FE_Q<dim - 1>(degree_).get_unit_support_points());
+  dealii::FEFaceValues<dim> values(mapping_, element_, at_nodes,
+                                   dealii::update_values | dealii::update_gradients | dealii::update_normal_vectors);
+  /// Forces on the surrounding nodes for tangential, axial and shear stress, summed over the adjacent elements.
+  struct Sum {
+    int elements = 0;
+    std::array<std::map<int, Eigen::Vector3d>, 3> forces;
+  };
+  std::map<int, Sum> sums;
+  std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
+  for (const auto& cell : dofs_.active_cell_iterators())
+    for (const auto face : cell->face_indices()) {
+      const auto on = static_cast<geometry::Boundary>(cell->face(face)->boundary_id());
+      if (!cell->face(face)->at_boundary() || std::find(boundaries.begin(), boundaries.end(), on) == boundaries.end())
+        continue;
+      values.reinit(cell, face);
+      cell->get_dof_indices(indices);
+      for (unsigned int q = 0; q < at_nodes.size(); ++q) {
+        const auto normal = values.normal_vector(q);
+        const Eigen::Vector3d along = Eigen::Vector3d(-normal[1], normal[0], 0).normalized();
+        std::array<std::map<int, Eigen::Vector3d>, 3> here;
+        int node = -1;
+        for (unsigned int i = 0; i < element_.dofs_per_cell; ++i) {
+          if (element_.system_to_component_index(i).first != 0) continue;
+          const int other = node_of_freedom_[indices[i]];
+          if (values.shape_value(i, q) > 0.9) node = other;  // of all nodes one has 1, the others 0
+          const auto gradient = values.shape_grad(i, q);
+          const double d_along = gradient[0] * along.x() + gradient[1] * along.y();
+          double d_axial = 0;
+          if constexpr (dim == 3) d_axial = gradient[2];
+          if (d_along == 0 && d_axial == 0) continue;
+          const Eigen::Vector3d eps_t = d_along * along, eps_z(0, 0, d_axial);
+          const Eigen::Vector3d gamma = d_axial * along + Eigen::Vector3d(0, 0, d_along);
+          here[0][other] = plane_stress * (eps_t + nu * eps_z);
+          here[1][other] = plane_stress * (eps_z + nu * eps_t);
+          here[2][other] = shear_modulus * gamma;
+        }
+        auto& sum = sums[node];
+        sum.elements += 1;
+        for (int k = 0; k < 3; ++k)
+          for (const auto& [other, force] : here[k])
+            sum.forces[k].try_emplace(other, Eigen::Vector3d::Zero()).first->second += force;
+      }
+    }
+  std::vector<SurfaceStress> result;
+  for (const auto& [node, sum] : sums) {
+    SurfaceStress stress;
+    stress.node = node;
+    NodalLoad* loads[3] = {&stress.tangential, &stress.axial, &stress.shear};
+    for (int k = 0; k < (dim == 3 ? 3 : 1); ++k)
+      for (const auto& [other, force] : sum.forces[k]) loads[k]->push_back({other, force / sum.elements});
+    result.push_back(std::move(stress));
+  }
+  return result;
 }
 
 template <int dim>

@@ -15,6 +15,7 @@
 #include <memory>
 #include <vector>
 
+#include "fem/elasticity/nodal_load.h"
 #include "fem/material.h"
 #include "geometry/mesh.h"
 
@@ -41,6 +42,8 @@ class ElasticProblem {
       geometry::Boundary boundary,
       const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&, const dealii::Tensor<1, dim>&)>& traction)
       const;
+  /// Stress at all nodes of a free surface made of some boundaries, the mean of the adjacent elements; ascending nodes.
+  [[nodiscard]] std::vector<SurfaceStress> surface_stress(const std::vector<geometry::Boundary>& boundaries) const;
   /// L2 and energy (strain-energy seminorm: H1) errors against an exact solution and its gradient.
   [[nodiscard]] std::pair<double, double> errors(
       const Eigen::VectorXd& solution, const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& exact,

@@ -15,4 +15,14 @@ struct NodalForce {
 /// of unit size (N, in the plane N per metre of width), observed quantities (a stress) have their own unit.
 using NodalLoad = std::vector<NodalForce>;
 
+/// Stress of a free surface at one of its nodes, as functionals of the displacement (Pa per m): along the surface in
+/// the cross-section, and of a solid also along the axis and the shear between both.
+///
+/// Without traction on the surface its tangent plane is in plane stress, so that displacements of the surface alone
+/// tell: sigma_t = E / (1 - nu^2) (eps_t + nu eps_z), likewise sigma_z; tau = G gamma_tz. In the plane eps_z = 0.
+struct SurfaceStress {
+  int node = 0;
+  NodalLoad tangential, axial, shear;
+};
+
 }  // namespace annulus::fem

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 
 #include <Eigen/Geometry>
 
@@ -52,6 +53,24 @@ TraceGrid make_trace(const std::vector<int>& nodes, const std::vector<Eigen::Vec
       trace.nodes[i * rows.size() + k] = rows[k][i].second;
     }
   return trace;
+}
+
+double polar_angle(const Eigen::Vector3d& p) { return std::atan2(p.y(), p.x()); }
+
+/// Those of the surface's nodes that lie in a range of polar angles.
+StressSurface make_stress_surface(const std::vector<SurfaceStress>& surface, const std::vector<Eigen::Vector3d>& points,
+                                  int degree, double low, double high) {
+  std::vector<int> nodes;
+  std::map<int, const SurfaceStress*> stress_of;
+  for (const auto& stress : surface) {
+    const double angle = polar_angle(points[stress.node]);
+    if (angle < low || angle > high) continue;
+    nodes.push_back(stress.node);
+    stress_of[stress.node] = &stress;
+  }
+  StressSurface result{make_trace(nodes, points, degree, polar_angle), {}};
+  for (const int node : result.trace.nodes) result.stress.push_back(*stress_of.at(node));
+  return result;
 }
 
 geometry::Boundary boundary_of(HeldBoundary held) {
@@ -127,8 +146,17 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
   model.flank = make_trace(problem.boundary_nodes(options.flank), model.nodes, options.degree,
                            [&](const Eigen::Vector3d& p) { return profile.roll_length_at(std::hypot(p.x(), p.y())); });
   if (options.want_outside)
-    model.outside = make_trace(problem.boundary_nodes(geometry::Boundary::support), model.nodes, options.degree,
-                               [](const Eigen::Vector3d& p) { return std::atan2(p.y(), p.x()); });
+    model.outside =
+        make_trace(problem.boundary_nodes(geometry::Boundary::support), model.nodes, options.degree, polar_angle);
+  if (options.want_stress) {
+    using geometry::Boundary;
+    const auto root = problem.surface_stress({Boundary::trailing_fillet, Boundary::leading_fillet, Boundary::root});
+    model.root_low = make_stress_surface(root, model.nodes, options.degree, -M_PI, 0);
+    model.root_high = make_stress_surface(root, model.nodes, options.degree, 0, M_PI);
+    if (options.held != HeldBoundary::support)
+      model.rim =
+          make_stress_surface(problem.surface_stress({Boundary::support}), model.nodes, options.degree, -M_PI, M_PI);
+  }
   return model;
 }
 

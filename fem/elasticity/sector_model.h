@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "fem/elasticity/nodal_load.h"
 #include "fem/material.h"
 #include "geometry/mesh.h"
 #include "geometry/profile.h"
@@ -21,6 +22,12 @@ struct TraceGrid {
   [[nodiscard]] int size() const { return static_cast<int>(nodes.size()); }
 };
 
+/// Nodes of a free surface, by polar angle in the sector's frame and z, with their stress; [as `trace.nodes`].
+struct StressSurface {
+  TraceGrid trace;
+  std::vector<SurfaceStress> stress;
+};
+
 /// Which boundary of a sector is held.
 enum class HeldBoundary { none, support, end_low, flange_face };
 
@@ -35,6 +42,8 @@ struct SectorModel {
   std::vector<int> low_nodes, high_nodes;  ///< matched pairs on the two radial cuts, held nodes left out
   TraceGrid flank;                         ///< of the contact flank
   TraceGrid outside;                       ///< of the support circle (empty when held)
+  StressSurface root_low, root_high;       ///< root land and fillet of the trailing (y < 0) and of the leading side
+  StressSurface rim;                       ///< of the support circle (empty when held)
 };
 
 struct SectorModelOptions {
@@ -45,6 +54,7 @@ struct SectorModelOptions {
   bool want_outside = false;
   /// Of a ring whose hoop or flange goes beyond it, m (see geometry::ExtrudeOptions).
   double outside_radius = std::numeric_limits<double>::quiet_NaN();
+  bool want_stress = false;  ///< root_low, root_high, and rim where the support circle is free
 };
 
 [[nodiscard]] SectorModel make_sector_model(const geometry::Mesh& mesh, const geometry::ToothProfile& profile,

@@ -11,6 +11,7 @@
 #include "fem/condensation/sparse_schur.h"
 #include "fem/contact/support_row.h"
 #include "fem/gear_body.h"
+#include "fem/stress_recovery.h"
 #include "geometry/sector_mesh.h"
 
 /// The condensed ring against a monolithic solve of the same mesh, node by node.
@@ -305,6 +306,70 @@ BOOST_AUTO_TEST_CASE(a_floating_solid_ring_as_well) {
   };
   check_floating(c, {{at(0, 0), 0}, {at(0, 0), 1}, {at(0, 0), 2}, {at(14, 0), 1}, {at(14, 0), 2}, {at(7, 0), 2}},
                  {0, 0.004, 0.01});
+}
+
+/// Stresses found by reciprocity against the same functionals applied to the monolithic displacement.
+void check_stress(Case c, Boundary held) {
+  c.options.sector.want_stress = true;
+  c.options.extent.whole_ring = c.sector.dimension == 2;
+  c.options.extent.max_offset = 5;
+  const GearBody body = condensed(c);
+  const bool solid = c.sector.dimension == 3;
+  const double width = solid ? 1 : 0.01;
+  const annulus::fem::StressRecovery recovery(body, width, Material{}.poisson_ratio, nullptr);
+  const auto model = make_sector_model(c.sector, ToothProfile(c.gear), c.support_radius, Material{}, c.options.sector);
+  const DiscretisedBody ring = monolithic(c);
+  std::vector<bool> fixed(ring.stiffness.rows(), false);
+  for (const int n : ring.boundary_nodes(held))
+    for (int d = 0; d < ring.dimension; ++d) fixed[ring.freedom[n * ring.dimension + d]] = true;
+  const FreeSystem system(ring.stiffness, fixed);
+
+  std::mt19937 random(5);
+  std::vector<annulus::fem::ToothForces> teeth;
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(ring.stiffness.rows());
+  for (const int tooth : {-1, 0, 1}) {
+    teeth.push_back({tooth, Eigen::VectorXd::NullaryExpr(body.flank_ports(), [&] { return 1e-6 * random(); })});
+    for (int port = 0; port < body.flank_ports(); ++port)
+      load += teeth.back().ports[port] / width * unit_load(ring, body, port, tooth);
+  }
+  const Eigen::VectorXd u =
+      system.extend_rows(annulus::fem::SparseCholesky(system.matrix).solve(system.restrict_rows(load)));
+  const auto observe = [&](const annulus::fem::NodalLoad& functional, int sector) {
+    const Eigen::AngleAxisd turn(sector * body.pitch_angle, Eigen::Vector3d::UnitZ());
+    double sum = 0;
+    for (const auto& f : functional) {
+      const int node = nearest_node(ring, turn * model.nodes[f.node]);
+      const Eigen::Vector3d turned = turn * f.force;
+      for (int d = 0; d < ring.dimension; ++d) sum += turned[d] * u[ring.freedom[node * ring.dimension + d]];
+    }
+    return sum;
+  };
+  // All fillets but at the cuts, where two sectors are averaged.
+  double tension = 0, compression = 0;
+  for (int sector = -3; sector <= 3; ++sector)
+    for (const auto* side : {&model.root_low, &model.root_high}) {
+      const auto axial = side->trace.axial.size(), points = side->trace.profile.size();
+      for (std::size_t u_index = side == &model.root_low ? 1 : 0; u_index + (side == &model.root_low ? 0 : 1) < points;
+           ++u_index)
+        for (std::size_t z = 0; z < axial; ++z) {
+          const double s = observe(side->stress[u_index * axial + z].tangential, sector);
+          tension = std::max(tension, s);
+          compression = std::min(compression, s);
+        }
+    }
+  const auto result = recovery.stresses(teeth, {});
+  BOOST_TEST_MESSAGE(ring.dimension << "D stresses " << tension << " and " << compression
+                                    << " Pa, recovered / exact - 1: " << result.largest.root_tension / tension - 1
+                                    << ", " << result.largest.root_compression / compression - 1);
+  BOOST_TEST(result.largest.root_tension == tension, boost::test_tools::tolerance(round_off));
+  BOOST_TEST(result.largest.root_compression == compression, boost::test_tools::tolerance(round_off));
+}
+
+BOOST_AUTO_TEST_CASE(stresses_by_reciprocity_are_those_of_the_whole_body) {
+  check_stress(plane_case(GearKind::internal, 41), Boundary::support);
+  auto solid = plane_case(GearKind::external, 17);
+  solid.sector = extrude(solid.sector, {{0, 0.01, 2}});
+  check_stress(solid, Boundary::support);
 }
 
 BOOST_AUTO_TEST_CASE(nodes_of_a_solid_flank_lie_on_the_exact_involute_at_every_height) {

@@ -250,10 +250,9 @@ annulus::geometry::Mesh quarter() {
       tags);
 }
 
-/// Largest relative error of the displacement over the nodes of both circles.
+/// Displacement under internal pressure of a quarter held in its planes of symmetry, ends flat.
 template <int dim>
-double displacement_error(int degree, int refinements) {
-  const ElasticProblem<dim> problem(quarter<dim>(), on_circle, ring_material, degree, refinements);
+Eigen::VectorXd solve_quarter(const ElasticProblem<dim>& problem) {
   const Eigen::VectorXd load =
       problem.surface_load(Boundary::root, [](const auto&, const auto& normal) { return -pressure * normal; });
   std::vector<bool> fixed(problem.freedoms(), false);
@@ -267,8 +266,14 @@ double displacement_error(int degree, int refinements) {
     hold(Boundary::end_high, 2);
   }
   const FreeSystem system(problem.stiffness(), fixed);
-  const Eigen::VectorXd u =
-      system.extend_rows(annulus::fem::SparseCholesky(system.matrix).solve(system.restrict_rows(load)));
+  return system.extend_rows(annulus::fem::SparseCholesky(system.matrix).solve(system.restrict_rows(load)));
+}
+
+/// Largest relative error of the displacement over the nodes of both circles.
+template <int dim>
+double displacement_error(int degree, int refinements) {
+  const ElasticProblem<dim> problem(quarter<dim>(), on_circle, ring_material, degree, refinements);
+  const Eigen::VectorXd u = solve_quarter(problem);
   double worst = 0, off_circle = 0;
   for (const auto boundary : {Boundary::root, Boundary::support}) {
     const double r = boundary == Boundary::root ? inside : outside;
@@ -313,6 +318,65 @@ BOOST_AUTO_TEST_CASE(internal_pressure_in_the_plane) {
 }
 
 BOOST_AUTO_TEST_CASE(internal_pressure_in_space_with_the_ends_held_flat) { check_convergence<3>(2, 3); }
+
+/// Lame: hoop stress under internal pressure.
+double exact_hoop_stress(double r) {
+  return pressure * inside * inside / (outside * outside - inside * inside) * (1 + outside * outside / (r * r));
+}
+
+/// Largest relative error of the surface stress on both circles.
+template <int dim>
+double stress_error(int degree, int refinements) {
+  const ElasticProblem<dim> problem(quarter<dim>(), on_circle, ring_material, degree, refinements);
+  const Eigen::VectorXd u = solve_quarter(problem);
+  const auto observe = [&](const annulus::fem::NodalLoad& functional) {
+    double sum = 0;
+    for (const auto& f : functional)
+      for (int c = 0; c < dim; ++c) sum += f.force[c] * u[problem.node_freedoms()[f.node][c]];
+    return sum;
+  };
+  const double nu = ring_material.poisson_ratio;
+  double worst = 0;
+  for (const auto boundary : {Boundary::root, Boundary::support}) {
+    const double r = boundary == Boundary::root ? inside : outside;
+    // Under the pressure itself the stress lacks nu / (1 - nu) of it.
+    const double exact = exact_hoop_stress(r) + (boundary == Boundary::root ? nu / (1 - nu) * pressure : 0);
+    const auto stresses = problem.surface_stress({boundary});
+    BOOST_TEST_REQUIRE(stresses.size() == problem.boundary_nodes(boundary).size());
+    for (const auto& s : stresses) {
+      worst = std::max(worst, std::abs(observe(s.tangential) / exact - 1));
+      if constexpr (dim == 3) {
+        worst = std::max(worst, std::abs(observe(s.axial) / exact - nu));  // plane strain
+        worst = std::max(worst, std::abs(observe(s.shear) / exact));
+      }
+    }
+  }
+  return worst;
+}
+
+template <int dim>
+void check_stress_convergence(int degree, int finest) {
+  std::vector<double> errors;
+  for (int refinements = finest - 1; refinements <= finest; ++refinements) {
+    errors.push_back(stress_error<dim>(degree, refinements));
+    BOOST_TEST_MESSAGE(dim << "D, degree " << degree << ", " << refinements << " refinements: stress "
+                           << errors.back());
+  }
+  const double rate = std::log2(errors[0] / errors[1]);
+  BOOST_TEST_MESSAGE("rate " << rate);
+  // A derivative of the displacement: one order less.
+  BOOST_TEST(rate >= 0.9 * degree);
+  // Ceiling: the slope of the interpolation of the displacement at an end node, (arc)^p / (p + 1)! x product of the
+  // distances of the nodes (1 and 1/2 for p = 1, 2), on arcs of pi/4 refined, twice.
+  const double arc = std::ldexp(M_PI / 4, -finest);
+  BOOST_TEST(errors[1] < 2 * (degree == 1 ? arc / 2 : arc * arc / 12));
+}
+
+BOOST_AUTO_TEST_CASE(surface_stress_of_the_pressed_ring_is_that_of_lame) {
+  check_stress_convergence<2>(1, 5);
+  check_stress_convergence<2>(2, 4);
+  check_stress_convergence<3>(2, 3);
+}
 
 BOOST_AUTO_TEST_CASE(pressure_on_a_curved_boundary_has_the_resultant_of_its_projection) {
   // Over a quarter circle: pressure x radius in x and in y; geometry of degree 3, twice refined.
