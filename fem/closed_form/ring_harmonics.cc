@@ -88,7 +88,11 @@ HarmonicCompliance elastic_ring(const PlainRing& ring, int harmonic, HeldCircle 
 
 HarmonicCompliance curved_beam(const PlainRing& ring, int harmonic) {
   const double n = harmonic, a = ring.inner_radius, b = ring.outer_radius;
-  const double height = b - a, log = std::log(b / a), neutral = height / log, offset = (a + b) / 2 - neutral;
+  // ln(b/a) = 2 atanh(x), e = (a + b)/2 (atanh(x) - x) / atanh(x); the difference as its series, which does not cancel.
+  const double height = b - a, x = height / (a + b), log = 2 * std::atanh(x), neutral = height / log;
+  double difference = 0, power = x * x * x;
+  for (int k = 3; power > 1e-20 * x * x * x && k < 400; k += 2, power *= x * x) difference += power / k;
+  const double offset = (a + b) / 2 * difference / std::atanh(x);
   constexpr double shear_factor = 5.0 / 6;
   const double extension = ring.moduli.young * log, bending = ring.moduli.young * height * offset;
   const double shear = shear_factor * ring.moduli.shear * log;
