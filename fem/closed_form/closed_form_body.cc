@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/errors.h"
 
@@ -89,19 +90,20 @@ void ClosedFormBody::let_yield(const PlainRing& rim, double width, RimTheory the
   }
 
   // Supports of one width of arc share their couplings: (radially outwards, counter-clockwise) on each.
-  std::vector<double> arcs;
+  std::vector<std::pair<double, Spread>> arcs;
   std::vector<std::size_t> arc_of;
   for (const auto& support : supports) {
-    const auto known = std::find(arcs.begin(), arcs.end(), support.half_angle);
+    const std::pair arc(support.half_angle, support.spread);
+    const auto known = std::find(arcs.begin(), arcs.end(), arc);
     arc_of.push_back(known - arcs.begin());
-    if (known == arcs.end()) arcs.push_back(support.half_angle);
+    if (known == arcs.end()) arcs.push_back(arc);
   }
   using Pair = std::array<RingHarmonics, 2>;
   std::vector<Pair> loads;
-  for (const double arc : arcs) {
-    const int support_terms = std::min(terms, harmonics_for(arc) / 2);
-    loads.push_back({radial_force(Circle::outer, arc, Spread::parabolic, support_terms),
-                     tangential_force(Circle::outer, arc, Spread::parabolic, support_terms)});
+  for (const auto& [half_angle, spread] : arcs) {
+    const int support_terms = std::min(terms, harmonics_for(half_angle) / 2);
+    loads.push_back({radial_force(Circle::outer, half_angle, spread, support_terms),
+                     tangential_force(Circle::outer, half_angle, spread, support_terms)});
   }
   const auto component = [](const RingSupport& s, int c) { return c == 0 ? -s.inwards : s.tangential; };
   const auto count = static_cast<Eigen::Index>(supports.size());
@@ -135,7 +137,7 @@ void ClosedFormBody::let_yield(const PlainRing& rim, double width, RimTheory the
     const Eigen::Vector2d force =
         Eigen::Rotation2Dd(support.angle) * Eigen::Vector2d(-support.inwards, support.tangential);
     support_resultants_.row(j) << force.x(), force.y(),
-        support.tangential * centroid_radius(rim.outer_radius, support.half_angle, Spread::parabolic);
+        support.tangential * centroid_radius(rim.outer_radius, support.half_angle, support.spread);
   }
   for (auto& coupling : from_supports_) coupling = (to_rim.transpose() * coupling).eval();
 }

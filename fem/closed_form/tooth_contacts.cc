@@ -110,8 +110,8 @@ ContactForces solve_contacts(const FlankContact& flanks, const ToothContacts& co
     }
   }
 
-  // Newton's method: the line contacts are replaced by their tangents. They are concave functions of the force, so that
-  // it converges from any start; the lightest force keeps their logarithm finite.
+  // Newton's method: the line contacts are replaced by their tangents, which hardly change with the force (by its
+  // logarithm): four or five steps. The lightest force keeps the logarithm finite.
   const double lightest = 1e-9 * load, wanted = 1e-11 * load;
   Eigen::VectorXd force = Eigen::VectorXd::Constant(pairs, load / 2);
   std::vector<bool> active = start;

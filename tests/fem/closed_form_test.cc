@@ -239,28 +239,31 @@ BOOST_AUTO_TEST_CASE(other_gears_than_those_the_layer_of_teeth_was_measured_on) 
 }
 
 BOOST_AUTO_TEST_CASE(elastic_ring_and_curved_beam_over_the_thickness_of_the_rim) {
-  double beam_thin = 0, beam_thick = 0;
+  std::vector<double> beam_differences;
   for (const double rim : {5e-3, 10e-3, 18.7e-3, 35e-3}) {
     const auto problem = ring_with_rim(rim, paper_pins(24, first_pin));
     const auto exact = solve_plane(problem, 1, 1);
-    const auto elastic = solve_closed_form(problem, {}),
-               beam = solve_closed_form(problem, {}, {RimTheory::curved_beam});
-    const double k = mean_stiffness(exact);
-    const double elastic_difference = mean_stiffness(elastic) / k - 1, beam_difference = mean_stiffness(beam) / k - 1;
+    const auto elastic = solve_closed_form(problem, {});
+    const auto beam = solve_closed_form(problem, {}, {RimTheory::curved_beam});
+    const double k = mean_stiffness(exact), elastic_lte = largest_lte_difference(elastic, exact);
+    const double beam_lte = largest_lte_difference(beam, exact);
+    const double elastic_difference = mean_stiffness(elastic) / k - 1;
+    beam_differences.push_back(mean_stiffness(beam) / k - 1);
     BOOST_TEST_MESSAGE("rim " << rim * 1e3 << " mm, 24 pins: " << k << " N/m; elastic ring " << elastic_difference
-                              << ", LTE within " << largest_lte_difference(elastic, exact) << "; curved beam "
-                              << beam_difference << ", LTE within " << largest_lte_difference(beam, exact));
-    double estimate = 0;
+                              << ", LTE within " << elastic_lte << "; curved beam " << beam_differences.back()
+                              << ", LTE within " << beam_lte);
+    double effectivity = 0;
     for (std::size_t i = 0; i < exact.positions.size(); ++i) {
       const auto &e = exact.positions[i].entry, &c = elastic.positions[i].entry;
-      estimate = std::max(estimate, std::abs(c.stiffness_secant / e.stiffness_secant - 1) / c.error_relative);
+      effectivity = std::max(effectivity, std::abs(c.stiffness_secant / e.stiffness_secant - 1) / c.error_relative);
     }
-    BOOST_TEST(estimate < 1);
-    // A quarter of the span of the estimate remains in the mean: positions differ in sign.
-    BOOST_TEST(std::abs(elastic_difference) < elastic.worst_error_relative / 2);
-    (rim == 10e-3 ? beam_thin : beam_thick) = std::abs(beam_difference);
+    BOOST_TEST(effectivity < 1);
+    BOOST_TEST(std::abs(elastic_difference) <
+               elastic.worst_error_relative / 2);  // of the mean: positions differ in sign
   }
-  BOOST_TEST(beam_thick > 1.5 * beam_thin);  // a beam does not know the rim's local yielding under a tooth and a pin
+  // A beam does not know the local yielding of the rim under a tooth and a pin: it departs as the rim gets thicker.
+  for (std::size_t i = 2; i < beam_differences.size(); ++i)
+    BOOST_TEST(std::abs(beam_differences[i]) > std::abs(beam_differences[i - 1]));
 }
 
 BOOST_AUTO_TEST_CASE(the_supports_carry_what_the_planet_presses_on_the_ring) {
@@ -271,7 +274,6 @@ BOOST_AUTO_TEST_CASE(the_supports_carry_what_the_planet_presses_on_the_ring) {
   spline.teeth = 54;
   spline.flank_angle = 0.4;
   spline.clearance = 5e-6;
-  spline.flank_stiffness = 5e9;
   for (const RingStructure& structure :
        {RingStructure(paper_pins(24, first_pin)), RingStructure(paper_pins(2, first_pin)), RingStructure(single),
         RingStructure(spline)}) {
@@ -294,10 +296,9 @@ BOOST_AUTO_TEST_CASE(the_supports_carry_what_the_planet_presses_on_the_ring) {
       worst_moment = std::max(worst_moment, std::abs(moment / (p.load * problem.pair.wheel().base_radius()) + 1));
     }
     BOOST_TEST_MESSAGE(result.pin_angles.size() << " supports: force " << worst_force << ", moment " << worst_moment);
-    // Contacts at tip edges are not on the line of action; lever arm of a parabola over an arc: 1 - beta^2 / 10. The
-    // flanks of a spline tooth are half a tooth beside its centre, and reported together: not checked.
-    if (std::holds_alternative<SplineHeld>(structure)) continue;
-    BOOST_TEST(worst_moment < 1e-4);
+    // Lever arms of loads over arcs: 1 - beta^2 / 10 for a parabola, 1 - beta^2 / 6 for a uniform one.
+    BOOST_TEST(worst_moment < 2e-4);
+    // The bore carries its part. Otherwise only contacts at tip edges are off the line of action.
     if (!bore) BOOST_TEST(worst_force < 1e-3);
   }
 }
@@ -323,7 +324,7 @@ BOOST_AUTO_TEST_CASE(what_has_no_closed_form_is_refused) {
   };
   refused(ring_mesh(EndFaceHeld{18e-3, 10.6e-3}, 2));
   refused(ring_mesh(FlangeHeld{10e-3, 0.35}, 2));
-  refused(ring_mesh(SplineHeld{54, 0.4}, 2));  // no stiffness given
+  refused(ring_mesh(SplineHeld{2, 0.4}, 2));
   refused(ring_mesh(paper_pins(1, 0), 2));
   refused(ring_mesh(OutsideHeld{}, 2, {2, 1}));
   auto misaligned = ring_mesh(OutsideHeld{}, 2);
