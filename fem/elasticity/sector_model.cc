@@ -55,20 +55,24 @@ TraceGrid make_trace(const std::vector<int>& nodes, const std::vector<Eigen::Vec
   return trace;
 }
 
-double polar_angle(const Eigen::Vector3d& p) { return std::atan2(p.y(), p.x()); }
+/// Polar angle in the section of the body at the point's z, which a helical gear turns by `twist` z.
+double polar_angle(const Eigen::Vector3d& p, double twist) {
+  return std::remainder(std::atan2(p.y(), p.x()) - twist * p.z(), 2 * M_PI);
+}
 
 /// Those of the surface's nodes that lie in a range of polar angles.
 StressSurface make_stress_surface(const std::vector<SurfaceStress>& surface, const std::vector<Eigen::Vector3d>& points,
-                                  int degree, double low, double high) {
+                                  int degree, double twist, double low, double high) {
   std::vector<int> nodes;
   std::map<int, const SurfaceStress*> stress_of;
   for (const auto& stress : surface) {
-    const double angle = polar_angle(points[stress.node]);
+    const double angle = polar_angle(points[stress.node], twist);
     if (angle < low || angle > high) continue;
     nodes.push_back(stress.node);
     stress_of[stress.node] = &stress;
   }
-  StressSurface result{make_trace(nodes, points, degree, polar_angle), {}};
+  StressSurface result{
+      make_trace(nodes, points, degree, [twist](const Eigen::Vector3d& p) { return polar_angle(p, twist); }), {}};
   for (const int node : result.trace.nodes) result.stress.push_back(*stress_of.at(node));
   return result;
 }
@@ -145,17 +149,22 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
 
   model.flank = make_trace(problem.boundary_nodes(options.flank), model.nodes, options.degree,
                            [&](const Eigen::Vector3d& p) { return profile.roll_length_at(std::hypot(p.x(), p.y())); });
+  const double twist = dim == 3 ? profile.twist() : 0;
+  using geometry::Boundary;
   if (options.want_outside)
-    model.outside =
-        make_trace(problem.boundary_nodes(geometry::Boundary::support), model.nodes, options.degree, polar_angle);
+    model.outside = make_trace(problem.boundary_nodes(Boundary::support), model.nodes, options.degree,
+                               [twist](const Eigen::Vector3d& p) { return polar_angle(p, twist); });
   if (options.want_stress) {
-    using geometry::Boundary;
-    const auto root = problem.surface_stress({Boundary::trailing_fillet, Boundary::leading_fillet, Boundary::root});
-    model.root_low = make_stress_surface(root, model.nodes, options.degree, -M_PI, 0);
-    model.root_high = make_stress_surface(root, model.nodes, options.degree, 0, M_PI);
+    const auto surface = [&](const std::vector<Boundary>& boundaries, double low, double high) {
+      return make_stress_surface(problem.surface_stress(boundaries), model.nodes, options.degree, twist, low, high);
+    };
+    const std::vector<Boundary> root = {Boundary::trailing_fillet, Boundary::leading_fillet, Boundary::root};
+    model.root_low = surface(root, -M_PI, 0);
+    model.root_high = surface(root, 0, M_PI);
+    // A hoop or a flange goes beyond the ring's own outside.
+    const bool band = std::isfinite(options.outside_radius);
     if (options.held != HeldBoundary::support)
-      model.rim =
-          make_stress_surface(problem.surface_stress({Boundary::support}), model.nodes, options.degree, -M_PI, M_PI);
+      model.rim = surface({band ? Boundary::outside : Boundary::support}, -M_PI, M_PI);
   }
   return model;
 }

@@ -1,0 +1,226 @@
+#include "fem/closed_form/closed_form_mesh.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/errors.h"
+#include "fem/closed_form/tooth_contacts.h"
+
+namespace annulus::fem {
+namespace {
+
+void check_closed_form(const LoadedMeshProblem& problem) {
+  if (problem.loads.empty() || problem.phases < 2) throw InputError("a loaded mesh needs a load and two phases");
+  for (std::size_t i = 0; i < problem.loads.size(); ++i)
+    if (!(problem.loads[i] > (i > 0 ? problem.loads[i - 1] : 0.0)))
+      throw InputError("the loads of a stiffness table have to be positive and strictly increasing");
+  if (!problem.pair.internal() && !std::holds_alternative<OutsideHeld>(problem.structure))
+    throw InputError("a ring structure belongs to the ring mesh");
+  const auto has_lead = [](const geometry::Gear& gear) {
+    return gear.parameters().lead_crowning != 0 || gear.parameters().lead_slope != 0;
+  };
+  if (problem.misalignment != 0 || has_lead(problem.pair.planet()) || has_lead(problem.pair.wheel()))
+    throw InputError(
+        "the closed form has no load distribution over the face width: lead modifications and misalignment need "
+        "rung = \"solid\"");
+}
+
+/// Relative error of the stiffness, from differences to converged plane finite elements (docs/methods.md): 3 % for
+/// teeth and foundation; 2 % more where a pair bears at its tip edge; for a ring on its own supports what an
+/// uncertainty of 0.025 root pitches in the layer that stands for the teeth makes of the bending stiffness, which goes
+/// with the cube of the thickness; plane stress instead of plane strain when the face is narrower than five tooth
+/// thicknesses (Cornell 1981).
+double estimated_error(const LoadedMeshProblem& problem, const ClosedFormBody& wheel, bool tip_edge) {
+  double error = 0.03;
+  if (tip_edge) error += 0.02;
+  const auto& gear = problem.pair.wheel();
+  if (wheel.floating())
+    error += 3 * 0.025 * gear.pitch_angle() * gear.root_radius() / (problem.wheel_support_radius - gear.root_radius());
+  const double root_thickness = 2 * wheel.tooth().root_radius() * wheel.tooth().root_half_angle();
+  const double nu = problem.material.poisson_ratio;
+  if (problem.face_width < 5 * root_thickness) error += 1 / (1 - nu * nu) - 1;
+  return error;
+}
+
+/// Both bodies and all positions.
+class ClosedFormRun {
+ public:
+  ClosedFormRun(const LoadedMeshProblem& problem, const ClosedFormOptions& options)
+      : problem_(problem),
+        flanks_(problem.pair),
+        supports_(ring_supports(problem.structure, problem.wheel_support_radius, problem.face_width,
+                                problem.pair.wheel().teeth(), problem.material, true)),
+        planet_(flanks_.planet(), problem.planet_bore_radius, problem.face_width, problem.material, {}, options.rim,
+                neighbours),
+        wheel_(flanks_.wheel(), problem.wheel_support_radius, problem.face_width, problem.material, supports_,
+               options.rim, neighbours) {}
+
+  [[nodiscard]] const std::vector<RingSupport>& supports() const { return supports_; }
+
+  [[nodiscard]] std::vector<LoadedPosition> solve(int cycles, const std::function<void(double)>& progress) const {
+    const int loads = static_cast<int>(problem_.loads.size()), phases = problem_.phases;
+    std::vector<LoadedPosition> positions(static_cast<std::size_t>(cycles * phases + 1) * loads);
+    for (int phase = 0; phase <= phases; ++phase) {
+      const ToothContacts contacts = find_contacts(flanks_, planet_, wheel_, problem_.material, problem_.face_width,
+                                                   static_cast<double>(phase) / phases);
+      for (int load = 0; load < loads; ++load) {
+        std::vector<bool> start;  // the supports of the cycle before
+        for (int cycle = phase == phases ? cycles - 1 : 0; cycle < cycles; ++cycle)
+          positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load] =
+              solve_position(contacts, cycle, load, start);
+      }
+      if (progress) progress(static_cast<double>(phase + 1) / (phases + 1));
+    }
+    return positions;
+  }
+
+ private:
+  static constexpr int neighbours = 6;  // teeth: pairs farther apart do not touch at once
+
+  [[nodiscard]] LoadedPosition solve_position(const ToothContacts& contacts, int cycle, int load_index,
+                                              std::vector<bool>& start) const;
+  void add_supports(const Eigen::VectorXd& force, LoadedPosition& position) const;
+
+  const LoadedMeshProblem& problem_;
+  FlankContact flanks_;
+  std::vector<RingSupport> supports_;
+  ClosedFormBody planet_, wheel_;
+};
+
+LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int cycle, int load_index,
+                                             std::vector<bool>& start) const {
+  const double load = problem_.loads[load_index];
+  const auto forces = solve_contacts(flanks_, contacts, wheel_, supports_, cycle, load, start);
+  const auto& solution = forces.solution;
+  start = solution.active;
+
+  LoadedPosition position;
+  position.mesh_phase = contacts.phase;
+  position.ring_tooth = cycle;
+  position.load = load;
+  position.reciprocity_relative = contacts.asymmetry;
+  const auto& first = contacts.pairs.front();
+  const double tooth = wheel_tooth(flanks_, first.index, cycle) * problem_.pair.wheel().pitch_angle();
+  const double angle = flanks_.wheel_tooth_angle(first.roll) - tooth;
+  position.ring_angle = problem_.pair.internal() ? angle : -angle;  // the ring mesh is solved in a mirror image
+
+  double unloaded = first.gap, moment = 0;
+  bool tip_edge = false;
+  const auto pairs = static_cast<Eigen::Index>(contacts.pairs.size());
+  // Deflections with the line contacts as they are, not as linearised.
+  ComplementarityProblem exact = forces.problem;
+  exact.compliance.topLeftCorner(pairs, pairs) = contacts.compliance;
+  for (Eigen::Index i = 0; i < pairs; ++i) {
+    const auto& pair = contacts.pairs[i];
+    const double force = solution.force[i];
+    exact.gap[i] = pair.gap + forces.approach[i];
+    unloaded = std::min(unloaded, pair.gap);
+    position.pair_share.push_back(force / load);
+    position.pair_roll.push_back(pair.roll);
+    // The force is normal to the planet's involute: its lever arm is the base radius.
+    const auto& root = pair.planet_root;
+    moment += force * (root.z() + root.y() * centroid_radius(planet_.tooth().root_radius(),
+                                                             planet_.tooth().root_half_angle(), Spread::uniform));
+    if (force <= 0) continue;
+    const bool at_edge = pair.edge_distance < pair.line.half_width(force);
+    tip_edge |= at_edge;
+    const double pressure = pair.line.peak_pressure(force);
+    if (pressure <= position.max_pressure) continue;
+    position.max_pressure = pressure;
+    position.tip_edge_contact = at_edge;
+  }
+  position.entry.lte = solution.rigid[0];
+  position.entry.unloaded_te = unloaded;
+  if (!(position.entry.lte > unloaded)) throw SolverError("the loaded transmission error is not positive");
+  position.entry.stiffness_secant = load / (position.entry.lte - unloaded);
+  position.entry.stiffness_tangent = 1 / solution.tangent(0, 0);
+  position.entry.error_relative = estimated_error(problem_, wheel_, tip_edge);
+
+  const double torque = load * problem_.pair.planet().base_radius();
+  position.force_balance_relative = std::abs(std::abs(moment) - torque) / torque;
+  const Eigen::VectorXd deflection = exact.compliance * solution.force;
+  const Eigen::VectorXd gap = deflection + exact.gap - exact.rigid * solution.rigid;
+  const double work_of_gaps = solution.force.dot(exact.gap), work = load * position.entry.lte;
+  position.energy_balance_relative = std::abs(work - solution.force.dot(deflection) - work_of_gaps) / work;
+  position.max_penetration = std::max(0.0, -gap.minCoeff());
+  position.line_load = {load / problem_.face_width};
+  if (static_cast<std::size_t>(load_index) == problem_.loads.size() / 2)
+    for (Eigen::Index i = 0; i < pairs; ++i) {
+      const auto& pair = contacts.pairs[i];
+      const double force = solution.force[i];
+      if (force <= 0) continue;
+      const double half = pair.line.half_width(force);
+      const double half_roll = half * problem_.pair.planet().base_radius() / pair.nearest_roll;
+      position.pressure.push_back({static_cast<int>(i), 0, problem_.face_width, pair.nearest_roll - half_roll,
+                                   pair.nearest_roll + half_roll, force / (2 * half * problem_.face_width)});
+    }
+  add_supports(solution.force.tail(solution.force.size() - pairs), position);
+  return position;
+}
+
+void ClosedFormRun::add_supports(const Eigen::VectorXd& force, LoadedPosition& position) const {
+  // Two supports belong to each pin or spline tooth; the bore's, which follow, are not pins.
+  const auto* pins = std::get_if<PinHeld>(&problem_.structure);
+  const std::size_t count = pins != nullptr ? pins->angles.size() : supports_.size() / 2;
+  for (std::size_t q = 0; q < count; ++q) {
+    PinState state;
+    for (const std::size_t i : {2 * q, 2 * q + 1}) {
+      // The support feels the opposite of what it does to the rim; mirrored frame: tangential forces change sign twice.
+      const double f = force[static_cast<Eigen::Index>(i)];
+      state.radial_force += f * supports_[i].inwards;
+      state.tangential_force += f * supports_[i].tangential;
+    }
+    state.touching = state.radial_force > 0;
+    position.pins.push_back(state);
+  }
+}
+
+}  // namespace
+
+LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
+                                   const ClosedFormOptions& options) {
+  check_closed_form(problem);
+  const auto start = std::chrono::steady_clock::now();
+  const auto since = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const int cycles = repeating_teeth(problem.structure, problem.pair.wheel().teeth());
+  const int loads = static_cast<int>(problem.loads.size());
+  const ClosedFormRun run(problem, options);
+  const double condensed = since();
+  auto positions = run.solve(cycles, settings.progress);
+
+  const std::size_t table_size = static_cast<std::size_t>(cycles) * problem.phases * loads;
+  std::vector<StiffnessEntry> entries;
+  std::vector<double> ring_angles;
+  for (std::size_t i = 0; i < table_size; ++i) entries.push_back(positions[i].entry);
+  for (int c = 0; c < cycles; ++c)
+    ring_angles.push_back(positions[static_cast<std::size_t>(c) * problem.phases * loads].ring_angle);
+  StiffnessTable table(problem.pair.internal() ? "ring_planet" : "sun_planet", problem.phases, std::move(ring_angles),
+                       problem.loads, std::move(entries));
+  LoadedMeshResult result{std::move(table), std::move(positions)};
+  result.level = 0;
+  for (std::size_t i = 0; i < result.positions.size(); ++i) {
+    const auto& p = result.positions[i];
+    result.reciprocity_relative = std::max(result.reciprocity_relative, p.reciprocity_relative);
+    if (i % loads == static_cast<std::size_t>(loads) / 2)
+      result.worst_error_relative = std::max(result.worst_error_relative, p.entry.error_relative);
+  }
+  for (int l = 0; l < loads; ++l)
+    result.closure_relative =
+        std::max(result.closure_relative,
+                 std::abs(result.positions[table_size + l].entry.lte / result.positions[l].entry.lte - 1));
+  if (!run.supports().empty()) result.pin_stiffness = run.supports().front().stiffness;
+  if (const auto* pins = std::get_if<PinHeld>(&problem.structure)) result.pin_angles = pins->angles;
+  if (const auto* spline = std::get_if<SplineHeld>(&problem.structure))
+    result.pin_angles = equal_angles(spline->teeth, spline->first_tooth_angle);
+  result.slice_edges = {0, problem.face_width};
+  result.condense_seconds = condensed;
+  result.contact_seconds = since() - condensed;
+  return result;
+}
+
+LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings) {
+  return solve_closed_form(problem, settings, {});
+}
+
+}  // namespace annulus::fem

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "fem/closed_form/closed_form_body.h"
+#include "fem/closed_form/line_contact.h"
+#include "fem/contact/complementarity.h"
+#include "fem/contact/flank_contact.h"
+
+namespace annulus::fem {
+
+/// One tooth pair that may touch, as one unknown force.
+struct ToothContact {
+  int index = 0;                            ///< number of the pair, and of the planet's tooth in cycle 0
+  double roll = 0;                          ///< m, planet roll length of the theoretical contact
+  double nearest_roll = 0, gap = 0;         ///< m, where the flanks are nearest, modifications included
+  double edge_distance = 0;                 ///< m, along the flank from there to the nearer tip edge
+  Eigen::Vector3d planet_root, wheel_root;  ///< root loads of a unit force, each in its own tooth's frame
+  double cantilevers = 0;                   ///< m/N, of both teeth
+  LineContact line;
+};
+
+/// All tooth pairs of one phase and their compliance but for the line contacts; the same in every mesh cycle and at
+/// every load.
+struct ToothContacts {
+  double phase = 0;
+  std::vector<ToothContact> pairs;
+  Eigen::MatrixXd compliance;  ///< m/N
+  double asymmetry = 0;        ///< of the compliance, formed in both directions
+};
+
+/// Pairs up to one base pitch before and after the theoretical path, as in the finite-element rungs.
+[[nodiscard]] ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& planet,
+                                          const ClosedFormBody& wheel, const Material& material, double width,
+                                          double phase);
+
+/// Number of the wheel's tooth in pair `index` during mesh cycle `cycle`.
+[[nodiscard]] int wheel_tooth(const FlankContact& flanks, int index, int cycle);
+
+/// Forces of all pairs and supports at one position.
+struct ContactForces {
+  ComplementarityProblem problem;    ///< line contacts linearised at the solution
+  ComplementaritySolution solution;  ///< pairs first, then supports
+  Eigen::VectorXd approach;          ///< m, of the line contacts
+};
+
+/// Solves one position: complementarity of pairs and supports, Newton's method for the line contacts. `supports` belong
+/// to the wheel. Throws SolverError with phase, load and residual.
+[[nodiscard]] ContactForces solve_contacts(const FlankContact& flanks, const ToothContacts& contacts,
+                                           const ClosedFormBody& wheel, const std::vector<RingSupport>& supports,
+                                           int cycle, double load, const std::vector<bool>& start);
+
+}  // namespace annulus::fem

@@ -1,0 +1,338 @@
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "fem/closed_form/closed_form_mesh.h"
+#include "fem/closed_form/line_contact.h"
+#include "fem/contact/contact_system.h"
+#include "ring_paper.h"
+#include "ring_paper_problems.h"
+
+BOOST_AUTO_TEST_SUITE(closed_form_tooth)
+
+using namespace annulus::fem;
+
+const Material unit_material{1.0, 0.3, 1};
+constexpr double round_off = 1e-13;
+
+BOOST_AUTO_TEST_CASE(a_tooth_of_constant_section_is_timoshenkos_cantilever) {
+  const PlaneModuli m = plane_strain(unit_material);
+  const double height = 0.3, length = 2, inertia = std::pow(height, 3) / 12;
+  const Eigen::Vector2d force(-0.6, 0.8);
+  const double exact = 0.64 * (std::pow(length, 3) / (3 * m.young * inertia) + 1.2 * length / (m.shear * height)) +
+                       0.36 * length / (m.young * height);
+  // The load inside the outline and at its end; an internal tooth points the other way.
+  for (const double end : {2.0, 2.7})
+    for (const double sense : {1.0, -1.0}) {
+      std::vector<std::pair<double, double>> outline;
+      for (int i = 0; i <= 7; ++i) outline.emplace_back(5 + sense * end * i / 7, height / 2);
+      BOOST_TEST(cantilever_compliance(outline, 5 + sense * length, force, m) == exact,
+                 boost::test_tools::tolerance(round_off));
+      BOOST_TEST(cantilever_compliance(outline, 5 - sense, force, m) == 0.0);  // below the root: no beam
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_wedge_bends_as_integrated_by_hand) {
+  const PlaneModuli m = plane_strain(unit_material);
+  // Half-thickness 0.3 - 0.1 x over 0 ... 2, transverse force at the end: with t = 0.6 - 0.2 x,
+  // int 12 (2 - x)^2 / t^3 dx = 12 * 125 [ln t + 0.4 / t - 0.02 / t^2] from 0.2 to 0.6, as 2 - x = 5 (t - 0.2).
+  const auto f = [](double t) { return std::log(t) + 0.4 / t - 0.02 / (t * t); };
+  const double bending = 12 * 125 * (f(0.6) - f(0.2)) / m.young, shear = 1.2 * 5 * std::log(3.0) / m.shear;
+  std::vector<std::pair<double, double>> outline;
+  for (int i = 0; i <= 20; ++i) outline.emplace_back(0.1 * i, 0.3 - 0.01 * i);
+  BOOST_TEST(cantilever_compliance(outline, 2, {0, 1}, m) == bending + shear, boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(every_force_passes_the_root_with_the_lever_arm_of_the_base_circle) {
+  for (const bool internal : {false, true}) {
+    const auto pair = annulus::tests::ring_paper_pair(internal);
+    const annulus::geometry::ToothProfile profile(pair.wheel());
+    const ToothCantilever tooth(profile, plane_strain(Material{}));
+    const double centroid = centroid_radius(tooth.root_radius(), tooth.root_half_angle(), Spread::uniform);
+    const double tip = profile.roll_length_tip(), form = profile.roll_length_form();
+    double last = 0;
+    for (int i = 0; i <= 10; ++i) {
+      const auto load = tooth.load(form + (tip - form) * i / 10);
+      BOOST_TEST(load.root.head<2>().norm() == 1.0, boost::test_tools::tolerance(1e-13));
+      BOOST_TEST(std::abs(load.root.z() + load.root.y() * centroid) == pair.wheel().base_radius(),
+                 boost::test_tools::tolerance(1e-12));
+      BOOST_TEST(load.depth > 0);
+      BOOST_TEST(load.compliance >= last);  // softer towards the tip, external and internal
+      last = load.compliance;
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(line_contact_is_that_of_hertz_and_johnson) {
+  const double width = 2, curvature = 0.5, depth = 3;
+  const LineContact contact(curvature, {depth}, {2 * depth}, unit_material, width);
+  for (const double force : {1e-9, 1e-6, 1e-3}) {
+    const double line_load = force / width, b = hertz_half_width(line_load, curvature, unit_material);
+    BOOST_TEST(contact.half_width(force) == b);
+    BOOST_TEST(contact.peak_pressure(force) * M_PI * b / 2 == line_load, boost::test_tools::tolerance(round_off));
+    // Far below the contact: Johnson, Contact Mechanics, eq. 5.57, each body.
+    const double nu = 0.3;
+    const double johnson = (1 - nu * nu) / M_PI * line_load *
+                           (2 * std::log(2 * depth / b) + 2 * std::log(4 * depth / b) - 2 * nu / (1 - nu));
+    BOOST_TEST(contact.approach(force) == johnson, boost::test_tools::tolerance(b * b / depth / depth));
+    const double step = 1e-4 * force;
+    const double slope = (contact.approach(force + step) - contact.approach(force - step)) / (2 * step);
+    BOOST_TEST(contact.compliance(force) == slope, boost::test_tools::tolerance(1e-7));  // step^2 and 1e-16 / step
+  }
+  BOOST_TEST(contact.approach(0) == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(a_tip_edge_softens_the_contact_within_its_range) {
+  const double force = 1e-3, depth = 3;
+  const double b = LineContact(0.5, {depth}, {depth}, unit_material, 1).half_width(force);
+  double last = LineContact(0.5, {depth}, {depth}, unit_material, 1).approach(force);
+  for (const double edge : {3.0, 1.5, 1.0, 0.5, 0.0}) {
+    const LineContact contact(0.5, {depth, edge * b}, {depth}, unit_material, 1);
+    if (edge >= LineContact::edge_range)
+      BOOST_TEST(contact.approach(force) == last);
+    else
+      BOOST_TEST(contact.approach(force) > last);
+    last = contact.approach(force);
+    const double step = 1e-4 * force;
+    if (edge != LineContact::edge_range)  // kink
+      BOOST_TEST(
+          contact.compliance(force) == (contact.approach(force + step) - contact.approach(force - step)) / (2 * step),
+          boost::test_tools::tolerance(1e-6));
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(closed_form_mesh)
+
+using namespace annulus::tests;
+using namespace annulus::fem;
+
+constexpr double first_pin = 0.03;  // rad: no symmetry with the teeth
+
+LoadedMeshProblem ring_with_rim(double rim, const RingStructure& structure) {
+  auto problem = ring_mesh(structure, 2);
+  problem.wheel_support_radius = problem.pair.wheel().root_radius() + rim;
+  return problem;
+}
+
+/// Mean secant stiffness over the table at its first load, N/m.
+double mean_stiffness(const LoadedMeshResult& result) {
+  double sum = 0;
+  for (int i = 0; i < result.table.positions(); ++i)
+    for (int phase = 0; phase < result.table.phases(); ++phase) sum += result.table.at(i, phase, 0).stiffness_secant;
+  return sum / (result.table.positions() * result.table.phases());
+}
+
+BOOST_AUTO_TEST_CASE(balances_hold_at_every_position) {
+  const std::vector<double> loads = {nominal_load / 4, nominal_load, 2 * nominal_load};
+  check_invariants(solve_closed_form(sun_mesh(8, loads), {}));
+  check_invariants(solve_closed_form(ring_mesh(OutsideHeld{}, 8, loads), {}));
+  check_invariants(solve_closed_form(ring_mesh(paper_pins(24, first_pin), 2), {}));
+}
+
+BOOST_AUTO_TEST_CASE(the_tangent_is_the_slope_of_the_load) {
+  const double step = 1e-4;
+  const std::vector<double> loads = {nominal_load * (1 - step), nominal_load, nominal_load * (1 + step)};
+  for (const auto& problem : {ring_mesh(OutsideHeld{}, 8, loads), sun_mesh(8, loads)}) {
+    const auto result = solve_closed_form(problem, {});
+    for (int phase = 0; phase < 8; ++phase) {
+      const double slope =
+          2 * step * nominal_load / (result.table.at(0, phase, 2).lte - result.table.at(0, phase, 0).lte);
+      // Smooth but for a pair that enters just here: the second derivative cancels.
+      BOOST_TEST(result.table.at(0, phase, 1).stiffness_tangent == slope, boost::test_tools::tolerance(1e-6));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(contact_begins_before_the_theoretical_path) {
+  const auto problem = ring_mesh(OutsideHeld{}, 32);
+  double least = 1, most = 0;
+  for (const auto& p : solve_closed_form(problem, {}).positions)
+    for (std::size_t i = 0; i < p.pair_share.size(); ++i)
+      if (p.pair_share[i] > 0) least = std::min(least, p.pair_roll[i]), most = std::max(most, p.pair_roll[i]);
+  BOOST_TEST(least < problem.pair.roll_length_low());
+  BOOST_TEST(most > problem.pair.roll_length_high());
+}
+
+BOOST_AUTO_TEST_CASE(tip_relief_takes_load_from_entering_pairs) {
+  auto problem = ring_mesh(OutsideHeld{}, 16);
+  const auto plain = solve_closed_form(problem, {});
+  auto planet = problem.pair.planet().parameters();
+  planet.tip_relief = 20e-6;
+  planet.tip_relief_length = 2e-3;
+  problem.pair = {annulus::geometry::Gear(planet), problem.pair.wheel(), 0.201};
+  const auto relieved = solve_closed_form(problem, {});
+  int later = 0;
+  for (std::size_t i = 0; i < plain.positions.size(); ++i) {
+    // Less material is softer; but the one point where a pair touches moves away from the relieved tip, where the tooth
+    // is stiffer, which this model cannot weigh against each other to better than its error.
+    BOOST_TEST(relieved.positions[i].entry.lte >
+               plain.positions[i].entry.lte * (1 - plain.positions[i].entry.error_relative));
+    later += relieved.positions[i].pair_share.back() < plain.positions[i].pair_share.back();
+  }
+  BOOST_TEST(later > 0);
+}
+
+/// The stiffness against the plane finite elements, position by position: the estimate has to cover the difference.
+void check_estimate(const std::string& name, const LoadedMeshProblem& problem, int level) {
+  const auto exact = solve_plane(problem, level, 1), closed = solve_closed_form(problem, {});
+  BOOST_TEST_REQUIRE(exact.positions.size() == closed.positions.size());
+  double least = 1, most = -1, effectivity = 0;
+  for (std::size_t i = 0; i < exact.positions.size(); ++i) {
+    const auto &e = exact.positions[i].entry, &c = closed.positions[i].entry;
+    const double error = c.stiffness_secant / e.stiffness_secant - 1;
+    least = std::min(least, error), most = std::max(most, error);
+    effectivity = std::max(effectivity, std::abs(error) / (c.error_relative + e.error_relative));
+    BOOST_TEST(exact.positions[i].pair_share.size() == closed.positions[i].pair_share.size());
+    BOOST_TEST(std::abs(exact.positions[i].ring_angle - closed.positions[i].ring_angle) < 1e-12);
+  }
+  BOOST_TEST_MESSAGE(name << ": mean stiffness " << mean_stiffness(closed) / mean_stiffness(exact) - 1 << ", positions "
+                          << least << " to " << most << ", error / estimate up to " << effectivity << "; "
+                          << (closed.condense_seconds + closed.contact_seconds) * 1e3 << " ms, of it "
+                          << closed.contact_seconds / static_cast<double>(closed.positions.size()) * 1e3
+                          << " ms per position");
+  BOOST_TEST(effectivity < 1);
+}
+
+BOOST_AUTO_TEST_CASE(the_estimate_covers_the_difference_to_plane_finite_elements) {
+  const std::vector<double> loads = {nominal_load, 2 * nominal_load};
+  check_estimate("ring held outside", ring_mesh(OutsideHeld{}, 16, loads), 2);
+  check_estimate("light load", ring_mesh(OutsideHeld{}, 8, {nominal_load / 4}), 2);
+  check_estimate("sun", sun_mesh(16, loads), 2);
+  check_estimate("24 pins", ring_mesh(paper_pins(24, first_pin), 2), 1);
+  auto bolts = paper_pins(24, first_pin);
+  bolts.unilateral = false;
+  check_estimate("24 bolts", ring_mesh(bolts, 2), 1);
+  check_estimate("6 pins", ring_mesh(paper_pins(6, first_pin), 2), 1);
+}
+
+BOOST_AUTO_TEST_CASE(other_gears_than_those_the_layer_of_teeth_was_measured_on) {
+  using annulus::geometry::Gear;
+  using annulus::geometry::GearKind;
+  const auto gear = [](GearKind kind, int teeth) {
+    annulus::geometry::GearParameters p;
+    p.kind = kind;
+    p.teeth = teeth;
+    p.module = 2e-3;
+    p.pressure_angle = 20 * M_PI / 180;
+    p.profile_shift = 0.1;
+    p.face_width = 40e-3;
+    if (kind == GearKind::internal) p.tip_diameter = 156.9e-3;
+    return Gear(p);
+  };
+  LoadedMeshProblem problem{
+      {gear(GearKind::external, 31), gear(GearKind::internal, 80), 49e-3}, {}, 40e-3, 20e-3, 95e-3};
+  problem.loads = {10e3};
+  problem.phases = 8;
+  check_estimate("80 teeth of 2 mm held", problem, 2);
+  auto pins = paper_pins(8, first_pin);
+  pins.pin_diameter = 8e-3;
+  problem.structure = pins;
+  problem.phases = 2;
+  check_estimate("8 pins, rim 12 mm", problem, 1);
+  problem.wheel_support_radius = 88e-3;
+  check_estimate("8 pins, rim 5 mm", problem, 1);
+}
+
+BOOST_AUTO_TEST_CASE(elastic_ring_and_curved_beam_over_the_thickness_of_the_rim) {
+  std::vector<double> beam_differences;
+  for (const double rim : {5e-3, 10e-3, 18.7e-3, 35e-3}) {
+    const auto problem = ring_with_rim(rim, paper_pins(24, first_pin));
+    const auto exact = solve_plane(problem, 1, 1);
+    const auto elastic = solve_closed_form(problem, {});
+    const auto beam = solve_closed_form(problem, {}, {RimTheory::curved_beam});
+    const double k = mean_stiffness(exact), elastic_lte = largest_lte_difference(elastic, exact);
+    const double beam_lte = largest_lte_difference(beam, exact);
+    const double elastic_difference = mean_stiffness(elastic) / k - 1;
+    beam_differences.push_back(mean_stiffness(beam) / k - 1);
+    BOOST_TEST_MESSAGE("rim " << rim * 1e3 << " mm, 24 pins: " << k << " N/m; elastic ring " << elastic_difference
+                              << ", LTE within " << elastic_lte << "; curved beam " << beam_differences.back()
+                              << ", LTE within " << beam_lte);
+    double effectivity = 0;
+    for (std::size_t i = 0; i < exact.positions.size(); ++i) {
+      const auto &e = exact.positions[i].entry, &c = elastic.positions[i].entry;
+      effectivity = std::max(effectivity, std::abs(c.stiffness_secant / e.stiffness_secant - 1) / c.error_relative);
+    }
+    BOOST_TEST(effectivity < 1);
+    BOOST_TEST(std::abs(elastic_difference) <
+               elastic.worst_error_relative / 2);  // of the mean: positions differ in sign
+  }
+  // A beam does not know the local yielding of the rim under a tooth and a pin: it departs as the rim gets thicker.
+  for (std::size_t i = 2; i < beam_differences.size(); ++i)
+    BOOST_TEST(std::abs(beam_differences[i]) > std::abs(beam_differences[i - 1]));
+}
+
+BOOST_AUTO_TEST_CASE(the_supports_carry_what_the_planet_presses_on_the_ring) {
+  // One pin takes the torque, the bore of the housing the rest.
+  auto single = paper_pins(1, first_pin);
+  single.housing_clearance = 10e-6;
+  auto spline = SplineHeld{};
+  spline.teeth = 54;
+  spline.flank_angle = 0.4;
+  spline.clearance = 5e-6;
+  for (const RingStructure& structure :
+       {RingStructure(paper_pins(24, first_pin)), RingStructure(paper_pins(2, first_pin)), RingStructure(single),
+        RingStructure(spline)}) {
+    const auto problem = ring_mesh(structure, 2);
+    const auto result = solve_closed_form(problem, {});
+    check_invariants(result);
+    const bool bore = structure.index() == 2 && result.pin_angles.size() == 1;
+    double worst_force = 0, worst_moment = 0;
+    for (const auto& p : result.positions) {
+      BOOST_TEST_REQUIRE(p.pins.size() == result.pin_angles.size());
+      Eigen::Vector2d force = Eigen::Vector2d::Zero();
+      double moment = 0;
+      for (std::size_t q = 0; q < p.pins.size(); ++q) {
+        const double angle = result.pin_angles[q];
+        const Eigen::Vector2d radial(std::cos(angle), std::sin(angle)), tangential(-radial.y(), radial.x());
+        force += p.pins[q].radial_force * radial + p.pins[q].tangential_force * tangential;
+        moment += p.pins[q].tangential_force * ring_outside;
+      }
+      worst_force = std::max(worst_force, std::abs(force.norm() / p.load - 1));
+      worst_moment = std::max(worst_moment, std::abs(moment / (p.load * problem.pair.wheel().base_radius()) + 1));
+    }
+    BOOST_TEST_MESSAGE(result.pin_angles.size() << " supports: force " << worst_force << ", moment " << worst_moment);
+    // Lever arms of loads over arcs: 1 - beta^2 / 10 for a parabola, 1 - beta^2 / 6 for a uniform one.
+    BOOST_TEST(worst_moment < 2e-4);
+    // The bore carries its part. Otherwise only contacts at tip edges are off the line of action.
+    if (!bore) BOOST_TEST(worst_force < 1e-3);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_compliance_of_a_ring_is_symmetric_and_turns_with_the_pins) {
+  const auto problem = ring_mesh(paper_pins(24, first_pin), 2);
+  const double pitch = problem.pair.wheel().pitch_angle();
+  const auto here = solve_closed_form(problem, {}),
+             turned = solve_closed_form(ring_mesh(paper_pins(24, first_pin + pitch), 2), {});
+  double worst = 0;
+  for (int i = 0; i < 27; ++i)
+    for (int phase = 0; phase < 2; ++phase)
+      worst =
+          std::max(worst, std::abs(turned.table.at((i + 1) % 27, phase, 0).lte / here.table.at(i, phase, 0).lte - 1));
+  BOOST_TEST(worst < 1e-9);  // round-off
+  BOOST_TEST(here.reciprocity_relative < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(what_has_no_closed_form_is_refused) {
+  using annulus::InputError;
+  const auto refused = [](const LoadedMeshProblem& problem) {
+    BOOST_CHECK_THROW((void)solve_closed_form(problem, {}), InputError);
+  };
+  refused(ring_mesh(EndFaceHeld{18e-3, 10.6e-3}, 2));
+  refused(ring_mesh(FlangeHeld{10e-3, 0.35}, 2));
+  refused(ring_mesh(SplineHeld{2, 0.4}, 2));
+  refused(ring_mesh(paper_pins(1, 0), 2));
+  refused(ring_mesh(OutsideHeld{}, 2, {2, 1}));
+  auto misaligned = ring_mesh(OutsideHeld{}, 2);
+  misaligned.misalignment = 1e-5;
+  refused(misaligned);
+  auto sun = sun_mesh(2);
+  sun.structure = paper_pins(24, 0);
+  refused(sun);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
