@@ -1,0 +1,112 @@
+// How the error estimates of the stiffness tables compare with the errors against a much finer solution.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "benchmarks/stopwatch.h"
+#include "fem/loaded_mesh.h"
+#include "fem/ring_paper.h"
+
+namespace {
+
+using namespace annulus;
+
+constexpr double load = 59460, face_width = 88e-3, bore = 86e-3, outside = 331.8e-3;  // N, m: ring paper
+/// Smaller errors are of the size of the reference's own: nothing can be said about them.
+constexpr double smallest_error = 1e-4;
+constexpr double least_effectivity = 0.3, largest_effectivity = 5;
+
+struct Case {
+  std::string name;
+  fem::RingStructure structure;
+  fem::Rung rung = fem::Rung::plane;
+  int phases = 16;
+  std::vector<int> levels;
+  int reference_level = 0, reference_degree = 2;
+};
+
+fem::PinHeld pins(int count) {
+  fem::PinHeld held;
+  held.angles = fem::equal_angles(count, 0);
+  held.pin_diameter = 15.5e-3;
+  return held;
+}
+
+fem::LoadedMeshResult solve(const Case& c, int level, int degree) {
+  fem::LoadedMeshProblem problem{tests::ring_paper_pair(true), {}, face_width, bore, outside, c.structure};
+  problem.loads = {load};
+  problem.phases = c.phases;
+  fem::LoadedMeshSettings settings;
+  settings.rung = c.rung;
+  settings.level = level;
+  settings.degree = degree;
+  settings.threads = 2;
+  return solve_loaded_mesh(problem, settings);
+}
+
+/// Whether the worst entry of every level is estimated well enough.
+bool measure(const Case& c) {
+  const benchmarks::Stopwatch watch;
+  const auto reference = solve(c, c.reference_level, c.reference_degree);
+  fmt::print("{}, {} entries, reference: level {} of degree {} (estimates its own error at {:.1e}), {:.1f} s\n", c.name,
+             reference.table.phases() * reference.table.positions(), c.reference_level, c.reference_degree,
+             reference.worst_error_relative, watch.wall());
+  bool good = true;
+  for (const int level : c.levels) {
+    const auto result = solve(c, level, 2);
+    double worst_error = 0, worst_estimate = 0, at_worst = 0;
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < result.positions.size(); ++i) {
+      const auto& entry = result.positions[i].entry;
+      const double error = std::abs(entry.stiffness_secant / reference.positions[i].entry.stiffness_secant - 1);
+      worst_estimate = std::max(worst_estimate, entry.error_relative);
+      if (error > worst_error) worst_error = error, at_worst = entry.error_relative / error;
+      if (error > smallest_error) ratios.push_back(entry.error_relative / error);
+    }
+    std::sort(ratios.begin(), ratios.end());
+    const double effectivity = worst_estimate / worst_error;
+    const bool within = effectivity >= least_effectivity && effectivity <= largest_effectivity;
+    good = good && within;
+    fmt::print(
+        "  level {}: worst error {:.2e}, worst estimate {:.2e}, effectivity {:.2f}{}; where the error is largest "
+        "{:.2f}; ",
+        level, worst_error, worst_estimate, effectivity, within ? "" : " IS OUT OF BOUNDS", at_worst);
+    if (ratios.empty())
+      fmt::print("no error above {:.0e}\n", smallest_error);
+    else
+      fmt::print("{} errors above {:.0e}: {:.2f} / {:.2f} / {:.2f} (min / median / max)\n", ratios.size(),
+                 smallest_error, ratios.front(), ratios[ratios.size() / 2], ratios.back());
+    std::fflush(stdout);
+  }
+  return good;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Effectivity of the error estimate: estimate over error"};
+  int solid_level = 1, solid_degree = 3, pin_level = 5, plane_level = 6;
+  app.add_option("--solid-level", solid_level);
+  app.add_option("--solid-degree", solid_degree);
+  app.add_option("--pin-level", pin_level);
+  app.add_option("--plane-level", plane_level);
+  CLI11_PARSE(app, argc, argv);
+  bool good = true;
+  for (const Case& c : {Case{"traditional, plane", fem::OutsideHeld{}, fem::Rung::plane, 16, {1, 2, 3}, plane_level},
+                        Case{"24 pins, plane", pins(24), fem::Rung::plane, 4, {1, 2}, pin_level},
+                        Case{"thin-walled, solid",
+                             fem::EndFaceHeld{18e-3, 10.6e-3},
+                             fem::Rung::solid,
+                             4,
+                             {1},
+                             solid_level,
+                             solid_degree}})
+    good = measure(c) && good;
+  return good ? EXIT_SUCCESS : EXIT_FAILURE;
+}
