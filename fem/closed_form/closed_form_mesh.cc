@@ -50,7 +50,7 @@ class ClosedFormRun {
       : problem_(problem),
         flanks_(problem.pair),
         supports_(ring_supports(problem.structure, problem.wheel_support_radius, problem.face_width,
-                                problem.pair.wheel().teeth(), problem.material, true)),
+                                problem.pair.wheel().teeth(), problem.material)),
         planet_(flanks_.planet(), problem.planet_bore_radius, problem.face_width, problem.material, {}, options.rim,
                 neighbours),
         wheel_(flanks_.wheel(), problem.wheel_support_radius, problem.face_width, problem.material, supports_,

@@ -20,18 +20,13 @@ struct RingSupport {
   bool unilateral = true;
 };
 
-/// The supports of a ring: pins give two each (radial, tangential), spline teeth two each (their flanks), in that
-/// order; a housing bore adds one per tooth of the ring after them. `outside_radius` and `width` in m; `mirrored`:
-/// angles change sign. Empty when the outside is held.
+/// The supports of a ring, those of the finite-element rungs (pin_sites(), spline_sites()): pins give two each (radial,
+/// tangential), spline teeth two each (their flanks), in that order; a housing bore adds one per tooth of the ring
+/// after them. Angles are those of the frame of the solve. `outside_radius` and `width` in m. Empty when the outside is
+/// held.
 ///
-/// Stiffness where the scene gives none: a pin as in the finite-element rungs, in series with its two free spans, beams
-/// whose ends shift without turning, k = 2 / (L^3 / (12 E I) + L / (kappa G A)), kappa = 6 (1 + nu) / (7 + 6 nu)
-/// (Cowper 1966); a spline flank 14 N/(mm um) times the width (magnitude of ISO 6336-1 for a tooth pair).
-///
-/// Throws InputError for structures that no set of supports describes, and when equilibrium is out of reach (fewer than
-/// two pins without a bore).
+/// Throws InputError for structures that no set of supports describes, and when equilibrium is out of reach.
 [[nodiscard]] std::vector<RingSupport> ring_supports(const RingStructure& structure, double outside_radius,
-                                                     double width, int ring_teeth, const Material& material,
-                                                     bool mirrored);
+                                                     double width, int ring_teeth, const Material& material);
 
 }  // namespace annulus::fem

@@ -78,12 +78,12 @@ ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& pl
   return contacts;
 }
 
-ContactForces solve_contacts(const FlankContact& flanks, const ToothContacts& contacts, const ClosedFormBody& wheel,
+ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothContacts& contacts, const ClosedFormBody& wheel,
                              const std::vector<RingSupport>& supports, int cycle, double load,
                              const std::vector<bool>& start) {
   const auto pairs = static_cast<Eigen::Index>(contacts.pairs.size());
   const auto held = static_cast<Eigen::Index>(supports.size());
-  ContactForces result;
+  ToothContactSolution result;
   auto& problem = result.problem;
   problem.compliance = Eigen::MatrixXd::Zero(pairs + held, pairs + held);
   problem.rigid = Eigen::MatrixXd::Zero(pairs + held, held > 0 ? 4 : 1);

@@ -40,7 +40,7 @@ struct ToothContacts {
 [[nodiscard]] int wheel_tooth(const FlankContact& flanks, int index, int cycle);
 
 /// Forces of all pairs and supports at one position.
-struct ContactForces {
+struct ToothContactSolution {
   ComplementarityProblem problem;    ///< line contacts linearised at the solution
   ComplementaritySolution solution;  ///< pairs first, then supports
   Eigen::VectorXd approach;          ///< m, of the line contacts
@@ -48,7 +48,7 @@ struct ContactForces {
 
 /// Solves one position: complementarity of pairs and supports, Newton's method for the line contacts. `supports` belong
 /// to the wheel. Throws SolverError with phase, load and residual.
-[[nodiscard]] ContactForces solve_contacts(const FlankContact& flanks, const ToothContacts& contacts,
+[[nodiscard]] ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothContacts& contacts,
                                            const ClosedFormBody& wheel, const std::vector<RingSupport>& supports,
                                            int cycle, double load, const std::vector<bool>& start);
 

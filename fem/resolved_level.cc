@@ -1,5 +1,3 @@
-#include "fem/resolved_mesh.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +6,7 @@
 #include "fem/condensation/altered_ring.h"
 #include "fem/condensation/lapack.h"
 #include "fem/contact/contact_system.h"
+#include "fem/level.h"
 
 namespace annulus::fem {
 namespace {
@@ -44,18 +43,20 @@ PatchResolution patch_resolution(const geometry::Gear& gear, bool solid, int lev
 struct Exchangeable {
   BodyPlan plan;
   PatchResolution resolution;
+  geometry::Mesh regular_mesh;
   CondensedTooth regular;
   AlteredRing ring;
 
-  static CondensedTooth condense(const BodyPlan& plan, const Material& material, const BodyResolution& resolution) {
+  static CondensedTooth condense(const BodyPlan& plan, const Material& material, const geometry::Mesh& mesh) {
     GearBodyOptions options;
     options.sector = plan.model();
-    return condense_tooth(plan.sector(resolution), plan.profile(), plan.support_radius(), material, options);
+    return condense_tooth(mesh, plan.profile(), plan.support_radius(), material, options);
   }
   Exchangeable(BodyPlan body_plan, const Material& material, bool solid, int level, int threads)
       : plan(std::move(body_plan)),
         resolution(patch_resolution(plan.profile().gear(), solid, level)),
-        regular(condense(plan, material, resolution.regular)),
+        regular_mesh(plan.sector(resolution.regular)),
+        regular(condense(plan, material, regular_mesh)),
         ring(regular.sector, plan.profile().gear().teeth(), most_pairs, threads) {}
 
   /// `centres`: arc lengths of the contacts on neighbouring teeth from `first_tooth` counter-clockwise.
@@ -67,7 +68,7 @@ struct Exchangeable {
       BodyResolution patch = resolution.regular;
       patch.section = resolving_section(gear, resolution.regular.section, centre, patch_reach * half_width,
                                         half_width / resolution.cells, resolution.growth);
-      teeth.push_back(condense(plan, material, patch));
+      teeth.push_back(condense(plan, material, plan.sector(patch)));
     }
     std::vector<const CondensedSector*> sectors;
     std::vector<GearBody> bodies;
@@ -86,16 +87,15 @@ void refuse_what_is_not_resolved(const LoadedMeshProblem& problem) {
     throw InputError("the resolved rung does not model helical gears: use the solid rung");
 }
 
-}  // namespace
-
-struct ResolvedMesh::Impl {
+/// The gears of a resolved mesh.
+struct ResolvedMesh {
   const LoadedMeshProblem& problem;
   const FlankContact& flanks;
   bool solid;
   Exchangeable planet, wheel;
   std::vector<double> slice_edges;
 
-  Impl(const LoadedMeshProblem& p, const LoadedMeshSettings& settings, const FlankContact& f, int level)
+  ResolvedMesh(const LoadedMeshProblem& p, const LoadedMeshSettings& settings, const FlankContact& f, int level)
       : problem(p),
         flanks(f),
         solid(settings.rung == Rung::resolved_solid),
@@ -106,28 +106,16 @@ struct ResolvedMesh::Impl {
     const int slices = solid ? 2 * planet.resolution.regular.face_cells : 1;
     for (int i = 0; i <= slices; ++i) slice_edges.push_back(p.face_width * i / slices);
   }
+
+  [[nodiscard]] LoadedPosition solve(double phase, double load) const;
 };
 
-ResolvedMesh::ResolvedMesh(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
-                           const FlankContact& flanks, int level) {
-  refuse_what_is_not_resolved(problem);
-  lapack::use_one_thread();
-  impl_ = std::make_unique<Impl>(problem, settings, flanks, level);
-}
-
-ResolvedMesh::~ResolvedMesh() = default;
-
-long ResolvedMesh::unknowns() const { return impl_->planet.regular.body.unknowns + impl_->wheel.regular.body.unknowns; }
-
-const std::vector<double>& ResolvedMesh::slice_edges() const { return impl_->slice_edges; }
-
 LoadedPosition ResolvedMesh::solve(double phase, double load) const {
-  const auto& [problem, flanks, solid, planet, wheel, slice_edges] = *impl_;
   const auto pairs = ContactSystem::possible_pairs(flanks, phase);
   require(static_cast<int>(pairs.size()) <= most_pairs, "more tooth pairs than the resolved rung exchanges");
   const auto& pair = problem.pair;
-  const double half_width = hertz_half_width(
-      load / problem.face_width, flanks.relative_curvature(pair.roll_length_pitch()), problem.material);
+  const double half_width = hertz_half_width(load / problem.face_width,
+                                             flanks.relative_curvature(pair.roll_length_pitch()), problem.material);
   std::vector<double> on_planet, on_wheel;
   for (const auto& [index, roll] : pairs) {
     const double centre = flanks.nearest_roll(roll), opposite = flanks.match(centre, roll).wheel_roll;
@@ -150,7 +138,30 @@ LoadedPosition ResolvedMesh::solve(double phase, double load) const {
   const ContactSystem system(flanks, planet_body, wheel_body, nullptr, problem.material, slice_edges, options);
   ContactSystem::PairsCache cache;
   ContactSystem::WarmStart warm;
-  return system.solve(0, phase, load, cache, warm);
+  return system.solve(0, phase, load, cache, warm, nullptr);
+}
+
+}  // namespace
+
+SolvedLevel solve_resolved_level(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
+                                 const FlankContact& flanks, int level, const ProgressFunction& progress) {
+  refuse_what_is_not_resolved(problem);
+  lapack::use_one_thread();
+  SolvedLevel result;
+  const Stopwatch condensing;
+  const ResolvedMesh mesh(problem, settings, flanks, level);
+  result.condense_seconds = condensing.seconds();
+  const Stopwatch solving;
+  const auto solve = [&](int, int phase, int load, ContactSystem::PairsCache&, ContactSystem::WarmStart&) {
+    return mesh.solve(static_cast<double>(phase) / problem.phases, problem.loads[load]);
+  };
+  result.positions = solve_positions(problem, settings, false, solve, progress);
+  result.contact_seconds = solving.seconds();
+  result.unknowns = mesh.planet.regular.body.unknowns + mesh.wheel.regular.body.unknowns;
+  result.slice_edges = mesh.slice_edges;
+  result.planet_sector = mesh.planet.regular_mesh;
+  result.wheel_sector = mesh.wheel.regular_mesh;
+  return result;
 }
 
 }  // namespace annulus::fem

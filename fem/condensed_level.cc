@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+
+#include "fem/level.h"
+#include "fem/mesh_bodies.h"
+
+namespace annulus::fem {
+namespace {
+
+/// A line of the solve as a curve of the real body, at the axial station with the largest stress. The ring mesh is
+/// solved in a mirror image.
+StressCurve make_curve(const char* name, std::ptrdiff_t position, const StressRecovery::Line& line, bool mirrored) {
+  StressCurve curve;
+  curve.name = name;
+  curve.position = static_cast<std::size_t>(position);
+  Eigen::Index point = 0, station = 0;
+  line.von_mises.maxCoeff(&point, &station);
+  for (std::size_t i = 0; i < line.abscissa.size(); ++i) {
+    curve.abscissa.push_back(line.abscissa[i]);
+    curve.tangential.push_back(line.tangential(static_cast<Eigen::Index>(i), station));
+    curve.von_mises.push_back(line.von_mises(static_cast<Eigen::Index>(i), station));
+  }
+  if (!mirrored) return curve;
+  const bool along_arc = curve.name != "wheel rim";
+  const double length = curve.abscissa.back();
+  for (auto& a : curve.abscissa) a = along_arc ? length - a : -a;
+  for (auto* values : {&curve.abscissa, &curve.tangential, &curve.von_mises})
+    std::reverse(values->begin(), values->end());
+  return curve;
+}
+
+/// The stress curves at the positions with the largest stresses under the middle load.
+std::vector<StressCurve> worst_curves(const LoadedMeshProblem& problem, const MeshBodies& bodies,
+                                      const ContactSystem& system, const std::vector<LoadedPosition>& positions) {
+  std::vector<StressCurve> result;
+  const std::size_t loads = problem.loads.size();
+  const auto add = [&](const char* name, double BodyStress::*value, bool wheel,
+                       StressRecovery::Line StressRecovery::Result::*line) {
+    const auto stress = [&](std::size_t i) {
+      return (wheel ? *positions[i].wheel_stress : *positions[i].planet_stress).*value;
+    };
+    std::size_t worst = loads / 2;
+    for (std::size_t i = worst; i < positions.size(); i += loads)
+      if (stress(i) > stress(worst)) worst = i;
+    if (stress(worst) == 0) return;  // no such line
+    ContactSystem::WarmStart warm;
+    ContactSystem::PairsCache cache;
+    ContactForces forces;
+    (void)system.solve(positions[worst].ring_tooth, positions[worst].mesh_phase, positions[worst].load, cache, warm,
+                       &forces);
+    const auto all = wheel ? bodies.wheel_stress->stresses(forces.wheel, forces.supports)
+                           : bodies.planet_stress->stresses(forces.planet, {});
+    result.push_back(make_curve(name, static_cast<std::ptrdiff_t>(worst), all.*line, problem.pair.internal()));
+  };
+  add("planet root", &BodyStress::root_von_mises, false, &StressRecovery::Result::root);
+  add("wheel root", &BodyStress::root_von_mises, true, &StressRecovery::Result::root);
+  add("wheel rim", &BodyStress::rim_von_mises, true, &StressRecovery::Result::rim);
+  return result;
+}
+
+}  // namespace
+
+SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
+                                  const FlankContact& flanks, int level, const ProgressFunction& progress) {
+  MeshBodies bodies = build_bodies(problem, flanks, settings, level);
+  const Stopwatch watch;
+  const double elements = settings.rung == Rung::solid ? 6 : 10;  // in a solid, every slice has as many
+  ContactOptions options;
+  options.elements = static_cast<int>(std::lround(elements * std::pow(1.25, level - 1)));
+  options.misalignment = problem.misalignment;
+  const ContactSystem system(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.material,
+                             bodies.slice_edges, options);
+  const auto solve = [&](int cycle, int phase, int load, ContactSystem::PairsCache& cache,
+                         ContactSystem::WarmStart& warm) {
+    ContactForces forces;
+    LoadedPosition position =
+        system.solve(cycle, static_cast<double>(phase) / problem.phases, problem.loads[load], cache, warm, &forces);
+    position.planet_stress = bodies.planet_stress->stresses(forces.planet, {}).largest;
+    position.wheel_stress = bodies.wheel_stress->stresses(forces.wheel, forces.supports).largest;
+    return position;
+  };
+  SolvedLevel result;
+  const bool one_cycle = repeating_teeth(problem.structure, problem.pair.wheel().teeth()) == 1;
+  result.positions = solve_positions(problem, settings, one_cycle, solve, progress);
+  result.stress_curves = worst_curves(problem, bodies, system, result.positions);
+  result.planet_sector = std::move(bodies.planet_sector);
+  result.wheel_sector = std::move(bodies.wheel_sector);
+  result.unknowns = bodies.unknowns;
+  if (bodies.supports) {
+    const auto& sites = bodies.supports->plan().sites();
+    result.pin_stiffness = sites.sites.front().directions.front().total_stiffness();
+    // The frame of the solve is the mirror image of the real ring.
+    for (int pin = 0; pin < sites.pins; ++pin) result.pin_angles.push_back(-sites.sites[pin].angle);
+  }
+  result.slice_edges = bodies.slice_edges;
+  result.mesh_seconds = bodies.mesh_seconds;
+  result.condense_seconds = bodies.condense_seconds;
+  result.contact_seconds = watch.seconds();
+  return result;
+}
+
+}  // namespace annulus::fem

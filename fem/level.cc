@@ -1,0 +1,54 @@
+#include "fem/level.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace annulus::fem {
+
+std::vector<LoadedPosition> solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
+                                            bool chained, const SolvePosition& solve,
+                                            const ProgressFunction& progress) {
+  const int loads = static_cast<int>(problem.loads.size()), phases = problem.phases;
+  const int cycles = repeating_teeth(problem.structure, problem.pair.wheel().teeth());
+  std::vector<LoadedPosition> positions(static_cast<std::size_t>(cycles * phases + 1) * loads);
+  // Chained: one task per load, neighbouring phases warm-start each other. Otherwise one task per load and phase, in
+  // which the pins move on from cycle to cycle.
+  const int tasks = chained ? loads : loads * (phases + 1);
+  std::atomic<int> next{0}, done{0};
+  std::mutex lock;
+  std::exception_ptr failure;
+  const auto worker = [&] {
+    for (int task = next++; task < tasks; task = next++) try {
+        const int load = task % loads;
+        const int first_phase = chained ? 0 : task / loads, last_phase = chained ? phases : first_phase;
+        ContactSystem::PairsCache cache;
+        ContactSystem::WarmStart warm;
+        for (int phase = first_phase; phase <= last_phase; ++phase)
+          for (int cycle = phase == phases ? cycles - 1 : 0; cycle < cycles; ++cycle) {
+            auto& position = positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load];
+            position = solve(cycle, phase, load, cache, warm);
+            if (load != loads / 2) position.pressure.clear();
+          }
+        ++done;
+        if (progress) {
+          const std::lock_guard guard(lock);
+          progress(static_cast<double>(done) / tasks);
+        }
+      } catch (...) {
+        const std::lock_guard guard(lock);
+        if (!failure) failure = std::current_exception();
+        next = tasks;
+      }
+  };
+  std::vector<std::thread> pool;
+  for (int t = 1; t < std::min(settings.threads, tasks); ++t) pool.emplace_back(worker);
+  worker();
+  for (auto& t : pool) t.join();
+  if (failure) std::rethrow_exception(failure);
+  return positions;
+}
+
+}  // namespace annulus::fem
