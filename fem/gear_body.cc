@@ -1,7 +1,6 @@
 #include "fem/gear_body.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 
 #include "core/errors.h"
@@ -9,8 +8,8 @@
 namespace annulus::fem {
 namespace {
 
-/// Appends the stresses of a surface to what is observed. At most about `most` elements along the line are told apart:
-/// every so many nodes, and the last one.
+/// Appends the stresses of a surface to what is observed, at no more than about `most` points along the line: every so
+/// many nodes, and the last one.
 StressLine observe(const StressSurface& surface, const SectorModel& model, int most, SectorLoads& loads) {
   StressLine line;
   const auto& trace = surface.trace;
@@ -18,7 +17,7 @@ StressLine observe(const StressSurface& surface, const SectorModel& model, int m
   line.first_load = loads.columns();
   line.axial_stations = static_cast<int>(trace.axial.size());
   line.components = model.dimension == 3 ? 3 : 1;
-  const int nodes = static_cast<int>(trace.profile.size()), step = std::max(1, (nodes - 1) / most);
+  const int nodes = static_cast<int>(trace.profile.size()), step = (nodes - 1 + most - 1) / most;
   double arc = 0;
   for (int u = 0; u < nodes; ++u) {
     const auto at = [&](int station) { return model.nodes[trace.nodes[station * line.axial_stations]]; };

@@ -74,10 +74,10 @@ BOOST_AUTO_TEST_CASE(stresses_settle_under_refinement_and_balance_round_the_cycl
   double rim_first = 0, rim_second = 0;
   for (std::size_t i = 0; i < fine.positions.size(); ++i) {
     const auto &a = coarse.positions[i], &b = middle.positions[i], &c = fine.positions[i];
-    first = std::max({first, worst(*a.planet_stress, *c.planet_stress, false),
-                      worst(*a.wheel_stress, *c.wheel_stress, false)});
-    second = std::max({second, worst(*b.planet_stress, *c.planet_stress, false),
-                       worst(*b.wheel_stress, *c.wheel_stress, false)});
+    first = std::max(
+        {first, worst(*a.planet_stress, *c.planet_stress, false), worst(*a.wheel_stress, *c.wheel_stress, false)});
+    second = std::max(
+        {second, worst(*b.planet_stress, *c.planet_stress, false), worst(*b.wheel_stress, *c.wheel_stress, false)});
     rim_first = std::max(rim_first, worst(*a.wheel_stress, *c.wheel_stress, true));
     rim_second = std::max(rim_second, worst(*b.wheel_stress, *c.wheel_stress, true));
     BOOST_TEST(c.wheel_stress->root_von_mises > 0);

@@ -74,6 +74,20 @@ BOOST_AUTO_TEST_CASE(a_ring_on_soft_pins_moves_like_a_rigid_body_on_springs) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(pins_with_a_free_span_are_softer_pins) {
+  auto pins = paper_pins(18, 0.01);
+  const auto tight = solve_plane(ring_mesh(pins, 2));
+  pins.free_span = 8e-3;
+  const auto spanned = solve_plane(ring_mesh(pins, 2));
+  BOOST_TEST(spanned.pin_stiffness < tight.pin_stiffness);
+  for (std::size_t i = 0; i < tight.positions.size(); ++i)
+    BOOST_TEST(spanned.positions[i].entry.lte > tight.positions[i].entry.lte);
+  pins.free_span = 0;
+  pins.radial_stiffness = spanned.pin_stiffness;
+  const auto given = solve_plane(ring_mesh(pins, 2));
+  BOOST_TEST(largest_lte_difference(given, spanned) < 1e-9);  // the same equations
+}
+
 BOOST_AUTO_TEST_CASE(one_pin_turns_the_ring_and_the_housing_holds_it) {
   auto pin = paper_pins(1, 0.4);
   pin.housing_clearance = 20e-6;
