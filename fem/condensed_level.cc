@@ -73,8 +73,10 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   const auto solve = [&](int cycle, int phase, int load, ContactSystem::PairsCache& cache,
                          ContactSystem::WarmStart& warm) {
     ContactForces forces;
-    LoadedPosition position =
-        system.solve(cycle, static_cast<double>(phase) / problem.phases, problem.loads[load], cache, warm, &forces);
+    const bool nominal = load == static_cast<int>(problem.loads.size() / 2);
+    LoadedPosition position = system.solve(cycle, static_cast<double>(phase) / problem.phases, problem.loads[load],
+                                           cache, warm, nominal ? &forces : nullptr);
+    if (!nominal) return position;
     position.planet_stress = bodies.planet_stress->stresses(forces.planet, {}).largest;
     position.wheel_stress = bodies.wheel_stress->stresses(forces.wheel, forces.supports).largest;
     return position;

@@ -78,8 +78,8 @@ struct LoadedPosition {
   std::vector<double> line_load;        ///< N/m, of all pairs together, per slice of the face width from low to high z
   double face_load_factor = 1;          ///< K_H_beta (ISO 6336-1): largest over mean line load
   std::vector<PressurePatch> pressure;  ///< touching pieces, at the middle load of the table only
-  std::optional<BodyStress> planet_stress{}, wheel_stress{};
-  double force_balance_relative = 0;   ///< |sum of force x lever arm - torque| / torque
+  std::optional<BodyStress> planet_stress{}, wheel_stress{};  ///< at the middle load of the table only
+  double force_balance_relative = 0;                          ///< |sum of force x lever arm - torque| / torque
   double energy_balance_relative = 0;  ///< |work of the load - 2 x strain energy - work against the gaps| / work
   double reciprocity_relative = 0;     ///< asymmetry of the compliance between tooth pairs, formed both ways
   double max_penetration = 0;          ///< m

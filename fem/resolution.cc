@@ -73,13 +73,22 @@ geometry::SectorResolution resolving_section(const geometry::Gear& gear, const g
   const geometry::ToothProfile profile(gear);
   const auto arc = [&](double roll) { return roll * roll / (2 * gear.base_radius()); };
   const double form = arc(profile.roll_length_form()), tip = arc(profile.roll_length_tip());
-  const double length = std::abs(tip - form), place = std::clamp(std::abs(centre - form), 0.0, length);
+  const double length = std::abs(tip - form);
+  double place = std::clamp(std::abs(centre - form), 0.0, length);
+  // A centre next to an end of the flank is that end.
+  if (place < cell / 4) place = 0;
+  if (length - place < cell / 4) place = length;
+  double largest = 1.0 / regular.flank_cells;
+  if (const auto& f = regular.flank_fractions; !f.empty()) {
+    largest = 0;
+    for (std::size_t i = 1; i < f.size(); ++i) largest = std::max(largest, f[i] - f[i - 1]);
+  }
   // Cells from the centre towards one end, stretched to end there.
   const auto outwards = [&](double room) {
     std::vector<double> edges;
     double at = 0, size = cell;
     while (at < room) {
-      if (at > reach) size *= growth;
+      if (at > reach) size = std::min(size * growth, std::max(cell, largest * length));
       edges.push_back(at += size);
     }
     if (edges.size() > 1 && edges.back() - room > size / 2) edges.pop_back();
@@ -91,7 +100,6 @@ geometry::SectorResolution resolving_section(const geometry::Gear& gear, const g
   s.flank_fractions.clear();
   auto down = outwards(place);
   for (auto edge = down.rbegin(); edge != down.rend(); ++edge) s.flank_fractions.push_back((place - *edge) / length);
-  // A centre at an end of the flank is that end.
   s.flank_fractions.push_back(place / length);
   for (const double edge : outwards(length - place)) s.flank_fractions.push_back((place + edge) / length);
   s.flank_fractions.front() = 0;
