@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what annulus needs to be built and tested on Debian 12 (calculix-ccx: a benchmark's peer, tests only). As root or with sudo; quick when all is there.
+# Installs what annulus needs to be built and tested on Debian 12. As root or with sudo; quick when all is there.
 set -euo pipefail
 
 packages=(
@@ -8,7 +8,7 @@ packages=(
   libboost-dev libboost-test-dev
   libopenblas-dev libopenblas0-pthread
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
-  calculix-ccx
+  calculix-ccx  # tests only: what a benchmark compares with
 )
 
 missing=()

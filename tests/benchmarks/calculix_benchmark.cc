@@ -27,7 +27,7 @@ constexpr double accuracy = 0.01;  // largest difference of the transmission err
 
 struct Options {
   std::vector<int> levels{1};
-  std::vector<int> phases{0, 6};  ///< of `cycle`
+  std::vector<int> phases{0, 8};  ///< of `cycle`
   int cycle = 16;                 ///< positions of a whole mesh cycle
   int neighbours = 6;             ///< teeth beside those that may touch, either way
   double contact_stiffness = 2e16;

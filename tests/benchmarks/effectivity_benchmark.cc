@@ -50,19 +50,22 @@ fem::LoadedMeshResult solve(const Case& c, int level, int degree) {
   return solve_loaded_mesh(problem, settings);
 }
 
-/// Whether the worst entry of every level is estimated well enough.
+/// Whether the largest estimate is of the size of the largest error, and the estimate of that entry as well.
 bool measure(const Case& c) {
   const benchmarks::Stopwatch watch;
   const auto reference = solve(c, c.reference_level, c.reference_degree);
-  fmt::print("{}, {} entries, reference: level {} of degree {} (estimates its own error at {:.1e}), {:.1f} s\n", c.name,
-             reference.table.phases() * reference.table.positions(), c.reference_level, c.reference_degree,
-             reference.worst_error_relative, watch.wall());
+  const auto entries = static_cast<std::size_t>(reference.table.phases() * reference.table.positions());
+  fmt::print(
+      "{}, {} entries, reference: level {} of degree {} (estimates its own error at {:.1e}), {:.1f} s, "
+      "{:.1f} s of processor time\n",
+      c.name, entries, c.reference_level, c.reference_degree, reference.worst_error_relative, watch.wall(),
+      watch.cpu());
   bool good = true;
   for (const int level : c.levels) {
     const auto result = solve(c, level, 2);
     double worst_error = 0, worst_estimate = 0, at_worst = 0;
     std::vector<double> ratios;
-    for (std::size_t i = 0; i < result.positions.size(); ++i) {
+    for (std::size_t i = 0; i < entries; ++i) {
       const auto& entry = result.positions[i].entry;
       const double error = std::abs(entry.stiffness_secant / reference.positions[i].entry.stiffness_secant - 1);
       worst_estimate = std::max(worst_estimate, entry.error_relative);
@@ -71,12 +74,12 @@ bool measure(const Case& c) {
     }
     std::sort(ratios.begin(), ratios.end());
     const double effectivity = worst_estimate / worst_error;
-    const bool within = effectivity >= least_effectivity && effectivity <= largest_effectivity;
+    const bool within =
+        std::min(effectivity, at_worst) >= least_effectivity && std::max(effectivity, at_worst) <= largest_effectivity;
     good = good && within;
     fmt::print(
-        "  level {}: worst error {:.2e}, worst estimate {:.2e}, effectivity {:.2f}{}; where the error is largest "
-        "{:.2f}; ",
-        level, worst_error, worst_estimate, effectivity, within ? "" : " IS OUT OF BOUNDS", at_worst);
+        "  level {}: worst error {:.2e}, worst estimate {:.2e}, effectivity {:.2f}, at the worst error {:.2f}{}; ",
+        level, worst_error, worst_estimate, effectivity, at_worst, within ? "" : " OUT OF BOUNDS");
     if (ratios.empty())
       fmt::print("no error above {:.0e}\n", smallest_error);
     else
@@ -91,22 +94,15 @@ bool measure(const Case& c) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Effectivity of the error estimate: estimate over error"};
-  int solid_level = 1, solid_degree = 3, pin_level = 5, plane_level = 6;
-  app.add_option("--solid-level", solid_level);
-  app.add_option("--solid-degree", solid_degree);
-  app.add_option("--pin-level", pin_level);
-  app.add_option("--plane-level", plane_level);
+  bool finer = false;
+  app.add_flag("--finer", finer, "finer references and more positions: a quarter of an hour");
   CLI11_PARSE(app, argc, argv);
+  // The levels the program uses: the plane starts at the second.
+  const Case traditional{"traditional, plane", fem::OutsideHeld{}, fem::Rung::plane, 16, {2, 3}, finer ? 7 : 5, 2};
+  const Case pinned{"24 pins, plane", pins(24), fem::Rung::plane, finer ? 16 : 4, {2}, finer ? 5 : 4, 2};
+  const Case thin_walled{
+      "thin-walled, solid", fem::EndFaceHeld{18e-3, 10.6e-3}, fem::Rung::solid, 4, {1}, finer ? 2 : 1, 3};
   bool good = true;
-  for (const Case& c : {Case{"traditional, plane", fem::OutsideHeld{}, fem::Rung::plane, 16, {1, 2, 3}, plane_level},
-                        Case{"24 pins, plane", pins(24), fem::Rung::plane, 4, {1, 2}, pin_level},
-                        Case{"thin-walled, solid",
-                             fem::EndFaceHeld{18e-3, 10.6e-3},
-                             fem::Rung::solid,
-                             4,
-                             {1},
-                             solid_level,
-                             solid_degree}})
-    good = measure(c) && good;
+  for (const Case& c : {traditional, pinned, thin_walled}) good = measure(c) && good;
   return good ? EXIT_SUCCESS : EXIT_FAILURE;
 }
