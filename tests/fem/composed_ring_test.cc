@@ -73,10 +73,10 @@ ComposedRing composed_ring(double height, int radial_cells, int angular_cells) {
     ring.weights[static_cast<Eigen::Index>(i)] = simpson * (1 - x * x);
   }
   ring.weights /= ring.weights.sum();
-  std::vector<Port> ports;
+  annulus::fem::SectorLoads loads;
   for (const Eigen::Vector3d& direction : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)})
-    for (const int n : line) ports.push_back({n, direction});
-  ring.compliance = compose_ring(condense(model, ports, true), sectors, sectors / 2, true, 1);
+    for (const int n : line) loads.ports.push_back({n, direction});
+  ring.compliance = compose_ring(condense(model, loads, true), sectors, {sectors / 2, true}, true, 1);
   return ring;
 }
 
