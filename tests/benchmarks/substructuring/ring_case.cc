@@ -153,16 +153,16 @@ RingCompliance composed(const RingCase& ring, int threads) {
   const Sector sector = make_sector(ring);
   result.discretise_seconds = watch.wall();
   watch = {};
-  const auto condensed = condense(sector.model, sector.ports, false);
+  const auto condensed = condense(sector.model, fem::SectorLoads{sector.ports, {}, {}}, false);
   result.condense_seconds = watch.wall();
   watch = {};
   constexpr int neighbours = 6;  // as the program wants them
-  const auto near = compose_ring(condensed, ring.teeth, neighbours, false, threads);
+  const auto near = compose_ring(condensed, ring.teeth, {neighbours, false}, false, threads);
   result.compose_seconds = watch.wall();
   result.cpu_seconds = whole.cpu();
   result.unknowns = sector.model.stiffness.rows();
   const bool compared = !ring.level;
-  const auto all = compared ? compose_ring(condensed, ring.teeth, ring.teeth / 2, false, threads) : near;
+  const auto all = compared ? compose_ring(condensed, ring.teeth, {ring.teeth / 2, true}, false, threads) : near;
   for (const int offset : compared_offsets(ring.teeth))
     if (offset <= all.max_offset()) result.blocks.push_back(every(all.block(offset), stride(sector)));
   return result;
