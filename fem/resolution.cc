@@ -64,7 +64,8 @@ BodyResolution plane_resolution(const geometry::Gear& gear, int level) {
   const double by_curvature = 1.6 * radius / longest;  // a quarter turn
   s.fillet_cells = 2 * static_cast<int>(std::ceil(std::max(3 * refine, by_curvature / 2)));
   s.root_cells = std::max(1, static_cast<int>(std::lround(2 * refine)));
-  s.rim_cells = std::max(2, static_cast<int>(std::lround(6 * refine)));
+  // They grow from the fillets on: fewer would start too thick for the stress in the root.
+  s.rim_cells = std::max(4, static_cast<int>(std::lround(10 * refine)));
   return r;
 }
 
