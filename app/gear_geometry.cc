@@ -8,7 +8,8 @@ namespace annulus::app {
 
 namespace {
 
-geometry::Gear make_gear(const Scene& scene, const GearInput& input, geometry::GearKind kind) {
+/// `hand`: 1 for the hand of the planets, -1 for the other.
+geometry::Gear make_gear(const Scene& scene, const GearInput& input, geometry::GearKind kind, int hand = 1) {
   return geometry::Gear({.kind = kind,
                          .teeth = input.teeth,
                          .module = scene.stage.module,
@@ -22,7 +23,8 @@ geometry::Gear make_gear(const Scene& scene, const GearInput& input, geometry::G
                          .tip_relief_length = input.tip_relief_length,
                          .profile_crowning = input.profile_crowning,
                          .lead_crowning = input.lead_crowning,
-                         .lead_slope = input.lead_slope});
+                         .lead_slope = input.lead_slope,
+                         .helix_angle = hand * scene.stage.helix_angle});
 }
 
 template <class Make>
@@ -57,7 +59,7 @@ double outside_radius(const Scene& scene, const RingInput& ring) {
 
 GearGeometry make_geometry(const Scene& scene) {
   using geometry::GearKind;
-  const auto sun = named("sun", [&] { return make_gear(scene, scene.sun, GearKind::external); });
+  const auto sun = named("sun", [&] { return make_gear(scene, scene.sun, GearKind::external, -1); });
   const auto planet = named("planet", [&] { return make_gear(scene, scene.planet, GearKind::external); });
   GearGeometry result;
   for (const auto& input : scene.rings) {

@@ -175,7 +175,7 @@ void add_gear(ContentId& id, const std::string& name, const geometry::Gear& gear
   id.add(name + ".profile_shift", p.profile_shift).add(name + ".tip_radius", gear.tip_radius());
   id.add(name + ".root_radius", gear.root_radius()).add(name + ".root_fillet", p.root_fillet_factor);
   id.add(name + ".tip_relief", p.tip_relief).add(name + ".tip_relief_length", p.tip_relief_length);
-  id.add(name + ".profile_crowning", p.profile_crowning);
+  id.add(name + ".profile_crowning", p.profile_crowning).add(name + ".helix_angle", p.helix_angle);
   id.add(name + ".lead_crowning", p.lead_crowning).add(name + ".lead_slope", p.lead_slope);
 }
 

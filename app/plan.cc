@@ -127,6 +127,11 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
     }
     for (const auto& ring : scene.rings) add_single_pin(list, ring);
   }
+  if (scene.dynamics && scene.stage.helix_angle != 0)
+    list.emplace_back(
+        "The lumped model is plane: it has the transverse forces of helical teeth, their axial forces and tilting "
+        "moments "
+        "are left out.");
   if (scene.dynamics) {
     const double half = geometry.rings.front().set.ring_mesh().normal_backlash() / 2;
     if (scene.dynamics->half_backlash > half + 1 * units::um) {

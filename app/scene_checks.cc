@@ -264,6 +264,23 @@ class Checker {
 
   /// Models in which nothing changes along the face width are refused where something does.
   void rung() {
+    if (scene_.rung == Rung::resolved && scene_.ring_planet.stiffness == StiffnessShape::computed)
+      for (const auto& ring : scene_.rings)
+        if (ring.structure != Structure::traditional && ring.structure != Structure::thin_walled)
+          problem(
+              "rung", "",
+              fmt::format("cannot represent the ring-planet mesh of '{}': the resolved rung does not model rings on "
+                          "pins, bolts or splines; use \"automatic\"",
+                          ring.name));
+    if (scene_.rung == Rung::resolved && scene_.stage.helix_angle != 0)
+      problem("rung", "", "cannot represent helical gears: use \"automatic\" or \"solid\"");
+    if (scene_.stage.helix_angle != 0 && scene_.ring_planet.stiffness == StiffnessShape::computed)
+      for (const auto& ring : scene_.rings)
+        if (ring.structure != Structure::traditional && ring.structure != Structure::thin_walled)
+          problem("stage.helix_angle_deg", "",
+                  fmt::format("is not modelled for the ring '{}' on pins, bolts or splines: nothing there takes the "
+                              "axial force",
+                              ring.name));
     if (scene_.rung != Rung::plane && scene_.rung != Rung::closed_form) return;
     const auto refuse = [&](const std::string& mesh, const std::string& why) {
       if (why.empty()) return;

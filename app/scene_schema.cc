@@ -127,10 +127,12 @@ std::vector<Table> declare_tables() {
       .from(10, 35);
   stage
       .key("helix_angle_deg", &StageInput::helix_angle,
-           "Helix angle at the reference circle; positive: planets and ring right-handed, the sun left-handed.")
+           "Helix angle at the reference circle; positive: planets and ring right-handed, the sun left-handed. The "
+           "module, "
+           "pressure angle and profile shifts are then those of the normal section; forces and transmission errors "
+           "those of the transverse one.")
       .fallback(0.0, "spur gears")
-      .from(-45, 45)
-      .unavailable("helical gears are not yet meshed");
+      .from(-45, 45);
   stage.key("face_width_mm", &StageInput::face_width, "Common face width.").required().above(0, 5000);
   stage.key("centre_distance_mm", &StageInput::centre_distance, "Working centre distance of sun and planet.")
       .required()

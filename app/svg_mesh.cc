@@ -197,6 +197,7 @@ std::optional<Boundary> held_boundary(const fem::LoadedMeshProblem& problem) {
   if (!problem.pair.internal()) return std::nullopt;
   if (std::holds_alternative<fem::OutsideHeld>(problem.structure)) return Boundary::support;
   if (std::holds_alternative<fem::EndFaceHeld>(problem.structure)) return Boundary::end_low;
+  if (std::holds_alternative<fem::FlangeHeld>(problem.structure)) return Boundary::flange_face;
   return std::nullopt;
 }
 
