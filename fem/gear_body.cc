@@ -78,11 +78,13 @@ CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry:
 
   SectorLoads loads;
   const double side = options.sector.flank == geometry::Boundary::trailing_flank ? -1 : 1;
-  for (std::size_t i = 0; i < model.flank.nodes.size(); ++i) {
-    loads.ports.push_back(
-        {model.flank.nodes[i], -flank_normal(profile, model.flank.profile[i / model.flank.axial.size()], side,
-                                             model.flank.axial[i % model.flank.axial.size()])});
-    body.port_points.push_back(model.nodes[model.flank.nodes[i]]);
+  for (const int node : model.flank.nodes) {
+    // At the node's own place, not at the coordinates of its row: only there has the normal the base circle's lever
+    // arm.
+    const auto& point = model.nodes[node];
+    const double roll = profile.roll_length_at(std::hypot(point.x(), point.y()));
+    loads.ports.push_back({node, -flank_normal(profile, roll, side, point.z())});
+    body.port_points.push_back(point);
   }
   for (const auto& arc : options.arcs) {
     loads.acting.push_back(on_outside(arc, model.outside));

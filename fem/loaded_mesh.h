@@ -80,9 +80,10 @@ struct LoadedPosition {
   std::vector<PressurePatch> pressure;  ///< touching pieces, at the middle load of the table only
   std::optional<BodyStress> planet_stress{}, wheel_stress{};  ///< at the middle load of the table only
   double force_balance_relative = 0;                          ///< |sum of force x lever arm - torque| / torque
-  double energy_balance_relative = 0;  ///< |work of the load - 2 x strain energy - work against the gaps| / work
-  double reciprocity_relative = 0;     ///< asymmetry of the compliance between tooth pairs, formed both ways
-  double max_penetration = 0;          ///< m
+  /// |work - 2 x strain energy - work against the gaps| / the larger of work and energy
+  double energy_balance_relative = 0;
+  double reciprocity_relative = 0;  ///< asymmetry of the compliance between tooth pairs, formed both ways
+  double max_penetration = 0;       ///< m
 };
 
 /// Surface stress along a line, for pictures.

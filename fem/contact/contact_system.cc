@@ -390,7 +390,8 @@ LoadedPosition ContactSystem::evaluate(const Pairs& setup, const Complementarity
   result.force_balance_relative = std::abs(moment - torque) / torque;
   const double stored = solution.force.dot(problem.compliance * solution.force);
   const double against_gaps = solution.force.dot(problem.gap), work = load * result.entry.lte;
-  result.energy_balance_relative = std::abs(work - stored - against_gaps) / work;
+  // A crooked lead can make the transmission error, and with it the work, nothing or negative; the energy is neither.
+  result.energy_balance_relative = std::abs(work - stored - against_gaps) / std::max(std::abs(work), stored);
   result.max_penetration = std::max(0.0, -solution.gap.minCoeff());
   if (supports_ != nullptr) supports_->fill_states(solution.force.tail(supports_->size()), result);
   return result;
