@@ -78,10 +78,11 @@ struct LoadedPosition {
   double face_load_factor = 1;          ///< K_H_beta (ISO 6336-1): largest over mean line load
   std::vector<PressurePatch> pressure;  ///< touching pieces, at the middle load of the table only
   std::optional<BodyStress> planet_stress{}, wheel_stress{};
-  double force_balance_relative = 0;   ///< |sum of force x lever arm - torque| / torque
-  double energy_balance_relative = 0;  ///< |work - 2 x strain energy - work against the gaps| / the larger of work and energy
-  double reciprocity_relative = 0;     ///< asymmetry of the compliance between tooth pairs, formed both ways
-  double max_penetration = 0;          ///< m
+  double force_balance_relative = 0;  ///< |sum of force x lever arm - torque| / torque
+  double energy_balance_relative =
+      0;  ///< |work - 2 x strain energy - work against the gaps| / the larger of work and energy
+  double reciprocity_relative = 0;  ///< asymmetry of the compliance between tooth pairs, formed both ways
+  double max_penetration = 0;       ///< m
 };
 
 /// Surface stress along a line, for pictures.
