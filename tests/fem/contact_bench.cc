@@ -24,6 +24,15 @@ ContactBench::ContactBench(const fem::LoadedMeshProblem& problem, int level, fem
 
 void ContactBench::misalign(double misalignment) {
   options_.misalignment = misalignment;
+  rebuild();
+}
+
+void ContactBench::set_elements(int elements) {
+  options_.elements = elements;
+  rebuild();
+}
+
+void ContactBench::rebuild() {
   system_ = std::make_unique<fem::ContactSystem>(flanks_, *bodies_.planet, *bodies_.wheel, bodies_.supports.get(),
                                                  problem_.material, bodies_.slice_edges, options_);
   pairs_.reset();

@@ -14,6 +14,8 @@ class ContactBench {
 
   /// Another misalignment of the same bodies, m.
   void misalign(double misalignment);
+  /// Another number of pressure elements to either side of the centre of a pair.
+  void set_elements(int elements);
   /// Position in mesh cycles; started from the position solved before.
   fem::LoadedPosition solve(double phase, double load);
   /// `steps` equal steps from phase 0 to 1, both included.
@@ -24,6 +26,8 @@ class ContactBench {
   [[nodiscard]] double face_width() const { return problem_.face_width; }
 
  private:
+  void rebuild();
+
   fem::LoadedMeshProblem problem_;
   fem::FlankContact flanks_;
   fem::MeshBodies bodies_;

@@ -28,15 +28,14 @@ struct Flank {
   [[nodiscard]] double cell() const { return length() / trace().elements(); }
 };
 
-/// Calls f(flank) for the gears of both meshes, in the plane and as solids.
+/// Calls f(flank) for the gears of both meshes in the plane, and of the sun mesh as solids.
 template <typename F>
 void on_every_flank(const F& f) {
   static const auto benches = [] {
     std::vector<std::unique_ptr<ContactBench>> all;
-    for (const auto rung : {annulus::fem::Rung::plane, annulus::fem::Rung::solid}) {
-      all.push_back(std::make_unique<ContactBench>(ring_mesh(annulus::fem::OutsideHeld{}, 2), 0, rung));
-      all.push_back(std::make_unique<ContactBench>(sun_mesh(2), 0, rung));
-    }
+    all.push_back(std::make_unique<ContactBench>(ring_mesh(annulus::fem::OutsideHeld{}, 2), 0));
+    all.push_back(std::make_unique<ContactBench>(sun_mesh(2), 0));
+    all.push_back(std::make_unique<ContactBench>(sun_mesh(2), 0, annulus::fem::Rung::solid));
     return all;
   }();
   for (const auto& bench : benches) {

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "contact_bench.h"
@@ -100,6 +102,61 @@ BOOST_AUTO_TEST_CASE(a_hardly_helical_pair_is_a_spur_pair) {
     BOOST_TEST(worst < angle);
     if (before > 0) BOOST_TEST(worst < 0.15 * before);
     before = worst;
+  }
+}
+
+BOOST_AUTO_TEST_CASE(every_slice_presses_as_hertz_says_along_the_oblique_line_of_contact) {
+  // Per length of the contact line the normal force is (F / cos) / (b / cos) = F / b; the curvature across the line is
+  // that of the transverse section times cos(beta_b). A slice without regard to the slant would be 14 % off at 30
+  // degrees. As many elements as at level 3 of the plane leave 0.3 %, 1 % where a slice carries a third of the mean.
+  for (const double angle : {0.0, 30 * degree}) {
+    ContactBench bench(helical_sun_mesh(angle), 0, annulus::fem::Rung::solid);
+    bench.set_elements(12);
+    const auto& pair = bench.flanks().pair();
+    const double slant = std::cos(pair.planet().base_helix_angle()), base = pair.planet().base_radius();
+    const double load = 1e-2 * nominal_load, mean = load / bench.face_width();
+    const auto arc = [&](double roll) { return roll * roll / (2 * base); };
+    struct Slice {
+      double force = 0, first = 0, second = 0, peak = 0;
+    };
+    double peak_sum = 0, width_sum = 0, worst_peak = 0, worst_width = 0;
+    int compared = 0;
+    for (const double phase : {0.0, 0.25, 0.5, 0.75}) {
+      const auto position = bench.solve(phase, load);
+      std::map<std::pair<int, double>, Slice> slices;  // by pair and middle
+      for (const auto& patch : position.pressure) {
+        Slice& slice = slices[{patch.pair, (patch.z_low + patch.z_high) / 2}];
+        const double low = arc(patch.roll_low), high = arc(patch.roll_high), f = patch.pressure * (high - low);
+        slice.force += f;
+        slice.first += f * (low + high) / 2;
+        slice.second += f * (low * low + low * high + high * high) / 3;
+        slice.peak = std::max(slice.peak, patch.pressure);
+      }
+      for (const auto& [key, slice] : slices) {
+        const double ahead = bench.flanks().planet().twist() * base * (key.second - bench.face_width() / 2);
+        const double roll = position.pair_roll[key.first] + ahead, at = arc(roll);
+        const double b =
+            annulus::fem::hertz_half_width(slice.force, slant * bench.flanks().relative_curvature(roll), {});
+        const double room = std::min(at - arc(pair.roll_length_low()), arc(pair.roll_length_high()) - at);
+        if (room < 3 * b || slice.force < 0.3 * mean) continue;  // tip edges, and slices with few elements
+        const double centre = slice.first / slice.force;
+        const double width = 2 * std::sqrt(slice.second / slice.force - centre * centre) / b - 1;
+        const double peak = slice.peak / (2 * slice.force / (M_PI * b)) - 1;
+        peak_sum += peak;
+        width_sum += width;
+        worst_peak = std::max(worst_peak, std::abs(peak));
+        worst_width = std::max(worst_width, std::abs(width));
+        ++compared;
+      }
+    }
+    BOOST_TEST_MESSAGE("helix " << angle / degree << " degrees, " << compared << " slices: peak " << peak_sum / compared
+                                << " in the mean, " << worst_peak << " at worst; half-width " << width_sum / compared
+                                << ", " << worst_width);
+    BOOST_TEST(compared > 30);
+    BOOST_TEST(std::abs(peak_sum / compared) < 0.003);
+    BOOST_TEST(std::abs(width_sum / compared) < 0.004);
+    BOOST_TEST(worst_peak < 0.01);
+    BOOST_TEST(worst_width < 0.015);
   }
 }
 
