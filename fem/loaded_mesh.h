@@ -42,7 +42,7 @@ struct LoadedMeshSettings {
 
 /// State of one pin (or spline tooth) at one position.
 struct PinState {
-  bool touching = false;
+  bool touching = false;        ///< always, when held both ways
   double radial_force = 0;      ///< N, positive presses the pin outwards
   double tangential_force = 0;  ///< N, counter-clockwise on the pin
 };

@@ -171,7 +171,10 @@ void ClosedFormRun::add_supports(const Eigen::VectorXd& force, LoadedPosition& p
       state.radial_force += f * supports_[i].inwards;
       state.tangential_force += f * supports_[i].tangential;
     }
-    state.touching = state.radial_force > 0;
+    // A bolt never parts; of a pin the radial direction tells, of a spline tooth either flank.
+    for (const std::size_t i : {2 * q, 2 * q + 1})
+      if (supports_[i].unilateral ? force[static_cast<Eigen::Index>(i)] > 0 : supports_[i].inwards == 1)
+        state.touching = true;
     position.pins.push_back(state);
   }
 }

@@ -78,9 +78,9 @@ ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& pl
   return contacts;
 }
 
-ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothContacts& contacts, const ClosedFormBody& wheel,
-                             const std::vector<RingSupport>& supports, int cycle, double load,
-                             const std::vector<bool>& start) {
+ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothContacts& contacts,
+                                    const ClosedFormBody& wheel, const std::vector<RingSupport>& supports, int cycle,
+                                    double load, const std::vector<bool>& start) {
   const auto pairs = static_cast<Eigen::Index>(contacts.pairs.size());
   const auto held = static_cast<Eigen::Index>(supports.size());
   ToothContactSolution result;

@@ -166,8 +166,8 @@ void SupportRow::fill_states(const Eigen::VectorXd& forces, LoadedPosition& posi
     // change their sign twice.
     state.radial_force += forces[i] * direction.inward;
     state.tangential_force += forces[i] * direction.counter_clockwise;
-    const bool tells = unilateral_[i] || direction.inward == 1;
-    if (tells && forces[i] > 0) state.touching = true;
+    // A bolt never parts; of a pin the radial direction tells.
+    if (unilateral_[i] ? forces[i] > 0 : direction.inward == 1) state.touching = true;
   }
   position.pins.assign(states.begin(), states.begin() + sites.pins);
   position.housing.assign(states.begin() + sites.pins, states.end());

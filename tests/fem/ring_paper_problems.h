@@ -21,7 +21,10 @@ fem::PinHeld paper_pins(int pins, double first_pin_angle);
 fem::LoadedMeshResult solve_plane(const fem::LoadedMeshProblem& problem, int level = 1, int threads = 2);
 fem::LoadedMeshResult solve_solid(const fem::LoadedMeshProblem& problem);
 
-/// What has to hold at every position, whatever the structure: balances, load shares, no penetration, closure.
+/// What has to hold at every position of unmodified flanks, whatever the structure: balances, load shares, no
+/// penetration.
+void check_positions(const std::vector<fem::LoadedPosition>& positions);
+/// The same of a whole result, and closure.
 void check_invariants(const fem::LoadedMeshResult& result);
 /// Every figure of two results bit by bit.
 void check_identical(const fem::LoadedMeshResult& a, const fem::LoadedMeshResult& b);

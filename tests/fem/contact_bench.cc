@@ -1,0 +1,52 @@
+#include "contact_bench.h"
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace annulus::tests {
+namespace {
+
+fem::LoadedMeshSettings settings_for(fem::Rung rung) {
+  fem::LoadedMeshSettings settings;
+  settings.rung = rung;
+  return settings;
+}
+
+}  // namespace
+
+ContactBench::ContactBench(const fem::LoadedMeshProblem& problem, int level, fem::Rung rung)
+    : problem_(problem), flanks_(problem.pair), bodies_(build_bodies(problem, flanks_, settings_for(rung), level)) {
+  // As many pressure elements as solve_loaded_mesh takes at this level.
+  options_.elements = static_cast<int>(std::lround((rung == fem::Rung::solid ? 6 : 10) * std::pow(1.25, level - 1)));
+  misalign(problem.misalignment);
+}
+
+void ContactBench::misalign(double misalignment) {
+  options_.misalignment = misalignment;
+  rebuild();
+}
+
+void ContactBench::set_elements(int elements) {
+  options_.elements = elements;
+  rebuild();
+}
+
+void ContactBench::rebuild() {
+  system_ = std::make_unique<fem::ContactSystem>(flanks_, *bodies_.planet, *bodies_.wheel, bodies_.supports.get(),
+                                                 problem_.material, bodies_.slice_edges, options_);
+  pairs_.reset();
+  warm_.clear();
+}
+
+fem::LoadedPosition ContactBench::solve(double phase, double load) {
+  return system_->solve(0, phase, load, pairs_, warm_);
+}
+
+std::vector<fem::LoadedPosition> ContactBench::sweep(int steps, double load) {
+  std::vector<fem::LoadedPosition> positions;
+  for (int i = 0; i <= steps; ++i) positions.push_back(solve(static_cast<double>(i) / steps, load));
+  return positions;
+}
+
+}  // namespace annulus::tests
