@@ -168,4 +168,34 @@ BOOST_AUTO_TEST_CASE(the_ring_mesh_is_smooth_from_a_thousandth_to_ten_times_the_
 
 BOOST_AUTO_TEST_CASE(the_sun_mesh_is_smooth_from_a_thousandth_to_ten_times_the_load) { check_loads(sun_mesh(2)); }
 
+BOOST_AUTO_TEST_CASE(where_a_contact_reaches_its_tip_edge_the_transmission_error_jumps_by_next_to_nothing) {
+  // When the centre of a pair comes nearer to its tip edge than a fiftieth of a half-width, the elements between are
+  // dropped: the one place where the discretisation changes at once. Steps of a five-hundredth of the travel of a
+  // half-width leave a second difference of some 1e-6 of the LTE to the rest.
+  for (const bool internal : {true, false}) {
+    ContactBench bench(internal ? ring_mesh(annulus::fem::OutsideHeld{}, 2) : sun_mesh(2), 1);
+    const auto& pair = bench.flanks().pair();
+    const double base = pair.planet().base_radius(), pitch = pair.planet().base_pitch();
+    for (const double roll : {pair.roll_length_low(), pair.roll_length_high()})
+      for (const double load : {1e-3, 0.1, 1.0}) {
+        const double b = annulus::fem::hertz_half_width(load * nominal_load / bench.face_width(),
+                                                        bench.flanks().relative_curvature(roll), {});
+        const double travel = b * base / roll / pitch, step = travel / 500;
+        const double middle = (internal ? 1 : -1) * (roll - pair.roll_length_pitch()) / pitch;
+        const auto lte = [&](int i) {
+          return bench.solve(middle - std::floor(middle) + i * step, load * nominal_load).entry.lte;
+        };
+        double largest = 0, before = lte(-30), here = lte(-29);
+        for (int i = -28; i <= 30; ++i) {
+          const double next = lte(i);
+          largest = std::max(largest, std::abs(next - 2 * here + before) / here);
+          before = here;
+          here = next;
+        }
+        BOOST_TEST_MESSAGE((internal ? "ring" : "sun") << " load " << load << " at roll " << roll << ": " << largest);
+        BOOST_TEST(largest < 2e-4);  // found: up to 1.1e-4
+      }
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
