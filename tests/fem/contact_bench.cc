@@ -40,7 +40,7 @@ void ContactBench::rebuild() {
 }
 
 fem::LoadedPosition ContactBench::solve(double phase, double load) {
-  return system_->solve(0, phase, load, pairs_, warm_);
+  return system_->solve(0, phase, load, pairs_, warm_, nullptr);
 }
 
 std::vector<fem::LoadedPosition> ContactBench::sweep(int steps, double load) {
