@@ -17,7 +17,7 @@ constexpr double waves_per_arc = 60;
 
 /// Teeth stiffen a bending rim as a layer on its inside would, whatever the thickness of the rim: what they add decays
 /// within a pitch (a boundary layer). Its thickness in root pitches, measured, not derived: plane finite elements of
-/// the ring paper's ring with rims of 5 to 35 mm agree on 0.07 +- 0.01 (docs/methods.md).
+/// the ring paper's ring with rims of 5 to 35 mm give 0.06 to 0.09, the thinnest most (docs/methods.md).
 constexpr double tooth_band = 0.07;
 
 int harmonics_for(double half_angle) { return static_cast<int>(std::ceil(waves_per_arc / half_angle)); }

@@ -82,9 +82,8 @@ ComposedRing composed_ring(double height, int radial_cells, int angular_cells) {
 
 BOOST_AUTO_TEST_CASE(equal_radial_loads_on_a_slender_ring) {
   const PlaneModuli moduli = plane_strain(unit_material);
-  // Still more slender rings lose digits: the condensed cut carries a bending moment as a couple of large forces.
-  for (const double height : {0.02, 0.03, 0.04}) {
-    const ComposedRing ring = composed_ring(height, 4, 32);
+  for (const double height : {0.01, 0.02, 0.04}) {
+    const ComposedRing ring = composed_ring(height, 4, 64);
     for (const int loads : {2, 3, 4, 6}) {
       double deflection = 0;
       for (int i = 0; i < loads; ++i) deflection += ring.between(i * sectors / loads)(0, 0);
@@ -97,8 +96,8 @@ BOOST_AUTO_TEST_CASE(equal_radial_loads_on_a_slender_ring) {
       const double corrected = bending + extension + shear;
       BOOST_TEST_MESSAGE("h/R " << height << ", " << loads << " loads: thin ring " << deflection / bending - 1
                                 << ", with extension and shear " << deflection / corrected - 1);
-      // The closed form leaves out that curvature couples bending and extension, of the order (h / R)^2 whatever the
-      // number of loads; elements of h/4 in height add 1e-5.
+      // The thin ring leaves out that the neutral axis lies inside the middle: Winkler and Bach's R_n^2 h^2 / (12 e) is
+      // 1 - 0.23 (h / R)^2. Elements of h/4 in height add 1e-5.
       BOOST_TEST(std::abs(deflection / corrected - 1) < 0.25 * height * height + 1e-5);
     }
   }
