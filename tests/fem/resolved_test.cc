@@ -1,0 +1,115 @@
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <vector>
+
+#include "core/errors.h"
+#include "fem/condensation/altered_ring.h"
+#include "fem/gear_body.h"
+#include "fem/resolution.h"
+#include "ring_paper.h"
+#include "ring_paper_problems.h"
+
+/// Teeth with meshes of their own in a condensed gear, and the rung that is made of them.
+BOOST_AUTO_TEST_SUITE(resolved)
+
+using namespace annulus::tests;
+using annulus::fem::AlteredRing;
+using annulus::fem::CondensedSector;
+using annulus::fem::CondensedTooth;
+
+/// A tooth of the ring paper's ring, its flank refined around a fraction of its length.
+CondensedTooth tooth(double fraction) {
+  const auto pair = ring_paper_pair(true);
+  const annulus::geometry::ToothProfile profile(pair.wheel());
+  auto section = annulus::fem::plane_resolution(pair.wheel(), 0).section;
+  if (fraction >= 0) section.flank_fractions = {0, 0.5 * fraction, fraction, 0.5 * (1 + fraction), 1};
+  annulus::fem::GearBodyOptions options;
+  options.sector.flank = annulus::geometry::Boundary::trailing_flank;
+  return condense_tooth(make_sector_mesh(pair.wheel(), {ring_outside, {}}, section), profile, ring_outside, {},
+                        options);
+}
+
+/// Compliance of the replaced sectors' ports from the assembled stiffness of all cuts of the ring: nothing cyclic in
+/// it.
+Eigen::MatrixXd assembled(const CondensedSector& regular, int sectors,
+                          const std::vector<const CondensedSector*>& replaced) {
+  const Eigen::Index m = regular.cut_stiffness.rows() / 2;
+  Eigen::Index ports = 0;
+  for (const auto* s : replaced) ports += s->cut_load.cols();
+  Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(sectors * m, sectors * m);
+  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(sectors * m, ports), result = Eigen::MatrixXd::Zero(ports, ports);
+  Eigen::Index at = 0;
+  for (int i = 0; i < sectors; ++i) {
+    const bool changed = i < static_cast<int>(replaced.size());
+    const CondensedSector& s = changed ? *replaced[i] : regular;
+    // Both cuts in the global frame.
+    Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(2 * m, 2 * m);
+    for (Eigen::Index n = 0; n < 2 * m; n += 2)
+      turn.block(n, n, 2, 2) = Eigen::Rotation2Dd(i * regular.pitch_angle).toRotationMatrix();
+    const Eigen::MatrixXd k = turn * s.cut_stiffness * turn.transpose(), l = turn * s.cut_load;
+    const Eigen::Index low = i * m, high = ((i + 1) % sectors) * m;
+    stiffness.block(low, low, m, m) += k.topLeftCorner(m, m);
+    stiffness.block(high, high, m, m) += k.bottomRightCorner(m, m);
+    stiffness.block(low, high, m, m) += k.topRightCorner(m, m);
+    stiffness.block(high, low, m, m) += k.bottomLeftCorner(m, m);
+    if (!changed) continue;
+    loads.block(low, at, m, l.cols()) += l.topRows(m);
+    loads.block(high, at, m, l.cols()) += l.bottomRows(m);
+    result.block(at, at, l.cols(), l.cols()) = s.compliance;
+    at += l.cols();
+  }
+  return result + loads.transpose() * stiffness.llt().solve(loads);
+}
+
+BOOST_AUTO_TEST_CASE(replaced_teeth_are_exact) {
+  const CondensedTooth regular = tooth(-1), other = tooth(0.3), third = tooth(0.8);
+  const int sectors = 162;
+  const AlteredRing ring(regular.sector, sectors, 3, 1);
+  for (const auto& replaced : {std::vector{&other.sector}, {&other.sector, &regular.sector, &third.sector}}) {
+    const Eigen::MatrixXd exact = assembled(regular.sector, sectors, replaced), found = ring.compliance(replaced);
+    // Round-off of systems with a condition number of some 1e6.
+    BOOST_TEST((found - exact).cwiseAbs().maxCoeff() < 1e-9 * exact.cwiseAbs().maxCoeff());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_tooth_replaced_by_its_like_changes_nothing) {
+  const CondensedTooth regular = tooth(-1);
+  const AlteredRing ring(regular.sector, 162, 3, 1);
+  const auto composed = compose_ring(regular.sector, 162, {3, false}, false, 1);
+  const Eigen::MatrixXd two = ring.compliance({&regular.sector, &regular.sector});
+  const Eigen::Index ports = regular.sector.ports;
+  BOOST_TEST((two.topLeftCorner(ports, ports) - composed.block(0)).norm() < 1e-11 * composed.block(0).norm());
+  BOOST_TEST((two.bottomLeftCorner(ports, ports) - composed.block(1)).norm() < 1e-11 * composed.block(0).norm());
+}
+
+BOOST_AUTO_TEST_CASE(the_resolved_rung_agrees_with_the_plane_one_within_their_estimates) {
+  // Nominal load: positions with two pairs in contact, and one where a pair bears at a tip edge.
+  for (const auto& problem : {ring_mesh(annulus::fem::OutsideHeld{}, 2), sun_mesh(2)}) {
+    const auto plane = solve_plane(problem, 2);
+    annulus::fem::LoadedMeshSettings settings;
+    settings.rung = annulus::fem::Rung::resolved_plane;
+    settings.level = 1;
+    settings.threads = 2;
+    const auto truth = solve_loaded_mesh(problem, settings);
+    for (int phase = 0; phase < 2; ++phase) {
+      const auto &a = plane.table.at(0, phase, 0), &b = truth.table.at(0, phase, 0);
+      const double difference = std::abs(a.stiffness_secant / b.stiffness_secant - 1);
+      BOOST_TEST_MESSAGE(problem.pair.internal() << " phase " << phase << ": plane - resolved " << difference
+                                                 << ", estimates " << a.error_relative << " and " << b.error_relative);
+      BOOST_TEST(difference < a.error_relative + b.error_relative);
+      BOOST_TEST(b.error_relative < 0.015);
+    }
+    BOOST_TEST(truth.closure_relative < 1e-10);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_is_not_resolved_is_refused) {
+  annulus::fem::LoadedMeshSettings settings;
+  settings.rung = annulus::fem::Rung::resolved_plane;
+  settings.level = 1;
+  BOOST_CHECK_THROW((void)solve_loaded_mesh(ring_mesh(paper_pins(24, 0), 2), settings), annulus::InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
