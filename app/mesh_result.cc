@@ -51,11 +51,6 @@ void at_load(const StiffnessTable& table, std::size_t load, Visit visit) {
   }
 }
 
-/// A closed form comes without an estimate; zero would claim that it is exact.
-double known_error(const MeshModel& model, double error) {
-  return model.rung == "closed_form" && error == 0 ? not_known : error;
-}
-
 }  // namespace
 
 Estimate MeshResult::mean_stiffness() const {
@@ -64,7 +59,7 @@ Estimate MeshResult::mean_stiffness() const {
     sum += e.stiffness_secant;
     error += e.error_relative * e.stiffness_secant;
   });
-  return {sum / (table.positions() * table.phases()), known_error(model, error / sum)};
+  return {sum / (table.positions() * table.phases()), error / sum};
 }
 
 Estimate MeshResult::lte_mean() const {
@@ -73,7 +68,7 @@ Estimate MeshResult::lte_mean() const {
     sum += e.lte;
     error += std::abs(e.error_relative * (e.lte - e.unloaded_te));
   });
-  return {sum / (table.positions() * table.phases()), known_error(model, error / std::abs(sum))};
+  return {sum / (table.positions() * table.phases()), error / std::abs(sum)};
 }
 
 Estimate MeshResult::lte_peak_to_peak() const {
@@ -88,7 +83,7 @@ Estimate MeshResult::lte_peak_to_peak() const {
   // at least the same relative error as on the mean. An estimate, not a bound.
   const double difference = std::abs(high->error_relative * (high->lte - high->unloaded_te) -
                                      low->error_relative * (low->lte - low->unloaded_te));
-  return {range, known_error(model, std::max(difference / range, lte_mean().error_relative))};
+  return {range, std::max(difference / range, lte_mean().error_relative)};
 }
 
 double MeshResult::fact(const std::string& name) const {

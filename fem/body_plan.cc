@@ -15,7 +15,6 @@ BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfil
   model_.degree = degree;
   model_.flank = flank;
   const bool helical = profile.gear().helix_angle() != 0;
-  if (helical && !solid) throw InputError("a helical gear is a solid problem: the plane rung cannot model it");
   if (const auto* cantilever = std::get_if<EndFaceHeld>(&structure_)) {
     if (!solid) throw InputError("a ring held at its end face is a solid problem: the plane rung cannot model it");
     model_.held = HeldBoundary::end_low;

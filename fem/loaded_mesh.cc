@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "fem/closed_form/closed_form_mesh.h"
 #include "fem/level.h"
+#include "fem/problem_check.h"
 #include "fem/resolution.h"
 
 namespace annulus::fem {
@@ -16,15 +17,6 @@ namespace {
 /// Teeth after which the structure of the wheel repeats.
 int repeating_teeth(const LoadedMeshProblem& problem) {
   return repeating_teeth(problem.structure, problem.pair.wheel().teeth());
-}
-
-void check(const LoadedMeshProblem& problem) {
-  if (problem.loads.empty() || problem.phases < 2) throw InputError("a loaded mesh needs a load and two phases");
-  for (std::size_t i = 0; i < problem.loads.size(); ++i)
-    if (!(problem.loads[i] > (i > 0 ? problem.loads[i - 1] : 0.0)))
-      throw InputError("the loads of a stiffness table have to be positive and strictly increasing");
-  if (!problem.pair.internal() && !std::holds_alternative<OutsideHeld>(problem.structure))
-    throw InputError("a ring structure belongs to the ring mesh");
 }
 
 /// The ring mesh is solved in a mirror image of the real one, which turns the hands of helical gears.
@@ -41,7 +33,7 @@ geometry::GearPair solved_pair(const geometry::GearPair& pair) {
 }  // namespace
 
 LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings) {
-  check(problem);
+  check_problem(problem, settings.rung);
   if (settings.rung == Rung::closed_form) return solve_closed_form(problem, settings);
   const FlankContact flanks(solved_pair(problem.pair));
   const bool resolved = settings.rung == Rung::resolved_plane || settings.rung == Rung::resolved_solid;

@@ -6,25 +6,10 @@
 
 #include "core/errors.h"
 #include "fem/closed_form/tooth_contacts.h"
+#include "fem/problem_check.h"
 
 namespace annulus::fem {
 namespace {
-
-void check_closed_form(const LoadedMeshProblem& problem) {
-  if (problem.loads.empty() || problem.phases < 2) throw InputError("a loaded mesh needs a load and two phases");
-  for (std::size_t i = 0; i < problem.loads.size(); ++i)
-    if (!(problem.loads[i] > (i > 0 ? problem.loads[i - 1] : 0.0)))
-      throw InputError("the loads of a stiffness table have to be positive and strictly increasing");
-  if (!problem.pair.internal() && !std::holds_alternative<OutsideHeld>(problem.structure))
-    throw InputError("a ring structure belongs to the ring mesh");
-  const auto has_lead = [](const geometry::Gear& gear) {
-    return gear.parameters().lead_crowning != 0 || gear.parameters().lead_slope != 0;
-  };
-  if (problem.misalignment != 0 || has_lead(problem.pair.planet()) || has_lead(problem.pair.wheel()))
-    throw InputError(
-        "the closed form has no load distribution over the face width: lead modifications and misalignment need "
-        "rung = \"solid\"");
-}
 
 /// Relative error of the stiffness, from differences to converged plane finite elements (docs/methods.md): 3 % for
 /// teeth and foundation; 2 % more where a pair bears at its tip edge; for a ring on its own supports what an
@@ -183,7 +168,7 @@ void ClosedFormRun::add_supports(const Eigen::VectorXd& force, LoadedPosition& p
 
 LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
                                    const ClosedFormOptions& options) {
-  check_closed_form(problem);
+  check_problem(problem, Rung::closed_form);
   const auto start = std::chrono::steady_clock::now();
   const auto since = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const int cycles = repeating_teeth(problem.structure, problem.pair.wheel().teeth());

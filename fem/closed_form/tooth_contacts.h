@@ -49,7 +49,7 @@ struct ToothContactSolution {
 /// Solves one position: complementarity of pairs and supports, Newton's method for the line contacts. `supports` belong
 /// to the wheel. Throws SolverError with phase, load and residual.
 [[nodiscard]] ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothContacts& contacts,
-                                           const ClosedFormBody& wheel, const std::vector<RingSupport>& supports,
-                                           int cycle, double load, const std::vector<bool>& start);
+                                                  const ClosedFormBody& wheel, const std::vector<RingSupport>& supports,
+                                                  int cycle, double load, const std::vector<bool>& start);
 
 }  // namespace annulus::fem

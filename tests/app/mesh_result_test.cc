@@ -144,23 +144,13 @@ BOOST_AUTO_TEST_CASE(pins_and_splines_carry_their_angle) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_closed_form_has_no_mesh_and_no_known_error) {
+BOOST_AUTO_TEST_CASE(a_closed_form_has_no_mesh) {
   auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
   scene.rung = app::Rung::closed_form;
   const auto model = app::ring_mesh_model(scene, app::make_geometry(scene), 0);
-  auto solved = test::made_up_solution(model);
-  std::vector<StiffnessEntry> entries;
-  for (int phase = 0; phase < solved.table.phases(); ++phase) {
-    for (int load = 0; load < static_cast<int>(model.problem->loads.size()); ++load) {
-      entries.push_back(solved.table.at(0, phase, load));
-      entries.back().error_relative = 0;
-    }
-  }
-  solved.table = StiffnessTable(model.mesh, solved.table.phases(), {0.0}, model.problem->loads, entries);
-  const auto result = app::pack(model, solved);
+  const auto result = app::pack(model, fem::solve_loaded_mesh(*model.problem, model.settings));
   BOOST_TEST(result.picture.empty());
-  BOOST_TEST(std::isnan(result.mean_stiffness().error_relative));
-  BOOST_TEST(std::isnan(result.lte_mean().error_relative));
+  BOOST_TEST(result.mean_stiffness().error_relative > 0.02);  // an estimate of its own, not of a discretisation
   const test::TemporaryFolder folder("closed_form");
   app::save(result, folder.path());
   BOOST_TEST(app::load(model, folder.path()).has_value());
