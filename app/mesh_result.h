@@ -37,6 +37,7 @@ struct MeshResult {
   StiffnessTable table;
   Csv positions{};  ///< lte_<mesh>.csv: every position and load, with tooth pair shares and invariants; may be empty
   // The others hold for the nominal load and are empty when there is nothing to tell (mesh_tables.h).
+  Csv housing{};          ///< housing_<mesh>.csv: where the rim touches a housing bore
   Csv pins{};             ///< pins_<mesh>.csv: states of pins, bolts or spline teeth
   Csv pressure{};         ///< pressure_<mesh>.csv: pressure on the flanks
   Csv line_load{};        ///< line_load_<mesh>.csv: load over the face width
@@ -57,6 +58,7 @@ struct MeshResult {
 
 /// The tables kept beside the positions, by the first part of their file names.
 inline constexpr std::pair<const char*, Csv MeshResult::*> side_tables[] = {{"pins", &MeshResult::pins},
+                                                                            {"housing", &MeshResult::housing},
                                                                             {"pressure", &MeshResult::pressure},
                                                                             {"line_load", &MeshResult::line_load},
                                                                             {"stress", &MeshResult::stress}};

@@ -136,6 +136,19 @@ Csv pin_table(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   return csv;
 }
 
+Csv housing_table(const MeshModel& model, const fem::LoadedMeshResult& solved) {
+  Csv csv;
+  csv.columns = {"mesh_phase", "ring_tooth", "ring_angle_deg", "tooth", "radial_force_N"};
+  at_nominal_load(model, solved, [&](const fem::LoadedPosition& p) {
+    for (std::size_t i = 0; i < p.housing.size(); ++i) {
+      if (!p.housing[i].touching) continue;
+      csv.rows.push_back({p.mesh_phase, static_cast<double>(p.ring_tooth), p.ring_angle / units::deg,
+                          static_cast<double>(i), p.housing[i].radial_force});
+    }
+  });
+  return csv;
+}
+
 Csv pressure_table(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   Csv csv;
   csv.columns = {"mesh_phase", "ring_tooth",  "pair",         "z_low_mm",

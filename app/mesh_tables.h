@@ -13,6 +13,9 @@ namespace annulus::app {
 [[nodiscard]] Csv position_table(const MeshModel& model, const fem::LoadedMeshResult& solved);
 /// pins_<mesh>.csv: state of every pin, bolt or spline tooth at the nominal load.
 [[nodiscard]] Csv pin_table(const MeshModel& model, const fem::LoadedMeshResult& solved);
+/// housing_<mesh>.csv: force on the housing bore behind every ring tooth (numbered from 0) where the rim touches it, at
+/// the nominal load.
+[[nodiscard]] Csv housing_table(const MeshModel& model, const fem::LoadedMeshResult& solved);
 /// pressure_<mesh>.csv: mean pressure on the touching pieces of the flanks at the nominal load.
 [[nodiscard]] Csv pressure_table(const MeshModel& model, const fem::LoadedMeshResult& solved);
 /// line_load_<mesh>.csv: load over the face width at the nominal load; empty when there is a single slice.

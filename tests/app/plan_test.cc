@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/units.h"
 #include "tests/app/scenes.h"
 
 namespace annulus {
@@ -128,6 +129,20 @@ BOOST_AUTO_TEST_CASE(misalignment_and_lead_need_solids) {
   BOOST_TEST(app::solid_reason(scene).find("helical") == 0U);
   const auto sloped = app::ring_mesh_model(scene, geometry, 2);
   BOOST_TEST(sloped.problem->pair.wheel().parameters().lead_slope == -20e-6, boost::test_tools::tolerance(1e-15));
+}
+
+BOOST_AUTO_TEST_CASE(helical_sets_are_solid) {
+  const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/helical_set.toml");
+  const auto geometry = app::make_geometry(scene);
+  const double beta = 12 * units::deg;
+  for (const auto& mesh : {app::sun_mesh_model(scene, geometry), app::ring_mesh_model(scene, geometry, 0)}) {
+    BOOST_TEST(mesh.rung == "solid");
+    BOOST_TEST(mesh.reason.find("helical") != std::string::npos, mesh.reason);
+    const auto &planet = mesh.problem->pair.planet(), &wheel = mesh.problem->pair.wheel();
+    BOOST_TEST(planet.helix_angle() == beta, boost::test_tools::tolerance(1e-15));
+    BOOST_TEST(wheel.helix_angle() == (mesh.problem->pair.internal() ? beta : -beta),
+               boost::test_tools::tolerance(1e-15));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(asked_rungs) {
