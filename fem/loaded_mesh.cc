@@ -30,6 +30,35 @@ geometry::GearPair solved_pair(const geometry::GearPair& pair) {
   return {mirrored(pair.planet()), mirrored(pair.wheel()), pair.centre_distance()};
 }
 
+/// Fills the error of every entry from the positions of the level before; returns the largest at the middle load.
+///
+/// The error falls at least with the square of the cell size where the contact dominates, so that the difference of two
+/// levels overestimates that of the finer one; near singular edges of a support it falls more slowly and the difference
+/// is about the error itself.
+double estimate_errors(const LoadedMeshProblem& problem, const std::vector<LoadedPosition>& coarser,
+                       std::vector<LoadedPosition>& positions) {
+  const std::size_t loads = problem.loads.size();
+  std::vector<double> difference(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    difference[i] = std::abs(coarser[i].entry.stiffness_secant / positions[i].entry.stiffness_secant - 1);
+  // Along the mesh cycle the difference changes its sign here and there, where it says nothing about the error: the
+  // largest of a sixteenth of a cycle to either side counts.
+  const auto along = static_cast<std::ptrdiff_t>(positions.size() / loads);
+  const std::ptrdiff_t reach = (problem.phases + 15) / 16;
+  double worst = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    auto& entry = positions[i].entry;
+    const auto at = static_cast<std::ptrdiff_t>(i / loads);
+    for (std::ptrdiff_t k = at - reach; k <= at + reach; ++k) {
+      // The last position is the first of the next cycle; a table that repeats closes on itself.
+      const std::ptrdiff_t wrapped = (k + along - 1) % (along - 1);
+      entry.error_relative = std::max(entry.error_relative, difference[wrapped * loads + i % loads]);
+    }
+    if (i % loads == loads / 2) worst = std::max(worst, entry.error_relative);
+  }
+  return worst;
+}
+
 }  // namespace
 
 LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings) {
@@ -55,42 +84,20 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
     return solved;
   };
 
-  auto coarser = solve_level(first_level - 1).positions;
-  SolvedLevel solved;
-  auto& positions = solved.positions;
+  SolvedLevel coarser = solve_level(first_level - 1), solved;
   int level = first_level;
   for (;; ++level) {
     solved = solve_level(level);
-    // The error falls at least with the square of the cell size where the contact dominates, so that the difference of
-    // two levels overestimates that of the finer one; near singular edges of a support it falls more slowly and the
-    // difference is about the error itself.
-    worst = 0;
-    const std::size_t loads = problem.loads.size(), nominal = loads / 2;
-    std::vector<double> difference(positions.size());
-    for (std::size_t i = 0; i < positions.size(); ++i)
-      difference[i] = std::abs(coarser[i].entry.stiffness_secant / positions[i].entry.stiffness_secant - 1);
-    // Along the mesh cycle the difference changes its sign here and there, where it says nothing about the error: the
-    // largest of a sixteenth of a cycle to either side counts.
-    const auto along = static_cast<std::ptrdiff_t>(positions.size() / loads);
-    const std::ptrdiff_t reach = (problem.phases + 15) / 16;
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      auto& entry = positions[i].entry;
-      const auto at = static_cast<std::ptrdiff_t>(i / loads);
-      for (std::ptrdiff_t k = at - reach; k <= at + reach; ++k) {
-        // The last position is the first of the next cycle; a table that repeats closes on itself.
-        const std::ptrdiff_t wrapped = (k + along - 1) % (along - 1);
-        entry.error_relative = std::max(entry.error_relative, difference[wrapped * loads + i % loads]);
-      }
-      if (i % loads == nominal) worst = std::max(worst, entry.error_relative);
-    }
+    worst = estimate_errors(problem, coarser.positions, solved.positions);
     if (settings.level || worst <= settings.accuracy) break;
     if (level == last_level)
       throw SolverError(
           fmt::format("the mesh stiffness reached a relative accuracy of {:.2g} at the finest resolution, not "
                       "the wanted {:.2g}: ask for less accuracy",
                       worst, settings.accuracy));
-    coarser = std::move(positions);
+    std::swap(coarser, solved);
   }
+  auto& positions = solved.positions;
   double reciprocity = 0;
   for (const auto& p : positions) reciprocity = std::max(reciprocity, p.reciprocity_relative);
 
@@ -98,6 +105,7 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   const std::size_t table_size = static_cast<std::size_t>(cycles) * problem.phases * loads;
   std::vector<double> ring_angles;
   std::vector<StiffnessEntry> entries;
+  entries.reserve(table_size);
   for (std::size_t i = 0; i < table_size; ++i) entries.push_back(positions[i].entry);
   ring_angles.reserve(cycles);
   for (int c = 0; c < cycles; ++c)

@@ -21,6 +21,7 @@ bool maps_onto_itself(const std::vector<double>& angles, double turn) {
 
 std::vector<double> equal_angles(int count, double first) {
   std::vector<double> angles;
+  angles.reserve(count);
   for (int i = 0; i < count; ++i) angles.push_back(first + 2 * M_PI * i / count);
   return angles;
 }

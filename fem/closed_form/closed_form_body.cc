@@ -114,6 +114,7 @@ void ClosedFormBody::let_yield(const PlainRing& rim, double width, RimTheory the
     for (const int b : {0, 1}) {
       const RingHarmonics& source_load = loads[source_arc][b];
       std::vector<std::array<RingCoupling, 2>> to_support;
+      to_support.reserve(loads.size());
       for (const Pair& load : loads)
         to_support.push_back({ring.coupling(load[0], source_load), ring.coupling(load[1], source_load)});
       std::array<RingCoupling, 3> to_root;

@@ -180,6 +180,7 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
   const std::size_t table_size = static_cast<std::size_t>(cycles) * problem.phases * loads;
   std::vector<StiffnessEntry> entries;
   std::vector<double> ring_angles;
+  ring_angles.reserve(cycles);
   for (std::size_t i = 0; i < table_size; ++i) entries.push_back(positions[i].entry);
   for (int c = 0; c < cycles; ++c)
     ring_angles.push_back(positions[static_cast<std::size_t>(c) * problem.phases * loads].ring_angle);
