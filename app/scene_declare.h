@@ -46,7 +46,6 @@ class Declared {
   Declared& from(double low, double high) { return p_.low = low, p_.high = high, *this; }
   Declared& above(double low, double high) { return p_.low_included = false, from(low, high); }
   Declared& infinite() { return p_.may_be_infinite = true, *this; }
-  Declared& unavailable(const char* why) { return p_.unavailable = why, *this; }
 
  private:
   Parameter& p_;

@@ -170,9 +170,6 @@ class Reader {
         break;
       }
     }
-    if (!p.unavailable.empty() && value != p.default_value) {
-      return refuse("is not yet available in this version: " + p.unavailable);
-    }
     return true;
   }
 

@@ -76,7 +76,6 @@ std::string explain(const Parameter& p) {
   if (!p.unit.empty()) text += " in " + p.unit;
   if (const auto range = p.range_text(); !range.empty()) text += "; " + range;
   text += "\n  " + presence_text(p) + "\n";
-  if (!p.unavailable.empty()) text += "  not yet available in this version: " + p.unavailable + "\n";
   return text;
 }
 
@@ -90,8 +89,8 @@ std::string scene_reference() {
     if (!table.required) text += " Optional.";
     text += "\n\n| key | type | range | presence | meaning |\n|---|---|---|---|---|\n";
     for (const auto& p : table.parameters) {
-      text += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", p.name, p.type_text(), p.range_text(), presence_text(p),
-                          p.meaning, p.unavailable.empty() ? "" : " *Not yet available: " + p.unavailable + ".*");
+      text += fmt::format("| `{}` | {} | {} | {} | {} |\n", p.name, p.type_text(), p.range_text(), presence_text(p),
+                          p.meaning);
     }
   }
   text +=

@@ -27,7 +27,6 @@ struct Parameter {
   bool may_be_infinite = false;
   std::vector<std::string> choices{};
   std::string meaning{};
-  std::string unavailable{};  ///< not empty: known, but this version cannot use it; says what is missing
   /// Stores a checked value (in file units) into the scene; the index counts the tables of an array ([[ring]]).
   std::function<void(Scene&, std::size_t, const Value&)> store{};
 
