@@ -28,8 +28,20 @@ double penetration(const CompiledMesh& mesh, LumpedSystem::Contact contact, doub
   return contact == LumpedSystem::Contact::open ? 0.0 : delta - static_cast<int>(contact) * mesh.half_backlash;
 }
 
+LumpedSystem::Contact contact_of(const CompiledMesh& mesh, double delta) {
+  if (mesh.linear || delta > mesh.half_backlash) return LumpedSystem::Contact::drive;
+  return delta < -mesh.half_backlash ? LumpedSystem::Contact::back : LumpedSystem::Contact::open;
+}
+
 double acting_damping(const CompiledMesh& mesh, LumpedSystem::Contact contact) {
   return contact != LumpedSystem::Contact::open || mesh.damping_without_contact ? mesh.damping : 0.0;
+}
+
+/// Force and tangent from the deflection, its rate and the contact state in the workspace.
+void apply_force(const CompiledMesh& mesh, std::size_t m, LumpedSystem::Workspace& w) {
+  w.force[m] = w.stiffness[m] * penetration(mesh, w.contact[m], w.delta[m]) +
+               acting_damping(mesh, w.contact[m]) * w.delta_rate[m];
+  w.tangent[m] = mesh.linear || w.contact[m] != LumpedSystem::Contact::open ? w.stiffness[m] : 0.0;
 }
 
 double stiffness_rate(const CompiledMesh& mesh, double t, const std::vector<double>& rates,
@@ -57,7 +69,7 @@ Eigen::VectorXd LumpedSystem::mesh_vector(int mesh) const {
 
 LumpedSystem::Workspace LumpedSystem::workspace() const {
   Workspace w;
-  for (auto* list : {&w.stiffness, &w.error, &w.error_rate, &w.delta, &w.delta_rate, &w.force})
+  for (auto* list : {&w.stiffness, &w.error, &w.error_rate, &w.delta, &w.delta_rate, &w.force, &w.tangent})
     list->assign(meshes_.size(), 0.0);
   w.contact.assign(meshes_.size(), Contact::drive);
   w.wave.assign(meshes_.size(), -1);
@@ -114,10 +126,7 @@ void LumpedSystem::detect_contact(double t, const double* q, Workspace& w) const
   for (std::size_t m = 0; m < compiled_->meshes.size(); ++m) {
     const CompiledMesh& mesh = compiled_->meshes[m];
     w.delta[m] = dot(compiled_->b, m, q) - w.error[m];
-    if (mesh.linear || w.delta[m] > mesh.half_backlash)
-      w.contact[m] = Contact::drive;
-    else
-      w.contact[m] = w.delta[m] < -mesh.half_backlash ? Contact::back : Contact::open;
+    w.contact[m] = contact_of(mesh, w.delta[m]);
   }
 }
 
@@ -132,8 +141,18 @@ void LumpedSystem::evaluate_meshes(double t, const double* q, const double* v, W
     }
     w.delta[m] = delta;
     w.delta_rate[m] = rate;
-    w.force[m] = w.stiffness[m] * penetration(c.meshes[m], w.contact[m], delta) +
-                 acting_damping(c.meshes[m], w.contact[m]) * rate;
+    apply_force(c.meshes[m], m, w);
+  }
+}
+
+void LumpedSystem::evaluate_forces(double t, const double* closing, const double* closing_rate, Workspace& w) const {
+  evaluate_excitation(t, w);
+  for (std::size_t m = 0; m < compiled_->meshes.size(); ++m) {
+    const CompiledMesh& mesh = compiled_->meshes[m];
+    w.delta[m] = closing[m] - w.error[m];
+    w.delta_rate[m] = closing_rate[m] - w.error_rate[m];
+    w.contact[m] = contact_of(mesh, w.delta[m]);
+    apply_force(mesh, m, w);
   }
 }
 

@@ -47,6 +47,7 @@ class LumpedSystem {
     bool excitation_valid = false;
     std::vector<double> stiffness, error, error_rate;  ///< per mesh at `time`
     std::vector<double> delta, delta_rate, force;      ///< per mesh, of the last evaluation
+    std::vector<double> tangent;                       ///< per mesh, dF/d delta of the last evaluation, N/m
     std::vector<Contact> contact;                      ///< per mesh
     /// Per mesh: value of a rectangular wave (1 high, 0 low) held up to the next jump; -1: by time.
     std::vector<signed char> wave;
@@ -74,6 +75,9 @@ class LumpedSystem {
   void evaluate_excitation(double t, Workspace& workspace) const;
   /// delta, delta' and F of every mesh in its held contact state. No allocation.
   void evaluate_meshes(double t, const double* q, const double* v, Workspace& workspace) const;
+  /// The same from the closings b^T q and their rates (one per mesh, errors not yet taken off), the contact states
+  /// following the deflections instead of being held. No allocation.
+  void evaluate_forces(double t, const double* closing, const double* closing_rate, Workspace& workspace) const;
   /// State y = (q, v), dy = (v, M^-1 (...)). No allocation.
   void rhs(double t, const double* y, double* dy, Workspace& workspace) const;
   /// d(dy)/dy in the held contact state, column-major 2n x 2n.

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace annulus {
+
+/// A natural mode of the ring with its supports, normalised to unit modal mass. Closings are displacements of the
+/// ring's teeth along the line of action, positive where they close the mesh, at the place of a contact in the pitch
+/// point (phase 0).
+struct RingMode {
+  double frequency = 0;         ///< Hz
+  int waves = 0;                ///< dominant number of waves around the ring
+  std::vector<double> closing;  ///< kg^-1/2, one per ring tooth
+  /// Inertial coupling to the rigid motions of the ring (unit amplitudes): integral of density x shape . motion.
+  double translation_x = 0, translation_y = 0;  ///< kg^1/2, in the ring's frame
+  double rotation = 0;                          ///< kg^1/2, motion: base radius x angle = 1
+};
+
+/// How the meshes of all planets with one ring act on each other through the ring: the contract between the
+/// finite-element and the lumped side, next to the stiffness table of a single mesh.
+///
+/// The closing of mesh n falls by sum_m compliance(n, m) F_m beyond what the stiffness table of the single mesh says.
+/// The diagonal is therefore zero for a ring with linear supports; where pins lift off it tells how the presence of the
+/// other planets changes the mesh itself.
+struct RingCoupling {
+  int planets = 0;
+  int ring_teeth = 0;
+  double load = 0;  ///< N per mesh, under which the supports were found to touch
+  /// m/N, planets x planets, symmetric. One per ring position (see StiffnessTable), planet 1 meshing at its phase 0;
+  /// `per_cycle` of them per mesh cycle, then the next tooth.
+  std::vector<Eigen::MatrixXd> compliance;
+  int per_cycle = 1;
+  std::vector<RingMode> modes;  ///< rising frequency; may be empty
+
+  /// Key: value lines kept in front of the file (provenance).
+  std::vector<std::pair<std::string, std::string>> provenance;
+
+  void write_csv(const std::filesystem::path& compliance_file, const std::filesystem::path& modes_file) const;
+  /// Throws InputError naming file and line.
+  [[nodiscard]] static RingCoupling read_csv(const std::filesystem::path& compliance_file,
+                                             const std::filesystem::path& modes_file);
+};
+
+}  // namespace annulus
