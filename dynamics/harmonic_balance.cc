@@ -137,7 +137,9 @@ void HarmonicBalance::motion(Eigen::MatrixXd& displacement, Eigen::MatrixXd& vel
     line_.segment(1, last - 1) = amplitudes.row(i);
     transform_.inverse(line_.data(), values.data());
     displacement.row(i) = values;
-    for (Eigen::Index j = 0; j < last; ++j) line_[j] *= Complex(0, static_cast<double>(j) * problem_.spacing);
+    line_[0] = line_[last] = 0;
+    for (Eigen::Index j = 1; j < last; ++j)
+      line_[j] = amplitudes(i, j - 1) * Complex(0, static_cast<double>(j) * problem_.spacing);
     transform_.inverse(line_.data(), values.data());
     velocity.row(i) = values;
   }

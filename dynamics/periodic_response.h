@@ -13,7 +13,7 @@ struct PeriodicOptions {
   int samples_per_cycle = 32;
   /// Largest residual of a closing at any sample / largest quasi-static mesh deflection at time 0.
   double tolerance = 1e-5;
-  int max_iterations = 12;  ///< Newton iterations, per level of sampling
+  int max_iterations = 20;  ///< Newton iterations, per level of sampling
   bool motion = true;       ///< also the displacements and velocities of all freedoms
 };
 
