@@ -223,8 +223,8 @@ int compare(const PlanetaryStage& stage, const std::string& stiffness, const Opt
   (void)advance(system, start, options.cycles * cycle, options.tolerance, absolute, &statistics);
   const double seconds = watch.cpu();
   const double per_cycle = seconds / options.cycles, peer_per_cycle = peer.seconds / options.ode45_cycles;
-  fmt::print("\nring paper's stage, {} freedoms, {} meshes, {} stiffness, relative tolerance {:g}\n",
-             system.freedoms(), system.meshes().size(), stiffness, options.tolerance);
+  fmt::print("\nring paper's stage, {} freedoms, {} meshes, {} stiffness, relative tolerance {:g}\n", system.freedoms(),
+             system.meshes().size(), stiffness, options.tolerance);
   fmt::print("                                     annulus      ode45\n");
   fmt::print("processor time per mesh cycle, ms  {:9.4f}  {:9.1f}   ratio {:.0f}\n", 1e3 * per_cycle,
              1e3 * peer_per_cycle, peer_per_cycle / per_cycle);
