@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "dynamics/curve_bundle.h"
 #include "dynamics/mesh_excitation.h"
 
 namespace annulus::dynamics {
@@ -22,7 +23,8 @@ struct HarmonicError {
 };
 
 /// One gear mesh, whatever its kind: delta = b^T q - e(t), force on the freedoms -b F,
-/// F = k(t) g(delta) + c delta', g with half backlash; c acts while the teeth touch (or always).
+/// F = k(t) g(delta) + c delta', g with half backlash; c acts while the teeth touch (or always). With a ForceSurface
+/// k(t) g is replaced by the law Fs(t, g).
 struct MeshElement {
   std::string name;
   LinearForm b;
@@ -45,13 +47,17 @@ class LumpedSystem {
   struct Workspace {
     double time = 0;
     bool excitation_valid = false;
-    std::vector<double> stiffness, error, error_rate;  ///< per mesh at `time`
-    std::vector<double> delta, delta_rate, force;      ///< per mesh, of the last evaluation
-    std::vector<double> tangent;                       ///< per mesh, dF/d delta of the last evaluation, N/m
-    std::vector<Contact> contact;                      ///< per mesh
+    /// Per mesh at `time`; where a law replaces the stiffness, `stiffness` is the secant at the nominal load.
+    std::vector<double> stiffness, error, error_rate;
+    std::vector<PhaseLocation> place;              ///< per mesh at `time`, on the grid of its law
+    std::vector<double> delta, delta_rate, force;  ///< per mesh, of the last evaluation
+    std::vector<double> elastic;                   ///< per mesh, force without damping of the last evaluation
+    std::vector<double> tangent;                   ///< per mesh, dF/d delta of the last evaluation, N/m
+    std::vector<Contact> contact;                  ///< per mesh
     /// Per mesh: value of a rectangular wave (1 high, 0 low) held up to the next jump; -1: by time.
     std::vector<signed char> wave;
     std::vector<double> sine, cosine;  ///< of the error rates and mesh frequencies at `time`
+    std::vector<double> pairs;         ///< scratch: (q_j, v_j) of every freedom, then the mesh forces
   };
 
   [[nodiscard]] int freedoms() const { return static_cast<int>(names_.size()); }
@@ -78,6 +84,11 @@ class LumpedSystem {
   /// The same from the closings b^T q and their rates (one per mesh, errors not yet taken off), the contact states
   /// following the deflections instead of being held. No allocation.
   void evaluate_forces(double t, const double* closing, const double* closing_rate, Workspace& workspace) const;
+  /// Is the elastic force of the last evaluation beyond what the mesh's table covers? -1: in contact below the lowest
+  /// load, +1: above the largest, 0: within, open, or not a law from a table.
+  [[nodiscard]] int outside_table(int mesh, const Workspace& workspace) const;
+  /// d elastic / d delta of the last evaluation, meshes x meshes.
+  void tangent_matrix(const Workspace& workspace, Eigen::Ref<Eigen::MatrixXd> result) const;
   /// State y = (q, v), dy = (v, M^-1 (...)). No allocation.
   void rhs(double t, const double* y, double* dy, Workspace& workspace) const;
   /// d(dy)/dy in the held contact state, column-major 2n x 2n.
