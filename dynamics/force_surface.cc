@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 
 #include "core/errors.h"
@@ -48,6 +49,35 @@ ForceSurface::Value force_on_curve(const std::vector<CurvePoint>& curve, double 
   return rational_quadratic(curve[i - 1], curve[i], g);
 }
 
+double miss(const ForceSurface::Value& value, const CurvePoint& point) {
+  return std::max(std::abs(value.force / point.force - 1), std::abs(value.tangent / point.tangent - 1));
+}
+
+/// Value and step x tangent of the curve at step k, k = 0 ... cells, the cubic pieces between them passing every load
+/// with its tangent: the smallest change (least squares) of the curve's own values there that does so.
+Eigen::VectorXd resampled(const std::vector<CurvePoint>& curve, double step, int cells) {
+  Eigen::VectorXd nodes(2 * cells + 2);
+  for (int k = 0; k <= cells; ++k) {
+    const auto value = force_on_curve(curve, k * step);
+    nodes.segment<2>(2 * k) << value.force, step * value.tangent;
+  }
+  const auto loads = static_cast<int>(curve.size()) - 1;
+  Eigen::MatrixXd conditions = Eigen::MatrixXd::Zero(2 * loads, nodes.size());
+  Eigen::VectorXd missed(2 * loads);
+  for (int j = 0; j < loads; ++j) {
+    const auto& point = curve[static_cast<std::size_t>(j) + 1];
+    const int k = std::min(static_cast<int>(point.g / step), cells - 1);
+    const double x = point.g / step - k, y = 1 - x;
+    conditions.block<1, 4>(2 * j, 2 * k) << y * y * (1 + 2 * x), x * y * y, x * x * (3 - 2 * x), -x * x * y;
+    conditions.block<1, 4>(2 * j + 1, 2 * k) << -6 * x * y, y * (1 - 3 * x), 6 * x * y, x * (3 * x - 2);
+    missed.segment<2>(2 * j) << point.force, step * point.tangent;
+  }
+  missed -= conditions * nodes;
+  conditions.col(0).setZero();  // no deflection, no force
+  nodes += conditions.completeOrthogonalDecomposition().solve(missed);
+  return nodes;
+}
+
 }  // namespace
 
 ForceSurface::ForceSurface(const StiffnessTable& table)
@@ -61,11 +91,10 @@ ForceSurface::ForceSurface(const StiffnessTable& table)
       const auto& e = table.at(position, phase, last);
       largest = std::max(largest, e.lte - e.unloaded_te);
     }
-  // The cells grow in number until the tabulated points are met to 1e-6, far below what tables are accurate to. Where
-  // the tangents jump the error falls with the square of the cell size only: 256 cells are enough for any such table.
-  for (int cells = 16; cells <= 256; cells *= 2) {
+  // The tabulated points are met exactly as long as they do not crowd within a cell; then more cells are needed.
+  for (int cells = 32; cells <= 512; cells *= 2) {
     build(table, largest, cells);
-    if (resampling_error_ <= 1e-6) break;
+    if (resampling_error_ <= 1e-9) break;
   }
   check(table);
 }
@@ -77,20 +106,19 @@ void ForceSurface::build(const StiffnessTable& table, double largest_deflection,
   const int pieces = grid_.pieces();
   step_ = largest_deflection / cells;
   inverse_step_ = 1 / step_;
-  cells_ = static_cast<std::size_t>(cells) + 1;  // one beyond the largest deflection, in which all curves are straight
+  cells_ = cells + 1;  // one beyond the largest deflection, in which all curves are straight
   last_cell_ = cells;
 
   // Force, step x tangent and their slopes along the phase at the lower ends of the cells: [cell][phase].
   struct Row {
     std::vector<double> force, tangent, force_slope, tangent_slope;
   };
-  std::vector<Row> rows(cells_);
+  std::vector<Row> rows(static_cast<std::size_t>(cells_));
   for (int i = 0; i < pieces; ++i) {
-    const auto curve = curve_at(table, i / table.phases(), i % table.phases());
-    for (std::size_t k = 0; k < cells_; ++k) {
-      const auto value = force_on_curve(curve, static_cast<double>(k) * step_);
-      rows[k].force.push_back(value.force);
-      rows[k].tangent.push_back(step_ * value.tangent);
+    const auto nodes = resampled(curve_at(table, i / table.phases(), i % table.phases()), step_, cells);
+    for (int k = 0; k < cells_; ++k) {
+      rows[k].force.push_back(nodes[2 * k]);
+      rows[k].tangent.push_back(nodes[2 * k + 1]);
     }
   }
   for (auto& row : rows) {
@@ -103,7 +131,7 @@ void ForceSurface::build(const StiffnessTable& table, double largest_deflection,
   for (int i = 0; i < pieces; ++i) {
     const int next = (i + 1) % pieces;
     Eigen::RowVector4d energy = Eigen::RowVector4d::Zero();
-    for (std::size_t k = 0; k < cells_; ++k) {
+    for (int k = 0; k < cells_; ++k) {
       const auto &low = rows[k], &high = rows[std::min(k + 1, cells_ - 1)];
       Matrix nodes;  // rows: value and slope along the phase at both knots; columns: the same along g
       const auto knot = [&](int row, int phase) {
@@ -119,7 +147,7 @@ void ForceSurface::build(const StiffnessTable& table, double largest_deflection,
         c.col(1) = hermite * nodes.col(1);
         c.rightCols<2>().setZero();
       }
-      const std::size_t cell = static_cast<std::size_t>(i) * cells_ + k;
+      const std::size_t cell = index_of(i, k);
       std::copy_n(c.data(), 16, coefficients_.data() + 16 * cell);
       std::copy_n(energy.data(), 4, energy_.data() + 4 * cell);
       energy += step_ * (c.col(0) + c.col(1) / 2 + c.col(2) / 3 + c.col(3) / 4).transpose();
@@ -129,28 +157,28 @@ void ForceSurface::build(const StiffnessTable& table, double largest_deflection,
   resampling_error_ = 0;
   for (int i = 0; i < pieces; ++i)
     for (const auto& point : curve_at(table, i / table.phases(), i % table.phases()))
-      if (point.force > 0)
-        resampling_error_ = std::max(resampling_error_, std::abs(at({i, 0}, point.g).force / point.force - 1));
+      if (point.force > 0) resampling_error_ = std::max(resampling_error_, miss(at({i, 0}, point.g), point));
 }
 
 void ForceSurface::check(const StiffnessTable& table) const {
   // Makima slopes pass steep flanks slightly: four phases per piece and two deflections per cell see a fall that
   // matters.
   for (int i = 0; i < 4 * grid_.pieces(); ++i)
-    for (std::size_t k = 0; k < 2 * cells_; ++k)
-      if (!(at({i / 4, 0.25 * (i % 4)}, 0.5 * static_cast<double>(k) * step_).tangent > 0))
+    for (int k = 0; k < 2 * cells_; ++k)
+      if (!(at({i / 4, 0.25 * (i % 4)}, 0.5 * k * step_).tangent > 0))
         throw InputError(
             fmt::format("stiffness table {}: the force does not rise with the deflection at {:.3g} m "
                         "near phase {:.3g}: the deflections change too much from one phase to the next; use more",
-                        table.mesh(), 0.5 * static_cast<double>(k) * step_, i / (4 * grid_.rate())));
+                        table.mesh(), 0.5 * k * step_, i / (4 * grid_.rate())));
 }
 
 ForceSurface::Place ForceSurface::place_of(double mesh_cycles, double g, bool derivative) const {
   const auto place = grid_.locate(mesh_cycles);
   Place found;
   found.x = std::abs(g) * inverse_step_;
-  const std::size_t k = cell_of(found.x), cell = static_cast<std::size_t>(place.piece) * cells_ + k;
-  found.x -= static_cast<double>(k);
+  const int k = cell_of(found.x);
+  const std::size_t cell = index_of(place.piece, k);
+  found.x -= k;
   const double p = place.local;
   const Eigen::RowVector4d powers = derivative ? Eigen::RowVector4d(0, 1, 2 * p, 3 * p * p) * grid_.rate()
                                                : Eigen::RowVector4d(1, p, p * p, p * p * p);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/curve_bundle.h"
+#include "dynamics/pair.h"
 
 namespace annulus::dynamics {
 
@@ -20,9 +21,10 @@ namespace annulus::dynamics {
 /// At a knot of the phase: from zero to the lowest load the parabola with the secant and tangent of that load (if it
 /// would start with less than a tenth of the secant, a rational curve that starts with that); between loads the
 /// rational quadratic curve of Gregory and Delbourgo (IMA J. Numer. Anal. 2, 1982), which takes positive tangents as
-/// they are and never falls; beyond the largest load straight on with its tangent. These curves are resampled on
-/// equidistant deflections with their values and tangents; between the knots of the phase makima slopes act as in
-/// PeriodicCurve. The result is one bicubic polynomial per cell, once continuously differentiable everywhere.
+/// they are and never falls; beyond the largest load straight on with its tangent. These curves are resampled as cubic
+/// pieces on equidistant deflections, which still pass the tabulated points with their tangents; between the knots of
+/// the phase makima slopes act as in PeriodicCurve. The result is one bicubic polynomial per cell, once continuously
+/// differentiable everywhere.
 ///
 /// The table describes the drive flanks. The law is continued as an odd function to g < 0: mirrored for contact of the
 /// back flanks (whose own stiffness is not tabulated), and for meshes without backlash, which pull.
@@ -46,7 +48,7 @@ class ForceSurface {
   [[nodiscard]] const PhaseGrid& grid() const { return grid_; }
   [[nodiscard]] double smallest_load() const { return smallest_load_; }  ///< N, tabulated
   [[nodiscard]] double largest_load() const { return largest_load_; }    ///< N, tabulated
-  /// Largest deviation of F from a tabulated load at its deflection, relative to that load: the resampling error.
+  /// Largest relative deviation of F and dF/dg from a tabulated load and tangent at its deflection.
   [[nodiscard]] double resampling_error() const { return resampling_error_; }
 
  private:
@@ -54,9 +56,13 @@ class ForceSurface {
     Eigen::Array4d in_g;
     double energy_below = 0, x = 0;
   };
-  [[nodiscard]] std::size_t cell_of(double x) const {
+  [[nodiscard]] int cell_of(double x) const {
     const double capped = x < last_cell_ ? x : last_cell_;  // also where x is not a number: x itself carries that on
-    return static_cast<std::size_t>(capped);
+    return static_cast<int>(capped);
+  }
+  /// The phase runs fastest: from one evaluation to the next the deflection changes little and the phase moves on.
+  [[nodiscard]] std::size_t index_of(int piece, int cell) const {
+    return static_cast<std::size_t>(cell * grid_.pieces() + piece);
   }
   [[nodiscard]] Place place_of(double mesh_cycles, double g, bool derivative) const;
   void build(const StiffnessTable& table, double largest_deflection, int cells);
@@ -65,21 +71,21 @@ class ForceSurface {
   PhaseGrid grid_;
   double step_ = 1, inverse_step_ = 1;  ///< of the deflection, m
   double last_cell_ = 0;                ///< the cell in which the law is straight; it holds for all larger deflections
-  std::size_t cells_ = 0;
-  std::vector<double> coefficients_;  ///< [phase piece][cell][power of the phase 0 ... 3][power of g 0 ... 3], N
-  std::vector<double> energy_;        ///< [phase piece][cell][power of the phase]: U at the lower end of the cell, J
+  int cells_ = 0;
+  std::vector<double> coefficients_;  ///< [cell][phase piece][power of the phase 0 ... 3][power of g 0 ... 3], N
+  std::vector<double> energy_;        ///< [cell][phase piece][power of the phase]: U at the lower end of the cell, J
   double smallest_load_ = 0, largest_load_ = 0, resampling_error_ = 0;
 };
 
 inline ForceSurface::Value ForceSurface::at(const PhaseLocation& place, double g) const {
-  using Row = Eigen::Map<const Eigen::Array4d>;
   const double x = std::abs(g) * inverse_step_, p = place.local;
-  const std::size_t cell = cell_of(x);
-  const double* c = coefficients_.data() + 16 * (static_cast<std::size_t>(place.piece) * cells_ + cell);
-  const Eigen::Array4d in_g = Row(c) + p * (Row(c + 4) + p * (Row(c + 8) + p * Row(c + 12)));
-  const double s = x - static_cast<double>(cell);
-  const double force = in_g[0] + s * (in_g[1] + s * (in_g[2] + s * in_g[3]));
-  const double tangent = (in_g[1] + s * (2 * in_g[2] + 3 * s * in_g[3])) * inverse_step_;
+  const int cell = cell_of(x);
+  const double* c = coefficients_.data() + 16 * index_of(place.piece, cell);
+  const Pair low = pair_at(c) + p * (pair_at(c + 4) + p * (pair_at(c + 8) + p * pair_at(c + 12)));
+  const Pair high = pair_at(c + 2) + p * (pair_at(c + 6) + p * (pair_at(c + 10) + p * pair_at(c + 14)));
+  const double s = x - cell;
+  const double force = low[0] + s * (low[1] + s * (high[0] + s * high[1]));
+  const double tangent = (low[1] + s * (2 * high[0] + 3 * s * high[1])) * inverse_step_;
   return {std::copysign(force, g), tangent};
 }
 

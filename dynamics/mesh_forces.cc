@@ -3,13 +3,11 @@
 
 #include "dynamics/lumped_system.h"
 #include "dynamics/lumped_system_compiled.h"
+#include "dynamics/pair.h"
 
 namespace annulus::dynamics {
 
 namespace {
-
-using Pair = Eigen::Array2d;  // two numbers in one register
-using PairAt = Eigen::Map<const Eigen::Array2d>;
 
 LumpedSystem::Contact contact_of(const CompiledMesh& mesh, double delta) {
   if (mesh.linear || delta > mesh.half_backlash) return LumpedSystem::Contact::drive;
@@ -73,7 +71,7 @@ void LumpedSystem::evaluate_excitation(double t, Workspace& w) const {
         const auto place = grid.locate(cycles);
         const double x = place.local;
         const double* p = mesh.table->piece(place.piece);  // (secant, unloaded transmission error) by power
-        const Pair value = PairAt(p) + x * (PairAt(p + 2) + x * (PairAt(p + 4) + x * PairAt(p + 6)));
+        const Pair value = pair_at(p) + x * (pair_at(p + 2) + x * (pair_at(p + 4) + x * pair_at(p + 6)));
         w.stiffness[m] = value[0];
         e += value[1];
         rate += mesh.frequency * grid.rate() * (p[3] + x * (2 * p[5] + 3 * x * p[7]));
@@ -103,13 +101,10 @@ void LumpedSystem::evaluate_meshes(double t, const double* q, const double* v, W
   evaluate_excitation(t, w);
   const Compiled& c = *compiled_;
   double* pairs = w.pairs.data();
-  for (int i = 0; i < freedoms(); ++i) {
-    pairs[2 * i] = q[i];
-    pairs[2 * i + 1] = v[i];
-  }
+  for (int i = 0; i < freedoms(); ++i) store(Pair{q[i], v[i]}, pairs + 2 * i);
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
-    Pair delta(-w.error[m], -w.error_rate[m]);
-    for (int i = c.b.start[m]; i < c.b.start[m + 1]; ++i) delta += c.b.factor[i] * PairAt(pairs + 2 * c.b.index[i]);
+    Pair delta{-w.error[m], -w.error_rate[m]};
+    for (int i = c.b.start[m]; i < c.b.start[m + 1]; ++i) delta += c.b.factor[i] * pair_at(pairs + 2 * c.b.index[i]);
     w.delta[m] = delta[0];
     w.delta_rate[m] = delta[1];
     apply_force(c.meshes[m], m, w);
@@ -132,11 +127,13 @@ void LumpedSystem::rhs(double t, const double* y, double* dy, Workspace& w) cons
   const int n = freedoms();
   evaluate_meshes(t, y, y + n, w);
   double* pairs = w.pairs.data();
-  for (std::size_t m = 0; m < c.meshes.size(); ++m) pairs[2 * n + m] = w.force[m];
+  const std::size_t meshes = c.meshes.size();
+  for (std::size_t m = 0; m < meshes; m += 2)
+    store(Pair{w.force[m], m + 1 < meshes ? w.force[m + 1] : 0.0}, pairs + 2 * n + m);
   for (int i = 0; i < n; ++i) {
-    Pair a(c.acceleration[i], 0.0);
+    Pair a{c.acceleration[i], 0.0};
     for (int j = c.pair_start[i]; j < c.pair_start[i + 1]; ++j)
-      a -= PairAt(&c.pair_factor[2 * j]) * PairAt(pairs + 2 * c.pair_column[j]);
+      a -= pair_at(&c.pair_factor[2 * j]) * pair_at(pairs + 2 * c.pair_column[j]);
     dy[i] = y[n + i];
     dy[n + i] = a[0] + a[1];
   }
