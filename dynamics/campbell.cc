@@ -81,6 +81,12 @@ double participation(const PlanetaryStage& stage, const LumpedSystem& system, co
 
 }  // namespace
 
+std::vector<std::size_t> continued_modes(const RotatingModes& before, const RotatingModes& after,
+                                         const Eigen::MatrixXd& mass) {
+  require(before.modes.size() == after.modes.size(), "modes of one stage");
+  return continuation(before, after, likeness(before, after, mass));
+}
+
 Campbell campbell(const PlanetaryStage& stage, const std::vector<double>& speeds, const CampbellOptions& options) {
   if (speeds.empty() || speeds.front() < 0 || options.orders < 0)
     throw InputError("a Campbell diagram needs speeds of zero or more and no negative number of orders");

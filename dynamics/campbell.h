@@ -34,6 +34,11 @@ struct CriticalSpeed {
   double participation = 0;
 };
 
+/// For each mode of `before` the index of its continuation in `after` (the same stage at another speed or damping), by
+/// likeness of the shapes, likest pairs first; among equally like ones the nearer frequency. `mass` is M of the stage.
+[[nodiscard]] std::vector<std::size_t> continued_modes(const RotatingModes& before, const RotatingModes& after,
+                                                       const Eigen::MatrixXd& mass);
+
 struct Campbell {
   std::vector<double> speeds;             ///< carrier, rad/s
   std::vector<double> mesh_frequency;     ///< Hz, one per speed, seen from the carrier; order h is h times it
