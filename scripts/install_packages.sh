@@ -8,7 +8,7 @@ packages=(
   libboost-dev libboost-test-dev
   libopenblas-dev libopenblas0-pthread
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
-  calculix-ccx  # tests only: what a benchmark compares with
+  calculix-ccx octave  # tests only: what benchmarks compare with
 )
 
 missing=()
