@@ -96,9 +96,9 @@ void HarmonicBalance::residual(const Eigen::Ref<const Eigen::MatrixXd>& closing,
 void HarmonicBalance::apply_derivative(const Eigen::Ref<const Eigen::MatrixXd>& change,
                                        Eigen::Ref<Eigen::MatrixXd> result) {
   // result serves as the forces' change first.
+  meshes_.apply_tangent(change, problem_.mean_stiffness, result);
   for (Eigen::Index m = 0; m < change.cols(); ++m) {
-    const double k = problem_.mean_stiffness[m], c = problem_.system.meshes()[m].damping;
-    result.col(m).array() = (meshes_.tangent().col(m).array() - k) * change.col(m).array();
+    const double c = problem_.system.meshes()[m].damping;
     if ((meshes_.damping().col(m).array() != c).any())
       result.col(m).array() += (meshes_.damping().col(m).array() - c) * rate_of(change.col(m)).array();
   }

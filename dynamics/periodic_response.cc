@@ -176,6 +176,11 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
   if (!(options.tolerance > 0) || options.max_iterations < 1)
     throw InputError("harmonic balance needs a positive tolerance and at least one iteration");
   require(!system.meshes().empty(), "a periodic response needs meshes");
+  if (system.has_moving_vectors()) {
+    PeriodicResponse refused;
+    refused.trouble = "mesh vectors that move with the mesh (elastic modes of the ring) need time marching";
+    return refused;
+  }
 
   const Eigen::Index samples = static_cast<Eigen::Index>(cycles) * options.samples_per_cycle;
   // Solving begins with few samples, where iterations cost little, and doubles them: each level starts close to its
