@@ -52,7 +52,7 @@ FrequencyResponse::FrequencyResponse(const LumpedSystem& system, const Eigen::Ve
     shapes.col(i) = found.modes[i].shape;
     squares[i] = std::pow(2 * std::numbers::pi * found.modes[i].frequency, 2);
   }
-  for (Eigen::Index i = 0; i < rigid_motions; ++i) {
+  for (Eigen::Index i = 0; i < n && squares[i] == 0; ++i) {
     const Eigen::VectorXd momentum = mass_ * shapes.col(i);
     fixed += squares[n - 1] * momentum * momentum.transpose();
   }

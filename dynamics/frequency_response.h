@@ -11,8 +11,8 @@ namespace annulus::dynamics {
 /// From the eigenvalues of its state matrix, so that thousands of lines cost little; checked against direct solutions
 /// of D, which take over when the eigenvectors are useless (eigenvalues that coincide, as at critical damping).
 ///
-/// Rigid motions at which nothing pulls back (K and K_Omega vanish on them) have no definite place: at w = 0 they are
-/// fixed by nu^T M q = 0, as in StaticSolver.
+/// Rigid motions (K and the meshes do not resist them) have no definite place: at w = 0 they are fixed by nu^T M q = 0,
+/// as in StaticSolver. What little K_Omega makes of them (a single planet out of balance) is left out there.
 class FrequencyResponse {
  public:
   /// Throws SolverError when the mesh stiffnesses leave the system singular at w = 0.

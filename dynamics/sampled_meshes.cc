@@ -16,10 +16,7 @@ double damping_in(const MeshElement& mesh, Contact contact) {
 }  // namespace
 
 SampledMeshes::SampledMeshes(const LumpedSystem& system, double period, Eigen::Index samples)
-    : system_(system),
-      workspace_(system.workspace()),
-      samples_(samples),
-      step_(period / static_cast<double>(samples)) {
+    : system_(system), workspace_(system.workspace()), samples_(samples), step_(period / static_cast<double>(samples)) {
   const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
   tangent_.resize(samples, meshes);
   damping_.resize(samples, meshes);
@@ -63,21 +60,23 @@ void SampledMeshes::evaluate(const Eigen::MatrixXd& closing, const Eigen::Matrix
     rate_ = rate.row(i);
     force_.setZero();
     if (pieces_.empty()) {
-      add_piece(i, 1);
+      add_piece(i, {1, time(i)});
     } else {
       for (const auto& piece : pieces_[i]) {
         system_.hold_waves(piece.middle, workspace_);
-        add_piece(i, piece.weight);
+        closing_ = closing.row(i) + (piece.middle - time(i)) * rate.row(i);
+        add_piece(i, piece);
       }
     }
     force.row(i) = force_;
   }
 }
 
-void SampledMeshes::add_piece(Eigen::Index sample, double weight) {
+void SampledMeshes::add_piece(Eigen::Index sample, const Piece& piece) {
+  const double weight = piece.weight, shift = piece.middle - time(sample);
   auto& w = workspace_;
   const auto& meshes = system_.meshes();
-  system_.evaluate_forces(time(sample), closing_.data(), rate_.data(), w);
+  system_.evaluate_forces(piece.middle, closing_.data(), rate_.data(), w);
   const bool coupled = coupled_.size() != 0;
   if (coupled) {
     system_.tangent_matrix(w, block_);
@@ -93,25 +92,25 @@ void SampledMeshes::add_piece(Eigen::Index sample, double weight) {
     if (whole_[m]) {
       force_[i] += weight * w.force[m];
       tangent_(sample, i) += weight * w.tangent[m];
-      damping_(sample, i) += weight * damping_in(meshes[m], w.contact[m]);
+      damping_(sample, i) += weight * (damping_in(meshes[m], w.contact[m]) + shift * w.tangent[m]);
     } else if (meshes[m].damping_without_contact) {
       force_[i] += weight * meshes[m].damping * w.delta_rate[m];
       damping_(sample, i) += weight * meshes[m].damping;
     }
   }
   if (all_whole) return;
-  add_partial_contact(sample, weight, +1);
-  add_partial_contact(sample, weight, -1);
+  add_partial_contact(sample, piece, +1);
+  add_partial_contact(sample, piece, -1);
 }
 
-void SampledMeshes::add_partial_contact(Eigen::Index sample, double weight, int side) {
+void SampledMeshes::add_partial_contact(Eigen::Index sample, const Piece& piece, int side) {
+  const double weight = piece.weight, shift = piece.middle - time(sample);
   // Within the step the deflection is delta + delta' tau, |tau| <= step/2. It lies beyond the edge, side x half, in the
   // share (d + s)/(2 s) of the step, by (d + s)/2 in the mean: d = side delta - half, s = |delta'| step/2. The force
   // there is the one at that mean.
   auto& w = workspace_;
   const auto& meshes = system_.meshes();
   moved_ = closing_;
-  std::vector<char>& whole = whole_;
   bool any = false;
   const auto inside = [&](std::size_t m) {
     const auto i = static_cast<Eigen::Index>(m);
@@ -119,16 +118,16 @@ void SampledMeshes::add_partial_contact(Eigen::Index sample, double weight, int 
     return std::pair(side * delta - *meshes[m].half_backlash, swing);
   };
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    if (whole[m]) continue;
+    if (whole_[m]) continue;
     const auto [depth, swing] = inside(m);
     if (std::abs(depth) >= swing) continue;
     any = true;
     moved_[static_cast<Eigen::Index>(m)] += side * ((depth + swing) / 2 - depth);
   }
   if (!any) return;
-  system_.evaluate_forces(time(sample), moved_.data(), rate_.data(), w);
+  system_.evaluate_forces(piece.middle, moved_.data(), rate_.data(), w);
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    if (whole[m]) continue;
+    if (whole_[m]) continue;
     const auto [depth, swing] = inside(m);
     if (std::abs(depth) >= swing) continue;
     const auto i = static_cast<Eigen::Index>(m);
@@ -137,9 +136,11 @@ void SampledMeshes::add_partial_contact(Eigen::Index sample, double weight, int 
     const double gain = w.force[m] - open * rate;  // by touching
     const double share_by_swing = -depth / (2 * swing * swing), swing_by_rate = (rate > 0 ? 0.5 : -0.5) * step_;
     force_[i] += weight * share * gain;
-    tangent_(sample, i) += weight * (side * gain / (2 * swing) + share * w.tangent[m] / 2);
-    damping_(sample, i) += weight * ((share_by_swing * gain + share * side * w.tangent[m] / 2) * swing_by_rate +
-                                     share * (closed - open));
+    const double tangent = side * gain / (2 * swing) + share * w.tangent[m] / 2;
+    tangent_(sample, i) += weight * tangent;
+    damping_(sample, i) +=
+        weight * (shift * tangent + (share_by_swing * gain + share * side * w.tangent[m] / 2) * swing_by_rate +
+                  share * (closed - open));
   }
 }
 

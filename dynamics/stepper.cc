@@ -125,9 +125,9 @@ class ExplicitStepper final : public SundialsStepper {
       check(ERKStepSetFixedStep(memory_, fixed_step_), 0);
     } else {
       check(ERKStepSetTableNum(memory_, ARKODE_CASH_KARP_6_4_5), 0);
-      // Cubic: from what the steps know anyway. Higher degrees cost two evaluations per sample, for an error that stays
-      // below the tolerance either way.
-      check(ERKStepSetInterpolantDegree(memory_, 3), 0);
+      // Cubic: from what the steps know anyway. The higher degrees cost two evaluations per sample; samples stay within
+      // the tolerance either way, but the state after a contact event is an interpolated one and goes on.
+      if (problem_.rooted.empty()) check(ERKStepSetInterpolantDegree(memory_, 3), 0);
     }
     if (!problem_.rooted.empty())
       check(ERKStepRootInit(memory_, static_cast<int>(2 * problem_.rooted.size()), annulus_roots), 0);

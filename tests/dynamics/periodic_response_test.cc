@@ -45,8 +45,12 @@ PeriodicResponse solve(const LumpedSystem& system, int samples, double tolerance
   return periodic_response(system, 1 / frequency, 1, options);
 }
 
-/// Forces (meshes x samples) over the last of many periods of time integration.
-Eigen::MatrixXd marched(const LumpedSystem& system, double period, int periods, Eigen::Index samples, double absolute) {
+/// Forces (meshes x samples) and displacements over the last of many periods of time integration.
+struct Marched {
+  Eigen::MatrixXd force, displacement;
+};
+
+Marched marched(const LumpedSystem& system, double period, int periods, Eigen::Index samples, double absolute) {
   auto workspace = system.workspace();
   SystemState state;
   state.q = state.v = Eigen::VectorXd::Zero(system.freedoms());
@@ -55,12 +59,15 @@ Eigen::MatrixXd marched(const LumpedSystem& system, double period, int periods, 
   options.relative_tolerance = 1e-10;
   options.absolute_tolerance = absolute;
   integrate(system, state, (periods - 1) * period, options, workspace);
-  Eigen::MatrixXd force(static_cast<Eigen::Index>(system.meshes().size()), samples);
+  Marched result;
+  result.force.resize(static_cast<Eigen::Index>(system.meshes().size()), samples);
+  result.displacement.resize(system.freedoms(), samples);
   integrate(system, state, periods * period, options, workspace, static_cast<int>(samples),
-            [&](int i, const SystemState&) {
-              for (Eigen::Index m = 0; m < force.rows(); ++m) force(m, i) = workspace.force[m];
+            [&](int i, const SystemState& s) {
+              for (Eigen::Index m = 0; m < result.force.rows(); ++m) result.force(m, i) = workspace.force[m];
+              result.displacement.col(i) = s.q;
             });
-  return force;
+  return result;
 }
 
 double largest(const Eigen::MatrixXd& difference) { return difference.cwiseAbs().maxCoeff(); }
@@ -77,7 +84,7 @@ BOOST_AUTO_TEST_CASE(harmonic_error_in_closed_form) {
   const auto x = coupling * error / (coupling - 2 * w * w);
   for (Eigen::Index i = 0; i < 16; ++i) {
     const auto turn = std::exp(1i * w * response.time[i]);
-    // Rounding of kissing sums of some ten terms; the problem is linear and solved in one step.
+    // Rounding of some ten terms; the problem is linear and its linear part solves it.
     BOOST_TEST(std::abs(response.displacement(0, i) - load / 5e4 - (x * turn).real()) <= 1e-12 * 1e-3);
     BOOST_TEST(std::abs(response.velocity(0, i) - (1i * w * x * turn).real()) <= 1e-12 * w * 1e-3);
     BOOST_TEST(std::abs(response.force(0, i) - load - (coupling * (x - error) * turn).real()) <= 1e-12 * load);
@@ -93,51 +100,51 @@ BOOST_AUTO_TEST_CASE(parametric_excitation_agrees_with_marching) {
   const auto response = solve(system, 64);
   BOOST_TEST(response.converged);
   BOOST_TEST(largest(response.force.array() - load) > 0.2 * load);  // the stiffness does excite
-  const auto force = marched(system, 1 / frequency, 60, 64, 1e-14);
+  const auto force = marched(system, 1 / frequency, 60, 64, 1e-14).force;
   BOOST_TEST(largest(response.force - force) <= 1e-7 * load);  // 1e-10 x steps of some decay times
 }
 
-// Separation near resonance. Averaging over the time step makes the error of the sampling second order.
-BOOST_AUTO_TEST_CASE(contact_loss_agrees_with_marching_to_second_order) {
-  MeshedMass mass;
-  mass.mesh.errors = {{5e-4, 2 * std::numbers::pi * frequency, 0.3}};
-  mass.mesh.half_backlash = 5e-3;
-  const auto system = mass.system();
-  const auto force = marched(system, 1 / frequency, 80, 1024, 1e-14);
-  BOOST_TEST(force.minCoeff() <= 0.0);
+/// Largest difference of a displacement (m).
+double motion_error(const PeriodicResponse& response, const Marched& truth) {
+  const Eigen::Index samples = response.time.size(), every = truth.displacement.cols() / samples;
+  double error = 0;
+  for (Eigen::Index i = 0; i < samples; ++i)
+    error = std::max(error, largest(response.displacement.col(i) - truth.displacement.col(i * every)));
+  return error;
+}
+
+// Where contact or stiffness changes between two samples, means over the time step make the error of the motion second
+// order. (Next to a jump the velocity has a kink, and the force of the damper an error of first order.)
+void check_second_order(const LumpedSystem& system, const Marched& truth) {
   double previous = 0;
   for (const int samples : {64, 256, 1024}) {
-    const auto response = solve(system, samples);
-    BOOST_TEST(response.converged);
-    BOOST_TEST(response.open[0] > 0.05);
-    BOOST_TEST(response.open[0] < 0.9);
-    // Forces jump with the damper where teeth meet, so their errors are compared where the teeth touch for sure.
-    double error = 0;
-    for (Eigen::Index i = 0; i < samples; ++i)
-      if (force(0, i * (1024 / samples)) > load)
-        error = std::max(error, std::abs(response.force(0, i) - force(0, i * (1024 / samples))));
+    const auto response = solve(system, samples, 1e-8);
+    BOOST_TEST(response.converged, response.trouble);
+    const double error = motion_error(response, truth);
     if (previous > 0) BOOST_TEST(std::log2(previous / error) / 2 >= 1.6);
     previous = error;
   }
-  BOOST_TEST(previous <= 1e-3 * load);
+  BOOST_TEST(previous <= 1e-4 * load / 5e4);
+}
+
+BOOST_AUTO_TEST_CASE(contact_loss_agrees_with_marching_to_second_order) {
+  MeshedMass mass;
+  mass.mesh.damping = 200;
+  mass.mesh.errors = {{8e-4, 2 * std::numbers::pi * frequency, 0.3}};
+  mass.mesh.half_backlash = 5e-3;
+  const auto system = mass.system();
+  const auto truth = marched(system, 1 / frequency, 80, 1024, 1e-14);
+  const auto apart = (truth.force.array() == 0).count();
+  BOOST_TEST(apart > 100);
+  BOOST_TEST(std::abs(solve(system, 256, 1e-8).open[0] - static_cast<double>(apart) / 1024) <= 2.0 / 256);
+  check_second_order(system, truth);
 }
 
 BOOST_AUTO_TEST_CASE(jumping_stiffness_agrees_with_marching_to_second_order) {
   MeshedMass mass;
   mass.mesh.excitation = RectangularStiffness{5e4, 0.3, 0.37, 0.1};
   const auto system = mass.system();
-  const auto force = marched(system, 1 / frequency, 60, 1024, 1e-14);
-  double previous = 0;
-  for (const int samples : {64, 256, 1024}) {
-    const auto response = solve(system, samples);
-    BOOST_TEST(response.converged);
-    double error = 0;
-    for (Eigen::Index i = 0; i < samples; ++i)
-      error = std::max(error, std::abs(response.force(0, i) - force(0, i * (1024 / samples))));
-    if (previous > 0) BOOST_TEST(std::log2(previous / error) / 2 >= 1.6);
-    previous = error;
-  }
-  BOOST_TEST(previous <= 1e-3 * load);
+  check_second_order(system, marched(system, 1 / frequency, 60, 1024, 1e-14));
 }
 
 BOOST_AUTO_TEST_CASE(stages_agree_with_marching) {
@@ -147,6 +154,7 @@ BOOST_AUTO_TEST_CASE(stages_agree_with_marching) {
     with_phases.planet_errors[n].installation.phase = 0.4 + 2.1 * n;
   }
   auto single = stages::ring_paper();
+  single.sun.support = 1e9;  // one planet pushes the sun aside
   single.planet_angles.resize(1);
   single.planet_errors.resize(1);
   for (auto* list : {&single.sun_phase_lag, &single.ring_phase_lag, &single.ring_tooth_offset}) list->resize(1);
@@ -174,7 +182,8 @@ BOOST_AUTO_TEST_CASE(stages_agree_with_marching) {
     // Harmonics above the 16th are left out: the difference to half the samples bounds that; and 1e-9 x some 1e4 steps.
     BOOST_TEST(response.sampling_difference <= 1e-5 * stage.mean_mesh_force());
     BOOST_TEST(worst <= 1e-6 * stage.mean_mesh_force());
-    BOOST_TEST(drift <= 1e-6 * 1e-4);  // m; displacements are some 1e-4
+    // m; displacements are some 1e-4. A single planet out of balance lets the stage wander around, at no force.
+    if (stage.planets() > 1) BOOST_TEST(drift <= 1e-6 * 1e-4);
   }
 }
 
@@ -192,7 +201,8 @@ BOOST_AUTO_TEST_CASE(transfer_functions_are_those_of_the_matrices) {
   const Eigen::MatrixXcd q = response.displacements(spacing, Eigen::MatrixXcd::Constant(10, lines, Complex(1, 0.3)));
   for (const Eigen::Index j : {0, 7, 39}) {
     const double w = static_cast<double>(j + 1) * spacing;
-    Eigen::MatrixXcd dynamic = (system.stiffness() + system.rotating_stiffness() - w * w * system.mass()).cast<Complex>();
+    Eigen::MatrixXcd dynamic =
+        (system.stiffness() + system.rotating_stiffness() - w * w * system.mass()).cast<Complex>();
     dynamic += Complex(0, w) * (system.damping() + system.gyroscopic()).cast<Complex>();
     for (int m = 0; m < 10; ++m) {
       const Eigen::VectorXcd b = system.mesh_vector(m).cast<Complex>();
@@ -218,10 +228,10 @@ BOOST_AUTO_TEST_CASE(transfer_functions_are_those_of_the_matrices) {
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_solved_is_said) {
-  // Light load, wide gap: the mass rattles without a period that Newton's method would find from afar.
+  // Rattling through a wide gap: far from the linear start, and one iteration is not enough.
   MeshedMass mass;
-  mass.mesh.errors = {{5e-2, 2 * std::numbers::pi * frequency, 0}};
-  mass.mesh.half_backlash = 1e-4;
+  mass.mesh.errors = {{2e-3, 2 * std::numbers::pi * frequency, 0}};
+  mass.mesh.half_backlash = 5e-3;
   PeriodicOptions options;
   options.max_iterations = 1;
   const auto response = periodic_response(mass.system(), 1 / frequency, 1, options);
