@@ -45,15 +45,6 @@ struct MeshElement {
   std::vector<MovingShare> moving;  ///< at most one per freedom
 };
 
-/// A spring with its damper along a coordinate a: force k a^T q + c a^T q', part of K and C. The name says what it
-/// stands for (sun_support_x, planet1_bearing_radial, ...); energies and bearing forces are given under it.
-struct SpringElement {
-  std::string name;
-  LinearForm a;
-  double stiffness = 0;  ///< N/m
-  double damping = 0;    ///< N s/m
-};
-
 /// Meshes that act on each other through a common elastic body (the ring): the own law of mesh i meets the deflection
 ///   delta_i - sum_j D_ij(t) F_j,
 /// so the forces F solve a system of equations. F is the elastic force alone: the dampers of the meshes act on the
@@ -74,6 +65,15 @@ struct MeshCoupling {
 
 /// The curves of MeshCoupling::compliance from symmetric matrices, `per_cycle` of them per mesh cycle.
 [[nodiscard]] std::vector<PeriodicCurve> compliance_curves(const std::vector<Eigen::MatrixXd>& matrices, int per_cycle);
+
+/// A spring with its damper along a coordinate a: force k a^T q + c a^T q', part of K and C. The name says what it
+/// stands for (sun_support_x, planet1_bearing_radial, ...); energies and bearing forces are given under it.
+struct SpringElement {
+  std::string name;
+  LinearForm a;
+  double stiffness = 0;  ///< N/m
+  double damping = 0;    ///< N s/m
+};
 
 /// M q'' + (C + G) q' + (K + K_Omega) q + sum_m b_m F_m = f, immutable. Built by LumpedSystemBuilder.
 class LumpedSystem {
@@ -159,8 +159,8 @@ class LumpedSystem {
   [[nodiscard]] double moving_power(int mesh, const double* q, const Workspace& workspace) const;
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
-  std::vector<SpringElement> springs_;
   std::vector<MeshCoupling> couplings_;
+  std::vector<SpringElement> springs_;
   Eigen::MatrixXd mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
   Eigen::VectorXd load_;
   std::shared_ptr<const Compiled> compiled_;
@@ -193,8 +193,8 @@ class LumpedSystemBuilder {
  private:
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
-  std::vector<SpringElement> springs_;
   std::vector<MeshCoupling> couplings_;
+  std::vector<SpringElement> springs_;
   struct Term {
     LinearForm row, column;
     double value;
