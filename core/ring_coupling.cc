@@ -134,9 +134,8 @@ void RingCoupling::write_csv(const std::filesystem::path& compliance_file,
       refuse(fmt::format("a mode has {} closings where the ring has {} teeth", mode.closing.size(), ring_teeth));
     refuse(complaint(mode, lowest, ring_teeth));
     lowest = mode.frequency;
-    auto& row = shapes.rows.emplace_back(
-        std::vector<double>{mode.frequency, static_cast<double>(mode.waves), mode.translation_x, mode.translation_y,
-                            mode.rotation});
+    auto& row = shapes.rows.emplace_back(std::vector<double>{mode.frequency, static_cast<double>(mode.waves),
+                                                             mode.translation_x, mode.translation_y, mode.rotation});
     row.insert(row.end(), mode.closing.begin(), mode.closing.end());
   }
   csv.write(compliance_file);
@@ -155,8 +154,7 @@ RingCoupling RingCoupling::read_csv(const std::filesystem::path& compliance_file
   result.ring_teeth = header_count(csv, compliance_file, "ring_teeth");
   result.load = header_number(csv, compliance_file, "load_N");
   result.per_cycle = header_count(csv, compliance_file, "per_cycle");
-  const auto sizes =
-      complaint(result.planets, result.ring_teeth, result.load, result.per_cycle, csv.rows.size());
+  const auto sizes = complaint(result.planets, result.ring_teeth, result.load, result.per_cycle, csv.rows.size());
   if (!sizes.empty()) throw InputError(fmt::format("{}:1: {}", compliance_file.string(), sizes));
   for (const auto& line : csv.header)
     if (std::find(header_keys.begin(), header_keys.end(), line.first) == header_keys.end())
@@ -166,7 +164,8 @@ RingCoupling RingCoupling::read_csv(const std::filesystem::path& compliance_file
     const double expected = static_cast<double>(i) / result.per_cycle;
     // Written with fewer digits they are still the same positions.
     if (!(std::abs(csv.rows[i][column[0]] - expected) <= 1e-9 * (1 + expected)))
-      refuse(compliance_file, csv, i, fmt::format("ring_position {} where {} is due", csv.rows[i][column[0]], expected));
+      refuse(compliance_file, csv, i,
+             fmt::format("ring_position {} where {} is due", csv.rows[i][column[0]], expected));
     auto& matrix = result.compliance.emplace_back(result.planets, result.planets);
     for (int n = 0; n < result.planets; ++n)
       for (int m = 0; m < result.planets; ++m) matrix(n, m) = csv.rows[i][column[1 + n * result.planets + m]];

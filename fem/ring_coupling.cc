@@ -127,7 +127,8 @@ void check(const LoadedMeshProblem& problem, int planets, double load, const Rin
   // The four teeth that share one mesh force are not those of the next planet.
   const int most = problem.pair.wheel().teeth() / 4;
   if (planets < 1 || planets > most) throw InputError(fmt::format("{} planets: 1 to {} are possible", planets, most));
-  if (!(load > 0) || !std::isfinite(load)) throw InputError(fmt::format("a mesh load of {} N: it has to be positive", load));
+  if (!(load > 0) || !std::isfinite(load))
+    throw InputError(fmt::format("a mesh load of {} N: it has to be positive", load));
   if (settings.per_cycle < 1) throw InputError("at least one ring position per mesh cycle is needed");
   if (settings.motions.section < 1 || settings.motions.axial < 0 || settings.modes.count < 1)
     throw InputError("modes need motions of order 1 or higher, and a count of at least one");
@@ -151,7 +152,10 @@ Eigen::VectorXd mesh_force_on_teeth(double position, int teeth) {
 SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, int planets, double load,
                                        const RingCouplingSettings& settings) {
   check(problem, planets, load, settings);
-  const Level coarser = solve_level(problem, planets, load, settings, settings.level - 1);
+  RingCouplingSettings before = settings;
+  before.motions.section = std::max(1, settings.motions.section - 1);
+  before.motions.axial = std::max(0, settings.motions.axial - 1);
+  const Level coarser = solve_level(problem, planets, load, before, settings.level - 1);
   Level level = solve_level(problem, planets, load, settings, settings.level);
 
   SolvedRingCoupling result;
@@ -161,8 +165,8 @@ SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, int pla
     result.compliance_error =
         std::max(result.compliance_error, (level.compliance[i] - coarser.compliance[i]).cwiseAbs().maxCoeff());
   for (std::size_t k = 0; k < std::min(level.modes.size(), coarser.modes.size()); ++k)
-    result.frequency_error_relative = std::max(
-        result.frequency_error_relative, std::abs(coarser.modes[k].frequency / level.modes[k].frequency - 1));
+    result.frequency_error_relative =
+        std::max(result.frequency_error_relative, std::abs(coarser.modes[k].frequency / level.modes[k].frequency - 1));
   result.own_compliance = level.own;
   result.unknowns = level.unknowns;
   auto& coupling = result.coupling;

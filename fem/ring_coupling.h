@@ -10,11 +10,11 @@
 namespace annulus::fem {
 
 struct RingCouplingSettings {
-  int level = 1;      ///< of resolution, 1 or finer; the error is estimated from the level before
+  int level = 1;      ///< of resolution, 1 or finer; errors are estimated from the level and the motions before
   int degree = 2;     ///< polynomial degree of the elements
   int per_cycle = 1;  ///< ring positions per mesh cycle
   ModeLimits modes;
-  MotionOrder motions;  ///< of a sector's inertia
+  MotionOrder motions;  ///< of a sector's inertia, their section order at least 1
   int threads = 1;      ///< changes the time, never the result
 };
 
@@ -49,8 +49,8 @@ struct SolvedRingCoupling {
 [[nodiscard]] SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, int planets, double load,
                                                      const RingCouplingSettings& settings);
 
-/// How a unit mesh force of a planet at ring position coordinate `position` (see PlanetarySet::ring_tooth_offset) lies on
-/// the teeth of the ring, in the frame of the solve, whose teeth count backwards: one value per tooth.
+/// How a unit mesh force of a planet at ring position coordinate `position` (see PlanetarySet::ring_tooth_offset) lies
+/// on the teeth of the ring, in the frame of the solve, whose teeth count backwards: one value per tooth.
 [[nodiscard]] Eigen::VectorXd mesh_force_on_teeth(double position, int teeth);
 
 }  // namespace annulus::fem

@@ -38,11 +38,43 @@ NodalLoad mesh_force(const SectorModel& model, const geometry::ToothProfile& pro
   return load;
 }
 
+/// What a plane model is known per unit of.
+double known_width(const RingFlexibilityOptions& options) { return options.solid ? 1 : options.face_width; }
+
 }  // namespace
 
 Eigen::Matrix3Xd RingFlexibility::resultants_of(int sector, int first, int count) const {
   const Eigen::AngleAxisd turn(sector * pitch_angle, Eigen::Vector3d::UnitZ());
   return turn.toRotationMatrix() * resultants.middleCols(first, count);
+}
+
+SectorLoads ring_loads(const SectorModel& model, const geometry::ToothProfile& profile, geometry::Boundary flank,
+                       const RingFlexibilityOptions& options) {
+  SectorLoads loads;
+  loads.acting.push_back(mesh_force(model, profile, flank, options));
+  for (auto& load : inertia_loads(model, known_width(options), options.motions))
+    loads.acting.push_back(std::move(load));
+  for (const auto& arc : options.arcs) loads.acting.push_back(on_outside(arc, model.outside));
+  return loads;
+}
+
+RingFlexibility compose_flexibility(const SectorModel& model, const SectorLoads& loads, const geometry::Gear& gear,
+                                    bool floating, const RingFlexibilityOptions& options) {
+  RingFlexibility ring;
+  ring.teeth = gear.teeth();
+  ring.pitch_angle = gear.pitch_angle();
+  ring.base_radius = gear.base_radius();
+  ring.arcs = static_cast<int>(options.arcs.size());
+  ring.motions = static_cast<int>(loads.acting.size()) - 1 - ring.arcs;
+  ring.unknowns = model.stiffness.rows();
+  ring.resultants.resize(3, static_cast<Eigen::Index>(loads.acting.size()));
+  for (std::size_t i = 0; i < loads.acting.size(); ++i) {
+    const Wrench wrench = resultant(loads.acting[i], model.nodes);
+    ring.resultants.col(static_cast<Eigen::Index>(i)) << wrench[0], wrench[1], wrench[5];
+  }
+  ring.compliance =
+      compose_loads(condense(model, loads, floating), ring.teeth, floating, 1 / known_width(options), options.threads);
+  return ring;
 }
 
 RingFlexibility make_ring_flexibility(const BodyPlan& plan, const BodyResolution& resolution, const Material& material,
@@ -53,28 +85,8 @@ RingFlexibility make_ring_flexibility(const BodyPlan& plan, const BodyResolution
   wanted.want_mass = true;
   const SectorModel model =
       make_sector_model(plan.sector(resolution), profile, plan.support_radius(), material, wanted);
-  const double width = options.solid ? 1 : options.face_width;  // of what is known per unit of width
-
-  SectorLoads loads;
-  loads.acting.push_back(mesh_force(model, profile, wanted.flank, options));
-  for (auto& load : inertia_loads(model, width, options.motions)) loads.acting.push_back(std::move(load));
-  for (const auto& arc : options.arcs) loads.acting.push_back(on_outside(arc, model.outside));
-
-  RingFlexibility ring;
-  ring.teeth = profile.gear().teeth();
-  ring.pitch_angle = profile.gear().pitch_angle();
-  ring.base_radius = profile.gear().base_radius();
-  ring.arcs = static_cast<int>(options.arcs.size());
-  ring.motions = static_cast<int>(loads.acting.size()) - 1 - ring.arcs;
-  ring.unknowns = model.stiffness.rows();
-  ring.resultants.resize(3, static_cast<Eigen::Index>(loads.acting.size()));
-  for (std::size_t i = 0; i < loads.acting.size(); ++i) {
-    const Wrench wrench = resultant(loads.acting[i], model.nodes);
-    ring.resultants.col(static_cast<Eigen::Index>(i)) << wrench[0], wrench[1], wrench[5];
-  }
-  ring.compliance =
-      compose_loads(condense(model, loads, plan.floating()), ring.teeth, plan.floating(), 1 / width, options.threads);
-  return ring;
+  return compose_flexibility(model, ring_loads(model, profile, wanted.flank, options), profile.gear(), plan.floating(),
+                             options);
 }
 
 }  // namespace annulus::fem

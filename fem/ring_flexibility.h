@@ -22,8 +22,8 @@ struct RingFlexibility {
   double base_radius = 0;
   int motions = 0, arcs = 0;
   CyclicFlexibility compliance;  ///< m/N; of inertia loads in kg^1/2 instead of N
-  /// Resultants (x, y, moment about the axis) of unit loads in the sector's frame: 3 x loads. Those of inertia loads are
-  /// at the same time their work on unit rigid motions (x, y, rotation).
+  /// Resultants (x, y, moment about the axis) of unit loads in the sector's frame: 3 x loads. Those of inertia loads
+  /// are at the same time their work on unit rigid motions (x, y, rotation).
   Eigen::Matrix3Xd resultants;
   long unknowns = 0;
 
@@ -33,16 +33,24 @@ struct RingFlexibility {
   [[nodiscard]] Eigen::Matrix3Xd resultants_of(int sector, int first, int count) const;
 };
 
-/// `roll`: of the ring at the pitch point. `solid`: whether the plan makes solid sectors.
 struct RingFlexibilityOptions {
-  double roll = 0;
+  double roll = 0;  ///< m, of the ring at the pitch point
   double face_width = 0;
-  bool solid = false;
+  bool solid = false;  ///< whether sectors are solid
   MotionOrder motions;
   std::vector<ArcLoad> arcs;
   int threads = 1;
 };
+
 [[nodiscard]] RingFlexibility make_ring_flexibility(const BodyPlan& plan, const BodyResolution& resolution,
                                                     const Material& material, const RingFlexibilityOptions& options);
+
+/// Its two steps: the loads of a sector that has its nodal mass (and its outside, for arcs), and their compliance in
+/// the ring. `floating`: nothing holds the sector.
+[[nodiscard]] SectorLoads ring_loads(const SectorModel& model, const geometry::ToothProfile& profile,
+                                     geometry::Boundary flank, const RingFlexibilityOptions& options);
+[[nodiscard]] RingFlexibility compose_flexibility(const SectorModel& model, const SectorLoads& loads,
+                                                  const geometry::Gear& gear, bool floating,
+                                                  const RingFlexibilityOptions& options);
 
 }  // namespace annulus::fem

@@ -105,8 +105,8 @@ std::vector<RingMode> held_ring_modes(const RingFlexibility& ring, const ModeLim
       Eigen::MatrixXd shape(ring.motions, ring.teeth);
       Eigen::VectorXd mesh(ring.teeth);
       for (int s = 0; s < ring.teeth; ++s) {
-        const Complex turn =
-            std::polar(norm, 2 * M_PI * (c.harmonic * s % ring.teeth) / ring.teeth) * (part == 0 ? 1.0 : Complex(0, -1));
+        const Complex turn = std::polar(norm, 2 * M_PI * (c.harmonic * s % ring.teeth) / ring.teeth) *
+                             (part == 0 ? 1.0 : Complex(0, -1));
         shape.col(s) = (turn * c.motions).real();
         mesh[s] = (turn * c.mesh).real();
       }

@@ -11,7 +11,7 @@ namespace annulus::fem {
 
 /// Which modes to keep.
 struct ModeLimits {
-  int count = 40;                                                       ///< one more where that would part a pair
+  int count = 40;                                                      ///< one more where that would part a pair
   double highest_frequency = std::numeric_limits<double>::infinity();  ///< Hz
 };
 

@@ -18,7 +18,8 @@ namespace {
 Eigen::MatrixXd eliminate_supports(const Eigen::MatrixXd& F, const Eigen::MatrixXd& U, const Eigen::MatrixXd& C,
                                    const Eigen::MatrixX3d& R_f, const Eigen::MatrixX3d& R_p) {
   const Eigen::LLT<Eigen::MatrixXd> factor(C);
-  if (factor.info() != Eigen::Success) throw SolverError("the compliance of the ring's supports is not positive definite");
+  if (factor.info() != Eigen::Success)
+    throw SolverError("the compliance of the ring's supports is not positive definite");
   const Eigen::MatrixXd u = factor.matrixL().solve(U);
   const Eigen::MatrixXd r = factor.matrixL().solve(R_p);
   const Eigen::MatrixXd Q = R_f - u.transpose() * r;
@@ -109,6 +110,7 @@ RingOnSupports::State RingOnSupports::solve(const Eigen::MatrixXd& patterns, con
   State state;
   state.displacement = F * forces + U.transpose() * solution.force + R_f * solution.rigid;
   state.touching = solution.active;
+  state.support = solution.force;
   std::vector<Eigen::Index> touching;
   for (Eigen::Index i = 0; i < n; ++i)
     if (solution.active[i]) touching.push_back(i);

@@ -18,6 +18,7 @@ class RingOnSupports {
     Eigen::VectorXd displacement;  ///< m, of the work partners of the given loads
     Eigen::MatrixXd tangent;       ///< its derivative by the forces, the touching supports kept, m/N; symmetric
     std::vector<bool> touching;    ///< per support force
+    Eigen::VectorXd support;       ///< N, support forces
   };
   /// Mesh forces: `patterns` (teeth x loads) says how a unit load lies on the teeth, `forces` (N) how large they are;
   /// `start` guesses which supports touch (may be empty). Throws SolverError when the contact does not settle.

@@ -19,7 +19,8 @@ CyclicFlexibility::CyclicFlexibility(int sectors, std::vector<Eigen::MatrixXcd> 
     auto& block = blocks_[d];
     for (int h = 0; h < static_cast<int>(harmonics_.size()); ++h) {
       // The angle is reduced first: far offsets of high harmonics lose no digits.
-      const std::complex<double> turn = std::polar(multiplicity(h) / static_cast<double>(sectors), (h * d % sectors) * pitch);
+      const std::complex<double> turn =
+          std::polar(multiplicity(h) / static_cast<double>(sectors), (h * d % sectors) * pitch);
       block += harmonics_[h].real() * turn.real() - harmonics_[h].imag() * turn.imag();
     }
     if (d == 0 || 2 * d == sectors) block = (0.5 * (block + block.transpose())).eval();

@@ -17,7 +17,7 @@ class HarmonicMatrix {
 
   /// Its Cholesky factor (lower). Throws SolverError when the ring is not held against the harmonic.
   [[nodiscard]] Eigen::MatrixXcd factor(int harmonic) const;
-  [[nodiscard]] const Eigen::MatrixXd& load_low() const { return load_low_; }  ///< loads on the own cut, m x loads
+  [[nodiscard]] const Eigen::MatrixXd& load_low() const { return load_low_; }    ///< loads on the own cut, m x loads
   [[nodiscard]] const Eigen::MatrixXd& load_high() const { return load_high_; }  ///< on the next, in its frame
 
  private:

@@ -10,7 +10,7 @@ namespace annulus::fem {
 /// Smooth motions of a sector whose inertia stands for that of all its mass: polynomials over the section (total degree
 /// `section_order` in x and y, every component) times Legendre polynomials over the axial length.
 struct MotionOrder {
-  int section = 1;  ///< 1 holds the rigid motions of the section
+  int section = 2;  ///< 1 holds the rigid motions of the section
   int axial = 3;    ///< solid bodies only
 };
 

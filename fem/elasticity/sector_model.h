@@ -44,7 +44,8 @@ struct SectorModel {
   TraceGrid outside;                       ///< of the support circle (empty when held)
   StressSurface root_low, root_high;       ///< root land and fillet of the trailing (y < 0) and of the leading side
   StressSurface rim;                       ///< of the support circle (empty when held)
-  Eigen::SparseMatrix<double> nodal_mass;  ///< of one component, nodes x nodes; see ElasticProblem (empty unless wanted)
+  Eigen::SparseMatrix<double>
+      nodal_mass;  ///< of one component, nodes x nodes; see ElasticProblem (empty unless wanted)
 };
 
 struct SectorModelOptions {

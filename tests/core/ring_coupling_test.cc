@@ -78,7 +78,8 @@ BOOST_AUTO_TEST_CASE(round_trip_keeps_every_bit) {
     for (std::size_t k = 0; k < read.modes.size(); ++k) {
       const auto &a = read.modes[k], &b = coupling.modes[k];
       BOOST_TEST((a.frequency == b.frequency && a.waves == b.waves && a.closing == b.closing &&
-                  a.translation_x == b.translation_x && a.translation_y == b.translation_y && a.rotation == b.rotation));
+                  a.translation_x == b.translation_x && a.translation_y == b.translation_y &&
+                  a.rotation == b.rotation));
     }
   }
   std::filesystem::remove(compliance_file);
@@ -100,7 +101,7 @@ BOOST_AUTO_TEST_CASE(a_damaged_file_is_refused_with_its_line) {
   refused(compliance_file, "# ring_teeth: 6", "# ring_teeth: 7", 1);
   refused(compliance_file, "compliance_2_1_m_per_N", "compliance_2_1", 5);
   refused(compliance_file, "\n0.5,", "\n0.6,", 7);
-  refused(compliance_file, "\n1,", "\n1,nan,0,0,0\n1.1,", 8);
+  refused(compliance_file, "\n1,", "\nnan,", 8);
   refused(compliance_file, "\n0,", "\n0,0,1e-12,2e-12,0\n0,", 1);  // a position too many
   refused(modes_file, "# ring_teeth: 6", "# ring_teeth: 8", 1);
   refused(modes_file, "closing_5_per_sqrt_kg", "closing_6_per_sqrt_kg", 5);
