@@ -19,9 +19,8 @@ std::size_t kind_colour(const std::string& kind) {
 }
 
 std::string group_words(const std::string& group) {
-  static const std::map<std::string, std::string> words = {{"sun_planet", "sun meshes"},
-                                                           {"ring_planet", "ring meshes"},
-                                                           {"planet_bearing", "planet bearings"}};
+  static const std::map<std::string, std::string> words = {
+      {"sun_planet", "sun meshes"}, {"ring_planet", "ring meshes"}, {"planet_bearing", "planet bearings"}};
   const auto found = words.find(group);
   if (found != words.end()) return found->second;
   std::string text = group;
@@ -82,9 +81,8 @@ std::string modes_table(const RunResult& result) {
     for (std::size_t r = 0; r < rows; ++r) {
       std::vector<std::string> row = {r == 0 ? kind : ""};
       for (std::size_t c = 0; c < columns.size(); ++c)
-        row.push_back(r < columns[c].size()
-                          ? mode_cell(rings_with_response(result)[c]->response->modes, columns[c][r])
-                          : "");
+        row.push_back(r < columns[c].size() ? mode_cell(rings_with_response(result)[c]->response->modes, columns[c][r])
+                                            : "");
       table.rows.push_back(std::move(row));
     }
   }
@@ -106,11 +104,8 @@ Plot campbell_plot(const RingResult& ring, double sun_speed_rpm) {
             .height = 330};
   for (int h = 1; h <= highest; ++h) {
     const double end = h * mesh.back() / 1e3;
-    plot.series.push_back({.label = fmt::format("mesh order {}", h),
-                           .x = {0, speed.back()},
-                           .y = {0, end},
-                           .colour = 6,
-                           .dashed = true});
+    plot.series.push_back(
+        {.label = fmt::format("mesh order {}", h), .x = {0, speed.back()}, .y = {0, end}, .colour = 6, .dashed = true});
     plot.notes.push_back({speed.back(), end, fmt::format("{}", h)});
   }
   for (std::size_t i = 0; i < modes.list.size(); ++i) {
@@ -228,9 +223,10 @@ std::string shapes_part(const RunResult& result) {
   std::string text = "<h3>Mode shapes</h3>\n<figure class=\"shapes\">" +
                      legend_html({{"sun", 0}, {"planets", 1}, {"ring", 2}, {"carrier", 6}}) + "<div class=\"row\">";
   for (const auto& picture : pictures) text += "<div>" + picture + "</div>\n";
-  return text + fmt::format("</div><figcaption>The two lowest of each kind, ring '{}'; grey at rest, displacements not "
-                            "to scale. One of each pair or multiple.</figcaption></figure>\n",
-                            escape(ring.name));
+  return text + fmt::format(
+                    "</div><figcaption>The two lowest of each kind, ring '{}'; grey at rest, displacements not "
+                    "to scale. One of each pair or multiple.</figcaption></figure>\n",
+                    escape(ring.name));
 }
 
 }  // namespace

@@ -41,9 +41,12 @@ std::string motion_table(const RunResult& result) {
     for (const double f : m.pin_force_mean_tangential)
       mean += f / static_cast<double>(m.pin_force_mean_tangential.size());
     const double largest = *std::max_element(m.pin_force_max.begin(), m.pin_force_max.end());
-    const double values[] = {largest / 1e3,           mean / 1e3,
-                             m.sun_support_max / 1e3, m.ring_support_max / 1e3,
-                             m.carrier_support_max / 1e3, m.ring_torque_mean / 1e3,
+    const double values[] = {largest / 1e3,
+                             mean / 1e3,
+                             m.sun_support_max / 1e3,
+                             m.ring_support_max / 1e3,
+                             m.carrier_support_max / 1e3,
+                             m.ring_torque_mean / 1e3,
                              m.sun_orbit_extent * 1e6};
     for (std::size_t i = 0; i < std::size(values); ++i) rows[i].push_back(fmt::format("{:.2f}", values[i]));
     rows[7].push_back(fmt::format("{:.2f} %", 100 * largest_loss(ring->response->figures)));

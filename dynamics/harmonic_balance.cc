@@ -76,7 +76,8 @@ void HarmonicBalance::residual(const Eigen::Ref<const Eigen::MatrixXd>& closing,
   forward(closing, closing_lines_);
   rate_.resize(closing.rows(), closing.cols());
   for (Eigen::Index m = 0; m < closing.cols(); ++m) {
-    for (Eigen::Index j = 0; j < last; ++j) line_[j] = closing_lines_(j, m) * Complex(0, static_cast<double>(j) * scale);
+    for (Eigen::Index j = 0; j < last; ++j)
+      line_[j] = closing_lines_(j, m) * Complex(0, static_cast<double>(j) * scale);
     line_[last] = 0;
     transform_.inverse(line_.data(), rate_.col(m).data());
   }

@@ -107,8 +107,8 @@ class BalanceSolver {
     response.residual = residual.cwiseAbs().maxCoeff() / scale_;
     response.converged = options_.max_iterations > 0 && response.residual <= options_.tolerance;
     if (!response.converged && response.trouble.empty())
-      response.trouble = fmt::format("residual {:.1e} after {} iterations with {} samples: {}", response.residual, newton,
-                                     closing.rows(), flag < 0 ? complaint_ : "the steps became too small");
+      response.trouble = fmt::format("residual {:.1e} after {} iterations with {} samples: {}", response.residual,
+                                     newton, closing.rows(), flag < 0 ? complaint_ : "the steps became too small");
     return closing;
   }
 
@@ -161,9 +161,10 @@ void fill(PeriodicResponse& response, HarmonicBalance& balance, const Eigen::Mat
   for (Eigen::Index i = 0; i < samples; ++i) response.time[i] = balance.meshes().time(i);
   response.open.resize(meshes);
   for (Eigen::Index m = 0; m < meshes; ++m)
-    response.open[m] = static_cast<double>(std::count(contact.begin() + m * samples, contact.begin() + (m + 1) * samples,
-                                                      LumpedSystem::Contact::open)) /
-                       static_cast<double>(samples);
+    response.open[m] =
+        static_cast<double>(std::count(contact.begin() + m * samples, contact.begin() + (m + 1) * samples,
+                                       LumpedSystem::Contact::open)) /
+        static_cast<double>(samples);
 }
 
 }  // namespace
@@ -223,9 +224,8 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
     if (level == samples && options.motion) balance.motion(response.displacement, response.velocity);
   }
   for (Eigen::Index i = 0; i < samples / 2; ++i)
-    response.sampling_difference =
-        std::max(response.sampling_difference,
-                 (response.force.col(2 * i) - response.coarse_force.col(i)).cwiseAbs().maxCoeff());
+    response.sampling_difference = std::max(
+        response.sampling_difference, (response.force.col(2 * i) - response.coarse_force.col(i)).cwiseAbs().maxCoeff());
   return response;
 }
 

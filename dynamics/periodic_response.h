@@ -20,8 +20,8 @@ struct PeriodicOptions {
 /// Periodic steady state.
 struct PeriodicResponse {
   bool converged = false;
-  std::string trouble;  ///< why it did not converge, empty otherwise
-  double residual = 0;  ///< as `tolerance`
+  std::string trouble;                               ///< why it did not converge, empty otherwise
+  double residual = 0;                               ///< as `tolerance`
   int newton_iterations = 0, linear_iterations = 0;  ///< over all levels of sampling
 
   Eigen::VectorXd time;                    ///< s, equidistant over one period from 0, its end not included
@@ -37,9 +37,9 @@ struct PeriodicResponse {
 /// Solves for the periodic response directly, by harmonic balance with the nonlinear forces evaluated in time
 /// (alternating frequency-time): the closings z = b^T q at the samples satisfy
 ///   z + H N(z) = H_0 f,  N = F(t, z, z') - k z - c z',  H(w) = B^T D(w)^-1 B (FrequencyResponse, mean tangents k),
-/// by Newton's method with GMRES and the exact derivative (KINSOL), first with few samples, then with twice as many each time.
-/// Cameron and Griffin, J. Appl. Mech. 56 (1989); Krack and Gross, Harmonic Balance for Nonlinear Vibration Problems
-/// (2019).
+/// by Newton's method with GMRES and the exact derivative (KINSOL), first with few samples, then with twice as many
+/// each time. Cameron and Griffin, J. Appl. Mech. 56 (1989); Krack and Gross, Harmonic Balance for Nonlinear Vibration
+/// Problems (2019).
 ///
 /// The excitation must repeat after `period` (s), which spans `cycles` mesh cycles. Stable and unstable solutions alike
 /// are found; the start is the response with constant mesh stiffness. Rigid motions are fixed by nu^T M q = 0 in the

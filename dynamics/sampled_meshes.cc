@@ -16,10 +16,7 @@ double damping_in(const MeshElement& mesh, Contact contact) {
 }  // namespace
 
 SampledMeshes::SampledMeshes(const LumpedSystem& system, double period, Eigen::Index samples)
-    : system_(system),
-      workspace_(system.workspace()),
-      samples_(samples),
-      step_(period / static_cast<double>(samples)) {
+    : system_(system), workspace_(system.workspace()), samples_(samples), step_(period / static_cast<double>(samples)) {
   const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
   tangent_.resize(samples, meshes);
   damping_.resize(samples, meshes);
@@ -128,8 +125,8 @@ void SampledMeshes::add_partial_contact(Eigen::Index sample, double weight, int 
     const double share_by_swing = -depth / (2 * swing * swing), swing_by_rate = (rate > 0 ? 0.5 : -0.5) * step_;
     force_[i] += weight * share * gain;
     tangent_(sample, i) += weight * (side * gain / (2 * swing) + share * w.tangent[m] / 2);
-    damping_(sample, i) += weight * ((share_by_swing * gain + share * side * w.tangent[m] / 2) * swing_by_rate +
-                                     share * (closed - open));
+    damping_(sample, i) +=
+        weight * ((share_by_swing * gain + share * side * w.tangent[m] / 2) * swing_by_rate + share * (closed - open));
   }
 }
 

@@ -361,6 +361,70 @@ BOOST_AUTO_TEST_CASE(a_linear_ring_couples_alike_at_every_position) {
   BOOST_TEST(worst < 3e-4 * largest(first));
 }
 
+/// The ring mesh of the paper with helical teeth, without backlash, on a sleeve.
+SolvedRingCoupling helical_sleeve(double helix_angle) {
+  auto problem = ring_mesh(EndFaceHeld{18e-3, 10.6e-3, {}}, 2);
+  auto planet = problem.pair.planet().parameters(), wheel = problem.pair.wheel().parameters();
+  planet.helix_angle = wheel.helix_angle = helix_angle;
+  const annulus::geometry::Gear p(planet), r(wheel);
+  const double alpha = p.transverse_pressure_angle();
+  const double involute = annulus::geometry::involute(alpha) + 2 * std::tan(planet.pressure_angle) *
+                                                                   (wheel.profile_shift - planet.profile_shift) /
+                                                                   (wheel.teeth - planet.teeth);
+  const double working = annulus::geometry::inverse_involute(involute);
+  problem.pair = {p, r, (r.reference_radius() - p.reference_radius()) * std::cos(alpha) / std::cos(working)};
+  RingCouplingSettings settings;
+  settings.modes.count = 6;
+  settings.motions = {1, 1};
+  return solve_ring_coupling(problem, 5, nominal_load, settings);
+}
+
+BOOST_AUTO_TEST_CASE(helical_rings_of_either_hand) {
+  const auto spur = helical_sleeve(0), hardly = helical_sleeve(1e-4);
+  const auto right = helical_sleeve(0.1), left = helical_sleeve(-0.1);
+  const double scale = largest(spur.coupling.compliance[0]);
+  BOOST_TEST(largest(hardly.coupling.compliance[0] - spur.coupling.compliance[0]) < 1e-2 * scale);
+  BOOST_TEST(hardly.own_compliance == spur.own_compliance, boost::test_tools::tolerance(1e-3));
+  BOOST_TEST(largest(right.coupling.compliance[0] - spur.coupling.compliance[0]) > 1e-2 * scale);
+  BOOST_TEST(right.own_compliance != left.own_compliance);  // the planet presses one towards the held end, one away
+  // The bodies are mirror images of each other.
+  for (std::size_t k = 0; k < 6; ++k)
+    BOOST_TEST(right.coupling.modes[k].frequency == left.coupling.modes[k].frequency,
+               boost::test_tools::tolerance(1e-6));
+}
+
+BOOST_AUTO_TEST_CASE(stiffer_structures_move_less_and_ring_higher) {
+  const auto modes_of = [&](const RingStructure& structure) {
+    RingCouplingSettings settings;
+    settings.modes.count = 1;
+    settings.motions = {1, 1};
+    return solve_ring_coupling(ring_mesh(structure, 2), 5, nominal_load, settings);
+  };
+  const auto sleeve = modes_of(EndFaceHeld{18e-3, 10.6e-3, {}});
+  const auto hoop = modes_of(EndFaceHeld{18e-3, 10.6e-3, annulus::fem::Hoop{20e-3, 8e-3}});
+  const auto flange = modes_of(annulus::fem::FlangeHeld{20e-3, 0.36});
+  const auto held = modes_of(OutsideHeld{});
+  BOOST_TEST(hoop.own_compliance < sleeve.own_compliance);
+  BOOST_TEST(flange.own_compliance < hoop.own_compliance);
+  BOOST_TEST(held.own_compliance < flange.own_compliance);
+  BOOST_TEST(flange.coupling.modes[0].frequency > hoop.coupling.modes[0].frequency);
+  BOOST_TEST(held.coupling.modes[0].frequency > flange.coupling.modes[0].frequency);
+  for (const auto* solved : {&sleeve, &hoop, &flange}) {
+    const auto& matrix = solved->coupling.compliance[0];
+    // The flange hardly lets neighbours feel each other: what counts there is small beside the mesh's own compliance.
+    BOOST_TEST(solved->compliance_error < 0.05 * largest(matrix) + 1e-4 * solved->own_compliance);
+    BOOST_TEST(largest(matrix - matrix.transpose()) == 0);
+  }
+  // Splines as well, one-sided flanks with clearance.
+  annulus::fem::SplineHeld spline;
+  spline.teeth = 54;
+  spline.flank_angle = 0.5;
+  spline.clearance = 10e-6;
+  const auto splined = modes_of(spline);
+  BOOST_TEST(splined.coupling.compliance.size() == 3U);
+  BOOST_TEST(splined.own_compliance > held.own_compliance);
+}
+
 BOOST_AUTO_TEST_CASE(the_error_estimate_covers_the_error) {
   for (const auto& pins : {paper_pins(18, 0.01), paper_pins(9, 0.01)}) {
     const auto coarse = solve(pins, 5, 1, 1), fine = solve(pins, 5, 1, 3);

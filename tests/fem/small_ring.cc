@@ -142,8 +142,7 @@ SmallRing small_ring(int teeth, SmallHeld held, const fem::MotionOrder& motions,
   wanted.motions = motions;
   if (plan != nullptr) wanted.arcs = plan->arcs();
   ring.loads = fem::ring_loads(ring.sector, profile, options.flank, wanted);
-  ring.flexibility =
-      fem::compose_flexibility(ring.sector, ring.loads, ring.gear, held == SmallHeld::floating, wanted);
+  ring.flexibility = fem::compose_flexibility(ring.sector, ring.loads, ring.gear, held == SmallHeld::floating, wanted);
 
   const double pitch = ring.gear.pitch_angle(), support = ring.outside;
   const auto project = [profile, pitch, support](Boundary boundary, const Eigen::Vector2d& point) -> Eigen::Vector2d {
@@ -154,7 +153,8 @@ SmallRing small_ring(int teeth, SmallHeld held, const fem::MotionOrder& motions,
   ring.fixed.assign(ring.whole.stiffness.rows(), false);
   if (held != SmallHeld::floating)
     for (const int n : ring.whole.boundary_nodes(solid ? Boundary::end_low : Boundary::support))
-      for (int c = 0; c < ring.whole.dimension; ++c) ring.fixed[ring.whole.freedom[n * ring.whole.dimension + c]] = true;
+      for (int c = 0; c < ring.whole.dimension; ++c)
+        ring.fixed[ring.whole.freedom[n * ring.whole.dimension + c]] = true;
   const NodeFinder find(ring.whole.nodes);
   for (int s = 0; s < teeth; ++s) {
     const Eigen::AngleAxisd turn(s * pitch, Eigen::Vector3d::UnitZ());
