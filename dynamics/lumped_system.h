@@ -156,7 +156,6 @@ class LumpedSystem {
   friend class LumpedSystemBuilder;
   struct Compiled;  // flat arrays for the right-hand side, shared by copies
   void apply_forces(Workspace& workspace, bool held) const;
-  [[nodiscard]] double moving_power(int mesh, const double* q, const Workspace& workspace) const;
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
   std::vector<MeshCoupling> couplings_;
