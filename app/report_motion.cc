@@ -155,6 +155,9 @@ std::string sections(const RunResult& result) {
                              .colour = static_cast<std::size_t>(n),
                              .style = Series::Style::dots});
     }
+    RangeFinder x;
+    for (const auto& s : plot.series) x.add(s.x);
+    plot.x_range = x.range();
     plots.push_back(std::move(plot));
   }
   std::vector<std::string> pictures;
@@ -163,7 +166,8 @@ std::string sections(const RunResult& result) {
   return "<h3>Poincaré section</h3>\n" +
          figure(pictures, planet_legend(result.scene.stage.planets),
                 "Dynamic transmission error of both meshes of each planet once per mesh cycle. A motion that repeats "
-                "with the errors leaves closed curves of as many points as the error period has mesh cycles.");
+                "with the errors leaves no more points than the error period has mesh cycles; a cloud that keeps "
+                "filling is one that does not repeat.");
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ struct Series {
   bool dashed = false;
 };
 
-/// A word in the plot, ending at a point.
+/// A word in the plot, ending above a point.
 struct Note {
   double x = 0, y = 0;
   std::string text{};

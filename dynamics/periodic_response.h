@@ -13,7 +13,7 @@ struct PeriodicOptions {
   int samples_per_cycle = 32;
   /// Largest residual of a closing at any sample / largest quasi-static mesh deflection at time 0.
   double tolerance = 1e-5;
-  int max_iterations = 12;  ///< Newton iterations, per level of sampling
+  int max_iterations = 20;  ///< Newton iterations, per level of sampling
   bool motion = true;       ///< also the displacements and velocities of all freedoms
 };
 
@@ -43,8 +43,9 @@ struct PeriodicResponse {
 ///
 /// The excitation must repeat after `period` (s), which spans `cycles` mesh cycles. Stable and unstable solutions alike
 /// are found; the start is the response with constant mesh stiffness. Rigid motions are fixed by nu^T M q = 0 in the
-/// mean over the period. Without convergence the last iterate is returned, with `converged` false. Throws InputError
-/// when the load is not balanced, SolverError when the linear part is singular.
+/// mean over the period. Without convergence the last iterate is returned, with `converged` false; nothing but
+/// `trouble` for a system whose mesh vectors move. Throws InputError when the load is not balanced, SolverError when the
+/// linear part is singular.
 [[nodiscard]] PeriodicResponse periodic_response(const LumpedSystem& system, double period, int cycles,
                                                  const PeriodicOptions& options = {});
 /// The same for a stage, over its error period.
