@@ -137,8 +137,6 @@ void SampledMeshes::add_partial_contact(Eigen::Index sample, double weight, int 
     tangent_(sample, i) += weight * (side * gain / (2 * swing) + share * w.tangent[m] / 2);
     damping_(sample, i) +=
         weight * ((share_by_swing * gain + share * side * w.tangent[m] / 2) * swing_by_rate + share * (closed - open));
-<<<<<<< HEAD
-=======
   }
 }
 
@@ -154,7 +152,6 @@ void SampledMeshes::apply_tangent(const Eigen::Ref<const Eigen::MatrixXd>& chang
     here = change.row(i);
     there.noalias() = coupled_.middleCols(i * mean.size(), mean.size()).lazyProduct(here);
     force.row(i) = there - mean.cwiseProduct(here);
->>>>>>> main
   }
 }
 
