@@ -40,6 +40,7 @@ Json value_json(const Value& value) {
   if (const auto* v = std::get_if<double>(&value)) return std::isinf(*v) ? Json("inf") : Json(*v);
   if (const auto* v = std::get_if<std::string>(&value)) return *v;
   if (const auto* v = std::get_if<std::vector<double>>(&value)) return *v;
+  if (const auto* v = std::get_if<std::vector<std::string>>(&value)) return *v;
   return nullptr;
 }
 
