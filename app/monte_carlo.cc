@@ -148,16 +148,20 @@ std::vector<FigureStatistics> statistics_of(const Csv& samples) {
 PairedOrder paired_order(const std::vector<MonteCarloRing>& rings, std::size_t a, std::size_t b,
                          const std::string& figure) {
   PairedOrder order{.a = a, .b = b, .figure = figure};
+  std::vector<double> differences;
   const auto& first = rings[a].samples;
   const auto& second = rings[b].samples;
   const auto column = first.column(figure), failed = first.column("failed");
   for (std::size_t i = 0; i < first.rows.size(); ++i) {
     if (first.rows[i][failed] != 0 || second.rows[i][failed] != 0) continue;
     ++order.samples;
+    differences.push_back(first.rows[i][column] - second.rows[i][column]);
     if (first.rows[i][column] > second.rows[i][column]) ++order.above;
     if (first.rows[i][column] == second.rows[i][column]) ++order.equal;
   }
-  if (order.samples > 0) order.share = dynamics::share_interval(order.above, order.samples);
+  if (order.samples == 0) return order;
+  order.share = dynamics::share_interval(order.above, order.samples);
+  order.difference = dynamics::mean_interval(differences);
   return order;
 }
 

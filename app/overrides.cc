@@ -124,8 +124,8 @@ void set_number(toml::table& table, const Scene& scene, const InputTarget& targe
     table.insert_or_assign(p.name, std::move(array));
   } else if (p.kind == Parameter::Kind::integer) {
     if (value != std::floor(value) || std::abs(value) > 1e9)
-      throw InputError(fmt::format("{} = {}: must be a whole number, and is never rounded", change.input,
-                                   to_text(value, 15)));
+      throw InputError(
+          fmt::format("{} = {}: must be a whole number, and is never rounded", change.input, to_text(value, 15)));
     table.insert_or_assign(p.name, static_cast<std::int64_t>(value));
   } else {
     table.insert_or_assign(p.name, value);
@@ -159,9 +159,8 @@ InputTarget find_input(const Scene& scene, const std::string& path) {
   const bool planets = target.parameter->table == "errors";
   if (!has_index)
     throw InputError(fmt::format("{0}: is a list; name one value, as {0}[1]{1}", path, planets ? " for planet 1" : ""));
-  target.index = parse_index(path, index,
-                             list_length(scene, *target.parameter, target.rings.empty() ? 0 : target.rings.front()),
-                             planets);
+  target.index = parse_index(
+      path, index, list_length(scene, *target.parameter, target.rings.empty() ? 0 : target.rings.front()), planets);
   return target;
 }
 

@@ -59,12 +59,9 @@ std::vector<std::pair<std::string, double>> timings_of(const RunResult& result, 
     if (stage == "total") total = seconds;
   }
   const double dynamics = timers.seconds("dynamics"), studies = timers.seconds("studies");
-  return {{"mesh", mesh},
-          {"condense", condense},
-          {"contact", contact},
-          {"dynamics", dynamics},
-          {"studies", studies},
-          {"other", std::max(0.0, total - mesh - condense - contact - dynamics - studies)},
+  return {{"mesh", mesh},       {"condense", condense},
+          {"contact", contact}, {"dynamics", dynamics},
+          {"studies", studies}, {"other", std::max(0.0, total - mesh - condense - contact - dynamics - studies)},
           {"total", total}};
 }
 

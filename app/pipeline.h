@@ -66,7 +66,8 @@ struct RunResult {
                                              const MeshResult& sun_mesh, const MeshResult& ring_mesh,
                                              const RunOptions& options);
 
-// Where the scene asks for [[sweep]], [monte_carlo] or [sensitivity], stages 1 to 5 again for changed scenes (studies.h).
+// Where the scene asks for [[sweep]], [monte_carlo] or [sensitivity], stages 1 to 5 again for changed scenes
+// (studies.h).
 
 // 6. Report: OUT/report.html and OUT/summary.json (report.h, summary.h).
 

@@ -75,8 +75,7 @@ std::optional<StudyPoint> read_point(const std::filesystem::path& file, const st
     f.sun_mesh = motion(json.at("sun_mesh"));
     f.ring_mesh = motion(json.at("ring_mesh"));
     f.frequencies = json.at("frequencies_Hz").get<std::vector<double>>();
-    for (const auto& p : json.at("poincare_N_m"))
-      f.poincare.push_back({point_number(p.at(0)), point_number(p.at(1))});
+    for (const auto& p : json.at("poincare_N_m")) f.poincare.push_back({point_number(p.at(0)), point_number(p.at(1))});
     return point;
   } catch (const std::exception&) {
     return std::nullopt;  // damaged: found again and overwritten
@@ -103,8 +102,7 @@ StudyPoint evaluate(const ChangedStage& changed, bool motion) {
 StudyPoint PointStore::point(const std::vector<Override>& overrides, const std::string& where, std::size_t ring,
                              const std::string& folder) const {
   const auto changed = stages_.stage(overrides, where, ring, folder, true);
-  const auto points =
-      stages_.options().out / stages_.nominal().rings.at(ring).name / "dynamics" / "points";
+  const auto points = stages_.options().out / stages_.nominal().rings.at(ring).name / "dynamics" / "points";
   const std::string id = ContentId().add("response", changed.id).add("method", dynamics::point_method()).id();
   const auto file = points / (id + ".json");
   if (auto kept = read_point(file, id)) return std::move(*kept);

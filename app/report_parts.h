@@ -47,5 +47,9 @@ struct HtmlTable {
 [[nodiscard]] std::string contact_section(const RunResult& result);  ///< face width, pressure, stress; empty if unknown
 // report_dynamics.cc
 [[nodiscard]] std::string dynamics_section(const RunResult& result);  ///< load sharing, dynamic factors, spectra
+// report_spread.cc, report_sweeps.cc; empty where the scene does not ask
+[[nodiscard]] std::string spread_section(const RunResult& result);  ///< Monte Carlo samples
+[[nodiscard]] std::string sweeps_section(const RunResult& result);
+[[nodiscard]] std::string sensitivity_section(const RunResult& result);
 
 }  // namespace annulus::app

@@ -108,8 +108,8 @@ struct DynamicsInput {
 
 /// One input run through a row of values. Values of studies are in the unit of their input, as in the file.
 struct SweepInput {
-  std::string input;                ///< key path (overrides.h)
-  std::optional<double> from, to;   ///< these and `count`, or `values`
+  std::string input;               ///< key path (overrides.h)
+  std::optional<double> from, to;  ///< these and `count`, or `values`
   std::optional<int> count;
   SweepScale scale = SweepScale::linear;
   std::vector<double> values;

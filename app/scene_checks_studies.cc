@@ -67,7 +67,11 @@ class StudyChecker {
       (void)find_input(scene_, path);
       return true;
     } catch (const InputError& error) {
-      problem(key, entry, error.what());
+      std::string what = error.what();
+      const Input* named = find(key, entry);
+      // "sweep.input = PATH: PATH: ..." would say it twice.
+      if (named && to_text(named->value) == path && what.starts_with(path + ": ")) what.erase(0, path.size() + 2);
+      problem(key, entry, what);
       return false;
     }
   }

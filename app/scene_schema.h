@@ -31,15 +31,15 @@ struct Parameter {
   std::function<void(Scene&, std::size_t, const Value&)> store{};
 
   [[nodiscard]] std::string key() const { return table.empty() ? name : table + "." + name; }
-  [[nodiscard]] std::string type_text() const;   ///< "a whole number", "a list of numbers"
+  [[nodiscard]] std::string type_text() const;      ///< "a whole number", "a list of numbers"
   [[nodiscard]] bool in_range(double value) const;  ///< in the unit of the file
-  [[nodiscard]] std::string range_text() const;  ///< "0 < value <= 100 mm"; empty when anything goes
+  [[nodiscard]] std::string range_text() const;     ///< "0 < value <= 100 mm"; empty when anything goes
 };
 
 struct Table {
   std::string path{};
-  bool repeated = false;  ///< [[path]]: array of tables
-  bool required = true;   ///< false: absent as a whole is fine, and then none of its keys applies
+  bool repeated = false;    ///< [[path]]: array of tables
+  bool required = true;     ///< false: absent as a whole is fine, and then none of its keys applies
   bool on_request = false;  ///< its presence is itself the question: defaults apply only when it is there
   std::string meaning{};
   std::vector<Parameter> parameters{};

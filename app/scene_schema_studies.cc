@@ -25,8 +25,7 @@ void declare_studies(std::vector<Table>& tables) {
       .from(2, 1e5)
       .absent("give values instead");
   sweep
-      .choice("scale", &SweepInput::scale,
-              {{"linear", SweepScale::linear}, {"logarithmic", SweepScale::logarithmic}},
+      .choice("scale", &SweepInput::scale, {{"linear", SweepScale::linear}, {"logarithmic", SweepScale::logarithmic}},
               "Spacing of the values between `from` and `to`, and the axis of the plots.")
       .fallback(std::string("linear"), "equal steps");
   sweep.key("values", &SweepInput::values, "The values themselves, in the unit of the input.")
@@ -47,8 +46,7 @@ void declare_studies(std::vector<Table>& tables) {
       .fallback(1L, "any number will do")
       .from(0, 2147483647);
   monte_carlo
-      .choice("phases", &MonteCarloInput::phases,
-              {{"unknown", ErrorPhases::unknown}, {"given", ErrorPhases::given}},
+      .choice("phases", &MonteCarloInput::phases, {{"unknown", ErrorPhases::unknown}, {"given", ErrorPhases::given}},
               "unknown: every error phase of every body is uniform over the full circle; given: as the scene says.")
       .fallback(std::string("unknown"), "the phases of errors are hardly ever known");
   tables.push_back(monte_carlo.done());
@@ -58,8 +56,8 @@ void declare_studies(std::vector<Table>& tables) {
                                    "tables as they are. A draw outside the range of the key is refused, never moved.",
                                    [](Scene& s, std::size_t i) -> RandomInput& { return s.random_inputs.at(i); });
   random.repeated([](Scene& s, std::size_t n) { s.random_inputs.resize(n); }).on_request();
-  static const std::string random_input = std::string("What is uncertain: ") + path_meaning +
-                                          " \"...[*]\" draws for every planet by itself.";
+  static const std::string random_input =
+      std::string("What is uncertain: ") + path_meaning + " \"...[*]\" draws for every planet by itself.";
   random.key("input", &RandomInput::input, random_input.c_str()).required();
   random
       .choice("distribution", &RandomInput::distribution,
@@ -67,7 +65,8 @@ void declare_studies(std::vector<Table>& tables) {
               "uniform between low and high; normal or lognormal with mean and deviation (of the value itself), "
               "truncated to low and high where given.")
       .required();
-  random.key("low", &RandomInput::low, "Lower end, in the unit of the input.").absent("not truncated; uniform needs it");
+  random.key("low", &RandomInput::low, "Lower end, in the unit of the input.")
+      .absent("not truncated; uniform needs it");
   random.key("high", &RandomInput::high, "Upper end, in the unit of the input.")
       .absent("not truncated; uniform needs it");
   random.key("mean", &RandomInput::mean, "Mean before truncation.").absent("needed by normal and lognormal");

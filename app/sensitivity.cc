@@ -27,7 +27,8 @@ std::vector<std::size_t> order_of(const std::vector<StudyPoint>& rings) {
 
 /// Input and ring are words, so the file is no table of numbers alone.
 std::string sensitivity_csv(const RunResult& nominal, const SensitivityResult& result) {
-  std::string text = fmt::format("# annulus_version: {}\n# factor: {:.17g}\ninput,ring,value", version(), result.factor);
+  std::string text =
+      fmt::format("# annulus_version: {}\n# factor: {:.17g}\ninput,ring,value", version(), result.factor);
   const auto columns = figure_columns(true);
   for (const auto* which : {"divided_", "nominal_", "multiplied_"}) {
     for (const auto& column : columns) text += std::string(",") + which + column;
@@ -64,8 +65,8 @@ SensitivityResult run_sensitivity(const RunResult& nominal, const RunOptions& op
     const auto target = find_input(nominal.scene, inputs[i]);
     SensitivityRow row{inputs[i], target.parameter->unit, {}, column(2 * i), column(2 * i + 1), false};
     for (std::size_t ring = 0; ring < nominal.rings.size(); ++ring) {
-      const bool has = target.rings.empty() ||
-                       std::find(target.rings.begin(), target.rings.end(), ring) != target.rings.end();
+      const bool has =
+          target.rings.empty() || std::find(target.rings.begin(), target.rings.end(), ring) != target.rings.end();
       row.values.push_back(has ? input_value(nominal.scene, target, ring).value_or(0)
                                : std::numeric_limits<double>::quiet_NaN());
     }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-
 #include "app/point_store.h"
 #include "app/progress.h"
 #include "app/study_runner.h"
@@ -36,9 +35,10 @@ void check_random_input(const Scene& scene, const std::vector<MeshModel>& nomina
   const auto models = mesh_models(changed.scene, changed.geometry);
   for (std::size_t i = 0; i < models.size(); ++i) {
     if (!table_serves(nominal[i], models[i], geometry.operating_point.mean_mesh_force))
-      refuse(fmt::format("changes the stiffness table of the {}, which every sample would have to solve again; use "
-                         "[[sweep]] or [sensitivity], or give the stiffness in [mesh]",
-                         models[i].label()));
+      refuse(
+          fmt::format("changes the stiffness table of the {}, which every sample would have to solve again; use "
+                      "[[sweep]] or [sensitivity], or give the stiffness in [mesh]",
+                      models[i].label()));
   }
 }
 

@@ -9,8 +9,8 @@ namespace annulus::app {
 
 namespace {
 
-constexpr const char* error_bodies[] = {"planet_eccentricity", "planet_installation",  "sun_eccentricity",
-                                        "sun_installation",    "ring_eccentricity",    "ring_installation",
+constexpr const char* error_bodies[] = {"planet_eccentricity",  "planet_installation", "sun_eccentricity",
+                                        "sun_installation",     "ring_eccentricity",   "ring_installation",
                                         "carrier_eccentricity", "carrier_installation"};
 
 bool drawn(const Scene& scene, const std::string& path) {
@@ -73,8 +73,7 @@ std::vector<std::string> sensitivity_inputs(const Scene& scene) {
   for (const auto& table : schema()) {
     for (const auto& p : table.parameters) {
       const bool assumed_mostly = p.table == "supports" || p.key() == "dynamics.mesh_damping_ratio" ||
-                                  p.key() == "dynamics.support_damping_ratio" ||
-                                  p.key() == "dynamics.half_backlash_um";
+                                  p.key() == "dynamics.support_damping_ratio" || p.key() == "dynamics.half_backlash_um";
       if (!assumed_mostly) continue;
       const double value = input_value(scene, find_input(scene, p.key())).value_or(0);
       if (value != 0 && std::isfinite(value)) inputs.push_back(p.key());
@@ -104,15 +103,14 @@ std::vector<RandomVariable> random_variables(const Scene& scene) {
     for (const auto& path : unknown_phases(scene)) variables.push_back({path, {.low = 0, .high = 360}});
   }
   for (const auto& random : scene.random_inputs) {
-    for (const auto& path : expand_planets(scene, random.input))
-      variables.push_back({path, distribution_of(random)});
+    for (const auto& path : expand_planets(scene, random.input)) variables.push_back({path, distribution_of(random)});
   }
   return variables;
 }
 
 double draw(const RandomVariable& variable, int seed, int sample) {
-  return variable.distribution.quantile(dynamics::uniform_draw(static_cast<std::uint64_t>(seed),
-                                                               static_cast<std::uint64_t>(sample), variable.input));
+  return variable.distribution.quantile(
+      dynamics::uniform_draw(static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(sample), variable.input));
 }
 
 StudyCase sample_case(const std::vector<RandomVariable>& variables, int seed, int sample) {

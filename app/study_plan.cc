@@ -38,7 +38,7 @@ double seconds_of_all_rings(const Scene& scene, const GearGeometry& geometry) {
   // A constant stiffness reads no table: any will do.
   const MeshResult none{
       .model = {},
-      .table = StiffnessTable("none", 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
+      .table = StiffnessTable("sun_planet", 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
   for (std::size_t i = 0; i < scene.rings.size(); ++i) {
     const auto stage = make_stage(rough, geometry, i, none, none);
     const int period = std::lcm(stage.error_period(), models[i + 1].positions);

@@ -26,9 +26,9 @@ struct StudyPoint {
 
 struct SweepResult {
   SweepInput sweep;
-  std::string unit;             ///< of the input, for people
-  std::vector<double> values;   ///< in that unit
-  int tables = 0;               ///< how many of the values needed stiffness tables of their own
+  std::string unit;                            ///< of the input, for people
+  std::vector<double> values;                  ///< in that unit
+  int tables = 0;                              ///< how many of the values needed stiffness tables of their own
   std::vector<std::vector<StudyPoint>> rings;  ///< [ring][value]
 };
 
@@ -53,6 +53,7 @@ struct PairedOrder {
   std::string figure;
   long above = 0, equal = 0, samples = 0;  ///< samples: both rings succeeded
   dynamics::Interval share{};              ///< above / samples, Clopper and Pearson
+  dynamics::Interval difference{};         ///< mean of a's figure less b's, Student
 };
 
 struct MonteCarloResult {
@@ -65,7 +66,7 @@ struct MonteCarloResult {
 /// One input divided and multiplied by the factor.
 struct SensitivityRow {
   std::string input, unit;
-  std::vector<double> values;          ///< nominal value by ring; NaN where the ring has none
+  std::vector<double> values;                   ///< nominal value by ring; NaN where the ring has none
   std::vector<StudyPoint> divided, multiplied;  ///< by ring
   bool order_stays = false;  ///< the order of the rings by averaged load sharing of the sun meshes, both times
 };

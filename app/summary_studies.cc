@@ -75,6 +75,7 @@ void add_studies(StudyJson& json, const RunResult& result) {
                         {"ring", result.rings[o.a].name},
                         {"above", result.rings[o.b].name},
                         {"share", interval_json(o.share)},
+                        {"mean_difference", interval_json(o.difference)},
                         {"equal", o.equal},
                         {"samples", o.samples}});
   }

@@ -10,16 +10,14 @@ namespace {
 
 void write_sweep(const RunResult& nominal, const std::filesystem::path& out, std::size_t number,
                  const SweepResult& result) {
-  const std::vector<std::pair<std::string, std::string>> header = {{"annulus_version", version()},
-                                                                   {"input", result.sweep.input},
-                                                                   {"unit", result.unit}};
+  const std::vector<std::pair<std::string, std::string>> header = {
+      {"annulus_version", version()}, {"input", result.sweep.input}, {"unit", result.unit}};
   for (std::size_t ring = 0; ring < nominal.rings.size(); ++ring) {
     Csv figures, poincare;
     figures.header = poincare.header = header;
     figures.columns = {file_name(result.sweep.input), "failed"};
     for (const auto& name : figure_columns(true)) figures.columns.push_back(name);
-    poincare.columns = {file_name(result.sweep.input), "mesh_cycle", "sun_planet1_force_N",
-                        "sun_planet1_deflection_m"};
+    poincare.columns = {file_name(result.sweep.input), "mesh_cycle", "sun_planet1_force_N", "sun_planet1_deflection_m"};
     for (std::size_t i = 0; i < result.values.size(); ++i) {
       const auto& point = result.rings[ring][i];
       std::vector<double> row = {result.values[i], point.failure.empty() ? 0.0 : 1.0};

@@ -42,8 +42,7 @@ Interval mean_interval(const std::vector<double>& values, double confidence) {
   if (values.size() < 2) return {mean, -unbounded, unbounded};
   const auto n = static_cast<double>(values.size());
   const boost::math::students_t law(n - 1);
-  const double half =
-      quantile(complement(law, (1 - confidence) / 2)) * standard_deviation(values) / std::sqrt(n);
+  const double half = quantile(complement(law, (1 - confidence) / 2)) * standard_deviation(values) / std::sqrt(n);
   return {mean, mean - half, mean + half};
 }
 
@@ -57,8 +56,7 @@ Interval quantile_interval(const std::vector<double>& values, double probability
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
   const double part = place - static_cast<double>(below);
-  Interval result{part == 0 ? sorted[below] : (1 - part) * sorted[below] + part * sorted[above], -unbounded,
-                  unbounded};
+  Interval result{part == 0 ? sorted[below] : (1 - part) * sorted[below] + part * sorted[above], -unbounded, unbounded};
   // With B values below the true quantile, order statistic r (from 1) exceeds it when B < r: the lower end is the
   // largest r with P(B <= r - 1) <= alpha/2, the upper end the smallest with P(B <= r - 1) >= 1 - alpha/2.
   const double tail = (1 - confidence) / 2;
@@ -74,7 +72,8 @@ Interval quantile_interval(const std::vector<double>& values, double probability
 }
 
 Interval share_interval(long successes, long trials, double confidence) {
-  if (trials < 1 || successes < 0 || successes > trials) throw InputError("a share needs trials, and no more successes");
+  if (trials < 1 || successes < 0 || successes > trials)
+    throw InputError("a share needs trials, and no more successes");
   using boost::math::binomial;
   const auto n = static_cast<double>(trials), k = static_cast<double>(successes);
   const double tail = (1 - confidence) / 2;

@@ -100,8 +100,8 @@ PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& opt
 const char* point_method() { return "time integration 1"; }
 
 double point_seconds(const PlanetaryStage& stage, int error_period) {
-  // Measured on five planets: half a millisecond per mesh cycle and planet, four windows until the response repeats.
-  constexpr double per_cycle_and_planet = 1e-4, windows = 4;
+  // Measured with five planets: a millisecond per mesh cycle, four windows until the response repeats.
+  constexpr double per_cycle_and_planet = 2e-4, windows = 4;
   return per_cycle_and_planet * windows * stage.planets() * std::max(20, error_period);
 }
 

@@ -38,8 +38,8 @@ struct PointFigures {
 
 struct PointOptions {
   SimulationOptions simulation;
-  bool motion = true;       ///< orbits, deflections, natural frequencies and Poincare points too
-  int frequencies = 6;      ///< at most
+  bool motion = true;         ///< orbits, deflections, natural frequencies and Poincare points too
+  int frequencies = 6;        ///< at most
   int poincare_cycles = 200;  ///< at most
 };
 
