@@ -6,8 +6,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "app/overrides_toml.h"
-
 namespace annulus::app {
 
 namespace {
@@ -103,8 +101,8 @@ std::size_t parse_index(const std::string& path, const std::string& text, std::s
   return number - 1;
 }
 
-void set_number(toml::table& table, const Scene& scene, const InputTarget& target, std::size_t entry,
-                const Override& change) {
+/// The value an override sets for one table of its input.
+InputEdit edit_of(const Scene& scene, const InputTarget& target, std::size_t entry, const Override& change) {
   const Parameter& p = *target.parameter;
   double value = change.value;
   if (change.factor) {
@@ -113,36 +111,14 @@ void set_number(toml::table& table, const Scene& scene, const InputTarget& targe
     if (std::isinf(*present)) throw InputError(change.input + ": is rigid (inf), a factor does not change it");
     value *= *present;
   }
-  if (p.kind == Parameter::Kind::reals) {
-    std::vector<double> list(list_length(scene, p, entry), 0.0);
-    if (auto* array = table[p.name].as_array(); array && array->size() == list.size()) {
-      for (std::size_t i = 0; i < list.size(); ++i) list[i] = array->get(i)->value_or(0.0);
-    }
-    list.at(*target.index) = value;
-    toml::array array;
-    for (const double x : list) array.push_back(x);
-    table.insert_or_assign(p.name, std::move(array));
-  } else if (p.kind == Parameter::Kind::integer) {
-    if (value != std::floor(value) || std::abs(value) > 1e9)
-      throw InputError(
-          fmt::format("{} = {}: must be a whole number, and is never rounded", change.input, to_text(value, 15)));
-    table.insert_or_assign(p.name, static_cast<std::int64_t>(value));
-  } else {
-    table.insert_or_assign(p.name, value);
-  }
-}
-
-toml::table& table_at(toml::table& root, const std::string& path) {
-  toml::table* table = &root;
-  for (std::size_t begin = 0; begin < path.size();) {
-    const auto dot = std::min(path.find('.', begin), path.size());
-    const std::string name = path.substr(begin, dot - begin);
-    if (!table->contains(name)) table->insert(name, toml::table{});
-    table = table->get(name)->as_table();
-    require(table != nullptr, "a checked scene has tables where its schema has");
-    begin = dot + 1;
-  }
-  return *table;
+  const bool whole = p.kind == Parameter::Kind::integer;
+  if (whole && (value != std::floor(value) || std::abs(value) > 1e9))
+    throw InputError(
+        fmt::format("{} = {}: must be a whole number, and is never rounded", change.input, to_text(value, 15)));
+  InputEdit edit{.parameter = &p, .value = value, .index = target.index};
+  if (!target.rings.empty()) edit.ring = entry;
+  if (target.index) edit.length = list_length(scene, p, entry);
+  return edit;
 }
 
 }  // namespace
@@ -191,16 +167,14 @@ std::string file_name(const std::string& path) {
   return name;
 }
 
-void apply_overrides(toml::table& root, const Scene& scene, const std::vector<Override>& overrides) {
+std::vector<InputEdit> resolve(const Scene& scene, const std::vector<Override>& overrides) {
+  std::vector<InputEdit> edits;
   for (const auto& change : overrides) {
     const InputTarget target = find_input(scene, change.input);
-    if (target.rings.empty()) {
-      set_number(table_at(root, target.parameter->table), scene, target, 0, change);
-      continue;
-    }
-    auto& rings = *root.get("ring")->as_array();
-    for (const std::size_t i : target.rings) set_number(*rings.get(i)->as_table(), scene, target, i, change);
+    if (target.rings.empty()) edits.push_back(edit_of(scene, target, 0, change));
+    for (const std::size_t ring : target.rings) edits.push_back(edit_of(scene, target, ring, change));
   }
+  return edits;
 }
 
 }  // namespace annulus::app

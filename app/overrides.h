@@ -38,6 +38,17 @@ struct InputTarget {
 /// "errors.planet_installation_um[*]" as one path per planet, any other path as itself.
 [[nodiscard]] std::vector<std::string> expand_planets(const Scene& scene, const std::string& path);
 
+/// One number to be set in one table of the file.
+struct InputEdit {
+  const Parameter* parameter = nullptr;
+  double value = 0;  ///< whole where the key is
+  std::optional<std::size_t> index{}, ring{};
+  std::size_t length = 0;  ///< of the list
+};
+/// Throws what find_input throws, and InputError for a number that is not whole where one has to be or a factor without
+/// a value.
+[[nodiscard]] std::vector<InputEdit> resolve(const Scene& scene, const std::vector<Override>& overrides);
+
 /// The path as part of a file name: "supports.planet_N_per_m" -> "supports_planet_N_per_m".
 [[nodiscard]] std::string file_name(const std::string& path);
 

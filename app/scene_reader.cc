@@ -7,7 +7,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "app/overrides_toml.h"
+#include "app/overrides.h"
 #include "app/scene_checks.h"
 #include "app/scene_schema.h"
 
@@ -291,6 +291,34 @@ class Reader {
   std::vector<Problem> problems_;
 };
 
+toml::table& table_at(toml::table& root, const InputEdit& edit) {
+  if (edit.ring) return *root.get("ring")->as_array()->get(*edit.ring)->as_table();
+  toml::table* table = &root;
+  std::istringstream path(edit.parameter->table);
+  for (std::string name; std::getline(path, name, '.');) {
+    if (!table->contains(name)) table->insert(name, toml::table{});
+    table = table->get(name)->as_table();
+    require(table != nullptr, "a checked scene has tables where its schema has");
+  }
+  return *table;
+}
+
+void set_number(toml::table& root, const InputEdit& edit) {
+  const Parameter& p = *edit.parameter;
+  toml::table& table = table_at(root, edit);
+  if (p.kind == Parameter::Kind::integer) {
+    table.insert_or_assign(p.name, static_cast<std::int64_t>(edit.value));
+  } else if (p.kind == Parameter::Kind::reals) {
+    toml::array list;
+    const auto* present = table[p.name].as_array();
+    for (std::size_t i = 0; i < edit.length; ++i)
+      list.push_back(i == *edit.index ? edit.value : present && i < present->size() ? present->get(i)->value_or(0.0) : 0.0);
+    table.insert_or_assign(p.name, std::move(list));
+  } else {
+    table.insert_or_assign(p.name, edit.value);
+  }
+}
+
 }  // namespace
 
 Scene parse_scene(const std::string& text, const std::filesystem::path& name) {
@@ -311,7 +339,7 @@ Scene with_overrides(const Scene& scene, const std::vector<Override>& overrides)
   toml::table root = toml::parse(scene.text, scene.file.string());
   // A changed scene answers one question: it has no studies of its own, and no one asks for its assumptions.
   for (const auto* table : {"sweep", "monte_carlo", "sensitivity", "assumed"}) root.erase(table);
-  apply_overrides(root, scene, overrides);
+  for (const auto& edit : resolve(scene, overrides)) set_number(root, edit);
   return Reader(root, scene.file).read();
 }
 

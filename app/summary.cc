@@ -106,10 +106,10 @@ std::string summary_json(const RunResult& result) {
   for (std::size_t i = 0; i < result.rings.size(); ++i) {
     const auto& ring = result.rings[i];
     auto& entry = json["rings"][ring.name] = ring_json(ring, result.sun_mesh);
-    add_ring_studies(entry, result, i);
+    entry.update(SummaryJson::parse(ring_studies_json(result, i)));
     ids += ring.mesh.model.id();
   }
-  add_studies(json, result);
+  json.update(SummaryJson::parse(studies_json(result)));
   ContentId inputs;
   for (const auto& input : result.scene.inputs) inputs.add(input.ring + "." + input.key, to_text(input.value));
   json["inputs_id"] = inputs.add("meshes", ids).id();

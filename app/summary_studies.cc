@@ -36,7 +36,8 @@ StudyJson point_json(const StudyPoint& point) {
 
 }  // namespace
 
-void add_ring_studies(StudyJson& ring, const RunResult& result, std::size_t index) {
+std::string ring_studies_json(const RunResult& result, std::size_t index) {
+  StudyJson ring = StudyJson::object();
   const auto& studies = result.studies;
   if (studies.monte_carlo) {
     const auto& samples = studies.monte_carlo->rings.at(index);
@@ -64,9 +65,11 @@ void add_ring_studies(StudyJson& ring, const RunResult& result, std::size_t inde
     }
     ring["sweeps"].push_back(std::move(json));
   }
+  return ring.dump();
 }
 
-void add_studies(StudyJson& json, const RunResult& result) {
+std::string studies_json(const RunResult& result) {
+  StudyJson json = StudyJson::object();
   const auto& studies = result.studies;
   if (studies.monte_carlo) {
     auto& orders = json["monte_carlo"]["orders"] = StudyJson::array();
@@ -79,7 +82,7 @@ void add_studies(StudyJson& json, const RunResult& result) {
                         {"equal", o.equal},
                         {"samples", o.samples}});
   }
-  if (!studies.sensitivity) return;
+  if (!studies.sensitivity) return json.dump();
   const auto& sensitivity = *studies.sensitivity;
   auto& rows = json["sensitivity"] = {{"factor", sensitivity.factor}, {"inputs", StudyJson::array()}};
   for (const auto& row : sensitivity.rows) {
@@ -91,6 +94,7 @@ void add_studies(StudyJson& json, const RunResult& result) {
                                              {"multiplied", point_json(row.multiplied[i])}};
     rows["inputs"].push_back(std::move(item));
   }
+  return json.dump();
 }
 
 }  // namespace annulus::app

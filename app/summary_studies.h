@@ -1,14 +1,15 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "app/pipeline.h"
 
+/// The studies as JSON objects (text), to be merged into summary.json.
 namespace annulus::app {
 
-/// Adds "monte_carlo" and "sweeps" to the entry of one ring of summary.json.
-void add_ring_studies(nlohmann::ordered_json& ring, const RunResult& result, std::size_t index);
-/// Adds "monte_carlo" (orders of the rings) and "sensitivity" to summary.json.
-void add_studies(nlohmann::ordered_json& json, const RunResult& result);
+/// "monte_carlo" and "sweeps" of one ring.
+[[nodiscard]] std::string ring_studies_json(const RunResult& result, std::size_t ring);
+/// "monte_carlo" (orders of the rings) and "sensitivity".
+[[nodiscard]] std::string studies_json(const RunResult& result);
 
 }  // namespace annulus::app
