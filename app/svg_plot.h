@@ -49,6 +49,12 @@ struct Series {
   double size = 4;  ///< of dots
 };
 
+/// A word in the plot, ending at a point.
+struct Note {
+  double x = 0, y = 0;
+  std::string text{};
+};
+
 struct Plot {
   std::string title{};
   std::string x_label{}, y_label{};  ///< with units
@@ -56,6 +62,7 @@ struct Plot {
   bool x_log = false;  ///< all x are above zero
   std::vector<Series> series{};
   std::vector<std::pair<double, std::string>> levels{};  ///< horizontal reference lines
+  std::vector<Note> notes{};
   bool legend = false;
   int width = 430, height = 270;
 };

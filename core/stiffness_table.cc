@@ -148,6 +148,20 @@ StiffnessTable StiffnessTable::read_csv(const std::filesystem::path& file) {
   return table;
 }
 
+std::vector<double> periodic_slopes(const std::vector<double>& values) {
+  const std::size_t n = values.size();
+  // Slopes at the knots from Boost's makima over the values continued periodically: a slope depends on two neighbours
+  // on either side, so three on either side keep Boost's end conditions out of the period.
+  constexpr std::size_t pad = 3;
+  std::vector<double> x(n + 2 * pad + 1), y(x.size());
+  std::iota(x.begin(), x.end(), -static_cast<double>(pad));
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] = values[(i + n * pad - pad) % n];
+  const boost::math::interpolators::makima<std::vector<double>> makima(std::move(x), std::move(y));
+  std::vector<double> slopes(n);
+  for (std::size_t i = 0; i < n; ++i) slopes[i] = makima.prime(static_cast<double>(i));
+  return slopes;
+}
+
 PeriodicCurve::PeriodicCurve(const std::vector<double>& values, int values_per_unit) {
   const std::size_t n = values.size();
   if (n == 0 || values_per_unit < 1 || n % static_cast<std::size_t>(values_per_unit))
@@ -156,23 +170,13 @@ PeriodicCurve::PeriodicCurve(const std::vector<double>& values, int values_per_u
   for (const double value : values)
     if (!std::isfinite(value)) throw InputError("a periodic curve needs finite values");
 
-  // Slopes at the knots from Boost's makima over the values continued periodically: a slope depends on two neighbours
-  // on either side, so three on either side keep Boost's end conditions out of the period.
-  constexpr std::size_t pad = 3;
-  std::vector<double> x(n + 2 * pad + 1), y(x.size());
-  std::iota(x.begin(), x.end(), -static_cast<double>(pad));
-  for (std::size_t i = 0; i < y.size(); ++i) y[i] = values[(i + n * pad - pad) % n];
-  const boost::math::interpolators::makima<std::vector<double>> makima(std::move(x), std::move(y));
-
   step_ = 1.0 / values_per_unit;
   period_ = static_cast<double>(n) / values_per_unit;
   // The slopes of the Hermite pieces telescope over the period: what is left of the integral is the plain average.
   mean_ = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(n);
   values_ = values;
   values_.push_back(values.front());
-  slopes_.clear();
-  slopes_.reserve(n + 1);
-  for (std::size_t i = 0; i < n; ++i) slopes_.push_back(makima.prime(static_cast<double>(i)));  // per knot distance
+  slopes_ = periodic_slopes(values);
   slopes_.push_back(slopes_.front());
 }
 
@@ -205,6 +209,14 @@ double PeriodicCurve::derivative(double mesh_cycles) const {
   const double rise = values_[i + 1] - values_[i];
   const double a = slopes_[i] - rise, b = rise - slopes_[i + 1];
   return (rise + (1 - t) * (1 - 3 * t) * a + t * (2 - 3 * t) * b) / step_;
+}
+
+int PeriodicCurve::pieces_per_unit() const { return static_cast<int>(std::lround(1 / step_)); }
+
+std::array<double, 4> PeriodicCurve::coefficients(int piece) const {
+  require(piece >= 0 && piece < pieces(), "piece of a periodic curve out of range");
+  const double rise = values_[piece + 1] - values_[piece], first = slopes_[piece], last = slopes_[piece + 1];
+  return {values_[piece], first, 3 * rise - 2 * first - last, first + last - 2 * rise};
 }
 
 MeshCurves curves_at_load(const StiffnessTable& table, double load) {

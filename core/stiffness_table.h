@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -67,10 +68,19 @@ class PeriodicCurve {
   [[nodiscard]] double period() const { return period_; }     ///< mesh cycles
   [[nodiscard]] double mean() const { return mean_; }         ///< exact mean of the curve over its period
 
+  [[nodiscard]] int pieces() const { return static_cast<int>(values_.size()) - 1; }  ///< in one period
+  [[nodiscard]] int pieces_per_unit() const;                                         ///< in one mesh cycle
+  /// c with value = c[0] + c[1] t + c[2] t^2 + c[3] t^3, t in [0, 1] within the piece.
+  [[nodiscard]] std::array<double, 4> coefficients(int piece) const;
+  [[nodiscard]] bool operator==(const PeriodicCurve&) const = default;
+
  private:
   std::vector<double> values_{0, 0}, slopes_{0, 0};  ///< first one repeated at the end; slopes per knot distance
   double step_ = 1, period_ = 1, mean_ = 0;
 };
+
+/// The slopes of PeriodicCurve at its knots, per knot distance, for values that repeat. Needs finite values.
+[[nodiscard]] std::vector<double> periodic_slopes(const std::vector<double>& values);
 
 /// The curves the lumped model consumes, read from a table at one load (linear in load between tabulated loads).
 /// Throws InputError when `load` lies outside the tabulated loads (by more than 1e-9 relative, which is rounding):

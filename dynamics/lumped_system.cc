@@ -10,48 +10,21 @@ namespace annulus::dynamics {
 
 namespace {
 
-double dot(const FlatRows& rows, std::size_t row, const double* x) {
-  double sum = 0;
-  for (int i = rows.start[row]; i < rows.start[row + 1]; ++i) sum += rows.factor[i] * x[rows.index[i]];
-  return sum;
-}
-
-/// Is the rectangular wave high at this phase (mesh cycles)?
-bool wave_is_high(const CompiledMesh& mesh, double t) {
-  const double phase = mesh.frequency * t + mesh.phase_offset;
-  return phase - std::floor(phase) < mesh.duty;
-}
-
-/// g(delta) in a held contact state.
-double penetration(const CompiledMesh& mesh, LumpedSystem::Contact contact, double delta) {
-  if (mesh.linear) return delta;
-  return contact == LumpedSystem::Contact::open ? 0.0 : delta - static_cast<int>(contact) * mesh.half_backlash;
-}
-
-LumpedSystem::Contact contact_of(const CompiledMesh& mesh, double delta) {
-  if (mesh.linear || delta > mesh.half_backlash) return LumpedSystem::Contact::drive;
-  return delta < -mesh.half_backlash ? LumpedSystem::Contact::back : LumpedSystem::Contact::open;
-}
-
-double acting_damping(const CompiledMesh& mesh, LumpedSystem::Contact contact) {
-  return contact != LumpedSystem::Contact::open || mesh.damping_without_contact ? mesh.damping : 0.0;
-}
-
-/// Force and tangent from the deflection, its rate and the contact state in the workspace.
-void apply_force(const CompiledMesh& mesh, std::size_t m, LumpedSystem::Workspace& w) {
-  w.force[m] = w.stiffness[m] * penetration(mesh, w.contact[m], w.delta[m]) +
-               acting_damping(mesh, w.contact[m]) * w.delta_rate[m];
-  w.tangent[m] = mesh.linear || w.contact[m] != LumpedSystem::Contact::open ? w.stiffness[m] : 0.0;
-}
-
-double stiffness_rate(const CompiledMesh& mesh, double t, const std::vector<double>& rates,
-                      const LumpedSystem::Workspace& w) {
-  if (mesh.kind == CompiledMesh::Kind::harmonic)
-    return rates[mesh.ripple.slot] *
-           (mesh.ripple.sine * w.cosine[mesh.ripple.slot] - mesh.ripple.cosine * w.sine[mesh.ripple.slot]);
-  if (mesh.kind == CompiledMesh::Kind::table)
-    return mesh.frequency * mesh.secant.derivative(mesh.frequency * t + mesh.phase_offset);
-  return 0;  // the jumps of a wave are booked where they happen
+/// dU/dt at constant deflection of a mesh.
+double energy_rate(const CompiledMesh& mesh, double t, double g, const std::vector<double>& rates,
+                   const LumpedSystem::Workspace& w) {
+  double stiffness_rate = 0;  // the jumps of a wave are booked where they happen
+  if (mesh.kind == CompiledMesh::Kind::harmonic) {
+    stiffness_rate = rates[mesh.ripple.slot] *
+                     (mesh.ripple.sine * w.cosine[mesh.ripple.slot] - mesh.ripple.cosine * w.sine[mesh.ripple.slot]);
+  } else if (mesh.kind == CompiledMesh::Kind::table) {
+    const double cycles = mesh.frequency * t + mesh.phase_offset;
+    if (mesh.surface) return mesh.frequency * mesh.surface->energy_rate(cycles, g);
+    double values[2], derivatives[2];
+    mesh.table->evaluate(cycles, values, derivatives);
+    stiffness_rate = mesh.frequency * derivatives[0];
+  }
+  return 0.5 * stiffness_rate * g * g;
 }
 
 }  // namespace
@@ -69,8 +42,10 @@ Eigen::VectorXd LumpedSystem::mesh_vector(int mesh) const {
 
 LumpedSystem::Workspace LumpedSystem::workspace() const {
   Workspace w;
-  for (auto* list : {&w.stiffness, &w.error, &w.error_rate, &w.delta, &w.delta_rate, &w.force, &w.tangent})
+  for (auto* list : {&w.stiffness, &w.error, &w.error_rate, &w.delta, &w.delta_rate, &w.force, &w.elastic, &w.tangent})
     list->assign(meshes_.size(), 0.0);
+  w.place.resize(meshes_.size());
+  w.pairs.assign(2 * names_.size() + meshes_.size() + meshes_.size() % 2, 0.0);
   w.contact.assign(meshes_.size(), Contact::drive);
   w.wave.assign(meshes_.size(), -1);
   w.sine.assign(compiled_->rates.size(), 0.0);
@@ -78,100 +53,21 @@ LumpedSystem::Workspace LumpedSystem::workspace() const {
   return w;
 }
 
-void LumpedSystem::evaluate_excitation(double t, Workspace& w) const {
-  // Newton iterations and last stages ask for the same time again.
-  if (w.excitation_valid && w.time == t) return;
-  const Compiled& c = *compiled_;
-  for (std::size_t i = 0; i < c.rates.size(); ++i) {
-    w.sine[i] = std::sin(c.rates[i] * t);
-    w.cosine[i] = std::cos(c.rates[i] * t);
-  }
-  for (std::size_t m = 0; m < c.meshes.size(); ++m) {
-    const CompiledMesh& mesh = c.meshes[m];
-    double e = mesh.constant_error, rate = 0;
-    for (const auto& term : mesh.errors) {
-      e += term.sine * w.sine[term.slot] + term.cosine * w.cosine[term.slot];
-      rate += c.rates[term.slot] * (term.sine * w.cosine[term.slot] - term.cosine * w.sine[term.slot]);
-    }
-    switch (mesh.kind) {
-      case CompiledMesh::Kind::constant:
-        w.stiffness[m] = mesh.mean;
-        break;
-      case CompiledMesh::Kind::harmonic:
-        w.stiffness[m] =
-            mesh.mean + mesh.ripple.sine * w.sine[mesh.ripple.slot] + mesh.ripple.cosine * w.cosine[mesh.ripple.slot];
-        break;
-      case CompiledMesh::Kind::wave: {
-        const bool high = w.wave[m] < 0 ? wave_is_high(mesh, t) : w.wave[m] == 1;
-        w.stiffness[m] = high ? mesh.high : mesh.low;
-        break;
-      }
-      case CompiledMesh::Kind::table: {
-        const double cycles = mesh.frequency * t + mesh.phase_offset;
-        w.stiffness[m] = mesh.secant(cycles);
-        e += mesh.unloaded_te(cycles);
-        rate += mesh.frequency * mesh.unloaded_te.derivative(cycles);
-        break;
-      }
-    }
-    w.error[m] = e;
-    w.error_rate[m] = rate;
-  }
-  w.time = t;
-  w.excitation_valid = true;
+int LumpedSystem::outside_table(int mesh, const Workspace& w) const {
+  const auto* surface = compiled_->meshes[mesh].surface;
+  const double load = std::abs(w.elastic[mesh]);
+  if (!surface || load == 0) return 0;
+  // The tabulated loads themselves are inside, met to the resampling error.
+  if (load > surface->largest_load() * (1 + 1e-6)) return 1;
+  return load < surface->smallest_load() * (1 - 1e-6) ? -1 : 0;
 }
 
-void LumpedSystem::detect_contact(double t, const double* q, Workspace& w) const {
-  evaluate_excitation(t, w);
-  for (std::size_t m = 0; m < compiled_->meshes.size(); ++m) {
-    const CompiledMesh& mesh = compiled_->meshes[m];
-    w.delta[m] = dot(compiled_->b, m, q) - w.error[m];
-    w.contact[m] = contact_of(mesh, w.delta[m]);
+void LumpedSystem::tangent_matrix(const Workspace& w, Eigen::Ref<Eigen::MatrixXd> result) const {
+  result.setZero();
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    const auto i = static_cast<Eigen::Index>(m);
+    result(i, i) = w.tangent[m];
   }
-}
-
-void LumpedSystem::evaluate_meshes(double t, const double* q, const double* v, Workspace& w) const {
-  evaluate_excitation(t, w);
-  const Compiled& c = *compiled_;
-  for (std::size_t m = 0; m < c.meshes.size(); ++m) {
-    double delta = -w.error[m], rate = -w.error_rate[m];
-    for (int i = c.b.start[m]; i < c.b.start[m + 1]; ++i) {
-      delta += c.b.factor[i] * q[c.b.index[i]];
-      rate += c.b.factor[i] * v[c.b.index[i]];
-    }
-    w.delta[m] = delta;
-    w.delta_rate[m] = rate;
-    apply_force(c.meshes[m], m, w);
-  }
-}
-
-void LumpedSystem::evaluate_forces(double t, const double* closing, const double* closing_rate, Workspace& w) const {
-  evaluate_excitation(t, w);
-  for (std::size_t m = 0; m < compiled_->meshes.size(); ++m) {
-    const CompiledMesh& mesh = compiled_->meshes[m];
-    w.delta[m] = closing[m] - w.error[m];
-    w.delta_rate[m] = closing_rate[m] - w.error_rate[m];
-    w.contact[m] = contact_of(mesh, w.delta[m]);
-    apply_force(mesh, m, w);
-  }
-}
-
-void LumpedSystem::rhs(double t, const double* y, double* dy, Workspace& w) const {
-  const Compiled& c = *compiled_;
-  const int n = freedoms();
-  const double* q = y;
-  const double* v = y + n;
-  evaluate_meshes(t, q, v, w);
-  for (int i = 0; i < n; ++i) {
-    double a = c.acceleration[i];
-    for (int j = c.row_start[i]; j < c.row_start[i + 1]; ++j)
-      a -= c.stiffness[j] * q[c.column[j]] + c.damping[j] * v[c.column[j]];
-    dy[i] = v[i];
-    dy[n + i] = a;
-  }
-  for (std::size_t m = 0; m < c.meshes.size(); ++m)
-    for (int i = c.inverse_b.start[m]; i < c.inverse_b.start[m + 1]; ++i)
-      dy[n + c.inverse_b.index[i]] -= c.inverse_b.factor[i] * w.force[m];
 }
 
 void LumpedSystem::jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixXd> result, Workspace& w) const {
@@ -188,7 +84,7 @@ void LumpedSystem::jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixX
   }
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
     const CompiledMesh& mesh = c.meshes[m];
-    const double k = mesh.linear || w.contact[m] != Contact::open ? w.stiffness[m] : 0.0;
+    const double k = w.tangent[m];
     const double d = acting_damping(mesh, w.contact[m]);
     for (int i = c.inverse_b.start[m]; i < c.inverse_b.start[m + 1]; ++i)
       for (int j = c.b.start[m]; j < c.b.start[m + 1]; ++j) {
@@ -205,8 +101,10 @@ double LumpedSystem::energy(double t, const double* y, Workspace& w) const {
   const Eigen::Map<const Eigen::VectorXd> q(y, n), v(y + n, n);
   double energy = 0.5 * (v.dot(mass_ * v) + q.dot((stiffness_ + rotating_stiffness_) * q));  // skew part drops out
   for (std::size_t m = 0; m < meshes_.size(); ++m) {
-    const double g = penetration(compiled_->meshes[m], w.contact[m], w.delta[m]);
-    energy += 0.5 * w.stiffness[m] * g * g;
+    const CompiledMesh& mesh = compiled_->meshes[m];
+    const double g = penetration(mesh, w.contact[m], w.delta[m]);
+    energy +=
+        mesh.surface ? mesh.surface->energy(mesh.frequency * t + mesh.phase_offset, g) : 0.5 * w.stiffness[m] * g * g;
   }
   return energy;
 }
@@ -215,7 +113,7 @@ LumpedSystem::Power LumpedSystem::power(double t, const double* y, const Workspa
   const int n = freedoms();
   const double* q = y;
   const double* v = y + n;
-  // dE/dt = v.f - v.(C v) - v.(K_skew q) - sum c delta'^2 - sum e' F + sum k'/2 g^2
+  // dE/dt = v.f - v.(C v) - v.(K_skew q) - sum c delta'^2 - sum e' F + sum dU/dt at constant g
   Power p;
   for (int i = 0; i < n; ++i) p.supplied += load_[i] * v[i];
   for (const auto& term : compiled_->power) {
@@ -226,7 +124,7 @@ LumpedSystem::Power LumpedSystem::power(double t, const double* y, const Workspa
     const CompiledMesh& mesh = compiled_->meshes[m];
     const double g = penetration(mesh, w.contact[m], w.delta[m]);
     p.dissipated += acting_damping(mesh, w.contact[m]) * w.delta_rate[m] * w.delta_rate[m];
-    p.supplied += 0.5 * stiffness_rate(mesh, t, compiled_->rates, w) * g * g - w.error_rate[m] * w.force[m];
+    p.supplied += energy_rate(mesh, t, g, compiled_->rates, w) - w.error_rate[m] * w.force[m];
   }
   return p;
 }

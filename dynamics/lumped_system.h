@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "dynamics/curve_bundle.h"
 #include "dynamics/mesh_excitation.h"
 
 namespace annulus::dynamics {
@@ -21,8 +22,16 @@ struct HarmonicError {
   double amount = 0, rate = 0, phase = 0;
 };
 
+/// A part of a mesh vector that changes in time: the closing b^T q gains factor(t) x freedom.
+struct MovingShare {
+  int freedom = 0;
+  PeriodicCurve curve;   ///< of the mesh's cycles, frequency t + phase_offset; added to ...
+  HarmonicError wave{};  ///< ... amount x sin(rate t + phase)
+};
+
 /// One gear mesh, whatever its kind: delta = b^T q - e(t), force on the freedoms -b F,
-/// F = k(t) g(delta) + c delta', g with half backlash; c acts while the teeth touch (or always).
+/// F = k(t) g(delta) + c delta', g with half backlash; c acts while the teeth touch (or always). With a ForceSurface
+/// k(t) g is replaced by the law Fs(t, g).
 struct MeshElement {
   std::string name;
   LinearForm b;
@@ -33,6 +42,37 @@ struct MeshElement {
   std::optional<double> half_backlash;  ///< m
   bool damping_without_contact = false;
   std::vector<HarmonicError> errors;
+  std::vector<MovingShare> moving;  ///< at most one per freedom
+};
+
+/// Meshes that act on each other through a common elastic body (the ring): the own law of mesh i meets the deflection
+///   delta_i - sum_j D_ij(t) F_j,
+/// so the forces F solve a system of equations. F is the elastic force alone: the dampers of the meshes act on the
+/// closing rate of the rigid bodies as without coupling, and do not deflect the common body.
+/// The forces are found by Newton's method to 1e-12; where it fails they are not numbers, which integrators report.
+struct MeshCoupling {
+  std::vector<int> meshes;  ///< in the order of add_mesh; at most 20
+  /// D, m/N: the lower triangle row by row ((0,0), (1,0), (1,1), (2,0) ...), of the cycles of the first mesh.
+  std::vector<PeriodicCurve> compliance;
+  /// Elastic modes of the common body that are freedoms of the system: with the meshes' moving shares in it as factors,
+  /// the static compliance factor_i factor_j / stiffness is taken off D, for the freedom itself contributes it.
+  struct Kept {
+    int freedom = 0;
+    double stiffness = 0;  ///< N/m
+  };
+  std::vector<Kept> kept;
+};
+
+/// The curves of MeshCoupling::compliance from symmetric matrices, `per_cycle` of them per mesh cycle.
+[[nodiscard]] std::vector<PeriodicCurve> compliance_curves(const std::vector<Eigen::MatrixXd>& matrices, int per_cycle);
+
+/// A spring with its damper along a coordinate a: force k a^T q + c a^T q', part of K and C. The name says what it
+/// stands for (sun_support_x, planet1_bearing_radial, ...); energies and bearing forces are given under it.
+struct SpringElement {
+  std::string name;
+  LinearForm a;
+  double stiffness = 0;  ///< N/m
+  double damping = 0;    ///< N s/m
 };
 
 /// M q'' + (C + G) q' + (K + K_Omega) q + sum_m b_m F_m = f, immutable. Built by LumpedSystemBuilder.
@@ -45,13 +85,20 @@ class LumpedSystem {
   struct Workspace {
     double time = 0;
     bool excitation_valid = false;
-    std::vector<double> stiffness, error, error_rate;  ///< per mesh at `time`
-    std::vector<double> delta, delta_rate, force;      ///< per mesh, of the last evaluation
-    std::vector<double> tangent;                       ///< per mesh, dF/d delta of the last evaluation, N/m
-    std::vector<Contact> contact;                      ///< per mesh
+    /// Per mesh at `time`; where a law replaces the stiffness, `stiffness` is the secant at the nominal load.
+    std::vector<double> stiffness, error, error_rate;
+    std::vector<PhaseLocation> place;              ///< per mesh at `time`, on the grid of its law
+    std::vector<double> delta, delta_rate, force;  ///< per mesh, of the last evaluation
+    std::vector<double> elastic;                   ///< per mesh, force without damping of the last evaluation
+    std::vector<double> tangent;                   ///< per mesh, dF/d delta of the last evaluation, N/m
+    std::vector<Contact> contact;                  ///< per mesh
     /// Per mesh: value of a rectangular wave (1 high, 0 low) held up to the next jump; -1: by time.
     std::vector<signed char> wave;
+    std::vector<double> factor, factor_rate;  ///< of the moving shares of all meshes at `time`
+    std::vector<double> closing;              ///< per mesh, closing - error of the last evaluation
+    std::vector<double> compliance;           ///< D of all couplings at `time`
     std::vector<double> sine, cosine;  ///< of the error rates and mesh frequencies at `time`
+    std::vector<double> pairs;         ///< scratch: (q_j, v_j) of every freedom, then the mesh forces
   };
 
   [[nodiscard]] int freedoms() const { return static_cast<int>(names_.size()); }
@@ -59,6 +106,7 @@ class LumpedSystem {
   /// Index of a freedom, -1 when it does not exist (held).
   [[nodiscard]] int find(const std::string& name) const;
   [[nodiscard]] const std::vector<MeshElement>& meshes() const { return meshes_; }
+  [[nodiscard]] const std::vector<SpringElement>& springs() const { return springs_; }  ///< those that are not all zero
   [[nodiscard]] const Eigen::MatrixXd& mass() const { return mass_; }
   [[nodiscard]] const Eigen::MatrixXd& stiffness() const { return stiffness_; }  ///< K, symmetric, without meshes
   /// K_Omega: centripetal (symmetric) and circulatory (dampers to the housing, skew) terms.
@@ -66,7 +114,10 @@ class LumpedSystem {
   [[nodiscard]] const Eigen::MatrixXd& damping() const { return damping_; }        ///< C, symmetric, without meshes
   [[nodiscard]] const Eigen::MatrixXd& gyroscopic() const { return gyroscopic_; }  ///< G, skew
   [[nodiscard]] const Eigen::VectorXd& load() const { return load_; }              ///< f, N
-  [[nodiscard]] Eigen::VectorXd mesh_vector(int mesh) const;                       ///< b, dense
+  [[nodiscard]] Eigen::VectorXd mesh_vector(int mesh, double t = 0) const;         ///< b at a time, dense
+  [[nodiscard]] Eigen::VectorXd mesh_vector_rate(int mesh, double t) const;        ///< db/dt, 1/s
+  [[nodiscard]] bool has_moving_vectors() const;                                   ///< does any b change in time?
+  [[nodiscard]] const std::vector<MeshCoupling>& couplings() const { return couplings_; }
 
   [[nodiscard]] Workspace workspace() const;
   /// Sets the contact states from the deflections at (t, q).
@@ -78,6 +129,11 @@ class LumpedSystem {
   /// The same from the closings b^T q and their rates (one per mesh, errors not yet taken off), the contact states
   /// following the deflections instead of being held. No allocation.
   void evaluate_forces(double t, const double* closing, const double* closing_rate, Workspace& workspace) const;
+  /// Is the elastic force of the last evaluation beyond what the mesh's table covers? -1: in contact below the lowest
+  /// load, +1: above the largest, 0: within, open, or not a law from a table.
+  [[nodiscard]] int outside_table(int mesh, const Workspace& workspace) const;
+  /// d elastic / d closing of the last evaluation, meshes x meshes, symmetric; diagonal without couplings.
+  void tangent_matrix(const Workspace& workspace, Eigen::Ref<Eigen::MatrixXd> result) const;
   /// State y = (q, v), dy = (v, M^-1 (...)). No allocation.
   void rhs(double t, const double* y, double* dy, Workspace& workspace) const;
   /// d(dy)/dy in the held contact state, column-major 2n x 2n.
@@ -99,8 +155,12 @@ class LumpedSystem {
  private:
   friend class LumpedSystemBuilder;
   struct Compiled;  // flat arrays for the right-hand side, shared by copies
+  void apply_forces(Workspace& workspace, bool held) const;
+  [[nodiscard]] double moving_power(int mesh, const double* q, const Workspace& workspace) const;
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
+  std::vector<MeshCoupling> couplings_;
+  std::vector<SpringElement> springs_;
   Eigen::MatrixXd mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
   Eigen::VectorXd load_;
   std::shared_ptr<const Compiled> compiled_;
@@ -118,17 +178,23 @@ class LumpedSystemBuilder {
   /// Any symmetric term of the potential: K_Omega += value (a b^T + b a^T)/2.
   void add_rotating_stiffness(const LinearForm& a, const LinearForm& b, double value);
   /// Spring and damper along a coordinate: K += k a a^T, C += c a a^T.
-  void add_spring(const LinearForm& coordinate, double stiffness, double damping);
+  void add_spring(const LinearForm& coordinate, double stiffness, double damping, const std::string& name = {});
   /// Damper to the housing seen from the turning frame: c (x' - Omega y), c (y' + Omega x); adds the Omega part only.
   void add_housing_damper_rotation(const LinearForm& x, const LinearForm& y, double damping, double speed);
   void add_load(const LinearForm& coordinate, double force);
   void add_mesh(MeshElement mesh);
-  /// Throws InputError when a freedom has no mass.
+  /// Inertia between two coordinates: M += value (a b^T + b a^T).
+  void add_mass_coupling(const LinearForm& a, const LinearForm& b, double value);
+  /// Couples meshes added before; a mesh belongs to one coupling at most.
+  void add_mesh_coupling(MeshCoupling coupling);
+  /// Throws InputError when a freedom has no mass or a coupling does not fit its meshes.
   [[nodiscard]] LumpedSystem build() const;
 
  private:
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
+  std::vector<MeshCoupling> couplings_;
+  std::vector<SpringElement> springs_;
   struct Term {
     LinearForm row, column;
     double value;

@@ -52,7 +52,9 @@ void LumpedSystemBuilder::add_rotating_stiffness(const LinearForm& a, const Line
   rotating_stiffness_.push_back({b, a, value / 2});
 }
 
-void LumpedSystemBuilder::add_spring(const LinearForm& coordinate, double stiffness, double damping) {
+void LumpedSystemBuilder::add_spring(const LinearForm& coordinate, double stiffness, double damping,
+                                     const std::string& name) {
+  if (stiffness != 0 || damping != 0) springs_.push_back({name, coordinate, stiffness, damping});
   stiffness_.push_back({coordinate, coordinate, stiffness});
   damping_.push_back({coordinate, coordinate, damping});
 }
@@ -99,6 +101,34 @@ void append_sparse(const Eigen::VectorXd& dense, FlatRows& rows) {
   rows.start.push_back(static_cast<int>(rows.index.size()));
 }
 
+const CurveBundle* shared_bundle(std::vector<std::unique_ptr<const CurveBundle>>& bundles, CurveBundle bundle) {
+  for (const auto& known : bundles)
+    if (known->same_as(bundle)) return known.get();
+  return bundles.emplace_back(std::make_unique<const CurveBundle>(std::move(bundle))).get();
+}
+
+/// Joins M^-1 (K, C) and M^-1 b to the rows of pairs.
+template <class Compiled>
+void compile_rows(Compiled& c, int n) {
+  const int meshes = static_cast<int>(c.meshes.size());
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(n, meshes + meshes % 2);
+  for (int m = 0; m < meshes; ++m)
+    for (int i = c.inverse_b.start[m]; i < c.inverse_b.start[m + 1]; ++i)
+      forces(c.inverse_b.index[i], m) = c.inverse_b.factor[i];
+  const auto add = [&](int column, double first, double second) {
+    if (first == 0 && second == 0) return;
+    c.pair_column.push_back(column);
+    c.pair_factor.push_back(first);
+    c.pair_factor.push_back(second);
+  };
+  c.pair_start.push_back(0);
+  for (int i = 0; i < n; ++i) {
+    for (int j = c.row_start[i]; j < c.row_start[i + 1]; ++j) add(c.column[j], c.stiffness[j], c.damping[j]);
+    for (int m = 0; m < meshes; m += 2) add(n + m / 2, forces(i, m), forces(i, m + 1));
+    c.pair_start.push_back(static_cast<int>(c.pair_column.size()));
+  }
+}
+
 }  // namespace
 
 LumpedSystem LumpedSystemBuilder::build() const {
@@ -106,6 +136,7 @@ LumpedSystem LumpedSystemBuilder::build() const {
   LumpedSystem system;
   system.names_ = names_;
   system.meshes_ = meshes_;
+  system.springs_ = springs_;
   system.mass_ = assembled(mass_, n);
   system.stiffness_ = assembled(stiffness_, n);
   system.rotating_stiffness_ = assembled(rotating_stiffness_, n);
@@ -156,13 +187,15 @@ LumpedSystem LumpedSystemBuilder::build() const {
     m.frequency = mesh.frequency;
     m.phase_offset = mesh.phase_offset;
     m.mean = mean_stiffness(mesh.excitation);
+    m.first_error = static_cast<int>(c.errors.size());
     for (const auto& error : mesh.errors) {
       if (error.rate == 0)
         m.constant_error += error.amount * std::sin(error.phase);
       else
-        m.errors.push_back(
+        c.errors.push_back(
             {slot_of(c.rates, error.rate), error.amount * std::cos(error.phase), error.amount * std::sin(error.phase)});
     }
+    m.last_error = static_cast<int>(c.errors.size());
     if (const auto* harmonic = std::get_if<HarmonicStiffness>(&mesh.excitation)) {
       const double angle = 2 * std::numbers::pi * (mesh.phase_offset - harmonic->phase_shift);
       m.ripple = {slot_of(c.rates, 2 * std::numbers::pi * mesh.frequency),
@@ -177,11 +210,15 @@ LumpedSystem LumpedSystemBuilder::build() const {
       m.phase_offset -= wave->phase_shift;
     } else if (const auto* table = std::get_if<TableStiffness>(&mesh.excitation)) {
       m.kind = CompiledMesh::Kind::table;
-      m.secant = table->secant;
-      m.unloaded_te = table->unloaded_te;
+      m.table = shared_bundle(c.bundles, CurveBundle({&table->secant, &table->unloaded_te}));
       m.phase_offset -= table->phase_shift;
+      if (table->surface) {
+        c.surfaces.push_back(table->surface);
+        m.surface = table->surface.get();
+      }
     }
   }
+  compile_rows(c, n);
   system.compiled_ = std::move(compiled);
   return system;
 }

@@ -8,10 +8,11 @@
 
 namespace annulus::dynamics {
 
-TableStiffness table_stiffness(const StiffnessTable& table, double load, double phase_shift) {
+TableStiffness table_stiffness(const StiffnessTable& table, double load, double phase_shift,
+                               LoadDependence dependence) {
   auto curves = curves_at_load(table, load);
   return {std::move(curves.stiffness_secant), std::move(curves.stiffness_tangent), std::move(curves.unloaded_te),
-          phase_shift};
+          phase_shift, dependence == LoadDependence::table ? std::make_shared<const ForceSurface>(table) : nullptr};
 }
 
 double mean_stiffness(const MeshExcitation& excitation) {
@@ -57,6 +58,8 @@ void check(const MeshExcitation& excitation, const std::string& name) {
     // The curve may pass its values slightly: 64 points per mesh cycle see any dip that matters.
     for (double x = 0; x < table.secant.period(); x += 1.0 / 64)
       if (!(table.secant(x) > 0)) refuse(fmt::format("the tabulated stiffness is not positive at phase {}", x));
+    if (table.surface && table.surface->grid().period() != std::round(table.secant.period()))
+      refuse("the law of force over deflection and the stiffness differ in their period");
     if (!std::isfinite(table.phase_shift)) refuse("the phase is not finite");
   }
 }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <variant>
 
 #include "core/stiffness_table.h"
+#include "dynamics/force_surface.h"
 
 namespace annulus::dynamics {
 
@@ -28,23 +30,32 @@ struct RectangularStiffness {
   double phase_shift = 0;  ///< mesh cycles
 };
 
-/// Stiffness and unloaded transmission error read from a table (see curves_at_load). For time integration give the
-/// *secant* stiffness at the nominal mesh force: F = k (delta) then carries the nominal load at the tabulated loaded
-/// transmission error. For modes the tangent is the consistent choice; `modes` uses the mean of `tangent`.
+/// Stiffness and unloaded transmission error read from a table (see curves_at_load), in one of two ways:
+/// - without `surface`: linear, F = k g with the *secant* stiffness at the nominal mesh force. The nominal load then
+///   acts at the tabulated loaded transmission error, but changes of the load meet the wrong stiffness.
+/// - with `surface`: the law of force over deflection, right at every tabulated load (see ForceSurface).
+/// Modes are small vibrations about the nominal load: `modes` uses the mean of the tangent there, with either.
 struct TableStiffness {
-  PeriodicCurve secant;       ///< N/m
-  PeriodicCurve tangent;      ///< N/m
-  PeriodicCurve unloaded_te;  ///< m; enters e(t)
-  double phase_shift = 0;     ///< mesh cycles
+  PeriodicCurve secant;                           ///< N/m
+  PeriodicCurve tangent;                          ///< N/m
+  PeriodicCurve unloaded_te;                      ///< m; enters e(t)
+  double phase_shift = 0;                         ///< mesh cycles
+  std::shared_ptr<const ForceSurface> surface{};  ///< absent: linear
 };
 
 /// How one kind of mesh (sun-planet or ring-planet) is excited; every planet's mesh shares it, shifted by its phase.
 using MeshExcitation = std::variant<ConstantStiffness, HarmonicStiffness, RectangularStiffness, TableStiffness>;
 
-/// TableStiffness at one total normal force. Throws InputError outside the tabulated loads.
-[[nodiscard]] TableStiffness table_stiffness(const StiffnessTable& table, double load, double phase_shift = 0);
+enum class LoadDependence {
+  nominal,  ///< linear with the secant stiffness at the nominal load
+  table,    ///< the law of force over deflection that all loads of the table give
+};
 
-/// Mean of the stiffness the time integration uses over its period, N/m.
+/// TableStiffness at one total normal force. Throws InputError outside the tabulated loads.
+[[nodiscard]] TableStiffness table_stiffness(const StiffnessTable& table, double load, double phase_shift = 0,
+                                             LoadDependence dependence = LoadDependence::nominal);
+
+/// Mean of the stiffness over its period (secant at the nominal load for tables), N/m.
 [[nodiscard]] double mean_stiffness(const MeshExcitation& excitation);
 /// Mean of the stiffness modes use (tangent for tables), N/m.
 [[nodiscard]] double mean_tangent_stiffness(const MeshExcitation& excitation);

@@ -23,6 +23,14 @@ std::pair<Contact, double> wanted_state(double delta, double half_backlash, Cont
   return {contact, contact == held ? 0.0 : std::abs(delta - edge)};
 }
 
+// An open mesh keeps a billionth of its stiffness: an idle planet then has a definite place, at forces of at most
+// 1e-9 k x half backlash, which no figure of merit sees.
+constexpr double open_share = 1e-9;
+
+bool is_open(const LumpedSystem& system, int mesh, const LumpedSystem::Workspace& w) {
+  return system.meshes()[mesh].half_backlash.value_or(0.0) != 0 && w.contact[mesh] == Contact::open;
+}
+
 }  // namespace
 
 StaticSolver::StaticSolver(const LumpedSystem& system) : system_(system), base_(system.stiffness()) {
@@ -33,6 +41,8 @@ StaticSolver::StaticSolver(const LumpedSystem& system) : system_(system), base_(
     vectors_.col(m) = system.mesh_vector(m);
     mean[m] = mean_stiffness(system.meshes()[m].excitation);
   }
+  rest_ = Eigen::VectorXd::Zero(system.freedoms());
+  forces_.resize(meshes);
   const Modes found = modes(system, mean);
   const double scale = found.modes.empty() ? 0 : std::pow(found.modes.back().frequency, 2);
   for (const auto& mode : found.modes) {
@@ -48,39 +58,75 @@ StaticSolver::StaticSolver(const LumpedSystem& system) : system_(system), base_(
   }
 }
 
+void StaticSolver::factorise(const Eigen::MatrixXd& tangent, double t) {
+  factor_.compute(base_ + vectors_ * tangent * vectors_.transpose());
+  if (factor_.info() != Eigen::Success)
+    throw SolverError(
+        fmt::format("the quasi-static stiffness at t = {:g} s is not positive: a freedom is held by nothing", t));
+}
+
+double StaticSolver::residual(double t, const Eigen::VectorXd& q, LumpedSystem::Workspace& w) {
+  system_.evaluate_meshes(t, q.data(), rest_.data(), w);
+  for (int m = 0; m < forces_.size(); ++m) {
+    w.delta_rate[m] = 0;
+    w.force[m] = forces_[m] = w.elastic[m];
+    if (is_open(system_, m, w)) forces_[m] += open_share * w.stiffness[m] * w.delta[m];
+  }
+  residual_ = system_.load() - base_ * q - vectors_ * forces_;
+  return system_.load().cwiseAbs().maxCoeff() + (base_.cwiseAbs() * q.cwiseAbs()).maxCoeff() +
+         (vectors_.cwiseAbs() * forces_.cwiseAbs()).maxCoeff();
+}
+
+void StaticSolver::balance(double t, Eigen::VectorXd& q, LumpedSystem::Workspace& w) {
+  constexpr int steps = 60;
+  // Rounding of the residual is some 1e-15 of its terms; Newton's last step falls from 1e-6 to there.
+  constexpr double accuracy = 1e-13;
+  double scale = residual(t, q, w);
+  for (int step = 0; step < steps; ++step) {
+    if (residual_.cwiseAbs().maxCoeff() <= accuracy * scale) return;
+    system_.tangent_matrix(w, tangent_);
+    for (int m = 0; m < forces_.size(); ++m)
+      if (is_open(system_, m, w)) tangent_(m, m) += open_share * w.stiffness[m];
+    factorise(tangent_, t);
+    const Eigen::VectorXd direction = factor_.solve(residual_), from = q;
+    // The potential is convex along the step: halving it until its slope is no steeper than at the start ends soon.
+    const double slope = direction.dot(residual_);
+    double share = 1;
+    for (;; share /= 2) {
+      q = from + share * direction;
+      scale = residual(t, q, w);
+      if (std::abs(direction.dot(residual_)) <= 0.9 * slope || slope <= accuracy * scale * direction.norm()) break;
+      if (share < 1e-6) throw SolverError(fmt::format("no static equilibrium in sight at t = {:g} s", t));
+    }
+    // Where the terms cancel badly the residual stalls at rounding above the limit: a step that moves nothing ends it.
+    if (direction.cwiseAbs().maxCoeff() <= 1e-13 * q.cwiseAbs().maxCoeff()) return;
+  }
+  throw SolverError(fmt::format("no static equilibrium in {} steps of Newton's method at t = {:g} s", steps, t));
+}
+
 Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
   system_.evaluate_excitation(t, w);
   const int meshes = static_cast<int>(vectors_.cols());
   const auto half = [&](int m) { return system_.meshes()[m].half_backlash.value_or(0.0); };
   constexpr int tries = 200, all_at_once = 20;
-  // An open mesh keeps a billionth of its stiffness: an idle planet then has a definite place, at forces of at most
-  // 1e-9 k x half backlash, which no figure of merit sees.
-  constexpr double open_share = 1e-9;
-  Eigen::VectorXd q;
+  // The linear solution with the stiffnesses in the workspace: the equilibrium itself for linear meshes, near it for a
+  // law that carries about its nominal load.
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(system_.freedoms());
+  tangent_.setZero(meshes, meshes);
+  Eigen::VectorXd load = system_.load();
+  for (int m = 0; m < meshes; ++m) {
+    const double offset = half(m) == 0 ? 0.0 : static_cast<int>(w.contact[m]) * half(m);
+    tangent_(m, m) = (is_open(system_, m, w) ? open_share : 1.0) * w.stiffness[m];
+    load += tangent_(m, m) * (w.error[m] + offset) * vectors_.col(m);
+  }
+  factorise(tangent_, t);
+  q = factor_.solve(load);
   for (int attempt = 0; attempt < tries; ++attempt) {
-    matrix_ = base_;
-    Eigen::VectorXd load = system_.load();
-    for (int m = 0; m < meshes; ++m) {
-      const bool linear = half(m) == 0;
-      const double share = linear || w.contact[m] != Contact::open ? 1.0 : open_share;
-      const double offset = linear ? 0.0 : static_cast<int>(w.contact[m]) * half(m);
-      matrix_ += (share * w.stiffness[m]) * vectors_.col(m) * vectors_.col(m).transpose();
-      load += (share * w.stiffness[m] * (w.error[m] + offset)) * vectors_.col(m);
-    }
-    factor_.compute(matrix_);
-    if (factor_.info() != Eigen::Success)
-      throw SolverError("the quasi-static stiffness is singular: a freedom is held by nothing");
-    q = factor_.solve(load);
-
+    balance(t, q, w);
     int changes = 0, worst = -1;
     double worst_excess = 0;
     for (int m = 0; m < meshes; ++m) {
-      const bool linear = half(m) == 0;
-      w.delta[m] = vectors_.col(m).dot(q) - w.error[m];
-      w.delta_rate[m] = 0;
-      const double offset = linear ? 0.0 : static_cast<int>(w.contact[m]) * half(m);
-      w.force[m] = linear || w.contact[m] != Contact::open ? w.stiffness[m] * (w.delta[m] - offset) : 0.0;
-      if (linear) continue;
+      if (half(m) == 0) continue;
       const auto [contact, excess] = wanted_state(w.delta[m], half(m), w.contact[m]);
       if (contact == w.contact[m]) continue;
       ++changes;

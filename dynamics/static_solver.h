@@ -7,7 +7,8 @@
 
 namespace annulus::dynamics {
 
-/// Equilibrium without inertia, damping and rotation: K q + sum_m b_m k_m(t) g(b_m^T q - e_m(t)) = f.
+/// Equilibrium without inertia, damping and rotation: K q + sum_m b_m F_m(t, b_m^T q - e_m(t)) = f, F_m the elastic
+/// force of a mesh (k g or its law).
 /// Rigid motions (at mean mesh stiffness) are fixed by nu^T M q = 0, which costs no force because f does no work on
 /// them.
 class StaticSolver {
@@ -16,13 +17,21 @@ class StaticSolver {
   explicit StaticSolver(const LumpedSystem& system);
 
   /// Equilibrium at time t. `workspace` enters with the contact states to start from and leaves with delta, force
-  /// (without damping) and contact at the solution. Throws SolverError when the contact state is not found.
+  /// (without damping) and contact at the solution. Throws SolverError when the contact state or, with a law, the
+  /// equilibrium is not found.
   [[nodiscard]] Eigen::VectorXd solve(double t, LumpedSystem::Workspace& workspace);
 
  private:
+  /// The equilibrium in the held contact state: one step of Newton's method for linear meshes, a few with a law.
+  void balance(double t, Eigen::VectorXd& q, LumpedSystem::Workspace& workspace);
+  /// f - K q - sum b F at q, and the size of its terms (the scale of its rounding). Evaluates the meshes.
+  double residual(double t, const Eigen::VectorXd& q, LumpedSystem::Workspace& workspace);
+  void factorise(const Eigen::MatrixXd& tangent, double t);
+
   const LumpedSystem& system_;
   Eigen::MatrixXd base_, vectors_;  // K with the rigid motions held; mesh vectors b as columns
-  Eigen::MatrixXd matrix_;
+  Eigen::MatrixXd tangent_;
+  Eigen::VectorXd residual_, forces_, rest_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 

@@ -1,0 +1,129 @@
+// Nanoseconds of one right-hand side of the stage of the ring paper (24 freedoms, 10 meshes), and the same equations
+// with dense matrices of Eigen as the peer.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "dynamics/lumped_system.h"
+#include "tests/dynamics/stages.h"
+#include "tests/dynamics/tables.h"
+
+namespace {
+
+using namespace annulus;
+using namespace annulus::dynamics;
+
+struct Case {
+  std::string name;
+  MeshExcitation sun, ring;
+};
+
+/// M q'' = f - (C + G) q' - (K + K_Omega) q - B F with dense matrices.
+class DensePeer {
+ public:
+  explicit DensePeer(const LumpedSystem& system)
+      : system_(system),
+        factor_(system.mass()),
+        stiffness_(system.stiffness() + system.rotating_stiffness()),
+        damping_(system.damping() + system.gyroscopic()),
+        b_(system.freedoms(), static_cast<int>(system.meshes().size())),
+        force_(b_.cols()),
+        closing_(b_.cols()),
+        closing_rate_(b_.cols()),
+        right_(system.freedoms()) {
+    for (int m = 0; m < b_.cols(); ++m) b_.col(m) = system.mesh_vector(m);
+  }
+  void operator()(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dy, LumpedSystem::Workspace& w) {
+    const auto n = right_.size();
+    const auto q = y.head(n), v = y.tail(n);
+    closing_.noalias() = b_.transpose() * q;
+    closing_rate_.noalias() = b_.transpose() * v;
+    system_.evaluate_forces(t, closing_.data(), closing_rate_.data(), w);
+    right_ = system_.load();
+    right_.noalias() -= stiffness_ * q;
+    right_.noalias() -= damping_ * v;
+    right_.noalias() -= b_ * Eigen::Map<const Eigen::VectorXd>(w.force.data(), b_.cols());
+    factor_.solveInPlace(right_);
+    dy.head(n) = v;
+    dy.tail(n) = right_;
+  }
+
+ private:
+  const LumpedSystem& system_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::MatrixXd stiffness_, damping_, b_;
+  Eigen::VectorXd force_, closing_, closing_rate_, right_;
+};
+
+/// Smallest nanoseconds per call of several rounds: what the machine does when nothing else runs.
+template <class Call>
+double nanoseconds(int rounds, int calls, Call call) {
+  double best = 1e99;
+  for (int round = 0; round < rounds; ++round) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < calls; ++i) call(round * calls + i);
+    const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
+    best = std::min(best, time.count() / calls);
+  }
+  return best;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int rounds = 200, calls = 2000;
+  CLI::App app{"Time of one right-hand side of a planetary stage"};
+  app.add_option("--rounds", rounds, "rounds; the fastest counts")->capture_default_str();
+  app.add_option("--calls", calls, "evaluations in a round")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+
+  auto stage = stages::ring_paper();
+  const double load = stage.mean_mesh_force();
+  const auto sun = tables::BentTable{.mesh = "sun_planet", .mean = 1.364e9, .ripple = 0.2, .nominal = load}.table();
+  const auto ring = tables::BentTable{.nominal = load, .positions = 27}.table();
+  const std::vector<Case> cases = {
+      {"harmonic", stage.sun_mesh, stage.ring_mesh},
+      {"table, linear", table_stiffness(sun, load), table_stiffness(ring, load)},
+      {"table, law", table_stiffness(sun, load, 0, LoadDependence::table),
+       table_stiffness(ring, load, 0, LoadDependence::table)},
+  };
+  fmt::print("{:<14} {:>8} {:>12} {:>12} {:>8}\n", "mesh", "freedoms", "ns", "dense, ns", "ratio");
+  bool right = true;
+  for (const auto& c : cases) {
+    stage.sun_mesh = c.sun;
+    stage.ring_mesh = c.ring;
+    const auto system = assemble(stage);
+    const int n = system.freedoms();
+    auto w = system.workspace();
+    // Meshes closed by the nominal deflection and a little different from each other, so that all carry.
+    Eigen::VectorXd y = Eigen::VectorXd::Zero(2 * n), dy(2 * n), expected(2 * n);
+    for (int i = 0; i < n; ++i) y[i] = 1e-6 * std::sin(i), y[n + i] = 1e-3 * std::cos(i);
+    y[system.find("sun_u")] += 1.5e-4;
+    for (int p = 1; p <= 5; ++p) y[system.find("planet" + std::to_string(p) + "_y")] -= 9e-5;
+    system.detect_contact(0, y.data(), w);
+    DensePeer peer(system);
+    const double step = 1 / stage.mesh_frequency() / 40;
+    const double own = nanoseconds(rounds, calls, [&](int i) { system.rhs(i * step, y.data(), dy.data(), w); });
+    const double dense = nanoseconds(rounds, calls, [&](int i) { peer(i * step, y, expected, w); });
+    fmt::print("{:<14} {:>8} {:>12.0f} {:>12.0f} {:>8.2f}\n", c.name, n, own, dense, dense / own);
+    const double t = 0.0123;
+    system.detect_contact(t, y.data(), w);  // the peer's states follow the deflections
+    system.rhs(t, y.data(), dy.data(), w);
+    peer(t, y, expected, w);
+    // Both round sums of some ten terms.
+    const double difference = (dy - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
+    if (!(difference <= 1e-12)) {
+      fmt::print(stderr, "the two right-hand sides differ by {:.2e}\n", difference);
+      right = false;
+    }
+  }
+  return right ? EXIT_SUCCESS : EXIT_FAILURE;
+}
