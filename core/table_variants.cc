@@ -39,8 +39,8 @@ StiffnessTable more_rippled(const StiffnessTable& table) {
   for (int position = 0; position < table.positions(); ++position)
     for (int phase = 0; phase < table.phases(); ++phase)
       for (std::size_t load = 0; load < mean.size(); ++load)
-        mean[load] += table.at(position, phase, static_cast<int>(load)).stiffness_secant /
-                      (table.positions() * table.phases());
+        mean[load] +=
+            table.at(position, phase, static_cast<int>(load)).stiffness_secant / (table.positions() * table.phases());
   return changed(table, 1, [&](const StiffnessEntry& e, int load) {
     // Dividing keeps the stiffness positive whatever the estimate.
     const double up = 1 + e.error_relative;

@@ -27,6 +27,28 @@ double energy_rate(const CompiledMesh& mesh, double t, double g, const std::vect
   return 0.5 * stiffness_rate * g * g;
 }
 
+/// The meshes' part of the Jacobian with vectors that move and forces that depend on each other.
+template <class Compiled>
+void subtract_coupled(const LumpedSystem& system, const Compiled& c, double t, Eigen::Ref<Eigen::MatrixXd> result,
+                      const LumpedSystem::Workspace& w) {
+  const int n = system.freedoms(), meshes = static_cast<int>(c.meshes.size());
+  Eigen::MatrixXd b(n, meshes), rate(n, meshes), inverse = Eigen::MatrixXd::Zero(n, meshes), tangent(meshes, meshes);
+  Eigen::VectorXd damping(meshes);
+  for (int m = 0; m < meshes; ++m) {
+    b.col(m) = system.mesh_vector(m, t);
+    rate.col(m) = system.mesh_vector_rate(m, t);
+    for (int i = c.inverse_b.start[m]; i < c.inverse_b.start[m + 1]; ++i)
+      inverse(c.inverse_b.index[i], m) = c.inverse_b.factor[i];
+    for (int i = c.meshes[m].first_moving; i < c.meshes[m].last_moving; ++i)
+      inverse.col(m) += w.factor[i] * c.inverse_moving.col(c.moving[i].slot);
+    damping[m] = acting_damping(c.meshes[m], w.contact[m]);
+  }
+  system.tangent_matrix(w, tangent);
+  const Eigen::MatrixXd damped = inverse * damping.asDiagonal();
+  result.bottomLeftCorner(n, n) -= inverse * tangent * b.transpose() + damped * rate.transpose();
+  result.bottomRightCorner(n, n) -= damped * b.transpose();
+}
+
 }  // namespace
 
 int LumpedSystem::find(const std::string& name) const {
@@ -34,18 +56,40 @@ int LumpedSystem::find(const std::string& name) const {
   return found == names_.end() ? -1 : static_cast<int>(found - names_.begin());
 }
 
-Eigen::VectorXd LumpedSystem::mesh_vector(int mesh) const {
+Eigen::VectorXd LumpedSystem::mesh_vector(int mesh, double t) const {
+  const MeshElement& element = meshes_[mesh];
   Eigen::VectorXd b = Eigen::VectorXd::Zero(freedoms());
-  for (const auto& [index, factor] : meshes_[mesh].b) b[index] += factor;
+  for (const auto& [index, factor] : element.b) b[index] += factor;
+  for (const auto& share : element.moving)
+    b[share.freedom] += share.curve(element.frequency * t + element.phase_offset) +
+                        share.wave.amount * std::sin(share.wave.rate * t + share.wave.phase);
   return b;
 }
 
+Eigen::VectorXd LumpedSystem::mesh_vector_rate(int mesh, double t) const {
+  const MeshElement& element = meshes_[mesh];
+  Eigen::VectorXd rate = Eigen::VectorXd::Zero(freedoms());
+  for (const auto& share : element.moving)
+    rate[share.freedom] += element.frequency * share.curve.derivative(element.frequency * t + element.phase_offset) +
+                           share.wave.amount * share.wave.rate * std::cos(share.wave.rate * t + share.wave.phase);
+  return rate;
+}
+
+bool LumpedSystem::has_moving_vectors() const { return !compiled_->moving.empty(); }
+
 LumpedSystem::Workspace LumpedSystem::workspace() const {
   Workspace w;
-  for (auto* list : {&w.stiffness, &w.error, &w.error_rate, &w.delta, &w.delta_rate, &w.force, &w.elastic, &w.tangent})
+  for (auto* list :
+       {&w.stiffness, &w.error, &w.error_rate, &w.delta, &w.delta_rate, &w.force, &w.elastic, &w.tangent, &w.closing})
     list->assign(meshes_.size(), 0.0);
   w.place.resize(meshes_.size());
-  w.pairs.assign(2 * names_.size() + meshes_.size() + meshes_.size() % 2, 0.0);
+  const auto even = [](std::size_t size) { return size + size % 2; };
+  w.pairs.assign(2 * names_.size() + even(meshes_.size()) + even(compiled_->moving_freedoms.size()), 0.0);
+  w.factor.assign(compiled_->moving.size(), 0.0);
+  w.factor_rate = w.factor;
+  std::size_t entries = 0;
+  for (const auto& coupling : compiled_->couplings) entries += coupling.meshes.size() * coupling.meshes.size();
+  w.compliance.assign(entries, 0.0);
   w.contact.assign(meshes_.size(), Contact::drive);
   w.wave.assign(meshes_.size(), -1);
   w.sine.assign(compiled_->rates.size(), 0.0);
@@ -68,6 +112,11 @@ void LumpedSystem::tangent_matrix(const Workspace& w, Eigen::Ref<Eigen::MatrixXd
     const auto i = static_cast<Eigen::Index>(m);
     result(i, i) = w.tangent[m];
   }
+  for (const auto& coupling : compiled_->couplings) {
+    const CouplingMatrix tangent = coupled_tangent(coupling, w);
+    for (int i = 0; i < tangent.rows(); ++i)
+      for (int j = 0; j < tangent.cols(); ++j) result(coupling.meshes[i], coupling.meshes[j]) = tangent(i, j);
+  }
 }
 
 void LumpedSystem::jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixXd> result, Workspace& w) const {
@@ -81,6 +130,10 @@ void LumpedSystem::jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixX
       result(n + i, c.column[j]) = -c.stiffness[j];
       result(n + i, n + c.column[j]) = -c.damping[j];
     }
+  }
+  if (!c.couplings.empty() || !c.moving.empty()) {
+    subtract_coupled(*this, c, t, result, w);
+    return;
   }
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
     const CompiledMesh& mesh = c.meshes[m];
@@ -113,7 +166,8 @@ LumpedSystem::Power LumpedSystem::power(double t, const double* y, const Workspa
   const int n = freedoms();
   const double* q = y;
   const double* v = y + n;
-  // dE/dt = v.f - v.(C v) - v.(K_skew q) - sum c delta'^2 - sum e' F + sum dU/dt at constant g
+  // dE/dt = v.f - v.(C v) - v.(K_skew q) - sum c delta'^2 + sum (b'.q - e') F + sum dU/dt at constant g
+  //         - sum F.(D' F)/2
   Power p;
   for (int i = 0; i < n; ++i) p.supplied += load_[i] * v[i];
   for (const auto& term : compiled_->power) {
@@ -125,6 +179,14 @@ LumpedSystem::Power LumpedSystem::power(double t, const double* y, const Workspa
     const double g = penetration(mesh, w.contact[m], w.delta[m]);
     p.dissipated += acting_damping(mesh, w.contact[m]) * w.delta_rate[m] * w.delta_rate[m];
     p.supplied += energy_rate(mesh, t, g, compiled_->rates, w) - w.error_rate[m] * w.force[m];
+    for (int i = mesh.first_moving; i < mesh.last_moving; ++i)
+      p.supplied += w.factor_rate[i] * q[compiled_->moving[i].freedom] * w.force[m];
+  }
+  for (const auto& coupling : compiled_->couplings) {
+    const CouplingMatrix rate = compliance_rate(coupling, t, w);
+    CouplingVector force(rate.rows());
+    for (int i = 0; i < force.size(); ++i) force[i] = w.elastic[coupling.meshes[i]];
+    p.supplied -= 0.5 * force.dot(rate * force);
   }
   return p;
 }

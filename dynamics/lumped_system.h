@@ -97,8 +97,8 @@ class LumpedSystem {
     std::vector<double> factor, factor_rate;  ///< of the moving shares of all meshes at `time`
     std::vector<double> closing;              ///< per mesh, closing - error of the last evaluation
     std::vector<double> compliance;           ///< D of all couplings at `time`
-    std::vector<double> sine, cosine;  ///< of the error rates and mesh frequencies at `time`
-    std::vector<double> pairs;         ///< scratch: (q_j, v_j) of every freedom, then the mesh forces
+    std::vector<double> sine, cosine;         ///< of the error rates and mesh frequencies at `time`
+    std::vector<double> pairs;                ///< scratch: (q_j, v_j) of every freedom, then the mesh forces
   };
 
   [[nodiscard]] int freedoms() const { return static_cast<int>(names_.size()); }
@@ -156,7 +156,6 @@ class LumpedSystem {
   friend class LumpedSystemBuilder;
   struct Compiled;  // flat arrays for the right-hand side, shared by copies
   void apply_forces(Workspace& workspace, bool held) const;
-  [[nodiscard]] double moving_power(int mesh, const double* q, const Workspace& workspace) const;
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
   std::vector<MeshCoupling> couplings_;

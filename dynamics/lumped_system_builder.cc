@@ -71,6 +71,13 @@ void LumpedSystemBuilder::add_load(const LinearForm& coordinate, double force) {
 
 void LumpedSystemBuilder::add_mesh(MeshElement mesh) { meshes_.push_back(std::move(mesh)); }
 
+void LumpedSystemBuilder::add_mass_coupling(const LinearForm& a, const LinearForm& b, double value) {
+  mass_.push_back({a, b, value});
+  mass_.push_back({b, a, value});
+}
+
+void LumpedSystemBuilder::add_mesh_coupling(MeshCoupling coupling) { couplings_.push_back(std::move(coupling)); }
+
 namespace {
 
 template <class Terms>
@@ -115,6 +122,7 @@ void compile_rows(Compiled& c, int n) {
   for (int m = 0; m < meshes; ++m)
     for (int i = c.inverse_b.start[m]; i < c.inverse_b.start[m + 1]; ++i)
       forces(c.inverse_b.index[i], m) = c.inverse_b.factor[i];
+  const int moving = static_cast<int>(c.moving_freedoms.size());
   const auto add = [&](int column, double first, double second) {
     if (first == 0 && second == 0) return;
     c.pair_column.push_back(column);
@@ -125,8 +133,75 @@ void compile_rows(Compiled& c, int n) {
   for (int i = 0; i < n; ++i) {
     for (int j = c.row_start[i]; j < c.row_start[i + 1]; ++j) add(c.column[j], c.stiffness[j], c.damping[j]);
     for (int m = 0; m < meshes; m += 2) add(n + m / 2, forces(i, m), forces(i, m + 1));
+    for (int k = 0; k < moving; k += 2)
+      add(n + static_cast<int>(forces.cols() / 2) + k / 2, c.inverse_moving(i, k),
+          k + 1 < moving ? c.inverse_moving(i, k + 1) : 0.0);
     c.pair_start.push_back(static_cast<int>(c.pair_column.size()));
   }
+}
+
+template <class Compiled>
+void compile_moving(Compiled& c, const std::vector<MeshElement>& meshes, int n) {
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const MeshElement& mesh = meshes[m];
+    c.meshes[m].first_moving = static_cast<int>(c.moving.size());
+    for (const auto& share : mesh.moving) {
+      if (share.freedom < 0 || share.freedom >= n)
+        throw InputError(fmt::format("mesh {}: a moving share of a freedom that does not exist", mesh.name));
+      auto& compiled = c.moving.emplace_back();
+      compiled.freedom = share.freedom;
+      const auto known = std::find(c.moving_freedoms.begin(), c.moving_freedoms.end(), share.freedom);
+      compiled.slot = static_cast<int>(known - c.moving_freedoms.begin());
+      if (known == c.moving_freedoms.end()) c.moving_freedoms.push_back(share.freedom);
+      compiled.frequency = mesh.frequency;
+      compiled.phase_offset = mesh.phase_offset;
+      const auto& wave = share.wave;
+      compiled.waves = wave.amount != 0 && wave.rate != 0;
+      if (compiled.waves)
+        compiled.wave = {slot_of(c.rates, wave.rate), wave.amount * std::cos(wave.phase),
+                         wave.amount * std::sin(wave.phase)};
+      else
+        compiled.constant = wave.amount * std::sin(wave.phase);
+      if (!(share.curve == PeriodicCurve())) compiled.curve = shared_bundle(c.bundles, CurveBundle({&share.curve}));
+    }
+    c.meshes[m].last_moving = static_cast<int>(c.moving.size());
+  }
+}
+
+template <class Compiled>
+void compile_coupling(Compiled& c, const std::vector<MeshElement>& meshes, const MeshCoupling& coupling, int n) {
+  const auto size = static_cast<int>(coupling.meshes.size());
+  if (size < 1 || size > largest_coupling)
+    throw InputError(fmt::format("a mesh coupling joins 1 to {} meshes, not {}", largest_coupling, size));
+  if (static_cast<int>(coupling.compliance.size()) != size * (size + 1) / 2)
+    throw InputError(fmt::format("a coupling of {} meshes needs {} compliances, not {}", size, size * (size + 1) / 2,
+                                 coupling.compliance.size()));
+  CompiledCoupling compiled;
+  for (const int m : coupling.meshes) {
+    if (m < 0 || m >= static_cast<int>(meshes.size()) || c.meshes[m].coupled)
+      throw InputError(fmt::format("a mesh coupling names mesh {}, which does not exist or is coupled already", m));
+    c.meshes[m].coupled = true;
+  }
+  compiled.meshes = coupling.meshes;
+  compiled.frequency = meshes[coupling.meshes.front()].frequency;
+  compiled.phase_offset = meshes[coupling.meshes.front()].phase_offset;
+  std::vector<const PeriodicCurve*> curves;
+  for (const auto& curve : coupling.compliance) curves.push_back(&curve);
+  compiled.compliance = CurveBundle(curves);
+  for (const auto& other : c.couplings) compiled.offset += static_cast<int>(other.meshes.size() * other.meshes.size());
+  for (const auto& kept : coupling.kept) {
+    if (kept.freedom < 0 || kept.freedom >= n || !(kept.stiffness > 0))
+      throw InputError("a mode kept in a mesh coupling needs a freedom and a positive stiffness");
+    auto& mode = compiled.kept.emplace_back();
+    mode.compliance = 1 / kept.stiffness;
+    for (const int m : coupling.meshes) {
+      int found = -1;
+      for (int i = c.meshes[m].first_moving; i < c.meshes[m].last_moving; ++i)
+        if (c.moving[i].freedom == kept.freedom) found = i;
+      mode.shares.push_back(found);
+    }
+  }
+  c.couplings.push_back(std::move(compiled));
 }
 
 }  // namespace
@@ -137,6 +212,7 @@ LumpedSystem LumpedSystemBuilder::build() const {
   system.names_ = names_;
   system.meshes_ = meshes_;
   system.springs_ = springs_;
+  system.couplings_ = couplings_;
   system.mass_ = assembled(mass_, n);
   system.stiffness_ = assembled(stiffness_, n);
   system.rotating_stiffness_ = assembled(rotating_stiffness_, n);
@@ -218,6 +294,11 @@ LumpedSystem LumpedSystemBuilder::build() const {
       }
     }
   }
+  compile_moving(c, meshes_, n);
+  c.inverse_moving.resize(n, static_cast<Eigen::Index>(c.moving_freedoms.size()));
+  for (int k = 0; k < c.inverse_moving.cols(); ++k)
+    c.inverse_moving.col(k) = mass.solve(Eigen::VectorXd::Unit(n, c.moving_freedoms[k]));
+  for (const auto& coupling : couplings_) compile_coupling(c, meshes_, coupling, n);
   compile_rows(c, n);
   system.compiled_ = std::move(compiled);
   return system;

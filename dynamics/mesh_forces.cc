@@ -1,4 +1,5 @@
 // What every evaluation of the right-hand side runs through: no allocation, no library call besides sine and cosine.
+#include <algorithm>
 #include <cmath>
 
 #include "dynamics/lumped_system.h"
@@ -6,30 +7,6 @@
 #include "dynamics/pair.h"
 
 namespace annulus::dynamics {
-
-namespace {
-
-LumpedSystem::Contact contact_of(const CompiledMesh& mesh, double delta) {
-  if (mesh.linear || delta > mesh.half_backlash) return LumpedSystem::Contact::drive;
-  return delta < -mesh.half_backlash ? LumpedSystem::Contact::back : LumpedSystem::Contact::open;
-}
-
-/// Force and tangent from the deflection, its rate and the contact state in the workspace.
-void apply_force(const CompiledMesh& mesh, std::size_t m, LumpedSystem::Workspace& w) {
-  const auto contact = w.contact[m];
-  if (!mesh.linear && contact == LumpedSystem::Contact::open) {
-    w.elastic[m] = w.tangent[m] = 0;
-  } else {
-    const double g = penetration(mesh, contact, w.delta[m]);
-    const auto value =
-        mesh.surface ? mesh.surface->at(w.place[m], g) : ForceSurface::Value{w.stiffness[m] * g, w.stiffness[m]};
-    w.elastic[m] = value.force;
-    w.tangent[m] = value.tangent;
-  }
-  w.force[m] = w.elastic[m] + acting_damping(mesh, contact) * w.delta_rate[m];
-}
-
-}  // namespace
 
 bool wave_is_high(const CompiledMesh& mesh, double t) {
   const double phase = mesh.frequency * t + mesh.phase_offset;
@@ -82,19 +59,54 @@ void LumpedSystem::evaluate_excitation(double t, Workspace& w) const {
     w.error[m] = e;
     w.error_rate[m] = rate;
   }
+  for (std::size_t i = 0; i < c.moving.size(); ++i) {
+    const CompiledShare& share = c.moving[i];
+    double factor = share.constant, rate = 0;
+    if (share.waves) {
+      const std::size_t slot = share.wave.slot;
+      factor += share.wave.sine * w.sine[slot] + share.wave.cosine * w.cosine[slot];
+      rate += c.rates[slot] * (share.wave.sine * w.cosine[slot] - share.wave.cosine * w.sine[slot]);
+    }
+    if (share.curve) {
+      double value = 0, slope = 0;
+      share.curve->evaluate(share.frequency * t + share.phase_offset, &value, &slope);
+      factor += value;
+      rate += share.frequency * slope;
+    }
+    w.factor[i] = factor;
+    w.factor_rate[i] = rate;
+  }
+  for (const auto& coupling : c.couplings) evaluate_compliance(coupling, t, w);
   w.time = t;
   w.excitation_valid = true;
+}
+
+void LumpedSystem::apply_forces(Workspace& w, bool held) const {
+  const Compiled& c = *compiled_;
+  for (std::size_t m = 0; m < c.meshes.size(); ++m) {
+    const CompiledMesh& mesh = c.meshes[m];
+    if (mesh.coupled) continue;
+    w.delta[m] = w.closing[m];
+    if (!held) w.contact[m] = contact_of(mesh, w.delta[m]);
+    apply_law(mesh, m, w);
+  }
+  for (const auto& coupling : c.couplings) solve_coupling(coupling, c.meshes, held, w);
+  for (std::size_t m = 0; m < c.meshes.size(); ++m)
+    w.force[m] = w.elastic[m] + acting_damping(c.meshes[m], w.contact[m]) * w.delta_rate[m];
 }
 
 void LumpedSystem::detect_contact(double t, const double* q, Workspace& w) const {
   evaluate_excitation(t, w);
   const Compiled& c = *compiled_;
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
-    double delta = -w.error[m];
-    for (int i = c.b.start[m]; i < c.b.start[m + 1]; ++i) delta += c.b.factor[i] * q[c.b.index[i]];
-    w.delta[m] = delta;
-    w.contact[m] = contact_of(c.meshes[m], delta);
+    double closing = -w.error[m];
+    for (int i = c.b.start[m]; i < c.b.start[m + 1]; ++i) closing += c.b.factor[i] * q[c.b.index[i]];
+    for (int i = c.meshes[m].first_moving; i < c.meshes[m].last_moving; ++i)
+      closing += w.factor[i] * q[c.moving[i].freedom];
+    w.closing[m] = closing;
+    w.delta_rate[m] = 0;
   }
+  apply_forces(w, false);
 }
 
 void LumpedSystem::evaluate_meshes(double t, const double* q, const double* v, Workspace& w) const {
@@ -103,23 +115,25 @@ void LumpedSystem::evaluate_meshes(double t, const double* q, const double* v, W
   double* pairs = w.pairs.data();
   for (int i = 0; i < freedoms(); ++i) store(Pair{q[i], v[i]}, pairs + 2 * i);
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
-    Pair delta{-w.error[m], -w.error_rate[m]};
-    for (int i = c.b.start[m]; i < c.b.start[m + 1]; ++i) delta += c.b.factor[i] * pair_at(pairs + 2 * c.b.index[i]);
-    w.delta[m] = delta[0];
-    w.delta_rate[m] = delta[1];
-    apply_force(c.meshes[m], m, w);
+    Pair closing{-w.error[m], -w.error_rate[m]};
+    for (int i = c.b.start[m]; i < c.b.start[m + 1]; ++i) closing += c.b.factor[i] * pair_at(pairs + 2 * c.b.index[i]);
+    for (int i = c.meshes[m].first_moving; i < c.meshes[m].last_moving; ++i) {
+      const int j = c.moving[i].freedom;
+      closing += w.factor[i] * pair_at(pairs + 2 * j) + Pair{0.0, w.factor_rate[i] * q[j]};
+    }
+    w.closing[m] = closing[0];
+    w.delta_rate[m] = closing[1];
   }
+  apply_forces(w, true);
 }
 
 void LumpedSystem::evaluate_forces(double t, const double* closing, const double* closing_rate, Workspace& w) const {
   evaluate_excitation(t, w);
   for (std::size_t m = 0; m < compiled_->meshes.size(); ++m) {
-    const CompiledMesh& mesh = compiled_->meshes[m];
-    w.delta[m] = closing[m] - w.error[m];
+    w.closing[m] = closing[m] - w.error[m];
     w.delta_rate[m] = closing_rate[m] - w.error_rate[m];
-    w.contact[m] = contact_of(mesh, w.delta[m]);
-    apply_force(mesh, m, w);
   }
+  apply_forces(w, false);
 }
 
 void LumpedSystem::rhs(double t, const double* y, double* dy, Workspace& w) const {
@@ -130,6 +144,13 @@ void LumpedSystem::rhs(double t, const double* y, double* dy, Workspace& w) cons
   const std::size_t meshes = c.meshes.size();
   for (std::size_t m = 0; m < meshes; m += 2)
     store(Pair{w.force[m], m + 1 < meshes ? w.force[m + 1] : 0.0}, pairs + 2 * n + m);
+  if (!c.moving.empty()) {
+    double* forces = pairs + 2 * n + meshes + meshes % 2;
+    std::fill_n(forces, c.moving_freedoms.size(), 0.0);
+    for (std::size_t m = 0; m < meshes; ++m)
+      for (int i = c.meshes[m].first_moving; i < c.meshes[m].last_moving; ++i)
+        forces[c.moving[i].slot] += w.factor[i] * w.force[m];
+  }
   for (int i = 0; i < n; ++i) {
     Pair a{c.acceleration[i], 0.0};
     for (int j = c.pair_start[i]; j < c.pair_start[i + 1]; ++j)

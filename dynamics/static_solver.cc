@@ -70,7 +70,7 @@ double StaticSolver::residual(double t, const Eigen::VectorXd& q, LumpedSystem::
   for (int m = 0; m < forces_.size(); ++m) {
     w.delta_rate[m] = 0;
     w.force[m] = forces_[m] = w.elastic[m];
-    if (is_open(system_, m, w)) forces_[m] += open_share * w.stiffness[m] * w.delta[m];
+    if (is_open(system_, m, w)) forces_[m] += open_share * w.stiffness[m] * w.closing[m];
   }
   residual_ = system_.load() - base_ * q - vectors_ * forces_;
   return system_.load().cwiseAbs().maxCoeff() + (base_.cwiseAbs() * q.cwiseAbs()).maxCoeff() +
@@ -107,6 +107,8 @@ void StaticSolver::balance(double t, Eigen::VectorXd& q, LumpedSystem::Workspace
 Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
   system_.evaluate_excitation(t, w);
   const int meshes = static_cast<int>(vectors_.cols());
+  if (system_.has_moving_vectors())
+    for (int m = 0; m < meshes; ++m) vectors_.col(m) = system_.mesh_vector(m, t);
   const auto half = [&](int m) { return system_.meshes()[m].half_backlash.value_or(0.0); };
   constexpr int tries = 200, all_at_once = 20;
   // The linear solution with the stiffnesses in the workspace: the equilibrium itself for linear meshes, near it for a

@@ -29,7 +29,7 @@ class StaticSolver {
   void factorise(const Eigen::MatrixXd& tangent, double t);
 
   const LumpedSystem& system_;
-  Eigen::MatrixXd base_, vectors_;  // K with the rigid motions held; mesh vectors b as columns
+  Eigen::MatrixXd base_, vectors_;  // K with the rigid motions held; mesh vectors b (at the time) as columns
   Eigen::MatrixXd tangent_;
   Eigen::VectorXd residual_, forces_, rest_;
   Eigen::LLT<Eigen::MatrixXd> factor_;

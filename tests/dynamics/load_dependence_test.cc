@@ -76,8 +76,8 @@ BOOST_AUTO_TEST_CASE(loads_outside_the_table_are_told) {
   const BentTable bent;
   const auto table = bent.table();
   for (const auto& [share, expected] : {std::pair{0.2, -1}, {0.3, 0}, {1.7, 0}, {1.8, 1}}) {
-    const auto system = one_mesh(table_stiffness(table, bent.nominal, 0, LoadDependence::table), 100,
-                                 share * bent.nominal, 0, 40e-6);
+    const auto system =
+        one_mesh(table_stiffness(table, bent.nominal, 0, LoadDependence::table), 100, share * bent.nominal, 0, 40e-6);
     StaticSolver solver(system);
     auto workspace = system.workspace();
     (void)solver.solve(0.00123, workspace);

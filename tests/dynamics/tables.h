@@ -20,7 +20,8 @@ struct BentTable {
 
   [[nodiscard]] double stiffness(double cycles) const {
     const double tau = 2 * std::numbers::pi;
-    return mean * (1 + ripple * std::cos(tau * cycles) + (positions > 1 ? 0.05 * std::cos(tau * cycles / positions) : 0));
+    return mean *
+           (1 + ripple * std::cos(tau * cycles) + (positions > 1 ? 0.05 * std::cos(tau * cycles / positions) : 0));
   }
   [[nodiscard]] double unloaded_te(double cycles) const { return 1e-6 * std::sin(2 * std::numbers::pi * cycles); }
   [[nodiscard]] double deflection(double cycles, double load) const {
