@@ -7,11 +7,15 @@
 
 namespace annulus::app {
 
-namespace {
+std::vector<const RingResult*> rings_with_response(const RunResult& result) {
+  std::vector<const RingResult*> list;
+  for (const auto& ring : result.rings) {
+    if (ring.response) list.push_back(&ring);
+  }
+  return list;
+}
 
-constexpr double shown_cycles = 110;  // two error periods of planets with 55 teeth; longer windows are cut in the plots
-
-std::vector<double> values(const Csv& csv, const std::string& name, double rows_to = 1e99) {
+std::vector<double> column_values(const Csv& csv, const std::string& name, double rows_to) {
   const auto column = csv.column(name);
   std::vector<double> list;
   for (const auto& row : csv.rows) {
@@ -20,22 +24,16 @@ std::vector<double> values(const Csv& csv, const std::string& name, double rows_
   return list;
 }
 
-std::string branch(const char* mesh, int planet) { return fmt::format("{}{}", mesh, planet + 1); }
-
-std::vector<const RingResult*> with_response(const RunResult& result) {
-  std::vector<const RingResult*> list;
-  for (const auto& ring : result.rings) {
-    if (ring.response) list.push_back(&ring);
-  }
-  return list;
-}
-
-std::vector<std::pair<std::string, std::size_t>> planet_legend(int planets) {
+std::string planet_legend(int planets) {
   std::vector<std::pair<std::string, std::size_t>> entries;
   entries.reserve(static_cast<std::size_t>(planets));
   for (int n = 0; n < planets; ++n) entries.emplace_back(fmt::format("planet {}", n + 1), static_cast<std::size_t>(n));
-  return entries;
+  return legend_html(entries);
 }
+
+namespace {
+
+std::string branch(const char* mesh, int planet) { return fmt::format("{}{}", mesh, planet + 1); }
 
 /// One plot per ring on one scale, with one line per planet read from `table` of the response.
 struct Lines {
@@ -50,7 +48,7 @@ std::string per_planet(const RunResult& result, const char* mesh, const Lines& l
   std::vector<Plot> plots;
   RangeFinder range;
   range.add(1);
-  for (const auto* ring : with_response(result)) {
+  for (const auto* ring : rings_with_response(result)) {
     const Csv& csv = (*ring->response).*(lines.table);
     Plot plot{.title = ring->name,
               .x_label = "mesh cycle of the evaluated window",
@@ -59,12 +57,12 @@ std::string per_planet(const RunResult& result, const char* mesh, const Lines& l
     for (int n = 0; n < planets; ++n) {
       const auto name = branch(mesh, n);
       Series series{.label = fmt::format("planet {}", n + 1),
-                    .x = values(csv, "mesh_cycle", lines.cycles),
-                    .y = values(csv, name + lines.line, lines.cycles),
+                    .x = column_values(csv, "mesh_cycle", lines.cycles),
+                    .y = column_values(csv, name + lines.line, lines.cycles),
                     .colour = static_cast<std::size_t>(n)};
       if (!lines.low.empty()) {
-        series.low = values(csv, name + lines.low, lines.cycles);
-        series.high = values(csv, name + lines.high, lines.cycles);
+        series.low = column_values(csv, name + lines.low, lines.cycles);
+        series.high = column_values(csv, name + lines.high, lines.cycles);
       }
       range.add(series.y);
       range.add(series.low);
@@ -78,26 +76,52 @@ std::string per_planet(const RunResult& result, const char* mesh, const Lines& l
     plot.y_range = range.range();
     pictures.push_back(to_svg(plot));
   }
-  return figure(pictures, legend_html(planet_legend(planets)), caption);
+  return figure(pictures, planet_legend(planets), caption);
+}
+
+dynamics::Spectrum spectrum_of(const RingResult& ring, const std::string& branch) {
+  const auto order = column_values(ring.response->spectrum, "mesh_order");
+  const auto amplitude = column_values(ring.response->spectrum, branch + "_N");
+  const auto size = static_cast<Eigen::Index>(order.size());
+  return {Eigen::Map<const Eigen::VectorXd>(order.data(), size),
+          Eigen::Map<const Eigen::VectorXd>(amplitude.data(), size)};
+}
+
+/// "1 − 0.018": an order read as a sideband.
+std::string order_text(const dynamics::SpectralLine& line) {
+  if (std::abs(line.sideband) < 1e-9) return fmt::format("{}", line.harmonic);
+  const auto distance = fmt::format("{:.3g}", std::abs(line.sideband));
+  if (line.harmonic == 0) return distance;
+  return fmt::format("{} {} {}", line.harmonic, line.sideband < 0 ? "−" : "+", distance);
 }
 
 std::string spectra(const RunResult& result, const char* mesh) {
+  constexpr int listed = 4;
   std::vector<Plot> plots;
+  HtmlTable table{.head = {"highest lines"}, .rows = {}, .css_class = "numbers"};
+  for (int i = 0; i < listed; ++i) table.rows.push_back({fmt::format("{}", i + 1)});
   double highest = 0;
-  for (const auto* ring : with_response(result)) {
-    const Csv& csv = ring->response->spectrum;
-    auto frequency = values(csv, "frequency_Hz"), amplitude = values(csv, branch(mesh, 0) + "_N");
-    if (frequency.empty()) continue;
-    frequency.erase(frequency.begin());  // the mean
-    amplitude.erase(amplitude.begin());
-    for (auto& a : amplitude) a /= 1e3;
-    for (auto& f : frequency) f /= 1e3;
-    for (const double a : amplitude) highest = std::max(highest, a);
-    plots.push_back(
-        {.title = ring->name,
-         .x_label = "frequency, kHz",
-         .y_label = "amplitude, kN",
-         .series = {{.label = "planet 1", .x = frequency, .y = amplitude, .colour = 0, .style = Series::Style::bars}}});
+  for (const auto* ring : rings_with_response(result)) {
+    const auto spectrum = spectrum_of(*ring, branch(mesh, 0));
+    const auto lines = dynamics::highest_lines(spectrum, listed);
+    table.head.push_back(escape(ring->name));
+    for (std::size_t i = 0; i < listed; ++i)
+      table.rows[i].push_back(i < lines.size() ? fmt::format("{:.2f} kN <span class=\"muted\">at {}</span>",
+                                                             lines[i].amplitude / 1e3, order_text(lines[i]))
+                                               : "");
+    if (spectrum.order.size() < 2) continue;
+    const Eigen::VectorXd kilonewton =
+        spectrum.amplitude.tail(spectrum.amplitude.size() - 1) / 1e3;  // without the mean
+    const auto order = spectrum.order.tail(kilonewton.size());
+    highest = std::max(highest, kilonewton.maxCoeff());
+    plots.push_back({.title = ring->name,
+                     .x_label = "order, multiples of the mesh frequency",
+                     .y_label = "amplitude, kN",
+                     .series = {{.label = "planet 1",
+                                 .x = {order.begin(), order.end()},
+                                 .y = {kilonewton.begin(), kilonewton.end()},
+                                 .colour = 0,
+                                 .style = Series::Style::bars}}});
   }
   std::vector<std::string> pictures;
   for (auto& plot : plots) {
@@ -105,15 +129,18 @@ std::string spectra(const RunResult& result, const char* mesh) {
     plot.x_range = Range{0, plot.series.front().x.back()};
     pictures.push_back(to_svg(plot));
   }
-  return figure(pictures, "",
-                fmt::format("Force of planet 1 without its mean, up to eight times the mesh frequency of {:.1f} Hz.",
-                            result.geometry.operating_point.mesh_frequency));
+  return figure(
+             pictures, "",
+             fmt::format("Force of planet 1 without its mean. Order 1 is the mesh frequency, {:.1f} Hz; lines beside "
+                         "whole orders are sidebands of the errors.",
+                         result.geometry.operating_point.mesh_frequency)) +
+         html(table);
 }
 
 }  // namespace
 
 std::string dynamics_section(const RunResult& result) {
-  if (with_response(result).empty())
+  if (rings_with_response(result).empty())
     return "<h2 id=\"dynamics\">Load sharing and dynamic factors</h2>\n<p>Not asked for.</p>\n";
   std::string text = "<h2 id=\"dynamics\">Load sharing and dynamic factors</h2>\n";
   const Lines sharing{&StageResponse::load_sharing, "_averaged", "", ""};

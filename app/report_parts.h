@@ -28,11 +28,19 @@ struct HtmlTable {
 /// Legend shared by the plots of a figure: label and palette index.
 [[nodiscard]] std::string legend_html(const std::vector<std::pair<std::string, std::size_t>>& entries);
 
+/// The rings whose dynamics were asked for.
+[[nodiscard]] std::vector<const RingResult*> rings_with_response(const RunResult& result);
+/// A column of a table, of the rows whose first column lies below `rows_to`.
+[[nodiscard]] std::vector<double> column_values(const Csv& csv, const std::string& name, double rows_to = 1e99);
+/// One colour per planet.
+[[nodiscard]] std::string planet_legend(int planets);
+/// Mesh cycles shown of a window: two error periods of planets with 55 teeth; longer windows are cut in the plots.
+inline constexpr double shown_cycles = 110;
+
 // report_tables.cc
 [[nodiscard]] std::string verdict_section(const RunResult& result);  ///< what came out, in plain words
 [[nodiscard]] std::string key_figures_section(const RunResult& result);
 [[nodiscard]] std::string comparison_section(const RunResult& result);  ///< with the published results
-[[nodiscard]] std::string modes_section(const RunResult& result);
 // report_inputs.cc
 [[nodiscard]] std::string model_section(const RunResult& result);  ///< what was modelled and why
 [[nodiscard]] std::string inputs_section(
@@ -47,5 +55,9 @@ struct HtmlTable {
 [[nodiscard]] std::string contact_section(const RunResult& result);  ///< face width, pressure, stress; empty if unknown
 // report_dynamics.cc
 [[nodiscard]] std::string dynamics_section(const RunResult& result);  ///< load sharing, dynamic factors, spectra
+// report_motion.cc
+[[nodiscard]] std::string motion_section(const RunResult& result);  ///< bearing forces, sun orbit, Poincaré section
+// report_modes.cc
+[[nodiscard]] std::string modes_section(const RunResult& result);  ///< frequencies, shapes, Campbell diagram
 
 }  // namespace annulus::app

@@ -236,45 +236,4 @@ std::string comparison_section(const RunResult& result) {
          html(paths);
 }
 
-std::string modes_section(const RunResult& result) {
-  HtmlTable table{.head = {"kind"}, .rows = {}};
-  std::vector<std::string> kinds;
-  for (const auto& ring : result.rings) {
-    if (!ring.response) continue;
-    table.head.push_back(escape(ring.name) + ", Hz");
-    for (const auto& mode : ring.response->modes) {
-      if (std::find(kinds.begin(), kinds.end(), mode.kind) == kinds.end()) kinds.push_back(mode.kind);
-    }
-  }
-  if (kinds.empty()) return "";
-  for (const auto& kind : kinds) {
-    std::vector<std::string> row = {kind};
-    for (const auto& ring : result.rings) {
-      if (!ring.response) continue;
-      // Equal frequencies (pairs, planet modes) are written once with their number.
-      std::vector<std::pair<std::string, int>> values;
-      for (const auto& mode : ring.response->modes) {
-        if (mode.kind != kind) continue;
-        const auto value = fmt::format("{:.1f}", mode.frequency);
-        if (!values.empty() && values.back().first == value) {
-          ++values.back().second;
-        } else {
-          values.emplace_back(value, 1);
-        }
-      }
-      std::string cell;
-      for (const auto& [value, count] : values)
-        cell += (cell.empty() ? "" : ", ") + value +
-                (count > 1 ? fmt::format(" <span class=\"muted\">×{}</span>", count) : "");
-      row.push_back(cell);
-    }
-    table.rows.push_back(std::move(row));
-  }
-  return fmt::format(
-             "<h2 id=\"modes\">Natural frequencies</h2>\n<p>Mean tangent mesh stiffness, all teeth in contact, without "
-             "rotation. The mesh frequency is {:.1f} Hz.</p>\n",
-             result.geometry.operating_point.mesh_frequency) +
-         html(table);
-}
-
 }  // namespace annulus::app

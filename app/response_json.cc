@@ -50,6 +50,61 @@ dynamics::MeshKindResult kind_result(const ResponseJson& json) {
   return kind;
 }
 
+ResponseJson modes_json(const StageModes& modes) {
+  ResponseJson json = {{"groups", modes.groups}, {"bodies", modes.bodies}, {"list", ResponseJson::array()}};
+  for (const auto& m : modes.list) {
+    json["list"].push_back({{"frequency_Hz", m.frequency},
+                            {"kind", m.kind},
+                            {"damped_frequency_Hz", m.damped_frequency},
+                            {"damping_ratio", m.damping_ratio},
+                            {"strain_energy", m.strain},
+                            {"kinetic_energy", m.kinetic}});
+  }
+  return json;
+}
+
+StageModes modes_of(const ResponseJson& json) {
+  StageModes modes;
+  modes.groups = json.at("groups").get<std::vector<std::string>>();
+  modes.bodies = json.at("bodies").get<std::vector<std::string>>();
+  for (const auto& m : json.at("list")) {
+    modes.list.push_back({number(m.at("frequency_Hz")), m.at("kind"), number(m.at("damped_frequency_Hz")),
+                          number(m.at("damping_ratio")), m.at("strain_energy").get<std::vector<double>>(),
+                          m.at("kinetic_energy").get<std::vector<double>>()});
+  }
+  return modes;
+}
+
+ResponseJson motion_json(const StageMotion& m) {
+  return {{"pin_force_max_N", m.pin_force_max},
+          {"pin_force_mean_tangential_N", m.pin_force_mean_tangential},
+          {"sun_support_max_N", number(m.sun_support_max)},
+          {"ring_support_max_N", number(m.ring_support_max)},
+          {"carrier_support_max_N", number(m.carrier_support_max)},
+          {"ring_torque_mean_N_m", number(m.ring_torque_mean)},
+          {"sun_orbit_extent_m", number(m.sun_orbit_extent)},
+          {"sun_orbit_largest_m", number(m.sun_orbit_largest)},
+          {"section", m.section},
+          {"section_period_cycles", m.section_period ? ResponseJson(*m.section_period) : ResponseJson(nullptr)},
+          {"section_clusters", m.section_clusters}};
+}
+
+StageMotion motion_of(const ResponseJson& json) {
+  StageMotion m;
+  m.pin_force_max = json.at("pin_force_max_N").get<std::vector<double>>();
+  m.pin_force_mean_tangential = json.at("pin_force_mean_tangential_N").get<std::vector<double>>();
+  m.sun_support_max = number(json.at("sun_support_max_N"));
+  m.ring_support_max = number(json.at("ring_support_max_N"));
+  m.carrier_support_max = number(json.at("carrier_support_max_N"));
+  m.ring_torque_mean = number(json.at("ring_torque_mean_N_m"));
+  m.sun_orbit_extent = number(json.at("sun_orbit_extent_m"));
+  m.sun_orbit_largest = number(json.at("sun_orbit_largest_m"));
+  m.section = json.at("section");
+  if (const auto& period = json.at("section_period_cycles"); !period.is_null()) m.section_period = period.get<int>();
+  m.section_clusters = json.at("section_clusters");
+  return m;
+}
+
 }  // namespace
 
 std::string response_json(const StageResponse& response, const std::string& id) {
@@ -70,8 +125,8 @@ std::string response_json(const StageResponse& response, const std::string& id) 
       {"force_balance_relative", number(f.force_balance_relative)},
       {"steps", f.statistics.steps},
       {"contact_events", f.statistics.contact_events}};
-  for (const auto& mode : response.modes)
-    json["modes"].push_back({{"frequency_Hz", mode.frequency}, {"kind", mode.kind}});
+  json["modes"] = modes_json(response.modes);
+  json["motion"] = motion_json(response.motion);
   return json.dump(2) + "\n";
 }
 
@@ -94,8 +149,8 @@ std::optional<StageResponse> parse_response_json(const std::filesystem::path& fi
   f.force_balance_relative = number(json.at("force_balance_relative"));
   f.statistics.steps = json.at("steps");
   f.statistics.contact_events = json.at("contact_events");
-  for (const auto& mode : json.at("modes"))
-    response.modes.push_back({number(mode.at("frequency_Hz")), mode.at("kind")});
+  response.modes = modes_of(json.at("modes"));
+  response.motion = motion_of(json.at("motion"));
   return response;
 }
 

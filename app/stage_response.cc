@@ -6,7 +6,6 @@
 
 #include "app/content_id.h"
 #include "app/response_json.h"
-#include "dynamics/modes.h"
 
 namespace annulus::app {
 
@@ -85,12 +84,14 @@ void tabulate(StageResponse& result, const dynamics::DynamicResponse& response, 
   }
 
   result.spectrum.columns = columns("frequency_Hz", series.meshes, {"_N"});
+  result.spectrum.columns.insert(result.spectrum.columns.begin() + 1, "mesh_order");
   std::vector<dynamics::Spectrum> spectra;
   for (Eigen::Index b = 0; b < factor.rows(); ++b) {
     spectra.push_back(dynamics::spectrum(Eigen::VectorXd(series.force.row(b).transpose()), cycles));
   }
   for (Eigen::Index i = 0; i < spectra.front().order.size() && spectra.front().order[i] <= highest_order; ++i) {
-    auto& row = result.spectrum.rows.emplace_back(1, spectra.front().order[i] * response.mesh_frequency);
+    const double order = spectra.front().order[i];
+    auto& row = result.spectrum.rows.emplace_back(std::vector{order * response.mesh_frequency, order});
     for (const auto& s : spectra) row.push_back(s.amplitude[i]);
   }
 }
@@ -100,19 +101,26 @@ void write(Csv csv, const Header& header, const std::filesystem::path& file) {
   csv.write(file);
 }
 
-void save(const StageResponse& result, const std::string& id, const std::filesystem::path& folder) {
+/// The tables kept for reports, each in a file of its own.
+std::vector<std::pair<const char*, Csv*>> tables_of(StageResponse& r) {
+  return {{"load_sharing.csv", &r.load_sharing},
+          {"dynamic_factor.csv", &r.dynamic_factor},
+          {"waveform.csv", &r.waveform},
+          {"spectrum.csv", &r.spectrum},
+          {"bearing_forces.csv", &r.motion.bearing_forces},
+          {"sun_orbit.csv", &r.motion.sun_orbit},
+          {"poincare.csv", &r.motion.poincare},
+          {"mode_shapes.csv", &r.modes.shapes},
+          {"campbell.csv", &r.modes.campbell},
+          {"critical_speeds.csv", &r.modes.critical_speeds}};
+}
+
+void save(StageResponse& result, const std::string& id, const std::filesystem::path& folder) {
   const Header header = {{"annulus_version", version()}, {"inputs_id", id}};
-  write(result.load_sharing, header, folder / "load_sharing.csv");
-  write(result.dynamic_factor, header, folder / "dynamic_factor.csv");
-  write(result.waveform, header, folder / "waveform.csv");
-  write(result.spectrum, header, folder / "spectrum.csv");
+  for (const auto& [name, table] : tables_of(result)) write(*table, header, folder / name);
   std::string modes;
   for (const auto& [key, value] : header) modes.append("# ").append(key).append(": ").append(value).append("\n");
-  modes += "index,frequency_Hz,kind\n";
-  for (std::size_t i = 0; i < result.modes.size(); ++i) {
-    modes += fmt::format("{},{:.17g},{}\n", i + 1, result.modes[i].frequency, result.modes[i].kind);
-  }
-  write_file(folder / "modes.csv", modes);
+  write_file(folder / "modes.csv", modes + modes_csv(result.modes));
   // Written last: its presence says that the others are complete.
   write_file(folder / "figures.json", response_json(result, id));
 }
@@ -123,11 +131,10 @@ StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage, const dyn
                                 const std::string& id, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   StageResponse result;
-  for (const auto& mode : dynamics::modes(stage).modes) {
-    result.modes.push_back({mode.frequency, dynamics::to_string(mode.kind)});
-  }
+  result.modes = stage_modes(stage);
   auto response = dynamics::simulate(stage, options);
   tabulate(result, response, stage.planets());
+  result.motion = stage_motion(stage, response);
   write(time_series_table(response.series), {{"annulus_version", version()}, {"inputs_id", id}},
         folder / "time_series.csv");
   response.series = {};
@@ -141,15 +148,10 @@ std::optional<StageResponse> load_response(const std::string& id, const std::fil
   try {
     auto result = parse_response_json(folder / "figures.json", id);
     if (!result || !std::filesystem::exists(folder / "time_series.csv")) return std::nullopt;
-    const auto read = [&](const char* name) {
-      Csv csv = Csv::read(folder / name);
-      if (csv.header.size() < 2 || csv.header[1].second != id) throw InputError("another run's file");
-      return csv;
-    };
-    result->load_sharing = read("load_sharing.csv");
-    result->dynamic_factor = read("dynamic_factor.csv");
-    result->waveform = read("waveform.csv");
-    result->spectrum = read("spectrum.csv");
+    for (const auto& [name, table] : tables_of(*result)) {
+      *table = Csv::read(folder / name);
+      if (table->header.size() < 2 || table->header[1].second != id) throw InputError("another run's file");
+    }
     result->reused = true;
     return result;
   } catch (const std::exception&) {

@@ -8,6 +8,8 @@
 #include "app/gear_geometry.h"
 #include "app/mesh_result.h"
 #include "app/scene.h"
+#include "app/stage_modes.h"
+#include "app/stage_motion.h"
 #include "core/csv.h"
 #include "dynamics/response.h"
 
@@ -15,16 +17,13 @@ namespace annulus::app {
 
 /// The lumped model's answer for one ring, and what is kept of it in OUT/<ring>/dynamics.
 struct StageResponse {
-  struct Mode {
-    double frequency = 0;  ///< Hz
-    std::string kind;
-  };
   dynamics::DynamicResponse figures;  ///< all but the time series
-  std::vector<Mode> modes;
+  StageModes modes;
+  StageMotion motion;
   Csv load_sharing;    ///< per mesh cycle: N F / sum F of every branch, forces averaged over the cycle
   Csv dynamic_factor;  ///< per mesh cycle: smallest and largest F / mean mesh force of every branch
   Csv waveform;        ///< F / mean mesh force of every branch over the first mesh cycles of the window
-  Csv spectrum;        ///< force amplitude of every branch over frequency
+  Csv spectrum;        ///< force amplitude of every branch over frequency and mesh order
   bool reused = false;
 };
 

@@ -81,6 +81,17 @@ SummaryJson ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
                           {"ring_planet", sharing_json(f.ring_planet.load_sharing)}};
   add_branches(json, sun_planet, f.sun_planet);
   add_branches(json, ring_planet, f.ring_planet);
+  const auto& m = ring.response->motion;
+  json["bearing_forces"] = {{"planet_max_N", m.pin_force_max},
+                            {"planet_mean_tangential_N", m.pin_force_mean_tangential},
+                            {"sun_support_max_N", known(m.sun_support_max)},
+                            {"ring_support_max_N", known(m.ring_support_max)},
+                            {"carrier_support_max_N", known(m.carrier_support_max)},
+                            {"ring_torque_mean_N_m", known(m.ring_torque_mean)}};
+  json["sun_orbit"] = {{"extent_m", known(m.sun_orbit_extent)}, {"largest_m", known(m.sun_orbit_largest)}};
+  json["poincare"] = {{"section", m.section},
+                      {"period_cycles", m.section_period ? SummaryJson(*m.section_period) : SummaryJson(nullptr)},
+                      {"clusters", m.section_clusters}};
   json["dynamics"] = {{"steady", f.steady},
                       {"steady_difference", f.steady_difference ? known(*f.steady_difference) : SummaryJson(nullptr)},
                       {"window_cycles", f.window_cycles},

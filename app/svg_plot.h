@@ -45,12 +45,19 @@ struct Series {
   bool dashed = false;
 };
 
+/// A word in the plot, ending at a point.
+struct Note {
+  double x = 0, y = 0;
+  std::string text{};
+};
+
 struct Plot {
   std::string title{};
   std::string x_label{}, y_label{};  ///< with units
   std::optional<Range> x_range{}, y_range{};
   std::vector<Series> series{};
   std::vector<std::pair<double, std::string>> levels{};  ///< horizontal reference lines
+  std::vector<Note> notes{};
   bool legend = false;
   int width = 430, height = 270;
 };

@@ -15,7 +15,7 @@ if(ANNULUS_BUILD_TESTS)
   find_package(Boost 1.74 REQUIRED COMPONENTS unit_test_framework)
 endif()
 
-# gmsh and CHOLMOD ship no CMake files in Debian 12.
+# gmsh, CHOLMOD and FFTW ship no CMake files in Debian 12.
 find_path(GMSH_INCLUDE_DIR gmsh.h REQUIRED)
 find_library(GMSH_LIBRARY gmsh REQUIRED)
 add_library(annulus_gmsh INTERFACE)
@@ -27,6 +27,12 @@ find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
 add_library(annulus_cholmod INTERFACE)
 target_include_directories(annulus_cholmod SYSTEM INTERFACE ${CHOLMOD_INCLUDE_DIR})
 target_link_libraries(annulus_cholmod INTERFACE ${CHOLMOD_LIBRARY} LAPACK::LAPACK BLAS::BLAS)
+
+find_path(FFTW_INCLUDE_DIR fftw3.h REQUIRED)
+find_library(FFTW_LIBRARY fftw3 REQUIRED)
+add_library(annulus_fftw INTERFACE)
+target_include_directories(annulus_fftw SYSTEM INTERFACE ${FFTW_INCLUDE_DIR})
+target_link_libraries(annulus_fftw INTERFACE ${FFTW_LIBRARY})
 
 # deal_ii_setup_target() would bring Debian's public debug flags and make every file slower to compile,
 # so the library is described here: headers as system headers, the release library, nothing else.

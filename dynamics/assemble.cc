@@ -26,8 +26,8 @@ PlaneBody add_central(LumpedSystemBuilder& builder, const PlanetaryStage& stage,
     c.y = builder.add_freedom(name + "_y");
     const double damping = critical_share(stage.support_damping_ratio, body.support, body.mass);
     builder.add_rotating_mass(c.x, c.y, body.mass, speed);
-    builder.add_spring(c.x, body.support, damping);
-    builder.add_spring(c.y, body.support, damping);
+    builder.add_spring(c.x, body.support, damping, name + "_support_x");
+    builder.add_spring(c.y, body.support, damping, name + "_support_y");
     builder.add_housing_damper_rotation(c.x, c.y, damping, speed);
   }
   if (body.torsional_support != rigid) {
@@ -35,7 +35,7 @@ PlaneBody add_central(LumpedSystemBuilder& builder, const PlanetaryStage& stage,
     const double mass = body.inertia / (body.radius * body.radius);
     builder.add_mass(c.u, mass);
     builder.add_spring(c.u, body.torsional_support,
-                       critical_share(stage.support_damping_ratio, body.torsional_support, mass));
+                       critical_share(stage.support_damping_ratio, body.torsional_support, mass), name + "_support_u");
   }
   return c;
 }
@@ -48,15 +48,15 @@ PlaneBody add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, 
   const LinearForm translation = -std::sin(phi) * carrier.x + std::cos(phi) * carrier.y;
   const LinearForm tangential = translation + carrier.u;
   PlaneBody p;
-  const auto place = [&](double bearing, const LinearForm& seat, const std::string& freedom) {
+  const auto place = [&](double bearing, const LinearForm& seat, const char* freedom, const char* direction) {
     if (bearing == rigid) return seat;
-    LinearForm own = builder.add_freedom(freedom);
+    LinearForm own = builder.add_freedom(name + freedom);
     builder.add_spring(own + (-1.0) * seat, bearing,  // (20), (21)
-                       critical_share(stage.support_damping_ratio, bearing, body.mass));
+                       critical_share(stage.support_damping_ratio, bearing, body.mass), name + direction);
     return own;
   };
-  p.x = place(body.bearing_radial, radial, name + "_x");
-  p.y = place(body.bearing_tangential, tangential, name + "_y");
+  p.x = place(body.bearing_radial, radial, "_x", "_bearing_radial");
+  p.y = place(body.bearing_tangential, tangential, "_y", "_bearing_tangential");
   p.u = builder.add_freedom(name + "_u");
   builder.add_mass(p.u, body.inertia / (body.radius * body.radius));
 

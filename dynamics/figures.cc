@@ -62,4 +62,21 @@ Spectrum spectrum(const Eigen::Ref<const Eigen::VectorXd>& series, int mesh_cycl
   return result;
 }
 
+std::vector<SpectralLine> highest_lines(const Spectrum& spectrum, int count, double floor) {
+  std::vector<SpectralLine> lines;
+  for (Eigen::Index i = 1; i < spectrum.order.size(); ++i) {
+    const int harmonic = static_cast<int>(std::lround(spectrum.order[i]));
+    lines.push_back({spectrum.order[i], spectrum.amplitude[i], harmonic, spectrum.order[i] - harmonic});
+  }
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const SpectralLine& a, const SpectralLine& b) { return a.amplitude > b.amplitude; });
+  if (lines.empty()) return lines;
+  const double least = floor * lines.front().amplitude;
+  const auto low =
+      std::find_if(lines.begin(), lines.end(), [least](const SpectralLine& line) { return line.amplitude < least; });
+  const auto kept = std::min<std::ptrdiff_t>(low - lines.begin(), std::max(count, 0));
+  lines.resize(static_cast<std::size_t>(kept));
+  return lines;
+}
+
 }  // namespace annulus::dynamics

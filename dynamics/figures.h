@@ -35,6 +35,15 @@ struct Spectrum {
 };
 [[nodiscard]] Spectrum spectrum(const Eigen::Ref<const Eigen::VectorXd>& series, int mesh_cycles);
 
+/// A line of a spectrum, read as a sideband of the nearest multiple of the mesh frequency.
+struct SpectralLine {
+  double order = 0, amplitude = 0;
+  int harmonic = 0;     ///< nearest whole order
+  double sideband = 0;  ///< order - harmonic, in mesh orders; x z_r it counts turns of the carrier
+};
+/// The `count` highest lines but the mean, highest first, none below `floor` times the highest.
+[[nodiscard]] std::vector<SpectralLine> highest_lines(const Spectrum& spectrum, int count, double floor = 1e-3);
+
 /// Quasi-static mesh forces: K q + sum b k g(b^T q - e(t)) = f at equidistant positions from time 0 on, over the error
 /// period or the first `max_cycles` mesh cycles of it.
 struct QuasiStatic {

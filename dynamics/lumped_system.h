@@ -67,6 +67,15 @@ struct MeshCoupling {
 /// The curves of MeshCoupling::compliance from symmetric matrices, `per_cycle` of them per mesh cycle.
 [[nodiscard]] std::vector<PeriodicCurve> compliance_curves(const std::vector<Eigen::MatrixXd>& matrices, int per_cycle);
 
+/// A spring with its damper along a coordinate a: force k a^T q + c a^T q', part of K and C. The name says what it
+/// stands for (sun_support_x, planet1_bearing_radial, ...); energies and bearing forces are given under it.
+struct SpringElement {
+  std::string name;
+  LinearForm a;
+  double stiffness = 0;  ///< N/m
+  double damping = 0;    ///< N s/m
+};
+
 /// M q'' + (C + G) q' + (K + K_Omega) q + sum_m b_m F_m = f, immutable. Built by LumpedSystemBuilder.
 class LumpedSystem {
  public:
@@ -98,6 +107,7 @@ class LumpedSystem {
   /// Index of a freedom, -1 when it does not exist (held).
   [[nodiscard]] int find(const std::string& name) const;
   [[nodiscard]] const std::vector<MeshElement>& meshes() const { return meshes_; }
+  [[nodiscard]] const std::vector<SpringElement>& springs() const { return springs_; }  ///< those that are not all zero
   [[nodiscard]] const Eigen::MatrixXd& mass() const { return mass_; }
   [[nodiscard]] const Eigen::MatrixXd& stiffness() const { return stiffness_; }  ///< K, symmetric, without meshes
   /// K_Omega: centripetal (symmetric) and circulatory (dampers to the housing, skew) terms.
@@ -150,6 +160,7 @@ class LumpedSystem {
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
   std::vector<MeshCoupling> couplings_;
+  std::vector<SpringElement> springs_;
   Eigen::MatrixXd mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
   Eigen::VectorXd load_;
   std::shared_ptr<const Compiled> compiled_;
@@ -167,7 +178,7 @@ class LumpedSystemBuilder {
   /// Any symmetric term of the potential: K_Omega += value (a b^T + b a^T)/2.
   void add_rotating_stiffness(const LinearForm& a, const LinearForm& b, double value);
   /// Spring and damper along a coordinate: K += k a a^T, C += c a a^T.
-  void add_spring(const LinearForm& coordinate, double stiffness, double damping);
+  void add_spring(const LinearForm& coordinate, double stiffness, double damping, const std::string& name = {});
   /// Damper to the housing seen from the turning frame: c (x' - Omega y), c (y' + Omega x); adds the Omega part only.
   void add_housing_damper_rotation(const LinearForm& x, const LinearForm& y, double damping, double speed);
   void add_load(const LinearForm& coordinate, double force);
@@ -183,6 +194,7 @@ class LumpedSystemBuilder {
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
   std::vector<MeshCoupling> couplings_;
+  std::vector<SpringElement> springs_;
   struct Term {
     LinearForm row, column;
     double value;

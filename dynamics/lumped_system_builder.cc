@@ -52,7 +52,9 @@ void LumpedSystemBuilder::add_rotating_stiffness(const LinearForm& a, const Line
   rotating_stiffness_.push_back({b, a, value / 2});
 }
 
-void LumpedSystemBuilder::add_spring(const LinearForm& coordinate, double stiffness, double damping) {
+void LumpedSystemBuilder::add_spring(const LinearForm& coordinate, double stiffness, double damping,
+                                     const std::string& name) {
+  if (stiffness != 0 || damping != 0) springs_.push_back({name, coordinate, stiffness, damping});
   stiffness_.push_back({coordinate, coordinate, stiffness});
   damping_.push_back({coordinate, coordinate, damping});
 }
@@ -209,6 +211,7 @@ LumpedSystem LumpedSystemBuilder::build() const {
   LumpedSystem system;
   system.names_ = names_;
   system.meshes_ = meshes_;
+  system.springs_ = springs_;
   system.couplings_ = couplings_;
   system.mass_ = assembled(mass_, n);
   system.stiffness_ = assembled(stiffness_, n);

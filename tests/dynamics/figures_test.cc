@@ -48,4 +48,25 @@ BOOST_AUTO_TEST_CASE(spectrum_finds_orders_and_amplitudes) {
   BOOST_CHECK_THROW((void)spectrum(series, 0), annulus::InputError);
 }
 
+// A carrier of 1 at order 2, modulated by 30 % at 3/11 of the mesh frequency, has sidebands of 0.15.
+BOOST_AUTO_TEST_CASE(highest_lines_with_their_sidebands) {
+  const int cycles = 11, samples = 11 * 32;
+  Eigen::VectorXd series(samples);
+  for (int i = 0; i < samples; ++i) {
+    const double x = 2 * std::numbers::pi * i / 32;
+    series[i] = 9 + (1 + 0.3 * std::cos(x * 3 / 11)) * std::cos(2 * x);
+  }
+  const auto lines = highest_lines(spectrum(series, cycles), 10);
+  BOOST_REQUIRE(lines.size() == 3U);  // the mean is no line, and rounding lies below the floor
+  BOOST_TEST(lines[0].order == 2.0);
+  BOOST_TEST(lines[0].sideband == 0.0);
+  BOOST_TEST(std::abs(lines[0].amplitude - 1) <= 1e-13);
+  for (const int i : {1, 2}) {
+    BOOST_TEST(lines[i].harmonic == 2);
+    BOOST_TEST(std::abs(std::abs(lines[i].sideband) - 3.0 / 11) <= 1e-13);
+    BOOST_TEST(std::abs(lines[i].amplitude - 0.15) <= 1e-13);
+  }
+  BOOST_TEST(highest_lines(spectrum(series, cycles), 1).size() == 1U);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

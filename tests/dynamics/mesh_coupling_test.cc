@@ -50,7 +50,8 @@ std::shared_ptr<RingCoupling> coupling(double scale, int modes, int planets = 5,
     Eigen::MatrixXd d(planets, planets);
     for (int n = 0; n < planets; ++n)
       for (int m = 0; m <= n; ++m)
-        d(n, m) = d(m, n) = n == m ? 0 : scale * (std::cos(tau * 2 * (n - m) / planets) + 0.3 * std::cos(tau * (i / 12.0 + n + m)));
+        d(n, m) = d(m, n) =
+            n == m ? 0 : scale * (std::cos(tau * 2 * (n - m) / planets) + 0.3 * std::cos(tau * (i / 12.0 + n + m)));
     c->compliance.push_back(d);
   }
   for (int k = 0; k < modes; ++k) {
@@ -71,8 +72,8 @@ PlanetaryStage stage_with(std::shared_ptr<const RingCoupling> ring_coupling, boo
   auto stage = stages::ring_paper();
   const double load = stage.mean_mesh_force();
   if (law)
-    stage.ring_mesh = table_stiffness(tables::BentTable{.nominal = load, .positions = 3}.table(), load, 0,
-                                      LoadDependence::table);
+    stage.ring_mesh =
+        table_stiffness(tables::BentTable{.nominal = load, .positions = 3}.table(), load, 0, LoadDependence::table);
   stage.ring_coupling = std::move(ring_coupling);
   return stage;
 }
@@ -103,8 +104,7 @@ BOOST_AUTO_TEST_CASE(two_meshes_by_hand) {
   BOOST_TEST(std::abs(w.force[0] - w.elastic[0] - 100 * 0.1) <= 1e-9);
   Eigen::MatrixXd tangent(2, 2);
   system.tangent_matrix(w, tangent);
-  const Eigen::Matrix2d expected =
-      (Eigen::Matrix2d() << 1 / k2, -d12, -d12, 1 / k1).finished() / determinant;
+  const Eigen::Matrix2d expected = (Eigen::Matrix2d() << 1 / k2, -d12, -d12, 1 / k1).finished() / determinant;
   BOOST_TEST((tangent - expected).cwiseAbs().maxCoeff() <= 1e-12 * 2e9);
 
   // With backlash the first mesh presses so hard that the ring leaves the second one: 1e9 x 90 um = 90 kN, which takes
@@ -252,7 +252,8 @@ BOOST_AUTO_TEST_CASE(jacobian_and_tangent_matrix_are_derivatives) {
       // 1e-9 m: forces of 1e5 N solved to 1e-13, over 1e9 N/m x 1e-9 m; curvature of the law (h/cell)^2.
       BOOST_TEST((column - jacobian.col(j)).cwiseAbs().maxCoeff() <=
                  1e-6 * jacobian.middleCols(j < n ? 0 : n, n).cwiseAbs().maxCoeff());
-      BOOST_TEST((column - jacobian.col(j)).cwiseAbs().maxCoeff() <= 1e-4 * (1 + jacobian.col(j).cwiseAbs().maxCoeff()));
+      BOOST_TEST((column - jacobian.col(j)).cwiseAbs().maxCoeff() <=
+                 1e-4 * (1 + jacobian.col(j).cwiseAbs().maxCoeff()));
     }
     Eigen::VectorXd closing = Eigen::VectorXd::LinSpaced(10, -1e-4, 1.5e-4);
     const Eigen::VectorXd rate = Eigen::VectorXd::Zero(10);
@@ -405,7 +406,8 @@ BOOST_AUTO_TEST_CASE(natural_frequencies_of_a_ring_mode) {
   const double a = m - t * t, b = k + w2 * m, root = std::sqrt(b * b - 4 * a * k * w2);
   for (const double square : {(b - root) / (2 * a), (b + root) / (2 * a)}) {
     double nearest = 1e99;
-    for (const auto& f : found.modes) nearest = std::min(nearest, std::abs(f.frequency / (std::sqrt(square) / tau) - 1));
+    for (const auto& f : found.modes)
+      nearest = std::min(nearest, std::abs(f.frequency / (std::sqrt(square) / tau) - 1));
     BOOST_TEST(nearest <= 1e-9);
   }
 }

@@ -139,6 +139,55 @@ BOOST_AUTO_TEST_CASE(unequal_spacing_mixes_the_kinds) {
   BOOST_TEST(found.modes.front().frequency == 0.0);  // turning stays free
 }
 
+// One and two planets have less symmetry: two planets leave modes that are alike (6) and unlike (9) under half a turn,
+// one planet leaves none.
+BOOST_AUTO_TEST_CASE(one_and_two_planets) {
+  const auto two = annulus::dynamics::modes(stages::lin_parker(2));
+  BOOST_TEST(frequencies(two, ModeKind::rotational).size() == 6U);
+  BOOST_TEST(frequencies(two, ModeKind::translational).size() == 9U);
+  const auto one = annulus::dynamics::modes(stages::lin_parker(1));
+  BOOST_TEST(one.modes.size() == 12U);
+  BOOST_TEST(one.modes.front().frequency == 0.0);
+  BOOST_TEST((one.modes.front().kind == ModeKind::rotational));
+  BOOST_TEST(one.modes[1].frequency > 1.0);
+}
+
+// With the centres held and the ring fixed the planets' own motions are one frequency N - 1 times for any N from 2 on;
+// rotational and planet modes are told apart also where a frequency is shared.
+BOOST_AUTO_TEST_CASE(held_centres) {
+  for (int planets = 1; planets <= 6; ++planets) {
+    auto stage = stages::lin_parker(planets);
+    for (double* support :
+         {&stage.sun.support, &stage.ring.support, &stage.carrier.support, &stage.ring.torsional_support})
+      *support = rigid;
+    const auto found = annulus::dynamics::modes(stage);
+    const auto planet = frequencies(found, ModeKind::planet);
+    BOOST_TEST(frequencies(found, ModeKind::rotational).size() == 5U);  // sun, carrier, planets alike in x, y, u
+    BOOST_REQUIRE(planet.size() == static_cast<std::size_t>(3 * (planets - 1)));
+    for (std::size_t i = 0; i + 1 < planet.size(); ++i)
+      if (i % (planets - 1) + 1 < static_cast<std::size_t>(planets - 1))
+        BOOST_TEST(std::abs(planet[i + 1] - planet[i]) <= 1e-9 * planet[i]);
+
+    // Nothing turns but the planets: N equal and separate bodies, one combination of which is alike.
+    stage.sun.torsional_support = stage.carrier.torsional_support = rigid;
+    const auto apart = annulus::dynamics::modes(stage);
+    BOOST_TEST(frequencies(apart, ModeKind::rotational).size() == 3U);
+    BOOST_TEST(frequencies(apart, ModeKind::planet).size() == static_cast<std::size_t>(3 * (planets - 1)));
+  }
+}
+
+// Three planets between floating bodies: 18 freedoms, 13 springs, so one rotation and two pairs of translations cost
+// nothing. They share a frequency and are told apart.
+BOOST_AUTO_TEST_CASE(rigid_motions_are_told_apart) {
+  auto stage = stages::lin_parker(3);
+  stage.sun.support = stage.ring.support = stage.carrier.support = 0;
+  const auto found = annulus::dynamics::modes(stage);
+  for (int i = 0; i < 5; ++i) BOOST_TEST(found.modes[i].frequency == 0.0);
+  BOOST_TEST(found.modes[5].frequency > 1.0);
+  BOOST_TEST(frequencies(found, ModeKind::rotational).size() == 6U);
+  BOOST_TEST(frequencies(found, ModeKind::translational).size() == 12U);
+}
+
 BOOST_AUTO_TEST_CASE(tables_enter_with_their_mean_tangent) {
   auto stage = stages::lin_parker(4);
   const annulus::PeriodicCurve secant({9e8}, 1), tangent({4e8, 6e8}, 2), zero({0.0}, 1);

@@ -1,0 +1,192 @@
+#include "dynamics/bearing_forces.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "core/errors.h"
+#include "dynamics/orbit.h"
+#include "tests/dynamics/stages.h"
+
+BOOST_AUTO_TEST_SUITE(bearing_forces)
+
+using namespace annulus::dynamics;
+
+/// Steady response over one error period, sampled finely enough for differences in time.
+TimeSeries steady_series(const PlanetaryStage& stage, int samples_per_cycle) {
+  SimulationOptions options;
+  options.samples_per_cycle = samples_per_cycle;
+  options.estimate_error = false;
+  options.steady_tolerance = 1e-4;
+  auto response = simulate(stage, options);
+  BOOST_TEST(response.steady);
+  return std::move(response.series);
+}
+
+Eigen::RowVectorXd row(const TimeSeries& series, const Eigen::MatrixXd& values, const std::string& freedom) {
+  const auto found = std::find(series.freedoms.begin(), series.freedoms.end(), freedom);
+  BOOST_REQUIRE(found != series.freedoms.end());
+  return values.row(found - series.freedoms.begin());
+}
+
+/// Fourth-order difference of a velocity; its first and last two values are left zero.
+Eigen::RowVectorXd rate(const Eigen::RowVectorXd& v, double step) {
+  Eigen::RowVectorXd a = Eigen::RowVectorXd::Zero(v.size());
+  for (Eigen::Index i = 2; i + 2 < v.size(); ++i)
+    a[i] = (v[i - 2] - 8 * v[i - 1] + 8 * v[i + 1] - v[i + 2]) / (12 * step);
+  return a;
+}
+
+double worst(const Eigen::RowVectorXd& difference) {
+  return difference.segment(2, difference.size() - 4).cwiseAbs().maxCoeff();
+}
+
+/// m (x'' - 2 Omega y' - Omega^2 x) of a body, and alike for y.
+struct Inertia {
+  Eigen::RowVectorXd x, y;
+};
+Inertia inertia(const TimeSeries& s, const std::string& body, double mass, double speed) {
+  const double step = s.time[1] - s.time[0];
+  const auto x = row(s, s.displacement, body + "_x"), y = row(s, s.displacement, body + "_y");
+  const auto vx = row(s, s.velocity, body + "_x"), vy = row(s, s.velocity, body + "_y");
+  return {mass * (rate(vx, step) - 2 * speed * vy - speed * speed * x),
+          mass * (rate(vy, step) + 2 * speed * vx - speed * speed * y)};
+}
+
+// Each planet: the forces of its two meshes, of its pin and of inertia (taken from the sampled velocities) cancel.
+// 256 samples a mesh cycle put the fourth-order difference of a 5 kHz motion at (0.18)^4/30 = 3e-5 of it.
+BOOST_AUTO_TEST_CASE(planets_are_in_equilibrium) {
+  const auto stage = stages::ring_paper();
+  const auto series = steady_series(stage, 256);
+  const auto pins = annulus::dynamics::bearing_forces(stage, series);
+  const double omega = stage.carrier_speed, as = stage.sun_working_angle, ar = stage.ring_working_angle;
+  const double centrifugal = stage.planet.mass * stage.carrier.radius * omega * omega;
+  const double expected = stage.carrier_torque() / (5 * stage.carrier.radius);
+  for (int n = 0; n < 5; ++n) {
+    const Eigen::RowVectorXd fs = series.force.row(n), fr = series.force.row(5 + n);
+    auto mass_times = inertia(series, "planet" + std::to_string(n + 1), stage.planet.mass, omega);
+    // The centrifugal force m a Omega^2 is a preload, and it turns with the carrier.
+    mass_times.y += stage.planet.mass * omega * omega * row(series, series.displacement, "carrier_u");
+    BOOST_TEST(worst(std::sin(as) * fs - std::sin(ar) * fr - pins.radial.row(n).array().matrix() +
+                     Eigen::RowVectorXd::Constant(fs.size(), centrifugal) - mass_times.x) <= 1e-3 * expected);
+    BOOST_TEST(worst(std::cos(as) * fs + std::cos(ar) * fr - pins.tangential.row(n) - mass_times.y) <= 1e-3 * expected);
+  }
+  // All pins together carry the torque of the carrier; the windows repeat to 1e-4 of the mesh force.
+  BOOST_TEST(std::abs(pins.tangential.colwise().sum().mean() / (5 * expected) - 1) <= 1e-4);
+  BOOST_TEST((pins.resultant().array() >= pins.tangential.array().abs()).all());
+}
+
+BOOST_AUTO_TEST_CASE(without_errors_each_pin_carries_its_share) {
+  auto stage = stages::ring_paper();
+  stage.planet_errors.clear();
+  const auto pins = annulus::dynamics::bearing_forces(stage, steady_series(stage, 64));
+  const double expected = stage.carrier_torque() / (5 * stage.carrier.radius);
+  for (int n = 0; n < 5; ++n) BOOST_TEST(std::abs(pins.tangential.row(n).mean() / expected - 1) <= 1e-4);
+}
+
+// Rigid bearings: the forces come from the planets' equilibrium; the carrier's own equation of rotation, from sampled
+// velocities, is another way to their sum.
+BOOST_AUTO_TEST_CASE(rigid_bearings) {
+  auto stage = stages::ring_paper();
+  stage.planet.bearing_radial = stage.planet.bearing_tangential = rigid;
+  stage.carrier.support = rigid;
+  const auto series = steady_series(stage, 256);
+  const auto pins = annulus::dynamics::bearing_forces(stage, series);
+  const double a = stage.carrier.radius, output = stage.carrier_torque() / a;
+  const Eigen::RowVectorXd acceleration =
+      rate(row(series, series.velocity, "carrier_u"), series.time[1] - series.time[0]);
+  BOOST_TEST(worst(stage.carrier.inertia / (a * a) * acceleration - pins.tangential.colwise().sum() +
+                   Eigen::RowVectorXd::Constant(acceleration.size(), output)) <= 1e-3 * output);
+}
+
+// What acts on a body is what its inertia and its supports take.
+BOOST_AUTO_TEST_CASE(support_reactions_balance_the_meshes) {
+  const auto stage = stages::ring_paper();
+  const auto series = steady_series(stage, 256);
+  const auto pins = annulus::dynamics::bearing_forces(stage, series);
+  const double omega = stage.carrier_speed;
+  for (const auto member : {CentralMember::sun, CentralMember::ring, CentralMember::carrier}) {
+    const bool sun = member == CentralMember::sun, carrier = member == CentralMember::carrier;
+    Eigen::RowVectorXd x = Eigen::RowVectorXd::Zero(series.time.size()), y = x;
+    for (int n = 0; n < 5; ++n) {
+      const double phi = stage.planet_angles[n];
+      if (carrier) {
+        x += std::cos(phi) * pins.radial.row(n) - std::sin(phi) * pins.tangential.row(n);
+        y += std::sin(phi) * pins.radial.row(n) + std::cos(phi) * pins.tangential.row(n);
+      } else {
+        const double psi = phi + (sun ? -stage.sun_working_angle : stage.ring_working_angle);
+        x += std::sin(psi) * series.force.row(sun ? n : 5 + n);
+        y -= std::cos(psi) * series.force.row(sun ? n : 5 + n);
+      }
+    }
+    const auto& body = sun ? stage.sun : carrier ? stage.carrier : stage.ring;
+    const auto mass_times = inertia(series, sun ? "sun" : carrier ? "carrier" : "ring", body.mass, omega);
+    const auto reaction = support_reaction(stage, series, member);
+    const double scale = stage.mean_mesh_force();
+    BOOST_TEST(worst(x - mass_times.x - reaction.x.transpose()) <= 1e-3 * scale);
+    BOOST_TEST(worst(y - mass_times.y - reaction.y.transpose()) <= 1e-3 * scale);
+  }
+  // The housing takes the difference of the torques through the ring: T_s - T_c.
+  const double expected = stage.sun_torque - stage.carrier_torque();
+  BOOST_TEST(std::abs(support_reaction(stage, series, CentralMember::ring).torque.mean() / expected - 1) <= 1e-4);
+  BOOST_TEST(support_reaction(stage, series, CentralMember::sun).torque.cwiseAbs().maxCoeff() == 0.0);
+}
+
+// All supports rigid and one planet: the sun's bearing takes the mesh force as it is, and a rigid ring the same torque.
+BOOST_AUTO_TEST_CASE(rigid_supports) {
+  auto stage = stages::ring_paper();
+  stage.planet_angles = {0.4};
+  stage.planet_errors.clear();
+  stage.sun_phase_lag = stage.ring_phase_lag = stage.ring_tooth_offset = {0};
+  stage.sun.support = stage.ring.support = stage.carrier.support = stage.ring.torsional_support = rigid;
+  const auto series = steady_series(stage, 64);
+  const auto sun = support_reaction(stage, series, CentralMember::sun);
+  const Eigen::VectorXd force = series.force.row(0).transpose();
+  BOOST_TEST((sun.magnitude() - force.cwiseAbs()).cwiseAbs().maxCoeff() <= 1e-12 * force.maxCoeff());
+  // The line of action leans by a_s from the tangent at the planet: the sun is pushed back, against the rotation, and
+  // away from the planet.
+  const double phi = 0.4;
+  const Eigen::VectorXd outwards = std::cos(phi) * sun.x + std::sin(phi) * sun.y;
+  BOOST_TEST(std::abs(outwards.mean() / force.mean() + std::sin(stage.sun_working_angle)) <= 1e-12);
+  const auto ring = support_reaction(stage, series, CentralMember::ring);
+  BOOST_TEST(std::abs(ring.torque.mean() / (stage.sun_torque - stage.carrier_torque()) - 1) <= 1e-4);
+  // Carrier: the pin's force, whatever the way there.
+  const auto carrier = support_reaction(stage, series, CentralMember::carrier);
+  const auto pins = annulus::dynamics::bearing_forces(stage, series);
+  BOOST_TEST((carrier.magnitude() - pins.resultant().row(0).transpose()).cwiseAbs().maxCoeff() <=
+             1e-12 * force.maxCoeff());
+}
+
+BOOST_AUTO_TEST_CASE(series_of_another_stage_are_refused) {
+  const auto stage = stages::ring_paper();
+  BOOST_CHECK_THROW((void)annulus::dynamics::bearing_forces(stage, TimeSeries{}), annulus::InternalError);
+}
+
+// A circle about (2, 1) um at three turns of the carrier, which itself turns a third of a turn.
+BOOST_AUTO_TEST_CASE(orbit_of_a_circle) {
+  auto stage = stages::ring_paper();
+  TimeSeries series;
+  series.freedoms = {"sun_x", "sun_y"};
+  const int samples = 360;
+  series.time.resize(samples);
+  series.displacement.resize(2, samples);
+  for (int i = 0; i < samples; ++i) {
+    const double angle = 2 * std::numbers::pi * i / samples;
+    series.time[i] = angle / 3 / stage.carrier_speed;
+    series.displacement.col(i) << 2e-6 + 5e-6 * std::cos(angle), 1e-6 + 5e-6 * std::sin(angle);
+  }
+  const auto path = orbit(stage, series);
+  BOOST_TEST(std::abs(path.mean_x - 2e-6) <= 1e-18);
+  BOOST_TEST(std::abs(path.mean_y - 1e-6) <= 1e-18);
+  BOOST_TEST(std::abs(path.extent - 5e-6) <= 1e-18);
+  // Farthest from the axis along the mean: between two samples by half a degree at most, 1 - cos(0.5 deg) = 4e-5.
+  BOOST_TEST(std::abs(path.largest / (5e-6 + std::sqrt(5.0) * 1e-6) - 1) <= 4e-5);
+  for (int i = 0; i < samples; ++i) {
+    const double turned = 2 * std::numbers::pi * i / samples / 3;
+    BOOST_TEST(std::abs(path.housing_x[i] - (std::cos(turned) * path.x[i] - std::sin(turned) * path.y[i])) <= 1e-18);
+    BOOST_TEST(std::abs(std::hypot(path.housing_x[i], path.housing_y[i]) - std::hypot(path.x[i], path.y[i])) <= 1e-18);
+  }
+  BOOST_TEST(orbit(stage, series, "ring").largest == 0.0);  // held
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,132 @@
+#include "dynamics/modal_energy.h"
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "tests/dynamics/stages.h"
+
+BOOST_AUTO_TEST_SUITE(modal_energy)
+
+using namespace annulus::dynamics;
+
+Eigen::Index element(const ModalEnergy& energy, const std::string& name) {
+  const auto found = std::find(energy.elements.begin(), energy.elements.end(), name);
+  BOOST_REQUIRE(found != energy.elements.end());
+  return found - energy.elements.begin();
+}
+
+BOOST_AUTO_TEST_CASE(elements_add_up_to_the_stiffness) {
+  for (const auto& stage : {stages::ring_paper(), stages::lin_parker(3)}) {
+    const auto system = assemble(stage);
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(system.freedoms(), system.freedoms()), damping = sum;
+    for (const auto& spring : system.springs()) {
+      Eigen::VectorXd a = Eigen::VectorXd::Zero(system.freedoms());
+      for (const auto& [i, factor] : spring.a) a[i] += factor;
+      BOOST_TEST(!spring.name.empty());
+      sum += spring.stiffness * a * a.transpose();
+      damping += spring.damping * a * a.transpose();
+    }
+    // Rounding of sums in another order.
+    BOOST_TEST((sum - system.stiffness()).norm() <= 1e-14 * sum.norm());
+    BOOST_TEST((damping - system.damping()).norm() <= 1e-14 * sum.norm());
+  }
+}
+
+// Every share against another way to it: d(omega^2)/omega^2 per dk/k, the stiffness changed by a relative 1e-3 both
+// ways. Central differences err by 1e-6 x the curvature, which grows as modes of one symmetry come close.
+BOOST_AUTO_TEST_CASE(shares_are_sensitivities) {
+  const auto stage = stages::lin_parker(4);
+  auto system = assemble(stage);
+  const auto stiffness = mean_mesh_stiffness(stage);
+  const auto found = annulus::dynamics::modes(stage);
+  const auto energy = annulus::dynamics::modal_energy(stage, found);
+  const auto count = static_cast<Eigen::Index>(found.modes.size());
+  BOOST_TEST(energy.strain.cols() == count);
+  // Supports of sun, ring, carrier in x and y, the ring's in u, two bearings and two meshes of each planet.
+  BOOST_TEST(energy.elements.size() == 6U + 1U + 4U * 4U);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    // Sums of 23 shares.
+    BOOST_TEST(std::abs(energy.strain.col(i).sum() - (found.modes[i].frequency > 0 ? 1 : 0)) <= 1e-14);
+    BOOST_TEST(std::abs(energy.kinetic.col(i).sum() - 1) <= 1e-14);
+    BOOST_TEST(energy.strain.col(i).minCoeff() >= 0.0);
+  }
+
+  // Of a whole group, so that the symmetry and with it the identity of the modes stays.
+  constexpr double step = 1e-3;
+  const auto squares = [&](auto change, double factor) {
+    auto changed = stage;
+    change(changed, factor);
+    std::vector<double> list;
+    for (const auto& mode : annulus::dynamics::modes(changed).modes) list.push_back(std::pow(mode.frequency, 2));
+    return list;
+  };
+  const auto grouped = by_group(energy);
+  const auto check = [&](const std::string& group, auto change) {
+    const auto place = std::find(grouped.groups.begin(), grouped.groups.end(), group);
+    BOOST_REQUIRE(place != grouped.groups.end());
+    const auto up = squares(change, 1 + step), down = squares(change, 1 - step);
+    for (Eigen::Index i = 1; i < count; ++i) {
+      const double sensitivity = (up[i] - down[i]) / (2 * step) / std::pow(found.modes[i].frequency, 2);
+      BOOST_TEST(std::abs(sensitivity - grouped.strain(place - grouped.groups.begin(), i)) <= 2e-5, group);
+    }
+  };
+  check("sun_planet", [](PlanetaryStage& s, double f) { s.sun_mesh = ConstantStiffness{5e8 * f}; });
+  check("ring_planet", [](PlanetaryStage& s, double f) { s.ring_mesh = ConstantStiffness{5e8 * f}; });
+  check("planet_bearing", [](PlanetaryStage& s, double f) {
+    s.planet.bearing_radial *= f;
+    s.planet.bearing_tangential *= f;
+  });
+  check("sun_support", [](PlanetaryStage& s, double f) { s.sun.support *= f; });
+  check("carrier_support", [](PlanetaryStage& s, double f) { s.carrier.support *= f; });
+  check("ring_support", [](PlanetaryStage& s, double f) {
+    s.ring.support *= f;
+    s.ring.torsional_support *= f;
+  });
+
+  // One mesh alone, in the modes that are not multiple.
+  for (const int mesh : {0, 6}) {
+    Eigen::VectorXd up = stiffness, down = stiffness;
+    up[mesh] *= 1 + step;
+    down[mesh] *= 1 - step;
+    const auto above = annulus::dynamics::modes(system, up), below = annulus::dynamics::modes(system, down);
+    const auto row = element(energy, system.meshes()[mesh].name);
+    for (Eigen::Index i = 1; i < count; ++i) {
+      if (found.modes[i].kind == ModeKind::translational) continue;
+      const double sensitivity = (std::pow(above.modes[i].frequency, 2) - std::pow(below.modes[i].frequency, 2)) /
+                                 (2 * step) / std::pow(found.modes[i].frequency, 2);
+      BOOST_TEST(std::abs(sensitivity - energy.strain(row, i)) <= 2e-5);
+    }
+  }
+}
+
+// Rayleigh: strain energy over kinetic energy of a shape is omega^2.
+BOOST_AUTO_TEST_CASE(rayleigh_quotient) {
+  const auto stage = stages::ring_paper();
+  const auto system = assemble(stage);
+  const auto stiffness = stiffness_with_meshes(system, mean_mesh_stiffness(stage));
+  for (const auto& mode : annulus::dynamics::modes(stage).modes) {
+    if (mode.frequency == 0) continue;
+    const double quotient = mode.shape.dot(stiffness * mode.shape) / mode.shape.dot(system.mass() * mode.shape);
+    const double omega = 2 * std::numbers::pi * mode.frequency;
+    // eps x the largest square over the smallest: (13 kHz / 60 Hz)^2 x 1e-16 x the number of freedoms.
+    BOOST_TEST(std::abs(quotient / (omega * omega) - 1) <= 1e-9);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(names_and_groups) {
+  BOOST_TEST(element_group("planet12_bearing_radial") == "planet_bearing");
+  BOOST_TEST(element_group("sun_planet3") == "sun_planet");
+  BOOST_TEST(element_group("ring_support_u") == "ring_support");
+  const auto stage = stages::ring_paper();
+  const auto energy = annulus::dynamics::modal_energy(stage, annulus::dynamics::modes(stage));
+  const std::vector<std::string> bodies = {"sun",     "ring",    "carrier", "planet1",
+                                           "planet2", "planet3", "planet4", "planet5"};
+  BOOST_TEST(energy.bodies == bodies, boost::test_tools::per_element());
+  const std::vector<std::string> groups = {"sun_support",    "ring_support", "carrier_support",
+                                           "planet_bearing", "sun_planet",   "ring_planet"};
+  BOOST_TEST(by_group(energy).groups == groups, boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
