@@ -93,7 +93,7 @@ void solve_coupling(const CompiledCoupling& coupling, const std::vector<Compiled
       if (!held) w.contact[m] = contact_of(meshes[m], w.delta[m]);
       apply_law(meshes[m], m, w);
       residual[i] = w.elastic[m] - force[i];
-      scale = std::max({scale, std::abs(w.elastic[m]), w.tangent[m] * std::abs(w.closing[m])});
+      scale = std::max({scale, std::abs(w.elastic[m]), w.stiffness[m] * std::abs(w.closing[m])});
     }
     if (residual.cwiseAbs().maxCoeff() <= accuracy * scale) return;
     CouplingMatrix matrix = d;
