@@ -164,7 +164,8 @@ BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
     BOOST_TEST(section.rows[i][section.column("ring_planet5_force_N")] ==
                series.rows[64 * i][series.column("ring_planet5_force_N")]);
   }
-  BOOST_TEST(ring["poincare"]["section"] == "period_1");
+  // The window is one error period; whether it repeats is known from the window before.
+  BOOST_TEST(ring["poincare"]["section"] == (ring["dynamics"]["steady"].get<bool>() ? "period_1" : "undecided"));
 
   const auto shapes = Csv::read(dynamics / "mode_shapes.csv"), campbell = Csv::read(dynamics / "campbell.csv");
   BOOST_TEST(shapes.columns.size() == shapes.rows.size() + 2);  // one mode per freedom
@@ -209,9 +210,9 @@ BOOST_AUTO_TEST_CASE(unchanged_results_are_reused_and_changed_ones_are_not) {
   BOOST_TEST(again.err.find("dynamics of 'held': unchanged, reused") != std::string::npos, again.err);
   BOOST_TEST(text_of(folder.path() / "out/held/dynamics/figures.json") == before);
   // The report of what was read back tells the same as the one of what was computed.
-  const auto part = [](const std::string& page) {
-    const auto begin = page.find("id=\"dynamics\"");
-    return page.substr(begin, page.find("id=\"model\"") - begin);
+  const auto part = [](const std::string& text) {
+    const auto begin = text.find("id=\"dynamics\"");
+    return text.substr(begin, text.find("id=\"model\"") - begin);
   };
   BOOST_TEST((part(text_of(folder.path() / "out/report.html")) == part(page)));
   put_scene(folder.path(), test::replaced(test::quick_scene(), "half_backlash_um = 50", "half_backlash_um = 40"));
