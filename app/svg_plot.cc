@@ -279,7 +279,7 @@ std::string to_svg(const Plot& plot) {
   for (const auto& s : plot.series) svg += draw(frame, s);
   for (const auto& note : plot.notes)
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\" fill=\"#666\">{}</text>",
-                       frame.at_x(note.x) - 3, frame.at_y(note.y) + 12, escape(note.text));
+                       frame.at_x(note.x) - 3, frame.at_y(note.y) - 3, escape(note.text));
   return svg + "</svg></svg>";
 }
 

@@ -49,7 +49,7 @@ struct Series {
   double size = 4;  ///< of dots
 };
 
-/// A word in the plot, ending at a point.
+/// A word in the plot, ending above a point.
 struct Note {
   double x = 0, y = 0;
   std::string text{};

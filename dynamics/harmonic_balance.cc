@@ -76,7 +76,8 @@ void HarmonicBalance::residual(const Eigen::Ref<const Eigen::MatrixXd>& closing,
   forward(closing, closing_lines_);
   rate_.resize(closing.rows(), closing.cols());
   for (Eigen::Index m = 0; m < closing.cols(); ++m) {
-    for (Eigen::Index j = 0; j < last; ++j) line_[j] = closing_lines_(j, m) * Complex(0, static_cast<double>(j) * scale);
+    for (Eigen::Index j = 0; j < last; ++j)
+      line_[j] = closing_lines_(j, m) * Complex(0, static_cast<double>(j) * scale);
     line_[last] = 0;
     transform_.inverse(line_.data(), rate_.col(m).data());
   }
@@ -96,9 +97,9 @@ void HarmonicBalance::residual(const Eigen::Ref<const Eigen::MatrixXd>& closing,
 void HarmonicBalance::apply_derivative(const Eigen::Ref<const Eigen::MatrixXd>& change,
                                        Eigen::Ref<Eigen::MatrixXd> result) {
   // result serves as the forces' change first.
+  meshes_.apply_tangent(change, problem_.mean_stiffness, result);
   for (Eigen::Index m = 0; m < change.cols(); ++m) {
-    const double k = problem_.mean_stiffness[m], c = problem_.system.meshes()[m].damping;
-    result.col(m).array() = (meshes_.tangent().col(m).array() - k) * change.col(m).array();
+    const double c = problem_.system.meshes()[m].damping;
     if ((meshes_.damping().col(m).array() != c).any())
       result.col(m).array() += (meshes_.damping().col(m).array() - c) * rate_of(change.col(m)).array();
   }
@@ -137,7 +138,9 @@ void HarmonicBalance::motion(Eigen::MatrixXd& displacement, Eigen::MatrixXd& vel
     line_.segment(1, last - 1) = amplitudes.row(i);
     transform_.inverse(line_.data(), values.data());
     displacement.row(i) = values;
-    for (Eigen::Index j = 0; j < last; ++j) line_[j] *= Complex(0, static_cast<double>(j) * problem_.spacing);
+    line_[0] = line_[last] = 0;
+    for (Eigen::Index j = 1; j < last; ++j)
+      line_[j] = amplitudes(i, j - 1) * Complex(0, static_cast<double>(j) * problem_.spacing);
     transform_.inverse(line_.data(), values.data());
     velocity.row(i) = values;
   }

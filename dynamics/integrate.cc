@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/errors.h"
+#include "dynamics/integrator_choice.h"
 #include "dynamics/stepper.h"
 
 namespace annulus::dynamics {
@@ -88,9 +89,12 @@ double jump_energy(const LumpedSystem& system, double t, double middle, const do
 }  // namespace
 
 IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, double end,
-                               const IntegratorOptions& options, LumpedSystem::Workspace& workspace, int samples,
+                               const IntegratorOptions& given, LumpedSystem::Workspace& workspace, int samples,
                                const std::function<void(int, const SystemState&)>& sample, bool track_energy) {
-  check_options(options);
+  check_options(given);
+  IntegratorOptions options = given;
+  if (options.method == Integrator::automatic)
+    options.method = choose_integrator(system, options.relative_tolerance).method;
   const int n = system.freedoms();
   require(state.q.size() == n && state.v.size() == n, "state and system differ in size");
   if (!(end > state.time)) throw InputError("an integration must end after its start");

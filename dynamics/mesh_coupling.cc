@@ -62,9 +62,8 @@ CouplingMatrix compliance_rate(const CompiledCoupling& coupling, double t, const
     for (Eigen::Index j = 0; j <= i; ++j, ++k) {
       double rate = coupling.frequency * rates[k];
       for (const auto& kept : coupling.kept)
-        rate -= kept.compliance *
-                (factor_of(kept.shares[i], w.factor_rate) * factor_of(kept.shares[j], w.factor) +
-                 factor_of(kept.shares[i], w.factor) * factor_of(kept.shares[j], w.factor_rate));
+        rate -= kept.compliance * (factor_of(kept.shares[i], w.factor_rate) * factor_of(kept.shares[j], w.factor) +
+                                   factor_of(kept.shares[i], w.factor) * factor_of(kept.shares[j], w.factor_rate));
       d(i, j) = d(j, i) = rate;
     }
   return d;

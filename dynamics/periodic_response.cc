@@ -107,8 +107,8 @@ class BalanceSolver {
     response.residual = residual.cwiseAbs().maxCoeff() / scale_;
     response.converged = options_.max_iterations > 0 && response.residual <= options_.tolerance;
     if (!response.converged && response.trouble.empty())
-      response.trouble = fmt::format("residual {:.1e} after {} iterations with {} samples: {}", response.residual, newton,
-                                     closing.rows(), flag < 0 ? complaint_ : "the steps became too small");
+      response.trouble = fmt::format("residual {:.1e} after {} iterations with {} samples: {}", response.residual,
+                                     newton, closing.rows(), flag < 0 ? complaint_ : "the steps became too small");
     return closing;
   }
 
@@ -161,9 +161,10 @@ void fill(PeriodicResponse& response, HarmonicBalance& balance, const Eigen::Mat
   for (Eigen::Index i = 0; i < samples; ++i) response.time[i] = balance.meshes().time(i);
   response.open.resize(meshes);
   for (Eigen::Index m = 0; m < meshes; ++m)
-    response.open[m] = static_cast<double>(std::count(contact.begin() + m * samples, contact.begin() + (m + 1) * samples,
-                                                      LumpedSystem::Contact::open)) /
-                       static_cast<double>(samples);
+    response.open[m] =
+        static_cast<double>(std::count(contact.begin() + m * samples, contact.begin() + (m + 1) * samples,
+                                       LumpedSystem::Contact::open)) /
+        static_cast<double>(samples);
 }
 
 }  // namespace
@@ -176,11 +177,16 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
   if (!(options.tolerance > 0) || options.max_iterations < 1)
     throw InputError("harmonic balance needs a positive tolerance and at least one iteration");
   require(!system.meshes().empty(), "a periodic response needs meshes");
+  if (system.has_moving_vectors()) {
+    PeriodicResponse refused;
+    refused.trouble = "mesh vectors that move with the mesh (elastic modes of the ring) need time marching";
+    return refused;
+  }
 
   const Eigen::Index samples = static_cast<Eigen::Index>(cycles) * options.samples_per_cycle;
   // Solving begins with few samples, where iterations cost little, and doubles them: each level starts close to its
   // answer.
-  constexpr double rough_tolerance = 1e-3;
+  constexpr double rough_tolerance = 1e-3, hopeless = 0.1;
   Eigen::Index coarsening = 2;
   while (options.samples_per_cycle % (2 * coarsening) == 0 && options.samples_per_cycle / (2 * coarsening) >= 8)
     coarsening *= 2;
@@ -218,14 +224,13 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
     // What a coarse sampling cannot solve is hopeless, or too dear: the last iterate is then shown as it is.
     if (failed) level_options.max_iterations = 0;
     closing = BalanceSolver(balance, closing, reference.scale, level_options).solve(response);
-    failed = failed || !response.converged;
+    failed = failed || response.residual > std::max(level_options.tolerance, level < samples ? hopeless : 0.0);
     if (2 * level >= samples) fill(response, balance, closing);
     if (level == samples && options.motion) balance.motion(response.displacement, response.velocity);
   }
   for (Eigen::Index i = 0; i < samples / 2; ++i)
-    response.sampling_difference =
-        std::max(response.sampling_difference,
-                 (response.force.col(2 * i) - response.coarse_force.col(i)).cwiseAbs().maxCoeff());
+    response.sampling_difference = std::max(
+        response.sampling_difference, (response.force.col(2 * i) - response.coarse_force.col(i)).cwiseAbs().maxCoeff());
   return response;
 }
 

@@ -13,15 +13,15 @@ struct PeriodicOptions {
   int samples_per_cycle = 32;
   /// Largest residual of a closing at any sample / largest quasi-static mesh deflection at time 0.
   double tolerance = 1e-5;
-  int max_iterations = 12;  ///< Newton iterations, per level of sampling
+  int max_iterations = 20;  ///< Newton iterations, per level of sampling
   bool motion = true;       ///< also the displacements and velocities of all freedoms
 };
 
 /// Periodic steady state.
 struct PeriodicResponse {
   bool converged = false;
-  std::string trouble;  ///< why it did not converge, empty otherwise
-  double residual = 0;  ///< as `tolerance`
+  std::string trouble;                               ///< why it did not converge, empty otherwise
+  double residual = 0;                               ///< as `tolerance`
   int newton_iterations = 0, linear_iterations = 0;  ///< over all levels of sampling
 
   Eigen::VectorXd time;                    ///< s, equidistant over one period from 0, its end not included
@@ -37,14 +37,15 @@ struct PeriodicResponse {
 /// Solves for the periodic response directly, by harmonic balance with the nonlinear forces evaluated in time
 /// (alternating frequency-time): the closings z = b^T q at the samples satisfy
 ///   z + H N(z) = H_0 f,  N = F(t, z, z') - k z - c z',  H(w) = B^T D(w)^-1 B (FrequencyResponse, mean tangents k),
-/// by Newton's method with GMRES and the exact derivative (KINSOL), first with few samples, then with twice as many each time.
-/// Cameron and Griffin, J. Appl. Mech. 56 (1989); Krack and Gross, Harmonic Balance for Nonlinear Vibration Problems
-/// (2019).
+/// by Newton's method with GMRES and the exact derivative (KINSOL), first with few samples, then with twice as many
+/// each time. Cameron and Griffin, J. Appl. Mech. 56 (1989); Krack and Gross, Harmonic Balance for Nonlinear Vibration
+/// Problems (2019).
 ///
 /// The excitation must repeat after `period` (s), which spans `cycles` mesh cycles. Stable and unstable solutions alike
 /// are found; the start is the response with constant mesh stiffness. Rigid motions are fixed by nu^T M q = 0 in the
-/// mean over the period. Without convergence the last iterate is returned, with `converged` false. Throws InputError
-/// when the load is not balanced, SolverError when the linear part is singular.
+/// mean over the period. Without convergence the last iterate is returned, with `converged` false; nothing but
+/// `trouble` for a system whose mesh vectors move. Throws InputError when the load is not balanced, SolverError when the
+/// linear part is singular.
 [[nodiscard]] PeriodicResponse periodic_response(const LumpedSystem& system, double period, int cycles,
                                                  const PeriodicOptions& options = {});
 /// The same for a stage, over its error period.

@@ -1,31 +1,49 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "dynamics/figures.h"
 #include "dynamics/integrate.h"
+#include "dynamics/integrator_choice.h"
+#include "dynamics/periodic_response.h"
 #include "dynamics/planetary_stage.h"
 
 namespace annulus::dynamics {
 
+/// How the periodic steady state is looked for.
+enum class SteadyState {
+  direct,    ///< by harmonic balance; marching over one window confirms it, or goes on where it does not
+  marching,  ///< by time integration from quasi-static equilibrium until windows repeat
+};
+
 struct SimulationOptions {
+  SteadyState steady_state = SteadyState::direct;
+  /// `direct` only. false: where the harmonic balance converges, its solution is taken without any time integration
+  /// (sweeps, Monte Carlo); the errors then compare with half the samples, and there is no energy balance.
+  bool confirm = true;
+  bool keep_series = true;   ///< false: figures only
+  PeriodicOptions periodic;  ///< samples_per_cycle and motion are set from what stands here
   IntegratorOptions integrator;
-  /// Total mesh cycles from the start. Absent: until the response repeats, then one error period.
+  /// Total mesh cycles from the start, by marching alone. Absent: until the response repeats, then one error period.
   std::optional<int> mesh_cycles;
   /// The response counts as periodic when no mesh force differs by more than this, relative to the mean mesh force,
-  /// from one evaluated window earlier, and the differences, continued geometrically, add up to no more.
+  /// from the harmonic balance; or from one evaluated window earlier, and the differences, continued geometrically, add
+  /// up to no more.
   double steady_tolerance = 1e-3;
   int max_windows = 40;        ///< gives up after so many windows (chaos, nearly undamped): `steady` is then false
-  int samples_per_cycle = 64;  ///< of the time series; the highest excited frequency needs at least four samples
+  /// Of the time series and the harmonic balance (a multiple of 8 there); the highest excited frequency needs at least
+  /// four samples.
+  int samples_per_cycle = 64;
   /// The window is the error period, or as many error periods as reach this many mesh cycles: differences between
   /// short windows say little about slow transients.
   int min_window_cycles = 20;
   /// Upper limit of the window (memory): sun, planet and housing errors together repeat after lcm(z_s, z_p, z_r) mesh
   /// cycles, which may be tens of thousands. A window cut by it cannot be compared with the one before.
-  int max_window_cycles = 1000;
+  int max_window_cycles = 2000;
   /// Integrates the last window again with a tolerance ten times looser to estimate the integrator's part of the error.
   bool estimate_error = true;
 };
@@ -55,10 +73,20 @@ struct MeshKindResult {
 
 /// Energy bookkeeping over the window: change of energy = supplied - dissipated.
 struct EnergyBalance {
-  double supplied = 0;    ///< J, by torques, errors and stiffness change
-  double dissipated = 0;  ///< J, by dampers (>= 0)
-  double change = 0;      ///< J, kinetic + elastic
-  double relative = 0;    ///< |change - supplied + dissipated| / (dissipated + energy)
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  ///< nothing was integrated
+  double supplied = unknown;    ///< J, by torques, errors and stiffness change
+  double dissipated = unknown;  ///< J, by dampers (>= 0)
+  double change = unknown;      ///< J, kinetic + elastic
+  double relative = unknown;    ///< |change - supplied + dissipated| / (dissipated + energy)
+};
+
+/// How the harmonic balance fared.
+struct DirectSolution {
+  bool converged = false;
+  std::string trouble;  ///< why not
+  double residual = 0;  ///< see PeriodicOptions::tolerance
+  int newton_iterations = 0, linear_iterations = 0;
+  double sampling_difference = 0;  ///< largest force difference to half the samples / mean mesh force
 };
 
 struct DynamicResponse {
@@ -66,10 +94,14 @@ struct DynamicResponse {
   double mean_mesh_force = 0;       ///< N, T_s / (N r_bs)
   int window_cycles = 0;            ///< evaluated at the end, mesh cycles
   bool whole_error_period = false;  ///< false when `mesh_cycles` or `max_window_cycles` was too short for one
-  int total_cycles = 0;             ///< integrated mesh cycles
-  bool steady = false;              ///< successive windows agree within steady_tolerance
-  /// Largest mesh force difference to the window before / mean mesh force; absent when there was none to compare with.
+  int total_cycles = 0;             ///< integrated mesh cycles; 0: none, the harmonic balance alone
+  bool steady = false;              ///< within steady_tolerance (see there), or taken from the harmonic balance alone
+  bool confirmed = false;           ///< harmonic balance and time integration agree
+  /// Largest mesh force difference to the harmonic balance (when `confirmed`) or to the window before / mean mesh force;
+  /// absent when there was none to compare with.
   std::optional<double> steady_difference;
+  std::optional<DirectSolution> direct;        ///< absent when only marching was asked for or possible
+  std::optional<IntegratorChoice> integrator;  ///< present when it was left to the program and something was integrated
   MeshKindResult sun_planet, ring_planet;
   EnergyBalance energy;
   /// Momentum balance of the sun's rotation over the window, relative to T_s: mean of sum F_sn r_bs (and of its
@@ -80,9 +112,10 @@ struct DynamicResponse {
   TimeSeries series;
 };
 
-/// Time response of the stage, from its quasi-static state at time 0 to the periodic steady state, and its figures.
-/// The error of a figure adds up what the sampling misses, the change from the window before and, with
-/// `estimate_error`, the change under a looser integration. An infinite load sharing means instants at which the stage
+/// Periodic steady state of the stage and its figures: solved for directly and confirmed by marching over one window
+/// from there (two independent methods); where they disagree, no balance is found or the error period is longer than
+/// `max_window_cycles`, by marching alone. The error of a figure adds up what the sampling misses, the change from the
+/// harmonic balance or the window before and, with `estimate_error`, the change under a looser integration. An infinite load sharing means instants at which the stage
 /// carries no load. Throws InputError when the stage or the options are not usable (no speed, no torque, an unbalanced
 /// load: nothing holds the ring), SolverError when the integrator fails.
 [[nodiscard]] DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& options = {});

@@ -16,15 +16,16 @@ double damping_in(const MeshElement& mesh, Contact contact) {
 }  // namespace
 
 SampledMeshes::SampledMeshes(const LumpedSystem& system, double period, Eigen::Index samples)
-    : system_(system),
-      workspace_(system.workspace()),
-      samples_(samples),
-      step_(period / static_cast<double>(samples)) {
+    : system_(system), workspace_(system.workspace()), samples_(samples), step_(period / static_cast<double>(samples)) {
   const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
   tangent_.resize(samples, meshes);
   damping_.resize(samples, meshes);
   for (auto* v : {&closing_, &rate_, &moved_, &force_}) v->resize(meshes);
   whole_.resize(system.meshes().size());
+  if (!system.couplings().empty()) {
+    coupled_.resize(meshes, meshes * samples);
+    block_.resize(meshes, meshes);
+  }
   if (!std::isfinite(system.next_jump(0))) return;
   pieces_.resize(static_cast<std::size_t>(samples));
   for (Eigen::Index i = 0; i < samples; ++i) {
@@ -53,6 +54,7 @@ void SampledMeshes::evaluate(const Eigen::MatrixXd& closing, const Eigen::Matrix
   force.resize(samples_, closing.cols());
   tangent_.setZero();
   damping_.setZero();
+  coupled_.setZero();
   for (Eigen::Index i = 0; i < samples_; ++i) {
     closing_ = closing.row(i);
     rate_ = rate.row(i);
@@ -73,11 +75,16 @@ void SampledMeshes::add_piece(Eigen::Index sample, double weight) {
   auto& w = workspace_;
   const auto& meshes = system_.meshes();
   system_.evaluate_forces(time(sample), closing_.data(), rate_.data(), w);
+  const bool coupled = coupled_.size() != 0;
+  if (coupled) {
+    system_.tangent_matrix(w, block_);
+    coupled_.middleCols(sample * block_.cols(), block_.cols()) += weight * block_;
+  }
   bool all_whole = true;
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     const double half = meshes[m].half_backlash.value_or(0.0);
     const double edge = std::abs(std::abs(w.delta[m]) - half);
-    whole_[m] = half == 0 || edge >= std::abs(w.delta_rate[m]) * step_ / 2;
+    whole_[m] = coupled || half == 0 || edge >= std::abs(w.delta_rate[m]) * step_ / 2;
     all_whole = all_whole && whole_[m];
     const auto i = static_cast<Eigen::Index>(m);
     if (whole_[m]) {
@@ -128,8 +135,23 @@ void SampledMeshes::add_partial_contact(Eigen::Index sample, double weight, int 
     const double share_by_swing = -depth / (2 * swing * swing), swing_by_rate = (rate > 0 ? 0.5 : -0.5) * step_;
     force_[i] += weight * share * gain;
     tangent_(sample, i) += weight * (side * gain / (2 * swing) + share * w.tangent[m] / 2);
-    damping_(sample, i) += weight * ((share_by_swing * gain + share * side * w.tangent[m] / 2) * swing_by_rate +
-                                     share * (closed - open));
+    damping_(sample, i) +=
+        weight * ((share_by_swing * gain + share * side * w.tangent[m] / 2) * swing_by_rate + share * (closed - open));
+  }
+}
+
+void SampledMeshes::apply_tangent(const Eigen::Ref<const Eigen::MatrixXd>& change, const Eigen::VectorXd& mean,
+                                  Eigen::Ref<Eigen::MatrixXd> force) const {
+  if (coupled_.size() == 0) {
+    for (Eigen::Index m = 0; m < change.cols(); ++m)
+      force.col(m).array() = (tangent_.col(m).array() - mean[m]) * change.col(m).array();
+    return;
+  }
+  Eigen::VectorXd here(mean.size()), there(mean.size());
+  for (Eigen::Index i = 0; i < samples_; ++i) {
+    here = change.row(i);
+    there.noalias() = coupled_.middleCols(i * mean.size(), mean.size()).lazyProduct(here);
+    force.row(i) = there - mean.cwiseProduct(here);
   }
 }
 

@@ -11,7 +11,7 @@ namespace annulus::dynamics {
 /// The mesh forces as functions of the closings b^T q and their rates, at equidistant times of one period, with their
 /// derivatives. Where a stiffness jumps or teeth meet or part between two samples, a sample stands for the mean over
 /// the time step around it: forces are then continuous in the closings, and the error of the sampling goes down with
-/// the square of the time step instead of the time step.
+/// the square of the time step instead of the time step. (Meshes that are coupled are not averaged over contact changes.)
 ///
 /// Matrices: samples x meshes.
 class SampledMeshes {
@@ -29,6 +29,9 @@ class SampledMeshes {
   /// dF/d delta and dF/d delta' of the last evaluation.
   [[nodiscard]] const Eigen::MatrixXd& tangent() const { return tangent_; }
   [[nodiscard]] const Eigen::MatrixXd& damping() const { return damping_; }
+  /// Change of the forces with the closings, sample by sample, less `mean` x change; couplings included.
+  void apply_tangent(const Eigen::Ref<const Eigen::MatrixXd>& change, const Eigen::VectorXd& mean,
+                     Eigen::Ref<Eigen::MatrixXd> force) const;
 
   /// Forces at the very instants (just after a jump), and the contact states.
   void evaluate_at_instants(const Eigen::MatrixXd& closing, const Eigen::MatrixXd& rate, Eigen::MatrixXd& force,
@@ -47,6 +50,7 @@ class SampledMeshes {
   double step_ = 0;
   std::vector<std::vector<Piece>> pieces_;  // per sample; empty when no stiffness jumps
   Eigen::MatrixXd tangent_, damping_;
+  Eigen::MatrixXd coupled_, block_;  // with couplings: meshes x (meshes samples), one block per sample
   // Of the sample in work, per mesh.
   Eigen::VectorXd closing_, rate_, moved_, force_;
   std::vector<char> whole_;  // the contact state does not change within the step

@@ -51,6 +51,57 @@ BOOST_AUTO_TEST_CASE(base_scene_reaches_its_steady_state) {
   BOOST_TEST(std::abs(r.series.time[0] - (r.total_cycles - 55) / r.mesh_frequency) <= 1e-12);
 }
 
+// Three ways to the same steady state: directly, directly and confirmed, by marching from rest.
+BOOST_AUTO_TEST_CASE(direct_solution_and_marching_agree) {
+  auto stage = stages::ring_paper();
+  stage.planet_errors[1].eccentricity.phase = 2;
+  auto options = quick();
+  const auto confirmed = simulate(stage, options);
+  BOOST_TEST(confirmed.confirmed);
+  BOOST_TEST(confirmed.total_cycles == 55);
+  BOOST_REQUIRE((confirmed.direct && confirmed.direct->converged));
+  // The integrator's tolerance of 1e-6 times some, and what 16 harmonics leave out.
+  BOOST_TEST(*confirmed.steady_difference <= 1e-5);
+  options.confirm = false;
+  const auto direct = simulate(stage, options);
+  BOOST_TEST(direct.steady);
+  BOOST_TEST(direct.total_cycles == 0);
+  BOOST_TEST(std::isnan(direct.energy.relative));
+  BOOST_TEST(direct.force_balance_relative <= 1e-6);
+  BOOST_TEST((direct.series.force - confirmed.series.force).cwiseAbs().maxCoeff() <= 1e-5 * direct.mean_mesh_force);
+  options.keep_series = false;
+  BOOST_TEST(simulate(stage, options).series.force.size() == 0);
+  options = quick();
+  options.steady_state = SteadyState::marching;
+  const auto marched = simulate(stage, options);
+  BOOST_TEST(marched.steady);
+  BOOST_TEST((!marched.direct && !marched.confirmed));
+  for (const auto& [a, b] : {std::pair(direct.sun_planet, marched.sun_planet), std::pair(direct.ring_planet, marched.ring_planet)}) {
+    const auto agree = [](const Figure& x, const Figure& y) { return std::abs(x.value - y.value) <= x.error + y.error; };
+    BOOST_TEST(agree(a.load_sharing.instantaneous, b.load_sharing.instantaneous));
+    BOOST_TEST(agree(a.load_sharing.averaged, b.load_sharing.averaged));
+    for (int n = 0; n < 5; ++n) BOOST_TEST(agree(a.branches[n].dynamic_factor_max, b.branches[n].dynamic_factor_max));
+  }
+}
+
+// At a tenth of the torque teeth part everywhere and harmonic balance gives up; marching settles all the same, also
+// when no confirmation was asked for.
+BOOST_AUTO_TEST_CASE(marching_takes_over_where_harmonic_balance_fails) {
+  auto stage = stages::ring_paper();
+  stage.sun_torque *= 0.1;
+  auto options = quick();
+  options.confirm = false;
+  options.periodic.max_iterations = 3;
+  const auto r = simulate(stage, options);
+  BOOST_REQUIRE(r.direct.has_value());
+  BOOST_TEST(!r.direct->converged);
+  BOOST_TEST(!r.direct->trouble.empty());
+  BOOST_TEST(r.steady);
+  BOOST_TEST(!r.confirmed);
+  BOOST_TEST(r.total_cycles >= 110);
+  BOOST_TEST(r.statistics.contact_events > 0);
+}
+
 // The error that is stated covers the distance to a much finer run.
 BOOST_AUTO_TEST_CASE(stated_errors_cover_the_true_ones) {
   const auto stage = stages::ring_paper();

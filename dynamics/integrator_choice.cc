@@ -1,0 +1,98 @@
+#include "dynamics/integrator_choice.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+
+#include "core/errors.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+/// Eigenvalues (1/s) of the state matrix with mean mesh stiffness, all teeth in contact.
+Eigen::VectorXcd state_eigenvalues(const LumpedSystem& system) {
+  const Eigen::Index n = system.freedoms();
+  Eigen::MatrixXd stiffness = system.stiffness() + system.rotating_stiffness();
+  Eigen::MatrixXd damping = system.damping() + system.gyroscopic();
+  for (std::size_t m = 0; m < system.meshes().size(); ++m) {
+    const auto& mesh = system.meshes()[m];
+    const Eigen::VectorXd b = system.mesh_vector(static_cast<int>(m));
+    stiffness += mean_stiffness(mesh.excitation) * b * b.transpose();
+    damping += mesh.damping * b * b.transpose();
+  }
+  const Eigen::LLT<Eigen::MatrixXd> mass(system.mass());
+  // Velocities / w: entries of like size.
+  const Eigen::MatrixXd rates = mass.solve(stiffness);
+  const double w = std::sqrt(std::max(rates.cwiseAbs().maxCoeff(), 1e-300));
+  Eigen::MatrixXd state = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  state.topRightCorner(n, n).setIdentity();
+  state.bottomLeftCorner(n, n) = -rates / (w * w);
+  state.bottomRightCorner(n, n) = -mass.solve(damping) / w;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(state, false);
+  if (solver.info() != Eigen::Success) throw SolverError("the eigenvalues of the stage were not found");
+  return w * solver.eigenvalues();
+}
+
+/// Stability function of the fifth-order Cash-Karp method.
+double growth(std::complex<double> z) {
+  return std::abs(1.0 + z * (1.0 + z * (1.0 / 2 + z * (1.0 / 6 + z * (1.0 / 24 + z * (1.0 / 120 + z / 800.0))))));
+}
+
+/// |z| at which the method turns unstable along the direction of the eigenvalue.
+double stable_reach(std::complex<double> eigenvalue) {
+  const std::complex<double> direction = eigenvalue / std::abs(eigenvalue);
+  // Along the imaginary axis the method grows by 1e-3 or less per step up to |z| = 0.8: looked for from there on.
+  for (double r = 0.8; r < 6; r += 0.02)
+    if (growth(r * direction) > 1) return r;
+  return 6;
+}
+
+}  // namespace
+
+IntegratorChoice choose_integrator(const LumpedSystem& system, double relative_tolerance) {
+  IntegratorChoice choice;
+  choice.stability_step = choice.implicit_step = std::numeric_limits<double>::infinity();
+  choice.least_damping = 1;
+  double frequency = 0;
+  for (const auto& mesh : system.meshes()) frequency = std::max(frequency, mesh.frequency);
+  if (!(frequency > 0) || system.freedoms() == 0) {
+    choice.reason = "explicit Runge-Kutta: nothing meshes that could set a pace";
+    return choice;
+  }
+  const double steps_of_bdf = 75 * std::pow(1e-4 / relative_tolerance, 1.0 / 8);
+  constexpr double dearer = 2, well_damped = 0.3;
+  choice.implicit_step = 1 / (frequency * steps_of_bdf);
+  const double worthwhile = choice.implicit_step / dearer;  // explicit steps shorter than this cost more
+  const Eigen::VectorXcd eigenvalues = state_eigenvalues(system);
+  const double zero = 1e-9 * eigenvalues.cwiseAbs().maxCoeff();
+  for (const auto& p : eigenvalues) {
+    if (std::abs(p) <= zero || p.real() > 0) continue;
+    const double step = stable_reach(p) / std::abs(p);
+    choice.stability_step = std::min(choice.stability_step, step);
+    if (step < worthwhile) choice.least_damping = std::min(choice.least_damping, -p.real() / std::abs(p));
+  }
+  const double needed = 1 / (frequency * choice.stability_step);
+  if (choice.stability_step >= worthwhile) {
+    choice.reason = fmt::format("explicit Runge-Kutta: stable with {:.0f} steps per mesh cycle, BDF would take {:.0f}, "
+                                "each twice as dear",
+                                std::ceil(needed), steps_of_bdf);
+  } else if (choice.least_damping < well_damped) {
+    choice.reason = fmt::format("explicit Runge-Kutta: stiff ({:.0f} steps per mesh cycle for stability), but fast "
+                                "motions ring on (damping ratio {:.3f}) and have to be followed",
+                                std::ceil(needed), choice.least_damping);
+  } else {
+    choice.method = Integrator::cvode_bdf;
+    choice.reason = fmt::format("BDF: stability would ask the explicit method for {:.0f} steps per mesh cycle where "
+                                "BDF takes {:.0f}; the fast motions are well damped (ratio {:.2f} or more)",
+                                std::ceil(needed), steps_of_bdf, choice.least_damping);
+  }
+  return choice;
+}
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,95 @@
+#include "dynamics/response_evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/figures.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+/// Largest value of a sampled curve: as sampled, and at the top of the parabola through the highest sample and its
+/// neighbours. Their difference tells what the sampling misses.
+struct Peak {
+  double sampled = 0, refined = 0;
+};
+
+Peak peak_of(const Eigen::Ref<const Eigen::RowVectorXd>& values) {
+  Eigen::Index i = 0;
+  Peak peak;
+  peak.sampled = peak.refined = values.maxCoeff(&i);
+  if (i == 0 || i + 1 >= values.size() || !std::isfinite(peak.sampled)) return peak;
+  const double rise = values[i] - values[i - 1], fall = values[i] - values[i + 1];
+  if (rise + fall > 0) peak.refined += (rise - fall) * (rise - fall) / (8 * (rise + fall));
+  return peak;
+}
+
+Peak highest(const Peak& a, const Peak& b) { return {std::max(a.sampled, b.sampled), std::max(a.refined, b.refined)}; }
+
+/// Highest peak over the rows of a matrix of branches x times.
+Peak peak_of_rows(const Eigen::Ref<const Eigen::MatrixXd>& values) {
+  Peak peak = peak_of(values.row(0));
+  for (Eigen::Index i = 1; i < values.rows(); ++i) peak = highest(peak, peak_of(values.row(i)));
+  return peak;
+}
+
+Peak sharing_peak(const Eigen::Ref<const Eigen::MatrixXd>& force) {
+  const double sampled = load_sharing_instantaneous(force);
+  if (!std::isfinite(sampled)) return {sampled, sampled};
+  return peak_of_rows(load_sharing_over_time(force));
+}
+
+/// The refined peak with the sum of what the sampling misses and of the differences to other runs: these are
+/// independent causes that may add up.
+Figure figure(const Peak& best, std::initializer_list<Peak> others) {
+  Figure result{best.refined, 0};
+  if (!std::isfinite(best.refined)) return result;
+  result.error = best.refined - best.sampled;
+  for (const auto& other : others) result.error += std::abs(best.refined - other.refined);
+  return result;
+}
+
+Peak averaged_peak(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_per_cycle) {
+  const double value = load_sharing_averaged(force, samples_per_cycle);  // smooth: a sliding mean needs no refinement
+  return {value, value};
+}
+
+}  // namespace
+
+MeshKindResult evaluate_meshes(const ResponseEvidence& evidence, Eigen::Index first, Eigen::Index planets,
+                               const Eigen::MatrixXd& quasi_static_force) {
+  const auto rows = [&](const ResponseWindow& w) { return w.force.middleRows(first, planets); };
+  const auto best = rows(evidence.best), before = rows(evidence.before), loose = rows(evidence.loose);
+  MeshKindResult result;
+  auto& sharing = result.load_sharing;
+  sharing.instantaneous = figure(sharing_peak(best), {sharing_peak(before), sharing_peak(loose)});
+  sharing.averaged = figure(averaged_peak(best, evidence.best.samples_per_cycle),
+                            {averaged_peak(before, evidence.before.samples_per_cycle),
+                             averaged_peak(loose, evidence.loose.samples_per_cycle)});
+  sharing.quasi_static = figure(sharing_peak(quasi_static_force), {});
+  for (Eigen::Index p = 0; p < planets; ++p) {
+    const double f = evidence.mean_force;
+    BranchResult branch;
+    branch.dynamic_factor_max =
+        figure(peak_of(best.row(p) / f), {peak_of(before.row(p) / f), peak_of(loose.row(p) / f)});
+    branch.dynamic_factor_min = evidence.best.force.row(first + p).minCoeff() / f;
+    branch.mean_force = evidence.best.force.row(first + p).mean();
+    branch.contact_loss = evidence.best.open[first + p];
+    result.branches.push_back(branch);
+  }
+  return result;
+}
+
+double force_balance(const PlanetaryStage& stage, const LumpedSystem& system, const ResponseWindow& window,
+                     const SystemState& begin, const SystemState& end, int cycles) {
+  const int u = system.find("sun_u");
+  const double duration = cycles / stage.mesh_frequency();
+  const double forces = window.force.topRows(stage.planets()).colwise().sum().mean();
+  const double support = system.stiffness()(u, u) * window.displacement.row(u).mean() +
+                         system.damping()(u, u) * (end.q[u] - begin.q[u]) / duration;
+  const double inertia = system.mass()(u, u) * (end.v[u] - begin.v[u]) / duration;
+  return std::abs((forces + support + inertia) / system.load()[u] - 1);
+}
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,238 @@
+#include "dynamics/periodic_response.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "core/errors.h"
+#include "dynamics/frequency_response.h"
+#include "dynamics/integrate.h"
+#include "tests/dynamics/stages.h"
+
+BOOST_AUTO_TEST_SUITE(periodic_responses)
+
+using namespace annulus::dynamics;
+
+constexpr double load = 30, frequency = 20;  // N, Hz
+
+/// A mass of 2 kg, natural frequency 25.2 Hz, pressed into its mesh with 30 N (0.6 mm).
+struct MeshedMass {
+  MeshElement mesh;
+  MeshedMass() {
+    mesh.name = "m";
+    mesh.excitation = ConstantStiffness{5e4};
+    mesh.frequency = frequency;
+    mesh.damping = 40;  // ratio 0.06
+  }
+  [[nodiscard]] LumpedSystem system() const {
+    LumpedSystemBuilder builder;
+    MeshElement m = mesh;
+    m.b = builder.add_freedom("x");
+    builder.add_mass(m.b, 2);
+    builder.add_load(m.b, load);
+    builder.add_mesh(m);
+    return builder.build();
+  }
+};
+
+PeriodicResponse solve(const LumpedSystem& system, int samples, double tolerance = 1e-9) {
+  PeriodicOptions options;
+  options.samples_per_cycle = samples;
+  options.tolerance = tolerance;
+  return periodic_response(system, 1 / frequency, 1, options);
+}
+
+/// Forces (meshes x samples) over the last of many periods of time integration.
+Eigen::MatrixXd marched(const LumpedSystem& system, double period, int periods, Eigen::Index samples, double absolute) {
+  auto workspace = system.workspace();
+  SystemState state;
+  state.q = state.v = Eigen::VectorXd::Zero(system.freedoms());
+  IntegratorOptions options;
+  options.method = Integrator::arkode_explicit;
+  options.relative_tolerance = 1e-10;
+  options.absolute_tolerance = absolute;
+  integrate(system, state, (periods - 1) * period, options, workspace);
+  Eigen::MatrixXd force(static_cast<Eigen::Index>(system.meshes().size()), samples);
+  integrate(system, state, periods * period, options, workspace, static_cast<int>(samples),
+            [&](int i, const SystemState&) {
+              for (Eigen::Index m = 0; m < force.rows(); ++m) force(m, i) = workspace.force[m];
+            });
+  return force;
+}
+
+double largest(const Eigen::MatrixXd& difference) { return difference.cwiseAbs().maxCoeff(); }
+
+BOOST_AUTO_TEST_CASE(harmonic_error_in_closed_form) {
+  using namespace std::complex_literals;
+  MeshedMass mass;
+  const double w = 2 * std::numbers::pi * frequency, e = 1e-4;
+  mass.mesh.errors = {{e, w, 0.7}};
+  const auto response = solve(mass.system(), 16);
+  BOOST_TEST(response.converged);
+  // (k - w^2 m + i w c) x = (k + i w c) e, e sin(w t + 0.7) = Re(-i e exp(0.7 i) exp(i w t))
+  const auto error = -1i * e * std::exp(0.7i), coupling = 5e4 + 40i * w;
+  const auto x = coupling * error / (coupling - 2 * w * w);
+  for (Eigen::Index i = 0; i < 16; ++i) {
+    const auto turn = std::exp(1i * w * response.time[i]);
+    // Rounding of kissing sums of some ten terms; the problem is linear and solved in one step.
+    BOOST_TEST(std::abs(response.displacement(0, i) - load / 5e4 - (x * turn).real()) <= 1e-12 * 1e-3);
+    BOOST_TEST(std::abs(response.velocity(0, i) - (1i * w * x * turn).real()) <= 1e-12 * w * 1e-3);
+    BOOST_TEST(std::abs(response.force(0, i) - load - (coupling * (x - error) * turn).real()) <= 1e-12 * load);
+  }
+  BOOST_TEST(response.sampling_difference <= 1e-12 * load);
+}
+
+// Mathieu's equation with load and damper, against time integration until all is still (exp(-10 x 2.5) of the start).
+BOOST_AUTO_TEST_CASE(parametric_excitation_agrees_with_marching) {
+  MeshedMass mass;
+  mass.mesh.excitation = HarmonicStiffness{5e4, 0.4, 0.1};
+  const auto system = mass.system();
+  const auto response = solve(system, 64);
+  BOOST_TEST(response.converged);
+  BOOST_TEST(largest(response.force.array() - load) > 0.2 * load);  // the stiffness does excite
+  const auto force = marched(system, 1 / frequency, 60, 64, 1e-14);
+  BOOST_TEST(largest(response.force - force) <= 1e-7 * load);  // 1e-10 x steps of some decay times
+}
+
+// Separation near resonance. Averaging over the time step makes the error of the sampling second order.
+BOOST_AUTO_TEST_CASE(contact_loss_agrees_with_marching_to_second_order) {
+  MeshedMass mass;
+  mass.mesh.errors = {{5e-4, 2 * std::numbers::pi * frequency, 0.3}};
+  mass.mesh.half_backlash = 5e-3;
+  const auto system = mass.system();
+  const auto force = marched(system, 1 / frequency, 80, 1024, 1e-14);
+  BOOST_TEST(force.minCoeff() <= 0.0);
+  double previous = 0;
+  for (const int samples : {64, 256, 1024}) {
+    const auto response = solve(system, samples);
+    BOOST_TEST(response.converged);
+    BOOST_TEST(response.open[0] > 0.05);
+    BOOST_TEST(response.open[0] < 0.9);
+    // Forces jump with the damper where teeth meet, so their errors are compared where the teeth touch for sure.
+    double error = 0;
+    for (Eigen::Index i = 0; i < samples; ++i)
+      if (force(0, i * (1024 / samples)) > load)
+        error = std::max(error, std::abs(response.force(0, i) - force(0, i * (1024 / samples))));
+    if (previous > 0) BOOST_TEST(std::log2(previous / error) / 2 >= 1.6);
+    previous = error;
+  }
+  BOOST_TEST(previous <= 1e-3 * load);
+}
+
+BOOST_AUTO_TEST_CASE(jumping_stiffness_agrees_with_marching_to_second_order) {
+  MeshedMass mass;
+  mass.mesh.excitation = RectangularStiffness{5e4, 0.3, 0.37, 0.1};
+  const auto system = mass.system();
+  const auto force = marched(system, 1 / frequency, 60, 1024, 1e-14);
+  double previous = 0;
+  for (const int samples : {64, 256, 1024}) {
+    const auto response = solve(system, samples);
+    BOOST_TEST(response.converged);
+    double error = 0;
+    for (Eigen::Index i = 0; i < samples; ++i)
+      error = std::max(error, std::abs(response.force(0, i) - force(0, i * (1024 / samples))));
+    if (previous > 0) BOOST_TEST(std::log2(previous / error) / 2 >= 1.6);
+    previous = error;
+  }
+  BOOST_TEST(previous <= 1e-3 * load);
+}
+
+BOOST_AUTO_TEST_CASE(stages_agree_with_marching) {
+  auto with_phases = stages::ring_paper();
+  for (int n = 0; n < 5; ++n) {
+    with_phases.planet_errors[n].eccentricity.phase = 1.3 * n;
+    with_phases.planet_errors[n].installation.phase = 0.4 + 2.1 * n;
+  }
+  auto single = stages::ring_paper();
+  single.planet_angles.resize(1);
+  single.planet_errors.resize(1);
+  for (auto* list : {&single.sun_phase_lag, &single.ring_phase_lag, &single.ring_tooth_offset}) list->resize(1);
+  for (const auto& stage : {stages::ring_paper(), with_phases, single}) {
+    PeriodicOptions options;
+    options.tolerance = 1e-8;
+    const auto response = periodic_response(stage, options);
+    BOOST_TEST(response.converged);
+    BOOST_REQUIRE(response.time.size() == 55 * 32);
+    // From its own state at time 0 the stage follows it: the state is part of the test.
+    const auto system = assemble(stage);
+    auto workspace = system.workspace();
+    SystemState state;
+    state.q = response.displacement.col(0);
+    state.v = response.velocity.col(0);
+    IntegratorOptions integrator;
+    integrator.relative_tolerance = 1e-9;
+    double worst = 0, drift = 0;
+    integrate(system, state, 55 / stage.mesh_frequency(), integrator, workspace, 55 * 32,
+              [&](int i, const SystemState& s) {
+                for (Eigen::Index m = 0; m < response.force.rows(); ++m)
+                  worst = std::max(worst, std::abs(workspace.force[m] - response.force(m, i)));
+                drift = std::max(drift, largest(s.q - response.displacement.col(i)));
+              });
+    // Harmonics above the 16th are left out: the difference to half the samples bounds that; and 1e-9 x some 1e4 steps.
+    BOOST_TEST(response.sampling_difference <= 1e-5 * stage.mean_mesh_force());
+    BOOST_TEST(worst <= 1e-6 * stage.mean_mesh_force());
+    BOOST_TEST(drift <= 1e-6 * 1e-4);  // m; displacements are some 1e-4
+  }
+}
+
+BOOST_AUTO_TEST_CASE(transfer_functions_are_those_of_the_matrices) {
+  using Complex = std::complex<double>;
+  auto stage = stages::ring_paper();
+  stage.carrier_speed = 200;
+  const auto system = assemble(stage);
+  const Eigen::VectorXd k = Eigen::VectorXd::LinSpaced(10, 1e9, 2e9);
+  const FrequencyResponse response(system, k);
+  BOOST_TEST(response.by_eigenvalues());
+  const double spacing = 700;
+  const Eigen::Index lines = 40;
+  const auto transfer = response.mesh_transfer(spacing, lines);
+  const Eigen::MatrixXcd q = response.displacements(spacing, Eigen::MatrixXcd::Constant(10, lines, Complex(1, 0.3)));
+  for (const Eigen::Index j : {0, 7, 39}) {
+    const double w = static_cast<double>(j + 1) * spacing;
+    Eigen::MatrixXcd dynamic = (system.stiffness() + system.rotating_stiffness() - w * w * system.mass()).cast<Complex>();
+    dynamic += Complex(0, w) * (system.damping() + system.gyroscopic()).cast<Complex>();
+    for (int m = 0; m < 10; ++m) {
+      const Eigen::VectorXcd b = system.mesh_vector(m).cast<Complex>();
+      dynamic += Complex(k[m], w * system.meshes()[m].damping) * b * b.transpose();
+    }
+    const Eigen::MatrixXcd b = response.mesh_vectors().cast<Complex>();
+    const Eigen::MatrixXcd solved = dynamic.partialPivLu().solve(b);
+    const Eigen::MatrixXcd expected = b.transpose() * solved;
+    // Rounding times the condition of the eigenvectors; the class itself demands 1e-9.
+    BOOST_TEST(largest(transfer.middleCols(20 * j, 10) - expected.real()) <= 1e-9 * largest(expected.cwiseAbs()));
+    BOOST_TEST(largest(transfer.middleCols(20 * j + 10, 10) - expected.imag()) <= 1e-9 * largest(expected.cwiseAbs()));
+    const Eigen::VectorXcd expected_q = solved * Eigen::VectorXcd::Constant(10, Complex(1, 0.3));
+    BOOST_TEST(largest((q.col(j) - expected_q).cwiseAbs()) <= 1e-8 * largest(expected_q.cwiseAbs()));
+  }
+  // Critical damping: the eigenvectors coincide.
+  MeshedMass critical;
+  critical.mesh.damping = 2 * std::sqrt(5e4 * 2);
+  const FrequencyResponse fallback(critical.system(), Eigen::VectorXd::Constant(1, 5e4));
+  const double w = 100;
+  const Complex expected = 1.0 / Complex(5e4 - 2 * w * w, w * critical.mesh.damping);
+  const auto found = fallback.mesh_transfer(w, 1);
+  BOOST_TEST(std::abs(Complex(found(0, 0), found(0, 1)) - expected) <= 1e-9 * std::abs(expected));
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_solved_is_said) {
+  // Light load, wide gap: the mass rattles without a period that Newton's method would find from afar.
+  MeshedMass mass;
+  mass.mesh.errors = {{5e-2, 2 * std::numbers::pi * frequency, 0}};
+  mass.mesh.half_backlash = 1e-4;
+  PeriodicOptions options;
+  options.max_iterations = 1;
+  const auto response = periodic_response(mass.system(), 1 / frequency, 1, options);
+  BOOST_TEST(!response.converged);
+  BOOST_TEST(!response.trouble.empty());
+  BOOST_TEST(response.residual > options.tolerance);
+  options.samples_per_cycle = 20;
+  BOOST_CHECK_THROW((void)periodic_response(mass.system(), 1 / frequency, 1, options), annulus::InputError);
+  auto free_ring = stages::ring_paper();
+  free_ring.ring.torsional_support = 0;
+  BOOST_CHECK_THROW((void)periodic_response(free_ring), annulus::InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
