@@ -37,8 +37,8 @@ dynamics::KindFigures kind_figures(const PointJson& j) {
   return {point_number(j.at(0)), point_number(j.at(1)), point_number(j.at(2)), point_number(j.at(3)),
           point_number(j.at(4))};
 }
-PointJson motion_json(const dynamics::Motion& m) { return numbers({m.rms, m.peak_to_peak}); }
-dynamics::Motion motion(const PointJson& j) { return {point_number(j.at(0)), point_number(j.at(1))}; }
+PointJson motion_json(const dynamics::MotionRange& m) { return numbers({m.rms, m.peak_to_peak}); }
+dynamics::MotionRange motion(const PointJson& j) { return {point_number(j.at(0)), point_number(j.at(1))}; }
 
 std::string point_text(const StudyPoint& point, const std::string& id) {
   const auto& f = point.figures;

@@ -11,13 +11,6 @@ namespace annulus::dynamics {
 
 namespace {
 
-/// The one place that decides how the response of a point is found.
-DynamicResponse response_of_point(const PlanetaryStage& stage, const PointOptions& options) {
-  SimulationOptions simulation = options.simulation;
-  simulation.estimate_error = false;  // the nominal run has the error; a study compares
-  return simulate(stage, simulation);
-}
-
 KindFigures figures_of(const MeshKindResult& kind) {
   KindFigures f{kind.load_sharing.instantaneous.value, kind.load_sharing.averaged.value,
                 kind.load_sharing.quasi_static.value};
@@ -28,15 +21,30 @@ KindFigures figures_of(const MeshKindResult& kind) {
   return f;
 }
 
-Motion motion_of(const Eigen::Ref<const Eigen::RowVectorXd>& values) {
+/// The one place that decides how the response of a point is found: directly, without confirmation, as long as no mesh
+/// opens. With contact lost several motions may be possible, and marching decides which one it is.
+DynamicResponse response_of_point(const PlanetaryStage& stage, const PointOptions& options) {
+  SimulationOptions simulation = options.simulation;
+  simulation.estimate_error = false;  // the nominal run has the error; a study compares
+  simulation.confirm = false;
+  simulation.keep_series = options.motion;
+  auto response = simulate(stage, simulation);
+  const bool opens = std::max(figures_of(response.sun_planet).contact_loss,
+                              figures_of(response.ring_planet).contact_loss) > 0;
+  if (!opens || simulation.mesh_cycles) return response;
+  simulation.confirm = true;
+  return simulate(stage, simulation);
+}
+
+MotionRange motion_of(const Eigen::Ref<const Eigen::RowVectorXd>& values) {
   return {std::sqrt((values.array() - values.mean()).square().mean()), values.maxCoeff() - values.minCoeff()};
 }
 
-Motion sun_motion(const LumpedSystem& system, const TimeSeries& series) {
+MotionRange sun_motion(const LumpedSystem& system, const TimeSeries& series) {
   const int x = system.find("sun_x"), y = system.find("sun_y");
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   if (x < 0 || y < 0) return {unknown, unknown};
-  const Motion a = motion_of(series.displacement.row(x)), b = motion_of(series.displacement.row(y));
+  const MotionRange a = motion_of(series.displacement.row(x)), b = motion_of(series.displacement.row(y));
   return {std::hypot(a.rms, b.rms), std::max(a.peak_to_peak, b.peak_to_peak)};
 }
 
@@ -44,21 +52,18 @@ Motion sun_motion(const LumpedSystem& system, const TimeSeries& series) {
 Eigen::MatrixXd deflections(const LumpedSystem& system, const TimeSeries& series) {
   const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
   Eigen::MatrixXd result(meshes, series.time.size());
-  Eigen::MatrixXd b(meshes, system.freedoms());
-  for (Eigen::Index m = 0; m < meshes; ++m) b.row(m) = system.mesh_vector(static_cast<int>(m)).transpose();
-  result.noalias() = b * series.displacement;
   auto workspace = system.workspace();
   for (Eigen::Index i = 0; i < series.time.size(); ++i) {
-    system.evaluate_excitation(series.time[i], workspace);
-    result.col(i) -= Eigen::Map<const Eigen::VectorXd>(workspace.error.data(), meshes);
+    system.detect_contact(series.time[i], series.displacement.col(i).data(), workspace);
+    result.col(i) = Eigen::Map<const Eigen::VectorXd>(workspace.delta.data(), meshes);
   }
   return result;
 }
 
-Motion largest_motion(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  Motion largest;
+MotionRange largest_motion(const Eigen::Ref<const Eigen::MatrixXd>& rows) {
+  MotionRange largest;
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    const Motion m = motion_of(rows.row(i));
+    const MotionRange m = motion_of(rows.row(i));
     largest = {std::max(largest.rms, m.rms), std::max(largest.peak_to_peak, m.peak_to_peak)};
   }
   return largest;
@@ -97,7 +102,7 @@ PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& opt
   return figures;
 }
 
-const char* point_method() { return "time integration 1"; }
+const char* point_method() { return "direct 1"; }
 
 double point_seconds(const PlanetaryStage& stage, int error_period) {
   // Measured with five planets: a millisecond per mesh cycle, four windows until the response repeats.

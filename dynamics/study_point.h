@@ -7,7 +7,7 @@
 namespace annulus::dynamics {
 
 /// Root mean square about the mean and whole range of a motion over the window, m.
-struct Motion {
+struct MotionRange {
   double rms = 0, peak_to_peak = 0;
 };
 
@@ -30,8 +30,8 @@ struct PointFigures {
   bool steady = false;
   int window_cycles = 0;
   // Only with PointOptions::motion:
-  Motion sun{};  ///< of the sun's centre: distance from its mean place; range: the wider one of x and y. NaN when held
-  Motion sun_mesh{}, ring_mesh{};         ///< deflection of the mesh that moves most
+  MotionRange sun{};  ///< of the sun's centre: distance from its mean place; range: the wider one of x and y. NaN when held
+  MotionRange sun_mesh{}, ring_mesh{};         ///< deflection of the mesh that moves most
   std::vector<double> frequencies{};      ///< Hz, the lowest distinct natural frequencies above zero
   std::vector<PoincarePoint> poincare{};  ///< one per mesh cycle of the window, `poincare_cycles` at most
 };
