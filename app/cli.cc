@@ -14,6 +14,7 @@
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/scene_schema.h"
+#include "app/studies.h"
 #include "app/summary.h"
 #include "core/errors.h"
 #include "core/log.h"
@@ -56,6 +57,7 @@ void dynamics_command(const Arguments& arguments) {
 
 void plan_command(const Arguments& arguments) {
   const Scene scene = read_scene(arguments.scene);
+  check_studies(scene);
   const Plan plan = make_plan(scene, make_geometry(scene));
   fmt::print("{}", arguments.json ? to_json(plan) : to_text(plan));
 }
@@ -63,6 +65,7 @@ void plan_command(const Arguments& arguments) {
 void check_command(const Arguments& arguments) {
   const Scene scene = read_scene(arguments.scene);
   const auto geometry = make_geometry(scene);
+  check_studies(scene);
   fmt::print("{}: good ({} ring{}, {} planets)\n", arguments.scene, geometry.rings.size(),
              geometry.rings.size() == 1 ? "" : "s", scene.stage.planets);
 }

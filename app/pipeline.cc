@@ -3,42 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <thread>
 
 #include "app/progress.h"
 #include "app/report.h"
+#include "app/studies.h"
 #include "app/summary.h"
+#include "app/tasks.h"
 #include "core/csv.h"
 #include "core/log.h"
 
 namespace annulus::app {
 
 namespace {
-
-/// Independent tasks on `threads` threads; the first exception of any task is thrown again at the end.
-template <class Task>
-void for_each_task(std::size_t tasks, int threads, Task task) {
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::exception_ptr> failures(tasks);
-  const auto work = [&] {
-    for (std::size_t i = next++; i < tasks; i = next++) {
-      try {
-        task(i);
-      } catch (...) {
-        failures[i] = std::current_exception();
-      }
-    }
-  };
-  std::vector<std::thread> pool;
-  for (int i = 1; i < threads && static_cast<std::size_t>(i) < tasks; ++i) pool.emplace_back(work);
-  work();
-  for (auto& thread : pool) thread.join();
-  for (const auto& failure : failures) {
-    if (failure) std::rethrow_exception(failure);
-  }
-}
 
 void write_meshes(const MeshModel& model, const fem::LoadedMeshResult& solved, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
@@ -82,12 +58,10 @@ std::vector<std::pair<std::string, double>> timings_of(const RunResult& result, 
   for (const auto& [stage, seconds] : timers.report()) {
     if (stage == "total") total = seconds;
   }
-  const double dynamics = timers.seconds("dynamics");
-  return {{"mesh", mesh},
-          {"condense", condense},
-          {"contact", contact},
-          {"dynamics", dynamics},
-          {"other", std::max(0.0, total - mesh - condense - contact - dynamics)},
+  const double dynamics = timers.seconds("dynamics"), studies = timers.seconds("studies");
+  return {{"mesh", mesh},       {"condense", condense},
+          {"contact", contact}, {"dynamics", dynamics},
+          {"studies", studies}, {"other", std::max(0.0, total - mesh - condense - contact - dynamics - studies)},
           {"total", total}};
 }
 
@@ -157,6 +131,7 @@ RunResult run(const Scene& scene, const RunOptions& options) {
   std::optional<Reference> reference;
   if (scene.reference) reference = read_reference(scene.file.parent_path() / *scene.reference);
   GearGeometry geometry = make_geometry(scene);
+  if (options.with_dynamics) check_studies(scene);  // before anything expensive
   Plan plan = make_plan(scene, geometry);
   auto sun_mesh = mesh_stiffness(scene, geometry, plan.meshes.front(), ring_names(scene), options);
   RunResult result{
@@ -172,6 +147,10 @@ RunResult run(const Scene& scene, const RunOptions& options) {
       auto& ring = result.rings[i];
       ring.response = dynamic_response(scene, result.geometry, i, result.sun_mesh, ring.mesh, options);
     });
+  }
+  if (options.with_dynamics) {
+    const auto timer = timers.measure("studies");
+    result.studies = run_studies(result, options);
   }
   result.timings = timings_of(result, timers);
   result.peak_memory_MB = peak_memory_MB();

@@ -12,6 +12,7 @@
 #include "app/reference.h"
 #include "app/scene.h"
 #include "app/stage_response.h"
+#include "app/study_result.h"
 
 /// annulus from a scene file to a report. Start reading here: the whole program is six functions in a row,
 ///
@@ -42,6 +43,7 @@ struct RunResult {
   MeshResult sun_mesh;  ///< solved once, the same for all rings
   std::vector<RingResult> rings{};
   std::optional<Reference> reference{};                   ///< published results to compare with
+  StudyResults studies{};                                 ///< sweeps, samples, sensitivity, as the scene asks
   std::vector<std::pair<std::string, double>> timings{};  ///< wall seconds by stage, then "other" and "total"
   double peak_memory_MB = 0;
 };
@@ -63,6 +65,9 @@ struct RunResult {
 [[nodiscard]] StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                              const MeshResult& sun_mesh, const MeshResult& ring_mesh,
                                              const RunOptions& options);
+
+// Where the scene asks for [[sweep]], [monte_carlo] or [sensitivity], stages 1 to 5 again for changed scenes
+// (studies.h).
 
 // 6. Report: OUT/report.html and OUT/summary.json (report.h, summary.h).
 

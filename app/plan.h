@@ -6,6 +6,7 @@
 #include "app/gear_geometry.h"
 #include "app/mesh_model.h"
 #include "app/scene.h"
+#include "app/study_plan.h"
 
 namespace annulus::app {
 
@@ -32,6 +33,7 @@ struct Plan {
   std::vector<std::pair<std::string, std::vector<Quantity>>> rings;  ///< per ring
   std::vector<MeshModel> meshes;                                     ///< sun mesh first, then one per ring
   std::vector<FreedomPlan> freedoms;
+  std::vector<StudyPlan> studies;    ///< sweeps, samples, sensitivity
   std::vector<std::string> remarks;  ///< simplifications and warnings
 
   /// Contact problems per level of resolution: positions x phases x loads, closure included, over all computed meshes.

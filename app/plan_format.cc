@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -40,6 +41,7 @@ Json value_json(const Value& value) {
   if (const auto* v = std::get_if<double>(&value)) return std::isinf(*v) ? Json("inf") : Json(*v);
   if (const auto* v = std::get_if<std::string>(&value)) return *v;
   if (const auto* v = std::get_if<std::vector<double>>(&value)) return *v;
+  if (const auto* v = std::get_if<std::vector<std::string>>(&value)) return *v;
   return nullptr;
 }
 
@@ -47,6 +49,11 @@ Json quantities_json(const std::vector<Quantity>& quantities) {
   Json json = Json::object();
   for (const auto& q : quantities) json[q.key] = q.value;
   return json;
+}
+
+std::string duration(double seconds) {
+  if (seconds < 90) return fmt::format("{:.0f} s", std::max(1.0, seconds));
+  return seconds < 5400 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
 }
 
 }  // namespace
@@ -74,6 +81,13 @@ std::string to_text(const Plan& plan) {
   if (!plan.freedoms.empty()) text += "\nLumped model\n";
   for (const auto& f : plan.freedoms)
     text += fmt::format("  {} {} {}\n", f.kept ? "kept   " : "dropped", pad(f.name, 18), f.reason);
+
+  if (!plan.studies.empty()) text += "\nStudies\n";
+  for (const auto& s : plan.studies) {
+    text += fmt::format("  {}: {}; {} responses of all rings, about {} on one core", s.name, s.what, s.responses,
+                        duration(s.seconds));
+    text += s.tables ? fmt::format("; {} stiffness tables of their own\n", s.tables) : ", on the tables of the scene\n";
+  }
 
   text += "\nRemarks\n";
   for (const auto& remark : plan.remarks) text += "  " + remark + "\n";
@@ -118,6 +132,12 @@ std::string to_json(const Plan& plan) {
   json["freedoms"] = Json::array();
   for (const auto& f : plan.freedoms)
     json["freedoms"].push_back({{"name", f.name}, {"kept", f.kept}, {"reason", f.reason}});
+  for (const auto& s : plan.studies)
+    json["studies"].push_back({{"name", s.name},
+                               {"what", s.what},
+                               {"responses", s.responses},
+                               {"stiffness_tables", s.tables},
+                               {"seconds_on_one_core", s.seconds}});
   json["remarks"] = plan.remarks;
   json["contact_problems"] = plan.contact_problems();
   return json.dump(2) + "\n";

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <mutex>
 #include <string>
 
 namespace annulus::app {
@@ -24,6 +26,22 @@ class Progress {
   std::chrono::steady_clock::time_point start_, last_;
   bool terminal_;
   bool drawn_ = false;
+};
+
+/// Progress of many tasks of equal weight; any thread may report one as done.
+class TaskProgress {
+ public:
+  TaskProgress(const std::string& label, std::size_t tasks) : progress_(label), tasks_(tasks) {}
+  void done() {
+    const std::scoped_lock lock(mutex_);
+    progress_.update(static_cast<double>(++done_) / static_cast<double>(tasks_));
+  }
+  void finish(const std::string& result) { progress_.finish(result); }
+
+ private:
+  Progress progress_;
+  std::mutex mutex_;
+  std::size_t tasks_, done_ = 0;
 };
 
 /// Turns all progress off (--quiet) or on.

@@ -110,7 +110,8 @@ std::string spectra(const RunResult& result, const char* mesh) {
                                                              lines[i].amplitude / 1e3, order_text(lines[i]))
                                                : "");
     if (spectrum.order.size() < 2) continue;
-    const Eigen::VectorXd kilonewton = spectrum.amplitude.tail(spectrum.amplitude.size() - 1) / 1e3;  // without the mean
+    const Eigen::VectorXd kilonewton =
+        spectrum.amplitude.tail(spectrum.amplitude.size() - 1) / 1e3;  // without the mean
     const auto order = spectrum.order.tail(kilonewton.size());
     highest = std::max(highest, kilonewton.maxCoeff());
     plots.push_back({.title = ring->name,
@@ -128,10 +129,11 @@ std::string spectra(const RunResult& result, const char* mesh) {
     plot.x_range = Range{0, plot.series.front().x.back()};
     pictures.push_back(to_svg(plot));
   }
-  return figure(pictures, "",
-                fmt::format("Force of planet 1 without its mean. Order 1 is the mesh frequency, {:.1f} Hz; lines beside "
-                            "whole orders are sidebands of the errors.",
-                            result.geometry.operating_point.mesh_frequency)) +
+  return figure(
+             pictures, "",
+             fmt::format("Force of planet 1 without its mean. Order 1 is the mesh frequency, {:.1f} Hz; lines beside "
+                         "whole orders are sidebands of the errors.",
+                         result.geometry.operating_point.mesh_frequency)) +
          html(table);
 }
 

@@ -21,7 +21,8 @@ std::size_t kind_colour(const std::string& kind) {
 std::string group_words(const std::string& group) {
   static const std::map<std::string, std::string> words = {{"sun_planet", "sun meshes"},
                                                            {"ring_planet", "ring meshes"},
-                                                           {"planet_bearing", "planet bearings"}};
+                                                           {"planet_bearing", "planet bearings"},
+                                                           {"ring_body", "the ring between the meshes"}};
   const auto found = words.find(group);
   if (found != words.end()) return found->second;
   std::string text = group;
@@ -82,9 +83,8 @@ std::string modes_table(const RunResult& result) {
     for (std::size_t r = 0; r < rows; ++r) {
       std::vector<std::string> row = {r == 0 ? kind : ""};
       for (std::size_t c = 0; c < columns.size(); ++c)
-        row.push_back(r < columns[c].size()
-                          ? mode_cell(rings_with_response(result)[c]->response->modes, columns[c][r])
-                          : "");
+        row.push_back(r < columns[c].size() ? mode_cell(rings_with_response(result)[c]->response->modes, columns[c][r])
+                                            : "");
       table.rows.push_back(std::move(row));
     }
   }
@@ -97,7 +97,7 @@ Plot campbell_plot(const RingResult& ring, double sun_speed_rpm) {
   const auto mesh = column_values(modes.campbell, "mesh_frequency_Hz");
   const auto orders = column_values(modes.critical_speeds, "mesh_order");
   const int highest = orders.empty() ? 1 : static_cast<int>(*std::max_element(orders.begin(), orders.end()));
-  const double top = highest * mesh.back() / 1e3;
+  const double top = 1.08 * highest * mesh.back() / 1e3;
   Plot plot{.title = ring.name,
             .x_label = "sun speed, r/min",
             .y_label = "frequency, kHz",
@@ -106,12 +106,10 @@ Plot campbell_plot(const RingResult& ring, double sun_speed_rpm) {
             .height = 330};
   for (int h = 1; h <= highest; ++h) {
     const double end = h * mesh.back() / 1e3;
-    plot.series.push_back({.label = fmt::format("mesh order {}", h),
-                           .x = {0, speed.back()},
-                           .y = {0, end},
-                           .colour = 6,
-                           .dashed = true});
-    plot.notes.push_back({speed.back(), end, fmt::format("{}", h)});
+    plot.series.push_back(
+        {.label = fmt::format("mesh order {}", h), .x = {0, speed.back()}, .y = {0, end}, .colour = 6, .dashed = true});
+    // Beside the line, which rises to the right.
+    plot.notes.push_back({0.985 * speed.back(), end, fmt::format("{}", h)});
   }
   for (std::size_t i = 0; i < modes.list.size(); ++i) {
     auto frequency = column_values(modes.campbell, fmt::format("mode{}_Hz", i + 1));
@@ -120,14 +118,14 @@ Plot campbell_plot(const RingResult& ring, double sun_speed_rpm) {
     plot.series.push_back(
         {.label = modes.list[i].kind, .x = speed, .y = frequency, .colour = kind_colour(modes.list[i].kind)});
   }
-  Series critical{.label = "excited", .colour = 6, .style = Series::Style::dots};
+  Series critical{.label = "excited", .colour = 7, .style = Series::Style::dots};
   for (const auto& row : modes.critical_speeds.rows) {
     if (row[modes.critical_speeds.column("participation")] < felt) continue;
     critical.x.push_back(row[0]);
     critical.y.push_back(row[modes.critical_speeds.column("frequency_Hz")] / 1e3);
   }
   plot.series.push_back(std::move(critical));
-  plot.series.push_back({.label = "operating speed", .x = {sun_speed_rpm, sun_speed_rpm}, .y = {0, top}, .colour = 7});
+  plot.series.push_back({.label = "operating speed", .x = {sun_speed_rpm, sun_speed_rpm}, .y = {0, top}, .colour = 4});
   return plot;
 }
 
@@ -168,8 +166,9 @@ std::string campbell_part(const RunResult& result) {
   if (pictures.empty()) return "";
   std::vector<std::pair<std::string, std::size_t>> legend;
   for (const auto& kind : kinds_of(result)) legend.emplace_back(kind, kind_colour(kind));
-  legend.emplace_back("operating speed", 7);
-  legend.emplace_back("mesh orders (dashed); dots: crossings the mesh excites", 6);
+  legend.emplace_back("operating speed", 4);
+  legend.emplace_back("mesh orders 1, 2, ...", 6);
+  legend.emplace_back("critical speeds", 7);
   return "<h3>Campbell diagram</h3>\n" +
          figure(pictures, legend_html(legend),
                 "Natural frequencies over speed, seen from the carrier, with gyroscopic and centripetal terms and no "
@@ -228,9 +227,10 @@ std::string shapes_part(const RunResult& result) {
   std::string text = "<h3>Mode shapes</h3>\n<figure class=\"shapes\">" +
                      legend_html({{"sun", 0}, {"planets", 1}, {"ring", 2}, {"carrier", 6}}) + "<div class=\"row\">";
   for (const auto& picture : pictures) text += "<div>" + picture + "</div>\n";
-  return text + fmt::format("</div><figcaption>The two lowest of each kind, ring '{}'; grey at rest, displacements not "
-                            "to scale. One of each pair or multiple.</figcaption></figure>\n",
-                            escape(ring.name));
+  return text + fmt::format(
+                    "</div><figcaption>The two lowest of each kind, ring '{}'; grey at rest, displacements not "
+                    "to scale. One of each pair or multiple.</figcaption></figure>\n",
+                    escape(ring.name));
 }
 
 }  // namespace

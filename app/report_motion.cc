@@ -41,9 +41,12 @@ std::string motion_table(const RunResult& result) {
     for (const double f : m.pin_force_mean_tangential)
       mean += f / static_cast<double>(m.pin_force_mean_tangential.size());
     const double largest = *std::max_element(m.pin_force_max.begin(), m.pin_force_max.end());
-    const double values[] = {largest / 1e3,           mean / 1e3,
-                             m.sun_support_max / 1e3, m.ring_support_max / 1e3,
-                             m.carrier_support_max / 1e3, m.ring_torque_mean / 1e3,
+    const double values[] = {largest / 1e3,
+                             mean / 1e3,
+                             m.sun_support_max / 1e3,
+                             m.ring_support_max / 1e3,
+                             m.carrier_support_max / 1e3,
+                             m.ring_torque_mean / 1e3,
                              m.sun_orbit_extent * 1e6};
     for (std::size_t i = 0; i < std::size(values); ++i) rows[i].push_back(fmt::format("{:.2f}", values[i]));
     rows[7].push_back(fmt::format("{:.2f} %", 100 * largest_loss(ring->response->figures)));
@@ -152,6 +155,9 @@ std::string sections(const RunResult& result) {
                              .colour = static_cast<std::size_t>(n),
                              .style = Series::Style::dots});
     }
+    RangeFinder x;
+    for (const auto& s : plot.series) x.add(s.x);
+    plot.x_range = x.range();
     plots.push_back(std::move(plot));
   }
   std::vector<std::string> pictures;
@@ -160,7 +166,8 @@ std::string sections(const RunResult& result) {
   return "<h3>Poincaré section</h3>\n" +
          figure(pictures, planet_legend(result.scene.stage.planets),
                 "Dynamic transmission error of both meshes of each planet once per mesh cycle. A motion that repeats "
-                "with the errors leaves closed curves of as many points as the error period has mesh cycles.");
+                "with the errors leaves no more points than the error period has mesh cycles; a cloud that keeps "
+                "filling is one that does not repeat.");
 }
 
 }  // namespace

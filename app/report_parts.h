@@ -55,6 +55,10 @@ inline constexpr double shown_cycles = 110;
 [[nodiscard]] std::string contact_section(const RunResult& result);  ///< face width, pressure, stress; empty if unknown
 // report_dynamics.cc
 [[nodiscard]] std::string dynamics_section(const RunResult& result);  ///< load sharing, dynamic factors, spectra
+// report_spread.cc, report_sweeps.cc; empty where the scene does not ask
+[[nodiscard]] std::string spread_section(const RunResult& result);  ///< Monte Carlo samples
+[[nodiscard]] std::string sweeps_section(const RunResult& result);
+[[nodiscard]] std::string sensitivity_section(const RunResult& result);
 // report_motion.cc
 [[nodiscard]] std::string motion_section(const RunResult& result);  ///< bearing forces, sun orbit, Poincaré section
 // report_modes.cc

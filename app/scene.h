@@ -19,6 +19,9 @@ enum class Rung { automatic, closed_form, plane, solid, resolved };
 enum class Structure { traditional, thin_walled, pinned, bolted, splined };
 enum class StiffnessShape { computed, constant, harmonic, rectangular, table };
 enum class MeshDamping { in_contact, always };
+enum class SweepScale { linear, logarithmic };
+enum class ErrorPhases { given, unknown };
+enum class RandomKind { uniform, normal, lognormal };
 
 inline constexpr double rigid = std::numeric_limits<double>::infinity();
 
@@ -103,6 +106,34 @@ struct DynamicsInput {
   double relative_tolerance = 0;
 };
 
+/// One input run through a row of values. Values of studies are in the unit of their input, as in the file.
+struct SweepInput {
+  std::string input;               ///< key path (overrides.h)
+  std::optional<double> from, to;  ///< these and `count`, or `values`
+  std::optional<int> count;
+  SweepScale scale = SweepScale::linear;
+  std::vector<double> values;
+
+  [[nodiscard]] std::vector<double> points() const;
+};
+
+/// An uncertain input.
+struct RandomInput {
+  std::string input;  ///< key path; `[*]` draws for every planet by itself
+  RandomKind distribution = RandomKind::uniform;
+  std::optional<double> low, high, mean, deviation;
+};
+
+struct MonteCarloInput {
+  int samples = 0, seed = 0;
+  ErrorPhases phases = ErrorPhases::unknown;
+};
+
+struct SensitivityInput {
+  std::vector<std::string> inputs;  ///< empty: the supports, damping ratios and backlash
+  double factor = 0;
+};
+
 struct Scene {
   std::filesystem::path file;
   std::string title;
@@ -118,6 +149,14 @@ struct Scene {
   SupportInput supports;
   MeshInput sun_planet, ring_planet;
   std::optional<DynamicsInput> dynamics;  ///< absent: no dynamics wanted
+  std::vector<SweepInput> sweeps;
+  std::optional<MonteCarloInput> monte_carlo;
+  std::vector<RandomInput> random_inputs;
+  std::optional<SensitivityInput> sensitivity;
+
+  /// The file as read, from which changed scenes are made (overrides.h). Empty in a changed scene, which has no studies
+  /// of its own.
+  std::string text;
 
   std::vector<Input> inputs;                   ///< every input with its origin, in the order of the schema
   std::map<std::string, std::string> assumed;  ///< key -> reason, as declared in [assumed]

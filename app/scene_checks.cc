@@ -385,6 +385,10 @@ class Checker {
 
 }  // namespace
 
-void complete_and_check(Scene& scene, std::vector<Problem>& problems) { Checker(scene, problems).run(); }
+void complete_and_check(Scene& scene, std::vector<Problem>& problems) {
+  Checker(scene, problems).run();
+  // Paths are looked up among the inputs, which have to be right for that.
+  if (problems.empty()) check_study_keys(scene, problems);
+}
 
 }  // namespace annulus::app

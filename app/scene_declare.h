@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -60,8 +61,14 @@ class Declarations {
     table_.meaning = std::move(meaning);
   }
 
-  Declarations& repeated() { return table_.repeated = true, *this; }
+  Declarations& repeated(std::function<void(Scene&, std::size_t)> resize) {
+    table_.repeated = true;
+    table_.resize = std::move(resize);
+    return *this;
+  }
   Declarations& optional() { return table_.required = false, *this; }
+  /// Optional, and without effect when absent.
+  Declarations& on_request() { return table_.on_request = true, optional(); }
   Table done() { return std::move(table_); }
 
   template <class Base, class T>
@@ -77,6 +84,9 @@ class Declarations {
     } else if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::optional<std::string>>) {
       p.kind = Parameter::Kind::text;
       store(p, member, [](const Value& v) { return std::get<std::string>(v); });
+    } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+      p.kind = Parameter::Kind::texts;
+      store(p, member, [](const Value& v) { return std::get<std::vector<std::string>>(v); });
     } else {
       static_assert(std::is_same_v<T, std::vector<double>>);
       p.kind = Parameter::Kind::reals;

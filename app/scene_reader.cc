@@ -7,6 +7,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "app/overrides.h"
 #include "app/scene_checks.h"
 #include "app/scene_schema.h"
 
@@ -59,7 +60,7 @@ class Reader {
     if (!node) {
       if (table.required) problem({}, fmt::format("{} is missing: {}", table.header(), table.meaning));
       // An absent table still has its defaults, unless its presence is itself the question ([dynamics], [mesh.*]).
-      if (!table.required && !needs_presence(table)) read_keys(table, toml::table{}, 0, "");
+      if (!table.required && !table.repeated && !needs_presence(table)) read_keys(table, toml::table{}, 0, "");
       return;
     }
     if (table.repeated) {
@@ -67,11 +68,12 @@ class Reader {
       if (!array || array->empty() || !array->is_homogeneous(toml::node_type::table)) {
         return problem(place_of(node->source()), fmt::format("{}: write each one as {}", table.path, table.header()));
       }
-      scene_.rings.resize(array->size());
+      table.resize(scene_, array->size());
       for (std::size_t i = 0; i < array->size(); ++i) {
         const auto& entry = *array->get(i)->as_table();
-        scene_.rings[i].name = entry["name"].value_or(fmt::format("{}", i + 1));
-        read_keys(table, entry, i, scene_.rings[i].name);
+        const bool ring = table.path == "ring";
+        if (ring) scene_.rings[i].name = entry["name"].value_or(fmt::format("{}", i + 1));
+        read_keys(table, entry, i, ring ? scene_.rings[i].name : "");
       }
       return;
     }
@@ -84,6 +86,7 @@ class Reader {
   }
 
   static bool needs_presence(const Table& table) {
+    if (table.on_request) return true;
     for (const auto& p : table.parameters) {
       if (p.presence == Parameter::Presence::required) return true;
     }
@@ -93,7 +96,7 @@ class Reader {
   void read_keys(const Table& table, const toml::table& entry, std::size_t index, const std::string& ring) {
     if (!table.path.empty()) check_keys(table, entry);
     for (const auto& p : table.parameters) {
-      Input input{.key = p.key(), .ring = ring, .unit = p.unit, .meaning = p.meaning};
+      Input input{.key = p.key(), .ring = ring, .unit = p.unit, .meaning = p.meaning, .entry = index};
       const auto found = entry.find(p.name);
       if (found == entry.end()) {
         const Place at = place_of(entry.source());
@@ -134,13 +137,13 @@ class Reader {
       case Parameter::Kind::integer:
         if (!node.is_integer()) return refuse("must be " + expected(p));
         value = static_cast<long>(**node.as_integer());
-        if (!in_range(p, static_cast<double>(std::get<long>(value))))
+        if (!p.in_range(static_cast<double>(std::get<long>(value))))
           return refuse("must be in range: " + p.range_text());
         break;
       case Parameter::Kind::real:
         if (!node.is_number()) return refuse("must be " + expected(p));
         value = *node.value<double>();
-        if (!in_range(p, std::get<double>(value))) return refuse("must be in range: " + p.range_text());
+        if (!p.in_range(std::get<double>(value))) return refuse("must be in range: " + p.range_text());
         break;
       case Parameter::Kind::reals: {
         const auto* array = node.as_array();
@@ -149,8 +152,20 @@ class Reader {
           const auto* item = array->get(i);
           if (!item->is_number()) return refuse("must be " + expected(p));
           list.push_back(*item->value<double>());
-          if (!in_range(p, list.back()))
+          if (!p.in_range(list.back()))
             return refuse(fmt::format("value {} must be in range: {}", i + 1, p.range_text()));
+        }
+        if (!array) return refuse("must be " + expected(p));
+        value = std::move(list);
+        break;
+      }
+      case Parameter::Kind::texts: {
+        const auto* array = node.as_array();
+        std::vector<std::string> list;
+        for (std::size_t i = 0; array && i < array->size(); ++i) {
+          const auto* item = array->get(i)->as_string();
+          if (!item) return refuse("must be " + expected(p));
+          list.push_back(**item);
         }
         if (!array) return refuse("must be " + expected(p));
         value = std::move(list);
@@ -173,18 +188,16 @@ class Reader {
     return true;
   }
 
-  static bool in_range(const Parameter& p, double x) {
-    if (std::isnan(x)) return false;
-    if (std::isinf(x)) return x > 0 && p.may_be_infinite;
-    return (p.low_included ? x >= p.low : x > p.low) && x <= p.high;
-  }
-
   void check_keys(const Table& table, const toml::table& entry) {
     std::vector<std::string> names;
     for (const auto& p : table.parameters) names.push_back(p.name);
+    const auto is_table = [&](const std::string& name) {
+      return std::any_of(schema().begin(), schema().end(),
+                         [&](const Table& t) { return t.path == table.path + "." + name; });
+    };
     for (const auto& [key, node] : entry) {
       const std::string name(key.str());
-      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+      if (std::find(names.begin(), names.end(), name) != names.end() || is_table(name)) continue;
       problem(place_of(key.source()), fmt::format("{}.{} = {}: unknown key{}", table.path, name, node_text(node),
                                                   suggestion(table.path, name, names)));
     }
@@ -278,6 +291,34 @@ class Reader {
   std::vector<Problem> problems_;
 };
 
+toml::table& table_at(toml::table& root, const InputEdit& edit) {
+  if (edit.ring) return *root.get("ring")->as_array()->get(*edit.ring)->as_table();
+  toml::table* table = &root;
+  std::istringstream path(edit.parameter->table);
+  for (std::string name; std::getline(path, name, '.');) {
+    if (!table->contains(name)) table->insert(name, toml::table{});
+    table = table->get(name)->as_table();
+    require(table != nullptr, "a checked scene has tables where its schema has");
+  }
+  return *table;
+}
+
+void set_number(toml::table& root, const InputEdit& edit) {
+  const Parameter& p = *edit.parameter;
+  toml::table& table = table_at(root, edit);
+  if (p.kind == Parameter::Kind::integer) {
+    table.insert_or_assign(p.name, static_cast<std::int64_t>(edit.value));
+  } else if (p.kind == Parameter::Kind::reals) {
+    toml::array list;
+    const auto* present = table[p.name].as_array();
+    for (std::size_t i = 0; i < edit.length; ++i)
+      list.push_back(i == *edit.index ? edit.value : present && i < present->size() ? present->get(i)->value_or(0.0) : 0.0);
+    table.insert_or_assign(p.name, std::move(list));
+  } else {
+    table.insert_or_assign(p.name, edit.value);
+  }
+}
+
 }  // namespace
 
 Scene parse_scene(const std::string& text, const std::filesystem::path& name) {
@@ -288,7 +329,22 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& name) {
     const Place at = place_of(error.source());
     throw SceneError(name.string(), {{at.line, at.column, "not valid TOML: " + std::string(error.description())}});
   }
-  return Reader(root, name).read();
+  Scene scene = Reader(root, name).read();
+  scene.text = text;
+  return scene;
+}
+
+Scene with_overrides(const Scene& scene, const std::vector<Override>& overrides) {
+  require(!scene.text.empty(), "only a scene read from a file or text can be changed");
+  toml::table root = toml::parse(scene.text, scene.file.string());
+  // A changed scene answers one question: it has no studies of its own, and no one asks for its assumptions.
+  for (const auto* table : {"sweep", "monte_carlo", "sensitivity", "assumed"}) root.erase(table);
+  for (const auto& edit : resolve(scene, overrides)) set_number(root, edit);
+  return Reader(root, scene.file).read();
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  return with_overrides(read_scene(file), overrides);
 }
 
 Scene read_scene(const std::filesystem::path& file) {

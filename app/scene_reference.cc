@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "app/scene_schema.h"
 
 namespace annulus::app {
@@ -31,12 +34,20 @@ std::string Parameter::type_text() const {
       return "a text in quotes";
     case Kind::reals:
       return "a list of numbers";
+    case Kind::texts:
+      return "a list of texts in quotes";
     case Kind::choice:
       break;
   }
   std::string text = "one of";
   for (const auto& c : choices) text += (c == choices.front() ? " \"" : ", \"") + c + "\"";
   return text;
+}
+
+bool Parameter::in_range(double x) const {
+  if (std::isnan(x)) return false;
+  if (std::isinf(x)) return x > 0 && may_be_infinite;
+  return (low_included ? x >= low : x > low) && x <= high;
 }
 
 std::string Parameter::range_text() const {
@@ -63,9 +74,10 @@ std::string presence_text(const Parameter& p) {
       break;
   }
   const auto* list = std::get_if<std::vector<double>>(&p.default_value);
+  const auto* texts = std::get_if<std::vector<std::string>>(&p.default_value);
   const auto* text = std::get_if<std::string>(&p.default_value);
   std::string value = text ? "\"" + *text + "\"" : to_text(p.default_value);
-  if (list && list->empty()) return "default " + p.note;
+  if ((list && list->empty()) || (texts && texts->empty())) return "default " + p.note;
   return "default " + value + (p.note.empty() ? "" : " (" + p.note + ")");
 }
 

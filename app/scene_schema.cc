@@ -173,7 +173,7 @@ std::vector<Table> declare_tables() {
 
   Declarations<RingInput> ring("ring", "A ring gear and what holds it; several rings are compared with each other.",
                                [](Scene& s, std::size_t i) -> RingInput& { return s.rings.at(i); });
-  ring.repeated();
+  ring.repeated([](Scene& s, std::size_t n) { s.rings.resize(n); });
   ring.key("name", &RingInput::name, "Name, also of the folder of its results.").required();
   ring.choice("structure", &RingInput::structure,
               {{"traditional", Structure::traditional},
@@ -364,6 +364,7 @@ std::vector<Table> declare_tables() {
       .fallback(1e-6, "far below the accuracy of the stiffness")
       .from(1e-12, 1e-2);
   tables.push_back(dynamics.done());
+  declare_studies(tables);
   return tables;
 }
 
@@ -377,8 +378,6 @@ const std::vector<Table>& schema() {
 const std::vector<std::pair<std::string, std::string>>& unavailable_tables() {
   static const std::vector<std::pair<std::string, std::string>> tables = {
       {"modes", "choice of vibration modes"},
-      {"sweep", "sweeps over speed, load or any input"},
-      {"monte_carlo", "samples over unknown error phases"},
       {"optimise", "optimisation of inputs"},
   };
   return tables;

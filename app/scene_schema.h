@@ -11,7 +11,7 @@ namespace annulus::app {
 /// One key of a scene file. It is declared once, in scene_schema.cc; parser, validation, `plan`, `explain` and the
 /// scene reference (docs/scene.md) come from that declaration.
 struct Parameter {
-  enum class Kind { integer, real, text, choice, reals };
+  enum class Kind { integer, real, text, choice, reals, texts };
   enum class Presence { required, optional, defaulted };
 
   std::string table{};  ///< "stage", "mesh.sun_planet"; empty for the top level
@@ -31,16 +31,20 @@ struct Parameter {
   std::function<void(Scene&, std::size_t, const Value&)> store{};
 
   [[nodiscard]] std::string key() const { return table.empty() ? name : table + "." + name; }
-  [[nodiscard]] std::string type_text() const;   ///< "a whole number", "a list of numbers"
-  [[nodiscard]] std::string range_text() const;  ///< "0 < value <= 100 mm"; empty when anything goes
+  [[nodiscard]] std::string type_text() const;      ///< "a whole number", "a list of numbers"
+  [[nodiscard]] bool in_range(double value) const;  ///< in the unit of the file
+  [[nodiscard]] std::string range_text() const;     ///< "0 < value <= 100 mm"; empty when anything goes
 };
 
 struct Table {
   std::string path{};
-  bool repeated = false;  ///< [[path]]: array of tables
-  bool required = true;   ///< false: absent as a whole is fine, and then none of its keys applies
+  bool repeated = false;    ///< [[path]]: array of tables
+  bool required = true;     ///< false: absent as a whole is fine, and then none of its keys applies
+  bool on_request = false;  ///< its presence is itself the question: defaults apply only when it is there
   std::string meaning{};
   std::vector<Parameter> parameters{};
+  /// Makes room for the tables of an array ([[path]]).
+  std::function<void(Scene&, std::size_t)> resize{};
 
   [[nodiscard]] std::string header() const { return repeated ? "[[" + path + "]]" : "[" + path + "]"; }
 };
@@ -49,6 +53,9 @@ struct Table {
 [[nodiscard]] const std::vector<Table>& schema();
 /// Tables of the format that this version cannot use yet, with what they will do.
 [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& unavailable_tables();
+
+/// [[sweep]], [monte_carlo], [[monte_carlo.input]], [sensitivity] (scene_schema_studies.cc).
+void declare_studies(std::vector<Table>& tables);
 
 /// nullptr when there is no such key.
 [[nodiscard]] const Parameter* find_parameter(const std::string& key);

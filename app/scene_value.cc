@@ -38,6 +38,11 @@ std::string to_text(const Value& value) {
       for (std::size_t i = 0; i < v.size(); ++i) text += (i ? ", " : "") + to_text(v[i]);
       return text + "]";
     }
+    std::string operator()(const std::vector<std::string>& v) const {
+      std::string text = "[";
+      for (std::size_t i = 0; i < v.size(); ++i) text += (i ? ", \"" : "\"") + v[i] + "\"";
+      return text + "]";
+    }
   };
   return std::visit(Visitor{}, value);
 }

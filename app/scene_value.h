@@ -9,7 +9,7 @@
 namespace annulus::app {
 
 /// A value as written in a scene file, in the unit of its key; monostate when absent.
-using Value = std::variant<std::monostate, long, double, std::string, std::vector<double>>;
+using Value = std::variant<std::monostate, long, double, std::string, std::vector<double>, std::vector<std::string>>;
 
 /// Short text of a value for people ("0.1516", "[15, 36]", "rigid" for an infinite stiffness).
 [[nodiscard]] std::string to_text(const Value& value);
@@ -30,6 +30,7 @@ struct Input {
   std::string note{};     ///< source of a default, formula of a derived value, what absence means
   std::string assumed{};  ///< reason, when the scene declares the value as assumed
   int line = 0, column = 0;
+  std::size_t entry = 0;  ///< counts the tables of an array ([[ring]], [[sweep]])
 };
 
 /// One thing wrong with a scene.

@@ -59,8 +59,7 @@ void add_operating_speed(StageModes& result, dynamics::PlanetaryStage stage) {
 
 void add_campbell(StageModes& result, const dynamics::PlanetaryStage& stage) {
   std::vector<double> speeds;
-  for (int i = 0; i <= campbell_steps; ++i)
-    speeds.push_back(stage.carrier_speed * campbell_reach * i / campbell_steps);
+  for (int i = 0; i <= campbell_steps; ++i) speeds.push_back(stage.carrier_speed * campbell_reach * i / campbell_steps);
   const auto diagram = dynamics::campbell(stage, speeds, {.orders = campbell_orders});
   const double sun_per_carrier = 1 + static_cast<double>(stage.ring_teeth) / stage.sun_teeth;
   result.campbell.columns = {"sun_speed_rpm", "carrier_speed_rpm", "mesh_frequency_Hz"};
@@ -71,12 +70,12 @@ void add_campbell(StageModes& result, const dynamics::PlanetaryStage& stage) {
         std::vector{speeds[s] * sun_per_carrier / units::rpm, speeds[s] / units::rpm, diagram.mesh_frequency[s]});
     for (const auto& curve : diagram.curves) row.push_back(curve.frequency[s]);
   }
-  result.critical_speeds.columns = {"sun_speed_rpm", "carrier_speed_rpm", "frequency_Hz",
-                                    "mesh_order",    "mode",              "participation"};
+  result.critical_speeds.columns = {"sun_speed_rpm", "carrier_speed_rpm", "frequency_Hz", "mesh_order",
+                                    "mode",          "participation"};
   for (const auto& c : diagram.crossings) {
-    result.critical_speeds.rows.push_back({c.carrier_speed * sun_per_carrier / units::rpm,
-                                           c.carrier_speed / units::rpm, c.frequency, static_cast<double>(c.order),
-                                           static_cast<double>(c.curve + 1), c.participation});
+    result.critical_speeds.rows.push_back({c.carrier_speed * sun_per_carrier / units::rpm, c.carrier_speed / units::rpm,
+                                           c.frequency, static_cast<double>(c.order), static_cast<double>(c.curve + 1),
+                                           c.participation});
   }
 }
 
@@ -109,8 +108,8 @@ std::string modes_csv(const StageModes& modes) {
   text += "\n";
   for (std::size_t i = 0; i < modes.list.size(); ++i) {
     const auto& m = modes.list[i];
-    text += fmt::format("{},{:.17g},{},{:.17g},{:.17g}", i + 1, m.frequency, m.kind, m.damped_frequency,
-                        m.damping_ratio);
+    text +=
+        fmt::format("{},{:.17g},{},{:.17g},{:.17g}", i + 1, m.frequency, m.kind, m.damped_frequency, m.damping_ratio);
     for (const double share : m.strain) text += fmt::format(",{:.17g}", share);
     for (const double share : m.kinetic) text += fmt::format(",{:.17g}", share);
     text += "\n";

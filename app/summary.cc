@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/content_id.h"
+#include "app/summary_studies.h"
 
 namespace annulus::app {
 
@@ -113,10 +114,13 @@ std::string summary_json(const RunResult& result) {
                              {"mesh_frequency_Hz", point.mesh_frequency},
                              {"mean_mesh_force_N", point.mean_mesh_force}};
   std::string ids = result.sun_mesh.model.id();
-  for (const auto& ring : result.rings) {
-    json["rings"][ring.name] = ring_json(ring, result.sun_mesh);
+  for (std::size_t i = 0; i < result.rings.size(); ++i) {
+    const auto& ring = result.rings[i];
+    auto& entry = json["rings"][ring.name] = ring_json(ring, result.sun_mesh);
+    entry.update(SummaryJson::parse(ring_studies_json(result, i)));
     ids += ring.mesh.model.id();
   }
+  json.update(SummaryJson::parse(studies_json(result)));
   ContentId inputs;
   for (const auto& input : result.scene.inputs) inputs.add(input.ring + "." + input.key, to_text(input.value));
   json["inputs_id"] = inputs.add("meshes", ids).id();

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "app/scene_value.h"
+
 namespace annulus::app {
 
-std::string axes(const Frame& frame, const std::string& x_label, const std::string& y_label,
-                 std::optional<int> y_ticks) {
+std::string y_axis(const Frame& frame, const std::string& y_label, std::optional<int> y_ticks) {
   std::string svg;
-  const auto x_ticks = nice_ticks(frame.x.low, frame.x.high, static_cast<int>((frame.right - frame.left) / 60));
-  const auto x_labels = tick_labels(x_ticks);
   const int fitting = static_cast<int>((frame.bottom - frame.top) / 38);
   const auto up = nice_ticks(frame.y.low, frame.y.high, y_ticks.value_or(fitting));
   const auto up_labels = tick_labels(up);
@@ -18,18 +17,30 @@ std::string axes(const Frame& frame, const std::string& x_label, const std::stri
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", frame.left - 6, y + 3.5,
                        up_labels[i]);
   }
+  svg += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\" fill=\"none\" stroke=\"#888\"/>", frame.left, frame.top,
+                     frame.bottom, frame.right);
+  svg += fmt::format("<text transform=\"translate({:.1f} {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
+                     frame.left - 49, (frame.top + frame.bottom) / 2, escape(y_label));
+  return svg;
+}
+
+std::string axes(const Frame& frame, const std::string& x_label, const std::string& y_label,
+                 std::optional<int> y_ticks) {
+  std::string svg;
+  const auto x_ticks = frame.x_log
+                           ? log_ticks(frame.x.low, frame.x.high)
+                           : nice_ticks(frame.x.low, frame.x.high, static_cast<int>((frame.right - frame.left) / 60));
+  auto x_labels = tick_labels(x_ticks);
+  for (std::size_t i = 0; i < x_ticks.size() && frame.x_log; ++i) x_labels[i] = to_text(x_ticks[i], 3);
+  svg += y_axis(frame, y_label, y_ticks);
   for (std::size_t i = 0; i < x_ticks.size(); ++i) {
     const double x = frame.at_x(x_ticks[i]);
     svg += fmt::format("<path d=\"M{:.1f} {:.1f}v4\" stroke=\"#888\"/>", x, frame.bottom);
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>", x, frame.bottom + 16,
                        x_labels[i]);
   }
-  svg += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\" fill=\"none\" stroke=\"#888\"/>", frame.left, frame.top,
-                     frame.bottom, frame.right);
   svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>", (frame.left + frame.right) / 2,
                      frame.bottom + 36, escape(x_label));
-  svg += fmt::format("<text transform=\"translate({:.1f} {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-                     frame.left - 49, (frame.top + frame.bottom) / 2, escape(y_label));
   return svg;
 }
 

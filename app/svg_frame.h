@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -12,13 +13,20 @@ namespace annulus::app {
 struct Frame {
   double left, right, top, bottom;
   Range x, y;
-  [[nodiscard]] double at_x(double v) const { return left + (v - x.low) / (x.high - x.low) * (right - left); }
+  bool x_log = false;  ///< logarithmic: x.low and x.high are above zero
+  [[nodiscard]] double at_x(double v) const {
+    const double part = x_log ? std::log(v / x.low) / std::log(x.high / x.low) : (v - x.low) / (x.high - x.low);
+    return left + part * (right - left);
+  }
   [[nodiscard]] double at_y(double v) const { return bottom - (v - y.low) / (y.high - y.low) * (bottom - top); }
 };
 
 /// Grid, ticks and labels around a frame; about `y_ticks` ticks upright, as many as fit when absent, 0 for no labels.
 [[nodiscard]] std::string axes(const Frame& frame, const std::string& x_label, const std::string& y_label,
                                std::optional<int> y_ticks = {});
+
+/// The upright part of `axes` alone, with the frame.
+[[nodiscard]] std::string y_axis(const Frame& frame, const std::string& y_label, std::optional<int> y_ticks = {});
 
 /// The opening tag with size and font, and the title when there is one.
 [[nodiscard]] std::string open_svg(const std::string& title, int width, int height, double title_left);

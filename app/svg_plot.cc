@@ -57,6 +57,20 @@ std::vector<double> nice_ticks(double low, double high, int count) {
   return ticks;
 }
 
+std::vector<double> log_ticks(double low, double high) {
+  std::vector<double> ticks;
+  const bool many = high / low > 1e3;
+  for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, power) <= high * (1 + 1e-9); ++power) {
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      const double tick = factor * std::pow(10.0, power);
+      if ((many && factor > 1) || tick < low * (1 - 1e-9) || tick > high * (1 + 1e-9)) continue;
+      ticks.push_back(tick);
+    }
+  }
+  if (ticks.size() < 2) return {low, high};
+  return ticks;
+}
+
 std::vector<std::string> tick_labels(const std::vector<double>& ticks) {
   std::vector<std::string> labels;
   labels.reserve(ticks.size());
@@ -162,7 +176,8 @@ std::string draw(const Frame& frame, const Series& s) {
       }
       std::string d;
       for (const auto& place : places) d += place;
-      svg += fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"4\" stroke-linecap=\"round\"/>", d, colour);
+      svg +=
+          fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\"/>", d, colour, s.size);
       break;
     }
     case Series::Style::bars: {
@@ -236,7 +251,8 @@ Frame frame_of(const Plot& plot) {
           top,
           plot.height - 42.0,
           plot.x_range.value_or(x.range(0)),
-          plot.y_range.value_or(y.range())};
+          plot.y_range.value_or(y.range()),
+          plot.x_log};
 }
 
 }  // namespace
@@ -263,7 +279,7 @@ std::string to_svg(const Plot& plot) {
   for (const auto& s : plot.series) svg += draw(frame, s);
   for (const auto& note : plot.notes)
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\" fill=\"#666\">{}</text>",
-                       frame.at_x(note.x) - 3, frame.at_y(note.y) + 12, escape(note.text));
+                       frame.at_x(note.x) - 3, frame.at_y(note.y) - 3, escape(note.text));
   return svg + "</svg></svg>";
 }
 

@@ -15,6 +15,9 @@ namespace annulus::app {
 
 /// Round values ("nice numbers": 1, 2 or 5 times a power of ten) inside [low, high], about `count` of them.
 [[nodiscard]] std::vector<double> nice_ticks(double low, double high, int count);
+/// 1, 2 and 5 times powers of ten inside [low, high] for a logarithmic axis, over many decades the powers alone; the
+/// ends when there are fewer than two.
+[[nodiscard]] std::vector<double> log_ticks(double low, double high);
 /// Tick labels with just the digits that tell neighbours apart.
 [[nodiscard]] std::vector<std::string> tick_labels(const std::vector<double>& ticks);
 
@@ -43,9 +46,10 @@ struct Series {
   std::size_t colour = 0;             ///< index into the palette
   Style style = Style::line;
   bool dashed = false;
+  double size = 4;  ///< of dots
 };
 
-/// A word in the plot, ending at a point.
+/// A word in the plot, ending above a point.
 struct Note {
   double x = 0, y = 0;
   std::string text{};
@@ -55,6 +59,7 @@ struct Plot {
   std::string title{};
   std::string x_label{}, y_label{};  ///< with units
   std::optional<Range> x_range{}, y_range{};
+  bool x_log = false;  ///< all x are above zero
   std::vector<Series> series{};
   std::vector<std::pair<double, std::string>> levels{};  ///< horizontal reference lines
   std::vector<Note> notes{};

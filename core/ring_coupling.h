@@ -10,7 +10,8 @@ namespace annulus {
 
 /// A natural mode of the ring with its supports, normalised to unit modal mass. Closings are displacements of the
 /// ring's teeth along the line of action, positive where they close the mesh, at the place of a contact in the pitch
-/// point (phase 0).
+/// point (phase 0): closing[t] is that of a planet at ring position coordinate t. The ring's frame has x through the
+/// centre of tooth 0; the pitch point stands at StiffnessTable::ring_angles.
 struct RingMode {
   double frequency = 0;         ///< Hz
   int waves = 0;                ///< dominant number of waves around the ring

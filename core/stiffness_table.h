@@ -72,7 +72,11 @@ class PeriodicCurve {
   [[nodiscard]] int pieces_per_unit() const;                                         ///< in one mesh cycle
   /// c with value = c[0] + c[1] t + c[2] t^2 + c[3] t^3, t in [0, 1] within the piece.
   [[nodiscard]] std::array<double, 4> coefficients(int piece) const;
-  [[nodiscard]] bool operator==(const PeriodicCurve&) const = default;
+  /// Written out: annulus_fem is C++17, which has no default for it.
+  [[nodiscard]] bool operator==(const PeriodicCurve& other) const {
+    return values_ == other.values_ && slopes_ == other.slopes_ && step_ == other.step_ && period_ == other.period_ &&
+           mean_ == other.mean_;
+  }
 
  private:
   std::vector<double> values_{0, 0}, slopes_{0, 0};  ///< first one repeated at the end; slopes per knot distance

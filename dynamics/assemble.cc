@@ -1,5 +1,7 @@
 #include <cmath>
+#include <numbers>
 #include <string>
+#include <tuple>
 
 #include "dynamics/lumped_system.h"
 #include "dynamics/planetary_stage.h"
@@ -15,10 +17,10 @@ struct PlaneBody {
 
 double critical_share(double ratio, double stiffness, double mass) { return 2 * ratio * std::sqrt(stiffness * mass); }
 
+/// `speed`: of the frame its x and y are measured in, for inertia and damping.
 PlaneBody add_central(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const CentralBody& body,
-                      const std::string& name) {
+                      const std::string& name, double speed) {
   PlaneBody c;
-  const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
   if (body.support != rigid) {
     c.x = builder.add_freedom(name + "_x");
     c.y = builder.add_freedom(name + "_y");
@@ -78,6 +80,50 @@ double equivalent_mass(const PlanetaryStage& stage, const CentralBody& wheel) {
   return 1 / inverse;
 }
 
+bool ring_in_housing(const PlanetaryStage& stage) { return stage.ring_coupling && !stage.ring_coupling->modes.empty(); }
+
+/// The modes of the ring as freedoms. M couples them with the rigid motions of the ring they contain.
+std::vector<LinearForm> add_ring_modes(LumpedSystemBuilder& builder, const PlanetaryStage& stage,
+                                       const PlaneBody& ring) {
+  std::vector<LinearForm> freedoms;
+  if (!stage.ring_coupling) return freedoms;
+  for (const auto& mode : stage.ring_coupling->modes) {
+    auto amplitude = builder.add_freedom("ring_mode" + std::to_string(freedoms.size() + 1));
+    const double rate = 2 * std::numbers::pi * mode.frequency;
+    builder.add_mass(amplitude, 1);
+    builder.add_spring(amplitude, rate * rate, critical_share(stage.support_damping_ratio, rate * rate, 1));
+    builder.add_mass_coupling(amplitude, ring.x, mode.translation_x);
+    builder.add_mass_coupling(amplitude, ring.y, mode.translation_y);
+    builder.add_mass_coupling(amplitude, ring.u, mode.rotation);
+    freedoms.push_back(std::move(amplitude));
+  }
+  return freedoms;
+}
+
+/// Shares of the ring's motion in the closing of the mesh at angle psi = phi_n + a_r (16), the carrier turning past the
+/// housing: -sin(psi + Omega t) x + cos(psi + Omega t) y + sum of closings at the tooth in mesh x modal amplitude.
+std::vector<MovingShare> ring_shares(const PlanetaryStage& stage, const PlaneBody& ring,
+                                     const std::vector<LinearForm>& modes, double psi) {
+  std::vector<MovingShare> shares;
+  const double speed = stage.carrier_speed;
+  for (const auto& [form, amount, phase] :
+       {std::tuple{&ring.x, -1.0, psi}, std::tuple{&ring.y, 1.0, psi + std::numbers::pi / 2}})
+    for (const auto& [freedom, factor] : *form) shares.push_back({freedom, {}, {amount * factor, speed, phase}});
+  for (std::size_t k = 0; k < modes.size(); ++k)
+    shares.push_back({modes[k].front().first, PeriodicCurve(stage.ring_coupling->modes[k].closing, 1), {}});
+  return shares;
+}
+
+MeshCoupling coupling_of(const PlanetaryStage& stage, const std::vector<LinearForm>& modes) {
+  MeshCoupling coupling;
+  for (int n = 0; n < stage.planets(); ++n) coupling.meshes.push_back(stage.planets() + n);
+  coupling.compliance = compliance_curves(stage.ring_coupling->compliance, stage.ring_coupling->per_cycle);
+  for (std::size_t k = 0; k < modes.size(); ++k)
+    coupling.kept.push_back(
+        {modes[k].front().first, std::pow(2 * std::numbers::pi * stage.ring_coupling->modes[k].frequency, 2)});
+  return coupling;
+}
+
 double value_or_zero(const std::vector<double>& values, int n) { return values.empty() ? 0.0 : values[n]; }
 
 }  // namespace
@@ -85,9 +131,11 @@ double value_or_zero(const std::vector<double>& values, int n) { return values.e
 LumpedSystem assemble(const PlanetaryStage& stage) {
   stage.check();
   LumpedSystemBuilder builder;
-  const PlaneBody sun = add_central(builder, stage, stage.sun, "sun");
-  const PlaneBody ring = add_central(builder, stage, stage.ring, "ring");
-  const PlaneBody carrier = add_central(builder, stage, stage.carrier, "carrier");
+  const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
+  const bool housing = ring_in_housing(stage);
+  const PlaneBody sun = add_central(builder, stage, stage.sun, "sun", speed);
+  const PlaneBody ring = add_central(builder, stage, stage.ring, "ring", housing ? 0 : speed);
+  const PlaneBody carrier = add_central(builder, stage, stage.carrier, "carrier", speed);
   const double as = stage.sun_working_angle, ar = stage.ring_working_angle;
 
   const auto mesh = [&](const std::string& name, LinearForm b, const MeshExcitation& excitation,
@@ -107,21 +155,29 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
   };
 
   std::vector<MeshElement> ring_meshes;
+  std::vector<PlaneBody> planets;
+  for (int n = 0; n < stage.planets(); ++n)
+    planets.push_back(add_planet(builder, stage, carrier, stage.planet_angles[n], "planet" + std::to_string(n + 1)));
+  const auto ring_modes = add_ring_modes(builder, stage, ring);
+  const LinearForm none;
   for (int n = 0; n < stage.planets(); ++n) {
     const double phi = stage.planet_angles[n];
     const auto number = std::to_string(n + 1);
-    const PlaneBody p = add_planet(builder, stage, carrier, phi, "planet" + number);
+    const PlaneBody& p = planets[n];
     const LinearForm sun_b = sun.u + (-std::sin(phi - as)) * sun.x + std::cos(phi - as) * sun.y + p.u +  // (15)
                              (-std::sin(as)) * p.x + (-std::cos(as)) * p.y;
-    const LinearForm ring_b = ring.u + (-std::sin(phi + ar)) * ring.x + std::cos(phi + ar) * ring.y +  // (16)
-                              (-1.0) * p.u + std::sin(ar) * p.x + (-std::cos(ar)) * p.y;
+    const LinearForm ring_b = ring.u + (-std::sin(phi + ar)) * (housing ? none : ring.x) +  // (16)
+                              std::cos(phi + ar) * (housing ? none : ring.y) + (-1.0) * p.u + std::sin(ar) * p.x +
+                              (-std::cos(ar)) * p.y;
     builder.add_mesh(mesh("sun_planet" + number, sun_b, stage.sun_mesh, stage.sun,
                           -value_or_zero(stage.sun_phase_lag, n), sun_mesh_errors(stage, n)));
     ring_meshes.push_back(mesh("ring_planet" + number, ring_b, stage.ring_mesh, stage.ring,
                                value_or_zero(stage.ring_tooth_offset, n) - value_or_zero(stage.ring_phase_lag, n),
                                ring_mesh_errors(stage, n)));
+    if (housing) ring_meshes.back().moving = ring_shares(stage, ring, ring_modes, phi + ar);
   }
   for (auto& element : ring_meshes) builder.add_mesh(std::move(element));
+  if (stage.ring_coupling) builder.add_mesh_coupling(coupling_of(stage, ring_modes));
 
   // The carrier's load from virtual work: equal to T_c / a with T_c = T_s (1 + z_r/z_s), but balanced to rounding, so
   // that a stage free to turn does not creep away.

@@ -75,8 +75,7 @@ struct Course {
 
 Course planet_course(const PlanetaryStage& stage, Motion& motion, int n, bool radial) {
   const auto freedom = "planet" + std::to_string(n + 1) + (radial ? "_x" : "_y");
-  if (motion.moves(freedom))
-    return {motion.place(freedom), motion.velocity(freedom), motion.acceleration(freedom)};
+  if (motion.moves(freedom)) return {motion.place(freedom), motion.velocity(freedom), motion.acceleration(freedom)};
   const double phi = stage.planet_angles[n];
   const double x = radial ? std::cos(phi) : -std::sin(phi), y = radial ? std::sin(phi) : std::cos(phi);
   const double u = radial ? 0 : 1;
@@ -96,8 +95,7 @@ Eigen::RowVectorXd pin_force_by_equilibrium(const PlanetaryStage& stage, const T
   Eigen::RowVectorXd place = own.place;
   if (!radial) place -= motion.place("carrier_u");  // the centrifugal force turns with the carrier
   const Eigen::RowVectorXd inertia =
-      stage.planet.mass *
-      (own.acceleration + (radial ? -2 : 2) * speed * other.velocity - speed * speed * place);
+      stage.planet.mass * (own.acceleration + (radial ? -2 : 2) * speed * other.velocity - speed * speed * place);
   return -sun_b * series.force.row(n) - ring_b * series.force.row(stage.planets() + n) - inertia;
 }
 

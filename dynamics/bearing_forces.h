@@ -27,9 +27,7 @@ enum class CentralMember { sun, ring, carrier };
 struct SupportReaction {
   Eigen::VectorXd x, y;    ///< N, in the frame of the carrier
   Eigen::VectorXd torque;  ///< N m
-  [[nodiscard]] Eigen::VectorXd magnitude() const {
-    return (x.array().square() + y.array().square()).sqrt().matrix();
-  }
+  [[nodiscard]] Eigen::VectorXd magnitude() const { return (x.array().square() + y.array().square()).sqrt().matrix(); }
 };
 [[nodiscard]] SupportReaction support_reaction(const PlanetaryStage& stage, const TimeSeries& series,
                                                CentralMember member);

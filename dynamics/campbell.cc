@@ -119,8 +119,8 @@ Campbell campbell(const PlanetaryStage& stage, const std::vector<double>& speeds
       const auto& mode = now.modes[place[c]];
       curve.frequency.push_back(mode.frequency);
       curve.damping_ratio.push_back(mode.damping_ratio);
-      curve.likeness.push_back(
-          s > 0 ? alike(static_cast<Eigen::Index>(old), static_cast<Eigen::Index>(place[c])) : 1.0);
+      curve.likeness.push_back(s > 0 ? alike(static_cast<Eigen::Index>(old), static_cast<Eigen::Index>(place[c]))
+                                     : 1.0);
       if (s <= 1) curve.kind = mode.kind;
       if (s == 0) continue;
       for (int h = 1; h <= options.orders; ++h) {
@@ -136,9 +136,8 @@ Campbell campbell(const PlanetaryStage& stage, const std::vector<double>& speeds
     }
     before = std::move(now);
   }
-  std::stable_sort(
-      result.crossings.begin(), result.crossings.end(),
-      [](const CriticalSpeed& a, const CriticalSpeed& b) { return a.carrier_speed < b.carrier_speed; });
+  std::stable_sort(result.crossings.begin(), result.crossings.end(),
+                   [](const CriticalSpeed& a, const CriticalSpeed& b) { return a.carrier_speed < b.carrier_speed; });
   return result;
 }
 

@@ -40,10 +40,10 @@ struct CriticalSpeed {
                                                        const Eigen::MatrixXd& mass);
 
 struct Campbell {
-  std::vector<double> speeds;             ///< carrier, rad/s
-  std::vector<double> mesh_frequency;     ///< Hz, one per speed, seen from the carrier; order h is h times it
-  std::vector<CampbellCurve> curves;      ///< rising frequency at the first speed
-  std::vector<CriticalSpeed> crossings;   ///< rising speed
+  std::vector<double> speeds;            ///< carrier, rad/s
+  std::vector<double> mesh_frequency;    ///< Hz, one per speed, seen from the carrier; order h is h times it
+  std::vector<CampbellCurve> curves;     ///< rising frequency at the first speed
+  std::vector<CriticalSpeed> crossings;  ///< rising speed
 };
 
 /// Natural frequencies in the carrier frame over rising speeds (rad/s). Curves may cross; where two of one kind veer

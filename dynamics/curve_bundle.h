@@ -52,7 +52,9 @@ class CurveBundle {
   }
   /// One value and one derivative (per mesh cycle) per curve.
   void evaluate(double cycles, double* values, double* derivatives) const;
-  [[nodiscard]] bool same_as(const CurveBundle& other) const { return coefficients_ == other.coefficients_; }
+  [[nodiscard]] bool same_as(const CurveBundle& other) const {
+    return grid_.period() == other.grid_.period() && width_ == other.width_ && coefficients_ == other.coefficients_;
+  }
 
  private:
   PhaseGrid grid_;

@@ -159,6 +159,11 @@ double LumpedSystem::energy(double t, const double* y, Workspace& w) const {
     energy +=
         mesh.surface ? mesh.surface->energy(mesh.frequency * t + mesh.phase_offset, g) : 0.5 * w.stiffness[m] * g * g;
   }
+  for (const auto& coupling : compiled_->couplings) {
+    auto k = static_cast<std::size_t>(coupling.offset);
+    for (const int i : coupling.meshes)
+      for (const int j : coupling.meshes) energy += 0.5 * w.elastic[i] * w.compliance[k++] * w.elastic[j];
+  }
   return energy;
 }
 

@@ -49,7 +49,8 @@ struct MeshElement {
 ///   delta_i - sum_j D_ij(t) F_j,
 /// so the forces F solve a system of equations. F is the elastic force alone: the dampers of the meshes act on the
 /// closing rate of the rigid bodies as without coupling, and do not deflect the common body.
-/// The forces are found by Newton's method to 1e-12; where it fails they are not numbers, which integrators report.
+/// 1/k + D of the closed meshes has to be positive definite (1/k holds the body's give under the mesh itself).
+/// The forces are found by Newton's method to 1e-13; where it fails they are not numbers, which integrators report.
 struct MeshCoupling {
   std::vector<int> meshes;  ///< in the order of add_mesh; at most 20
   /// D, m/N: the lower triangle row by row ((0,0), (1,0), (1,1), (2,0) ...), of the cycles of the first mesh.

@@ -252,7 +252,8 @@ LumpedSystem LumpedSystemBuilder::build() const {
   // Terms constant in time get no slot; all others share one sine and cosine per distinct rate.
   c.b.start = c.inverse_b.start = {0};
   for (const auto& mesh : meshes_) {
-    const Eigen::VectorXd b = system.mesh_vector(static_cast<int>(&mesh - meshes_.data()));
+    Eigen::VectorXd b = Eigen::VectorXd::Zero(n);  // the constant part
+    for (const auto& [i, factor] : mesh.b) b[i] += factor;
     append_sparse(b, c.b);
     append_sparse(mass.solve(b), c.inverse_b);
     auto& m = c.meshes.emplace_back();

@@ -62,9 +62,8 @@ CouplingMatrix compliance_rate(const CompiledCoupling& coupling, double t, const
     for (Eigen::Index j = 0; j <= i; ++j, ++k) {
       double rate = coupling.frequency * rates[k];
       for (const auto& kept : coupling.kept)
-        rate -= kept.compliance *
-                (factor_of(kept.shares[i], w.factor_rate) * factor_of(kept.shares[j], w.factor) +
-                 factor_of(kept.shares[i], w.factor) * factor_of(kept.shares[j], w.factor_rate));
+        rate -= kept.compliance * (factor_of(kept.shares[i], w.factor_rate) * factor_of(kept.shares[j], w.factor) +
+                                   factor_of(kept.shares[i], w.factor) * factor_of(kept.shares[j], w.factor_rate));
       d(i, j) = d(j, i) = rate;
     }
   return d;
@@ -94,7 +93,7 @@ void solve_coupling(const CompiledCoupling& coupling, const std::vector<Compiled
       if (!held) w.contact[m] = contact_of(meshes[m], w.delta[m]);
       apply_law(meshes[m], m, w);
       residual[i] = w.elastic[m] - force[i];
-      scale = std::max({scale, std::abs(w.elastic[m]), w.tangent[m] * std::abs(w.closing[m])});
+      scale = std::max({scale, std::abs(w.elastic[m]), w.stiffness[m] * std::abs(w.closing[m])});
     }
     if (residual.cwiseAbs().maxCoeff() <= accuracy * scale) return;
     CouplingMatrix matrix = d;

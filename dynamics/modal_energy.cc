@@ -31,17 +31,21 @@ ModalEnergy modal_energy(const LumpedSystem& system, const Eigen::VectorXd& mesh
     vectors.push_back(std::move(a));
     stiffness.push_back(spring.stiffness);
   }
-  for (int m = 0; m < static_cast<int>(system.meshes().size()); ++m) {
+  const auto springs = static_cast<Eigen::Index>(vectors.size());
+  const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
+  Eigen::MatrixXd closing(system.freedoms(), meshes);
+  for (Eigen::Index m = 0; m < meshes; ++m) {
     result.elements.push_back(system.meshes()[m].name);
-    vectors.push_back(system.mesh_vector(m));
-    stiffness.push_back(mesh_stiffness[m]);
+    closing.col(m) = system.mesh_vector(static_cast<int>(m));
   }
+  const Eigen::MatrixXd coupled = mesh_stiffness_matrix(system, mesh_stiffness);
+  if (!system.couplings().empty()) result.elements.emplace_back("ring_body");
 
   std::vector<Eigen::Index> body;
   for (const auto& freedom : system.names()) body.push_back(place_of(result.bodies, body_of(freedom)));
 
   const auto count = static_cast<Eigen::Index>(modes.modes.size());
-  result.strain = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(vectors.size()), count);
+  result.strain = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(result.elements.size()), count);
   result.kinetic = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(result.bodies.size()), count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& mode = modes.modes[i];
@@ -50,6 +54,10 @@ ModalEnergy modal_energy(const LumpedSystem& system, const Eigen::VectorXd& mesh
         const double stretch = vectors[e].dot(mode.shape);
         result.strain(static_cast<Eigen::Index>(e), i) = stiffness[e] * stretch * stretch;
       }
+      const Eigen::VectorXd delta = closing.transpose() * mode.shape, force = coupled * delta;
+      result.strain.col(i).segment(springs, meshes) = force.array().square() / mesh_stiffness.array();
+      if (!system.couplings().empty())
+        result.strain(springs + meshes, i) = delta.dot(force) - result.strain.col(i).segment(springs, meshes).sum();
       result.strain.col(i) /= result.strain.col(i).sum();
     }
     const Eigen::VectorXd momentum = system.mass() * mode.shape;

@@ -9,11 +9,13 @@
 namespace annulus::dynamics {
 
 /// Where the energy of each mode sits. The strain share of an element is k (a^T phi)^2 / phi^T K phi: the relative
-/// change of omega^2 per relative change of its stiffness.
+/// change of omega^2 per relative change of its stiffness. Of a mesh it is F^2/k; what meshes coupled through the ring
+/// leave, F^T D F, is the element ring_body.
 struct ModalEnergy {
-  std::vector<std::string> elements;  ///< springs (sun_support_x, planet1_bearing_radial, ...), then meshes
-  Eigen::MatrixXd strain;             ///< elements x modes; columns sum to 1, to 0 for rigid motions
-  std::vector<std::string> bodies;    ///< of the freedoms: sun, ring, carrier, planet1, ...
+  std::vector<std::string>
+      elements;            ///< springs (sun_support_x, planet1_bearing_radial, ...), then meshes (and ring_body)
+  Eigen::MatrixXd strain;  ///< elements x modes; columns sum to 1, to 0 for rigid motions
+  std::vector<std::string> bodies;  ///< of the freedoms: sun, ring, carrier, planet1, ...
   /// bodies x modes; columns sum to 1. A body without freedoms of its own counts with the one it rides on.
   Eigen::MatrixXd kinetic;
 };

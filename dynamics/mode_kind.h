@@ -13,8 +13,8 @@ namespace annulus::dynamics {
 enum class ModeKind { rotational, translational, planet, mixed };
 [[nodiscard]] std::string to_string(ModeKind kind);
 
-/// Tells the kinds apart by the shares of the kinetic energy. Freedoms are known by their names (sun_x, planet1_u, ...);
-/// others, such as elastic ones, take no part.
+/// Tells the kinds apart by the shares of the kinetic energy. Freedoms are known by their names (sun_x, planet1_u,
+/// ...); others, such as elastic ones, take no part.
 class KindSorter {
  public:
   KindSorter(const LumpedSystem& system, int planets);

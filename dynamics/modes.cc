@@ -1,6 +1,7 @@
 #include "dynamics/modes.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
@@ -28,14 +29,36 @@ void separate_multiples(const KindSorter& sorter, std::vector<Mode>& modes) {
 
 }  // namespace
 
-Eigen::MatrixXd stiffness_with_meshes(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness) {
+Eigen::MatrixXd mesh_stiffness_matrix(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness) {
   require(mesh_stiffness.size() == static_cast<Eigen::Index>(system.meshes().size()), "one stiffness per mesh");
-  Eigen::MatrixXd stiffness = system.stiffness();
-  for (int m = 0; m < mesh_stiffness.size(); ++m) {
-    const Eigen::VectorXd b = system.mesh_vector(m);
-    stiffness += mesh_stiffness[m] * b * b.transpose();
+  Eigen::MatrixXd result = mesh_stiffness.asDiagonal();
+  for (const auto& coupling : system.couplings()) {
+    const auto n = static_cast<Eigen::Index>(coupling.meshes.size());
+    const auto& first = system.meshes()[coupling.meshes.front()];
+    Eigen::MatrixXd compliance(n, n);
+    std::size_t k = 0;
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j <= i; ++j, ++k) {
+        const auto& curve = coupling.compliance[k];
+        double value = coupling.kept.empty() ? curve.mean() : curve(first.phase_offset);
+        for (const auto& kept : coupling.kept)
+          value -= system.mesh_vector(coupling.meshes[i])[kept.freedom] *
+                   system.mesh_vector(coupling.meshes[j])[kept.freedom] / kept.stiffness;
+        compliance(i, j) = compliance(j, i) = value;
+      }
+    for (Eigen::Index i = 0; i < n; ++i) compliance(i, i) += 1 / mesh_stiffness[coupling.meshes[i]];
+    const Eigen::MatrixXd stiffness = compliance.inverse();
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j)
+        result(coupling.meshes[i], coupling.meshes[j]) = (stiffness(i, j) + stiffness(j, i)) / 2;
   }
-  return stiffness;
+  return result;
+}
+
+Eigen::MatrixXd stiffness_with_meshes(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness) {
+  Eigen::MatrixXd b(system.freedoms(), mesh_stiffness.size());
+  for (int m = 0; m < mesh_stiffness.size(); ++m) b.col(m) = system.mesh_vector(m);
+  return system.stiffness() + b * mesh_stiffness_matrix(system, mesh_stiffness) * b.transpose();
 }
 
 Modes modes(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness) {

@@ -32,7 +32,11 @@ struct Modes {
 
 /// Mean tangent stiffness of every mesh of the assembled stage, N/m, in the order of its meshes.
 [[nodiscard]] Eigen::VectorXd mean_mesh_stiffness(const PlanetaryStage& stage);
-/// K + sum k_m b_m b_m^T, N/m.
+/// d forces / d closings, meshes x meshes, N/m: the given stiffnesses on the diagonal; of coupled meshes
+/// (diag(1/k) + D)^-1, D the mean compliance (the one at time 0 when the common body has freedoms of its own, for their
+/// part in it changes with the mesh vectors, which modes take at time 0).
+[[nodiscard]] Eigen::MatrixXd mesh_stiffness_matrix(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness);
+/// K + B K_m B^T, N/m, K_m the matrix above and B the mesh vectors.
 [[nodiscard]] Eigen::MatrixXd stiffness_with_meshes(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness);
 
 }  // namespace annulus::dynamics

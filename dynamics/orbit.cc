@@ -20,8 +20,8 @@ Orbit orbit(const PlanetaryStage& stage, const TimeSeries& series, const std::st
   if (series.time.size() == 0) return result;
   result.mean_x = result.x.mean();
   result.mean_y = result.y.mean();
-  result.extent = std::sqrt(
-      ((result.x.array() - result.mean_x).square() + (result.y.array() - result.mean_y).square()).maxCoeff());
+  result.extent =
+      std::sqrt(((result.x.array() - result.mean_x).square() + (result.y.array() - result.mean_y).square()).maxCoeff());
   result.largest = std::sqrt((result.x.array().square() + result.y.array().square()).maxCoeff());
   return result;
 }

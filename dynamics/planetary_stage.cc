@@ -54,6 +54,31 @@ bool any_errors(const PlanetaryStage& stage) {
          std::any_of(stage.planet_errors.begin(), stage.planet_errors.end(), has_errors);
 }
 
+void check_coupling(const RingCoupling& coupling, const PlanetaryStage& stage) {
+  const auto refuse = [](const std::string& what) { throw InputError("ring coupling: " + what); };
+  if (coupling.planets != stage.planets())
+    refuse(fmt::format("made for {} planets, the stage has {}", coupling.planets, stage.planets()));
+  if (coupling.ring_teeth != stage.ring_teeth)
+    refuse(fmt::format("made for {} ring teeth, the stage has {}", coupling.ring_teeth, stage.ring_teeth));
+  const auto matrices = static_cast<int>(coupling.compliance.size());
+  if (coupling.per_cycle < 1 || matrices < 1 || matrices % coupling.per_cycle)
+    refuse(fmt::format("{} compliance matrices do not fill mesh cycles at {} per cycle", matrices, coupling.per_cycle));
+  for (const auto& matrix : coupling.compliance) {
+    if (matrix.rows() != stage.planets() || matrix.cols() != stage.planets() || !matrix.allFinite())
+      refuse("a compliance matrix is not planets x planets finite numbers");
+    // Tolerates what a file of a few digits leaves of the symmetry.
+    if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > 1e-6 * matrix.cwiseAbs().maxCoeff())
+      refuse("a compliance matrix is not symmetric");
+  }
+  for (const auto& mode : coupling.modes) {
+    check_positive(mode.frequency, "ring coupling: frequency of a mode");
+    if (static_cast<int>(mode.closing.size()) != coupling.ring_teeth)
+      refuse(fmt::format("a mode has {} closings for {} teeth", mode.closing.size(), coupling.ring_teeth));
+    for (const double value : {mode.translation_x, mode.translation_y, mode.rotation})
+      if (!std::isfinite(value)) refuse("a mode's inertial coupling is not finite");
+  }
+}
+
 MeshError sum_of(const std::vector<HarmonicError>& errors, double time) {
   MeshError e;
   for (const auto& h : errors) {
@@ -119,6 +144,11 @@ double PlanetaryStage::carrier_torque() const { return sun_torque * (1 + static_
 
 int PlanetaryStage::error_period() const {
   int period = std::lcm(period_in_cycles(sun_mesh), period_in_cycles(ring_mesh));
+  if (ring_coupling) {
+    const auto matrices = static_cast<int>(ring_coupling->compliance.size());
+    period = std::lcm(period, matrices / ring_coupling->per_cycle);
+    if (!ring_coupling->modes.empty()) period = std::lcm(period, ring_teeth);
+  }
   if (carrier_speed == 0) return period;
   const auto eccentric = [](const BodyErrors& e) { return e.eccentricity.exists(); };
   if (std::any_of(planet_errors.begin(), planet_errors.end(), eccentric)) period = std::lcm(period, planet_teeth);
@@ -154,6 +184,7 @@ void PlanetaryStage::check() const {
       throw InputError(fmt::format("working pressure angle {} rad must lie below 90 degrees", angle));
   dynamics::check(sun_mesh, "sun-planet mesh");
   dynamics::check(ring_mesh, "ring-planet mesh");
+  if (ring_coupling) check_coupling(*ring_coupling, *this);
   if (half_backlash) check_not_negative(*half_backlash, "half backlash");
   check_not_negative(mesh_damping_ratio, "mesh damping ratio");
   check_not_negative(support_damping_ratio, "support damping ratio");

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "core/ring_coupling.h"
 #include "dynamics/mesh_excitation.h"
 
 namespace annulus::geometry {
@@ -79,6 +81,12 @@ struct PlanetaryStage {
   /// f t - ring_phase_lag[n] + ring_tooth_offset[n]. Empty: all zero (planets in phase).
   std::vector<double> sun_phase_lag, ring_phase_lag, ring_tooth_offset;
 
+  /// How the ring meshes act on each other through the ring; absent: they do not. With modes of the ring each becomes a
+  /// freedom ring_mode1, ring_mode2, ... (modal amplitude, kg^1/2 m; damping ratio `support_damping_ratio`), and
+  /// ring_x, ring_y are then measured in the housing, in which the modes stand: no gyroscopic and centripetal terms for
+  /// the ring, and mesh vectors that turn past it with the carrier. The axes of carrier and ring agree at time 0.
+  std::shared_ptr<const RingCoupling> ring_coupling;
+
   /// Half the total normal backlash, m. Absent: the teeth never part (a linear mesh, pulling included).
   std::optional<double> half_backlash;
   double mesh_damping_ratio = 0;     ///< zeta in c = 2 zeta sqrt(k_mean m_e), 1/m_e = r_1^2/I_1 + r_2^2/I_2   (31, 34)
@@ -99,7 +107,8 @@ struct PlanetaryStage {
   [[nodiscard]] double mean_mesh_force() const;  ///< N: T_s / (N r_bs), of every sun and ring mesh
   [[nodiscard]] double carrier_torque() const;   ///< N m: T_s (1 + z_r/z_s), positive number
   /// Whole mesh cycles after which excitation and errors repeat: z_p with planet eccentricities, z_s with a sun
-  /// eccentricity, z_r with errors standing in the housing, the periods of the tables; their least common multiple.
+  /// eccentricity, z_r with errors standing in the housing or modes of the ring, the periods of the tables and of the
+  /// coupling; their least common multiple.
   [[nodiscard]] int error_period() const;
 
   /// Throws InputError naming the quantity when the stage cannot be assembled.
@@ -122,7 +131,8 @@ struct MeshError {
 void set_kinematics(PlanetaryStage& stage, const geometry::PlanetarySet& set);
 
 /// The stage as elements. Freedoms in the order sun, ring, carrier, planet1 ... planetN, each x, y, u as far as they
-/// exist, named sun_x, sun_y, sun_u, ..., planet1_x, ...; meshes sun_planet1 ... sun_planetN, ring_planet1 ...
+/// exist, named sun_x, sun_y, sun_u, ..., planet1_x, ..., then ring_mode1, ...; meshes sun_planet1 ... sun_planetN,
+/// ring_planet1 ...
 [[nodiscard]] LumpedSystem assemble(const PlanetaryStage& stage);
 
 }  // namespace annulus::dynamics

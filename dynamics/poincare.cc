@@ -88,8 +88,7 @@ SectionPattern section_pattern(const PoincareSection& section, int error_period,
   pattern.kind = SectionKind::irregular;
   pattern.spread = std::numeric_limits<double>::infinity();
   for (Eigen::Index shift = error_period; shift <= cycles / 2; shift += error_period) {
-    const double distance =
-        (points.rightCols(cycles - shift) - points.leftCols(cycles - shift)).cwiseAbs().maxCoeff();
+    const double distance = (points.rightCols(cycles - shift) - points.leftCols(cycles - shift)).cwiseAbs().maxCoeff();
     pattern.spread = std::min(pattern.spread, distance);
     if (distance > tolerance) continue;
     pattern.spread = distance;

@@ -11,8 +11,9 @@ namespace annulus::dynamics {
 
 /// A mode of the turning stage, e^(lambda t) in the carrier-fixed frame.
 struct RotatingMode {
-  double frequency = 0;      ///< Hz, |Im lambda| / 2 pi: damped when damping counts
-  double damping_ratio = 0;  ///< -Re lambda / |lambda|; 0 for rigid motions, 1 when it creeps back, -1 when it runs away
+  double frequency = 0;  ///< Hz, |Im lambda| / 2 pi: damped when damping counts
+  double damping_ratio =
+      0;  ///< -Re lambda / |lambda|; 0 for rigid motions, 1 when it creeps back, -1 when it runs away
   ModeKind kind = ModeKind::mixed;
   Eigen::VectorXcd shape;  ///< phi^H M phi = 1, largest entry real, in the order of `RotatingModes::freedoms`
 };

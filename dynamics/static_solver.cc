@@ -62,7 +62,9 @@ void StaticSolver::factorise(const Eigen::MatrixXd& tangent, double t) {
   factor_.compute(base_ + vectors_ * tangent * vectors_.transpose());
   if (factor_.info() != Eigen::Success)
     throw SolverError(
-        fmt::format("the quasi-static stiffness at t = {:g} s is not positive: a freedom is held by nothing", t));
+        fmt::format("the quasi-static stiffness at t = {:g} s is not positive: a freedom is held by nothing, or a "
+                    "coupling takes more compliance off the meshes than they have",
+                    t));
 }
 
 double StaticSolver::residual(double t, const Eigen::VectorXd& q, LumpedSystem::Workspace& w) {

@@ -14,6 +14,7 @@
 #include <sundials/sundials_context.hpp>
 
 #include "core/errors.h"
+#include "dynamics/vector_kernels.h"
 
 namespace annulus::dynamics {
 
@@ -79,6 +80,7 @@ class SundialsStepper : public Stepper {
     y_ = N_VNew_Serial(problem.size(), context_);
     // One pass per Runge-Kutta stage instead of one per term; every vector cloned from this one inherits it.
     N_VEnableFusedOps_Serial(y_, SUNTRUE);
+    use_fast_kernels(y_);
     tolerance_ = N_VNew_Serial(problem.size(), context_);
     for (int i = 0; i < problem.size(); ++i) NV_Ith_S(tolerance_, i) = tolerance[i];
   }

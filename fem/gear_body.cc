@@ -64,6 +64,29 @@ Eigen::Vector3d flank_normal(const geometry::ToothProfile& profile, double roll,
 
 }  // namespace
 
+Wrench resultant(const NodalLoad& load, const std::vector<Eigen::Vector3d>& nodes) {
+  Wrench wrench = Wrench::Zero();
+  for (const auto& f : load) {
+    wrench.head<3>() += f.force;
+    wrench.tail<3>() += nodes[f.node].cross(f.force);
+  }
+  return wrench;
+}
+
+std::vector<Port> flank_forces(const SectorModel& model, const geometry::ToothProfile& profile,
+                               geometry::Boundary flank) {
+  std::vector<Port> ports;
+  const double side = flank == geometry::Boundary::trailing_flank ? -1 : 1;
+  for (const int node : model.flank.nodes) {
+    // At the node's own place, not at the coordinates of its row: only there has the normal the base circle's lever
+    // arm.
+    const auto& point = model.nodes[node];
+    const double roll = profile.roll_length_at(std::hypot(point.x(), point.y()));
+    ports.push_back({node, -flank_normal(profile, roll, side, point.z())});
+  }
+  return ports;
+}
+
 CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
                               double support_radius, const Material& material, const GearBodyOptions& options) {
   const SectorModel model = make_sector_model(sector_mesh, profile, support_radius, material, options.sector);
@@ -77,23 +100,11 @@ CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry:
   body.unknowns = model.stiffness.rows();
 
   SectorLoads loads;
-  const double side = options.sector.flank == geometry::Boundary::trailing_flank ? -1 : 1;
-  for (const int node : model.flank.nodes) {
-    // At the node's own place, not at the coordinates of its row: only there has the normal the base circle's lever
-    // arm.
-    const auto& point = model.nodes[node];
-    const double roll = profile.roll_length_at(std::hypot(point.x(), point.y()));
-    loads.ports.push_back({node, -flank_normal(profile, roll, side, point.z())});
-    body.port_points.push_back(point);
-  }
+  loads.ports = flank_forces(model, profile, options.sector.flank);
+  for (const auto& port : loads.ports) body.port_points.push_back(model.nodes[port.node]);
   for (const auto& arc : options.arcs) {
     loads.acting.push_back(on_outside(arc, model.outside));
-    Wrench wrench = Wrench::Zero();
-    for (const auto& f : loads.acting.back()) {
-      wrench.head<3>() += f.force;
-      wrench.tail<3>() += model.nodes[f.node].cross(f.force);
-    }
-    body.arc_wrenches.push_back(wrench);
+    body.arc_wrenches.push_back(resultant(loads.acting.back(), model.nodes));
   }
 
   constexpr int root_points = 60, rim_points = 24;

@@ -52,6 +52,12 @@ struct GearBody {
   [[nodiscard]] Wrench arc_wrench(int arc, int sector) const;
 };
 
+/// Force and moment of a load, in the sector's frame.
+[[nodiscard]] Wrench resultant(const NodalLoad& load, const std::vector<Eigen::Vector3d>& nodes);
+/// Unit forces into the material along the flank normal at the nodes of the flank, [as model.flank.nodes].
+[[nodiscard]] std::vector<Port> flank_forces(const SectorModel& model, const geometry::ToothProfile& profile,
+                                             geometry::Boundary flank);
+
 struct GearBodyOptions {
   SectorModelOptions sector;
   RingExtent extent;

@@ -2,14 +2,23 @@
 
 #include <dlfcn.h>
 
+#include <vector>
+
 #include "core/errors.h"
 
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 void zpotrf_(const char* uplo, const int* n, std::complex<double>* a, const int* lda, int* info);
 void zpotri_(const char* uplo, const int* n, std::complex<double>* a, const int* lda, int* info);
+void dsyevr_(const char* job, const char* range, const char* uplo, const int* n, double* a, const int* lda,
+             const double* vl, const double* vu, const int* il, const int* iu, const double* abstol, int* found,
+             double* w, double* z, const int* ldz, int* isuppz, double* work, const int* lwork, int* iwork,
+             const int* liwork, int* info);
 void dtrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
             const double* alpha, const double* a, const int* lda, double* b, const int* ldb);
+void ztrsm_(const char* side, const char* uplo, const char* trans, const char* diag, const int* m, const int* n,
+            const std::complex<double>* alpha, const std::complex<double>* a, const int* lda, std::complex<double>* b,
+            const int* ldb);
 void dgemm_(const char* ta, const char* tb, const int* m, const int* n, const int* k, const double* alpha,
             const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
             const int* ldc);
@@ -41,6 +50,12 @@ void solve_lower(const Eigen::MatrixXd& factor, Eigen::MatrixXd& rhs) {
   const int m = size(rhs.rows()), n = size(rhs.cols()), lda = leading(factor.rows()), ldb = leading(m);
   const double one = 1;
   if (m > 0 && n > 0) dtrsm_("L", "L", "N", "N", &m, &n, &one, factor.data(), &lda, rhs.data(), &ldb);
+}
+
+void solve_lower(const Eigen::MatrixXcd& factor, Eigen::MatrixXcd& rhs) {
+  const int m = size(rhs.rows()), n = size(rhs.cols()), lda = leading(factor.rows()), ldb = leading(m);
+  const std::complex<double> one = 1;
+  if (m > 0 && n > 0) ztrsm_("L", "L", "N", "N", &m, &n, &one, factor.data(), &lda, rhs.data(), &ldb);
 }
 
 void invert_from_cholesky(Eigen::MatrixXcd& factor) {
@@ -82,6 +97,29 @@ Eigen::MatrixXd gram(const Eigen::MatrixXd& y) {
   if (n > 0) dsyrk_("L", "T", &n, &k, &one, y.data(), &lda, &zero, c.data(), &ldc);
   c.triangularView<Eigen::StrictlyUpper>() = c.transpose();
   return c;
+}
+
+std::pair<Eigen::VectorXd, Eigen::MatrixXd> largest_eigenpairs(Eigen::MatrixXd matrix, int count) {
+  const int n = size(matrix.rows()), first = n - count + 1;
+  require(matrix.cols() == n && count >= 1 && count <= n, "eigenpairs that a matrix does not have");
+  Eigen::VectorXd values(n);
+  Eigen::MatrixXd vectors(n, count);
+  std::vector<int> support(2 * static_cast<std::size_t>(count));
+  const double unused = 0, tolerance = 0;
+  int found = 0, info = 0, work_size = -1, integer_size = -1, integer_wanted = 0;
+  double work_wanted = 0;
+  const auto call = [&](double* work, int* integers) {
+    dsyevr_("V", "I", "L", &n, matrix.data(), &n, &unused, &unused, &first, &n, &tolerance, &found, values.data(),
+            vectors.data(), &n, support.data(), work, &work_size, integers, &integer_size, &info);
+  };
+  call(&work_wanted, &integer_wanted);  // asks for the sizes of the workspace
+  work_size = static_cast<int>(work_wanted);
+  integer_size = integer_wanted;
+  std::vector<double> work(work_size);
+  std::vector<int> integers(integer_size);
+  call(work.data(), integers.data());
+  if (info != 0 || found != count) throw SolverError("an eigenvalue problem did not converge");
+  return {values.head(count).reverse(), vectors.rowwise().reverse()};
 }
 
 void use_one_thread() {

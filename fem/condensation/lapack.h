@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <utility>
 
 namespace annulus::fem::lapack {
 
@@ -23,6 +24,9 @@ void solve_lower(const Eigen::MatrixXcd& factor, Eigen::MatrixXcd& rhs);
 void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& c);
 /// y^T y, both triangles filled.
 [[nodiscard]] Eigen::MatrixXd gram(const Eigen::MatrixXd& y);
+/// The `count` largest eigenvalues, falling, and their eigenvectors (orthonormal columns) of a symmetric matrix. Throws
+/// SolverError when they do not converge.
+[[nodiscard]] std::pair<Eigen::VectorXd, Eigen::MatrixXd> largest_eigenpairs(Eigen::MatrixXd matrix, int count);
 /// One BLAS thread: annulus runs its own threads over independent tasks.
 void use_one_thread();
 

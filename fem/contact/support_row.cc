@@ -48,6 +48,28 @@ SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slic
   }
 }
 
+Eigen::MatrixXd SupportPlan::own_compliance() const {
+  const auto n = static_cast<Eigen::Index>(forces_.size());
+  const auto& edges = slice_edges_;
+  const double width = edges.back() - edges.front();
+  Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& force = forces_[i];
+    const auto& own = direction(force);
+    const auto middle = [&](Eigen::Index slice) {
+      return ((edges[slice] + edges[slice + 1]) / 2 - edges.front()) / width;
+    };
+    compliance(i, i) += width / (edges[force.slice + 1] - edges[force.slice]) / own.stiffness;
+    // The pin stays straight between its ends: a force at z divides between them by the lever rule.
+    const Eigen::Index first = i - force.slice;
+    for (Eigen::Index j = first; j < first + static_cast<Eigen::Index>(edges.size()) - 1; ++j) {
+      const double a = middle(force.slice), b = middle(j - first);
+      compliance(i, j) += ((1 - a) * (1 - b) + a * b) * 2 / own.end_stiffness;
+    }
+  }
+  return compliance;
+}
+
 SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
     : plan_(std::move(plan)), ring_(ring), on_sector_(ring.teeth), cuts_(std::make_unique<Cut[]>(ring.teeth)) {
   const bool solid = ring.axial_stations() > 1;
@@ -82,18 +104,7 @@ SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
       compliance_.row(here.force[i]) += arc_displacement.row(here.arc[i]);
   }
   compliance_ = (0.5 * (compliance_ + compliance_.transpose())).eval();
-  for (int i = 0; i < n; ++i) {
-    const auto& force = plan_.forces()[i];
-    const auto& direction = plan_.direction(force);
-    const auto middle = [&](int slice) { return ((edges[slice] + edges[slice + 1]) / 2 - edges.front()) / width; };
-    compliance_(i, i) += width / (edges[force.slice + 1] - edges[force.slice]) / direction.stiffness;
-    // The pin stays straight between its ends: a force at z divides between them by the lever rule.
-    const int first = i - force.slice;
-    for (int j = first; j < first + static_cast<int>(edges.size()) - 1; ++j) {
-      const double a = middle(force.slice), b = middle(j - first);
-      compliance_(i, j) += ((1 - a) * (1 - b) + a * b) * 2 / direction.end_stiffness;
-    }
-  }
+  compliance_ += plan_.own_compliance();
 }
 
 const Eigen::MatrixXd& SupportRow::at_cut(int cut) const {

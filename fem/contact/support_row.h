@@ -31,6 +31,8 @@ class SupportPlan {
   [[nodiscard]] const SupportDirection& direction(const Force& force) const {
     return sites_.sites[force.site].directions[force.direction];
   }
+  /// Compliance of the supports themselves between all forces, m/N.
+  [[nodiscard]] Eigen::MatrixXd own_compliance() const;
 
  private:
   SupportSites sites_;

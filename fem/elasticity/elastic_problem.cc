@@ -192,6 +192,37 @@ Eigen::SparseMatrix<double> ElasticProblem<dim>::stiffness() const {
 }
 
 template <int dim>
+Eigen::SparseMatrix<double> ElasticProblem<dim>::nodal_mass() const {
+  const dealii::QGauss<dim> quadrature(degree_ + 1);
+  dealii::FEValues<dim> values(mapping_, element_, quadrature, dealii::update_values | dealii::update_JxW_values);
+  const unsigned int nodes = element_.dofs_per_cell / dim;
+  std::vector<unsigned int> first;  // freedoms of the first component, one per node
+  for (unsigned int i = 0; i < element_.dofs_per_cell; ++i)
+    if (element_.system_to_component_index(i).first == 0) first.push_back(i);
+  Eigen::MatrixXd shape(nodes, quadrature.size()), weighted(nodes, quadrature.size());
+  std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(static_cast<std::size_t>(triangulation_.n_active_cells()) * nodes * nodes);
+  std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
+  for (const auto& cell : dofs_.active_cell_iterators()) {
+    values.reinit(cell);
+    cell->get_dof_indices(indices);
+    for (unsigned int q = 0; q < quadrature.size(); ++q)
+      for (unsigned int a = 0; a < nodes; ++a) {
+        shape(a, q) = values.shape_value(first[a], q);
+        weighted(a, q) = material_.density * values.JxW(q) * shape(a, q);
+      }
+    const Eigen::MatrixXd products = shape * weighted.transpose();
+    for (unsigned int a = 0; a < nodes; ++a)
+      for (unsigned int b = 0; b < nodes; ++b)
+        triplets.emplace_back(node_of_freedom_[indices[first[a]]], node_of_freedom_[indices[first[b]]], products(a, b));
+  }
+  const auto size = static_cast<Eigen::Index>(node_points_.size());
+  Eigen::SparseMatrix<double> matrix(size, size);
+  matrix.setFromTriplets(triplets.begin(), triplets.end());
+  return matrix;
+}
+
+template <int dim>
 Eigen::VectorXd ElasticProblem<dim>::body_load(
     const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& force_density) const {
   const dealii::QGauss<dim> quadrature(degree_ + 3);

@@ -35,6 +35,8 @@ class ElasticProblem {
 
   /// Symmetric stiffness matrix over all freedoms, held or not (N/m; in 2D per metre of width: N/m^2).
   [[nodiscard]] Eigen::SparseMatrix<double> stiffness() const;
+  /// Consistent mass of one displacement component over the nodes (kg; in 2D per metre of width: kg/m).
+  [[nodiscard]] Eigen::SparseMatrix<double> nodal_mass() const;
   [[nodiscard]] Eigen::VectorXd body_load(
       const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& force_density) const;
   /// Traction integrated over one boundary; the second argument is the outward normal.

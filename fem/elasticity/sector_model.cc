@@ -154,6 +154,7 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
   if (options.want_outside)
     model.outside = make_trace(problem.boundary_nodes(Boundary::support), model.nodes, options.degree,
                                [twist](const Eigen::Vector3d& p) { return polar_angle(p, twist); });
+  if (options.want_mass) model.nodal_mass = problem.nodal_mass();
   if (options.want_stress) {
     const auto surface = [&](const std::vector<Boundary>& boundaries, double low, double high) {
       return make_stress_surface(problem.surface_stress(boundaries), model.nodes, options.degree, twist, low, high);

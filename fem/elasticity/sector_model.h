@@ -44,6 +44,8 @@ struct SectorModel {
   TraceGrid outside;                       ///< of the support circle (empty when held)
   StressSurface root_low, root_high;       ///< root land and fillet of the trailing (y < 0) and of the leading side
   StressSurface rim;                       ///< of the support circle (empty when held)
+  Eigen::SparseMatrix<double>
+      nodal_mass;  ///< of one component, nodes x nodes; see ElasticProblem (empty unless wanted)
 };
 
 struct SectorModelOptions {
@@ -55,6 +57,7 @@ struct SectorModelOptions {
   /// Of a ring whose hoop or flange goes beyond it, m (see geometry::ExtrudeOptions).
   double outside_radius = std::numeric_limits<double>::quiet_NaN();
   bool want_stress = false;  ///< root_low, root_high, and rim where the support circle is free
+  bool want_mass = false;    ///< nodal_mass
 };
 
 [[nodiscard]] SectorModel make_sector_model(const geometry::Mesh& mesh, const geometry::ToothProfile& profile,

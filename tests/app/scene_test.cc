@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(ring_names_are_unique) {
 
 BOOST_AUTO_TEST_CASE(what_is_not_available_is_said_so) {
   check_refused("kind = \"planetary\"", "kind = \"helical_pair\"", {"not yet available"});
-  check_refused("[errors]", "[monte_carlo]\nsamples = 3\n[errors]", {"monte_carlo", "not yet available"});
+  check_refused("[errors]", "[optimise]\n[errors]", {"optimise", "not yet available"});
 }
 
 BOOST_AUTO_TEST_CASE(pins_by_number_or_by_place) {

@@ -5,6 +5,7 @@
 
 #include "app/report_parts.h"
 #include "app/svg_mesh.h"
+#include "app/svg_mode.h"
 #include "geometry/sector_mesh.h"
 #include "tests/app/made_up_solution.h"
 
@@ -27,6 +28,49 @@ BOOST_AUTO_TEST_CASE(ticks_are_round_and_inside) {
     for (std::size_t i = 1; i < labels.size(); ++i) BOOST_TEST(labels[i] != labels[i - 1]);
   }
   BOOST_TEST(app::nice_ticks(1, 1, 5).size() == 1U);
+}
+
+// A turned and a shifted wheel: the sun at rest is drawn twice in the same place, and once more where it went.
+BOOST_AUTO_TEST_CASE(mode_shapes_show_displaced_bodies) {
+  app::ModeDrawing mode{.title = "a<b",
+                        .sun_radius = 0.5,
+                        .planet_radius = 0.4,
+                        .ring_radius = 1.5,
+                        .centre_distance = 1,
+                        .planet_angles = {0, 2},
+                        .planets = {{1, 0, 0}, {0, 0, 0}}};
+  const auto circles = [&] {
+    const auto svg = app::to_svg(mode);
+    BOOST_TEST(svg.find("a&lt;b") != std::string::npos);
+    BOOST_TEST(svg.find("nan") == std::string::npos);
+    std::vector<std::string> places;
+    for (auto at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1))
+      places.push_back(svg.substr(at, svg.find(" fill", at) - at));
+    return places;
+  };
+  auto places = circles();  // ring, planets, sun at rest, then displaced
+  BOOST_REQUIRE(places.size() == 8U);
+  BOOST_TEST(places[0] == places[4]);
+  BOOST_TEST(places[1] != places[5]);
+  BOOST_TEST(places[2] == places[6]);
+  BOOST_TEST(places[3] == places[7]);
+  mode.sun.u = 1;  // turning moves marks, not circles
+  const auto before = app::to_svg(mode);
+  places = circles();
+  BOOST_TEST(places[3] == places[7]);
+  mode.sun.u = -1;
+  BOOST_TEST(app::to_svg(mode) != before);
+}
+
+BOOST_AUTO_TEST_CASE(notes_end_above_their_point) {
+  app::Plot plot{.x_range = app::Range{0, 1},
+                 .y_range = app::Range{0, 1},
+                 .series = {{.x = {0, 1}, .y = {0, 1}}},
+                 .notes = {{1, 0, "h<1"}}};
+  const auto svg = app::to_svg(plot);
+  // The right end of the axis, at x = 430 - 12, less a gap; the bottom, at y = 270 - 42, likewise.
+  BOOST_TEST(svg.find("<text x=\"415.0\" y=\"225.0\" text-anchor=\"end\" fill=\"#666\">h&lt;1</text>") !=
+             std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(text_is_escaped) {

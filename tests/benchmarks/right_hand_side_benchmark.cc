@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,22 @@ using namespace annulus::dynamics;
 struct Case {
   std::string name;
   MeshExcitation sun, ring;
+  std::shared_ptr<const RingCoupling> coupling{};
 };
+
+/// A ring through which each mesh takes some tenths of its own deflection from its neighbours.
+std::shared_ptr<const RingCoupling> coupled_ring(int planets, int teeth) {
+  auto ring = std::make_shared<RingCoupling>();
+  ring->planets = planets;
+  ring->ring_teeth = teeth;
+  ring->per_cycle = 4;
+  for (int i = 0; i < 27 * ring->per_cycle; ++i) {
+    auto& d = ring->compliance.emplace_back(Eigen::MatrixXd::Zero(planets, planets));
+    for (int n = 0; n < planets; ++n)
+      for (int m = 0; m < n; ++m) d(n, m) = d(m, n) = 1e-10 * std::cos(n - m) * (1 + 0.1 * std::cos(0.1 * i));
+  }
+  return ring;
+}
 
 /// M q'' = f - (C + G) q' - (K + K_Omega) q - B F with dense matrices.
 class DensePeer {
@@ -94,12 +110,15 @@ int main(int argc, char** argv) {
       {"table, linear", table_stiffness(sun, load), table_stiffness(ring, load)},
       {"table, law", table_stiffness(sun, load, 0, LoadDependence::table),
        table_stiffness(ring, load, 0, LoadDependence::table)},
+      {"law, coupled", table_stiffness(sun, load, 0, LoadDependence::table),
+       table_stiffness(ring, load, 0, LoadDependence::table), coupled_ring(stage.planets(), stage.ring_teeth)},
   };
   fmt::print("{:<14} {:>8} {:>12} {:>12} {:>8}\n", "mesh", "freedoms", "ns", "dense, ns", "ratio");
   bool right = true;
   for (const auto& c : cases) {
     stage.sun_mesh = c.sun;
     stage.ring_mesh = c.ring;
+    stage.ring_coupling = c.coupling;
     const auto system = assemble(stage);
     const int n = system.freedoms();
     auto w = system.workspace();

@@ -115,6 +115,36 @@ BOOST_AUTO_TEST_CASE(rayleigh_quotient) {
   }
 }
 
+// Two masses on two meshes that share a body, D = d (1 1; 1 1): in step each mesh yields 1/k + 2d, against each other
+// the body does not yield at all.
+BOOST_AUTO_TEST_CASE(coupled_meshes) {
+  constexpr double k = 1e6, d = 0.25e-6, mass = 2;
+  LumpedSystemBuilder builder;
+  for (const std::string name : {"a", "b"}) {
+    MeshElement mesh;
+    mesh.name = name + "_mesh";
+    mesh.b = builder.add_freedom(name + "_x");
+    mesh.excitation = ConstantStiffness{k};
+    builder.add_mass(mesh.b, mass);
+    builder.add_mesh(mesh);
+  }
+  builder.add_mesh_coupling({{0, 1}, compliance_curves({Eigen::MatrixXd::Constant(2, 2, d)}, 1), {}});
+  const auto system = builder.build();
+  const Eigen::VectorXd stiffness = Eigen::VectorXd::Constant(2, k);
+  const auto found = annulus::dynamics::modes(system, stiffness);
+  const double in_step = 1 / (1 / k + 2 * d);
+  BOOST_TEST(std::abs(2 * std::numbers::pi * found.modes[0].frequency / std::sqrt(in_step / mass) - 1) <= 1e-12);
+  BOOST_TEST(std::abs(2 * std::numbers::pi * found.modes[1].frequency / std::sqrt(k / mass) - 1) <= 1e-12);
+  const auto energy = annulus::dynamics::modal_energy(system, stiffness, found);
+  const auto body = element(energy, "ring_body");
+  BOOST_TEST(std::abs(energy.strain(body, 0) - 2 * d * in_step) <= 1e-12);
+  BOOST_TEST(std::abs(energy.strain(body, 1)) <= 1e-12);
+  for (const auto* mesh : {"a_mesh", "b_mesh"}) {
+    BOOST_TEST(std::abs(energy.strain(element(energy, mesh), 0) - in_step / k / 2) <= 1e-12);
+    BOOST_TEST(std::abs(energy.strain(element(energy, mesh), 1) - 0.5) <= 1e-12);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(names_and_groups) {
   BOOST_TEST(element_group("planet12_bearing_radial") == "planet_bearing");
   BOOST_TEST(element_group("sun_planet3") == "sun_planet");

@@ -26,6 +26,7 @@ DiscretisedBody discretise_in(const geometry::Mesh& mesh, const Projection& proj
     body.nodes.push_back(point);
   }
   body.stiffness = problem->stiffness();
+  body.nodal_mass = problem->nodal_mass();
   body.boundary_nodes = [problem](geometry::Boundary boundary) { return problem->boundary_nodes(boundary); };
   return body;
 }

@@ -16,6 +16,7 @@ struct DiscretisedBody {
   std::vector<Eigen::Vector3d> nodes;
   std::vector<int> freedom;  ///< [node * dimension + component]
   Eigen::SparseMatrix<double> stiffness;
+  Eigen::SparseMatrix<double> nodal_mass;  ///< of one component, nodes x nodes
   std::function<std::vector<int>(geometry::Boundary)> boundary_nodes;
 };
 

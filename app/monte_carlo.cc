@@ -1,0 +1,224 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/content_id.h"
+#include "app/point_store.h"
+#include "app/progress.h"
+#include "app/studies.h"
+#include "app/study_cases.h"
+#include "app/tasks.h"
+#include "core/log.h"
+
+namespace annulus::app {
+
+namespace {
+
+const std::string failure_of = "failure_";
+constexpr int chunk_size = 20;  // samples per kept file: the most that an interruption costs, per thread
+
+/// All samples of one ring, kept in chunks in OUT/<ring>/dynamics/monte_carlo.
+class RingSamples {
+ public:
+  RingSamples(const ChangedStages& stages, std::size_t ring, const std::vector<RandomVariable>& variables)
+      : stages_(stages),
+        ring_(ring),
+        variables_(variables),
+        folder_(stages.options().out / stages.nominal().rings[ring].name / "dynamics" / "monte_carlo"),
+        id_(identity()) {
+    std::filesystem::create_directories(folder_);
+  }
+
+  /// Samples first ... last - 1, within one chunk: those kept, and the others found and kept with them.
+  [[nodiscard]] Csv chunk(int first, int last) const {
+    const auto file = folder_ / fmt::format("samples_{:07}.csv", first);
+    Csv csv = kept(file);
+    const auto before = csv.rows.size(), wanted = static_cast<std::size_t>(last - first);
+    for (int sample = first + static_cast<int>(before); sample < last; ++sample) add(csv, sample);
+    if (csv.rows.size() > before) csv.write(file);
+    csv.rows.resize(wanted);  // an earlier run may have kept more
+    std::erase_if(csv.header, [&](const auto& line) {
+      return line.first.starts_with(failure_of) && std::stoi(line.first.substr(failure_of.size())) > last;
+    });
+    return csv;
+  }
+
+  [[nodiscard]] std::vector<std::string> columns() const {
+    std::vector<std::string> names = {"sample", "failed"};
+    for (const auto& variable : variables_) names.push_back(file_name(variable.input));
+    for (const auto& figure : figure_columns(false)) names.push_back(figure);
+    return names;
+  }
+
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> header() const {
+    return {{"annulus_version", version()}, {"inputs_id", id_}};
+  }
+
+ private:
+  /// Of everything a sample depends on: the scene, the tables, the distributions and the seed; not of their number.
+  [[nodiscard]] std::string identity() const {
+    const auto& scene = stages_.nominal().scene;
+    const auto stage = stages_.stage({}, "[monte_carlo]", ring_, "", true);
+    ContentId id;
+    id.add("response", stage.id).add("method", dynamics::point_method()).add("seed", scene.monte_carlo->seed);
+    for (const auto& input : scene.inputs) {
+      if (input.key == "title" || input.key == "reference" || of_a_study(input.key)) continue;
+      const auto* number = std::get_if<double>(&input.value);
+      const auto* list = std::get_if<std::vector<double>>(&input.value);
+      const std::string name = input.key + "." + input.ring;
+      if (number) {
+        id.add(name, *number);
+      } else if (list) {
+        for (const double x : *list) id.add(name, x);
+      } else {
+        id.add(name, to_text(input.value));
+      }
+    }
+    for (const auto& v : variables_) {
+      const auto& d = v.distribution;
+      id.add("draw", v.input).add("kind", static_cast<int>(d.kind)).add("mean", d.mean).add("deviation", d.deviation);
+      id.add("low", d.low).add("high", d.high);
+    }
+    return id.id();
+  }
+
+  static bool of_a_study(const std::string& key) {
+    return key.starts_with("sweep.") || key.starts_with("monte_carlo.") || key.starts_with("sensitivity.");
+  }
+
+  /// The rows kept in a file of this identity, else none.
+  [[nodiscard]] Csv kept(const std::filesystem::path& file) const {
+    Csv empty;
+    empty.header = header();
+    empty.columns = columns();
+    if (!std::filesystem::exists(file)) return empty;
+    try {
+      Csv csv = Csv::read(file);
+      const bool same = csv.header.size() >= 2 && csv.header[1].second == id_ && csv.columns == columns();
+      return same ? csv : empty;
+    } catch (const InputError&) {
+      return empty;  // damaged: found again
+    }
+  }
+
+  void add(Csv& csv, int sample) const {
+    const auto drawn = sample_case(variables_, stages_.nominal().scene.monte_carlo->seed, sample);
+    StudyPoint point;
+    try {
+      point = evaluate(stages_.stage(drawn.overrides, drawn.where, ring_, "", false), false);
+    } catch (const InputError& error) {
+      point.failure = error.what();  // a combination of draws that makes no stage
+    }
+    auto& row = csv.rows.emplace_back();
+    row = {static_cast<double>(sample + 1), point.failure.empty() ? 0.0 : 1.0};
+    for (const auto& change : drawn.overrides) row.push_back(change.value);
+    const auto figures = figure_row(point, false);
+    row.insert(row.end(), figures.begin(), figures.end());
+    if (point.failure.empty()) return;
+    std::replace(point.failure.begin(), point.failure.end(), '\n', ' ');
+    csv.header.emplace_back(failure_of + std::to_string(sample + 1), point.failure);
+  }
+
+  const ChangedStages& stages_;
+  std::size_t ring_;
+  const std::vector<RandomVariable>& variables_;
+  std::filesystem::path folder_;
+  std::string id_;
+};
+
+std::vector<FigureStatistics> statistics_of(const Csv& samples) {
+  std::vector<FigureStatistics> list;
+  const auto failed = samples.column("failed");
+  for (const auto& figure : figure_columns(false)) {
+    if (figure == "steady") continue;
+    const auto column = samples.column(figure);
+    std::vector<double> values;
+    for (const auto& row : samples.rows) {
+      if (row[failed] == 0) values.push_back(row[column]);
+    }
+    if (values.empty()) continue;
+    list.push_back({figure, dynamics::mean_interval(values), dynamics::standard_deviation(values),
+                    dynamics::quantile_interval(values, 0.05), dynamics::quantile_interval(values, 0.5),
+                    dynamics::quantile_interval(values, 0.95)});
+  }
+  return list;
+}
+
+PairedOrder paired_order(const std::vector<MonteCarloRing>& rings, std::size_t a, std::size_t b,
+                         const std::string& figure) {
+  PairedOrder order{.a = a, .b = b, .figure = figure};
+  std::vector<double> differences;
+  const auto& first = rings[a].samples;
+  const auto& second = rings[b].samples;
+  const auto column = first.column(figure), failed = first.column("failed");
+  for (std::size_t i = 0; i < first.rows.size(); ++i) {
+    if (first.rows[i][failed] != 0 || second.rows[i][failed] != 0) continue;
+    ++order.samples;
+    differences.push_back(first.rows[i][column] - second.rows[i][column]);
+    if (first.rows[i][column] > second.rows[i][column]) ++order.above;
+    if (first.rows[i][column] == second.rows[i][column]) ++order.equal;
+  }
+  if (order.samples == 0) return order;
+  order.share = dynamics::share_interval(order.above, order.samples);
+  order.difference = dynamics::mean_interval(differences);
+  return order;
+}
+
+}  // namespace
+
+MonteCarloResult run_monte_carlo(const RunResult& nominal, const RunOptions& options) {
+  const auto& settings = *nominal.scene.monte_carlo;
+  const auto variables = random_variables(nominal.scene);
+  const ChangedStages stages(nominal, options);
+  std::vector<RingSamples> rings;
+  for (std::size_t i = 0; i < nominal.rings.size(); ++i) rings.emplace_back(stages, i, variables);
+
+  const int chunks = (settings.samples + chunk_size - 1) / chunk_size;
+  std::vector<std::vector<Csv>> found(rings.size(), std::vector<Csv>(static_cast<std::size_t>(chunks)));
+  const auto tasks = static_cast<std::size_t>(chunks) * rings.size();
+  TaskProgress progress("Monte Carlo", tasks);
+  for_each_task(tasks, options.threads, [&](std::size_t task) {
+    // All rings of a chunk first: an interrupted run has paired samples.
+    const std::size_t ring = task % rings.size(), chunk = task / rings.size();
+    const int first = static_cast<int>(chunk) * chunk_size;
+    found[ring][chunk] = rings[ring].chunk(first, std::min(first + chunk_size, settings.samples));
+    progress.done();
+  });
+
+  MonteCarloResult result{.samples = settings.samples, .seed = settings.seed};
+  for (const auto& variable : variables) result.inputs.push_back(variable.input);
+  int failures = 0;
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    MonteCarloRing ring;
+    ring.samples.header = rings[i].header();
+    ring.samples.columns = rings[i].columns();
+    for (const auto& chunk : found[i]) {
+      ring.samples.rows.insert(ring.samples.rows.end(), chunk.rows.begin(), chunk.rows.end());
+      ring.samples.header.insert(ring.samples.header.end(), chunk.header.begin() + 2, chunk.header.end());
+    }
+    const auto failed = ring.samples.column("failed"), steady = ring.samples.column("steady");
+    for (const auto& row : ring.samples.rows) {
+      ring.failed += row[failed] != 0 ? 1 : 0;
+      ring.not_steady += row[failed] == 0 && row[steady] == 0 ? 1 : 0;
+    }
+    failures += ring.failed;
+    ring.statistics = statistics_of(ring.samples);
+    ring.samples.write(options.out / nominal.rings[i].name / "dynamics" / "monte_carlo.csv");
+    if (ring.failed)
+      log::warn(fmt::format("Monte Carlo, ring '{}': {} of {} samples failed; monte_carlo.csv tells why",
+                            nominal.rings[i].name, ring.failed, settings.samples));
+    result.rings.push_back(std::move(ring));
+  }
+  for (const std::string figure : {ordering_figure, "ring_planet_load_sharing_averaged", "sun_planet_dynamic_factor"}) {
+    for (std::size_t a = 0; a < rings.size(); ++a) {
+      for (std::size_t b = a + 1; b < rings.size(); ++b)
+        result.orders.push_back(paired_order(result.rings, a, b, figure));
+    }
+  }
+  progress.finish(fmt::format("{} samples × {} rings{}", settings.samples, rings.size(),
+                              failures ? fmt::format(", {} failed", failures) : ""));
+  return result;
+}
+
+}  // namespace annulus::app

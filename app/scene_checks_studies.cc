@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "app/overrides.h"
+#include "app/scene_checks.h"
+
+namespace annulus::app {
+
+std::vector<double> SweepInput::points() const {
+  if (!values.empty() || !from || !to || !count) return values;
+  std::vector<double> list;
+  const bool logarithmic = scale == SweepScale::logarithmic;
+  const double a = logarithmic ? std::log(*from) : *from, b = logarithmic ? std::log(*to) : *to;
+  for (int i = 0; i < *count; ++i) {
+    const double x = a + (b - a) * i / (*count - 1);
+    list.push_back(i == 0 ? *from : i + 1 == *count ? *to : logarithmic ? std::exp(x) : x);
+  }
+  return list;
+}
+
+namespace {
+
+class StudyChecker {
+ public:
+  StudyChecker(const Scene& scene, std::vector<Problem>& problems) : scene_(scene), problems_(problems) {}
+
+  void run() {
+    if (!scene_.dynamics) {
+      for (const auto* key : {"sweep.input", "monte_carlo.samples", "sensitivity.factor"}) {
+        if (find(key, 0)) problem(key, 0, "needs [dynamics]: studies vary what the lumped model answers");
+      }
+      return;
+    }
+    for (std::size_t i = 0; i < scene_.sweeps.size(); ++i) sweep(scene_.sweeps[i], i);
+    if (!scene_.random_inputs.empty() && !scene_.monte_carlo)
+      problem("monte_carlo.input.input", 0, "needs [monte_carlo] with the number of samples");
+    for (std::size_t i = 0; i < scene_.random_inputs.size(); ++i) random(scene_.random_inputs[i], i);
+    if (scene_.sensitivity) {
+      for (const auto& path : scene_.sensitivity->inputs) input("sensitivity.inputs", 0, path);
+    }
+  }
+
+ private:
+  [[nodiscard]] const Input* find(const std::string& key, std::size_t entry) const {
+    for (const auto& input : scene_.inputs) {
+      if (input.key == key && input.entry == entry) return &input;
+    }
+    return nullptr;
+  }
+  [[nodiscard]] bool given(const std::string& key, std::size_t entry) const {
+    const Input* input = find(key, entry);
+    return input && input->origin == Origin::scene;
+  }
+
+  void problem(const std::string& key, std::size_t entry, const std::string& rule) {
+    const Input* input = find(key, entry);
+    std::string head = key;
+    if (input && input->origin == Origin::scene) head += " = " + to_text(input->value);
+    problems_.push_back({input ? input->line : 0, input ? input->column : 0, head + ": " + rule});
+  }
+
+  bool input(const std::string& key, std::size_t entry, const std::string& path) {
+    try {
+      (void)find_input(scene_, path);
+      return true;
+    } catch (const InputError& error) {
+      std::string what = error.what();
+      const Input* named = find(key, entry);
+      // "sweep.input = PATH: PATH: ..." would say it twice.
+      if (named && to_text(named->value) == path && what.starts_with(path + ": ")) what.erase(0, path.size() + 2);
+      problem(key, entry, what);
+      return false;
+    }
+  }
+
+  void sweep(const SweepInput& s, std::size_t i) {
+    input("sweep.input", i, s.input);
+    const bool row = s.from || s.to || s.count;
+    if (given("sweep.values", i)) {
+      if (row) return problem("sweep.values", i, "give either values or from, to and count");
+      if (s.values.empty()) return problem("sweep.values", i, "needs at least one value");
+      const std::set<double> distinct(s.values.begin(), s.values.end());
+      if (distinct.size() != s.values.size()) return problem("sweep.values", i, "the same value stands there twice");
+    } else if (!s.from || !s.to || !s.count) {
+      return problem("sweep.input", i, "needs from, to and count, or values");
+    } else if (*s.from == *s.to) {
+      return problem("sweep.to", i, "must differ from `from`");
+    }
+    const auto points = s.points();
+    if (s.scale == SweepScale::logarithmic && *std::min_element(points.begin(), points.end()) <= 0)
+      problem("sweep.scale", i, "needs values above zero");
+  }
+
+  void random(const RandomInput& r, std::size_t i) {
+    const std::string table = "monte_carlo.input.";
+    for (const auto& path : expand_planets(scene_, r.input)) {
+      if (!input(table + "input", i, path)) return;
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (scene_.random_inputs[j].input == r.input)
+        return problem(table + "input", i, "is given twice; each input has one distribution");
+    }
+    const bool uniform = r.distribution == RandomKind::uniform;
+    const auto need = [&](const char* key, const std::optional<double>& value) {
+      if (!value) problem(table + "distribution", i, fmt::format("needs {}", key));
+    };
+    if (uniform) {
+      need("low", r.low);
+      need("high", r.high);
+      for (const auto* key : {"mean", "deviation"}) {
+        if (given(table + key, i)) problem(table + key, i, "has no meaning for a uniform distribution");
+      }
+    } else {
+      need("mean", r.mean);
+      need("deviation", r.deviation);
+    }
+  }
+
+  const Scene& scene_;
+  std::vector<Problem>& problems_;
+};
+
+}  // namespace
+
+void check_study_keys(const Scene& scene, std::vector<Problem>& problems) { StudyChecker(scene, problems).run(); }
+
+}  // namespace annulus::app

@@ -1,0 +1,92 @@
+#include "app/scene_declare.h"
+#include "app/scene_schema.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr const char* path_meaning =
+    "the table and key of an input, as \"supports.planet_N_per_m\" or \"mesh.sun_planet.mean_N_per_m\"; \"ring.pins\" "
+    "is that of every ring that has it, \"ring.NAME.pins\" that of one; \"errors.planet_eccentricity_um[2]\" is the "
+    "value of planet 2, counted from 1.";
+
+}  // namespace
+
+void declare_studies(std::vector<Table>& tables) {
+  Declarations<SweepInput> sweep(
+      "sweep", "One input run through a row of values, for every ring; several tables are several sweeps.",
+      [](Scene& s, std::size_t i) -> SweepInput& { return s.sweeps.at(i); });
+  sweep.repeated([](Scene& s, std::size_t n) { s.sweeps.resize(n); }).on_request();
+  static const std::string sweep_input = std::string("What is varied: ") + path_meaning;
+  sweep.key("input", &SweepInput::input, sweep_input.c_str()).required();
+  sweep.key("from", &SweepInput::from, "First value, in the unit of the input.").absent("give values instead");
+  sweep.key("to", &SweepInput::to, "Last value, in the unit of the input.").absent("give values instead");
+  sweep.key("count", &SweepInput::count, "Number of values from `from` to `to`, both included.")
+      .from(2, 1e5)
+      .absent("give values instead");
+  sweep
+      .choice("scale", &SweepInput::scale, {{"linear", SweepScale::linear}, {"logarithmic", SweepScale::logarithmic}},
+              "Spacing of the values between `from` and `to`, and the axis of the plots.")
+      .fallback(std::string("linear"), "equal steps");
+  sweep.key("values", &SweepInput::values, "The values themselves, in the unit of the input.")
+      .absent("give from, to and count instead");
+  tables.push_back(sweep.done());
+
+  Declarations<MonteCarloInput> monte_carlo(
+      "monte_carlo",
+      "Random samples of what is not known. Every ring gets the same draws. A draw depends on seed, sample number and "
+      "input alone: not on the number of threads or samples.",
+      [](Scene& s, std::size_t) -> MonteCarloInput& {
+        if (!s.monte_carlo) s.monte_carlo.emplace();
+        return *s.monte_carlo;
+      });
+  monte_carlo.on_request();
+  monte_carlo.key("samples", &MonteCarloInput::samples, "Number of samples.").required().from(2, 1e7);
+  monte_carlo.key("seed", &MonteCarloInput::seed, "Other seeds give other draws.")
+      .fallback(1L, "any number will do")
+      .from(0, 2147483647);
+  monte_carlo
+      .choice("phases", &MonteCarloInput::phases, {{"unknown", ErrorPhases::unknown}, {"given", ErrorPhases::given}},
+              "unknown: every error phase of every body is uniform over the full circle; given: as the scene says.")
+      .fallback(std::string("unknown"), "the phases of errors are hardly ever known");
+  tables.push_back(monte_carlo.done());
+
+  Declarations<RandomInput> random("monte_carlo.input",
+                                   "A tolerance: an input that is not known exactly. It must leave the stiffness "
+                                   "tables as they are. A draw outside the range of the key is refused, never moved.",
+                                   [](Scene& s, std::size_t i) -> RandomInput& { return s.random_inputs.at(i); });
+  random.repeated([](Scene& s, std::size_t n) { s.random_inputs.resize(n); }).on_request();
+  static const std::string random_input =
+      std::string("What is uncertain: ") + path_meaning + " \"...[*]\" draws for every planet by itself.";
+  random.key("input", &RandomInput::input, random_input.c_str()).required();
+  random
+      .choice("distribution", &RandomInput::distribution,
+              {{"uniform", RandomKind::uniform}, {"normal", RandomKind::normal}, {"lognormal", RandomKind::lognormal}},
+              "uniform between low and high; normal or lognormal with mean and deviation (of the value itself), "
+              "truncated to low and high where given.")
+      .required();
+  random.key("low", &RandomInput::low, "Lower end, in the unit of the input.")
+      .absent("not truncated; uniform needs it");
+  random.key("high", &RandomInput::high, "Upper end, in the unit of the input.")
+      .absent("not truncated; uniform needs it");
+  random.key("mean", &RandomInput::mean, "Mean before truncation.").absent("needed by normal and lognormal");
+  random.key("deviation", &RandomInput::deviation, "Standard deviation before truncation.")
+      .above(0, 1e300)
+      .absent("needed by normal and lognormal");
+  tables.push_back(random.done());
+
+  Declarations<SensitivityInput> sensitivity(
+      "sensitivity", "Each input divided and multiplied by a factor, one at a time: does the order of the rings stay?",
+      [](Scene& s, std::size_t) -> SensitivityInput& {
+        if (!s.sensitivity) s.sensitivity.emplace();
+        return *s.sensitivity;
+      });
+  sensitivity.on_request();
+  static const std::string sensitivity_inputs = std::string("Which inputs; each is ") + path_meaning;
+  sensitivity.key("inputs", &SensitivityInput::inputs, sensitivity_inputs.c_str())
+      .fallback(std::vector<std::string>{}, "the stiffnesses of [supports], the damping ratios and the backlash");
+  sensitivity.key("factor", &SensitivityInput::factor, "The factor.").fallback(2.0, "a usual doubt").above(1, 1e6);
+  tables.push_back(sensitivity.done());
+}
+
+}  // namespace annulus::app

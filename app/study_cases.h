@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/overrides.h"
+#include "dynamics/sampling.h"
+
+/// What the studies of a scene consist of: lists of changed scenes, made without computing anything.
+namespace annulus::app {
+
+/// One changed scene.
+struct StudyCase {
+  std::vector<Override> overrides;
+  std::string where;   ///< for messages: "[[sweep]] 1, value 7 of 20 (stage.power_kW = 900)"
+  std::string folder;  ///< of tables of its own, below OUT
+};
+
+/// One per value.
+[[nodiscard]] std::vector<StudyCase> sweep_cases(const Scene& scene, std::size_t sweep);
+
+/// The inputs of [sensitivity]: those listed, or the finite supports, damping ratios and backlash.
+[[nodiscard]] std::vector<std::string> sensitivity_inputs(const Scene& scene);
+/// Two per input: divided, multiplied.
+[[nodiscard]] std::vector<StudyCase> sensitivity_cases(const Scene& scene);
+
+/// One random number of every sample.
+struct RandomVariable {
+  std::string input;  ///< key path
+  dynamics::Distribution distribution;
+};
+/// The phases of all errors that are there or drawn (unless given), then the inputs of [[monte_carlo.input]].
+[[nodiscard]] std::vector<RandomVariable> random_variables(const Scene& scene);
+[[nodiscard]] double draw(const RandomVariable& variable, int seed, int sample);
+[[nodiscard]] StudyCase sample_case(const std::vector<RandomVariable>& variables, int seed, int sample);
+
+}  // namespace annulus::app

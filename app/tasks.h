@@ -1,0 +1,34 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace annulus::app {
+
+/// Independent tasks on `threads` threads; the first exception of any task is thrown again at the end.
+template <class Task>
+void for_each_task(std::size_t tasks, int threads, Task task) {
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::exception_ptr> failures(tasks);
+  const auto work = [&] {
+    for (std::size_t i = next++; i < tasks; i = next++) {
+      try {
+        task(i);
+      } catch (...) {
+        failures[i] = std::current_exception();
+      }
+    }
+  };
+  std::vector<std::thread> pool;
+  for (int i = 1; i < threads && static_cast<std::size_t>(i) < tasks; ++i) pool.emplace_back(work);
+  work();
+  for (auto& thread : pool) thread.join();
+  for (const auto& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,199 @@
+#include "core/ring_coupling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "core/csv.h"
+#include "core/errors.h"
+
+namespace annulus {
+namespace {
+
+// Symmetric to rounding of a file written with a few digits by hand.
+constexpr double symmetry_tolerance = 1e-6;
+
+/// What is wrong with a matrix, empty if nothing is.
+std::string complaint(const Eigen::MatrixXd& matrix) {
+  if (!matrix.allFinite()) return "a compliance is not finite";
+  const double largest = matrix.cwiseAbs().maxCoeff();
+  if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > symmetry_tolerance * largest)
+    return "the compliances are not symmetric";
+  return {};
+}
+
+/// What is wrong with a mode, empty if nothing is. `lowest`: frequency of the mode before.
+std::string complaint(const RingMode& mode, double lowest, int teeth) {
+  bool finite = std::isfinite(mode.frequency) && std::isfinite(mode.translation_x) &&
+                std::isfinite(mode.translation_y) && std::isfinite(mode.rotation);
+  for (const double c : mode.closing) finite = finite && std::isfinite(c);
+  if (!finite) return "a value is not finite";
+  if (mode.frequency <= 0) return "the frequency is not positive";
+  if (mode.frequency < lowest) return "the frequencies do not rise";
+  if (mode.waves < 0 || mode.waves > teeth / 2) return fmt::format("{} waves on {} teeth", mode.waves, teeth);
+  return {};
+}
+
+/// What is wrong with the sizes, empty if nothing is.
+std::string complaint(int planets, int teeth, double load, int per_cycle, std::size_t positions) {
+  if (planets < 1) return "planets must be at least 1";
+  if (teeth < 3) return "ring_teeth must be at least 3";
+  if (!(load > 0) || !std::isfinite(load)) return "load_N must be positive";
+  if (per_cycle < 1) return "per_cycle must be at least 1";
+  if (positions == 0 || positions % per_cycle != 0 || teeth % (positions / per_cycle) != 0)
+    return fmt::format("{} ring positions at {} per mesh cycle do not repeat around {} teeth", positions, per_cycle,
+                       teeth);
+  return {};
+}
+
+std::vector<std::string> compliance_columns(int planets) {
+  std::vector<std::string> columns = {"ring_position"};
+  for (int n = 1; n <= planets; ++n)
+    for (int m = 1; m <= planets; ++m) columns.push_back(fmt::format("compliance_{}_{}_m_per_N", n, m));
+  return columns;
+}
+
+std::vector<std::string> mode_columns(int teeth) {
+  std::vector<std::string> columns = {"frequency_Hz", "waves", "translation_x_sqrt_kg", "translation_y_sqrt_kg",
+                                      "rotation_sqrt_kg"};
+  for (int tooth = 0; tooth < teeth; ++tooth) columns.push_back(fmt::format("closing_{}_per_sqrt_kg", tooth));
+  return columns;
+}
+
+const std::vector<std::string> header_keys = {"planets", "ring_teeth", "load_N", "per_cycle"};
+
+/// Reads a number from a header line, whose place is its line.
+double header_number(const Csv& csv, const std::filesystem::path& file, const std::string& key) {
+  for (std::size_t i = 0; i < csv.header.size(); ++i) {
+    const auto& [name, text] = csv.header[i];
+    if (name != key) continue;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size())
+      throw InputError(fmt::format("{}:{}: {} '{}' is not a number", file.string(), i + 1, key, text));
+    return value;
+  }
+  throw InputError(fmt::format("{}:1: no line '# {}: ...'", file.string(), key));
+}
+
+int header_count(const Csv& csv, const std::filesystem::path& file, const std::string& key) {
+  const double value = header_number(csv, file, key);
+  if (value != std::round(value) || std::abs(value) > 1e6)
+    throw InputError(fmt::format("{}:1: {} {} is not a whole number", file.string(), key, value));
+  return static_cast<int>(value);
+}
+
+/// Places of the columns; throws naming the line of the column names.
+std::vector<std::size_t> find_columns(const Csv& csv, const std::filesystem::path& file,
+                                      const std::vector<std::string>& names) {
+  std::vector<std::size_t> places;
+  for (const auto& name : names) {
+    try {
+      places.push_back(csv.column(name));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}:{}: {}", file.string(), csv.header.size() + 1, error.what()));
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+void RingCoupling::write_csv(const std::filesystem::path& compliance_file,
+                             const std::filesystem::path& modes_file) const {
+  const auto refuse = [](const std::string& what) {
+    if (!what.empty()) throw InputError("ring coupling: " + what);
+  };
+  refuse(complaint(planets, ring_teeth, load, per_cycle, compliance.size()));
+  Csv csv;
+  csv.header = {{"planets", fmt::format("{}", planets)},
+                {"ring_teeth", fmt::format("{}", ring_teeth)},
+                {"load_N", fmt::format("{:.17g}", load)},
+                {"per_cycle", fmt::format("{}", per_cycle)}};
+  csv.header.insert(csv.header.end(), provenance.begin(), provenance.end());
+  csv.columns = compliance_columns(planets);
+  for (std::size_t i = 0; i < compliance.size(); ++i) {
+    const auto& matrix = compliance[i];
+    if (matrix.rows() != planets || matrix.cols() != planets)
+      refuse(fmt::format("position {} has {} x {} compliances where {} planets need {} x {}", i, matrix.rows(),
+                         matrix.cols(), planets, planets, planets));
+    refuse(complaint(matrix));
+    auto& row = csv.rows.emplace_back(1, static_cast<double>(i) / per_cycle);
+    for (int n = 0; n < planets; ++n)
+      for (int m = 0; m < planets; ++m) row.push_back(matrix(n, m));
+  }
+
+  Csv shapes;
+  shapes.header = csv.header;
+  shapes.columns = mode_columns(ring_teeth);
+  double lowest = 0;
+  for (const auto& mode : modes) {
+    if (mode.closing.size() != static_cast<std::size_t>(ring_teeth))
+      refuse(fmt::format("a mode has {} closings where the ring has {} teeth", mode.closing.size(), ring_teeth));
+    refuse(complaint(mode, lowest, ring_teeth));
+    lowest = mode.frequency;
+    auto& row = shapes.rows.emplace_back(std::vector<double>{mode.frequency, static_cast<double>(mode.waves),
+                                                             mode.translation_x, mode.translation_y, mode.rotation});
+    row.insert(row.end(), mode.closing.begin(), mode.closing.end());
+  }
+  csv.write(compliance_file);
+  shapes.write(modes_file);
+}
+
+RingCoupling RingCoupling::read_csv(const std::filesystem::path& compliance_file,
+                                    const std::filesystem::path& modes_file) {
+  // Csv::read accepts no blank line in between, so the line of a row is known.
+  const auto refuse = [](const std::filesystem::path& file, const Csv& csv, std::size_t row, const std::string& what) {
+    if (!what.empty()) throw InputError(fmt::format("{}:{}: {}", file.string(), csv.header.size() + 2 + row, what));
+  };
+  const Csv csv = Csv::read(compliance_file);
+  RingCoupling result;
+  result.planets = header_count(csv, compliance_file, "planets");
+  result.ring_teeth = header_count(csv, compliance_file, "ring_teeth");
+  result.load = header_number(csv, compliance_file, "load_N");
+  result.per_cycle = header_count(csv, compliance_file, "per_cycle");
+  const auto sizes = complaint(result.planets, result.ring_teeth, result.load, result.per_cycle, csv.rows.size());
+  if (!sizes.empty()) throw InputError(fmt::format("{}:1: {}", compliance_file.string(), sizes));
+  for (const auto& line : csv.header)
+    if (std::find(header_keys.begin(), header_keys.end(), line.first) == header_keys.end())
+      result.provenance.push_back(line);
+  const auto column = find_columns(csv, compliance_file, compliance_columns(result.planets));
+  for (std::size_t i = 0; i < csv.rows.size(); ++i) {
+    const double expected = static_cast<double>(i) / result.per_cycle;
+    // Written with fewer digits they are still the same positions.
+    if (!(std::abs(csv.rows[i][column[0]] - expected) <= 1e-9 * (1 + expected)))
+      refuse(compliance_file, csv, i,
+             fmt::format("ring_position {} where {} is due", csv.rows[i][column[0]], expected));
+    auto& matrix = result.compliance.emplace_back(result.planets, result.planets);
+    for (int n = 0; n < result.planets; ++n)
+      for (int m = 0; m < result.planets; ++m) matrix(n, m) = csv.rows[i][column[1 + n * result.planets + m]];
+    refuse(compliance_file, csv, i, complaint(matrix));
+  }
+
+  const Csv shapes = Csv::read(modes_file);
+  if (header_count(shapes, modes_file, "ring_teeth") != result.ring_teeth)
+    throw InputError(fmt::format("{}:1: ring_teeth differs from {} in {}", modes_file.string(), result.ring_teeth,
+                                 compliance_file.string()));
+  const auto place = find_columns(shapes, modes_file, mode_columns(result.ring_teeth));
+  double lowest = 0;
+  for (std::size_t i = 0; i < shapes.rows.size(); ++i) {
+    const auto cell = [&](std::size_t c) { return shapes.rows[i][place[c]]; };
+    RingMode mode;
+    mode.frequency = cell(0);
+    if (!(std::abs(cell(1)) < 1e6) || cell(1) != std::round(cell(1)))
+      refuse(modes_file, shapes, i, fmt::format("waves {} is not a whole number", cell(1)));
+    mode.waves = static_cast<int>(cell(1));
+    mode.translation_x = cell(2);
+    mode.translation_y = cell(3);
+    mode.rotation = cell(4);
+    for (int tooth = 0; tooth < result.ring_teeth; ++tooth) mode.closing.push_back(cell(5 + tooth));
+    refuse(modes_file, shapes, i, complaint(mode, lowest, result.ring_teeth));
+    lowest = mode.frequency;
+    result.modes.push_back(std::move(mode));
+  }
+  return result;
+}
+
+}  // namespace annulus

@@ -1,0 +1,54 @@
+#include "fem/condensation/cyclic_flexibility.h"
+
+#include <cmath>
+#include <complex>
+
+#include "core/errors.h"
+#include "fem/condensation/harmonic_matrix.h"
+#include "fem/condensation/lapack.h"
+
+namespace annulus::fem {
+
+CyclicFlexibility::CyclicFlexibility(int sectors, std::vector<Eigen::MatrixXcd> harmonics)
+    : sectors_(sectors), harmonics_(std::move(harmonics)) {
+  require(static_cast<int>(harmonics_.size()) == sectors / 2 + 1, "a cyclic flexibility lacks harmonics");
+  const auto n = harmonics_.front().rows();
+  const double pitch = 2 * M_PI / sectors;
+  blocks_.assign(sectors, Eigen::MatrixXd::Zero(n, n));
+  for (int d = 0; d <= sectors / 2; ++d) {
+    auto& block = blocks_[d];
+    for (int h = 0; h < static_cast<int>(harmonics_.size()); ++h) {
+      // The angle is reduced first: far offsets of high harmonics lose no digits.
+      const std::complex<double> turn =
+          std::polar(multiplicity(h) / static_cast<double>(sectors), (h * d % sectors) * pitch);
+      block += harmonics_[h].real() * turn.real() - harmonics_[h].imag() * turn.imag();
+    }
+    if (d == 0 || 2 * d == sectors) block = (0.5 * (block + block.transpose())).eval();
+    if (d > 0) blocks_[sectors - d] = block.transpose();
+  }
+}
+
+const Eigen::MatrixXd& CyclicFlexibility::block(int offset) const {
+  return blocks_[((offset % sectors_) + sectors_) % sectors_];
+}
+
+CyclicFlexibility compose_loads(const CondensedSector& sector, int sectors, bool floating, double scale, int threads) {
+  require(sectors >= 3, "a ring needs at least three sectors");
+  const HarmonicMatrix cuts(sector, floating);
+  const auto loads = sector.compliance.cols();
+  const Eigen::MatrixXcd low = cuts.load_low().leftCols(loads), high = cuts.load_high().leftCols(loads);
+  const Eigen::MatrixXcd within = sector.compliance.topRows(loads);
+  std::vector<Eigen::MatrixXcd> harmonics(sectors / 2 + 1);
+  for_each_harmonic_group(threads, [&](int group) {
+    for (int h = group; h < static_cast<int>(harmonics.size()); h += harmonic_groups) {
+      // A load of the sector before acts on its high cut.
+      Eigen::MatrixXcd on_cut = low + std::polar(1.0, -h * sector.pitch_angle) * high;
+      lapack::solve_lower(cuts.factor(h), on_cut);
+      const Eigen::MatrixXcd sum = scale * (within + on_cut.adjoint() * on_cut);
+      harmonics[h] = 0.5 * (sum + sum.adjoint());
+    }
+  });
+  return {sectors, std::move(harmonics)};
+}
+
+}  // namespace annulus::fem

@@ -1,0 +1,102 @@
+#include "fem/condensation/harmonic_matrix.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <atomic>
+#include <complex>
+#include <exception>
+#include <string>
+#include <thread>
+
+#include "core/errors.h"
+#include "fem/condensation/lapack.h"
+
+namespace annulus::fem {
+namespace {
+
+/// Rigid motions of the whole ring that have circumferential harmonic `h`, seen at the low cut in the sector's frame:
+/// axial translation and rotation about the axis for h = 0; translation and tilt, as x + i y, for h = 1.
+std::vector<Eigen::VectorXcd> harmonic_rigid_motions(const CondensedSector& sector, int harmonic) {
+  const int dim = sector.dimension;
+  std::vector<Eigen::VectorXcd> motions;
+  const auto add = [&](const auto& displacement) {
+    Eigen::VectorXcd motion(static_cast<Eigen::Index>(sector.cut_points.size()) * dim);
+    for (std::size_t n = 0; n < sector.cut_points.size(); ++n) {
+      const Eigen::Vector3cd u = displacement(sector.cut_points[n]);
+      for (int c = 0; c < dim; ++c) motion[static_cast<Eigen::Index>(n) * dim + c] = u[c];
+    }
+    motions.push_back(motion);
+  };
+  const Eigen::Vector3cd axis(1, std::complex<double>(0, 1), 0);
+  const auto cross = [](const Eigen::Vector3cd& a, const Eigen::Vector3d& p) {
+    return Eigen::Vector3cd(a[1] * p[2] - a[2] * p[1], a[2] * p[0] - a[0] * p[2], a[0] * p[1] - a[1] * p[0]);
+  };
+  if (harmonic == 0) {
+    add([&](const Eigen::Vector3d& p) { return cross(Eigen::Vector3cd(0, 0, 1), p); });
+    if (dim == 3) add([](const Eigen::Vector3d&) { return Eigen::Vector3cd(0, 0, 1); });
+  } else if (harmonic == 1) {
+    add([&](const Eigen::Vector3d&) -> const Eigen::Vector3cd& { return axis; });
+    if (dim == 3) add([&](const Eigen::Vector3d& p) { return cross(axis, p); });
+  }
+  // Orthonormal, so that one stiffness serves all.
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) motions[i] -= motions[j] * motions[j].dot(motions[i]);
+    motions[i].normalize();
+  }
+  return motions;
+}
+
+}  // namespace
+
+HarmonicMatrix::HarmonicMatrix(const CondensedSector& sector, bool floating) : sector_(sector), floating_(floating) {
+  const auto m = sector.cut_stiffness.rows() / 2;
+  const int dim = sector.dimension;
+  // Columns of the turned basis: u_high = Q v_next.
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(sector.pitch_angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const auto turn_columns = [&](Eigen::MatrixXd matrix) {
+    for (Eigen::Index n = 0; n < m; n += dim)
+      matrix.middleCols(n, dim) = (matrix.middleCols(n, dim) * turn.topLeftCorner(dim, dim)).eval();
+    return matrix;
+  };
+  const Eigen::MatrixXd half = turn_columns(sector.cut_stiffness.bottomRightCorner(m, m));
+  const Eigen::MatrixXd high_high = turn_columns(half.transpose());
+  diagonal_ = sector.cut_stiffness.topLeftCorner(m, m) + high_high;
+  coupling_ = turn_columns(sector.cut_stiffness.topRightCorner(m, m));
+  load_low_ = sector.cut_load.topRows(m);
+  load_high_ = turn_columns(sector.cut_load.bottomRows(m).transpose()).transpose();
+}
+
+Eigen::MatrixXcd HarmonicMatrix::factor(int harmonic) const {
+  using Complex = std::complex<double>;
+  const Complex shift = std::polar(1.0, harmonic * sector_.pitch_angle);
+  Eigen::MatrixXcd matrix = diagonal_.cast<Complex>() + shift * coupling_.cast<Complex>() +
+                            std::conj(shift) * coupling_.transpose().cast<Complex>();
+  if (floating_) {
+    const double rigid_stiffness = diagonal_.diagonal().mean();
+    for (const auto& motion : harmonic_rigid_motions(sector_, harmonic))
+      matrix += rigid_stiffness * motion * motion.adjoint();
+  }
+  if (!lapack::cholesky(matrix))
+    throw SolverError("the ring is not held against its harmonic " + std::to_string(harmonic) + " of deformation");
+  return matrix;
+}
+
+void for_each_harmonic_group(int threads, const std::function<void(int group)>& work) {
+  std::vector<std::exception_ptr> failures(harmonic_groups);
+  std::atomic<int> next{0};
+  const auto worker = [&] {
+    for (int group = next++; group < harmonic_groups; group = next++) try {
+        work(group);
+      } catch (...) {
+        failures[group] = std::current_exception();
+      }
+  };
+  std::vector<std::thread> pool;
+  for (int t = 1; t < std::min(threads, harmonic_groups); ++t) pool.emplace_back(worker);
+  worker();
+  for (auto& t : pool) t.join();
+  for (const auto& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace annulus::fem

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "fem/condensation/condensed_sector.h"
+
+namespace annulus::fem {
+
+/// The stiffness of the radial cuts of a ring of equal sectors, one Hermitian matrix per circumferential harmonic: the
+/// displacements of cut s are v e^(i h s pitch), each seen in the frame of its own sector.
+class HarmonicMatrix {
+ public:
+  /// `floating`: an artificial stiffness is added against the rigid motions of the ring alone (harmonics 0 and 1).
+  /// `sector` is referred to.
+  HarmonicMatrix(const CondensedSector& sector, bool floating);
+
+  /// Its Cholesky factor (lower). Throws SolverError when the ring is not held against the harmonic.
+  [[nodiscard]] Eigen::MatrixXcd factor(int harmonic) const;
+  [[nodiscard]] const Eigen::MatrixXd& load_low() const { return load_low_; }    ///< loads on the own cut, m x loads
+  [[nodiscard]] const Eigen::MatrixXd& load_high() const { return load_high_; }  ///< on the next, in its frame
+
+ private:
+  const CondensedSector& sector_;
+  bool floating_;
+  Eigen::MatrixXd diagonal_, coupling_;  // A_0 and A_1 of the block-circulant matrix
+  Eigen::MatrixXd load_low_, load_high_;
+};
+
+/// Calls `work` with every group 0 ... groups - 1 on `threads` threads; rethrows the failure of the first group.
+/// Harmonics are shared out to a fixed number of groups, so that sums do not depend on the number of threads.
+inline constexpr int harmonic_groups = 4;
+void for_each_harmonic_group(int threads, const std::function<void(int group)>& work);
+
+}  // namespace annulus::fem

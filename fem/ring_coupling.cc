@@ -1,0 +1,184 @@
+#include "fem/ring_coupling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/errors.h"
+#include "fem/body_plan.h"
+#include "fem/contact/flank_contact.h"
+#include "fem/resolution.h"
+#include "fem/ring_flexibility.h"
+#include "fem/ring_on_supports.h"
+
+namespace annulus::fem {
+namespace {
+
+/// The coupling at one level of resolution.
+struct Level {
+  std::vector<Eigen::MatrixXd> compliance;
+  std::vector<RingMode> modes;
+  double own = 0;
+  long unknowns = 0;
+};
+
+bool needs_solid(const LoadedMeshProblem& problem) {
+  return std::holds_alternative<EndFaceHeld>(problem.structure) ||
+         std::holds_alternative<FlangeHeld>(problem.structure) || problem.pair.wheel().helix_angle() != 0;
+}
+
+/// The ring as it is solved: the mirror image turns the hand of a helical one.
+geometry::Gear mirrored(const geometry::Gear& gear) {
+  auto parameters = gear.parameters();
+  parameters.helix_angle = -parameters.helix_angle;
+  return geometry::Gear(parameters);
+}
+
+std::optional<SupportPlan> support_plan(const LoadedMeshProblem& problem) {
+  const int teeth = problem.pair.wheel().teeth();
+  const SupportedRing ring{teeth, problem.wheel_support_radius, problem.face_width, problem.material};
+  const std::vector<double> whole_width = {0, problem.face_width};
+  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure))
+    return SupportPlan(pin_sites(*pinned, ring), teeth, whole_width);
+  if (const auto* splined = std::get_if<SplineHeld>(&problem.structure))
+    return SupportPlan(spline_sites(*splined, ring), teeth, whole_width);
+  return std::nullopt;
+}
+
+/// Mesh forces of all planets, planet 0 at `position`: teeth x planets.
+Eigen::MatrixXd mesh_forces(double position, int planets, int teeth) {
+  Eigen::MatrixXd patterns(teeth, planets);
+  for (int n = 0; n < planets; ++n)
+    patterns.col(n) = mesh_force_on_teeth(position + static_cast<double>(n) * teeth / planets, teeth);
+  return patterns;
+}
+
+/// Coupling on supports that can lift off; `state` is the one with all meshes loaded.
+Eigen::MatrixXd unilateral_coupling(const RingOnSupports& ring, const Eigen::MatrixXd& patterns, double load,
+                                    const RingOnSupports::State& state, double& own) {
+  Eigen::MatrixXd coupling = state.tangent;
+  for (Eigen::Index n = 0; n < patterns.cols(); ++n) {
+    const auto alone = ring.solve(patterns.col(n), Eigen::VectorXd::Constant(1, load), state.touching);
+    own += alone.displacement[0] / load;
+    const double others = coupling.row(n).sum() - coupling(n, n);
+    coupling(n, n) = (state.displacement[n] - alone.displacement[0]) / load - others;
+  }
+  return coupling;
+}
+
+Level solve_level(const LoadedMeshProblem& problem, int planets, double load, const RingCouplingSettings& settings,
+                  int level) {
+  const bool solid = needs_solid(problem);
+  const geometry::ToothProfile profile(mirrored(problem.pair.wheel()));
+  const BodyPlan body(problem, profile, true, geometry::Boundary::trailing_flank, settings.degree, solid);
+  const auto plan = support_plan(problem);
+  RingFlexibilityOptions options;
+  options.roll = problem.pair.wheel_roll_length(problem.pair.roll_length_pitch());
+  options.face_width = problem.face_width;
+  options.solid = solid;
+  options.motions = settings.motions;
+  options.threads = settings.threads;
+  if (plan) options.arcs = plan->arcs();
+  const RingFlexibility ring = make_ring_flexibility(
+      body, solid ? solid_resolution(level) : plane_resolution(profile.gear(), level), problem.material, options);
+
+  Level result;
+  result.unknowns = ring.unknowns;
+  std::optional<RingOnSupports> supported;
+  if (plan) supported.emplace(ring, *plan);
+  const Eigen::VectorXd loads = Eigen::VectorXd::Constant(planets, load);
+  const int positions = repeating_teeth(problem.structure, ring.teeth) * settings.per_cycle;
+  std::vector<bool> touching;
+  for (int i = 0; i < positions; ++i) {
+    const Eigen::MatrixXd patterns = mesh_forces(static_cast<double>(i) / settings.per_cycle, planets, ring.teeth);
+    Eigen::MatrixXd coupling;
+    if (supported) {
+      const auto state = supported->solve(patterns, loads, touching);
+      touching = state.touching;
+      coupling = state.tangent;
+      if (supported->unilateral()) coupling = unilateral_coupling(*supported, patterns, load, state, result.own);
+    } else {
+      coupling = Eigen::MatrixXd::Zero(planets, planets);
+      for (int a = 0; a < ring.teeth; ++a)
+        for (int b = 0; b < ring.teeth; ++b)
+          if (!patterns.row(a).isZero(0) && !patterns.row(b).isZero(0))
+            coupling += ring.compliance.block(a - b)(0, 0) * patterns.row(a).transpose() * patterns.row(b);
+      coupling = (0.5 * (coupling + coupling.transpose())).eval();
+    }
+    if (!supported || !supported->unilateral()) {
+      result.own += coupling.trace();
+      coupling.diagonal().setZero();
+    }
+    result.compliance.push_back(std::move(coupling));
+  }
+  result.own /= static_cast<double>(positions) * planets;
+  result.modes =
+      supported ? supported_ring_modes(ring, *supported, settings.modes) : held_ring_modes(ring, settings.modes);
+  return result;
+}
+
+void check(const LoadedMeshProblem& problem, int planets, double load, const RingCouplingSettings& settings) {
+  if (!problem.pair.internal()) throw InputError("the coupling of ring meshes needs a planet-ring pair");
+  const int last = needs_solid(problem) ? last_solid_level : last_plane_level;
+  if (settings.level < 1 || settings.level > last)
+    throw InputError(fmt::format("level {} is not available: 1 to {} are", settings.level, last));
+  // The four teeth that share one mesh force are not those of the next planet.
+  const int most = problem.pair.wheel().teeth() / 4;
+  if (planets < 1 || planets > most) throw InputError(fmt::format("{} planets: 1 to {} are possible", planets, most));
+  if (!(load > 0) || !std::isfinite(load))
+    throw InputError(fmt::format("a mesh load of {} N: it has to be positive", load));
+  if (settings.per_cycle < 1) throw InputError("at least one ring position per mesh cycle is needed");
+  if (settings.motions.section < 1 || settings.motions.axial < 0 || settings.modes.count < 1)
+    throw InputError("modes need motions of order 1 or higher, and a count of at least one");
+}
+
+}  // namespace
+
+Eigen::VectorXd mesh_force_on_teeth(double position, int teeth) {
+  const double below = std::floor(position), t = position - below;
+  // Lagrange polynomials through -1, 0, 1, 2.
+  const double weights[4] = {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
+                             (t + 1) * t * (t - 1) / 6};
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(teeth);
+  for (int k = 0; k < 4; ++k) {
+    const int tooth = (static_cast<int>(below) + k - 1) % teeth;
+    result[(2 * teeth - tooth) % teeth] += weights[k];
+  }
+  return result;
+}
+
+SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, int planets, double load,
+                                       const RingCouplingSettings& settings) {
+  check(problem, planets, load, settings);
+  RingCouplingSettings before = settings;
+  before.motions.section = std::max(1, settings.motions.section - 1);
+  before.motions.axial = std::max(0, settings.motions.axial - 1);
+  const Level coarser = solve_level(problem, planets, load, before, settings.level - 1);
+  Level level = solve_level(problem, planets, load, settings, settings.level);
+
+  SolvedRingCoupling result;
+  // As for the stiffness: the error falls with at least the first power of the cell size, so that the difference of two
+  // levels is about the error or more.
+  for (std::size_t i = 0; i < level.compliance.size(); ++i)
+    result.compliance_error =
+        std::max(result.compliance_error, (level.compliance[i] - coarser.compliance[i]).cwiseAbs().maxCoeff());
+  for (std::size_t k = 0; k < std::min(level.modes.size(), coarser.modes.size()); ++k)
+    result.frequency_error_relative =
+        std::max(result.frequency_error_relative, std::abs(coarser.modes[k].frequency / level.modes[k].frequency - 1));
+  result.own_compliance = level.own;
+  result.unknowns = level.unknowns;
+  auto& coupling = result.coupling;
+  coupling.planets = planets;
+  coupling.ring_teeth = problem.pair.wheel().teeth();
+  coupling.load = load;
+  coupling.per_cycle = settings.per_cycle;
+  coupling.compliance = std::move(level.compliance);
+  coupling.modes = std::move(level.modes);
+  coupling.provenance = {{"compliance_error_m_per_N", fmt::format("{:.3g}", result.compliance_error)},
+                         {"frequency_error_relative", fmt::format("{:.3g}", result.frequency_error_relative)}};
+  return result;
+}
+
+}  // namespace annulus::fem

@@ -1,0 +1,346 @@
+#include "app/studies.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <boost/test/unit_test.hpp>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <thread>
+
+#include "core/log.h"
+#include "core/units.h"
+#include "tests/app/scenes.h"
+
+namespace annulus {
+
+namespace {
+
+std::string contents(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// Installation errors alone: they stand still on the carrier, so the windows are short.
+std::string short_scene() {
+  auto text = test::replaced(test::quick_scene(), "planet_eccentricity_um", "planet_installation_um");
+  return test::replaced(text, "mesh_cycles = 110\n", "mesh_cycles = 20\n");
+}
+
+/// Two rings that differ in mass.
+std::string two_masses(std::string text) {
+  const auto begin = text.find("[[ring]]"), end = text.find("[errors]");
+  auto second = test::replaced(text.substr(begin, end - begin), "\"held\"", "\"heavy\"");
+  second = test::replaced(second, "mass_kg = 31.25", "mass_kg = 60");
+  return test::replaced(text.insert(end, second), "planet_N_per_m = 1e9", "planet_N_per_m = 1e9\nring_N_per_m = 1e9");
+}
+
+app::RunResult run_text(const std::string& text, const std::filesystem::path& out, int threads = 2) {
+  log::set_level(log::Level::quiet);
+  return app::run(app::parse_scene(text, "scene.toml"), {.out = out, .threads = threads});
+}
+
+std::vector<double> column(const Csv& csv, const std::string& name) {
+  const auto index = csv.column(name);
+  std::vector<double> values;
+  for (const auto& row : csv.rows) values.push_back(row[index]);
+  return values;
+}
+
+constexpr const char* few_samples = "[monte_carlo]\nsamples = 45\nseed = 5\n";
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(studies)
+
+BOOST_AUTO_TEST_CASE(sweep_points_are_the_runs_they_stand_for) {
+  const test::TemporaryFolder folder("sweep");
+  const auto text = two_masses(short_scene());
+  const auto result = run_text(
+      text + "[[sweep]]\ninput = \"supports.planet_N_per_m\"\nvalues = [5e8, 1e9, 2e9]\n", folder.path() / "all");
+  BOOST_TEST_REQUIRE(result.studies.sweeps.size() == 1U);
+  const auto& sweep = result.studies.sweeps.front();
+  BOOST_TEST(sweep.unit == "N/m");
+  BOOST_TEST(sweep.tables == 0);
+  const auto alone =
+      run_text(test::replaced(text, "planet_N_per_m = 1e9", "planet_N_per_m = 2e9"), folder.path() / "alone");
+  for (std::size_t ring = 0; ring < 2; ++ring) {
+    // The value of the scene itself, and another one run by itself.
+    BOOST_TEST(sweep.rings[ring][1].figures.sun_planet.averaged ==
+               result.rings[ring].response->figures.sun_planet.load_sharing.averaged.value);
+    BOOST_TEST(sweep.rings[ring][2].figures.sun_planet.averaged ==
+               alone.rings[ring].response->figures.sun_planet.load_sharing.averaged.value);
+    BOOST_TEST(sweep.rings[ring][2].figures.ring_planet.instantaneous ==
+               alone.rings[ring].response->figures.ring_planet.load_sharing.instantaneous.value);
+    // A stiffer planet bearing shares worse.
+    BOOST_TEST(sweep.rings[ring][2].figures.sun_planet.averaged > sweep.rings[ring][0].figures.sun_planet.averaged);
+  }
+  const auto csv = Csv::read(folder.path() / "all/heavy/dynamics/sweep_1.csv");
+  BOOST_TEST(column(csv, "supports_planet_N_per_m") == (std::vector<double>{5e8, 1e9, 2e9}),
+             boost::test_tools::per_element());
+  BOOST_TEST(column(csv, "sun_planet_load_sharing_averaged")[2] == sweep.rings[1][2].figures.sun_planet.averaged);
+  const auto poincare = Csv::read(folder.path() / "all/heavy/dynamics/sweep_1_poincare.csv");
+  BOOST_TEST(poincare.rows.size() == 3U * 20);
+  const auto json = nlohmann::json::parse(contents(folder.path() / "all/summary.json"));
+  BOOST_TEST(json["rings"]["heavy"]["sweeps"][0]["values"].size() == 3U);
+  BOOST_TEST(contents(folder.path() / "all/report.html").find("id=\"sweeps\"") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(inputs_of_the_bodies_solve_tables_of_their_own) {
+  const test::TemporaryFolder folder("tables");
+  auto text = test::replaced(short_scene(),
+                             "[mesh.ring_planet]\nstiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294\n", "");
+  text = test::replaced(text, "teeth = 55\n", "teeth = 55\nbore_diameter_mm = 172\n");
+  text = test::replaced(text, "structure = \"traditional\"", "structure = \"pinned\"\npins = 27\npin_diameter_mm = 15.5");
+  text = test::replaced(text, "title = \"Quick\"", "title = \"Quick\"\nrung = \"closed_form\"");
+  text = test::replaced(text, "mesh_cycles = 20", "mesh_cycles = 6");
+  const auto result = run_text(text + "[[sweep]]\ninput = \"ring.pins\"\nvalues = [27, 18]\n"
+                                      "[[sweep]]\ninput = \"stage.power_kW\"\nvalues = [2000, 9000]\n",
+                               folder.path() / "all");
+  // 27 pins are the scene's own table; half the power lies within it, three times the power does not.
+  BOOST_TEST(result.studies.sweeps[0].tables == 1);
+  BOOST_TEST(result.studies.sweeps[1].tables == 1);
+  BOOST_TEST(std::filesystem::exists(folder.path() / "all/sweep/ring_pins/18/held/stiffness_ring_planet.csv"));
+  BOOST_TEST(!std::filesystem::exists(folder.path() / "all/sweep/ring_pins/27"));
+  BOOST_TEST(std::filesystem::exists(folder.path() / "all/sweep/stage_power_kW/9000/held/stiffness_ring_planet.csv"));
+  const auto alone = run_text(test::replaced(text, "pins = 27", "pins = 18"), folder.path() / "alone");
+  BOOST_TEST(result.studies.sweeps[0].rings[0][1].figures.ring_planet.averaged ==
+             alone.rings[0].response->figures.ring_planet.load_sharing.averaged.value);
+  BOOST_TEST(result.studies.sweeps[0].rings[0][0].figures.ring_planet.averaged !=
+             result.studies.sweeps[0].rings[0][1].figures.ring_planet.averaged);
+}
+
+BOOST_AUTO_TEST_CASE(samples_are_the_same_for_any_number_of_threads_and_samples) {
+  const test::TemporaryFolder folder("threads");
+  const auto text = two_masses(short_scene());
+  const auto file = [&](const char* run, const char* ring) {
+    return folder.path() / run / ring / "dynamics/monte_carlo.csv";
+  };
+  const auto one = run_text(text + few_samples, folder.path() / "one", 1);
+  (void)run_text(text + few_samples, folder.path() / "three", 3);
+  for (const auto* ring : {"held", "heavy"}) BOOST_TEST(contents(file("one", ring)) == contents(file("three", ring)));
+  // Fewer samples first: the later ones add to them.
+  const auto fewer = test::replaced(text + few_samples, "samples = 45", "samples = 25");
+  (void)run_text(fewer, folder.path() / "more");
+  const auto early = Csv::read(file("more", "held"));
+  BOOST_TEST(early.rows.size() == 25U);
+  const auto kept = folder.path() / "more/held/dynamics/monte_carlo/samples_0000000.csv";
+  const auto written = std::filesystem::last_write_time(kept);
+  (void)run_text(text + few_samples, folder.path() / "more");
+  BOOST_TEST((std::filesystem::last_write_time(kept) == written));
+  BOOST_TEST(contents(file("more", "held")) == contents(file("one", "held")));
+  // And fewer again are the first of them.
+  (void)run_text(fewer, folder.path() / "more");
+  BOOST_TEST((Csv::read(file("more", "held")).rows == early.rows));
+  // Both rings have the same draws; another seed has others.
+  const auto& samples = one.studies.monte_carlo->rings;
+  const std::string phase = "errors_planet_installation_phase_deg_3";
+  BOOST_TEST(column(samples[0].samples, phase) == column(samples[1].samples, phase), boost::test_tools::per_element());
+  const auto seeded = run_text(test::replaced(text + few_samples, "seed = 5", "seed = 6"), folder.path() / "one");
+  BOOST_TEST(column(seeded.studies.monte_carlo->rings[0].samples, phase)[0] != column(samples[0].samples, phase)[0]);
+}
+
+BOOST_AUTO_TEST_CASE(interrupted_studies_go_on_to_the_same_bytes) {
+  const test::TemporaryFolder folder("interrupted");
+  auto text = short_scene() + "[[sweep]]\ninput = \"stage.sun_speed_rpm\"\nfrom = 800\nto = 1200\ncount = 5\n" +
+              "[monte_carlo]\nsamples = 120\n[sensitivity]\ninputs = [\"supports.sun_N_per_m\"]\n";
+  write_file(folder.path() / "scene.toml", text);
+  const auto start = [&](const char* out, const char* threads) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      ::chdir(folder.path().c_str());
+      ::execl(ANNULUS_PROGRAM, ANNULUS_PROGRAM, "run", "scene.toml", "-q", "-o", out, "--threads", threads,
+              static_cast<char*>(nullptr));
+      ::_exit(127);
+    }
+    return child;
+  };
+  const auto wait = [](pid_t child) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return status;
+  };
+  BOOST_TEST(wait(start("whole", "2")) == 0);
+  // Killed, not asked to stop, as soon as the first samples are there.
+  const auto first = folder.path() / "parts/held/dynamics/monte_carlo/samples_0000000.csv";
+  const pid_t child = start("parts", "2");
+  for (int i = 0; i < 6000 && !std::filesystem::exists(first); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  ::kill(child, SIGKILL);
+  BOOST_TEST(WIFSIGNALED(wait(child)));
+  BOOST_TEST_REQUIRE(std::filesystem::exists(first));
+  BOOST_TEST(!std::filesystem::exists(folder.path() / "parts/sensitivity.csv"));
+  const auto written = std::filesystem::last_write_time(first);
+  BOOST_TEST(wait(start("parts", "1")) == 0);
+  BOOST_TEST((std::filesystem::last_write_time(first) == written));  // taken over, not made again
+  for (const auto* file : {"held/dynamics/sweep_1.csv", "held/dynamics/sweep_1_poincare.csv",
+                           "held/dynamics/monte_carlo.csv", "sensitivity.csv"})
+    BOOST_TEST(contents(folder.path() / "whole" / file) == contents(folder.path() / "parts" / file), file);
+}
+
+BOOST_AUTO_TEST_CASE(two_planets_of_unknown_phase_have_a_known_spread) {
+  // Two planets, all centres held, constant stiffness: L = 1 + K |e_1 - e_2| / (2 F). Installation errors of amount A
+  // make e_n = B sin(theta_n - ...) with B = 2 A cos((a_s + a_r)/2), and uniform phases make e_n independent with
+  // E |e_1 - e_2| = 8 B / pi^2 and E (e_1 - e_2)^2 = B^2.
+  auto text = test::replaced(short_scene(), "planets = 5", "planets = 2");
+  text = test::replaced(text, "[15, 36, 17, 38, 19]", "[20, 20]");
+  text = test::replaced(text, "sun_N_per_m = 1e7\n", "");
+  for (const auto* ripple : {"ripple = 0.2258\n", "ripple = 0.1294\n"}) {
+    text = test::replaced(text, ripple, "");
+    text = test::replaced(text, "\"harmonic\"", "\"constant\"");
+  }
+  const test::TemporaryFolder folder("two_planets");
+  const auto result = run_text(text + "[monte_carlo]\nsamples = 200\n", folder.path());
+  const auto& set = result.geometry.rings.front().set;
+  const double a = set.sun_mesh().working_pressure_angle(), r = set.ring_mesh().working_pressure_angle();
+  const double path = 1 / (1 / 1.364e9 + 1 / 1.87e9 +
+                           (std::pow(std::cos(a) + std::cos(r), 2) + std::pow(std::sin(a) - std::sin(r), 2)) / 1e9);
+  const double scale = path * 2 * 20e-6 * std::cos((a + r) / 2) / 2 / result.geometry.operating_point.mean_mesh_force;
+  const auto& ring = result.studies.monte_carlo->rings.front();
+  BOOST_TEST(ring.failed == 0);
+  // 200 samples: four standard errors of the mean, sqrt((1 - (8/pi^2)^2)/200) of the scale each.
+  constexpr double mean = 8 / (std::numbers::pi * std::numbers::pi);
+  for (const auto* figure : {"sun_planet_load_sharing_quasi_static", "ring_planet_load_sharing_averaged"}) {
+    const auto* s = ring.find(figure);
+    BOOST_TEST_REQUIRE(s);
+    BOOST_TEST(std::abs((s->mean.value - 1) / scale - mean) < 4 * std::sqrt((1 - mean * mean) / 200));
+    BOOST_TEST(s->mean.low < s->mean.value);
+    BOOST_TEST((s->q05.value < s->median.value && s->median.value < s->q95.value));
+    // Rounding, the integrator and the centripetal terms aside no sample exceeds 2 B: L <= 1 + 2 scale.
+    for (const double x : column(ring.samples, figure)) BOOST_TEST((x > 1 - 1e-4 && x < 1 + 2.01 * scale));
+  }
+  // Every sample by itself: the closed form at the phases it says it drew.
+  const auto phase1 = column(ring.samples, "errors_planet_installation_phase_deg_1"),
+             phase2 = column(ring.samples, "errors_planet_installation_phase_deg_2"),
+             sharing = column(ring.samples, "sun_planet_load_sharing_quasi_static");
+  for (std::size_t i = 0; i < sharing.size(); ++i) {
+    const double shift = (a - r) / 2;  // planets at 0 and 180 degrees
+    const double difference = std::sin(phase1[i] * units::deg + shift) -
+                              std::sin(phase2[i] * units::deg - std::numbers::pi + shift);
+    BOOST_TEST(std::abs(sharing[i] - (1 + scale * std::abs(difference))) < 2e-4);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(orders_of_the_rings_are_counted_in_pairs) {
+  const test::TemporaryFolder folder("orders");
+  const auto result = run_text(two_masses(short_scene()) + few_samples, folder.path());
+  const auto& found = *result.studies.monte_carlo;
+  BOOST_TEST_REQUIRE(found.orders.size() == 3U);
+  const auto& order = found.orders.front();
+  BOOST_TEST(order.figure == app::ordering_figure);
+  const auto a = column(found.rings[0].samples, order.figure), b = column(found.rings[1].samples, order.figure);
+  long above = 0;
+  double difference = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    above += a[i] > b[i] ? 1 : 0;
+    difference += (a[i] - b[i]) / 45;
+  }
+  BOOST_TEST(order.samples == 45);
+  BOOST_TEST(order.above == above);
+  BOOST_TEST((order.share.low <= above / 45.0 && above / 45.0 <= order.share.high));
+  BOOST_TEST(order.difference.value == difference, boost::test_tools::tolerance(1e-9));
+  const auto json = nlohmann::json::parse(contents(folder.path() / "summary.json"));
+  BOOST_TEST(json["monte_carlo"]["orders"][0]["share"]["value"] == order.share.value);
+  const auto& statistics = json["rings"]["held"]["monte_carlo"];
+  BOOST_TEST(statistics["samples"] == 45);
+  BOOST_TEST(statistics["failed"] == 0);
+  BOOST_TEST(statistics[app::ordering_figure]["mean"]["value"].get<double>() > 1);
+  const auto page = contents(folder.path() / "report.html");
+  BOOST_TEST(page.find("id=\"spread\"") != std::string::npos);
+  BOOST_TEST(page.find(">nan<") == std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(failed_samples_are_counted_and_told) {
+  // The failing draws are those of a power for which the given table has no load.
+  const test::TemporaryFolder folder("failed");
+  std::vector<StiffnessEntry> entries;
+  for (int phase = 0; phase < 8; ++phase) {
+    for (const double load : {4e4, 6e4})
+      entries.push_back({.unloaded_te = 0, .lte = load / 1.8e9, .stiffness_secant = 1.8e9, .stiffness_tangent = 1.8e9,
+                         .error_relative = 0.01});
+  }
+  StiffnessTable("ring_planet", 8, {0.0}, {4e4, 6e4}, entries).write_csv(folder.path() / "ring.csv");
+  const auto text = test::replaced(short_scene(), "stiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294",
+                                   "stiffness = \"table\"\nfile = \"ring.csv\"");
+  write_file(folder.path() / "scene.toml",
+             text + few_samples + "[[monte_carlo.input]]\ninput = \"stage.power_kW\"\ndistribution = \"uniform\"\n"
+                                  "low = 2500\nhigh = 3200\n");
+  const auto result = app::run(app::read_scene(folder.path() / "scene.toml"), {.out = folder.path() / "out"});
+  const auto& ring = result.studies.monte_carlo->rings.front();
+  // 59.46 kN at 2958.8 kW: 60 kN are passed above 2985.7 kW.
+  const auto power = column(ring.samples, "stage_power_kW"), failed = column(ring.samples, "failed");
+  int expected = 0;
+  for (std::size_t i = 0; i < power.size(); ++i) {
+    BOOST_TEST((failed[i] == 1) == (power[i] > 2985.7), power[i]);
+    expected += power[i] > 2985.7 ? 1 : 0;
+  }
+  BOOST_TEST(expected > 0);
+  BOOST_TEST(ring.failed == expected);
+  BOOST_TEST(std::isfinite(ring.find(app::ordering_figure)->mean.value));
+  const auto csv = Csv::read(folder.path() / "out/held/dynamics/monte_carlo.csv");
+  BOOST_TEST(csv.header.size() == 2U + static_cast<std::size_t>(expected));
+  BOOST_TEST(contents(folder.path() / "out/report.html").find("samples failed") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(sensitivity_divides_and_multiplies) {
+  const test::TemporaryFolder folder("sensitivity");
+  const auto text = two_masses(short_scene());
+  const auto result = run_text(text + "[sensitivity]\n", folder.path() / "all");
+  const auto& s = *result.studies.sensitivity;
+  std::vector<std::string> inputs;
+  for (const auto& row : s.rows) inputs.push_back(row.input);
+  const std::vector<std::string> expected = {"supports.sun_N_per_m",        "supports.ring_N_per_m",
+                                             "supports.planet_N_per_m",     "dynamics.half_backlash_um",
+                                             "dynamics.mesh_damping_ratio", "dynamics.support_damping_ratio"};
+  BOOST_TEST(inputs == expected, boost::test_tools::per_element());
+  const auto halved =
+      run_text(test::replaced(text, "planet_N_per_m = 1e9", "planet_N_per_m = 0.5e9"), folder.path() / "alone");
+  for (std::size_t ring = 0; ring < 2; ++ring) {
+    BOOST_TEST(s.nominal[ring].figures.sun_planet.averaged ==
+               result.rings[ring].response->figures.sun_planet.load_sharing.averaged.value);
+    BOOST_TEST(s.rows[2].divided[ring].figures.sun_planet.averaged ==
+               halved.rings[ring].response->figures.sun_planet.load_sharing.averaged.value);
+    BOOST_TEST(s.rows[2].values[ring] == 1e9);
+    // While no mesh separates, the backlash changes nothing (models.md C), up to the integrator's tolerance.
+    BOOST_TEST(s.rows[3].multiplied[ring].figures.sun_planet.averaged == s.nominal[ring].figures.sun_planet.averaged,
+               boost::test_tools::tolerance(1e-5));
+  }
+  for (const auto& row : s.rows) {
+    const auto order = [](const std::vector<app::StudyPoint>& p) {
+      return p[0].figures.sun_planet.averaged > p[1].figures.sun_planet.averaged;
+    };
+    BOOST_TEST(row.order_stays ==
+               (order(row.divided) == order(s.nominal) && order(row.multiplied) == order(s.nominal)));
+  }
+  const auto csv = contents(folder.path() / "all/sensitivity.csv");
+  BOOST_TEST(std::count(csv.begin(), csv.end(), '\n') == 2 + 1 + 6 * 2);
+  const auto json = nlohmann::json::parse(contents(folder.path() / "all/summary.json"));
+  BOOST_TEST(json["sensitivity"]["inputs"].size() == 6U);
+}
+
+BOOST_AUTO_TEST_CASE(the_plan_counts_what_is_to_come) {
+  const auto scene = app::parse_scene(two_masses(short_scene()) +
+                                          "[[sweep]]\ninput = \"stage.power_kW\"\nfrom = 1\nto = 9\ncount = 9\n" +
+                                          few_samples + "[sensitivity]\n",
+                                      "s");
+  const auto plan = app::make_plan(scene, app::make_geometry(scene));
+  BOOST_TEST_REQUIRE(plan.studies.size() == 3U);
+  BOOST_TEST(plan.studies[0].responses == 18);
+  BOOST_TEST(plan.studies[1].responses == 90);
+  BOOST_TEST(plan.studies[2].responses == 26);
+  for (const auto& study : plan.studies) {
+    BOOST_TEST(study.tables == 0);
+    BOOST_TEST(study.seconds > 0);
+  }
+  BOOST_TEST(app::to_text(plan).find("[monte_carlo]: 45 samples of 5 random inputs") != std::string::npos);
+  BOOST_TEST(nlohmann::json::parse(app::to_json(plan))["studies"][0]["responses"] == 18);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace annulus

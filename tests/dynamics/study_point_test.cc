@@ -1,0 +1,93 @@
+#include "dynamics/study_point.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
+
+#include "dynamics/modes.h"
+#include "tests/dynamics/stages.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+/// Central bodies held, constant stiffness, installation errors of the planets alone: nothing moves.
+PlanetaryStage held_centres() {
+  auto stage = stages::ring_paper();
+  for (auto* body : {&stage.sun, &stage.ring, &stage.carrier}) body->support = rigid;
+  stage.ring.torsional_support = rigid;
+  stage.sun_mesh = ConstantStiffness{1.364e9};
+  stage.ring_mesh = ConstantStiffness{1.87e9};
+  const double amount[] = {11, 32, 13, 34, 15}, phase[] = {20, 70, 190, 260, 330};
+  for (std::size_t n = 0; n < 5; ++n)
+    stage.planet_errors[n] = {{}, {amount[n] * units::um, phase[n] * units::deg}};
+  return stage;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(study_point)
+
+BOOST_AUTO_TEST_CASE(held_centres_share_after_the_closed_form) {
+  // models.md A: L = 1 + max_n K_path (mean(e) - e_n) / F
+  const auto stage = held_centres();
+  const double a = stage.sun_working_angle, r = stage.ring_working_angle;
+  const double path =
+      1 / (1 / 1.364e9 + 1 / 1.87e9 + (std::pow(std::cos(a) + std::cos(r), 2) + std::pow(std::sin(a) - std::sin(r), 2)) / 1e9);
+  double mean = 0, lowest = 1e9;
+  for (int n = 0; n < 5; ++n) {
+    const double e = sun_mesh_error(stage, n, 0).value + ring_mesh_error(stage, n, 0).value;
+    mean += e / 5;
+    lowest = std::min(lowest, e);
+  }
+  const double expected = 1 + path * (mean - lowest) / stage.mean_mesh_force();
+  const auto point = evaluate_point(stage, {});
+  // Without the rotating frame's centripetal terms it would be exact; they are 1e-4 of the bearing stiffness.
+  for (const auto* kind : {&point.sun_planet, &point.ring_planet}) {
+    BOOST_TEST(kind->quasi_static == expected, boost::test_tools::tolerance(2e-4));
+    BOOST_TEST(kind->averaged == kind->quasi_static, boost::test_tools::tolerance(1e-4));
+    BOOST_TEST(kind->dynamic_factor == kind->averaged, boost::test_tools::tolerance(1e-4));
+    BOOST_TEST(kind->contact_loss == 0.0);
+  }
+  BOOST_TEST(point.steady);
+  BOOST_TEST(std::isnan(point.sun.rms));  // held
+  // Nothing moves: the deflection of each mesh is constant, to the integrator's tolerance of some 1e-6 of 50 um.
+  BOOST_TEST(point.sun_mesh.peak_to_peak < 1e-8);
+  // Poincare points carry the force and its deflection: F = k (delta - b/2), to the integrator's tolerance.
+  BOOST_TEST_REQUIRE(point.poincare.size() == 20U);
+  for (const auto& p : point.poincare)
+    BOOST_TEST(p.force == 1.364e9 * (p.deflection - 50e-6), boost::test_tools::tolerance(1e-6));
+}
+
+BOOST_AUTO_TEST_CASE(motion_is_that_of_the_time_series) {
+  auto stage = stages::ring_paper();
+  SimulationOptions options;
+  options.mesh_cycles = 70;
+  options.estimate_error = false;
+  const auto point = evaluate_point(stage, {.simulation = options, .poincare_cycles = 10});
+  const auto response = simulate(stage, options);
+  const auto& s = response.series;
+  const auto x = s.displacement.row(0), y = s.displacement.row(1);
+  const double rms = std::sqrt(((x.array() - x.mean()).square() + (y.array() - y.mean()).square()).mean());
+  BOOST_TEST(point.sun.rms == rms, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(point.sun_planet.averaged == response.sun_planet.load_sharing.averaged.value);
+  BOOST_TEST(point.poincare.size() == 10U);
+  BOOST_TEST(point.poincare[3].force == s.force(0, 3 * options.samples_per_cycle));
+  // In contact F = k (delta - b/2) + c delta', the damper's part being small: delta is near b/2 + F / k(0).
+  BOOST_TEST(point.poincare[3].deflection == 50e-6 + point.poincare[3].force / (1.364e9 * 1.2258),
+             boost::test_tools::tolerance(0.02));
+  // Frequencies: distinct and rising, those of the modes.
+  BOOST_TEST_REQUIRE(point.frequencies.size() == 6U);
+  const auto all = modes(stage).modes;
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (i) BOOST_TEST(point.frequencies[i] > point.frequencies[i - 1] * (1 + 1e-6));
+    BOOST_TEST(std::any_of(all.begin(), all.end(), [&](const Mode& m) { return m.frequency == point.frequencies[i]; }));
+  }
+  const auto bare = evaluate_point(stage, {.simulation = options, .motion = false});
+  BOOST_TEST(bare.poincare.empty());
+  BOOST_TEST(bare.ring_planet.dynamic_factor == point.ring_planet.dynamic_factor);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace annulus::dynamics

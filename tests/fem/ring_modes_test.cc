@@ -1,0 +1,304 @@
+#include "fem/ring_modes.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "fem/ring_coupling.h"
+#include "ring_paper_problems.h"
+#include "small_ring.h"
+#include "structured_mesh.h"
+
+/// Elastic modes of rings.
+BOOST_AUTO_TEST_SUITE(ring_modes)
+
+using namespace annulus::tests;
+using annulus::RingMode;
+using annulus::fem::held_ring_modes;
+using annulus::fem::Material;
+using annulus::fem::ModeLimits;
+using annulus::fem::MotionOrder;
+using annulus::fem::RingFlexibility;
+using annulus::fem::RingOnSupports;
+using annulus::fem::supported_ring_modes;
+using annulus::geometry::Boundary;
+
+constexpr int all_modes = 1000000;
+// Two exact ways that differ by round-off: 2e-16 times a condition number of some 1e6.
+constexpr double round_off = 1e-9;
+
+/// A plain floating ring of unit mean radius, modulus and density; its mesh force is radial, at a node.
+RingFlexibility plain_ring(double height, int sectors, const MotionOrder& motions) {
+  const double inner = 1 - height / 2, outer = 1 + height / 2, pitch = 2 * M_PI / sectors;
+  const auto mesh = structured_mesh(2, 384 / sectors,
+                                    [&](double u, double v) -> Eigen::Vector2d {
+                                      const double r = inner + (outer - inner) * u, angle = pitch * (v - 0.5);
+                                      return {r * std::cos(angle), r * std::sin(angle)};
+                                    },
+                                    {Boundary::root, Boundary::support, Boundary::side_low, Boundary::side_high});
+  const auto project = [&](Boundary boundary, const Eigen::Vector2d& p) -> Eigen::Vector2d {
+    if (boundary == Boundary::root) return p * (inner / p.norm());
+    return boundary == Boundary::support ? Eigen::Vector2d(p * (outer / p.norm())) : p;
+  };
+  const auto body = discretise_body(mesh, project, {1.0, 0.3, 1}, 2);
+  annulus::fem::SectorModel model;
+  model.pitch_angle = pitch;
+  model.stiffness = body.stiffness;
+  model.nodal_mass = body.nodal_mass;
+  model.nodes = body.nodes;
+  model.freedom = body.freedom;
+  const auto by_radius = [&](int a, int b) { return body.nodes[a].norm() < body.nodes[b].norm(); };
+  model.low_nodes = body.boundary_nodes(Boundary::side_low);
+  model.high_nodes = body.boundary_nodes(Boundary::side_high);
+  std::sort(model.low_nodes.begin(), model.low_nodes.end(), by_radius);
+  std::sort(model.high_nodes.begin(), model.high_nodes.end(), by_radius);
+
+  annulus::fem::SectorLoads loads;
+  int middle = 0;
+  for (std::size_t n = 0; n < body.nodes.size(); ++n)
+    if ((body.nodes[n] - Eigen::Vector3d(1, 0, 0)).norm() < (body.nodes[middle] - Eigen::Vector3d(1, 0, 0)).norm())
+      middle = static_cast<int>(n);
+  loads.acting.push_back({{middle, Eigen::Vector3d(-1, 0, 0)}});
+  for (auto& load : inertia_loads(model, 1, motions)) loads.acting.push_back(std::move(load));
+  RingFlexibility ring;
+  ring.teeth = sectors;
+  ring.pitch_angle = pitch;
+  ring.base_radius = 1;
+  ring.motions = static_cast<int>(loads.acting.size()) - 1;
+  ring.resultants = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(loads.acting.size()));
+  ring.compliance = compose_loads(condense(model, loads, true), sectors, true, 1, 1);
+  return ring;
+}
+
+/// Lowest frequency with so many waves.
+const RingMode& first_with(const std::vector<RingMode>& modes, int waves) {
+  const auto found = std::find_if(modes.begin(), modes.end(), [&](const auto& m) { return m.waves == waves; });
+  BOOST_TEST_REQUIRE((found != modes.end()));
+  return *found;
+}
+
+BOOST_AUTO_TEST_CASE(a_free_thin_ring_bends_at_the_frequencies_of_hoppe_and_breathes) {
+  const double modulus = 1 / (1 - 0.3 * 0.3), density = 1;  // plane strain
+  for (const double height : {0.01, 0.02, 0.04}) {
+    const auto modes = held_ring_modes(plain_ring(height, 48, {2, 0}), {all_modes});
+    for (const int n : {2, 3, 4, 6}) {
+      // omega^2 = E I / (rho A R^4) n^2 (n^2 - 1)^2 / (n^2 + 1) (Hoppe 1871; Love, Mathematical Theory of Elasticity,
+      // art. 293).
+      const double square = modulus * height * height / (12 * density) * n * n * std::pow(n * n - 1.0, 2) / (n * n + 1);
+      const double exact = std::sqrt(square) / (2 * M_PI);
+      const double off = first_with(modes, n).frequency / exact - 1;
+      BOOST_TEST_MESSAGE("h/R " << height << ", " << n << " waves: " << off);
+      // Shear and rotary inertia, left out of the thin ring, take (1 + E / kappa G) (n h / R)^2 / 24 off (Timoshenko's
+      // beam), and of that an unknown part as much as the curvature counts.
+      const double shear = (1 + modulus / (5.0 / 6 / 2.6)) * std::pow(n * height, 2) / 24;
+      BOOST_TEST(std::abs(off + shear) < 0.6 * shear + 1e-5);
+      const auto& closing = first_with(modes, n).closing;
+      // Inextensional, w = cos n theta: unit modal mass is 2 pi rho h (1 + 1 / n^2) / 2 w^2.
+      BOOST_TEST(closing[0] == 1 / std::sqrt(M_PI * density * height * (1 + 1.0 / (n * n))),
+                 boost::test_tools::tolerance(0.01));
+      BOOST_TEST(std::abs(closing[48 / 2] - (n % 2 == 0 ? 1 : -1) * closing[0]) < 1e-6 * closing[0]);
+    }
+    // omega^2 = E / (rho R^2), purely radial.
+    const auto& breathing = first_with(modes, 0);
+    BOOST_TEST(breathing.frequency == std::sqrt(modulus) / (2 * M_PI),
+               boost::test_tools::tolerance(height * height + 1e-5));
+    BOOST_TEST(std::abs(breathing.closing[0]) == 1 / std::sqrt(2 * M_PI * density * height),
+               boost::test_tools::tolerance(height));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(shorter_sectors_and_higher_orders_come_down_to_the_frequency) {
+  const auto frequency = [](int sectors, int order, int waves) {
+    return first_with(held_ring_modes(plain_ring(0.05, sectors, {order, 0}), {all_modes}), waves).frequency;
+  };
+  for (const int waves : {2, 3}) {
+    const double limit = frequency(96, 4, waves);
+    double before = 0;
+    for (const int sectors : {12, 24, 48}) {
+      const double above = frequency(sectors, 1, waves) / limit - 1;
+      BOOST_TEST_MESSAGE(waves << " waves, " << sectors << " sectors: " << above);
+      BOOST_TEST(above > 0);
+      // Energies of what linear motions leave: of a wave's shift of the section it is of fourth order in the length of
+      // a sector, of its turn of second order, with (h / R)^2.
+      if (before > 0) BOOST_TEST(before / above > std::pow(2, 0.9 * 2));
+      before = above;
+    }
+    BOOST_TEST(before < 3e-5);
+    double lower = 1;
+    for (const int order : {1, 2, 3}) {
+      const double above = frequency(12, order, waves) / limit - 1;
+      BOOST_TEST(above > -1e-12);
+      BOOST_TEST(above < 0.3 * lower);
+      lower = above;
+    }
+  }
+}
+
+/// All frequencies above those of the whole mesh, and how much at most of the first `count`.
+double most_above(const std::vector<RingMode>& modes, const Eigen::VectorXd& exact) {
+  double most = 0;
+  for (Eigen::Index k = 0; k < exact.size(); ++k) {
+    const double above = modes[k].frequency / exact[k] - 1;
+    BOOST_TEST(above > -1e-8);  // subspace iteration
+    most = std::max(most, above);
+  }
+  return most;
+}
+
+BOOST_AUTO_TEST_CASE(held_rings_against_the_modes_of_the_whole_mesh) {
+  for (const auto held : {SmallHeld::outside, SmallHeld::sleeve}) {
+    const int teeth = held == SmallHeld::outside ? 37 : 29;
+    Eigen::VectorXd exact;
+    double before = 1;
+    for (const auto& motions : {MotionOrder{1, 1}, {2, 3}, {3, 5}}) {
+      const SmallRing ring = small_ring(teeth, held, motions);
+      if (exact.size() == 0) {
+        const FreeSystem stiffness(ring.whole.stiffness, ring.fixed), mass(ring.whole_mass(), ring.fixed);
+        exact = lowest_frequencies(stiffness.matrix, mass.matrix, 7);
+      }
+      const double above = most_above(held_ring_modes(ring.flexibility, {20}), exact);
+      BOOST_TEST_MESSAGE("motions of order " << motions.section << ", " << motions.axial << ": " << above << " of "
+                                             << exact[0] << " Hz");
+      BOOST_TEST(above < before);
+      before = above;
+    }
+    // A rim a module high under teeth of two: parts of the section move for themselves.
+    BOOST_TEST(before < 2e-3);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(rings_on_bolts_against_the_modes_of_the_whole_mesh) {
+  constexpr int teeth = 36;
+  const auto plan = small_ring_pins(teeth, {0.1, 1.3, 2.2, 3.5, 4.05, 5.4}, 2e8, 7e7, true);
+  const SmallRing ring = small_ring(teeth, SmallHeld::floating, {2, 0}, &plan);
+  const Eigen::VectorXd exact =
+      lowest_frequencies(ring.whole.stiffness + ring.support_stiffness(plan), ring.whole_mass(), 10);
+  const RingOnSupports supports(ring.flexibility, plan);
+  const auto modes = supported_ring_modes(ring.flexibility, supports, {10});
+  const double above = most_above(modes, exact);
+  BOOST_TEST_MESSAGE("first " << exact[0] << " Hz, above by " << above);
+  BOOST_TEST(above < 1e-3);
+}
+
+BOOST_AUTO_TEST_CASE(on_soft_bolts_the_first_modes_are_rigid_motions) {
+  constexpr int teeth = 36, pins = 9;
+  const double radial = 3e4, tangential = 2e4;
+  const auto plan = small_ring_pins(teeth, annulus::fem::equal_angles(pins, 0.1), radial, tangential, false);
+  const SmallRing ring = small_ring(teeth, SmallHeld::floating, {1, 0}, &plan);
+  const RingOnSupports supports(ring.flexibility, plan);
+  const auto modes = supported_ring_modes(ring.flexibility, supports, {3});
+  BOOST_TEST_REQUIRE(modes.size() == 3U);
+
+  const auto nodes = static_cast<Eigen::Index>(ring.whole.nodes.size());
+  Eigen::MatrixXd coordinates(nodes, 3);
+  for (Eigen::Index n = 0; n < nodes; ++n) coordinates.row(n) << 1, ring.whole.nodes[n].head<2>().transpose();
+  const Eigen::Matrix3d moments = ring.width * coordinates.transpose() * (ring.whole.nodal_mass * coordinates);
+  const double mass = moments(0, 0), inertia = moments(1, 1) + moments(2, 2);
+  const double half_arc = 1e-3 / ring.outside, lever = ring.outside * (1 - half_arc * half_arc / 10);
+  const double translation = std::sqrt(pins / 2.0 * (radial + tangential) / mass) / (2 * M_PI);
+  const double rotation = std::sqrt(pins * tangential * lever * lever / inertia) / (2 * M_PI);
+  const double base = ring.gear.base_radius();
+  const annulus::geometry::ToothProfile profile(ring.gear);
+  const double roll = profile.roll_length_at(ring.gear.reference_radius());
+  const Eigen::Vector2d normal = profile.flank_normal(roll), point = profile.flank_point(roll);
+  for (const auto& mode : modes) {
+    const bool turns = std::abs(mode.rotation) > 1e-3;
+    // Springs a thousand times softer than the ring.
+    BOOST_TEST(mode.frequency == (turns ? rotation : translation), boost::test_tools::tolerance(1e-3));
+    BOOST_TEST(mode.waves == (turns ? 0 : 1));
+    const double modal_mass = turns ? std::pow(mode.rotation * base, 2) / inertia
+                                    : (std::pow(mode.translation_x, 2) + std::pow(mode.translation_y, 2)) / mass;
+    BOOST_TEST(modal_mass == 1, boost::test_tools::tolerance(1e-5));
+    // Rigid motion of the real ring, whose leading flanks the planets touch: out of the material closes the mesh.
+    const Eigen::Vector2d shift = Eigen::Vector2d(mode.translation_x, mode.translation_y) / mass;
+    const double turn = mode.rotation * base / inertia;
+    double worst = 0, scale = 0;
+    for (int tooth = 0; tooth < teeth; ++tooth) {
+      const Eigen::Vector2d n = Eigen::Rotation2Dd(tooth * ring.gear.pitch_angle()) * normal;
+      const double closing = n.dot(shift) + turn * (point.x() * normal.y() - point.y() * normal.x());
+      worst = std::max(worst, std::abs(mode.closing[tooth] - closing));
+      scale = std::max(scale, std::abs(closing));
+    }
+    BOOST_TEST(worst < 5e-3 * scale);  // deformation, and the fanned-out mesh force
+  }
+}
+
+BOOST_AUTO_TEST_CASE(all_modes_together_give_the_static_compliance_and_the_mass) {
+  for (const auto held : {SmallHeld::outside, SmallHeld::sleeve}) {
+    const int teeth = held == SmallHeld::outside ? 36 : 29;
+    const SmallRing ring = small_ring(teeth, held, {2, 2});
+    const auto modes = held_ring_modes(ring.flexibility, {all_modes});
+    BOOST_TEST(modes.size() == static_cast<std::size_t>(teeth * ring.flexibility.motions));
+    const auto compliance = [&](int d) { return ring.flexibility.compliance.block(d)(0, 0); };
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(teeth);
+    double x = 0, y = 0, rotation = 0;
+    for (const auto& mode : modes) {
+      const double flexibility = std::pow(2 * M_PI * mode.frequency, -2);
+      const double before = sum[0];
+      // The mirrored teeth of the solve count backwards: tooth 0 moves under a force on tooth d.
+      for (int d = 0; d < teeth; ++d) sum[d] += flexibility * mode.closing[0] * mode.closing[d];
+      BOOST_TEST(sum[0] >= before);
+      x += mode.translation_x * mode.translation_x;
+      y += mode.translation_y * mode.translation_y;
+      rotation += std::pow(mode.rotation * ring.gear.base_radius(), 2);
+    }
+    // From below: what deforms a single tooth is not held in the modes.
+    BOOST_TEST_MESSAGE("own compliance by modes " << sum[0] / compliance(0) << ", next tooth " << sum[1] / compliance(1)
+                                                  << ", third " << sum[3] / compliance(3));
+    BOOST_TEST(sum[0] < compliance(0));
+    BOOST_TEST(sum[0] > 0.2 * compliance(0));
+    for (const int d : {2, 3, 5}) BOOST_TEST(std::abs(sum[d] - compliance(d)) < 0.05 * std::abs(compliance(1)));
+    // All mass moves with the modes but what hangs on the held nodes.
+    Eigen::Vector3d all = Eigen::Vector3d::Zero();
+    for (int s = 0; s < teeth; ++s)
+      all += ring.flexibility.resultants_of(s, 1, ring.flexibility.motions).rowwise().squaredNorm();
+    BOOST_TEST(x == all.x(), boost::test_tools::tolerance(round_off));
+    BOOST_TEST(y == all.y(), boost::test_tools::tolerance(round_off));
+    BOOST_TEST(rotation == all.z(), boost::test_tools::tolerance(round_off));
+    const double total = ring.whole.nodal_mass.sum() / ring.per_width();
+    BOOST_TEST(all.x() < total);
+    BOOST_TEST(all.x() > 0.8 * total);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(limits_keep_the_lowest_modes_and_whole_pairs) {
+  const SmallRing ring = small_ring(30, SmallHeld::outside, {1, 0});
+  const auto all = held_ring_modes(ring.flexibility, {all_modes});
+  for (std::size_t k = 1; k < all.size(); ++k) BOOST_TEST(all[k].frequency >= all[k - 1].frequency);
+  for (const int count : {1, 2, 3, 4, 5}) {
+    const auto some = held_ring_modes(ring.flexibility, {count});
+    BOOST_TEST((some.size() == std::size_t(count) || some.size() == count + 1U));
+    BOOST_TEST(some.back().frequency < all[some.size()].frequency);
+    for (std::size_t k = 0; k < some.size(); ++k) BOOST_TEST(some[k].closing == all[k].closing);
+  }
+  const auto low = held_ring_modes(ring.flexibility, {all_modes, all[6].frequency});
+  BOOST_TEST(low.back().frequency <= all[6].frequency);
+  BOOST_TEST(all[low.size()].frequency > all[6].frequency);
+}
+
+BOOST_AUTO_TEST_CASE(the_rings_of_the_paper) {
+  // Finer elements and motions of a higher order together stay within the estimated error.
+  annulus::fem::RingCouplingSettings settings;
+  settings.modes.count = 12;
+  for (const annulus::fem::RingStructure& structure :
+       {annulus::fem::RingStructure(annulus::fem::OutsideHeld{}), annulus::fem::RingStructure(paper_pins(24, 0))}) {
+    const auto problem = ring_mesh(structure, 2);
+    const bool pinned = std::holds_alternative<annulus::fem::PinHeld>(structure);
+    settings.level = 1;
+    settings.motions = {2, 0};
+    const auto coarse = solve_ring_coupling(problem, 5, nominal_load, settings);
+    settings.level = 2;
+    settings.motions = {pinned ? 2 : 4, 0};
+    const auto fine = solve_ring_coupling(problem, 5, nominal_load, settings);
+    double worst = 0;
+    for (std::size_t k = 0; k < 12; ++k)
+      worst = std::max(worst, std::abs(coarse.coupling.modes[k].frequency / fine.coupling.modes[k].frequency - 1));
+    BOOST_TEST_MESSAGE("first " << fine.coupling.modes[0].frequency << " Hz, error " << worst << ", estimated "
+                                << coarse.frequency_error_relative);
+    BOOST_TEST(worst < coarse.frequency_error_relative);
+    BOOST_TEST(coarse.frequency_error_relative < 0.01);
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
