@@ -79,18 +79,21 @@ IntegratorChoice choose_integrator(const LumpedSystem& system, double relative_t
   }
   const double needed = 1 / (frequency * choice.stability_step);
   if (choice.stability_step >= worthwhile) {
-    choice.reason = fmt::format("explicit Runge-Kutta: stable with {:.0f} steps per mesh cycle, BDF would take {:.0f}, "
-                                "each twice as dear",
-                                std::ceil(needed), steps_of_bdf);
+    choice.reason = fmt::format(
+        "explicit Runge-Kutta: stable with {:.0f} steps per mesh cycle, BDF would take {:.0f}, "
+        "each twice as dear",
+        std::ceil(needed), steps_of_bdf);
   } else if (choice.least_damping < well_damped) {
-    choice.reason = fmt::format("explicit Runge-Kutta: stiff ({:.0f} steps per mesh cycle for stability), but fast "
-                                "motions ring on (damping ratio {:.3f}) and have to be followed",
-                                std::ceil(needed), choice.least_damping);
+    choice.reason = fmt::format(
+        "explicit Runge-Kutta: stiff ({:.0f} steps per mesh cycle for stability), but fast "
+        "motions ring on (damping ratio {:.3f}) and have to be followed",
+        std::ceil(needed), choice.least_damping);
   } else {
     choice.method = Integrator::cvode_bdf;
-    choice.reason = fmt::format("BDF: stability would ask the explicit method for {:.0f} steps per mesh cycle where "
-                                "BDF takes {:.0f}; the fast motions are well damped (ratio {:.2f} or more)",
-                                std::ceil(needed), steps_of_bdf, choice.least_damping);
+    choice.reason = fmt::format(
+        "BDF: stability would ask the explicit method for {:.0f} steps per mesh cycle where "
+        "BDF takes {:.0f}; the fast motions are well damped (ratio {:.2f} or more)",
+        std::ceil(needed), steps_of_bdf, choice.least_damping);
   }
   return choice;
 }

@@ -44,8 +44,8 @@ struct PeriodicResponse {
 /// The excitation must repeat after `period` (s), which spans `cycles` mesh cycles. Stable and unstable solutions alike
 /// are found; the start is the response with constant mesh stiffness. Rigid motions are fixed by nu^T M q = 0 in the
 /// mean over the period. Without convergence the last iterate is returned, with `converged` false; nothing but
-/// `trouble` for a system whose mesh vectors move. Throws InputError when the load is not balanced, SolverError when the
-/// linear part is singular.
+/// `trouble` for a system whose mesh vectors move. Throws InputError when the load is not balanced, SolverError when
+/// the linear part is singular.
 [[nodiscard]] PeriodicResponse periodic_response(const LumpedSystem& system, double period, int cycles,
                                                  const PeriodicOptions& options = {});
 /// The same for a stage, over its error period.

@@ -87,12 +87,9 @@ std::optional<DirectWindows> solve_directly(const LumpedSystem& system, int cycl
   periodic_options.samples_per_cycle = options.samples_per_cycle;
   periodic_options.motion = true;
   auto periodic = periodic_response(system, cycles / response.mesh_frequency, cycles, periodic_options);
-  response.direct = DirectSolution{periodic.converged,
-                                   periodic.trouble,
-                                   periodic.residual,
-                                   periodic.newton_iterations,
-                                   periodic.linear_iterations,
-                                   periodic.sampling_difference / response.mean_mesh_force};
+  response.direct = DirectSolution{periodic.converged,         periodic.trouble,
+                                   periodic.residual,          periodic.newton_iterations,
+                                   periodic.linear_iterations, periodic.sampling_difference / response.mean_mesh_force};
   if (!periodic.converged) return std::nullopt;
   DirectWindows windows;
   windows.fine = {options.samples_per_cycle,        std::move(periodic.time),     std::move(periodic.force),

@@ -34,7 +34,7 @@ struct SimulationOptions {
   /// from the harmonic balance; or from one evaluated window earlier, and the differences, continued geometrically, add
   /// up to no more.
   double steady_tolerance = 1e-3;
-  int max_windows = 40;        ///< gives up after so many windows (chaos, nearly undamped): `steady` is then false
+  int max_windows = 40;  ///< gives up after so many windows (chaos, nearly undamped): `steady` is then false
   /// Of the time series and the harmonic balance (a multiple of 8 there); the highest excited frequency needs at least
   /// four samples.
   int samples_per_cycle = 64;
@@ -97,8 +97,8 @@ struct DynamicResponse {
   int total_cycles = 0;             ///< integrated mesh cycles; 0: none, the harmonic balance alone
   bool steady = false;              ///< within steady_tolerance (see there), or taken from the harmonic balance alone
   bool confirmed = false;           ///< harmonic balance and time integration agree
-  /// Largest mesh force difference to the harmonic balance (when `confirmed`) or to the window before / mean mesh force;
-  /// absent when there was none to compare with.
+  /// Largest mesh force difference to the harmonic balance (when `confirmed`) or to the window before / mean mesh
+  /// force; absent when there was none to compare with.
   std::optional<double> steady_difference;
   std::optional<DirectSolution> direct;        ///< absent when only marching was asked for or possible
   std::optional<IntegratorChoice> integrator;  ///< present when it was left to the program and something was integrated
@@ -115,9 +115,9 @@ struct DynamicResponse {
 /// Periodic steady state of the stage and its figures: solved for directly and confirmed by marching over one window
 /// from there (two independent methods); where they disagree, no balance is found or the error period is longer than
 /// `max_window_cycles`, by marching alone. The error of a figure adds up what the sampling misses, the change from the
-/// harmonic balance or the window before and, with `estimate_error`, the change under a looser integration. An infinite load sharing means instants at which the stage
-/// carries no load. Throws InputError when the stage or the options are not usable (no speed, no torque, an unbalanced
-/// load: nothing holds the ring), SolverError when the integrator fails.
+/// harmonic balance or the window before and, with `estimate_error`, the change under a looser integration. An infinite
+/// load sharing means instants at which the stage carries no load. Throws InputError when the stage or the options are
+/// not usable (no speed, no torque, an unbalanced load: nothing holds the ring), SolverError when the integrator fails.
 [[nodiscard]] DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& options = {});
 
 }  // namespace annulus::dynamics

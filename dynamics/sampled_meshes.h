@@ -11,7 +11,8 @@ namespace annulus::dynamics {
 /// The mesh forces as functions of the closings b^T q and their rates, at equidistant times of one period, with their
 /// derivatives. Where a stiffness jumps or teeth meet or part between two samples, a sample stands for the mean over
 /// the time step around it: forces are then continuous in the closings, and the error of the sampling goes down with
-/// the square of the time step instead of the time step. (Meshes that are coupled are not averaged over contact changes.)
+/// the square of the time step instead of the time step. (Meshes that are coupled are not averaged over contact
+/// changes.)
 ///
 /// Matrices: samples x meshes.
 class SampledMeshes {

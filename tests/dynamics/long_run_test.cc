@@ -63,11 +63,11 @@ BOOST_AUTO_TEST_CASE(the_chosen_integrator_is_the_cheaper_one) {
     const auto choice = choose_integrator(assemble(stage), tolerance);
     BOOST_TEST((choice.method == expected), choice.reason);
     BOOST_TEST(!choice.reason.empty());
-    const auto other =
-        expected == Integrator::cvode_bdf ? Integrator::arkode_explicit : Integrator::cvode_bdf;
+    const auto other = expected == Integrator::cvode_bdf ? Integrator::arkode_explicit : Integrator::cvode_bdf;
     const auto periodic = periodic_response(stage, options);
     BOOST_TEST(periodic.converged);
-    const auto chosen = march(stage, periodic, choice.method, tolerance), rejected = march(stage, periodic, other, tolerance);
+    const auto chosen = march(stage, periodic, choice.method, tolerance),
+               rejected = march(stage, periodic, other, tolerance);
     // Measured factors: three for metal, five for the stiff stage.
     BOOST_TEST(chosen.seconds < rejected.seconds);
     // Local errors within the tolerance add up over the decay time of the stage: a hundred of them.

@@ -192,7 +192,8 @@ BOOST_AUTO_TEST_CASE(transfer_functions_are_those_of_the_matrices) {
   const Eigen::MatrixXcd q = response.displacements(spacing, Eigen::MatrixXcd::Constant(10, lines, Complex(1, 0.3)));
   for (const Eigen::Index j : {0, 7, 39}) {
     const double w = static_cast<double>(j + 1) * spacing;
-    Eigen::MatrixXcd dynamic = (system.stiffness() + system.rotating_stiffness() - w * w * system.mass()).cast<Complex>();
+    Eigen::MatrixXcd dynamic =
+        (system.stiffness() + system.rotating_stiffness() - w * w * system.mass()).cast<Complex>();
     dynamic += Complex(0, w) * (system.damping() + system.gyroscopic()).cast<Complex>();
     for (int m = 0; m < 10; ++m) {
       const Eigen::VectorXcd b = system.mesh_vector(m).cast<Complex>();

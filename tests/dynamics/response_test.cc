@@ -76,8 +76,11 @@ BOOST_AUTO_TEST_CASE(direct_solution_and_marching_agree) {
   const auto marched = simulate(stage, options);
   BOOST_TEST(marched.steady);
   BOOST_TEST((!marched.direct && !marched.confirmed));
-  for (const auto& [a, b] : {std::pair(direct.sun_planet, marched.sun_planet), std::pair(direct.ring_planet, marched.ring_planet)}) {
-    const auto agree = [](const Figure& x, const Figure& y) { return std::abs(x.value - y.value) <= x.error + y.error; };
+  for (const auto& [a, b] :
+       {std::pair(direct.sun_planet, marched.sun_planet), std::pair(direct.ring_planet, marched.ring_planet)}) {
+    const auto agree = [](const Figure& x, const Figure& y) {
+      return std::abs(x.value - y.value) <= x.error + y.error;
+    };
     BOOST_TEST(agree(a.load_sharing.instantaneous, b.load_sharing.instantaneous));
     BOOST_TEST(agree(a.load_sharing.averaged, b.load_sharing.averaged));
     for (int n = 0; n < 5; ++n) BOOST_TEST(agree(a.branches[n].dynamic_factor_max, b.branches[n].dynamic_factor_max));
