@@ -101,16 +101,17 @@ std::string bounds(const dynamics::Interval& i) {
 }
 
 HtmlTable statistics_table(const RunResult& result) {
-  HtmlTable table{.head = {"", "mean", "standard deviation", "5 %", "median", "95 %"}, .rows = {},
-                  .css_class = "numbers"};
+  HtmlTable table{
+      .head = {"", "mean", "standard deviation", "5 %", "median", "95 %"}, .rows = {}, .css_class = "numbers"};
   std::vector<std::pair<std::string, std::string>> figures;
   for (const std::string mesh : {"sun", "ring"}) {
     const std::string column = mesh + "_planet_";
-    figures.insert(figures.end(),
-                   {{"Load sharing of the " + mesh + " meshes, averaged over a mesh cycle", column + "load_sharing_averaged"},
-                    {"Load sharing of the " + mesh + " meshes, instantaneous", column + "load_sharing_instantaneous"},
-                    {"Load sharing of the " + mesh + " meshes, quasi-static", column + "load_sharing_quasi_static"},
-                    {"Dynamic factor of the " + mesh + " meshes", column + "dynamic_factor"}});
+    figures.insert(
+        figures.end(),
+        {{"Load sharing of the " + mesh + " meshes, averaged over a mesh cycle", column + "load_sharing_averaged"},
+         {"Load sharing of the " + mesh + " meshes, instantaneous", column + "load_sharing_instantaneous"},
+         {"Load sharing of the " + mesh + " meshes, quasi-static", column + "load_sharing_quasi_static"},
+         {"Dynamic factor of the " + mesh + " meshes", column + "dynamic_factor"}});
   }
   for (const auto& [label, figure] : figures) {
     table.rows.push_back({label});
@@ -171,12 +172,15 @@ std::string spread_section(const RunResult& result) {
             "</ul>\n";
   std::vector<std::string> pictures;
   for (const auto& spread : spread_figures()) pictures.push_back(spread_picture(result, spread));
-  text += figure(pictures, "",
-                 "Dots: samples. Box: quartiles and median; whiskers: 5 and 95 %. Diamond: the scene as given, with the "
-                 "numerical error of its figure.");
-  return text + fmt::format("<p>In brackets: {:.0f} % confidence intervals, of the mean by Student's t, of quantiles "
-                            "between order statistics.</p>\n",
-                            100 * dynamics::usual_confidence) +
+  text +=
+      figure(pictures, "",
+             "Dots: samples. Box: quartiles and median; whiskers: 5 and 95 %. Diamond: the scene as given, with the "
+             "numerical error of its figure.");
+  return text +
+         fmt::format(
+             "<p>In brackets: {:.0f} % confidence intervals, of the mean by Student's t, of quantiles "
+             "between order statistics.</p>\n",
+             100 * dynamics::usual_confidence) +
          html(statistics_table(result));
 }
 

@@ -160,10 +160,10 @@ std::string remarks_of(const RunResult& result, const SweepResult& sweep) {
 std::string one_sweep(const RunResult& result, std::size_t n) {
   const auto& sweep = result.studies.sweeps[n];
   const auto* parameter = find_input(result.scene, sweep.sweep.input).parameter;
-  std::string text = fmt::format("<h3>{}</h3>\n<p>{} {} values; all else as in the scene. Table: "
-                                 "<code>dynamics/sweep_{}.csv</code> of each ring.{}</p>\n",
-                                 escape(sweep.sweep.input), escape(parameter->meaning), sweep.values.size(), n + 1,
-                                 remarks_of(result, sweep));
+  std::string text = fmt::format(
+      "<h3>{}</h3>\n<p>{} {} values; all else as in the scene. Table: "
+      "<code>dynamics/sweep_{}.csv</code> of each ring.{}</p>\n",
+      escape(sweep.sweep.input), escape(parameter->meaning), sweep.values.size(), n + 1, remarks_of(result, sweep));
   std::vector<std::string> pictures;
   for (const SweepFigure& figure :
        {SweepFigure{"Load sharing of the sun meshes", "sun_planet_load_sharing_averaged", "N F / ΣF", 1,
@@ -240,7 +240,8 @@ std::string sensitivity_section(const RunResult& result) {
     table.rows.push_back(std::move(cells));
   }
   std::string text = fmt::format(
-      "<h2 id=\"sensitivity\">Sensitivity</h2>\n<p>Each input divided by {0}, as it is, and multiplied by {0}, one at a "
+      "<h2 id=\"sensitivity\">Sensitivity</h2>\n<p>Each input divided by {0}, as it is, and multiplied by {0}, one at "
+      "a "
       "time. Load sharing of the sun meshes, averaged over a mesh cycle; largest dynamic factor of the sun meshes.",
       to_text(s.factor));
   if (compare)

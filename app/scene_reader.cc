@@ -312,7 +312,9 @@ void set_number(toml::table& root, const InputEdit& edit) {
     toml::array list;
     const auto* present = table[p.name].as_array();
     for (std::size_t i = 0; i < edit.length; ++i)
-      list.push_back(i == *edit.index ? edit.value : present && i < present->size() ? present->get(i)->value_or(0.0) : 0.0);
+      list.push_back(i == *edit.index                 ? edit.value
+                     : present && i < present->size() ? present->get(i)->value_or(0.0)
+                                                      : 0.0);
     table.insert_or_assign(p.name, std::move(list));
   } else {
     table.insert_or_assign(p.name, edit.value);

@@ -51,9 +51,10 @@ std::string nominal_mark(const Frame& frame, const SpreadColumn& c, double x) {
   std::string svg = fmt::format("<path d=\"M{:.1f} {:.1f}l5 -5l5 5l-5 5z\" fill=\"#222\"/>", x - 5, y);
   if (!(c.nominal_error > 0) || !std::isfinite(c.nominal_error)) return svg;
   const double low = frame.at_y(c.nominal - c.nominal_error), high = frame.at_y(c.nominal + c.nominal_error);
-  return svg + fmt::format("<path d=\"M{0:.1f} {1:.1f}V{2:.1f}M{3:.1f} {1:.1f}h8M{3:.1f} {2:.1f}h8\" stroke=\"#222\" "
-                           "stroke-width=\"1.3\" fill=\"none\"/>",
-                           x, low, high, x - 4);
+  return svg + fmt::format(
+                   "<path d=\"M{0:.1f} {1:.1f}V{2:.1f}M{3:.1f} {1:.1f}h8M{3:.1f} {2:.1f}h8\" stroke=\"#222\" "
+                   "stroke-width=\"1.3\" fill=\"none\"/>",
+                   x, low, high, x - 4);
 }
 
 }  // namespace
@@ -69,8 +70,8 @@ std::string to_svg(const SpreadPlot& plot) {
   }
   const double columns = std::max<double>(1, static_cast<double>(plot.columns.size()));
   // x counts the columns; their labels stand in place of its ticks.
-  const Frame frame{62, plot.width - 12.0, plot.title.empty() ? 10.0 : 26.0, plot.height - 30.0, {0, columns},
-                    y.range(), false};
+  const Frame frame{
+      62, plot.width - 12.0, plot.title.empty() ? 10.0 : 26.0, plot.height - 30.0, {0, columns}, y.range(), false};
   std::string svg = open_svg(plot.title, plot.width, plot.height, frame.left);
   svg += y_axis(frame, plot.y_label);
   for (std::size_t i = 0; i < plot.columns.size(); ++i) {

@@ -28,9 +28,13 @@ DynamicResponse response_of_point(const PlanetaryStage& stage, const PointOption
   simulation.estimate_error = false;  // the nominal run has the error; a study compares
   simulation.confirm = false;
   simulation.keep_series = options.motion;
+  // Figures alone need fewer samples (their peaks are refined); half of them cost less than half the time.
+  constexpr int enough_samples = 32;
+  if (!options.motion && !simulation.mesh_cycles)
+    simulation.samples_per_cycle = std::min(simulation.samples_per_cycle, enough_samples);
   auto response = simulate(stage, simulation);
-  const bool opens = std::max(figures_of(response.sun_planet).contact_loss,
-                              figures_of(response.ring_planet).contact_loss) > 0;
+  const bool opens =
+      std::max(figures_of(response.sun_planet).contact_loss, figures_of(response.ring_planet).contact_loss) > 0;
   if (!opens || simulation.mesh_cycles) return response;
   simulation.confirm = true;
   return simulate(stage, simulation);
@@ -105,9 +109,9 @@ PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& opt
 const char* point_method() { return "direct 1"; }
 
 double point_seconds(const PlanetaryStage& stage, int error_period) {
-  // Measured with five planets: a millisecond per mesh cycle, four windows until the response repeats.
-  constexpr double per_cycle_and_planet = 2e-4, windows = 4;
-  return per_cycle_and_planet * windows * stage.planets() * std::max(20, error_period);
+  // Measured with five planets and 55 mesh cycles: 50 ms, solved directly.
+  constexpr double per_cycle_and_planet = 2e-4;
+  return per_cycle_and_planet * stage.planets() * std::max(20, error_period);
 }
 
 }  // namespace annulus::dynamics

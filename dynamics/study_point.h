@@ -30,8 +30,9 @@ struct PointFigures {
   bool steady = false;
   int window_cycles = 0;
   // Only with PointOptions::motion:
-  MotionRange sun{};  ///< of the sun's centre: distance from its mean place; range: the wider one of x and y. NaN when held
-  MotionRange sun_mesh{}, ring_mesh{};         ///< deflection of the mesh that moves most
+  MotionRange
+      sun{};  ///< of the sun's centre: distance from its mean place; range: the wider one of x and y. NaN when held
+  MotionRange sun_mesh{}, ring_mesh{};    ///< deflection of the mesh that moves most
   std::vector<double> frequencies{};      ///< Hz, the lowest distinct natural frequencies above zero
   std::vector<PoincarePoint> poincare{};  ///< one per mesh cycle of the window, `poincare_cycles` at most
 };

@@ -59,7 +59,8 @@ static int annulus_linear_combination(int terms, realtype* c, N_Vector* x, N_Vec
 }
 
 static realtype annulus_weighted_norm(N_Vector x, N_Vector weight) {
-  const Eigen::Map<const Eigen::ArrayXd> values(NV_DATA_S(x), NV_LENGTH_S(x)), weights(NV_DATA_S(weight), NV_LENGTH_S(x));
+  const Eigen::Map<const Eigen::ArrayXd> values(NV_DATA_S(x), NV_LENGTH_S(x)),
+      weights(NV_DATA_S(weight), NV_LENGTH_S(x));
   return std::sqrt((values * weights).square().mean());
 }
 

@@ -20,7 +20,8 @@ app::Scene two_rings() {
   const auto begin = text.find("[[ring]]"), end = text.find("[errors]");
   auto second = text.substr(begin, end - begin);
   second = test::replaced(second, "\"held\"", "\"pins.24\"");
-  second = test::replaced(second, "structure = \"traditional\"", "structure = \"pinned\"\npins = 24\npin_diameter_mm = 15.5");
+  second = test::replaced(second, "structure = \"traditional\"",
+                          "structure = \"pinned\"\npins = 24\npin_diameter_mm = 15.5");
   return app::parse_scene(text.insert(end, second), "two.toml");
 }
 
@@ -97,8 +98,10 @@ BOOST_AUTO_TEST_CASE(factors_multiply_each_present_value) {
   const auto heavier = app::with_overrides(scene, {{"ring.pins.24.mass_kg", 2, true}, {"ring.pins", 0.5, true}});
   BOOST_TEST(*heavier.rings[1].mass == 62.5);
   BOOST_TEST(*heavier.rings[1].pins == 12);
-  BOOST_TEST(app::with_overrides(scene, {{"errors.planet_eccentricity_um[3]", 2, true}}).errors.planet_eccentricity[2] ==
-             34e-6, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(
+      app::with_overrides(scene, {{"errors.planet_eccentricity_um[3]", 2, true}}).errors.planet_eccentricity[2] ==
+          34e-6,
+      boost::test_tools::tolerance(1e-15));
   check_message(refusal(scene, {"supports.ring_N_per_m", 2, true}), {"supports.ring_N_per_m", "rigid"});
   check_message(refusal(scene, {"sun.tip_diameter_mm", 2, true}), {"sun.tip_diameter_mm", "no value"});
 }
@@ -128,7 +131,8 @@ BOOST_AUTO_TEST_CASE(study_tables_are_checked) {
   };
   const auto sweep = [](const std::string& keys) { return "[[sweep]]\ninput = \"stage.power_kW\"\n" + keys; };
   BOOST_TEST(quick(sweep("from = 1000\nto = 3000\ncount = 3\n")).sweeps.front().points() ==
-             (std::vector<double>{1000, 2000, 3000}), boost::test_tools::per_element());
+                 (std::vector<double>{1000, 2000, 3000}),
+             boost::test_tools::per_element());
   const auto logarithmic = quick(sweep("from = 10\nto = 1000\ncount = 3\nscale = \"logarithmic\"\n")).sweeps.front();
   BOOST_TEST(logarithmic.points()[1] == 100.0, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(quick(sweep("values = [7, 5]\n")).sweeps.front().points().size() == 2U);
@@ -185,7 +189,9 @@ BOOST_AUTO_TEST_CASE(every_value_of_a_study_is_checked_first) {
                 }),
                 {"nothing is uncertain"});
   // An input of a computed mesh changes its stiffness table.
-  auto text = test::replaced(test::quick_scene(), "[mesh.ring_planet]\nstiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294\n", "");
+  auto text =
+      test::replaced(test::quick_scene(),
+                     "[mesh.ring_planet]\nstiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294\n", "");
   text = test::replaced(text, "teeth = 55\n", "teeth = 55\nbore_diameter_mm = 172\n");
   const auto computed = [&](const std::string& keys) {
     return message_of([&] { app::check_studies(app::parse_scene(text + random(keys), "s")); });

@@ -61,8 +61,8 @@ BOOST_AUTO_TEST_SUITE(studies)
 BOOST_AUTO_TEST_CASE(sweep_points_are_the_runs_they_stand_for) {
   const test::TemporaryFolder folder("sweep");
   const auto text = two_masses(short_scene());
-  const auto result = run_text(
-      text + "[[sweep]]\ninput = \"supports.planet_N_per_m\"\nvalues = [5e8, 1e9, 2e9]\n", folder.path() / "all");
+  const auto result = run_text(text + "[[sweep]]\ninput = \"supports.planet_N_per_m\"\nvalues = [5e8, 1e9, 2e9]\n",
+                               folder.path() / "all");
   BOOST_TEST_REQUIRE(result.studies.sweeps.size() == 1U);
   const auto& sweep = result.studies.sweeps.front();
   BOOST_TEST(sweep.unit == "N/m");
@@ -93,14 +93,16 @@ BOOST_AUTO_TEST_CASE(sweep_points_are_the_runs_they_stand_for) {
 
 BOOST_AUTO_TEST_CASE(inputs_of_the_bodies_solve_tables_of_their_own) {
   const test::TemporaryFolder folder("tables");
-  auto text = test::replaced(short_scene(),
-                             "[mesh.ring_planet]\nstiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294\n", "");
+  auto text = test::replaced(
+      short_scene(), "[mesh.ring_planet]\nstiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294\n", "");
   text = test::replaced(text, "teeth = 55\n", "teeth = 55\nbore_diameter_mm = 172\n");
-  text = test::replaced(text, "structure = \"traditional\"", "structure = \"pinned\"\npins = 27\npin_diameter_mm = 15.5");
+  text =
+      test::replaced(text, "structure = \"traditional\"", "structure = \"pinned\"\npins = 27\npin_diameter_mm = 15.5");
   text = test::replaced(text, "title = \"Quick\"", "title = \"Quick\"\nrung = \"closed_form\"");
   text = test::replaced(text, "mesh_cycles = 20", "mesh_cycles = 6");
-  const auto result = run_text(text + "[[sweep]]\ninput = \"ring.pins\"\nvalues = [27, 18]\n"
-                                      "[[sweep]]\ninput = \"stage.power_kW\"\nvalues = [2000, 9000]\n",
+  const auto result = run_text(text +
+                                   "[[sweep]]\ninput = \"ring.pins\"\nvalues = [27, 18]\n"
+                                   "[[sweep]]\ninput = \"stage.power_kW\"\nvalues = [2000, 9000]\n",
                                folder.path() / "all");
   // 27 pins are the scene's own table; half the power lies within it, three times the power does not.
   BOOST_TEST(result.studies.sweeps[0].tables == 1);
@@ -220,8 +222,8 @@ BOOST_AUTO_TEST_CASE(two_planets_of_unknown_phase_have_a_known_spread) {
              sharing = column(ring.samples, "sun_planet_load_sharing_quasi_static");
   for (std::size_t i = 0; i < sharing.size(); ++i) {
     const double shift = (a - r) / 2;  // planets at 0 and 180 degrees
-    const double difference = std::sin(phase1[i] * units::deg + shift) -
-                              std::sin(phase2[i] * units::deg - std::numbers::pi + shift);
+    const double difference =
+        std::sin(phase1[i] * units::deg + shift) - std::sin(phase2[i] * units::deg - std::numbers::pi + shift);
     BOOST_TEST(std::abs(sharing[i] - (1 + scale * std::abs(difference))) < 2e-4);
   }
 }
@@ -261,15 +263,19 @@ BOOST_AUTO_TEST_CASE(failed_samples_are_counted_and_told) {
   std::vector<StiffnessEntry> entries;
   for (int phase = 0; phase < 8; ++phase) {
     for (const double load : {4e4, 6e4})
-      entries.push_back({.unloaded_te = 0, .lte = load / 1.8e9, .stiffness_secant = 1.8e9, .stiffness_tangent = 1.8e9,
+      entries.push_back({.unloaded_te = 0,
+                         .lte = load / 1.8e9,
+                         .stiffness_secant = 1.8e9,
+                         .stiffness_tangent = 1.8e9,
                          .error_relative = 0.01});
   }
   StiffnessTable("ring_planet", 8, {0.0}, {4e4, 6e4}, entries).write_csv(folder.path() / "ring.csv");
   const auto text = test::replaced(short_scene(), "stiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294",
                                    "stiffness = \"table\"\nfile = \"ring.csv\"");
   write_file(folder.path() / "scene.toml",
-             text + few_samples + "[[monte_carlo.input]]\ninput = \"stage.power_kW\"\ndistribution = \"uniform\"\n"
-                                  "low = 2500\nhigh = 3200\n");
+             text + few_samples +
+                 "[[monte_carlo.input]]\ninput = \"stage.power_kW\"\ndistribution = \"uniform\"\n"
+                 "low = 2500\nhigh = 3200\n");
   const auto result = app::run(app::read_scene(folder.path() / "scene.toml"), {.out = folder.path() / "out"});
   const auto& ring = result.studies.monte_carlo->rings.front();
   // 59.46 kN at 2958.8 kW: 60 kN are passed above 2985.7 kW.
