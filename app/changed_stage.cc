@@ -64,7 +64,10 @@ bool ChangedStages::prepare(const std::vector<Override>& overrides, const std::s
     // The sun mesh is kept with the first ring.
     const auto& ring = scene.rings[i == 0 ? 0 : i - 1].name;
     const auto inside = options_in(folder);
-    if (load(models[i], inside.out / ring)) continue;
+    const bool coupled = may_be_coupled(scene, models[i]);
+    if (load(models[i], inside.out / ring) &&
+        (!coupled || std::filesystem::exists(inside.out / ring / "ring_coupling.csv")))
+      continue;
     log::info(where + ":");
     (void)mesh_stiffness(scene, geometry, models[i], {ring}, inside);
   }
@@ -89,6 +92,12 @@ ChangedStage ChangedStages::stage(const std::vector<Override>& overrides, const 
                                      to_text(force / 1e3, 5)));
       kept[which] = load(model, options_in(folder).out / scene.rings[which == 0 ? 0 : ring].name);
       if (!kept[which]) throw InternalError("internal error: a changed scene without its stiffness tables");
+      if (which == 1 && may_be_coupled(scene, model)) {
+        auto coupling = load_coupling(scene, geometry, model, 1 / kept[which]->mean_stiffness().value,
+                                      options_in(folder).out / scene.rings[ring].name);
+        if (!coupling) throw InternalError("internal error: a changed scene without the coupling of its ring");
+        kept[which]->coupling = std::make_shared<SolvedCoupling>(std::move(*coupling));
+      }
       tables[which] = &*kept[which];
     }
     ChangedStage changed{make_stage(scene, geometry, ring, *tables[0], *tables[1]), {}, {}};

@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "app/mesh_model.h"
+#include "app/rim_coupling.h"
 #include "core/csv.h"
 #include "core/stiffness_table.h"
 
@@ -45,6 +47,8 @@ struct MeshResult {
   std::string picture{};  ///< SVG of the meshes in contact; empty when none was meshed
   /// Invariants and sizes by name: force_balance_relative, max_penetration_m, unknowns, mesh_seconds ...
   std::map<std::string, double> facts{};
+  /// Ring meshes: how those of all planets act on each other through the ring; null when that was not looked at.
+  std::shared_ptr<const SolvedCoupling> coupling{};
   std::size_t nominal = 0;  ///< index of the nominal load in the table
   bool reused = false;
 

@@ -38,6 +38,23 @@ void copy_meshes(const MeshModel& model, const std::filesystem::path& from, cons
   }
 }
 
+/// Read back if unchanged, else computed and saved; nothing for a ring whose coupling was not solved.
+std::optional<CouplingEffect> effect_of_coupling(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                                 const MeshResult& sun_mesh, const MeshResult& ring_mesh,
+                                                 const RunOptions& options) {
+  if (!ring_mesh.coupling) return std::nullopt;
+  const auto folder = options.out / scene.rings.at(ring).name / "dynamics";
+  auto stage = make_stage(scene, geometry, ring, sun_mesh, ring_mesh);
+  stage.ring_coupling = taken_coupling(*ring_mesh.coupling, RimCoupling::elastic);
+  const auto simulation = simulation_options(scene, stage);
+  const auto id = response_id(stage, simulation, sun_mesh, ring_mesh);
+  if (auto kept = load_effect(id, folder)) return kept;
+  stage.ring_coupling = nullptr;
+  auto effect = coupling_effect(stage, *ring_mesh.coupling, simulation);
+  save(effect, id, folder);
+  return effect;
+}
+
 std::vector<std::string> ring_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const auto& ring : scene.rings) names.push_back(ring.name);
@@ -105,6 +122,9 @@ MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, cons
     for (const auto& ring : rings) write_meshes(model, solved, options.out / ring / "mesh");
   }
   for (const auto& ring : rings) save(*result, options.out / ring);
+  if (options.with_dynamics && may_be_coupled(scene, model))
+    result->coupling = std::make_shared<SolvedCoupling>(solve_coupling(
+        scene, geometry, model, 1 / result->mean_stiffness().value, options.threads, options.out / rings.front()));
   return std::move(*result);
 }
 
@@ -149,6 +169,7 @@ RunResult run(const Scene& scene, const RunOptions& options) {
     for_each_task(scene.rings.size(), options.threads, [&](std::size_t i) {
       auto& ring = result.rings[i];
       ring.response = dynamic_response(scene, result.geometry, i, result.sun_mesh, ring.mesh, options);
+      ring.coupling_effect = effect_of_coupling(scene, result.geometry, i, result.sun_mesh, ring.mesh, options);
     });
   }
   if (options.with_dynamics) {

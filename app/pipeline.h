@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/coupling_effect.h"
 #include "app/gear_geometry.h"
 #include "app/mesh_result.h"
 #include "app/plan.h"
@@ -31,8 +32,9 @@ struct RunOptions {
 
 struct RingResult {
   std::string name;
-  MeshResult mesh;                          ///< ring-planet mesh
-  std::optional<StageResponse> response{};  ///< absent without dynamics
+  MeshResult mesh;                                  ///< ring-planet mesh
+  std::optional<StageResponse> response{};          ///< absent without dynamics
+  std::optional<CouplingEffect> coupling_effect{};  ///< absent where the coupling of the planets was not looked at
 };
 
 /// Everything a report needs.

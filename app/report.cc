@@ -130,6 +130,7 @@ std::string report_html(const RunResult& result) {
   add("spread", "Spread", spread_section(result));
   add("sweeps", "Sweeps", sweeps_section(result));
   add("sensitivity", "Sensitivity", sensitivity_section(result));
+  add("coupling", "Coupling through the ring", coupling_section(result));
   add("motion", "Bearings and sun orbit", motion_section(result));
   add("modes", "Natural frequencies", modes_section(result));
   add("model", "What was modelled", model_section(result));

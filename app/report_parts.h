@@ -59,6 +59,8 @@ inline constexpr double shown_cycles = 110;
 [[nodiscard]] std::string spread_section(const RunResult& result);  ///< Monte Carlo samples
 [[nodiscard]] std::string sweeps_section(const RunResult& result);
 [[nodiscard]] std::string sensitivity_section(const RunResult& result);
+// report_coupling.cc
+[[nodiscard]] std::string coupling_section(const RunResult& result);  ///< of the planets through the ring
 // report_motion.cc
 [[nodiscard]] std::string motion_section(const RunResult& result);  ///< bearing forces, sun orbit, Poincaré section
 // report_modes.cc

@@ -377,6 +377,17 @@ class Checker {
       need("ring.mass_kg", ring.name);
       need("ring.inertia_kg_m2", ring.name);
     }
+    const bool fixed = scene_.dynamics->integrator == IntegratorChoice::runge_kutta_4;
+    if (fixed && !scene_.dynamics->steps_per_cycle)
+      problem("dynamics.steps_per_cycle", "", "is required by integrator = \"runge_kutta_4\", which has fixed steps");
+    if (!fixed && scene_.dynamics->steps_per_cycle)
+      problem("dynamics.steps_per_cycle", "",
+              "goes with integrator = \"runge_kutta_4\" only; the others choose their steps");
+    const auto coupling = scene_.dynamics->rim_coupling;
+    if ((coupling == RimCoupling::elastic || coupling == RimCoupling::statical) &&
+        scene_.ring_planet.stiffness != StiffnessShape::computed)
+      problem("dynamics.rim_coupling", "",
+              "needs a computed ring mesh: a given stiffness tells nothing about the ring");
   }
 
   Scene& scene_;

@@ -357,6 +357,36 @@ std::vector<Table> declare_tables() {
               {{"in_contact", MeshDamping::in_contact}, {"always", MeshDamping::always}},
               "When mesh damping acts. `always` is the literal form of the papers; it lets separated flanks pull.")
       .fallback(std::string("in_contact"), "separated flanks exert no force");
+  dynamics
+      .choice("load_dependence", &DynamicsInput::load_dependence,
+              {{"table", LoadDependence::table}, {"nominal", LoadDependence::nominal}},
+              "Force of a mesh with a stiffness table. table: the law of force over deflection through all tabulated "
+              "loads; nominal: linear, with the secant stiffness at the mean mesh force.")
+      .fallback(std::string("table"), "right at whatever load the mesh carries at the moment");
+  dynamics
+      .choice("rim_coupling", &DynamicsInput::rim_coupling,
+              {{"automatic", RimCoupling::automatic},
+               {"none", RimCoupling::none},
+               {"static", RimCoupling::statical},
+               {"elastic", RimCoupling::elastic}},
+              "How the meshes of one ring act on each other through it. none: not at all; static: by its compliance at "
+              "every ring position; elastic: with the inertia of its elastic modes besides, by time integration; "
+              "automatic: static where the coupling exceeds the wanted accuracy, else none.")
+      .fallback(std::string("automatic"), "only what changes the answer is modelled");
+  dynamics
+      .choice("integrator", &DynamicsInput::integrator,
+              {{"automatic", IntegratorChoice::automatic},
+               {"explicit", IntegratorChoice::explicit_adaptive},
+               {"adams", IntegratorChoice::adams},
+               {"bdf", IntegratorChoice::bdf},
+               {"runge_kutta_4", IntegratorChoice::runge_kutta_4}},
+              "Time integration. explicit: Runge-Kutta of order 5 with adaptive steps (ARKODE); adams, bdf: CVODE; "
+              "runge_kutta_4: the classical method with fixed steps, as in the papers; automatic: explicit or bdf by "
+              "stiffness ratio and damping.")
+      .fallback(std::string("automatic"), "the faster one of those that are accurate");
+  dynamics.key("steps_per_cycle", &DynamicsInput::steps_per_cycle, "runge_kutta_4: steps per mesh cycle.")
+      .from(10, 1e6)
+      .absent("needed by runge_kutta_4, and only there");
   dynamics.key("mesh_cycles", &DynamicsInput::mesh_cycles, "Mesh cycles to integrate.")
       .from(1, 1e6)
       .absent("until the periodic steady state is reached, then one error period");

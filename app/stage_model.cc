@@ -9,7 +9,8 @@ namespace annulus::app {
 
 namespace {
 
-dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult& mesh, double nominal_load) {
+dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult& mesh, double nominal_load,
+                                       LoadDependence dependence) {
   switch (input.stiffness) {
     case StiffnessShape::constant:
       return dynamics::ConstantStiffness{*input.mean};
@@ -21,7 +22,37 @@ dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult&
     case StiffnessShape::table:
       break;
   }
-  return dynamics::table_stiffness(mesh.table, nominal_load);
+  // A single load tells nothing about others.
+  const bool law = dependence == LoadDependence::table && mesh.table.loads().size() > 1;
+  return dynamics::table_stiffness(mesh.table, nominal_load, 0,
+                                   law ? dynamics::LoadDependence::table : dynamics::LoadDependence::nominal);
+}
+
+dynamics::Integrator integrator_of(IntegratorChoice choice) {
+  switch (choice) {
+    case IntegratorChoice::explicit_adaptive:
+      return dynamics::Integrator::arkode_explicit;
+    case IntegratorChoice::adams:
+      return dynamics::Integrator::cvode_adams;
+    case IntegratorChoice::bdf:
+      return dynamics::Integrator::cvode_bdf;
+    case IntegratorChoice::runge_kutta_4:
+      return dynamics::Integrator::runge_kutta_4;
+    case IntegratorChoice::automatic:
+      break;
+  }
+  return dynamics::Integrator::automatic;
+}
+
+void add_coupling(ContentId& id, const RingCoupling& coupling) {
+  id.add("coupling.per_cycle", coupling.per_cycle);
+  for (const auto& matrix : coupling.compliance) {
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) id.add("D", matrix.data()[i]);
+  }
+  for (const auto& mode : coupling.modes) {
+    id.add("mode", mode.frequency).add("x", mode.translation_x).add("y", mode.translation_y).add("u", mode.rotation);
+    for (const double closing : mode.closing) id.add("closing", closing);
+  }
 }
 
 void add_deviation(ContentId& id, const std::string& name, const dynamics::BodyErrors& e) {
@@ -95,8 +126,10 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
     stage.planet_errors.push_back({{e.planet_eccentricity[n], e.planet_eccentricity_phase[n]},
                                    {e.planet_installation[n], e.planet_installation_phase[n]}});
   }
-  stage.sun_mesh = excitation_of(scene.sun_planet, sun_mesh, point.mean_mesh_force);
-  stage.ring_mesh = excitation_of(scene.ring_planet, ring_mesh, point.mean_mesh_force);
+  stage.sun_mesh = excitation_of(scene.sun_planet, sun_mesh, point.mean_mesh_force, scene.dynamics->load_dependence);
+  stage.ring_mesh = excitation_of(scene.ring_planet, ring_mesh, point.mean_mesh_force, scene.dynamics->load_dependence);
+  if (ring_mesh.coupling)
+    stage.ring_coupling = taken_coupling(*ring_mesh.coupling, coupling_choice(scene, *ring_mesh.coupling).taken);
   stage.half_backlash = scene.dynamics->half_backlash;
   stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;
   stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
@@ -115,6 +148,9 @@ dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamic
   options.max_window_cycles = std::max(options.max_window_cycles, std::min(period, longest_window));
   if (period > long_window) options.samples_per_cycle /= 2;
   options.integrator.relative_tolerance = scene.dynamics->relative_tolerance;
+  options.integrator.method = integrator_of(scene.dynamics->integrator);
+  if (scene.dynamics->steps_per_cycle)
+    options.integrator.fixed_step = 1 / (stage.mesh_frequency() * *scene.dynamics->steps_per_cycle);
   options.mesh_cycles = scene.dynamics->mesh_cycles;
   return options;
 }
@@ -138,6 +174,13 @@ std::string response_id(const dynamics::PlanetaryStage& stage, const dynamics::S
   id.add("teeth", stage.sun_teeth).add("teeth", stage.planet_teeth).add("teeth", stage.ring_teeth);
   add_excitation(id, "sun_mesh", stage.sun_mesh, sun_mesh);
   add_excitation(id, "ring_mesh", stage.ring_mesh, ring_mesh);
+  // With a table, the stage says whether it takes all loads or the nominal one.
+  for (const auto* mesh : {&stage.sun_mesh, &stage.ring_mesh}) {
+    const auto* table = std::get_if<dynamics::TableStiffness>(mesh);
+    id.add("law", table && table->surface ? 1 : 0);
+  }
+  if (stage.ring_coupling) add_coupling(id, *stage.ring_coupling);
+  id.add("fixed_step", options.integrator.fixed_step);
   id.add("half_backlash", stage.half_backlash.value_or(-1)).add("mesh_damping", stage.mesh_damping_ratio);
   id.add("support_damping", stage.support_damping_ratio).add("always", stage.damping_without_contact ? 1 : 0);
   id.add("carrier_speed", stage.carrier_speed).add("sun_torque", stage.sun_torque);

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <sundials/sundials_nvector.h>
+struct _generic_N_Vector;  // of SUNDIALS
 
 namespace annulus::dynamics {
 
 /// Replaces linear combination and weighted norm of a serial vector, and of all vectors cloned from it, by such that
 /// add all terms in one pass and use the processor's vector unit. For states of some dozen entries SUNDIALS' own take
 /// longer than the right-hand side.
-void use_fast_kernels(N_Vector vector);
+void use_fast_kernels(_generic_N_Vector* vector);
 
 }  // namespace annulus::dynamics

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/gear_geometry.h"
+#include "app/mesh_model.h"
+#include "app/scene.h"
+#include "core/ring_coupling.h"
+
+namespace annulus::app {
+
+/// How the meshes of one ring act on each other through it, solved, with what is needed to judge it.
+struct SolvedCoupling {
+  RingCoupling coupling;
+  double mesh_compliance = 0;           ///< m/N, mean of a single mesh at the nominal load
+  double compliance_error = 0;          ///< m/N, estimated
+  double frequency_error_relative = 0;  ///< estimated
+  double highest_frequency = 0;         ///< Hz, up to which modes were looked for
+  double seconds = 0;
+  bool reused = false;
+
+  /// Largest entry of the coupling relative to the compliance of a mesh.
+  [[nodiscard]] double largest_relative() const;
+};
+
+/// What the lumped model takes of it, and why.
+struct CouplingChoice {
+  RimCoupling taken = RimCoupling::none;
+  std::string reason;
+};
+[[nodiscard]] CouplingChoice coupling_choice(const Scene& scene, const SolvedCoupling& solved);
+/// The coupling as a stage takes it: without modes for `statical`; nothing for `none`.
+[[nodiscard]] std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved, RimCoupling taken);
+
+/// Whether the scene lets this mesh be coupled: dynamics wanted, a computed ring, several planets, coupling not ruled
+/// out.
+[[nodiscard]] bool may_be_coupled(const Scene& scene, const MeshModel& model);
+/// Read back from `folder` (OUT/<ring>) if unchanged, else solved and saved there as ring_coupling.csv and
+/// ring_modes.csv. `mesh_compliance` (m/N) is that of the mesh by its table.
+[[nodiscard]] SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
+                                            double mesh_compliance, int threads, const std::filesystem::path& folder);
+/// Only read back; nothing when it is not there or belongs to other inputs.
+[[nodiscard]] std::optional<SolvedCoupling> load_coupling(const Scene& scene, const GearGeometry& geometry,
+                                                          const MeshModel& model, double mesh_compliance,
+                                                          const std::filesystem::path& folder);
+
+}  // namespace annulus::app
