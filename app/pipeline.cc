@@ -139,7 +139,10 @@ StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry,
     log::info(fmt::format("dynamics of '{}': unchanged, reused", name));
     return std::move(*kept);
   }
-  auto response = simulate_and_save(stage, simulation, id, folder);
+  const auto make = [&](const MeshResult& sun, const MeshResult& wheel) {
+    return make_stage(scene, geometry, ring, sun, wheel);
+  };
+  auto response = simulate_and_save(stage, simulation, {make, sun_mesh, ring_mesh}, id, folder);
   log::info(fmt::format("dynamics of '{}': {} mesh cycles, {} steps, {}", name, response.figures.total_cycles,
                         response.figures.statistics.steps,
                         response.figures.steady ? "periodic steady state" : "no periodic steady state"));

@@ -137,6 +137,47 @@ std::string spectra(const RunResult& result, const char* mesh) {
          html(table);
 }
 
+std::string part_text(double part) { return std::isfinite(part) ? fmt::format("{:.2g}", part) : "not known"; }
+
+struct NamedFigure {
+  const char* name;
+  const dynamics::Figure& figure;
+  const FigureErrors& errors;
+};
+
+std::vector<NamedFigure> explained_figures(const StageResponse& response) {
+  const auto& sharing = response.figures.sun_planet.load_sharing;
+  const auto& e = response.errors.sun_planet;
+  std::vector<NamedFigure> list = {{"load sharing, averaged over a mesh cycle", sharing.averaged, e.averaged},
+                                   {"load sharing, instantaneous", sharing.instantaneous, e.instantaneous},
+                                   {"load sharing, quasi-static", sharing.quasi_static, e.quasi_static}};
+  const auto& branches = response.figures.sun_planet.branches;
+  const auto largest = std::max_element(branches.begin(), branches.end(), [](const auto& a, const auto& b) {
+    return a.dynamic_factor_max.value < b.dynamic_factor_max.value;
+  });
+  if (largest != branches.end())
+    list.push_back({"largest dynamic factor", largest->dynamic_factor_max,
+                    e.dynamic_factor_max[static_cast<std::size_t>(largest - branches.begin())]});
+  return list;
+}
+
+std::string error_bars(const RunResult& result) {
+  HtmlTable table{.head = {"sun meshes", "value ± error", "solution in time", "stiffness", "interpolation"},
+                  .rows = {},
+                  .css_class = "numbers"};
+  for (const auto* ring : rings_with_response(result)) {
+    table.rows.push_back({escape(ring->name)});
+    for (const auto& [name, f, e] : explained_figures(*ring->response))
+      table.rows.push_back({name, measured(f.value, f.error), part_text(e.solution), part_text(e.stiffness),
+                            part_text(e.interpolation)});
+  }
+  return "<h3 id=\"error-bars\">What the error bars contain</h3>\n" + html(table) +
+         "<p>Solution in time: sampling, steady state and integration. Stiffness: the larger change when all stiffnesses "
+         "of a mesh, or their ripple, are raised by their error estimate; sun mesh plus ring mesh. Interpolation: a third "
+         "of the change with every second position of the tables. The error is their sum, and not known when a part is "
+         "not; stiffness given as a wave counts as exact.</p>\n";
+}
+
 }  // namespace
 
 std::string dynamics_section(const RunResult& result) {
@@ -165,6 +206,7 @@ std::string dynamics_section(const RunResult& result) {
           per_planet(result, ring_planet, factor, "F / mean mesh force", "As above.");
   text += per_planet(result, ring_planet, waveform, "F / mean mesh force",
                      "The first six mesh cycles of the window, at full resolution.");
+  text += error_bars(result);
   text += "<h3>Spectrum of the mesh forces</h3>\n<p>Sun mesh</p>\n" + spectra(result, sun_planet) +
           "<p>Ring mesh</p>\n" + spectra(result, ring_planet);
   return text;

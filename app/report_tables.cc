@@ -61,6 +61,7 @@ std::string sharing_sentence(const RingQuantity& q) {
       "the most loaded planet carries {:.1f} % more than its share with <b>{}</b> and {:.1f} % with <b>{}</b>",
       100 * (rings.back().value - 1), escape(rings.back().ring), 100 * (rings.front().value - 1),
       escape(rings.front().ring));
+  if (!std::isfinite(rings.front().error + rings.back().error)) return text + "; the error is not known.</p>\n";
   return text +
          (distinct(rings.front(), rings.back()) ? ".</p>\n" : "; the difference is within the error bars.</p>\n");
 }
@@ -200,9 +201,9 @@ std::string key_figures_section(const RunResult& result) {
   }
   return "<h2 id=\"figures\">Key figures</h2>\n<p>At the nominal mean mesh force of " +
          to_text(result.geometry.operating_point.mean_mesh_force / 1e3, 5) +
-         " kN. ± is the estimated numerical error: of the discretisation for stiffness and transmission error, of the "
-         "time integration "
-         "for load sharing and dynamic factor. It does not contain the uncertainty of the inputs.</p>\n" +
+         " kN. ± is the estimated numerical error: of the discretisation for stiffness and transmission error; for "
+         "load sharing and dynamic factor of the solution in time, of the stiffness and of the interpolation between "
+         "the positions together (<a href=\"#error-bars\">parts</a>). It does not contain the uncertainty of the inputs.</p>\n" +
          html(table);
 }
 

@@ -19,18 +19,24 @@ double number(const ResponseJson& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
-ResponseJson to_json_value(const dynamics::Figure& f) {
-  return {{"value", number(f.value)}, {"error", number(f.error)}};
+ResponseJson to_json_value(const dynamics::Figure& f, const FigureErrors& parts) {
+  return {{"value", number(f.value)},
+          {"error", number(f.error)},
+          {"error_parts",
+           {{"solution", number(parts.solution)},
+            {"stiffness", number(parts.stiffness)},
+            {"interpolation", number(parts.interpolation)}}}};
 }
 dynamics::Figure figure(const ResponseJson& json) { return {number(json.at("value")), number(json.at("error"))}; }
 
-ResponseJson kind_json(const dynamics::MeshKindResult& kind) {
+ResponseJson kind_json(const dynamics::MeshKindResult& kind, const MeshKindErrors& errors) {
   ResponseJson json;
-  json["load_sharing"] = {{"instantaneous", to_json_value(kind.load_sharing.instantaneous)},
-                          {"averaged", to_json_value(kind.load_sharing.averaged)},
-                          {"quasi_static", to_json_value(kind.load_sharing.quasi_static)}};
-  for (const auto& b : kind.branches) {
-    json["branches"].push_back({{"dynamic_factor_max", to_json_value(b.dynamic_factor_max)},
+  json["load_sharing"] = {{"instantaneous", to_json_value(kind.load_sharing.instantaneous, errors.instantaneous)},
+                          {"averaged", to_json_value(kind.load_sharing.averaged, errors.averaged)},
+                          {"quasi_static", to_json_value(kind.load_sharing.quasi_static, errors.quasi_static)}};
+  for (std::size_t n = 0; n < kind.branches.size(); ++n) {
+    const auto& b = kind.branches[n];
+    json["branches"].push_back({{"dynamic_factor_max", to_json_value(b.dynamic_factor_max, errors.dynamic_factor_max[n])},
                                 {"dynamic_factor_min", number(b.dynamic_factor_min)},
                                 {"mean_force_N", number(b.mean_force)},
                                 {"contact_loss", number(b.contact_loss)}});
@@ -48,6 +54,19 @@ dynamics::MeshKindResult kind_result(const ResponseJson& json) {
                              number(b.at("mean_force_N")), number(b.at("contact_loss"))});
   }
   return kind;
+}
+
+FigureErrors errors_of(const ResponseJson& figure) {
+  const auto& parts = figure.at("error_parts");
+  return {number(parts.at("solution")), number(parts.at("stiffness")), number(parts.at("interpolation"))};
+}
+
+MeshKindErrors kind_errors(const ResponseJson& json) {
+  const auto& sharing = json.at("load_sharing");
+  MeshKindErrors errors{
+      errors_of(sharing.at("instantaneous")), errors_of(sharing.at("averaged")), errors_of(sharing.at("quasi_static")), {}};
+  for (const auto& b : json.at("branches")) errors.dynamic_factor_max.push_back(errors_of(b.at("dynamic_factor_max")));
+  return errors;
 }
 
 ResponseJson modes_json(const StageModes& modes) {
@@ -119,8 +138,8 @@ std::string response_json(const StageResponse& response, const std::string& id) 
       {"total_cycles", f.total_cycles},
       {"steady", f.steady},
       {"steady_difference", number(f.steady_difference.value_or(std::numeric_limits<double>::quiet_NaN()))},
-      {"sun_planet", kind_json(f.sun_planet)},
-      {"ring_planet", kind_json(f.ring_planet)},
+      {"sun_planet", kind_json(f.sun_planet, response.errors.sun_planet)},
+      {"ring_planet", kind_json(f.ring_planet, response.errors.ring_planet)},
       {"energy_balance_relative", number(f.energy.relative)},
       {"force_balance_relative", number(f.force_balance_relative)},
       {"steps", f.statistics.steps},
@@ -145,6 +164,7 @@ std::optional<StageResponse> parse_response_json(const std::filesystem::path& fi
   if (const auto& d = json.at("steady_difference"); !d.is_null()) f.steady_difference = number(d);
   f.sun_planet = kind_result(json.at("sun_planet"));
   f.ring_planet = kind_result(json.at("ring_planet"));
+  response.errors = {kind_errors(json.at("sun_planet")), kind_errors(json.at("ring_planet"))};
   f.energy.relative = number(json.at("energy_balance_relative"));
   f.force_balance_relative = number(json.at("force_balance_relative"));
   f.statistics.steps = json.at("steps");

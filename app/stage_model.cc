@@ -83,7 +83,7 @@ void add_excitation(ContentId& id, const std::string& name, const dynamics::Mesh
       for (int phase = 0; phase < t.phases(); ++phase) {
         for (int load = 0; load < static_cast<int>(t.loads().size()); ++load) {
           const auto& e = t.at(position, phase, load);
-          id.add("u", e.unloaded_te).add("k", e.stiffness_secant).add("t", e.stiffness_tangent);
+          id.add("u", e.unloaded_te).add("k", e.stiffness_secant).add("t", e.stiffness_tangent).add("error", e.error_relative);
         }
       }
     }

@@ -128,7 +128,7 @@ void save(StageResponse& result, const std::string& id, const std::filesystem::p
 }  // namespace
 
 StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage, const dynamics::SimulationOptions& options,
-                                const std::string& id, const std::filesystem::path& folder) {
+                                const StageTables& tables, const std::string& id, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   StageResponse result;
   result.modes = stage_modes(stage);
@@ -138,6 +138,8 @@ StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage, const dyn
   write(time_series_table(response.series), {{"annulus_version", version()}, {"inputs_id", id}},
         folder / "time_series.csv");
   response.series = {};
+  result.errors = carried_errors(response, options, tables);
+  set_errors(result.errors, response);
   result.figures = std::move(response);
   save(result, id, folder);
   return result;

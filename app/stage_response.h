@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/carried_errors.h"
 #include "app/gear_geometry.h"
 #include "app/mesh_result.h"
 #include "app/scene.h"
@@ -17,7 +18,8 @@ namespace annulus::app {
 
 /// The lumped model's answer for one ring, and what is kept of it in OUT/<ring>/dynamics.
 struct StageResponse {
-  dynamics::DynamicResponse figures;  ///< all but the time series
+  dynamics::DynamicResponse figures;  ///< all but the time series; errors with all their parts
+  ResponseErrors errors;              ///< the parts of the errors
   StageModes modes;
   StageMotion motion;
   Csv load_sharing;    ///< per mesh cycle: N F / sum F of every branch, forces averaged over the cycle
@@ -36,10 +38,11 @@ struct StageResponse {
 [[nodiscard]] std::string response_id(const dynamics::PlanetaryStage& stage, const dynamics::SimulationOptions& options,
                                       const MeshResult& sun_mesh, const MeshResult& ring_mesh);
 
-/// Simulates, writes all files of `folder` (OUT/<ring>/dynamics) including the time series, and returns what is kept.
+/// Simulates, carries the errors of the tables into the figures, writes all files of `folder` (OUT/<ring>/dynamics)
+/// including the time series, and returns what is kept.
 [[nodiscard]] StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage,
-                                              const dynamics::SimulationOptions& options, const std::string& id,
-                                              const std::filesystem::path& folder);
+                                              const dynamics::SimulationOptions& options, const StageTables& tables,
+                                              const std::string& id, const std::filesystem::path& folder);
 /// The response kept in `folder`, if its inputs are those of `id`.
 [[nodiscard]] std::optional<StageResponse> load_response(const std::string& id, const std::filesystem::path& folder);
 

@@ -20,7 +20,12 @@ SummaryJson known(double x) { return std::isfinite(x) ? SummaryJson(x) : Summary
 SummaryJson estimate_json(const Estimate& e) {
   return {{"value", known(e.value)}, {"error_relative", known(e.error_relative)}};
 }
-SummaryJson figure_json(const dynamics::Figure& f) { return {{"value", known(f.value)}, {"error", known(f.error)}}; }
+SummaryJson parts_json(const FigureErrors& e) {
+  return {{"solution", known(e.solution)}, {"stiffness", known(e.stiffness)}, {"interpolation", known(e.interpolation)}};
+}
+SummaryJson figure_json(const dynamics::Figure& f, const FigureErrors& e) {
+  return {{"value", known(f.value)}, {"error", known(f.error)}, {"error_parts", parts_json(e)}};
+}
 
 SummaryJson peak_json(const Peak& peak, double unit) {
   return {{"value", known(peak.value * unit)}, {"mesh_phase", peak.at.mesh_phase}, {"ring_tooth", peak.at.ring_tooth}};
@@ -45,21 +50,24 @@ SummaryJson mesh_json(const MeshResult& mesh) {
   return json;
 }
 
-SummaryJson sharing_json(const dynamics::LoadSharing& s) {
-  return {{"instantaneous", figure_json(s.instantaneous)},
-          {"averaged", figure_json(s.averaged)},
-          {"quasi_static", figure_json(s.quasi_static)}};
+SummaryJson sharing_json(const dynamics::LoadSharing& s, const MeshKindErrors& e) {
+  return {{"instantaneous", figure_json(s.instantaneous, e.instantaneous)},
+          {"averaged", figure_json(s.averaged, e.averaged)},
+          {"quasi_static", figure_json(s.quasi_static, e.quasi_static)}};
 }
 
-void add_branches(SummaryJson& ring, const std::string& mesh, const dynamics::MeshKindResult& kind) {
+void add_branches(SummaryJson& ring, const std::string& mesh, const dynamics::MeshKindResult& kind,
+                  const MeshKindErrors& errors) {
   auto& factor = ring["dynamic_factor"][mesh] = SummaryJson::array();
   auto& error = ring["dynamic_factor_error"][mesh] = SummaryJson::array();
+  auto& parts = ring["dynamic_factor_error_parts"][mesh] = SummaryJson::array();
   auto& loss = ring["contact_loss"][mesh] = SummaryJson::array();
   for (const auto& b : kind.branches) {
     factor.push_back(known(b.dynamic_factor_max.value));
     error.push_back(known(b.dynamic_factor_max.error));
     loss.push_back(known(b.contact_loss));
   }
+  for (const auto& e : errors.dynamic_factor_max) parts.push_back(parts_json(e));
 }
 
 double worst(const MeshResult& a, const MeshResult& b, const std::string& fact) {
@@ -78,10 +86,11 @@ SummaryJson ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
                         {"reciprocity_relative", known(worst(ring.mesh, sun_mesh, "reciprocity_relative"))}};
   if (!ring.response) return json;
   const auto& f = ring.response->figures;
-  json["load_sharing"] = {{"sun_planet", sharing_json(f.sun_planet.load_sharing)},
-                          {"ring_planet", sharing_json(f.ring_planet.load_sharing)}};
-  add_branches(json, sun_planet, f.sun_planet);
-  add_branches(json, ring_planet, f.ring_planet);
+  const auto& errors = ring.response->errors;
+  json["load_sharing"] = {{"sun_planet", sharing_json(f.sun_planet.load_sharing, errors.sun_planet)},
+                          {"ring_planet", sharing_json(f.ring_planet.load_sharing, errors.ring_planet)}};
+  add_branches(json, sun_planet, f.sun_planet, errors.sun_planet);
+  add_branches(json, ring_planet, f.ring_planet, errors.ring_planet);
   const auto& m = ring.response->motion;
   json["bearing_forces"] = {{"planet_max_N", m.pin_force_max},
                             {"planet_mean_tangential_N", m.pin_force_mean_tangential},

@@ -1,0 +1,175 @@
+#include "app/carried_errors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/errors.h"
+#include "core/log.h"
+#include "core/table_variants.h"
+
+namespace annulus::app {
+
+namespace {
+
+using dynamics::DynamicResponse;
+using dynamics::MeshKindResult;
+using TableChange = StiffnessTable (*)(const StiffnessTable&);
+
+/// Calls visit(figure, figure's errors) for every figure of one kind of mesh.
+template <class Kind, class Errors, class Visit>
+void for_each_figure(Kind& kind, Errors& errors, Visit visit) {
+  visit(kind.load_sharing.instantaneous, errors.instantaneous);
+  visit(kind.load_sharing.averaged, errors.averaged);
+  visit(kind.load_sharing.quasi_static, errors.quasi_static);
+  for (std::size_t n = 0; n < kind.branches.size(); ++n)
+    visit(kind.branches[n].dynamic_factor_max, errors.dynamic_factor_max[n]);
+}
+
+/// Values of all figures, always in the same order.
+std::vector<double> values_of(const DynamicResponse& response) {
+  std::vector<double> values;
+  for (const auto* kind : {&response.sun_planet, &response.ring_planet}) {
+    const auto& sharing = kind->load_sharing;
+    for (const auto* f : {&sharing.instantaneous, &sharing.averaged, &sharing.quasi_static}) values.push_back(f->value);
+    for (const auto& b : kind->branches) values.push_back(b.dynamic_factor_max.value);
+  }
+  return values;
+}
+
+bool from_table(const dynamics::MeshExcitation& excitation) {
+  return std::holds_alternative<dynamics::TableStiffness>(excitation);
+}
+
+bool any_error(const StiffnessTable& table) {
+  for (int position = 0; position < table.positions(); ++position)
+    for (int phase = 0; phase < table.phases(); ++phase)
+      for (int load = 0; load < static_cast<int>(table.loads().size()); ++load)
+        if (table.at(position, phase, load).error_relative > 0) return true;
+  return false;
+}
+
+MeshResult with_table(const MeshResult& mesh, TableChange change) {
+  MeshResult result{.model = mesh.model, .contact_ratio = mesh.contact_ratio, .table = change(mesh.table)};
+  result.nominal = mesh.nominal;
+  return result;
+}
+
+StiffnessTable unchanged(const StiffnessTable& table) { return table; }
+
+/// How all stages of the comparison are solved.
+dynamics::SimulationOptions comparing_options(const DynamicResponse& nominal, dynamics::SimulationOptions options) {
+  // Figures are compared, whose peaks are refined between the samples.
+  constexpr int enough_samples = 32;
+  if (nominal.direct) options.samples_per_cycle = std::min(options.samples_per_cycle, enough_samples);
+  options.estimate_error = false;
+  options.keep_series = false;
+  // Where marching did not arrive at the solution of the harmonic balance, that one is not the motion to compare.
+  const bool taken_directly = nominal.direct && nominal.direct->converged && nominal.total_cycles == 0;
+  options.confirm = !(nominal.confirmed || taken_directly);
+  return options;
+}
+
+/// Solves the stage on changed tables.
+class Comparison {
+ public:
+  Comparison(const DynamicResponse& nominal, const dynamics::SimulationOptions& options, const StageTables& tables)
+      : options_(comparing_options(nominal, options)), tables_(tables), figures_(values_of(nominal).size()) {}
+  [[nodiscard]] std::size_t figures() const { return figures_; }
+
+  /// |difference| of every figure to the unchanged tables.
+  std::vector<double> differences(TableChange sun, TableChange ring, const char* what) {
+    std::vector<double> result(figures_, std::numeric_limits<double>::quiet_NaN());
+    try {
+      if (!base_) base_ = solve(unchanged, unchanged);
+      const auto response = solve(sun, ring);
+      if (base_->steady && !response.steady) {
+        log::warn(fmt::format("no steady state with {}: what it does to the figures is not known", what));
+        return result;
+      }
+      const auto values = values_of(response), reference = values_of(*base_);
+      for (std::size_t i = 0; i < figures_; ++i) result[i] = std::abs(values[i] - reference[i]);
+    } catch (const SolverError& error) {
+      log::warn(fmt::format("{}: {}: what it does to the figures is not known", what, error.what()));
+    }
+    return result;
+  }
+
+ private:
+  DynamicResponse solve(TableChange sun, TableChange ring) const {
+    return dynamics::simulate(tables_.make(with_table(tables_.sun_mesh, sun), with_table(tables_.ring_mesh, ring)), options_);
+  }
+
+  dynamics::SimulationOptions options_;
+  const StageTables& tables_;
+  std::size_t figures_;
+  std::optional<DynamicResponse> base_;
+};
+
+/// The larger one; NaN when one is.
+double worse_of(double a, double b) { return std::isnan(a + b) ? a + b : std::max(a, b); }
+
+/// One number per figure, zero at first.
+std::vector<double> stiffness_part(Comparison& comparison, bool sun, bool ring) {
+  std::vector<double> part(comparison.figures(), 0.0);
+  const auto add = [&](const std::vector<double>& mean, const std::vector<double>& ripple) {
+    for (std::size_t i = 0; i < part.size(); ++i) part[i] += worse_of(mean[i], ripple[i]);
+  };
+  if (sun)
+    add(comparison.differences(stiffer, unchanged, "a stiffer sun mesh"),
+        comparison.differences(more_rippled, unchanged, "more ripple in the sun mesh"));
+  if (ring)
+    add(comparison.differences(unchanged, stiffer, "a stiffer ring mesh"),
+        comparison.differences(unchanged, more_rippled, "more ripple in the ring mesh"));
+  return part;
+}
+
+std::vector<double> interpolation_part(Comparison& comparison, const StiffnessTable* sun, const StiffnessTable* ring) {
+  std::vector<double> part(comparison.figures(), 0.0);
+  if (!sun && !ring) return part;
+  const auto odd = [](const StiffnessTable* table) { return table && table->phases() % 2 != 0; };
+  if (odd(sun) || odd(ring)) {
+    std::fill(part.begin(), part.end(), std::numeric_limits<double>::quiet_NaN());
+    return part;
+  }
+  part = comparison.differences(sun ? coarser : unchanged, ring ? coarser : unchanged, "half the phases");
+  for (double& x : part) x /= 3;
+  return part;
+}
+
+}  // namespace
+
+ResponseErrors carried_errors(const DynamicResponse& nominal, const dynamics::SimulationOptions& options,
+                              const StageTables& tables) {
+  const auto stage = tables.make(tables.sun_mesh, tables.ring_mesh);
+  const bool sun = from_table(stage.sun_mesh), ring = from_table(stage.ring_mesh);
+  const auto &sun_table = tables.sun_mesh.table, &ring_table = tables.ring_mesh.table;
+  Comparison comparison(nominal, options, tables);
+  const auto stiffness = stiffness_part(comparison, sun && any_error(sun_table), ring && any_error(ring_table));
+  const auto interpolation =
+      interpolation_part(comparison, sun ? &sun_table : nullptr, ring ? &ring_table : nullptr);
+
+  ResponseErrors errors;
+  std::size_t i = 0;
+  const auto put = [&](const MeshKindResult& kind, MeshKindErrors& into) {
+    into.dynamic_factor_max.resize(kind.branches.size());
+    for_each_figure(kind, into, [&](const dynamics::Figure& f, FigureErrors& e) {
+      e = {f.error, stiffness[i], interpolation[i]};
+      ++i;
+    });
+  };
+  put(nominal.sun_planet, errors.sun_planet);
+  put(nominal.ring_planet, errors.ring_planet);
+  return errors;
+}
+
+void set_errors(const ResponseErrors& errors, DynamicResponse& response) {
+  const auto set = [](dynamics::Figure& f, const FigureErrors& e) { f.error = e.total(); };
+  for_each_figure(response.sun_planet, errors.sun_planet, set);
+  for_each_figure(response.ring_planet, errors.ring_planet, set);
+}
+
+}  // namespace annulus::app
