@@ -62,9 +62,10 @@ StiffnessTable unchanged(const StiffnessTable& table) { return table; }
 
 /// How all stages of the comparison are solved.
 dynamics::SimulationOptions comparing_options(const DynamicResponse& nominal, dynamics::SimulationOptions options) {
-  // Figures are compared, whose peaks are refined between the samples.
-  constexpr int enough_samples = 32;
-  if (nominal.direct) options.samples_per_cycle = std::min(options.samples_per_cycle, enough_samples);
+  // Figures are compared, whose peaks are refined between the samples (see dynamics::enough_samples).
+  constexpr int long_window = 200;
+  const int enough = nominal.window_cycles > long_window ? 16 : 32;
+  if (nominal.direct) options.samples_per_cycle = std::min(options.samples_per_cycle, enough);
   options.estimate_error = false;
   options.keep_series = false;
   // Where marching did not arrive at the solution of the harmonic balance, that one is not the motion to compare.
@@ -100,7 +101,8 @@ class Comparison {
 
  private:
   DynamicResponse solve(TableChange sun, TableChange ring) const {
-    return dynamics::simulate(tables_.make(with_table(tables_.sun_mesh, sun), with_table(tables_.ring_mesh, ring)), options_);
+    return dynamics::simulate(tables_.make(with_table(tables_.sun_mesh, sun), with_table(tables_.ring_mesh, ring)),
+                              options_);
   }
 
   dynamics::SimulationOptions options_;
@@ -149,8 +151,7 @@ ResponseErrors carried_errors(const DynamicResponse& nominal, const dynamics::Si
   const auto &sun_table = tables.sun_mesh.table, &ring_table = tables.ring_mesh.table;
   Comparison comparison(nominal, options, tables);
   const auto stiffness = stiffness_part(comparison, sun && any_error(sun_table), ring && any_error(ring_table));
-  const auto interpolation =
-      interpolation_part(comparison, sun ? &sun_table : nullptr, ring ? &ring_table : nullptr);
+  const auto interpolation = interpolation_part(comparison, sun ? &sun_table : nullptr, ring ? &ring_table : nullptr);
 
   ResponseErrors errors;
   std::size_t i = 0;

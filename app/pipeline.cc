@@ -146,6 +146,11 @@ StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry,
   log::info(fmt::format("dynamics of '{}': {} mesh cycles, {} steps, {}", name, response.figures.total_cycles,
                         response.figures.statistics.steps,
                         response.figures.steady ? "periodic steady state" : "no periodic steady state"));
+  if (const auto& direct = response.figures.direct; direct && !response.figures.confirmed)
+    log::info(fmt::format("dynamics of '{}': found by marching; {}", name,
+                          direct->converged ? fmt::format("the direct solution differs (half its samples by {:.1e})",
+                                                          direct->sampling_difference)
+                                            : "the direct solution failed: " + direct->trouble));
   return response;
 }
 

@@ -24,22 +24,26 @@ std::string name_of(RimCoupling model) {
 std::string coupling_section(const RunResult& result) {
   HtmlTable size, effect;
   size.head = {"ring", "another mesh's load moves a mesh by at most, of what its own does",
-                          "first elastic mode of the ring, Hz (waves)", "taken", "why"};
-  effect.head = {"ring", "coupling", "load sharing, averaged", "instantaneous", "quasi-static",
-                            "dynamic factor, sun meshes", "dynamic factor, ring meshes"};
+               "first elastic mode of the ring, Hz (waves)", "taken", "why"};
+  effect.head = {"ring",
+                 "coupling",
+                 "load sharing, averaged",
+                 "instantaneous",
+                 "quasi-static",
+                 "dynamic factor, sun meshes",
+                 "dynamic factor, ring meshes"};
   int cycles = 0;
   for (const auto& ring : result.rings) {
     if (!ring.mesh.coupling) continue;
     const auto& solved = *ring.mesh.coupling;
     const auto choice = coupling_choice(result.scene, solved);
     const auto& modes = solved.coupling.modes;
-    size.rows.push_back(
-        {escape(ring.name),
-         fmt::format("{:.2g} % ± {:.1g} %", 100 * solved.largest_relative(),
-                     100 * solved.compliance_error / solved.mesh_compliance),
-         modes.empty() ? fmt::format("none below {:.0f}", solved.highest_frequency)
-                       : fmt::format("{:.0f} ({})", modes.front().frequency, modes.front().waves),
-         name_of(choice.taken), escape(choice.reason)});
+    size.rows.push_back({escape(ring.name),
+                         fmt::format("{:.2g} % ± {:.1g} %", 100 * solved.largest() / solved.mesh_compliance,
+                                     100 * solved.compliance_error / solved.mesh_compliance),
+                         modes.empty() ? fmt::format("none below {:.0f}", solved.highest_frequency)
+                                       : fmt::format("{:.0f} ({})", modes.front().frequency, modes.front().waves),
+                         name_of(choice.taken), escape(choice.reason)});
     if (!ring.coupling_effect) continue;
     cycles = ring.coupling_effect->cycles;
     for (const auto& row : ring.coupling_effect->rows)
@@ -54,11 +58,12 @@ std::string coupling_section(const RunResult& result) {
       "the compliance between the meshes at every ring position does.</p>\n" +
       html(size);
   if (!effect.rows.empty())
-    text += fmt::format(
-                "<p>What it changes. All rows were marched alike and evaluated over {} mesh cycles, which need not be a "
-                "whole period: they compare with each other, not with the key figures.</p>\n",
-                cycles) +
-            html(effect);
+    text +=
+        fmt::format(
+            "<p>What it changes. All rows were marched alike and evaluated over {} mesh cycles, which need not be a "
+            "whole period: they compare with each other, not with the key figures.</p>\n",
+            cycles) +
+        html(effect);
   return text + "</section>\n";
 }
 

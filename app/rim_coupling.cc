@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "app/content_id.h"
@@ -19,6 +20,14 @@ constexpr double highest_mesh_order = 10;
 
 double highest_frequency(const GearGeometry& geometry, const RingInput& ring) {
   return highest_mesh_order * ring.teeth * geometry.operating_point.carrier_speed / (2 * std::numbers::pi);
+}
+
+/// Mesh and planet bearing in series; 1/K_path of the stage without its sun mesh, hence rather too small.
+double path_compliance(const Scene& scene, const GearGeometry& geometry, double mesh_compliance) {
+  const auto& set = geometry.rings.front().set;
+  const double as = set.sun_mesh().working_pressure_angle(), ar = set.ring_mesh().working_pressure_angle();
+  const double arm = std::pow(std::cos(as) + std::cos(ar), 2) + std::pow(std::sin(as) - std::sin(ar), 2);
+  return mesh_compliance + arm / scene.supports.planet;
 }
 
 std::string coupling_id(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
@@ -45,15 +54,15 @@ constexpr const char *id_key = "inputs_id", *error_key = "coupling_error_m_per_N
 
 }  // namespace
 
-double SolvedCoupling::largest_relative() const {
+double SolvedCoupling::largest() const {
   double largest = 0;
   for (const auto& matrix : coupling.compliance) largest = std::max(largest, matrix.cwiseAbs().maxCoeff());
-  return largest / mesh_compliance;
+  return largest;
 }
 
 CouplingChoice coupling_choice(const Scene& scene, const SolvedCoupling& solved) {
   constexpr const char* asked = "the scene asks for it (rim_coupling)";
-  const double largest = solved.largest_relative();
+  const double share = solved.largest() / solved.path_compliance;
   const auto percent = [](double x) { return fmt::format("{:.2g} %", 100 * x); };
   switch (scene.dynamics->rim_coupling) {
     case RimCoupling::none:
@@ -65,13 +74,11 @@ CouplingChoice coupling_choice(const Scene& scene, const SolvedCoupling& solved)
     case RimCoupling::automatic:
       break;
   }
-  if (largest <= scene.accuracy)
-    return {RimCoupling::none, fmt::format("another planet's load moves a mesh by at most {} of what its own does, less "
-                                           "than the wanted accuracy of {}",
-                                           percent(largest), percent(scene.accuracy))};
-  return {RimCoupling::statical, fmt::format("another planet's load moves a mesh by up to {} of what its own does, more "
-                                             "than the wanted accuracy of {}",
-                                             percent(largest), percent(scene.accuracy))};
+  const bool small = share <= scene.accuracy;
+  return {small ? RimCoupling::none : RimCoupling::statical,
+          fmt::format("another planet's load moves a mesh by at most {} of what its own load moves the planet's path "
+                      "(mesh and bearing): {} than the wanted accuracy of {}",
+                      percent(share), small ? "less" : "more", percent(scene.accuracy))};
 }
 
 std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved, RimCoupling taken) {
@@ -102,6 +109,7 @@ std::optional<SolvedCoupling> load_coupling(const Scene& scene, const GearGeomet
     kept.frequency_error_relative = std::stod(*frequency);
     kept.seconds = std::stod(*seconds);
     kept.highest_frequency = highest_frequency(geometry, ring);
+    kept.path_compliance = path_compliance(scene, geometry, mesh_compliance);
     kept.reused = true;
     return kept;
   } catch (const std::exception& error) {
@@ -127,6 +135,7 @@ SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, 
   }
   SolvedCoupling result{.coupling = std::move(solved.coupling),
                         .mesh_compliance = mesh_compliance,
+                        .path_compliance = path_compliance(scene, geometry, mesh_compliance),
                         .compliance_error = solved.compliance_error,
                         .frequency_error_relative = solved.frequency_error_relative,
                         .highest_frequency = settings.modes.highest_frequency,
@@ -138,9 +147,9 @@ SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, 
                                 {seconds_key, fmt::format("{:.3f}", result.seconds)}};
   std::filesystem::create_directories(folder);
   result.coupling.write_csv(folder / "ring_coupling.csv", folder / "ring_modes.csv");
-  log::info(fmt::format("coupling of the meshes through ring '{}': {} ring positions, {} modes below {:.0f} Hz; {:.2f} s",
-                        ring.name, result.coupling.compliance.size(), result.coupling.modes.size(),
-                        result.highest_frequency, result.seconds));
+  log::info(fmt::format(
+      "coupling of the meshes through ring '{}': {} ring positions, {} modes below {:.0f} Hz; {:.2f} s", ring.name,
+      result.coupling.compliance.size(), result.coupling.modes.size(), result.highest_frequency, result.seconds));
   return result;
 }
 

@@ -15,15 +15,16 @@ namespace annulus::app {
 /// How the meshes of one ring act on each other through it, solved, with what is needed to judge it.
 struct SolvedCoupling {
   RingCoupling coupling;
-  double mesh_compliance = 0;           ///< m/N, mean of a single mesh at the nominal load
+  double mesh_compliance = 0;  ///< m/N, mean of a single mesh at the nominal load
+  /// m/N, of a planet's path as far as it is known here: mesh and planet bearing. It decides how the load is shared.
+  double path_compliance = 0;
   double compliance_error = 0;          ///< m/N, estimated
   double frequency_error_relative = 0;  ///< estimated
   double highest_frequency = 0;         ///< Hz, up to which modes were looked for
   double seconds = 0;
   bool reused = false;
 
-  /// Largest entry of the coupling relative to the compliance of a mesh.
-  [[nodiscard]] double largest_relative() const;
+  [[nodiscard]] double largest() const;  ///< m/N, largest entry of the coupling by magnitude
 };
 
 /// What the lumped model takes of it, and why.

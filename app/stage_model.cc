@@ -83,7 +83,10 @@ void add_excitation(ContentId& id, const std::string& name, const dynamics::Mesh
       for (int phase = 0; phase < t.phases(); ++phase) {
         for (int load = 0; load < static_cast<int>(t.loads().size()); ++load) {
           const auto& e = t.at(position, phase, load);
-          id.add("u", e.unloaded_te).add("k", e.stiffness_secant).add("t", e.stiffness_tangent).add("error", e.error_relative);
+          id.add("u", e.unloaded_te)
+              .add("k", e.stiffness_secant)
+              .add("t", e.stiffness_tangent)
+              .add("error", e.error_relative);
         }
       }
     }
@@ -142,11 +145,10 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
 dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamics::PlanetaryStage& stage) {
   dynamics::SimulationOptions options;
   // A ring on p pins repeats only after z_r / gcd(z_r, p) teeth, and with the planets after hundreds of mesh cycles:
-  // the window covers them all up to a time series of some hundred megabytes, with fewer samples when it is long.
-  constexpr int longest_window = 4000, long_window = 200;
+  // the window covers them all up to a time series of some hundred megabytes.
+  constexpr int longest_window = 4000;
   const int period = stage.error_period();
   options.max_window_cycles = std::max(options.max_window_cycles, std::min(period, longest_window));
-  if (period > long_window) options.samples_per_cycle /= 2;
   options.integrator.relative_tolerance = scene.dynamics->relative_tolerance;
   options.integrator.method = integrator_of(scene.dynamics->integrator);
   if (scene.dynamics->steps_per_cycle)

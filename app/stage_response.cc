@@ -15,13 +15,17 @@ using Header = std::vector<std::pair<std::string, std::string>>;
 constexpr int waveform_cycles = 6;
 constexpr double highest_order = 8;  // multiples of the mesh frequency kept in the spectrum
 
-Csv time_series_table(const dynamics::TimeSeries& series) {
+/// A long window (a ring on pins repeats after more than a thousand mesh cycles) is written with every second sample:
+/// 32 per mesh cycle hold what the highest mesh harmonics of the spectrum need, in tens of megabytes.
+Csv time_series_table(const dynamics::TimeSeries& series, int window_cycles) {
+  constexpr int long_window = 200;
+  const Eigen::Index stride = window_cycles > long_window ? 2 : 1;
   Csv csv;
   csv.columns.emplace_back("time_s");
   for (const auto& name : series.freedoms) csv.columns.push_back(name + "_m");
   for (const auto& name : series.meshes) csv.columns.push_back(name + "_force_N");
-  csv.rows.reserve(static_cast<std::size_t>(series.time.size()));
-  for (Eigen::Index i = 0; i < series.time.size(); ++i) {
+  csv.rows.reserve(static_cast<std::size_t>(series.time.size() / stride + 1));
+  for (Eigen::Index i = 0; i < series.time.size(); i += stride) {
     auto& row = csv.rows.emplace_back();
     row.reserve(csv.columns.size());
     row.push_back(series.time[i]);
@@ -135,7 +139,7 @@ StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage, const dyn
   auto response = dynamics::simulate(stage, options);
   tabulate(result, response, stage.planets());
   result.motion = stage_motion(stage, response);
-  write(time_series_table(response.series), {{"annulus_version", version()}, {"inputs_id", id}},
+  write(time_series_table(response.series, response.window_cycles), {{"annulus_version", version()}, {"inputs_id", id}},
         folder / "time_series.csv");
   response.series = {};
   result.errors = carried_errors(response, options, tables);

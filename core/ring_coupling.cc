@@ -62,7 +62,8 @@ std::vector<std::string> mode_columns(int teeth) {
   return columns;
 }
 
-const std::vector<std::string> header_keys = {"planets", "ring_teeth", "load_N", "per_cycle", "mass_kg", "rotational_mass_kg"};
+const std::vector<std::string> header_keys = {"planets",   "ring_teeth", "load_N",
+                                              "per_cycle", "mass_kg",    "rotational_mass_kg"};
 
 /// Reads a number from a header line, whose place is its line.
 double header_number(const Csv& csv, const std::filesystem::path& file, const std::string& key) {
@@ -108,12 +109,10 @@ void RingCoupling::write_csv(const std::filesystem::path& compliance_file,
   };
   refuse(complaint(planets, ring_teeth, load, per_cycle, compliance.size()));
   Csv csv;
-  csv.header = {{"planets", fmt::format("{}", planets)},
-                {"ring_teeth", fmt::format("{}", ring_teeth)},
-                {"load_N", fmt::format("{:.17g}", load)},
-                {"per_cycle", fmt::format("{}", per_cycle)},
-                {"mass_kg", fmt::format("{:.17g}", mass)},
-                {"rotational_mass_kg", fmt::format("{:.17g}", rotational_mass)}};
+  csv.header = {
+      {"planets", fmt::format("{}", planets)},   {"ring_teeth", fmt::format("{}", ring_teeth)},
+      {"load_N", fmt::format("{:.17g}", load)},  {"per_cycle", fmt::format("{}", per_cycle)},
+      {"mass_kg", fmt::format("{:.17g}", mass)}, {"rotational_mass_kg", fmt::format("{:.17g}", rotational_mass)}};
   csv.header.insert(csv.header.end(), provenance.begin(), provenance.end());
   csv.columns = compliance_columns(planets);
   for (std::size_t i = 0; i < compliance.size(); ++i) {

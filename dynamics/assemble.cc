@@ -82,9 +82,9 @@ double equivalent_mass(const PlanetaryStage& stage, const CentralBody& wheel) {
 
 bool ring_in_housing(const PlanetaryStage& stage) { return stage.ring_coupling && !stage.ring_coupling->modes.empty(); }
 
-/// What an inertial coupling in the mass of the ring's elastic body is in the mass the stage gives the ring: the share of
-/// the mass that takes part in a mode stays. (A stage may leave out a flange, or sit its mass at another radius; mixing
-/// both masses could make more mass move than there is.)
+/// What an inertial coupling in the mass of the ring's elastic body is in the mass the stage gives the ring: the share
+/// of the mass that takes part in a mode stays. (A stage may leave out a flange, or sit its mass at another radius;
+/// mixing both masses could make more mass move than there is.)
 double in_mass_of_stage(double coupling, double stage_mass, double elastic_mass) {
   return elastic_mass > 0 ? coupling * std::sqrt(stage_mass / elastic_mass) : coupling;
 }

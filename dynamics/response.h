@@ -31,7 +31,8 @@ struct SimulationOptions {
   /// Total mesh cycles from the start, by marching alone. Absent: until the response repeats, then one error period.
   std::optional<int> mesh_cycles;
   /// The response counts as periodic when no mesh force differs by more than this, relative to the mean mesh force,
-  /// from the harmonic balance; or from one evaluated window earlier, and the differences, continued geometrically, add
+  /// from the harmonic balance (or by more, up to 5e-3, where the balance with half the samples differs by as much); or
+  /// from one evaluated window earlier, and the differences, continued geometrically, add
   /// up to no more.
   double steady_tolerance = 1e-3;
   int max_windows = 40;  ///< gives up after so many windows (chaos, nearly undamped): `steady` is then false

@@ -118,8 +118,7 @@ Level solve_level(const LoadedMeshProblem& problem, int planets, double load, co
   result.modes =
       supported ? supported_ring_modes(ring, *supported, settings.modes) : held_ring_modes(ring, settings.modes);
   for (int s = 0; s < ring.teeth; ++s) {
-    const Eigen::Vector3d squares =
-        ring.resultants_of(s, ring.first_motion(), ring.motions).rowwise().squaredNorm();
+    const Eigen::Vector3d squares = ring.resultants_of(s, ring.first_motion(), ring.motions).rowwise().squaredNorm();
     result.mass += squares.x();
     result.rotational_mass += squares.z() / std::pow(ring.base_radius, 2);
   }
