@@ -172,8 +172,10 @@ std::string error_bars(const RunResult& result) {
                             part_text(e.interpolation)});
   }
   return "<h3 id=\"error-bars\">What the error bars contain</h3>\n" + html(table) +
-         "<p>Solution in time: sampling, steady state and integration. Stiffness: the larger change when all stiffnesses "
-         "of a mesh, or their ripple, are raised by their error estimate; sun mesh plus ring mesh. Interpolation: a third "
+         "<p>Solution in time: sampling, steady state and integration. Stiffness: the larger change when all "
+         "stiffnesses "
+         "of a mesh, or their ripple, are raised by their error estimate; sun mesh plus ring mesh. Interpolation: a "
+         "third "
          "of the change with every second position of the tables. The error is their sum, and not known when a part is "
          "not; stiffness given as a wave counts as exact.</p>\n";
 }

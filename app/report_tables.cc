@@ -203,7 +203,8 @@ std::string key_figures_section(const RunResult& result) {
          to_text(result.geometry.operating_point.mean_mesh_force / 1e3, 5) +
          " kN. ± is the estimated numerical error: of the discretisation for stiffness and transmission error; for "
          "load sharing and dynamic factor of the solution in time, of the stiffness and of the interpolation between "
-         "the positions together (<a href=\"#error-bars\">parts</a>). It does not contain the uncertainty of the inputs.</p>\n" +
+         "the positions together (<a href=\"#error-bars\">parts</a>). It does not contain the uncertainty of the "
+         "inputs.</p>\n" +
          html(table);
 }
 

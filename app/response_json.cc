@@ -36,10 +36,11 @@ ResponseJson kind_json(const dynamics::MeshKindResult& kind, const MeshKindError
                           {"quasi_static", to_json_value(kind.load_sharing.quasi_static, errors.quasi_static)}};
   for (std::size_t n = 0; n < kind.branches.size(); ++n) {
     const auto& b = kind.branches[n];
-    json["branches"].push_back({{"dynamic_factor_max", to_json_value(b.dynamic_factor_max, errors.dynamic_factor_max[n])},
-                                {"dynamic_factor_min", number(b.dynamic_factor_min)},
-                                {"mean_force_N", number(b.mean_force)},
-                                {"contact_loss", number(b.contact_loss)}});
+    json["branches"].push_back(
+        {{"dynamic_factor_max", to_json_value(b.dynamic_factor_max, errors.dynamic_factor_max[n])},
+         {"dynamic_factor_min", number(b.dynamic_factor_min)},
+         {"mean_force_N", number(b.mean_force)},
+         {"contact_loss", number(b.contact_loss)}});
   }
   return json;
 }
@@ -63,8 +64,10 @@ FigureErrors errors_of(const ResponseJson& figure) {
 
 MeshKindErrors kind_errors(const ResponseJson& json) {
   const auto& sharing = json.at("load_sharing");
-  MeshKindErrors errors{
-      errors_of(sharing.at("instantaneous")), errors_of(sharing.at("averaged")), errors_of(sharing.at("quasi_static")), {}};
+  MeshKindErrors errors{errors_of(sharing.at("instantaneous")),
+                        errors_of(sharing.at("averaged")),
+                        errors_of(sharing.at("quasi_static")),
+                        {}};
   for (const auto& b : json.at("branches")) errors.dynamic_factor_max.push_back(errors_of(b.at("dynamic_factor_max")));
   return errors;
 }

@@ -21,7 +21,8 @@ SummaryJson estimate_json(const Estimate& e) {
   return {{"value", known(e.value)}, {"error_relative", known(e.error_relative)}};
 }
 SummaryJson parts_json(const FigureErrors& e) {
-  return {{"solution", known(e.solution)}, {"stiffness", known(e.stiffness)}, {"interpolation", known(e.interpolation)}};
+  return {
+      {"solution", known(e.solution)}, {"stiffness", known(e.stiffness)}, {"interpolation", known(e.interpolation)}};
 }
 SummaryJson figure_json(const dynamics::Figure& f, const FigureErrors& e) {
   return {{"value", known(f.value)}, {"error", known(f.error)}, {"error_parts", parts_json(e)}};
