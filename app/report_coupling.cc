@@ -22,10 +22,11 @@ std::string name_of(RimCoupling model) {
 }  // namespace
 
 std::string coupling_section(const RunResult& result) {
-  HtmlTable size{.head = {"ring", "another mesh's load moves a mesh by at most, of what its own does",
-                          "first elastic mode of the ring, Hz (waves)", "taken", "why"}};
-  HtmlTable effect{.head = {"ring", "coupling", "load sharing, averaged", "instantaneous", "quasi-static",
-                            "dynamic factor, sun meshes", "dynamic factor, ring meshes"}};
+  HtmlTable size, effect;
+  size.head = {"ring", "another mesh's load moves a mesh by at most, of what its own does",
+                          "first elastic mode of the ring, Hz (waves)", "taken", "why"};
+  effect.head = {"ring", "coupling", "load sharing, averaged", "instantaneous", "quasi-static",
+                            "dynamic factor, sun meshes", "dynamic factor, ring meshes"};
   int cycles = 0;
   for (const auto& ring : result.rings) {
     if (!ring.mesh.coupling) continue;

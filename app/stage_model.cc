@@ -45,7 +45,7 @@ dynamics::Integrator integrator_of(IntegratorChoice choice) {
 }
 
 void add_coupling(ContentId& id, const RingCoupling& coupling) {
-  id.add("coupling.per_cycle", coupling.per_cycle);
+  id.add("coupling.per_cycle", coupling.per_cycle).add("mass", coupling.mass).add("turn", coupling.rotational_mass);
   for (const auto& matrix : coupling.compliance) {
     for (Eigen::Index i = 0; i < matrix.size(); ++i) id.add("D", matrix.data()[i]);
   }

@@ -62,7 +62,7 @@ std::vector<std::string> mode_columns(int teeth) {
   return columns;
 }
 
-const std::vector<std::string> header_keys = {"planets", "ring_teeth", "load_N", "per_cycle"};
+const std::vector<std::string> header_keys = {"planets", "ring_teeth", "load_N", "per_cycle", "mass_kg", "rotational_mass_kg"};
 
 /// Reads a number from a header line, whose place is its line.
 double header_number(const Csv& csv, const std::filesystem::path& file, const std::string& key) {
@@ -111,7 +111,9 @@ void RingCoupling::write_csv(const std::filesystem::path& compliance_file,
   csv.header = {{"planets", fmt::format("{}", planets)},
                 {"ring_teeth", fmt::format("{}", ring_teeth)},
                 {"load_N", fmt::format("{:.17g}", load)},
-                {"per_cycle", fmt::format("{}", per_cycle)}};
+                {"per_cycle", fmt::format("{}", per_cycle)},
+                {"mass_kg", fmt::format("{:.17g}", mass)},
+                {"rotational_mass_kg", fmt::format("{:.17g}", rotational_mass)}};
   csv.header.insert(csv.header.end(), provenance.begin(), provenance.end());
   csv.columns = compliance_columns(planets);
   for (std::size_t i = 0; i < compliance.size(); ++i) {
@@ -154,6 +156,11 @@ RingCoupling RingCoupling::read_csv(const std::filesystem::path& compliance_file
   result.ring_teeth = header_count(csv, compliance_file, "ring_teeth");
   result.load = header_number(csv, compliance_file, "load_N");
   result.per_cycle = header_count(csv, compliance_file, "per_cycle");
+  result.mass = header_number(csv, compliance_file, "mass_kg");
+  result.rotational_mass = header_number(csv, compliance_file, "rotational_mass_kg");
+  for (const double mass : {result.mass, result.rotational_mass})
+    if (!(mass >= 0) || !std::isfinite(mass))
+      throw InputError(fmt::format("{}:1: a mass of {} kg", compliance_file.string(), mass));
   const auto sizes = complaint(result.planets, result.ring_teeth, result.load, result.per_cycle, csv.rows.size());
   if (!sizes.empty()) throw InputError(fmt::format("{}:1: {}", compliance_file.string(), sizes));
   for (const auto& line : csv.header)

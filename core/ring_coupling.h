@@ -36,6 +36,9 @@ struct RingCoupling {
   std::vector<Eigen::MatrixXd> compliance;
   int per_cycle = 1;
   std::vector<RingMode> modes;  ///< rising frequency; may be empty
+  /// kg, of what moves of the ring, and its moment of inertia / base radius^2: what the inertial couplings of all modes
+  /// would add up to in squares. 0: not known.
+  double mass = 0, rotational_mass = 0;
 
   /// Key: value lines kept in front of the file (provenance).
   std::vector<std::pair<std::string, std::string>> provenance;

@@ -82,19 +82,29 @@ double equivalent_mass(const PlanetaryStage& stage, const CentralBody& wheel) {
 
 bool ring_in_housing(const PlanetaryStage& stage) { return stage.ring_coupling && !stage.ring_coupling->modes.empty(); }
 
+/// What an inertial coupling in the mass of the ring's elastic body is in the mass the stage gives the ring: the share of
+/// the mass that takes part in a mode stays. (A stage may leave out a flange, or sit its mass at another radius; mixing
+/// both masses could make more mass move than there is.)
+double in_mass_of_stage(double coupling, double stage_mass, double elastic_mass) {
+  return elastic_mass > 0 ? coupling * std::sqrt(stage_mass / elastic_mass) : coupling;
+}
+
 /// The modes of the ring as freedoms. M couples them with the rigid motions of the ring they contain.
 std::vector<LinearForm> add_ring_modes(LumpedSystemBuilder& builder, const PlanetaryStage& stage,
                                        const PlaneBody& ring) {
   std::vector<LinearForm> freedoms;
   if (!stage.ring_coupling) return freedoms;
-  for (const auto& mode : stage.ring_coupling->modes) {
+  const auto& body = *stage.ring_coupling;
+  const double rotational_mass = stage.ring.inertia / (stage.ring.radius * stage.ring.radius);
+  for (const auto& mode : body.modes) {
     auto amplitude = builder.add_freedom("ring_mode" + std::to_string(freedoms.size() + 1));
     const double rate = 2 * std::numbers::pi * mode.frequency;
     builder.add_mass(amplitude, 1);
     builder.add_spring(amplitude, rate * rate, critical_share(stage.support_damping_ratio, rate * rate, 1));
-    builder.add_mass_coupling(amplitude, ring.x, mode.translation_x);
-    builder.add_mass_coupling(amplitude, ring.y, mode.translation_y);
-    builder.add_mass_coupling(amplitude, ring.u, mode.rotation);
+    builder.add_mass_coupling(amplitude, ring.x, in_mass_of_stage(mode.translation_x, stage.ring.mass, body.mass));
+    builder.add_mass_coupling(amplitude, ring.y, in_mass_of_stage(mode.translation_y, stage.ring.mass, body.mass));
+    builder.add_mass_coupling(amplitude, ring.u,
+                              in_mass_of_stage(mode.rotation, rotational_mass, body.rotational_mass));
     freedoms.push_back(std::move(amplitude));
   }
   return freedoms;

@@ -22,6 +22,7 @@ struct Level {
   std::vector<RingMode> modes;
   double own = 0;
   long unknowns = 0;
+  double mass = 0, rotational_mass = 0;
 };
 
 bool needs_solid(const LoadedMeshProblem& problem) {
@@ -116,6 +117,12 @@ Level solve_level(const LoadedMeshProblem& problem, int planets, double load, co
   result.own /= static_cast<double>(positions) * planets;
   result.modes =
       supported ? supported_ring_modes(ring, *supported, settings.modes) : held_ring_modes(ring, settings.modes);
+  for (int s = 0; s < ring.teeth; ++s) {
+    const Eigen::Vector3d squares =
+        ring.resultants_of(s, ring.first_motion(), ring.motions).rowwise().squaredNorm();
+    result.mass += squares.x();
+    result.rotational_mass += squares.z() / std::pow(ring.base_radius, 2);
+  }
   return result;
 }
 
@@ -176,6 +183,8 @@ SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, int pla
   coupling.per_cycle = settings.per_cycle;
   coupling.compliance = std::move(level.compliance);
   coupling.modes = std::move(level.modes);
+  coupling.mass = level.mass;
+  coupling.rotational_mass = level.rotational_mass;
   coupling.provenance = {{"compliance_error_m_per_N", fmt::format("{:.3g}", result.compliance_error)},
                          {"frequency_error_relative", fmt::format("{:.3g}", result.frequency_error_relative)}};
   return result;

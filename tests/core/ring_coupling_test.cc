@@ -25,6 +25,8 @@ RingCoupling sample(int planets, int teeth, int positions, int per_cycle, int mo
   c.ring_teeth = teeth;
   c.load = 59460 / 3.0;
   c.per_cycle = per_cycle;
+  c.mass = 100.0 / 3;
+  c.rotational_mass = 113.0 / 3;
   for (int i = 0; i < positions * per_cycle; ++i) {
     Eigen::MatrixXd m(planets, planets);
     for (int n = 0; n < planets; ++n)
@@ -69,6 +71,8 @@ BOOST_AUTO_TEST_CASE(round_trip_keeps_every_bit) {
     BOOST_TEST(read.planets == planets);
     BOOST_TEST(read.ring_teeth == teeth);
     BOOST_TEST(read.load == coupling.load);
+    BOOST_TEST(read.mass == coupling.mass);
+    BOOST_TEST(read.rotational_mass == coupling.rotational_mass);
     BOOST_TEST(read.per_cycle == per_cycle);
     BOOST_TEST((read.provenance == coupling.provenance));
     BOOST_TEST_REQUIRE(read.compliance.size() == coupling.compliance.size());
