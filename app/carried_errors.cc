@@ -99,7 +99,7 @@ class Comparison {
       }
       const auto values = values_of(response), reference = values_of(*base_);
       for (std::size_t i = 0; i < figures_; ++i) result[i] = std::abs(values[i] - reference[i]);
-    } catch (const SolverError& error) {
+    } catch (const Error& error) {  // no solution, or a changed table from which no law follows
       log::warn(fmt::format("{}: {}: what it does to the figures is not known", what, error.what()));
     }
     return result;
