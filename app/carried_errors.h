@@ -37,7 +37,8 @@ struct StageTables {
 
 /// The parts of the error of every figure of `nominal`, which was simulated with `options` on `tables`. The stage is
 /// solved again on changed tables (core/table_variants.h), without time integration where the nominal response agreed
-/// with the harmonic balance, and compared with the unchanged tables solved the very same way:
+/// with the harmonic balance (marched for 330 mesh cycles where it has no periodic steady state within the longest
+/// window), and compared with the unchanged tables solved the very same way:
 /// - stiffness: largest |difference| with the stiffness or its ripple raised by its error estimate, sun mesh plus ring
 ///   mesh;
 /// - interpolation: |difference| with every second phase only, both meshes, / 3: the curves between the phases are of

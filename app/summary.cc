@@ -59,16 +59,18 @@ SummaryJson sharing_json(const dynamics::LoadSharing& s, const MeshKindErrors& e
 
 void add_branches(SummaryJson& ring, const std::string& mesh, const dynamics::MeshKindResult& kind,
                   const MeshKindErrors& errors) {
-  auto& factor = ring["dynamic_factor"][mesh] = SummaryJson::array();
-  auto& error = ring["dynamic_factor_error"][mesh] = SummaryJson::array();
-  auto& parts = ring["dynamic_factor_error_parts"][mesh] = SummaryJson::array();
-  auto& loss = ring["contact_loss"][mesh] = SummaryJson::array();
+  // Filled before they are put in: a new key may move all others.
+  auto factor = SummaryJson::array(), error = factor, parts = factor, loss = factor;
   for (const auto& b : kind.branches) {
     factor.push_back(known(b.dynamic_factor_max.value));
     error.push_back(known(b.dynamic_factor_max.error));
     loss.push_back(known(b.contact_loss));
   }
   for (const auto& e : errors.dynamic_factor_max) parts.push_back(parts_json(e));
+  ring["dynamic_factor"][mesh] = std::move(factor);
+  ring["dynamic_factor_error"][mesh] = std::move(error);
+  ring["dynamic_factor_error_parts"][mesh] = std::move(parts);
+  ring["contact_loss"][mesh] = std::move(loss);
 }
 
 double worst(const MeshResult& a, const MeshResult& b, const std::string& fact) {

@@ -1,0 +1,173 @@
+#include "app/carried_errors.h"
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "app/pipeline.h"
+#include "app/report_parts.h"
+#include "core/log.h"
+#include "tests/app/scenes.h"
+
+namespace annulus {
+
+namespace {
+
+/// Tables k (1 + ripple cos) of both meshes with one relative error each, and a scene on them. Installation errors
+/// alone: they stand still on the carrier, so the windows are short.
+struct TableScene {
+  int planets = 5, phases = 16;
+  double sun_error = 0.01, ring_error = 0.01, ripple = 0.2;
+  bool held = false;                                                    ///< the sun's centre
+  static constexpr double sun = 1.364e9, ring = 1.87e9, bearing = 1e9;  ///< N/m
+
+  [[nodiscard]] StiffnessTable table(const char* mesh, double mean, double error) const {
+    std::vector<StiffnessEntry> entries;
+    for (int phase = 0; phase < phases; ++phase) {
+      const double k = mean * (1 + ripple * std::cos(2 * std::numbers::pi * phase / phases));
+      for (const double load : {2e4, 2e5}) entries.push_back({0, load / k, k, k, error});
+    }
+    return {mesh, phases, {0.0}, {2e4, 2e5}, entries};
+  }
+  [[nodiscard]] app::RunResult run(const std::filesystem::path& folder) const {
+    auto text = test::replaced(
+        test::quick_scene(), "planet_eccentricity_um = [15, 36, 17, 38, 19]",
+        planets == 2 ? "planet_installation_um = [20, 20]" : "planet_installation_um = [15, 36, 17, 38, 19]");
+    text = test::replaced(text, "mesh_cycles = 110\n", "");
+    text = test::replaced(text, "planets = 5", "planets = " + std::to_string(planets));
+    if (held) text = test::replaced(text, "sun_N_per_m = 1e7\n", "");
+    text = test::replaced(text, "stiffness = \"harmonic\"\nmean_N_per_m = 1.364e9\nripple = 0.2258",
+                          "stiffness = \"table\"\nfile = \"sun.csv\"");
+    text = test::replaced(text, "stiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294",
+                          "stiffness = \"table\"\nfile = \"ring.csv\"");
+    table("sun_planet", sun, sun_error).write_csv(folder / "sun.csv");
+    table("ring_planet", ring, ring_error).write_csv(folder / "ring.csv");
+    write_file(folder / "scene.toml", text);
+    log::set_level(log::Level::quiet);
+    return app::run(app::read_scene(folder / "scene.toml"), {.out = folder / "out"});
+  }
+};
+
+struct Pair {
+  dynamics::Figure figure;
+  app::FigureErrors errors;
+};
+
+std::vector<Pair> pairs(const app::StageResponse& r) {
+  std::vector<Pair> list;
+  const auto add = [&](const dynamics::MeshKindResult& kind, const app::MeshKindErrors& e) {
+    const auto& s = kind.load_sharing;
+    list.insert(list.end(),
+                {{s.instantaneous, e.instantaneous}, {s.averaged, e.averaged}, {s.quasi_static, e.quasi_static}});
+    BOOST_TEST_REQUIRE(kind.branches.size() == e.dynamic_factor_max.size());
+    for (std::size_t n = 0; n < kind.branches.size(); ++n)
+      list.push_back({kind.branches[n].dynamic_factor_max, e.dynamic_factor_max[n]});
+  };
+  add(r.figures.sun_planet, r.errors.sun_planet);
+  add(r.figures.ring_planet, r.errors.ring_planet);
+  return list;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(carried_errors)
+
+BOOST_AUTO_TEST_CASE(errors_are_the_sum_of_their_parts_and_are_kept) {
+  const test::TemporaryFolder folder("errors_kept");
+  const TableScene scene;
+  const auto first = scene.run(folder.path());
+  const auto parts = pairs(*first.rings[0].response);
+  BOOST_TEST(parts.size() == 16U);
+  for (const auto& [figure, e] : parts) {
+    BOOST_TEST(figure.error == e.solution + e.stiffness + e.interpolation);
+    BOOST_TEST(e.stiffness > 0);
+    BOOST_TEST(e.interpolation > 0);
+  }
+  const auto second = scene.run(folder.path());
+  BOOST_TEST_REQUIRE(second.rings[0].response->reused);
+  const auto kept = pairs(*second.rings[0].response);
+  BOOST_TEST_REQUIRE(kept.size() == parts.size());
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    BOOST_TEST(kept[i].figure.error == parts[i].figure.error);
+    BOOST_TEST(kept[i].errors.solution == parts[i].errors.solution);
+    BOOST_TEST(kept[i].errors.stiffness == parts[i].errors.stiffness);
+    BOOST_TEST(kept[i].errors.interpolation == parts[i].errors.interpolation);
+  }
+  std::ifstream in(folder.path() / "out/summary.json");
+  const auto ring = nlohmann::json::parse(in)["rings"]["held"];
+  BOOST_TEST(ring["load_sharing"]["sun_planet"]["instantaneous"]["error_parts"]["stiffness"].get<double>() ==
+             parts[0].errors.stiffness);
+  BOOST_TEST(ring["dynamic_factor_error_parts"]["ring_planet"][4]["interpolation"].get<double>() ==
+             parts[15].errors.interpolation);
+  BOOST_TEST(app::dynamics_section(first).find("What the error bars contain") != std::string::npos);
+  // Another error is another response.
+  BOOST_TEST(!TableScene{.sun_error = 0.02}.run(folder.path()).rings[0].response->reused);
+}
+
+BOOST_AUTO_TEST_CASE(exact_tables_leave_the_interpolation) {
+  const test::TemporaryFolder folder("errors_exact");
+  for (const auto& [figure, e] :
+       pairs(*TableScene{.sun_error = 0, .ring_error = 0}.run(folder.path()).rings[0].response)) {
+    BOOST_TEST(e.stiffness == 0);
+    BOOST_TEST(e.interpolation > 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_odd_number_of_phases_tells_nothing_about_the_interpolation) {
+  const test::TemporaryFolder folder("errors_odd");
+  const auto result = TableScene{.phases = 15}.run(folder.path());
+  for (const auto& [figure, e] : pairs(*result.rings[0].response)) {
+    BOOST_TEST(std::isnan(e.interpolation));
+    BOOST_TEST(std::isnan(figure.error));
+    BOOST_TEST(e.stiffness > 0);
+  }
+  BOOST_TEST(app::dynamics_section(result).find("not known") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(waves_are_exact) {
+  const test::TemporaryFolder folder("errors_waves");
+  log::set_level(log::Level::quiet);
+  const auto result = app::run(app::parse_scene(test::quick_scene(), "s"), {.out = folder.path()});
+  for (const auto& [figure, e] : pairs(*result.rings[0].response)) {
+    BOOST_TEST(e.stiffness == 0);
+    BOOST_TEST(e.interpolation == 0);
+    BOOST_TEST(figure.error == e.solution);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(two_planets_feel_the_error_of_their_path) {
+  // Two planets, all centres held, constant stiffness: L - 1 is proportional to the stiffness K of a planet's path,
+  // 1/K = 1/k_s + 1/k_r + |tangents|^2 / k_bearing. All entries equal: the ripple change lowers every one.
+  const test::TemporaryFolder folder("errors_path");
+  for (const auto& [sun_error, ring_error] : {std::pair{0.03, 0.0}, {0.0, 0.02}, {0.03, 0.02}}) {
+    const TableScene scene{
+        .planets = 2, .phases = 8, .sun_error = sun_error, .ring_error = ring_error, .ripple = 0, .held = true};
+    const auto result = scene.run(folder.path());
+    const auto& set = result.geometry.rings.front().set;
+    const double a = set.sun_mesh().working_pressure_angle(), r = set.ring_mesh().working_pressure_angle();
+    const double bearing = std::pow(std::cos(a) + std::cos(r), 2) + std::pow(std::sin(a) - std::sin(r), 2);
+    const auto path = [&](double sun, double ring) {
+      return 1 / (1 / (TableScene::sun * sun) + 1 / (TableScene::ring * ring) + bearing / TableScene::bearing);
+    };
+    const double nominal = path(1, 1), up_s = 1 + sun_error, up_r = 1 + ring_error;
+    const double relative = std::max(path(up_s, 1) - nominal, nominal - path(1 / up_s, 1)) / nominal +
+                            std::max(path(1, up_r) - nominal, nominal - path(1, 1 / up_r)) / nominal;
+    const auto& response = *result.rings.front().response;
+    const auto& quasi_static = response.figures.sun_planet.load_sharing.quasi_static;
+    BOOST_TEST(quasi_static.value > 1.002);
+    // Forces are solved to about 1e-9, the differences are 1e-3 of L - 1.
+    BOOST_TEST(response.errors.sun_planet.quasi_static.stiffness == relative * (quasi_static.value - 1),
+               boost::test_tools::tolerance(1e-4));
+    const auto& averaged = response.figures.ring_planet.load_sharing.averaged;
+    BOOST_TEST(response.errors.ring_planet.averaged.stiffness == relative * (averaged.value - 1),
+               boost::test_tools::tolerance(1e-3));
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace annulus
