@@ -1,0 +1,122 @@
+// Cost of the answers users wait for, on the ring paper's stage with tabulated stiffness: marching, the direct steady
+// state, samples over error phases.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "benchmarks/stopwatch.h"
+#include "dynamics/response.h"
+#include "dynamics/sampling.h"
+#include "dynamics/stages.h"
+#include "dynamics/study_point.h"
+
+namespace {
+
+using namespace annulus::dynamics;
+using annulus::benchmarks::Stopwatch;
+
+struct Options {
+  int cycles = 200;   ///< mesh cycles of marching
+  int samples = 100;  ///< over the error phases
+};
+
+constexpr double wanted = 1e-3;  // accuracy of the load sharing coefficient
+
+/// In the shape of the stage's harmonic stiffness with a second harmonic and a stiffness that rises with the load.
+annulus::StiffnessTable table_like(const char* mesh, const MeshExcitation& excitation, double nominal) {
+  constexpr int phases = 32;
+  const auto& wave = std::get<HarmonicStiffness>(excitation);
+  std::vector<double> loads;
+  for (const double factor : {0.25, 0.5, 1.0, 1.5, 2.0}) loads.push_back(factor * nominal);
+  std::vector<annulus::StiffnessEntry> entries;
+  for (int i = 0; i < phases; ++i) {
+    const double angle = 2 * std::numbers::pi * i / phases;
+    const double shape = 1 + wave.ripple * (std::cos(angle) + 0.3 * std::cos(2 * angle + 1));
+    for (const double load : loads) {
+      constexpr double exponent = 0.05;  // line contact: k ~ F^0.05, tangent = secant / (1 - exponent)
+      const double secant = wave.mean * shape * std::pow(load / nominal, exponent);
+      entries.push_back({0, load / secant, secant, secant / (1 - exponent), 0.002});
+    }
+  }
+  return {mesh, phases, {0.0}, loads, entries};
+}
+
+PlanetaryStage tabulated_stage() {
+  PlanetaryStage stage = stages::ring_paper();
+  const double force = stage.mean_mesh_force();
+  stage.sun_mesh = table_stiffness(table_like("sun_planet", stage.sun_mesh, force), force, 0, LoadDependence::table);
+  stage.ring_mesh = table_stiffness(table_like("ring_planet", stage.ring_mesh, force), force, 0, LoadDependence::table);
+  return stage;
+}
+
+DynamicResponse directly(const PlanetaryStage& stage, int samples_per_cycle) {
+  SimulationOptions options;
+  options.confirm = false;
+  options.keep_series = false;
+  options.samples_per_cycle = samples_per_cycle;
+  return simulate(stage, options);
+}
+
+int measure(const Options& options) {
+  const PlanetaryStage stage = tabulated_stage();
+  {
+    SimulationOptions marching;
+    marching.mesh_cycles = options.cycles;
+    marching.estimate_error = false;
+    marching.keep_series = false;
+    const Stopwatch watch;
+    (void)simulate(stage, marching);
+    fmt::print("{} mesh cycles marched, relative tolerance 1e-6, figures included: {:.3f} s\n", options.cycles, watch.cpu());
+  }
+  const double exact = directly(stage, 128).sun_planet.load_sharing.averaged.value;
+  double error = 0;
+  for (const int samples : {16, 32, 64}) {
+    const Stopwatch watch;
+    const auto response = directly(stage, samples);
+    const auto& sharing = response.sun_planet.load_sharing.averaged;
+    if (samples == 16) error = std::abs(sharing.value - exact);
+    fmt::print("steady state directly, {:2d} samples per cycle: load sharing {:.5f}, error {:.1e}, {:.1f} ms\n", samples,
+               sharing.value, std::abs(sharing.value - exact), 1e3 * watch.cpu());
+  }
+  const Stopwatch watch;
+  for (int i = 0; i < options.samples; ++i) {
+    PlanetaryStage sample = stage;
+    for (int n = 0; n < sample.planets(); ++n) {
+      const auto draw = [&](const char* what) {
+        return 2 * std::numbers::pi * uniform_draw(1, static_cast<std::uint64_t>(i), fmt::format("{} {}", what, n));
+      };
+      sample.planet_errors[n].eccentricity.phase = draw("eccentricity");
+      sample.planet_errors[n].installation.phase = draw("installation");
+    }
+    PointOptions point;
+    point.motion = false;
+    (void)evaluate_point(sample, point);
+  }
+  fmt::print("samples over error phases: {:.1f} ms each, a thousand on two cores in {:.0f} s\n",
+             1e3 * watch.cpu() / options.samples, 1e3 * watch.cpu() / options.samples / 2);
+  if (error > wanted) {
+    fmt::print(stderr, "load sharing with 16 samples per cycle is off by {:.1e}\n", error);
+    return 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Cost of the dynamics of the ring paper's stage");
+  app.add_option("--cycles", options.cycles, "Mesh cycles marched")->capture_default_str();
+  app.add_option("--samples", options.samples, "Samples over the error phases")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return measure(options);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
+}
