@@ -1,10 +1,13 @@
 #include "app/coupling_effect.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/content_id.h"
 #include "core/csv.h"
 #include "core/errors.h"
+#include "core/log.h"
 
 namespace annulus::app {
 
@@ -35,7 +38,16 @@ CouplingEffect coupling_effect(const dynamics::PlanetaryStage& uncoupled, const 
     if (model == RimCoupling::elastic && solved.coupling.modes.empty()) continue;
     dynamics::PlanetaryStage stage = uncoupled;
     stage.ring_coupling = taken_coupling(solved, model);
-    const auto response = dynamics::simulate(stage, marching);
+    std::optional<dynamics::DynamicResponse> solved_response;
+    try {
+      solved_response = dynamics::simulate(stage, marching);
+    } catch (const SolverError& error) {
+      // The comparison is an extra: where a model of it fails, the others stand.
+      log::info(fmt::format("coupling through the ring, {}: {}",
+                            model == RimCoupling::elastic ? "elastic modes" : "static", error.what()));
+      continue;
+    }
+    const auto& response = *solved_response;
     const auto& sharing = response.sun_planet.load_sharing;
     effect.rows.push_back({model, sharing.averaged.value, sharing.instantaneous.value, sharing.quasi_static.value,
                            largest_factor(response.sun_planet), largest_factor(response.ring_planet)});

@@ -1,5 +1,6 @@
 #include "dynamics/modes.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
@@ -47,7 +48,12 @@ Eigen::MatrixXd mesh_stiffness_matrix(const LumpedSystem& system, const Eigen::V
         compliance(i, j) = compliance(j, i) = value;
       }
     for (Eigen::Index i = 0; i < n; ++i) compliance(i, i) += 1 / mesh_stiffness[coupling.meshes[i]];
-    const Eigen::MatrixXd stiffness = compliance.inverse();
+    const Eigen::LLT<Eigen::MatrixXd> factor(compliance);
+    if (factor.info() != Eigen::Success)
+      throw SolverError(
+          "the coupling through the ring takes more compliance off its meshes than they have: its elastic modes belong "
+          "to supports held both ways and do not fit a ring that lifts off so much of them");
+    const Eigen::MatrixXd stiffness = factor.solve(Eigen::MatrixXd::Identity(n, n));
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = 0; j < n; ++j)
         result(coupling.meshes[i], coupling.meshes[j]) = (stiffness(i, j) + stiffness(j, i)) / 2;

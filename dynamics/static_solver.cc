@@ -56,6 +56,9 @@ StaticSolver::StaticSolver(const LumpedSystem& system) : system_(system), base_(
     const Eigen::VectorXd momentum = system.mass() * mode.shape;
     base_ += scale * momentum * momentum.transpose();
   }
+  load_scale_ = system.load().lpNorm<Eigen::Infinity>();
+  base_scale_ = base_.cwiseAbs().rowwise().sum().maxCoeff();
+  vectors_scale_ = vectors_.size() ? vectors_.cwiseAbs().maxCoeff() : 0;
 }
 
 void StaticSolver::factorise(const Eigen::MatrixXd& tangent, double t) {
@@ -75,8 +78,8 @@ double StaticSolver::residual(double t, const Eigen::VectorXd& q, LumpedSystem::
     if (is_open(system_, m, w)) forces_[m] += open_share * w.stiffness[m] * w.closing[m];
   }
   residual_ = system_.load() - base_ * q - vectors_ * forces_;
-  return system_.load().cwiseAbs().maxCoeff() + (base_.cwiseAbs() * q.cwiseAbs()).maxCoeff() +
-         (vectors_.cwiseAbs() * forces_.cwiseAbs()).maxCoeff();
+  // Bounds of the terms by the largest entries: a scale is all that is wanted.
+  return load_scale_ + base_scale_ * q.lpNorm<Eigen::Infinity>() + forces_.lpNorm<1>() * vectors_scale_;
 }
 
 void StaticSolver::balance(double t, Eigen::VectorXd& q, LumpedSystem::Workspace& w) {

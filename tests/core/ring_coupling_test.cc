@@ -91,28 +91,28 @@ BOOST_AUTO_TEST_CASE(round_trip_keeps_every_bit) {
 }
 
 BOOST_AUTO_TEST_CASE(a_damaged_file_is_refused_with_its_line) {
-  // Four header lines, then the columns, then rows.
+  // Six header lines, then the columns, then rows.
   const auto refused = [](const std::filesystem::path& file, const std::string& from, const std::string& to, int line) {
     const auto message = message_after_editing(file, from, to);
     BOOST_TEST(message.starts_with(file.string() + ":" + std::to_string(line) + ":"), message);
   };
   refused(compliance_file, "# planets: 2", "# planets: 2.5", 1);
   refused(compliance_file, "# planets: 2", "# planets: two", 1);
-  refused(compliance_file, "# planets: 2", "# planets: 3", 5);  // columns are missing
+  refused(compliance_file, "# planets: 2", "# planets: 3", 7);  // columns are missing
   refused(compliance_file, "# load_N", "# load", 1);
   refused(compliance_file, "# load_N: 1", "# load_N: -1", 1);
   refused(compliance_file, "# per_cycle: 2", "# per_cycle: 4", 1);  // 6 positions
   refused(compliance_file, "# ring_teeth: 6", "# ring_teeth: 7", 1);
-  refused(compliance_file, "compliance_2_1_m_per_N", "compliance_2_1", 5);
-  refused(compliance_file, "\n0.5,", "\n0.6,", 7);
-  refused(compliance_file, "\n1,", "\nnan,", 8);
+  refused(compliance_file, "compliance_2_1_m_per_N", "compliance_2_1", 7);
+  refused(compliance_file, "\n0.5,", "\n0.6,", 9);
+  refused(compliance_file, "\n1,", "\nnan,", 10);
   refused(compliance_file, "\n0,", "\n0,0,1e-12,2e-12,0\n0,", 1);  // a position too many
   refused(modes_file, "# ring_teeth: 6", "# ring_teeth: 8", 1);
-  refused(modes_file, "closing_5_per_sqrt_kg", "closing_6_per_sqrt_kg", 5);
-  refused(modes_file, "\n433.3", "\n133.3", 7);  // frequencies fall
-  refused(modes_file, "\n333.3", "\n-333.3", 6);
-  refused(modes_file, ",0,0,", ",4,0,", 6);  // more than half as many waves as teeth
-  refused(modes_file, ",0,0,", ",0.5,0,", 6);
+  refused(modes_file, "closing_5_per_sqrt_kg", "closing_6_per_sqrt_kg", 7);
+  refused(modes_file, "\n433.3", "\n133.3", 9);  // frequencies fall
+  refused(modes_file, "\n333.3", "\n-333.3", 8);
+  refused(modes_file, ",0,0,", ",4,0,", 8);  // more than half as many waves as teeth
+  refused(modes_file, ",0,0,", ",0.5,0,", 8);
   const auto unsymmetric = message_after_editing(compliance_file, "\n0,", "\n0,1e-12,1e-12,2e-12,1e-12\n0,");
   BOOST_TEST(unsymmetric != "accepted");
   std::filesystem::remove(compliance_file);
