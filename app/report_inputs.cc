@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -23,6 +24,41 @@ std::vector<std::string> check_row(const std::string& label, const MeshResult& m
           std::isfinite(mesh.fact("worst_scaled_jacobian")) ? fmt::format("{:.2f}", mesh.fact("worst_scaled_jacobian"))
                                                             : "–",
           std::isfinite(mesh.fact("unknowns")) ? fmt::format("{:.0f}", mesh.fact("unknowns")) : "–"};
+}
+
+/// How the response of each ring was found, and loads its tables do not reach.
+std::string solution_notes(const RunResult& result) {
+  std::string list;
+  const auto beyond = [&](const std::string& where, const MeshResult& mesh, const dynamics::DynamicResponse& f,
+                          const dynamics::MeshKindResult& kind) {
+    if (mesh.table.loads().size() < 2) return;
+    double factor = 0;
+    for (const auto& branch : kind.branches) factor = std::max(factor, branch.dynamic_factor_max.value);
+    const double largest = factor * f.mean_mesh_force, tabulated = mesh.table.loads().back();
+    if (largest > tabulated)
+      list += fmt::format(
+          "<li>{}: forces up to {:.4g} kN lie beyond the tabulated {:.4g} kN, where the law goes on with its "
+          "tangent.</li>\n",
+          where, largest / 1e3, tabulated / 1e3);
+  };
+  for (const auto& ring : result.rings) {
+    if (!ring.response) continue;
+    const auto& f = ring.response->figures;
+    std::string how = "marched for the given time";
+    if (f.direct)
+      how = f.confirmed ? fmt::format(
+                              "solved directly ({} Newton iterations; half the samples change a force by {:.1e} of "
+                              "the mean) and confirmed by time integration over one window",
+                              f.direct->newton_iterations, f.direct->sampling_difference)
+            : f.total_cycles == 0 ? "solved directly"
+            : f.direct->converged ? "marched: the direct solution was not confirmed"
+                                  : "marched: the direct solution failed (" + f.direct->trouble + ")";
+    list += fmt::format("<li>{}: {}.{}</li>\n", escape(ring.name), escape(how),
+                        f.integrator ? " Integrator: " + escape(f.integrator->reason) : "");
+    beyond(escape(ring.name) + ", sun meshes", result.sun_mesh, f, f.sun_planet);
+    beyond(escape(ring.name) + ", ring meshes", ring.mesh, f, f.ring_planet);
+  }
+  return "<ul>" + list + "</ul>\n";
 }
 
 }  // namespace
@@ -118,7 +154,7 @@ std::string quality_section(const RunResult& result) {
          fmt::format("{} mesh cycles", f.total_cycles), small(f.force_balance_relative), small(f.energy.relative),
          fmt::format("{}", f.statistics.steps)});
   }
-  if (!dynamics.rows.empty()) text += html(dynamics);
+  if (!dynamics.rows.empty()) text += html(dynamics) + solution_notes(result);
   HtmlTable times{.head = {"stage", "wall time, s"}, .rows = {}, .css_class = "numbers"};
   for (const auto& [stage, seconds] : result.timings) times.rows.push_back({stage, fmt::format("{:.2f}", seconds)});
   text += html(times);

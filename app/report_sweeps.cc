@@ -95,6 +95,7 @@ std::vector<std::string> frequency_plots(const RunResult& result, const SweepRes
     Plot plot{.title = result.rings[ring].name + ": natural frequencies",
               .x_label = input_label(sweep),
               .y_label = "frequency, Hz"};
+    if (result.rings.size() == 1) plot.width = 2 * plot.width;  // alone in its row
     plot.x_log = sweep.sweep.scale == SweepScale::logarithmic;
     for (std::size_t i = 0; i < 6; ++i) {
       const auto y = reordered(figure_over(sweep.rings[ring], fmt::format("frequency_{}_Hz", i + 1)), order);
@@ -123,6 +124,7 @@ std::vector<std::string> bifurcation_plots(const RunResult& result, const SweepR
     }
     range.add(series.y);
     Plot plot{.title = result.rings[ring].name, .x_label = input_label(sweep), .y_label = "force, kN"};
+    if (result.rings.size() == 1) plot.width = 2 * plot.width;  // alone in its row
     plot.x_log = sweep.sweep.scale == SweepScale::logarithmic;
     plot.series.push_back(std::move(series));
     plots.push_back(std::move(plot));

@@ -127,6 +127,28 @@ StageMotion motion_of(const ResponseJson& json) {
   return m;
 }
 
+ResponseJson direct_json(const std::optional<dynamics::DirectSolution>& direct) {
+  if (!direct) return nullptr;
+  return {{"converged", direct->converged},
+          {"trouble", direct->trouble},
+          {"newton_iterations", direct->newton_iterations},
+          {"linear_iterations", direct->linear_iterations},
+          {"residual", number(direct->residual)},
+          {"sampling_difference", number(direct->sampling_difference)}};
+}
+
+std::optional<dynamics::DirectSolution> direct_of(const ResponseJson& json) {
+  if (json.is_null()) return std::nullopt;
+  dynamics::DirectSolution direct;
+  direct.converged = json.at("converged");
+  direct.trouble = json.at("trouble");
+  direct.newton_iterations = json.at("newton_iterations");
+  direct.linear_iterations = json.at("linear_iterations");
+  direct.residual = number(json.at("residual"));
+  direct.sampling_difference = number(json.at("sampling_difference"));
+  return direct;
+}
+
 }  // namespace
 
 std::string response_json(const StageResponse& response, const std::string& id) {
@@ -141,6 +163,9 @@ std::string response_json(const StageResponse& response, const std::string& id) 
       {"total_cycles", f.total_cycles},
       {"steady", f.steady},
       {"steady_difference", number(f.steady_difference.value_or(std::numeric_limits<double>::quiet_NaN()))},
+      {"confirmed", f.confirmed},
+      {"direct", direct_json(f.direct)},
+      {"integrator_reason", f.integrator ? ResponseJson(f.integrator->reason) : ResponseJson(nullptr)},
       {"sun_planet", kind_json(f.sun_planet, response.errors.sun_planet)},
       {"ring_planet", kind_json(f.ring_planet, response.errors.ring_planet)},
       {"energy_balance_relative", number(f.energy.relative)},
@@ -165,6 +190,9 @@ std::optional<StageResponse> parse_response_json(const std::filesystem::path& fi
   f.total_cycles = json.at("total_cycles");
   f.steady = json.at("steady");
   if (const auto& d = json.at("steady_difference"); !d.is_null()) f.steady_difference = number(d);
+  f.confirmed = json.at("confirmed");
+  f.direct = direct_of(json.at("direct"));
+  if (const auto& reason = json.at("integrator_reason"); !reason.is_null()) f.integrator.emplace().reason = reason;
   f.sun_planet = kind_result(json.at("sun_planet"));
   f.ring_planet = kind_result(json.at("ring_planet"));
   response.errors = {kind_errors(json.at("sun_planet")), kind_errors(json.at("ring_planet"))};

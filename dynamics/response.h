@@ -87,7 +87,8 @@ struct DirectSolution {
   std::string trouble;  ///< why not
   double residual = 0;  ///< see PeriodicOptions::tolerance
   int newton_iterations = 0, linear_iterations = 0;
-  double sampling_difference = 0;  ///< largest force difference to half the samples / mean mesh force
+  double sampling_difference =
+      0;  ///< largest force difference to half the samples / mean mesh force; at least the residual
 };
 
 struct DynamicResponse {
