@@ -62,7 +62,7 @@ class ForceSurface {
   }
   /// The phase runs fastest: from one evaluation to the next the deflection changes little and the phase moves on.
   [[nodiscard]] std::size_t index_of(int piece, int cell) const {
-    return static_cast<std::size_t>(cell * grid_.pieces() + piece);
+    return static_cast<std::size_t>(cell) * static_cast<std::size_t>(grid_.pieces()) + static_cast<std::size_t>(piece);
   }
   [[nodiscard]] Place place_of(double mesh_cycles, double g, bool derivative) const;
   void build(const StiffnessTable& table, double largest_deflection, int cells);

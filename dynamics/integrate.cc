@@ -128,6 +128,10 @@ IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, d
       state.dissipated = y[2 * n + 1];
     }
   };
+  double stretch = end - start;
+  constexpr double cycles_per_stretch = 1e4;
+  for (const auto& mesh : system.meshes())
+    if (mesh.frequency > 0) stretch = std::min(stretch, cycles_per_stretch / mesh.frequency);
   int next = 0;
   const auto sample_time = [&](int i) { return start + i * (end - start) / samples; };
   const auto emit = [&] {
@@ -141,7 +145,8 @@ IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, d
   emit();
   stepper->restart(t, stop);
   while (t < end) {
-    const double target = next < samples ? std::min(sample_time(next), stop) : stop;
+    // The limit of steps is one per stretch, so that it stops a hopeless run but not a long one.
+    const double target = std::min(next < samples ? std::min(sample_time(next), stop) : stop, t + stretch);
     const auto reached = stepper->advance(target);
     t = stop - reached.time < instant ? stop : reached.time;
     if (!y.allFinite()) throw SolverError(fmt::format("the time integration left the numbers at t = {:.9g} s", t));

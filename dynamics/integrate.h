@@ -24,7 +24,7 @@ struct IntegratorOptions {
   /// m. Absent: relative_tolerance times the mesh deflection under the mean force is resolved to a tenth.
   std::optional<double> absolute_tolerance;
   double fixed_step = 0;        ///< s, runge_kutta_4 only
-  long max_steps = 50'000'000;  ///< per call of advance; a guard against a hopeless tolerance
+  long max_steps = 50'000'000;  ///< per ten thousand mesh cycles; a guard against a hopeless tolerance
 };
 
 struct IntegratorStatistics {

@@ -28,6 +28,7 @@ std::vector<PeriodicCurve> compliance_curves(const std::vector<Eigen::MatrixXd>&
   for (Eigen::Index i = 0; i < matrices.front().rows(); ++i)
     for (Eigen::Index j = 0; j <= i; ++j) {
       std::vector<double> values;
+      values.reserve(matrices.size());
       for (const auto& matrix : matrices) values.push_back(matrix(i, j));
       curves.emplace_back(values, per_cycle);
     }

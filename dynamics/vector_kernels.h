@@ -1,6 +1,6 @@
 #pragma once
 
-struct _generic_N_Vector;  // of SUNDIALS
+struct _generic_N_Vector;  // of SUNDIALS; NOLINT(bugprone-reserved-identifier)
 
 namespace annulus::dynamics {
 
