@@ -62,10 +62,8 @@ MeshResult with_table(const MeshResult& mesh, TableChange change) {
 
 /// How all stages of the comparison are solved.
 dynamics::SimulationOptions comparing_options(const DynamicResponse& nominal, dynamics::SimulationOptions options) {
-  // Figures are compared, whose peaks are refined between the samples (see dynamics::enough_samples).
-  constexpr int long_window = 200;
-  const int enough = nominal.window_cycles > long_window ? 16 : 32;
-  if (nominal.direct) options.samples_per_cycle = std::min(options.samples_per_cycle, enough);
+  if (nominal.direct)
+    options.samples_per_cycle = std::min(options.samples_per_cycle, dynamics::enough_samples(nominal.window_cycles));
   options.estimate_error = false;
   options.keep_series = false;
   if (!options.mesh_cycles && (!nominal.direct || !nominal.steady)) {

@@ -65,8 +65,9 @@ bool ChangedStages::prepare(const std::vector<Override>& overrides, const std::s
     const auto& ring = scene.rings[i == 0 ? 0 : i - 1].name;
     const auto inside = options_in(folder);
     const bool coupled = may_be_coupled(scene, models[i]);
-    if (load(models[i], inside.out / ring) &&
-        (!coupled || std::filesystem::exists(inside.out / ring / "ring_coupling.csv")))
+    if (const auto kept = load(models[i], inside.out / ring);
+        kept &&
+        (!coupled || load_coupling(scene, geometry, models[i], 1 / kept->mean_stiffness().value, inside.out / ring)))
       continue;
     log::info(where + ":");
     (void)mesh_stiffness(scene, geometry, models[i], {ring}, inside);

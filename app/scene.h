@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "app/scene_value.h"
+#include "dynamics/integrate.h"
+#include "dynamics/mesh_excitation.h"
 
 namespace annulus::app {
 
@@ -19,9 +21,7 @@ enum class Rung { automatic, closed_form, plane, solid, resolved };
 enum class Structure { traditional, thin_walled, pinned, bolted, splined };
 enum class StiffnessShape { computed, constant, harmonic, rectangular, table };
 enum class MeshDamping { in_contact, always };
-enum class LoadDependence { table, nominal };
 enum class RimCoupling { automatic, none, statical, elastic };
-enum class IntegratorChoice { automatic, explicit_adaptive, adams, bdf, runge_kutta_4 };
 enum class SweepScale { linear, logarithmic };
 enum class ErrorPhases { given, unknown };
 enum class RandomKind { uniform, normal, lognormal };
@@ -105,9 +105,9 @@ struct DynamicsInput {
   double half_backlash = 0;
   double mesh_damping_ratio = 0, support_damping_ratio = 0;
   MeshDamping mesh_damping = MeshDamping::in_contact;
-  LoadDependence load_dependence = LoadDependence::table;
+  dynamics::LoadDependence load_dependence = dynamics::LoadDependence::table;
   RimCoupling rim_coupling = RimCoupling::automatic;
-  IntegratorChoice integrator = IntegratorChoice::automatic;
+  dynamics::Integrator integrator = dynamics::Integrator::automatic;
   std::optional<int> steps_per_cycle;  ///< runge_kutta_4 only
   std::optional<int> mesh_cycles;
   double relative_tolerance = 0;

@@ -377,7 +377,7 @@ class Checker {
       need("ring.mass_kg", ring.name);
       need("ring.inertia_kg_m2", ring.name);
     }
-    const bool fixed = scene_.dynamics->integrator == IntegratorChoice::runge_kutta_4;
+    const bool fixed = scene_.dynamics->integrator == dynamics::Integrator::runge_kutta_4;
     if (fixed && !scene_.dynamics->steps_per_cycle)
       problem("dynamics.steps_per_cycle", "", "is required by integrator = \"runge_kutta_4\", which has fixed steps");
     if (!fixed && scene_.dynamics->steps_per_cycle)

@@ -334,36 +334,35 @@ std::vector<Table> declare_tables() {
   tables.push_back(mesh_table("mesh.ring_planet", "Stiffness of the ring mesh, given instead of computed.",
                               [](Scene& s, std::size_t) -> MeshInput& { return s.ring_planet; }));
 
-  Declarations<DynamicsInput> dynamics("dynamics", "The lumped model; absent: meshes and stiffness only.",
-                                       [](Scene& s, std::size_t) -> DynamicsInput& {
-                                         if (!s.dynamics) s.dynamics.emplace();
-                                         return *s.dynamics;
-                                       });
-  dynamics.optional();
-  dynamics
+  Declarations<DynamicsInput> lumped("dynamics", "The lumped model; absent: meshes and stiffness only.",
+                                     [](Scene& s, std::size_t) -> DynamicsInput& {
+                                       if (!s.dynamics) s.dynamics.emplace();
+                                       return *s.dynamics;
+                                     });
+  lumped.optional();
+  lumped
       .key("half_backlash_um", &DynamicsInput::half_backlash,
            "Half the backlash along the line of action, both meshes.")
       .required()
       .from(0, 1e4);
-  dynamics
-      .key("mesh_damping_ratio", &DynamicsInput::mesh_damping_ratio, "Damping ratio ζ of every mesh: c = 2ζ√(k m_e).")
+  lumped.key("mesh_damping_ratio", &DynamicsInput::mesh_damping_ratio, "Damping ratio ζ of every mesh: c = 2ζ√(k m_e).")
       .required()
       .from(0, 2);
-  dynamics.key("support_damping_ratio", &DynamicsInput::support_damping_ratio, "Damping ratio of every bearing.")
+  lumped.key("support_damping_ratio", &DynamicsInput::support_damping_ratio, "Damping ratio of every bearing.")
       .required()
       .from(0, 2);
-  dynamics
+  lumped
       .choice("mesh_damping", &DynamicsInput::mesh_damping,
               {{"in_contact", MeshDamping::in_contact}, {"always", MeshDamping::always}},
               "When mesh damping acts. `always` is the literal form of the papers; it lets separated flanks pull.")
       .fallback(std::string("in_contact"), "separated flanks exert no force");
-  dynamics
+  lumped
       .choice("load_dependence", &DynamicsInput::load_dependence,
-              {{"table", LoadDependence::table}, {"nominal", LoadDependence::nominal}},
+              {{"table", dynamics::LoadDependence::table}, {"nominal", dynamics::LoadDependence::nominal}},
               "Force of a mesh with a stiffness table. table: the law of force over deflection through all tabulated "
               "loads; nominal: linear, with the secant stiffness at the mean mesh force.")
       .fallback(std::string("table"), "right at whatever load the mesh carries at the moment");
-  dynamics
+  lumped
       .choice("rim_coupling", &DynamicsInput::rim_coupling,
               {{"automatic", RimCoupling::automatic},
                {"none", RimCoupling::none},
@@ -373,27 +372,27 @@ std::vector<Table> declare_tables() {
               "every ring position; elastic: with the inertia of its elastic modes besides, by time integration; "
               "automatic: static where the coupling exceeds the wanted accuracy, else none.")
       .fallback(std::string("automatic"), "only what changes the answer is modelled");
-  dynamics
+  lumped
       .choice("integrator", &DynamicsInput::integrator,
-              {{"automatic", IntegratorChoice::automatic},
-               {"explicit", IntegratorChoice::explicit_adaptive},
-               {"adams", IntegratorChoice::adams},
-               {"bdf", IntegratorChoice::bdf},
-               {"runge_kutta_4", IntegratorChoice::runge_kutta_4}},
+              {{"automatic", dynamics::Integrator::automatic},
+               {"explicit", dynamics::Integrator::arkode_explicit},
+               {"adams", dynamics::Integrator::cvode_adams},
+               {"bdf", dynamics::Integrator::cvode_bdf},
+               {"runge_kutta_4", dynamics::Integrator::runge_kutta_4}},
               "Time integration. explicit: Runge-Kutta of order 5 with adaptive steps (ARKODE); adams, bdf: CVODE; "
               "runge_kutta_4: the classical method with fixed steps, as in the papers; automatic: explicit or bdf by "
               "stiffness ratio and damping.")
       .fallback(std::string("automatic"), "the faster one of those that are accurate");
-  dynamics.key("steps_per_cycle", &DynamicsInput::steps_per_cycle, "runge_kutta_4: steps per mesh cycle.")
+  lumped.key("steps_per_cycle", &DynamicsInput::steps_per_cycle, "runge_kutta_4: steps per mesh cycle.")
       .from(10, 1e6)
       .absent("needed by runge_kutta_4, and only there");
-  dynamics.key("mesh_cycles", &DynamicsInput::mesh_cycles, "Mesh cycles to integrate.")
+  lumped.key("mesh_cycles", &DynamicsInput::mesh_cycles, "Mesh cycles to integrate.")
       .from(1, 1e6)
       .absent("until the periodic steady state is reached, then one error period");
-  dynamics.key("relative_tolerance", &DynamicsInput::relative_tolerance, "Relative tolerance of the time integration.")
+  lumped.key("relative_tolerance", &DynamicsInput::relative_tolerance, "Relative tolerance of the time integration.")
       .fallback(1e-6, "far below the accuracy of the stiffness")
       .from(1e-12, 1e-2);
-  tables.push_back(dynamics.done());
+  tables.push_back(lumped.done());
   declare_studies(tables);
   return tables;
 }

@@ -10,7 +10,7 @@ namespace annulus::app {
 namespace {
 
 dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult& mesh, double nominal_load,
-                                       LoadDependence dependence) {
+                                       dynamics::LoadDependence dependence) {
   switch (input.stiffness) {
     case StiffnessShape::constant:
       return dynamics::ConstantStiffness{*input.mean};
@@ -23,25 +23,8 @@ dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult&
       break;
   }
   // A single load tells nothing about others.
-  const bool law = dependence == LoadDependence::table && mesh.table.loads().size() > 1;
-  return dynamics::table_stiffness(mesh.table, nominal_load, 0,
-                                   law ? dynamics::LoadDependence::table : dynamics::LoadDependence::nominal);
-}
-
-dynamics::Integrator integrator_of(IntegratorChoice choice) {
-  switch (choice) {
-    case IntegratorChoice::explicit_adaptive:
-      return dynamics::Integrator::arkode_explicit;
-    case IntegratorChoice::adams:
-      return dynamics::Integrator::cvode_adams;
-    case IntegratorChoice::bdf:
-      return dynamics::Integrator::cvode_bdf;
-    case IntegratorChoice::runge_kutta_4:
-      return dynamics::Integrator::runge_kutta_4;
-    case IntegratorChoice::automatic:
-      break;
-  }
-  return dynamics::Integrator::automatic;
+  if (mesh.table.loads().size() == 1) dependence = dynamics::LoadDependence::nominal;
+  return dynamics::table_stiffness(mesh.table, nominal_load, 0, dependence);
 }
 
 void add_coupling(ContentId& id, const RingCoupling& coupling) {
@@ -150,7 +133,7 @@ dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamic
   const int period = stage.error_period();
   options.max_window_cycles = std::max(options.max_window_cycles, std::min(period, longest_window));
   options.integrator.relative_tolerance = scene.dynamics->relative_tolerance;
-  options.integrator.method = integrator_of(scene.dynamics->integrator);
+  options.integrator.method = scene.dynamics->integrator;
   if (scene.dynamics->steps_per_cycle)
     options.integrator.fixed_step = 1 / (stage.mesh_frequency() * *scene.dynamics->steps_per_cycle);
   options.mesh_cycles = scene.dynamics->mesh_cycles;

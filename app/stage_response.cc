@@ -18,8 +18,7 @@ constexpr double highest_order = 8;  // multiples of the mesh frequency kept in 
 /// A long window (a ring on pins repeats after more than a thousand mesh cycles) is written with every second sample:
 /// 32 per mesh cycle hold what the highest mesh harmonics of the spectrum need, in tens of megabytes.
 Csv time_series_table(const dynamics::TimeSeries& series, int window_cycles) {
-  constexpr int long_window = 200;
-  const Eigen::Index stride = window_cycles > long_window ? 2 : 1;
+  const Eigen::Index stride = window_cycles > dynamics::long_window ? 2 : 1;
   Csv csv;
   csv.columns.emplace_back("time_s");
   for (const auto& name : series.freedoms) csv.columns.push_back(name + "_m");

@@ -103,10 +103,8 @@ std::optional<DirectWindows> solve_directly(const LumpedSystem& system, int cycl
 
 void set_figures(const PlanetaryStage& stage, const SimulationOptions& options, const ResponseEvidence& evidence,
                  DynamicResponse& response) {
-  // Over a thousand cycles sixteen positions per cycle come close to every peak, which is refined between them.
-  constexpr int long_window = 200, enough = 16;
-  const int positions =
-      response.window_cycles > long_window ? std::min(enough, options.samples_per_cycle) : options.samples_per_cycle;
+  int positions = options.samples_per_cycle;
+  if (response.window_cycles > long_window) positions = std::min(positions, enough_samples(response.window_cycles));
   const QuasiStatic path = quasi_static(stage, positions, options.max_window_cycles);
   const Eigen::Index n = stage.planets();
   response.sun_planet = evaluate_meshes(evidence, 0, n, path.sun_force);
@@ -127,13 +125,6 @@ struct LastWindow {
   SystemState begin;
 };
 
-/// How far time integration may be from the harmonic balance and still confirm it: what the balance itself says its
-/// sampling may be worth, as long as that is small. The difference enters the errors of the figures in any case.
-double agreement(const SimulationOptions& options, double sampling_difference) {
-  constexpr double most = 5e-3;
-  return std::max(options.steady_tolerance, std::min(sampling_difference, most));
-}
-
 LastWindow march_last_window(ResponseRun& run, int cycles, const SimulationOptions& options, EnergyBalance& energy) {
   LastWindow last;
   last.begin = run.state();
@@ -150,6 +141,8 @@ LastWindow march_last_window(ResponseRun& run, int cycles, const SimulationOptio
 }
 
 }  // namespace
+
+int enough_samples(int window_cycles) { return window_cycles > long_window ? 16 : 32; }
 
 DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& options) {
   check_simulation(stage, options);
@@ -187,8 +180,7 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
     run.start_from(direct->fine.displacement.col(0), direct->fine.velocity.col(0));
     last = march_last_window(run, cycles, options, response.energy);
     response.steady_difference = largest_difference(last.window, direct->fine, mean_force);
-    response.steady = response.confirmed =
-        *response.steady_difference <= agreement(options, response.direct->sampling_difference);
+    response.steady = response.confirmed = *response.steady_difference <= options.steady_tolerance;
     if (response.confirmed) {
       compared = true;
       before = std::move(direct->fine);

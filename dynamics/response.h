@@ -31,8 +31,7 @@ struct SimulationOptions {
   /// Total mesh cycles from the start, by marching alone. Absent: until the response repeats, then one error period.
   std::optional<int> mesh_cycles;
   /// The response counts as periodic when no mesh force differs by more than this, relative to the mean mesh force,
-  /// from the harmonic balance (or by more, up to 5e-3, where the balance with half the samples differs by as much); or
-  /// from one evaluated window earlier, and the differences, continued geometrically, add
+  /// from the harmonic balance; or from one evaluated window earlier, and the differences, continued geometrically, add
   /// up to no more.
   double steady_tolerance = 1e-3;
   int max_windows = 40;  ///< gives up after so many windows (chaos, nearly undamped): `steady` is then false
@@ -113,6 +112,11 @@ struct DynamicResponse {
   IntegratorStatistics statistics;
   TimeSeries series;
 };
+
+/// Mesh cycles from which on a window counts as long: its samples stand near every peak even when they are few.
+inline constexpr int long_window = 200;
+/// Samples per mesh cycle that figures need where many responses are compared (their peaks are refined).
+[[nodiscard]] int enough_samples(int window_cycles);
 
 /// Periodic steady state of the stage and its figures: solved for directly and confirmed by marching over one window
 /// from there (two independent methods); where they disagree, no balance is found or the error period is longer than

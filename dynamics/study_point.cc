@@ -29,7 +29,7 @@ DynamicResponse response_of_point(const PlanetaryStage& stage, const PointOption
   simulation.confirm = false;
   simulation.keep_series = options.motion;
   if (!options.motion && !simulation.mesh_cycles)
-    simulation.samples_per_cycle = std::min(simulation.samples_per_cycle, enough_samples(stage));
+    simulation.samples_per_cycle = std::min(simulation.samples_per_cycle, enough_samples(stage.error_period()));
   auto response = simulate(stage, simulation);
   const bool opens =
       std::max(figures_of(response.sun_planet).contact_loss, figures_of(response.ring_planet).contact_loss) > 0;
@@ -83,11 +83,6 @@ std::vector<double> lowest_frequencies(const PlanetaryStage& stage, int count) {
 }
 
 }  // namespace
-
-int enough_samples(const PlanetaryStage& stage) {
-  constexpr int long_window = 200;
-  return stage.error_period() > long_window ? 16 : 32;
-}
 
 PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& options) {
   const auto response = response_of_point(stage, options);

@@ -44,10 +44,6 @@ struct PointOptions {
   int poincare_cycles = 200;  ///< at most
 };
 
-/// Samples per mesh cycle that figures need where many responses are compared (their peaks are refined): fewer over
-/// long windows, whose thousand cycles put samples near every peak.
-[[nodiscard]] int enough_samples(const PlanetaryStage& stage);
-
 /// Response and figures of one stage. Throws what `simulate` and `modes` throw.
 [[nodiscard]] PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& options);
 

@@ -42,15 +42,6 @@ PlanetaryStage stage_with_law() {
   return stage;
 }
 
-Eigen::VectorXd random_state(int n, unsigned seed) {
-  std::mt19937 engine(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::VectorXd y(2 * n);
-  for (int i = 0; i < n; ++i) y[i] = 1e-4 * uniform(engine);
-  for (int i = 0; i < n; ++i) y[n + i] = 0.1 * uniform(engine);
-  return y;
-}
-
 BOOST_AUTO_TEST_CASE(every_tabulated_load_deflects_to_its_transmission_error) {
   const BentTable bent{.positions = 3};
   const auto table = bent.table();
@@ -114,7 +105,7 @@ BOOST_AUTO_TEST_CASE(jacobian_is_the_derivative_of_the_right_hand_side) {
     if (!backlash) stage.half_backlash.reset();
     const auto system = assemble(stage);
     const int n = system.freedoms();
-    Eigen::VectorXd y = random_state(n, 2), up(2 * n), down(2 * n);
+    Eigen::VectorXd y = stages::random_state(n, 2), up(2 * n), down(2 * n);
     auto workspace = system.workspace();
     const double t = 0.0123, h = 1e-9;
     system.detect_contact(t, y.data(), workspace);
@@ -162,7 +153,7 @@ BOOST_AUTO_TEST_CASE(tangent_matrix_is_the_derivative_of_the_forces) {
 BOOST_AUTO_TEST_CASE(power_is_the_rate_of_energy) {
   const auto system = assemble(stage_with_law());
   const int n = system.freedoms();
-  const Eigen::VectorXd y = random_state(n, 6);
+  const Eigen::VectorXd y = stages::random_state(n, 6);
   Eigen::VectorXd dy(2 * n);
   auto workspace = system.workspace();
   const double t = 0.0321, h = 1e-8;

@@ -78,15 +78,6 @@ PlanetaryStage stage_with(std::shared_ptr<const RingCoupling> ring_coupling, boo
   return stage;
 }
 
-Eigen::VectorXd random_state(int n, unsigned seed) {
-  std::mt19937 engine(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::VectorXd y(2 * n);
-  for (int i = 0; i < n; ++i) y[i] = 1e-4 * uniform(engine);
-  for (int i = 0; i < n; ++i) y[n + i] = 0.1 * uniform(engine);
-  return y;
-}
-
 BOOST_AUTO_TEST_CASE(two_meshes_by_hand) {
   const double k1 = 1e9, k2 = 2e9, d12 = 2e-10, half = 10e-6;
   const Eigen::Matrix2d d = (Eigen::Matrix2d() << 0, d12, d12, 0).finished();
@@ -178,7 +169,7 @@ BOOST_AUTO_TEST_CASE(without_compliance_nothing_changes) {
   const int n = alone.freedoms();
   BOOST_REQUIRE(coupled.freedoms() == n);
   auto w = coupled.workspace(), v = alone.workspace();
-  const auto y = random_state(n, 1);
+  const auto y = stages::random_state(n, 1);
   Eigen::VectorXd a(2 * n), b(2 * n);
   Eigen::MatrixXd j(2 * n, 2 * n), k(2 * n, 2 * n);
   for (int i = 0; i < 20; ++i) {
@@ -235,7 +226,7 @@ BOOST_AUTO_TEST_CASE(jacobian_and_tangent_matrix_are_derivatives) {
     const auto system = assemble(stage);
     const int n = system.freedoms();
     BOOST_TEST(system.has_moving_vectors() == (modes > 0));
-    Eigen::VectorXd y = random_state(n, 2), up(2 * n), down(2 * n);
+    Eigen::VectorXd y = stages::random_state(n, 2), up(2 * n), down(2 * n);
     auto w = system.workspace();
     const double t = 0.0123;
     system.detect_contact(t, y.data(), w);
@@ -279,7 +270,7 @@ BOOST_AUTO_TEST_CASE(jacobian_and_tangent_matrix_are_derivatives) {
 BOOST_AUTO_TEST_CASE(right_hand_side_with_moving_vectors_is_the_matrix_equation) {
   const auto system = assemble(stage_with(coupling(1e-10, 3)));
   const int n = system.freedoms();
-  const auto y = random_state(n, 4);
+  const auto y = stages::random_state(n, 4);
   Eigen::VectorXd dy(2 * n);
   auto w = system.workspace();
   const double t = 0.02, h = 1e-7;
@@ -309,7 +300,7 @@ BOOST_AUTO_TEST_CASE(power_is_the_rate_of_energy) {
   for (const int modes : {0, 3}) {
     const auto system = assemble(stage_with(coupling(1e-10, modes)));
     const int n = system.freedoms();
-    const auto y = random_state(n, 6);
+    const auto y = stages::random_state(n, 6);
     Eigen::VectorXd dy(2 * n);
     auto w = system.workspace();
     const double t = 0.0321, h = 1e-8;
@@ -415,7 +406,7 @@ BOOST_AUTO_TEST_CASE(natural_frequencies_of_a_ring_mode) {
 BOOST_AUTO_TEST_CASE(the_right_hand_side_does_not_allocate) {
   const auto system = assemble(stage_with(coupling(1e-10, 3)));
   const int n = system.freedoms();
-  const auto y = random_state(n, 8);
+  const auto y = stages::random_state(n, 8);
   Eigen::VectorXd dy(2 * n);
   auto w = system.workspace();
   const long before = allocations();

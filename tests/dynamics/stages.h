@@ -1,7 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "core/units.h"
 #include "dynamics/planetary_stage.h"
@@ -67,6 +69,16 @@ inline PlanetaryStage lin_parker(int planets) {
   s.sun_mesh = s.ring_mesh = ConstantStiffness{5e8};
   for (int n = 0; n < planets; ++n) s.planet_angles.push_back(2 * std::numbers::pi * n / planets);
   return s;
+}
+
+/// State (q, v) of n freedoms: displacements up to 0.1 mm, velocities up to 0.1 m/s.
+inline Eigen::VectorXd random_state(int n, unsigned seed) {
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Eigen::VectorXd y(2 * n);
+  for (int i = 0; i < n; ++i) y[i] = 1e-4 * uniform(engine);
+  for (int i = 0; i < n; ++i) y[n + i] = 0.1 * uniform(engine);
+  return y;
 }
 
 }  // namespace annulus::dynamics::stages
