@@ -4,7 +4,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build pkg-config
-  libdeal.ii-dev libgmsh-dev libeigen3-dev libsundials-dev libsuitesparse-dev libfftw3-dev libtbb-dev
+  libdeal.ii-dev libgmsh-dev libeigen3-dev libsundials-dev libsuitesparse-dev libfftw3-dev libtbb-dev libpagmo-dev
   libboost-dev libboost-test-dev
   libopenblas-dev libopenblas0-pthread
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
