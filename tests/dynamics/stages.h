@@ -50,7 +50,7 @@ inline PlanetaryStage ring_paper() {
   }
   s.sun_mesh = HarmonicStiffness{1.364e9, 0.2258, 0};
   s.ring_mesh = HarmonicStiffness{1.87e9, 0.1294, 0};
-  s.half_backlash = 50e-6;
+  s.set_half_backlash(50e-6);
   s.mesh_damping_ratio = 0.07;
   s.support_damping_ratio = 0.03;
   s.carrier_speed = 1128 * units::rpm * 48 / (48 + 162);
