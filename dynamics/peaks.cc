@@ -15,10 +15,25 @@ Peak peak_of(const Eigen::Ref<const Eigen::RowVectorXd>& values) {
   return peak;
 }
 
-Peak peak_of_rows(const Eigen::Ref<const Eigen::MatrixXd>& values) {
-  Peak peak = peak_of(values.row(0));
+Peak peak_of(const Eigen::Ref<const Eigen::RowVectorXd>& values, const std::vector<Eigen::Index>& after_jump) {
+  if (after_jump.empty()) return peak_of(values);
+  Peak peak;
+  peak.sampled = peak.refined = values.maxCoeff();
+  if (!std::isfinite(peak.sampled)) return peak;
+  // Each smooth stretch by itself: the highest sample of all may stand at a jump and a higher peak elsewhere.
+  Eigen::Index begin = 0;
+  for (std::size_t i = 0; i <= after_jump.size(); ++i) {
+    const Eigen::Index end = i < after_jump.size() ? after_jump[i] : values.size();
+    if (end > begin) peak.refined = std::max(peak.refined, peak_of(values.segment(begin, end - begin)).refined);
+    begin = end;
+  }
+  return peak;
+}
+
+Peak peak_of_rows(const Eigen::Ref<const Eigen::MatrixXd>& values, const std::vector<Eigen::Index>& after_jump) {
+  Peak peak = peak_of(values.row(0), after_jump);
   for (Eigen::Index i = 1; i < values.rows(); ++i) {
-    const Peak next = peak_of(values.row(i));
+    const Peak next = peak_of(values.row(i), after_jump);
     peak = {std::max(peak.sampled, next.sampled), std::max(peak.refined, next.refined)};
   }
   return peak;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/errors.h"
 #include "dynamics/static_solver.h"
@@ -58,7 +59,23 @@ void ResponseRun::advance(int cycles, ResponseWindow* window, bool track_energy)
       if (workspace_.contact[m] == LumpedSystem::Contact::open) window->open[m] += 1.0 / samples;
     }
   };
-  const auto s = integrate(system_, state_, end, integrator_, workspace_, samples, sample, track_energy);
+  std::vector<double> jump_force;
+  const double start = state_.time, spacing = (end - start) / std::max(samples, 1);
+  std::function<void(double)> at_jump;
+  if (window) {
+    window->after_jump.clear();
+    at_jump = [&](double time) {
+      jump_force.insert(jump_force.end(), workspace_.force.begin(), workspace_.force.end());
+      // Rounding of a sample that stands on the jump itself: far below a billionth of the spacing.
+      const auto sample_after = static_cast<Eigen::Index>(std::ceil((time - start) / spacing - 1e-9));
+      if (sample_after < samples && (window->after_jump.empty() || window->after_jump.back() != sample_after))
+        window->after_jump.push_back(sample_after);
+    };
+  }
+  const auto s = integrate(system_, state_, end, integrator_, workspace_, samples, sample, track_energy, at_jump);
+  if (window)
+    window->jump_force = Eigen::Map<const Eigen::MatrixXd>(
+        jump_force.data(), window->force.rows(), static_cast<Eigen::Index>(jump_force.size()) / window->force.rows());
   cycles_ += cycles;
   statistics_.steps += s.steps;
   statistics_.rhs_evaluations += s.rhs_evaluations;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "dynamics/piecewise_response.h"
 
 namespace annulus::dynamics {
 
@@ -68,29 +69,75 @@ bool reach_steady_state(ResponseRun& run, int cycles, const SimulationOptions& o
   return false;
 }
 
-/// The solution of the harmonic balance as a window from time 0, and its forces at half the samples.
+/// The direct solution as a window from time 0, and the forces of the harmonic balance at half the samples.
 struct DirectWindows {
-  ResponseWindow fine, coarse;
+  ResponseWindow fine;
+  std::optional<ResponseWindow> coarse;
 };
 
-/// Absent when the harmonic balance did not converge; `direct` says so.
-std::optional<DirectWindows> solve_directly(const LumpedSystem& system, const SteadyProblem& problem, int cycles,
-                                            const SimulationOptions& options, std::optional<DirectSolution>& direct) {
-  PeriodicOptions periodic_options = options.periodic;
-  periodic_options.samples_per_cycle = options.samples_per_cycle;
-  periodic_options.motion = true;
-  auto periodic = periodic_response(system, cycles / problem.mesh_frequency, cycles, periodic_options);
-  direct = DirectSolution{periodic.converged, periodic.trouble, periodic.residual, periodic.newton_iterations,
-                          periodic.linear_iterations,
-                          // Where the balance with half the samples already holds at the finer ones, no
-                          // step is taken and only the residual is known of what is left.
-                          std::max(periodic.sampling_difference / problem.force_scale, periodic.residual)};
+/// The samples right after the jumps of a window from time 0.
+std::vector<Eigen::Index> samples_after_jumps(const LumpedSystem& system, double duration, Eigen::Index samples) {
+  std::vector<Eigen::Index> list;
+  const double spacing = duration / static_cast<double>(samples);
+  for (double t = system.next_jump(0); t < duration; t = system.next_jump(t)) {
+    const auto sample = static_cast<Eigen::Index>(std::ceil(t / spacing - 1e-9));
+    if (sample < samples && (list.empty() || list.back() != sample)) list.push_back(sample);
+  }
+  return list;
+}
+
+/// Absent when teeth part or the motion is unstable; `direct` says so.
+std::optional<DirectWindows> solve_exactly(const LumpedSystem& system, const SteadyProblem& problem, int cycles,
+                                           const SimulationOptions& options, std::optional<DirectSolution>& direct) {
+  const double duration = cycles / problem.mesh_frequency;
+  auto exact = piecewise_response(system, duration, cycles, {options.samples_per_cycle, true});
+  auto& periodic = exact.periodic;
+  direct = DirectSolution{.method = DirectMethod::piecewise,
+                          .converged = periodic.converged,
+                          .trouble = periodic.trouble,
+                          .residual = periodic.residual,
+                          .sampling_difference = periodic.residual,
+                          .largest_multiplier = exact.largest_multiplier};
   if (!periodic.converged) return std::nullopt;
   DirectWindows windows;
   windows.fine = {options.samples_per_cycle,        std::move(periodic.time),     std::move(periodic.force),
                   std::move(periodic.displacement), std::move(periodic.velocity), std::move(periodic.open)};
-  windows.coarse.samples_per_cycle = options.samples_per_cycle / 2;
-  windows.coarse.force = std::move(periodic.coarse_force);
+  windows.fine.dense_force = std::move(exact.dense_force);
+  windows.fine.dense_after_jump = std::move(exact.dense_after_jump);
+  windows.fine.after_jump = samples_after_jumps(system, duration, windows.fine.time.size());
+  if (!std::isfinite(system.next_jump(0))) return windows;
+  windows.fine.jump_force.resize(exact.force_before.rows(), 2 * exact.force_before.cols());
+  windows.fine.jump_force << exact.force_before, exact.force_after;
+  return windows;
+}
+
+/// Absent when the harmonic balance did not converge; `direct` says so.
+std::optional<DirectWindows> solve_directly(const LumpedSystem& system, const SteadyProblem& problem, int cycles,
+                                            const SimulationOptions& options, std::optional<DirectSolution>& direct) {
+  // Constant stiffness belongs to the harmonic balance as well, which also follows parting teeth there; jumps it meets
+  // to second order only.
+  if (std::isfinite(system.next_jump(0)) && why_not_piecewise(system, cycles / problem.mesh_frequency).empty())
+    return solve_exactly(system, problem, cycles, options, direct);
+  PeriodicOptions periodic_options = options.periodic;
+  periodic_options.samples_per_cycle = options.samples_per_cycle;
+  periodic_options.motion = true;
+  auto periodic = periodic_response(system, cycles / problem.mesh_frequency, cycles, periodic_options);
+  direct = DirectSolution{
+      .converged = periodic.converged,
+      .trouble = periodic.trouble,
+      .residual = periodic.residual,
+      .newton_iterations = periodic.newton_iterations,
+      .linear_iterations = periodic.linear_iterations,
+      // Where the balance with half the samples already holds at the finer ones, no
+      // step is taken and only the residual is known of what is left.
+      .sampling_difference = std::max(periodic.sampling_difference / problem.force_scale, periodic.residual)};
+  if (!periodic.converged) return std::nullopt;
+  DirectWindows windows;
+  windows.fine = {options.samples_per_cycle,        std::move(periodic.time),     std::move(periodic.force),
+                  std::move(periodic.displacement), std::move(periodic.velocity), std::move(periodic.open)};
+  windows.coarse.emplace();
+  windows.coarse->samples_per_cycle = options.samples_per_cycle / 2;
+  windows.coarse->force = std::move(periodic.coarse_force);
   return windows;
 }
 

@@ -15,7 +15,10 @@ namespace annulus::dynamics {
 
 /// How the periodic steady state is looked for.
 enum class SteadyState {
-  direct,    ///< by harmonic balance; marching over one window confirms it, or goes on where it does not
+  /// Exactly where stiffnesses are constant between jumps and no mesh separates, otherwise by harmonic balance;
+  /// marching
+  /// over one window confirms it, or goes on where it does not.
+  direct,
   marching,  ///< by time integration from quasi-static equilibrium until windows repeat
 };
 
@@ -67,14 +70,22 @@ struct EnergyBalance {
   double relative = unknown;    ///< |change - supplied + dissipated| / (dissipated + energy)
 };
 
-/// How the harmonic balance fared.
+enum class DirectMethod {
+  harmonic_balance,
+  piecewise,  ///< exact, of systems whose stiffness is constant between jumps, while no mesh separates
+};
+
+/// How the direct solution fared.
 struct DirectSolution {
+  DirectMethod method = DirectMethod::harmonic_balance;
   bool converged = false;
   std::string trouble;  ///< why not
   double residual = 0;  ///< see PeriodicOptions::tolerance
   int newton_iterations = 0, linear_iterations = 0;
   double sampling_difference =
       0;  ///< largest force difference to half the samples / mean mesh force; at least the residual
+  /// Piecewise solution alone: largest Floquet multiplier over its period.
+  std::optional<double> largest_multiplier{};
 };
 
 /// What a steady state is asked of, beside the system itself.
@@ -106,9 +117,10 @@ struct SteadyResponse {
   SystemState begin, end;  ///< of `best` where it was integrated; otherwise both the state at its first sample
 };
 
-/// Periodic steady state of any system: solved for directly by harmonic balance and confirmed by marching over one
-/// window from there; where they disagree, no balance is found (mesh vectors that move in time refuse it) or the period
-/// is longer than `max_window_cycles`, by marching alone. The torque may have either sign or be zero. `keep_series` has
+/// Periodic steady state of any system: solved for directly (exactly or by harmonic balance, see SteadyState) and
+/// confirmed by marching over one window from there; where they disagree, none is found (mesh vectors that move in time
+/// refuse it; with jumps of the stiffness, parting teeth and parametric resonance do) or the period is longer than
+/// `max_window_cycles`, by marching alone. The torque may have either sign or be zero. `keep_series` has
 /// no meaning here: all windows are returned. Throws InputError when problem or options are not usable or the load is
 /// not balanced, SolverError when the integrator fails.
 [[nodiscard]] SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& problem,
