@@ -71,8 +71,7 @@ class PeriodMap {
   double solve(Eigen::VectorXd& z) const {
     const Eigen::Index inner = linear_.inner();
     // Nothing depends on rigid displacements: their columns are zero, and so many rows say nothing.
-    const Eigen::MatrixXd matrix =
-        (Eigen::MatrixXd::Identity(known_, known_) - monodromy_).leftCols(inner);
+    const Eigen::MatrixXd matrix = (Eigen::MatrixXd::Identity(known_, known_) - monodromy_).leftCols(inner);
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(matrix);
     z.setZero(linear_.size());
     z.head(inner) = factor.solve(particular_);
@@ -107,7 +106,8 @@ class PeriodWalk {
   PeriodWalk(const LumpedSystem& system, PiecewiseSystem& linear, double period, Eigen::Index samples,
              PiecewiseResponse& response)
       : system_(system), linear_(linear), response_(response), step_(period / static_cast<double>(samples)) {
-    constexpr double radians = 0.25;  // of the fastest mode: cubics and parabolas between are good to 1e-4 of its amplitude
+    constexpr double radians =
+        0.25;  // of the fastest mode: cubics and parabolas between are good to 1e-4 of its amplitude
     fine_ = std::max(1, static_cast<int>(std::ceil(step_ * linear.fastest() / radians)));
     auto& p = response.periodic;
     const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
@@ -184,8 +184,7 @@ class PeriodWalk {
     slope_.noalias() = linear_.penetration_rate() * z;
     for (Eigen::Index m = 0; m < now_.size(); ++m) {
       if (system_.meshes()[m].half_backlash.value_or(0.0) == 0) continue;  // a linear mesh never parts
-      const double least =
-          ahead > 0 ? hermite_minimum(last_[m], last_slope_[m], now_[m], slope_[m], ahead) : now_[m];
+      const double least = ahead > 0 ? hermite_minimum(last_[m], last_slope_[m], now_[m], slope_[m], ahead) : now_[m];
       if (least >= response_.least_penetration) continue;
       response_.least_penetration = least;
       response_.least_mesh = static_cast<int>(m);
