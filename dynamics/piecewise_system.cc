@@ -51,15 +51,15 @@ void PiecewiseSystem::set_modes() {
   const Modes found = modes(system_, mean);
   const Eigen::Index n = freedoms_;
   require(n > 0 && found.modes.back().frequency > 0, "a piecewise linear system needs an elastic mode");
-  const auto first = std::find_if(found.modes.begin(), found.modes.end(), [](const Mode& m) { return m.frequency > 0; });
+  const auto first =
+      std::find_if(found.modes.begin(), found.modes.end(), [](const Mode& m) { return m.frequency > 0; });
   const Eigen::Index rigid_motions = first - found.modes.begin();
   elastic_ = n - rigid_motions;
   shapes_.resize(n, n);
   squares_.resize(elastic_);
   for (Eigen::Index i = 0; i < n; ++i) {
     shapes_.col((i + elastic_) % n) = found.modes[i].shape;
-    if (i >= rigid_motions)
-      squares_[i - rigid_motions] = std::pow(2 * std::numbers::pi * found.modes[i].frequency, 2);
+    if (i >= rigid_motions) squares_[i - rigid_motions] = std::pow(2 * std::numbers::pi * found.modes[i].frequency, 2);
   }
   w_ = std::sqrt(squares_[elastic_ - 1]);
   for (Eigen::Index i = elastic_; i < n; ++i) {
@@ -133,8 +133,8 @@ PiecewiseSystem::Combination PiecewiseSystem::make(const LumpedSystem::Workspace
     // Nothing elastic acts on rigid motions: what rounding leaves would make them creep.
     a.block(2 * e, 0, rigid(), e).setZero();
     a.block(2 * e, known, rigid(), 1 + harmonics).setZero();
-    a.block(2 * e, e, rigid(), n) = -shapes_.rightCols(rigid()).transpose() * (system_.damping() + system_.gyroscopic()) *
-                                shapes_ / w_;
+    a.block(2 * e, e, rigid(), n) =
+        -shapes_.rightCols(rigid()).transpose() * (system_.damping() + system_.gyroscopic()) * shapes_ / w_;
   }
   for (std::size_t i = 0; i < rates_.size(); ++i) {
     const Eigen::Index s = known + 1 + 2 * static_cast<Eigen::Index>(i);

@@ -24,7 +24,9 @@ class PiecewiseSystem {
   /// Sizes: of the part of the state that forces depend on, of the rigid displacements that follow it, of all.
   [[nodiscard]] Eigen::Index inner() const { return elastic_ + freedoms_; }
   [[nodiscard]] Eigen::Index rigid() const { return freedoms_ - elastic_; }
-  [[nodiscard]] Eigen::Index size() const { return inner() + rigid() + 1 + 2 * static_cast<Eigen::Index>(rates_.size()); }
+  [[nodiscard]] Eigen::Index size() const {
+    return inner() + rigid() + 1 + 2 * static_cast<Eigen::Index>(rates_.size());
+  }
   [[nodiscard]] bool errors_turn() const { return !rates_.empty(); }
 
   /// Combination of the waves at this time, made when it is new.

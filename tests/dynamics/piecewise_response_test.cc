@@ -53,7 +53,8 @@ struct LoadSharingPair {
 
 LoadSharingPair load_sharing(const PiecewiseResponse& r) {
   const auto largest = [&](const auto& rows) {
-    return std::max({load_sharing_instantaneous(rows(r.periodic.force)), load_sharing_instantaneous(rows(r.force_before)),
+    return std::max({load_sharing_instantaneous(rows(r.periodic.force)),
+                     load_sharing_instantaneous(rows(r.force_before)),
                      load_sharing_instantaneous(rows(r.force_after))});
   };
   return {largest([](const Eigen::MatrixXd& f) { return f.topRows(3); }),
@@ -92,8 +93,7 @@ BOOST_AUTO_TEST_CASE(floquet_multipliers_of_a_gear_pair_are_those_of_meissners_e
   int stable = 0, unstable = 0;
   for (double ratio = 0.35; ratio < 2.6; ratio += 0.05) {
     const double period = 1 / (ratio * natural), a = w1 * duty * period, b = w2 * (1 - duty) * period;
-    const double half_trace =
-        std::cos(a) * std::cos(b) - 0.5 * (w1 / w2 + w2 / w1) * std::sin(a) * std::sin(b);
+    const double half_trace = std::cos(a) * std::cos(b) - 0.5 * (w1 / w2 + w2 / w1) * std::sin(a) * std::sin(b);
     const double expected =
         std::abs(half_trace) > 1 ? std::abs(half_trace) + std::sqrt(half_trace * half_trace - 1) : 1.0;
     const auto r = piecewise_response(gear_pair(1 / period, 0), period, 1);
@@ -104,8 +104,10 @@ BOOST_AUTO_TEST_CASE(floquet_multipliers_of_a_gear_pair_are_those_of_meissners_e
     ++(std::abs(half_trace) > 1 ? unstable : stable);
 
     const double damping = 2 * 0.05 * std::sqrt(mean * pair_mass);
-    const Eigen::Matrix2d map = oscillator(low, damping, (1 - duty) * period) * oscillator(high, damping, duty * period);
-    const std::complex<double> root = std::sqrt(std::complex<double>(map.trace() * map.trace() / 4 - map.determinant()));
+    const Eigen::Matrix2d map =
+        oscillator(low, damping, (1 - duty) * period) * oscillator(high, damping, duty * period);
+    const std::complex<double> root =
+        std::sqrt(std::complex<double>(map.trace() * map.trace() / 4 - map.determinant()));
     const double damped = std::max(std::abs(map.trace() / 2 + root), std::abs(map.trace() / 2 - root));
     const auto d = piecewise_response(gear_pair(1 / period, damping), period, 1);
     BOOST_TEST(std::abs(d.largest_multiplier - damped) <= 1e-9 * damped);
@@ -134,8 +136,7 @@ BOOST_AUTO_TEST_CASE(force_of_a_gear_pair_has_its_closed_form) {
   // The rigid motion stands still: no momentum, its mean place at zero.
   BOOST_TEST(std::abs(mass_1 * r.periodic.velocity(0, 0) - mass_2 * r.periodic.velocity(1, 0)) <=
              1e-11 * mass_1 * std::max(1e-3, r.periodic.velocity.cwiseAbs().maxCoeff()));
-  const Eigen::VectorXd place =
-      mass_1 * r.periodic.displacement.row(0) - mass_2 * r.periodic.displacement.row(1);
+  const Eigen::VectorXd place = mass_1 * r.periodic.displacement.row(0) - mass_2 * r.periodic.displacement.row(1);
   BOOST_TEST(std::abs(place.mean()) <= 1e-15);
 }
 
