@@ -116,7 +116,7 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   stage.ring_mesh = excitation_of(scene.ring_planet, ring_mesh, point.mean_mesh_force, scene.dynamics->load_dependence);
   if (ring_mesh.coupling)
     stage.ring_coupling = taken_coupling(*ring_mesh.coupling, coupling_choice(scene, *ring_mesh.coupling).taken);
-  stage.half_backlash = scene.dynamics->half_backlash;
+  stage.set_half_backlash(scene.dynamics->half_backlash);
   stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;
   stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
   stage.damping_without_contact = scene.dynamics->mesh_damping == MeshDamping::always;
@@ -166,7 +166,8 @@ std::string response_id(const dynamics::PlanetaryStage& stage, const dynamics::S
   }
   if (stage.ring_coupling) add_coupling(id, *stage.ring_coupling);
   id.add("fixed_step", options.integrator.fixed_step);
-  id.add("half_backlash", stage.half_backlash.value_or(-1)).add("mesh_damping", stage.mesh_damping_ratio);
+  id.add("sun_half_backlash", stage.sun_half_backlash.value_or(-1));
+  id.add("ring_half_backlash", stage.ring_half_backlash.value_or(-1)).add("mesh_damping", stage.mesh_damping_ratio);
   id.add("support_damping", stage.support_damping_ratio).add("always", stage.damping_without_contact ? 1 : 0);
   id.add("carrier_speed", stage.carrier_speed).add("sun_torque", stage.sun_torque);
   id.add("rotating_frame", stage.rotating_frame ? 1 : 0);

@@ -149,7 +149,8 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
   const double as = stage.sun_working_angle, ar = stage.ring_working_angle;
 
   const auto mesh = [&](const std::string& name, LinearForm b, const MeshExcitation& excitation,
-                        const CentralBody& wheel, double phase, std::vector<HarmonicError> errors) {
+                        const CentralBody& wheel, std::optional<double> half_backlash, double phase,
+                        std::vector<HarmonicError> errors) {
     MeshElement element;
     element.name = name;
     element.b = std::move(b);
@@ -158,7 +159,7 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
     element.phase_offset = phase;
     element.damping =
         critical_share(stage.mesh_damping_ratio, mean_stiffness(excitation), equivalent_mass(stage, wheel));
-    element.half_backlash = stage.half_backlash;
+    element.half_backlash = half_backlash;
     element.damping_without_contact = stage.damping_without_contact;
     element.errors = std::move(errors);
     return element;
@@ -179,9 +180,9 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
     const LinearForm ring_b = ring.u + (-std::sin(phi + ar)) * (housing ? none : ring.x) +  // (16)
                               std::cos(phi + ar) * (housing ? none : ring.y) + (-1.0) * p.u + std::sin(ar) * p.x +
                               (-std::cos(ar)) * p.y;
-    builder.add_mesh(mesh("sun_planet" + number, sun_b, stage.sun_mesh, stage.sun,
+    builder.add_mesh(mesh("sun_planet" + number, sun_b, stage.sun_mesh, stage.sun, stage.sun_half_backlash,
                           -value_or_zero(stage.sun_phase_lag, n), sun_mesh_errors(stage, n)));
-    ring_meshes.push_back(mesh("ring_planet" + number, ring_b, stage.ring_mesh, stage.ring,
+    ring_meshes.push_back(mesh("ring_planet" + number, ring_b, stage.ring_mesh, stage.ring, stage.ring_half_backlash,
                                value_or_zero(stage.ring_tooth_offset, n) - value_or_zero(stage.ring_phase_lag, n),
                                ring_mesh_errors(stage, n)));
     if (housing) ring_meshes.back().moving = ring_shares(stage, ring, ring_modes, phi + ar);

@@ -80,17 +80,21 @@ bool contact_contradicted(const StepperProblem& problem) {
 
 /// Elastic energy of meshes whose stiffness jumps at `t`, after minus before: held waves before, `middle` after.
 double jump_energy(const LumpedSystem& system, double t, double middle, const double* y,
-                   LumpedSystem::Workspace& workspace) {
-  const double before = system.energy(t, y, workspace);
+                   LumpedSystem::Workspace& workspace, const std::function<void(double)>& at_jump) {
+  const double before = system.energy(t, y, workspace);  // evaluates the mesh forces too
+  if (at_jump) at_jump(t);
   system.hold_waves(middle, workspace);
-  return system.energy(t, y, workspace) - before;
+  const double after = system.energy(t, y, workspace);
+  if (at_jump) at_jump(t);
+  return after - before;
 }
 
 }  // namespace
 
 IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, double end,
                                const IntegratorOptions& given, LumpedSystem::Workspace& workspace, int samples,
-                               const std::function<void(int, const SystemState&)>& sample, bool track_energy) {
+                               const std::function<void(int, const SystemState&)>& sample, bool track_energy,
+                               const std::function<void(double)>& at_jump) {
   check_options(given);
   IntegratorOptions options = given;
   if (options.method == Integrator::automatic)
@@ -164,7 +168,7 @@ IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, d
     }
     if (t >= stop && t < end) {
       stop = segment_end();
-      const double change = jump_energy(system, t, (t + stop) / 2, y.data(), workspace);
+      const double change = jump_energy(system, t, (t + stop) / 2, y.data(), workspace, at_jump);
       if (track_energy) y[2 * n] += change;
       ++problem.statistics.stiffness_restarts;
       stepper->restart(t, stop);
@@ -172,6 +176,10 @@ IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, d
     emit();
   }
   stepper->close();
+  if (at_jump && std::isfinite(system.next_jump(end))) {
+    system.evaluate_meshes(end, y.data(), y.data() + n, workspace);
+    at_jump(end);
+  }
   store();
   return problem.statistics;
 }

@@ -47,9 +47,11 @@ struct SystemState {
 /// `workspace` have been evaluated there.
 /// Roots of |delta| = half backlash and the known jumps of rectangular stiffnesses are located and the integrator
 /// restarts there. Throws SolverError naming time and cause when the integrator fails or a value is not finite.
+/// `at_jump` (may be empty) is called, with the time, before and after every jump of a stiffness and, in a system with
+/// jumps, at the end of the integration (a jump may stand there), the mesh forces evaluated each time.
 IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, double end,
                                const IntegratorOptions& options, LumpedSystem::Workspace& workspace, int samples = 0,
                                const std::function<void(int index, const SystemState&)>& sample = {},
-                               bool track_energy = false);
+                               bool track_energy = false, const std::function<void(double time)>& at_jump = {});
 
 }  // namespace annulus::dynamics

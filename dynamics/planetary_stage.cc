@@ -185,7 +185,8 @@ void PlanetaryStage::check() const {
   dynamics::check(sun_mesh, "sun-planet mesh");
   dynamics::check(ring_mesh, "ring-planet mesh");
   if (ring_coupling) check_coupling(*ring_coupling, *this);
-  if (half_backlash) check_not_negative(*half_backlash, "half backlash");
+  if (sun_half_backlash) check_not_negative(*sun_half_backlash, "half backlash of the sun meshes");
+  if (ring_half_backlash) check_not_negative(*ring_half_backlash, "half backlash of the ring meshes");
   check_not_negative(mesh_damping_ratio, "mesh damping ratio");
   check_not_negative(support_damping_ratio, "support damping ratio");
   check_not_negative(carrier_speed, "carrier speed");

@@ -87,8 +87,10 @@ struct PlanetaryStage {
   /// the ring, and mesh vectors that turn past it with the carrier. The axes of carrier and ring agree at time 0.
   std::shared_ptr<const RingCoupling> ring_coupling;
 
-  /// Half the total normal backlash, m. Absent: the teeth never part (a linear mesh, pulling included).
-  std::optional<double> half_backlash;
+  /// Half the total normal backlash of the sun and of the ring meshes, m. Absent: the teeth never part (a linear mesh,
+  /// pulling included).
+  std::optional<double> sun_half_backlash, ring_half_backlash;
+  void set_half_backlash(std::optional<double> both) { sun_half_backlash = ring_half_backlash = both; }
   double mesh_damping_ratio = 0;     ///< zeta in c = 2 zeta sqrt(k_mean m_e), 1/m_e = r_1^2/I_1 + r_2^2/I_2   (31, 34)
   double support_damping_ratio = 0;  ///< zeta in c = 2 zeta sqrt(k m), supports and planet bearings alike
   /// Damping acts only while the teeth touch; true: always, as printed in (30), which lets open meshes push and pull.

@@ -4,50 +4,16 @@
 #include <cmath>
 
 #include "dynamics/figures.h"
+#include "dynamics/peaks.h"
 
 namespace annulus::dynamics {
 
 namespace {
 
-/// Largest value of a sampled curve: as sampled, and at the top of the parabola through the highest sample and its
-/// neighbours. Their difference tells what the sampling misses.
-struct Peak {
-  double sampled = 0, refined = 0;
-};
-
-Peak peak_of(const Eigen::Ref<const Eigen::RowVectorXd>& values) {
-  Eigen::Index i = 0;
-  Peak peak;
-  peak.sampled = peak.refined = values.maxCoeff(&i);
-  if (i == 0 || i + 1 >= values.size() || !std::isfinite(peak.sampled)) return peak;
-  const double rise = values[i] - values[i - 1], fall = values[i] - values[i + 1];
-  if (rise + fall > 0) peak.refined += (rise - fall) * (rise - fall) / (8 * (rise + fall));
-  return peak;
-}
-
-Peak highest(const Peak& a, const Peak& b) { return {std::max(a.sampled, b.sampled), std::max(a.refined, b.refined)}; }
-
-/// Highest peak over the rows of a matrix of branches x times.
-Peak peak_of_rows(const Eigen::Ref<const Eigen::MatrixXd>& values) {
-  Peak peak = peak_of(values.row(0));
-  for (Eigen::Index i = 1; i < values.rows(); ++i) peak = highest(peak, peak_of(values.row(i)));
-  return peak;
-}
-
 Peak sharing_peak(const Eigen::Ref<const Eigen::MatrixXd>& force) {
   const double sampled = load_sharing_instantaneous(force);
   if (!std::isfinite(sampled)) return {sampled, sampled};
   return peak_of_rows(load_sharing_over_time(force));
-}
-
-/// The refined peak with the sum of what the sampling misses and of the differences to other runs: these are
-/// independent causes that may add up.
-Figure figure(const Peak& best, std::initializer_list<Peak> others) {
-  Figure result{best.refined, 0};
-  if (!std::isfinite(best.refined)) return result;
-  result.error = best.refined - best.sampled;
-  for (const auto& other : others) result.error += std::abs(best.refined - other.refined);
-  return result;
 }
 
 /// Forces averaged over the mesh cycle that begins at each sample.
@@ -63,25 +29,70 @@ Peak averaged_peak(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_p
   return sharing_peak(mean);
 }
 
+Peak highest(const Peak& a, const Peak& b) { return {std::max(a.sampled, b.sampled), std::max(a.refined, b.refined)}; }
+
+/// Of the meshes of one kind in a window, both sides of jumps included.
+struct KindWindow {
+  const ResponseWindow& window;
+  Eigen::Index first, planets;
+
+  [[nodiscard]] auto force() const { return window.force.middleRows(first, planets); }
+  [[nodiscard]] bool jumps() const { return window.jump_force.size() > 0; }
+  /// What peaks are looked for in, and where it jumps.
+  [[nodiscard]] auto curves() const {
+    return (window.dense_force.size() > 0 ? window.dense_force : window.force).middleRows(first, planets);
+  }
+  [[nodiscard]] const auto& breaks() const {
+    return window.dense_force.size() > 0 ? window.dense_after_jump : window.after_jump;
+  }
+  [[nodiscard]] auto at_jumps() const { return window.jump_force.middleRows(first, planets); }
+
+  [[nodiscard]] Peak sharing() const {
+    if (!jumps()) return sharing_peak(curves());
+    const double sampled = std::max(load_sharing_instantaneous(curves()), load_sharing_instantaneous(at_jumps()));
+    if (!std::isfinite(sampled)) return {sampled, sampled};
+    return highest({sampled, sampled}, peak_of_rows(load_sharing_over_time(curves()), breaks()));
+  }
+  [[nodiscard]] Peak largest_force(Eigen::Index branch) const {
+    const Peak smooth = peak_of(curves().row(branch), breaks());
+    if (!jumps()) return smooth;
+    const double jump = at_jumps().row(branch).maxCoeff();
+    return highest({jump, jump}, smooth);
+  }
+  [[nodiscard]] double least_force(Eigen::Index branch) const {
+    const double sampled = curves().row(branch).minCoeff();
+    return jumps() ? std::min(sampled, at_jumps().row(branch).minCoeff()) : sampled;
+  }
+};
+
+Peak operator/(const Peak& peak, double scale) { return {peak.sampled / scale, peak.refined / scale}; }
+
+/// Without inertia forces follow every jump at once: positions are all there is.
+Peak quasi_static_peak(const Eigen::MatrixXd& force, bool jumps) {
+  if (!jumps) return sharing_peak(force);
+  const double sampled = load_sharing_instantaneous(force);
+  return {sampled, sampled};
+}
+
 }  // namespace
 
 MeshKindResult evaluate_meshes(const ResponseEvidence& evidence, Eigen::Index first, Eigen::Index planets,
                                const Eigen::MatrixXd& quasi_static_force) {
-  const auto rows = [&](const ResponseWindow& w) { return w.force.middleRows(first, planets); };
-  const auto best = rows(evidence.best), before = rows(evidence.before), loose = rows(evidence.loose);
+  const KindWindow best{evidence.best, first, planets}, before{evidence.before, first, planets},
+      loose{evidence.loose, first, planets};
   MeshKindResult result;
   auto& sharing = result.load_sharing;
-  sharing.instantaneous = figure(sharing_peak(best), {sharing_peak(before), sharing_peak(loose)});
-  sharing.averaged = figure(averaged_peak(best, evidence.best.samples_per_cycle),
-                            {averaged_peak(before, evidence.before.samples_per_cycle),
-                             averaged_peak(loose, evidence.loose.samples_per_cycle)});
-  sharing.quasi_static = figure(sharing_peak(quasi_static_force), {});
+  sharing.instantaneous = figure(best.sharing(), {before.sharing(), loose.sharing()});
+  sharing.averaged = figure(averaged_peak(best.force(), evidence.best.samples_per_cycle),
+                            {averaged_peak(before.force(), evidence.before.samples_per_cycle),
+                             averaged_peak(loose.force(), evidence.loose.samples_per_cycle)});
+  sharing.quasi_static = figure(quasi_static_peak(quasi_static_force, best.jumps()), {});
   for (Eigen::Index p = 0; p < planets; ++p) {
     const double f = evidence.mean_force;
     BranchResult branch;
     branch.dynamic_factor_max =
-        figure(peak_of(best.row(p) / f), {peak_of(before.row(p) / f), peak_of(loose.row(p) / f)});
-    branch.dynamic_factor_min = evidence.best.force.row(first + p).minCoeff() / f;
+        figure(best.largest_force(p) / f, {before.largest_force(p) / f, loose.largest_force(p) / f});
+    branch.dynamic_factor_min = best.least_force(p) / f;
     branch.mean_force = evidence.best.force.row(first + p).mean();
     branch.contact_loss = evidence.best.open[first + p];
     result.branches.push_back(branch);

@@ -2,21 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
+#include "core/errors.h"
 #include "dynamics/static_solver.h"
 
 namespace annulus::dynamics {
 
-ResponseRun::ResponseRun(const PlanetaryStage& stage, const LumpedSystem& system, const SimulationOptions& options,
+ResponseRun::ResponseRun(const LumpedSystem& system, double mesh_frequency, int samples_per_cycle,
                          const IntegratorOptions& integrator)
-    : stage_(stage),
-      system_(system),
-      samples_per_cycle_(options.samples_per_cycle),
+    : system_(system),
+      mesh_frequency_(mesh_frequency),
+      samples_per_cycle_(samples_per_cycle),
       workspace_(system.workspace()),
       integrator_(integrator) {
-  if (!integrator_.absolute_tolerance)
-    integrator_.absolute_tolerance =
-        0.1 * integrator_.relative_tolerance * stage.mean_mesh_force() / mean_stiffness(stage.sun_mesh);
+  require(integrator_.absolute_tolerance.has_value(), "a run needs an absolute tolerance");
   start_from_equilibrium();
 }
 
@@ -24,7 +24,7 @@ void ResponseRun::start_from_equilibrium() {
   StaticSolver solver(system_);
   state_.v = Eigen::VectorXd::Zero(system_.freedoms());
   if (!std::isfinite(system_.next_jump(0))) {
-    const double h = 1e-3 / stage_.mesh_frequency();  // a thousandth of a cycle: smooth there, far above rounding
+    const double h = 1e-3 / mesh_frequency_;  // a thousandth of a cycle: smooth there, far above rounding
     const Eigen::VectorXd after = solver.solve(h, workspace_), before = solver.solve(-h, workspace_);
     state_.v = (after - before) / (2 * h);
   }
@@ -39,7 +39,7 @@ void ResponseRun::start_from(const Eigen::VectorXd& displacement, const Eigen::V
 }
 
 void ResponseRun::advance(int cycles, ResponseWindow* window, bool track_energy) {
-  const double end = (cycles_ + cycles) / stage_.mesh_frequency();
+  const double end = (cycles_ + cycles) / mesh_frequency_;
   const int samples = window ? cycles * samples_per_cycle_ : 0;
   if (window) {
     window->samples_per_cycle = samples_per_cycle_;
@@ -59,7 +59,23 @@ void ResponseRun::advance(int cycles, ResponseWindow* window, bool track_energy)
       if (workspace_.contact[m] == LumpedSystem::Contact::open) window->open[m] += 1.0 / samples;
     }
   };
-  const auto s = integrate(system_, state_, end, integrator_, workspace_, samples, sample, track_energy);
+  std::vector<double> jump_force;
+  const double start = state_.time, spacing = (end - start) / std::max(samples, 1);
+  std::function<void(double)> at_jump;
+  if (window) {
+    window->after_jump.clear();
+    at_jump = [&](double time) {
+      jump_force.insert(jump_force.end(), workspace_.force.begin(), workspace_.force.end());
+      // Rounding of a sample that stands on the jump itself: far below a billionth of the spacing.
+      const auto sample_after = static_cast<Eigen::Index>(std::ceil((time - start) / spacing - 1e-9));
+      if (sample_after < samples && (window->after_jump.empty() || window->after_jump.back() != sample_after))
+        window->after_jump.push_back(sample_after);
+    };
+  }
+  const auto s = integrate(system_, state_, end, integrator_, workspace_, samples, sample, track_energy, at_jump);
+  if (window)
+    window->jump_force = Eigen::Map<const Eigen::MatrixXd>(
+        jump_force.data(), window->force.rows(), static_cast<Eigen::Index>(jump_force.size()) / window->force.rows());
   cycles_ += cycles;
   statistics_.steps += s.steps;
   statistics_.rhs_evaluations += s.rhs_evaluations;

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
-#include "dynamics/response.h"
+#include "dynamics/integrate.h"
 
 namespace annulus::dynamics {
 
@@ -12,13 +13,22 @@ struct ResponseWindow {
   Eigen::VectorXd time;
   Eigen::MatrixXd force, displacement, velocity;
   Eigen::VectorXd open;  ///< fraction of the samples without contact, per mesh
+  /// Where stiffnesses jump (empty otherwise): forces on both sides of the jumps, meshes x any number, and the samples
+  /// right after a jump, at or behind it. Extremes stand at the jumps, and curves do not go on smoothly across.
+  Eigen::MatrixXd jump_force{};
+  std::vector<Eigen::Index> after_jump{};
+  /// Forces at closer times, over as much of the window as shows everything (empty: there are none): peaks are then
+  /// taken from here; and its samples right after a jump.
+  Eigen::MatrixXd dense_force{};
+  std::vector<Eigen::Index> dense_after_jump{};
 };
 
-/// The stage on its way: state and workspace, advanced window by window.
+/// A system on its way: state and workspace, advanced window by window.
 class ResponseRun {
  public:
-  /// At time 0, in quasi-static equilibrium: this excites less than a start from rest.
-  ResponseRun(const PlanetaryStage& stage, const LumpedSystem& system, const SimulationOptions& options,
+  /// At time 0, in quasi-static equilibrium: this excites less than a start from rest. `mesh_frequency` (Hz) tells what
+  /// a cycle is.
+  ResponseRun(const LumpedSystem& system, double mesh_frequency, int samples_per_cycle,
               const IntegratorOptions& integrator);
 
   /// Begins at time 0 with this state instead.
@@ -38,8 +48,8 @@ class ResponseRun {
  private:
   void start_from_equilibrium();
 
-  const PlanetaryStage& stage_;
   const LumpedSystem& system_;
+  double mesh_frequency_ = 0;
   int samples_per_cycle_ = 0;
   LumpedSystem::Workspace workspace_;
   IntegratorOptions integrator_;

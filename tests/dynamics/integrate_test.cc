@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(undamped_unforced_energy_is_constant) {
     stage.planet_errors.clear();
     stage.sun_torque = 0;
     stage.mesh_damping_ratio = stage.support_damping_ratio = 0;
-    stage.half_backlash = 2e-6;  // contacts open and close all the time
+    stage.set_half_backlash(2e-6);  // contacts open and close all the time
     stage.sun_mesh = ConstantStiffness{1.364e9};
     stage.ring_mesh = ConstantStiffness{1.87e9};
     stage.carrier_speed = speed;
@@ -198,7 +198,7 @@ BOOST_AUTO_TEST_CASE(energy_bookkeeping_closes_with_everything_acting) {
   auto stage = stages::ring_paper();
   stage.sun_mesh = RectangularStiffness{1.364e9, 0.35, 0.6, 0};
   stage.sun_torque = 2000;  // light enough for the meshes to part
-  stage.half_backlash = 5e-6;
+  stage.set_half_backlash(5e-6);
   stage.mesh_damping_ratio = 0.02;
   const auto system = assemble(stage);
   for (const auto method : adaptive) {
@@ -226,7 +226,7 @@ BOOST_AUTO_TEST_CASE(energy_bookkeeping_closes_with_everything_acting) {
 BOOST_AUTO_TEST_CASE(all_integrators_agree_on_a_rattling_stage) {
   auto stage = stages::ring_paper();
   stage.sun_torque = 2000;
-  stage.half_backlash = 5e-6;
+  stage.set_half_backlash(5e-6);
   const auto system = assemble(stage);
   std::vector<Eigen::VectorXd> ends;
   long events = 0;
@@ -249,7 +249,7 @@ BOOST_AUTO_TEST_CASE(all_integrators_agree_on_a_rattling_stage) {
 // against the solution of the complex linear system at that frequency.
 BOOST_AUTO_TEST_CASE(forced_response_agrees_with_the_frequency_domain) {
   auto stage = stages::ring_paper();
-  stage.half_backlash.reset();
+  stage.set_half_backlash({});
   stage.sun_mesh = ConstantStiffness{1.364e9};
   stage.ring_mesh = ConstantStiffness{1.87e9};
   stage.carrier_speed = 200;  // errors at 589 rad/s, near the sun on its support; rotating terms of some per cent

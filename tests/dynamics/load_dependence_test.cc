@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(quasi_static_forces_of_a_stage_balance_and_a_linear_table_c
 BOOST_AUTO_TEST_CASE(jacobian_is_the_derivative_of_the_right_hand_side) {
   for (const bool backlash : {true, false}) {
     auto stage = stage_with_law();
-    if (!backlash) stage.half_backlash.reset();
+    if (!backlash) stage.set_half_backlash({});
     const auto system = assemble(stage);
     const int n = system.freedoms();
     Eigen::VectorXd y = stages::random_state(n, 2), up(2 * n), down(2 * n);

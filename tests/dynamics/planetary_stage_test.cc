@@ -270,7 +270,8 @@ BOOST_AUTO_TEST_CASE(contradictions_are_refused) {
   BOOST_TEST(refused([](auto& s) { s.planet_errors.pop_back(); }));
   BOOST_TEST(refused([](auto& s) { s.ring_phase_lag.push_back(0); }));
   BOOST_TEST(refused([](auto& s) { s.planet_angles.clear(); }));
-  BOOST_TEST(refused([](auto& s) { s.half_backlash = -1e-6; }));
+  BOOST_TEST(refused([](auto& s) { s.sun_half_backlash = -1e-6; }));
+  BOOST_TEST(refused([](auto& s) { s.ring_half_backlash = -1e-6; }));
   BOOST_TEST(refused([](auto& s) { s.sun_teeth = 0; }));
   BOOST_TEST(refused([](auto& s) { s.carrier.radius *= 1.01; }));  // torque ratio against the teeth
   BOOST_TEST(refused([](auto& s) { s.sun.torsional_support = rigid; }));

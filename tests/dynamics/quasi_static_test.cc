@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(forces_balance_in_every_position) {
 BOOST_AUTO_TEST_CASE(light_load_leaves_planets_idle) {
   auto stage = all_centres_held();
   stage.sun_torque *= 0.02;
-  stage.half_backlash = 200e-6;  // more than the errors: no back touches
+  stage.set_half_backlash(200e-6);  // more than the errors: no back touches
   const auto found = quasi_static(stage, 2);
   int idle = 0;
   for (int i = 0; i < found.sun_force.cols(); ++i) {

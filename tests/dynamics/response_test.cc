@@ -149,10 +149,10 @@ BOOST_AUTO_TEST_CASE(backlash_does_not_matter_without_separation) {
   auto options = quick();
   options.mesh_cycles = 165;
   options.integrator.absolute_tolerance = 1e-12;
-  stage.half_backlash.reset();
+  stage.set_half_backlash({});
   const auto linear = simulate(stage, options);
   for (const double half : {1e-5, 1e-3}) {
-    stage.half_backlash = half;
+    stage.set_half_backlash(half);
     const auto r = simulate(stage, options);
     BOOST_TEST(r.statistics.contact_events == 0);
     // The shift changes magnitudes, hence steps: tolerance x steps.
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(backlash_does_not_matter_without_separation) {
 BOOST_AUTO_TEST_CASE(without_errors_load_sharing_does_not_depend_on_torque) {
   auto stage = stages::ring_paper();
   stage.planet_errors.clear();
-  stage.half_backlash.reset();
+  stage.set_half_backlash({});
   auto options = quick();
   options.mesh_cycles = 100;
   options.integrator.relative_tolerance = 1e-8;

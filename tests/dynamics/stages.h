@@ -50,7 +50,7 @@ inline PlanetaryStage ring_paper() {
   }
   s.sun_mesh = HarmonicStiffness{1.364e9, 0.2258, 0};
   s.ring_mesh = HarmonicStiffness{1.87e9, 0.1294, 0};
-  s.half_backlash = 50e-6;
+  s.set_half_backlash(50e-6);
   s.mesh_damping_ratio = 0.07;
   s.support_damping_ratio = 0.03;
   s.carrier_speed = 1128 * units::rpm * 48 / (48 + 162);
@@ -68,6 +68,47 @@ inline PlanetaryStage lin_parker(int planets) {
   s.sun_working_angle = s.ring_working_angle = 24.6 * units::deg;
   s.sun_mesh = s.ring_mesh = ConstantStiffness{5e8};
   for (int n = 0; n < planets; ++n) s.planet_angles.push_back(2 * std::numbers::pi * n / planets);
+  return s;
+}
+
+/// The reducer of the backlash paper (models.md C): 26/39/106 teeth, three planets, rectangular stiffnesses, no errors.
+/// Ring held; planets, carrier and sun free to turn, the sun floating: 7 freedoms. Printed are equivalent masses I/r^2,
+/// r base radii and (r_bs + r_br)/2 for the carrier; the planets' own mass is taken as part of the carrier's.
+/// Not printed: the phase between sun and ring mesh, here none.
+inline PlanetaryStage backlash_paper() {
+  PlanetaryStage s;
+  s.sun_teeth = 26;
+  s.planet_teeth = 39;
+  s.ring_teeth = 106;
+  const double angle = 20 * units::deg, module = 1.75e-3, base = std::cos(angle);
+  s.sun.radius = module * 26 / 2 * base;
+  s.planet.radius = module * 39 / 2 * base;
+  s.ring.radius = module * 106 / 2 * base;
+  const double carrier = (s.sun.radius + s.ring.radius) / 2;
+  s.carrier.radius = carrier / base;  // 57.75 mm
+  s.sun_working_angle = s.ring_working_angle = angle;
+  s.sun.mass = 0.386;
+  s.sun.inertia = 0.246 * s.sun.radius * s.sun.radius;
+  s.sun.support = 3e6;
+  s.ring.mass = s.ring.inertia = 1;  // held
+  s.ring.torsional_support = rigid;
+  s.carrier.mass = 1;  // held
+  s.carrier.inertia = 1.153 * carrier * carrier;
+  s.planet.mass = 1e-9;
+  s.planet.inertia = 0.690 * s.planet.radius * s.planet.radius;
+  const auto fraction = [](double x) { return x - std::floor(x); };
+  for (int n = 0; n < 3; ++n) {
+    s.planet_angles.push_back(2 * std::numbers::pi * n / 3);
+    s.sun_phase_lag.push_back(fraction(26.0 * n / 3));
+    s.ring_phase_lag.push_back(fraction(-106.0 * n / 3));
+    s.ring_tooth_offset.push_back(0);
+  }
+  s.sun_mesh = RectangularStiffness{4.5e8, 0.35, 0.6, 0};
+  s.ring_mesh = RectangularStiffness{5.5e8, 0.25, 0.6, 0};
+  s.set_half_backlash(50e-6);
+  s.mesh_damping_ratio = s.support_damping_ratio = 0.03;
+  s.carrier_speed = 1500 * units::rpm * 26 / (26 + 106);
+  s.sun_torque = 50;
   return s;
 }
 

@@ -1,0 +1,245 @@
+#include "dynamics/piecewise_response.h"
+
+#include <Eigen/LU>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "dynamics/integrate.h"
+#include "dynamics/lumped_system.h"
+#include "dynamics/response.h"
+#include "stages.h"
+
+using namespace annulus;
+using namespace annulus::dynamics;
+
+namespace {
+
+constexpr double mass_1 = 0.3, mass_2 = 0.9, mean = 2e8, ripple = 0.8, duty = 0.4;
+
+/// Two gears free to turn, a rectangular mesh stiffness between them: one elastic and one rigid motion.
+LumpedSystem gear_pair(double frequency, double damping) {
+  LumpedSystemBuilder builder;
+  const auto u = builder.add_freedom("u1"), v = builder.add_freedom("u2");
+  builder.add_mass(u, mass_1);
+  builder.add_mass(v, mass_2);
+  MeshElement mesh;
+  mesh.name = "pair";
+  mesh.b = u + v;
+  mesh.excitation = RectangularStiffness{mean, ripple, duty, 0};
+  mesh.frequency = frequency;
+  mesh.damping = damping;
+  mesh.half_backlash = 1e-3;
+  builder.add_mesh(mesh);
+  builder.add_load(u, 1000);
+  builder.add_load(v, 1000);
+  return builder.build();
+}
+
+constexpr double pair_mass = mass_1 * mass_2 / (mass_1 + mass_2);
+
+/// Transfer of (x, x') over a time at one stiffness: m x'' + c x' + k x = 0, underdamped.
+Eigen::Matrix2d oscillator(double k, double c, double time) {
+  const double decay = c / (2 * pair_mass), w = std::sqrt(k / pair_mass - decay * decay), e = std::exp(-decay * time);
+  const double cosine = std::cos(w * time), sine = std::sin(w * time);
+  return e * Eigen::Matrix2d{{cosine + decay / w * sine, sine / w},
+                             {-(w + decay * decay / w) * sine, cosine - decay / w * sine}};
+}
+
+struct LoadSharingPair {
+  double sun, ring;
+};
+
+LoadSharingPair load_sharing(const PiecewiseResponse& r) {
+  const auto largest = [&](const auto& rows) {
+    return std::max({load_sharing_instantaneous(rows(r.periodic.force)),
+                     load_sharing_instantaneous(rows(r.force_before)),
+                     load_sharing_instantaneous(rows(r.force_after))});
+  };
+  return {largest([](const Eigen::MatrixXd& f) { return f.topRows(3); }),
+          largest([](const Eigen::MatrixXd& f) { return f.bottomRows(3); })};
+}
+
+/// Largest difference of the mesh forces to a march of tight tolerance from the exact state, over one period / mean.
+double difference_to_marching(const PlanetaryStage& stage, const PiecewiseResponse& exact, double tolerance) {
+  const auto system = assemble(stage);
+  auto workspace = system.workspace();
+  SystemState state{0, exact.periodic.displacement.col(0), exact.periodic.velocity.col(0)};
+  IntegratorOptions options;
+  options.method = Integrator::arkode_explicit;
+  options.relative_tolerance = tolerance;
+  options.absolute_tolerance = tolerance * 1e-7;  // deflections are some 1e-6 m
+  double difference = 0;
+  integrate(system, state, exact.solved_cycles / stage.mesh_frequency(), options, workspace,
+            static_cast<int>(exact.periodic.time.size()), [&](int i, const SystemState&) {
+              for (Eigen::Index m = 0; m < exact.periodic.force.rows(); ++m)
+                difference = std::max(difference, std::abs(workspace.force[m] - exact.periodic.force(m, i)));
+            });
+  return difference / stage.mean_mesh_force();
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(piecewise_responses)
+
+// Meissner's equation, Hill's with a rectangular stiffness: the trace of the monodromy matrix without damping is
+// 2 cos a cos b - (w1/w2 + w2/w1) sin a sin b, a and b the phases of both parts; the motion is unstable where it lies
+// outside -2 ... 2. With damping against the product of both known transfer matrices.
+BOOST_AUTO_TEST_CASE(floquet_multipliers_of_a_gear_pair_are_those_of_meissners_equation) {
+  const double high = mean * (1 + ripple * (1 - duty)), low = mean * (1 - ripple * duty);
+  const double w1 = std::sqrt(high / pair_mass), w2 = std::sqrt(low / pair_mass);
+  const double natural = std::sqrt(mean / pair_mass) / (2 * std::numbers::pi);
+  int stable = 0, unstable = 0;
+  for (double ratio = 0.35; ratio < 2.6; ratio += 0.05) {
+    const double period = 1 / (ratio * natural), a = w1 * duty * period, b = w2 * (1 - duty) * period;
+    const double half_trace = std::cos(a) * std::cos(b) - 0.5 * (w1 / w2 + w2 / w1) * std::sin(a) * std::sin(b);
+    const double expected =
+        std::abs(half_trace) > 1 ? std::abs(half_trace) + std::sqrt(half_trace * half_trace - 1) : 1.0;
+    const auto r = piecewise_response(gear_pair(1 / period, 0), period, 1);
+    // Multipliers at the edge of instability are double: the root of the rounding there, away from it rounding.
+    const double sensitivity = 1 / std::sqrt(std::max(std::abs(half_trace * half_trace - 1), 1e-6));
+    BOOST_TEST(std::abs(r.largest_multiplier - expected) <= 1e-12 * sensitivity * expected);
+    BOOST_TEST(r.stable == (expected < 1 + 1e-9));
+    ++(std::abs(half_trace) > 1 ? unstable : stable);
+
+    const double damping = 2 * 0.05 * std::sqrt(mean * pair_mass);
+    const Eigen::Matrix2d map =
+        oscillator(low, damping, (1 - duty) * period) * oscillator(high, damping, duty * period);
+    const std::complex<double> root =
+        std::sqrt(std::complex<double>(map.trace() * map.trace() / 4 - map.determinant()));
+    const double damped = std::max(std::abs(map.trace() / 2 + root), std::abs(map.trace() / 2 - root));
+    const auto d = piecewise_response(gear_pair(1 / period, damping), period, 1);
+    BOOST_TEST(std::abs(d.largest_multiplier - damped) <= 1e-9 * damped);
+    BOOST_TEST((d.periodic.trouble.find("parametric resonance") != std::string::npos) == (damped > 1 + 1e-9));
+  }
+  BOOST_TEST(stable > 10);
+  BOOST_TEST(unstable > 3);
+}
+
+// x'' m + c x' + k x = F with both transfer matrices: x0 = (I - M)^-1 (particular part), a two by two problem.
+BOOST_AUTO_TEST_CASE(force_of_a_gear_pair_has_its_closed_form) {
+  const double high = mean * (1 + ripple * (1 - duty)), low = mean * (1 - ripple * duty);
+  const double period = 2e-3, damping = 2 * 0.05 * std::sqrt(mean * pair_mass);
+  const double load = pair_mass * (1000 / mass_1 + 1000 / mass_2);
+  const Eigen::Matrix2d first = oscillator(high, damping, duty * period),
+                        second = oscillator(low, damping, (1 - duty) * period);
+  const Eigen::Vector2d rest_1(load / high, 0), rest_2(load / low, 0);
+  // Deviations from the equilibrium of each part decay by its transfer matrix.
+  const Eigen::Vector2d constant = rest_2 - second * rest_2 + second * (rest_1 - first * rest_1);
+  const Eigen::Vector2d x = (Eigen::Matrix2d::Identity() - second * first).inverse() * constant;
+  const auto r = piecewise_response(gear_pair(1 / period, damping), period, 1);
+  BOOST_TEST(r.stable);  // the teeth would part; the linear solution is compared
+  BOOST_TEST(r.periodic.residual <= 1e-12);
+  BOOST_TEST(r.periodic.force(0, 0) == high * x[0] + damping * x[1], boost::test_tools::tolerance(1e-11));
+  BOOST_TEST(r.force_before(0, 0) == low * x[0] + damping * x[1], boost::test_tools::tolerance(1e-11));
+  // The rigid motion stands still: no momentum, its mean place at zero.
+  BOOST_TEST(std::abs(mass_1 * r.periodic.velocity(0, 0) - mass_2 * r.periodic.velocity(1, 0)) <=
+             1e-11 * mass_1 * std::max(1e-3, r.periodic.velocity.cwiseAbs().maxCoeff()));
+  const Eigen::VectorXd place = mass_1 * r.periodic.displacement.row(0) - mass_2 * r.periodic.displacement.row(1);
+  BOOST_TEST(std::abs(place.mean()) <= 1e-15);
+}
+
+// A theorem of models.md C: moving every body by its part of the gap leaves equations without backlash, and without
+// errors these scale with the torque.
+BOOST_AUTO_TEST_CASE(load_sharing_depends_on_neither_backlash_nor_torque_while_no_mesh_separates) {
+  auto stage = stages::backlash_paper();
+  const auto reference = load_sharing(piecewise_response(stage));
+  BOOST_TEST(reference.sun > 1.1);
+  for (const double sun_half : {10e-6, 1e-3})
+    for (const double ring_half : {10e-6, 1e-3})
+      for (const double torque : {5.0, 500.0}) {
+        stage.sun_half_backlash = sun_half;
+        stage.ring_half_backlash = ring_half;
+        stage.sun_torque = torque;
+        const auto r = piecewise_response(stage);
+        BOOST_TEST(r.periodic.converged);
+        const auto l = load_sharing(r);
+        BOOST_TEST(std::abs(l.sun - reference.sun) <= 1e-10);
+        BOOST_TEST(std::abs(l.ring - reference.ring) <= 1e-10);
+      }
+  // The march sees it too. It carries the gap (up to 1 mm) in its displacements: rounding of a deflection of 1e-6 m and
+  // a tolerance of 1e-9 of it leave some 1e-7.
+  SimulationOptions options;
+  options.steady_state = SteadyState::marching;
+  options.integrator.relative_tolerance = 1e-9;
+  options.integrator.absolute_tolerance = 1e-16;
+  options.steady_tolerance = 1e-8;
+  options.estimate_error = false;
+  stage.sun_torque = 50;
+  for (const double half : {10e-6, 1e-3}) {
+    stage.set_half_backlash(half);
+    const auto r = simulate(stage, options);
+    BOOST_TEST(r.steady);
+    // 1e-3 by the exact solution's peaks, looked for between the samples here: the jump itself is exact.
+    BOOST_TEST(std::abs(r.sun_planet.load_sharing.instantaneous.value - reference.sun) <= 1e-6);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(marching_at_tight_tolerance_follows_the_exact_response) {
+  auto stage = stages::backlash_paper();
+  const double plain = difference_to_marching(stage, piecewise_response(stage), 1e-10);
+  BOOST_TEST(plain <= 1e-7);  // tolerance x steps of a period
+  // With errors of every kind that turn: sine and cosine as part of the state; period z_p.
+  stage.planet_errors = {{{3e-6, 0.3}, {2e-6, 1}}, {{1e-6, 2}, {}}, {}};
+  const auto r = piecewise_response(stage, {.samples_per_cycle = 16});
+  BOOST_TEST(r.solved_cycles == 39);
+  BOOST_TEST(r.periodic.converged);
+  BOOST_TEST(difference_to_marching(stage, r, 1e-10) <= 1e-6);
+}
+
+BOOST_AUTO_TEST_CASE(parting_teeth_and_parametric_resonance_are_told) {
+  auto stage = stages::backlash_paper();
+  const double base = stage.carrier_speed;
+  stage.carrier_speed = base * 5250 / 1500;
+  const auto parting = piecewise_response(stage);
+  BOOST_TEST(parting.solved);
+  BOOST_TEST(parting.stable);
+  BOOST_TEST(parting.least_penetration < 0);
+  BOOST_TEST(!parting.periodic.converged);
+  // The sampled forces of the solution agree with the sign of the penetration: it would pull.
+  BOOST_TEST(parting.dense_force.minCoeff() < 0);
+  stage.carrier_speed = base * 20700 / 1500;
+  const auto unstable = piecewise_response(stage);
+  BOOST_TEST(!unstable.stable);
+  BOOST_TEST(unstable.least_penetration > 0);
+  BOOST_TEST(unstable.periodic.trouble.find("parametric resonance") != std::string::npos);
+  // And so does marching: a small disturbance grows until teeth part.
+  SimulationOptions options;
+  options.mesh_cycles = 400;
+  const auto marched = simulate(stage, options);
+  BOOST_TEST(marched.statistics.contact_events > 0);
+}
+
+BOOST_AUTO_TEST_CASE(simulation_takes_the_exact_solution_and_confirms_it) {
+  auto stage = stages::backlash_paper();
+  // No jump stands on a sample.
+  stage.sun_mesh = RectangularStiffness{4.5e8, 0.35, 0.6, 0.003};
+  stage.ring_mesh = RectangularStiffness{5.5e8, 0.25, 0.6, 0.003};
+  const auto r = simulate(stage);
+  BOOST_REQUIRE(r.direct.has_value());
+  BOOST_TEST((r.direct->method == DirectMethod::piecewise));
+  BOOST_TEST(r.confirmed);
+  BOOST_TEST(*r.steady_difference <= 1e-4);
+  SimulationOptions alone;
+  alone.confirm = false;
+  const auto exact = simulate(stage, alone);
+  const auto reference = load_sharing(piecewise_response(stage));
+  // The extreme of the sun meshes stands at a jump: no sample sees it, both ways of solving do.
+  const auto& sharing = exact.sun_planet.load_sharing.instantaneous;
+  BOOST_TEST(sharing.value == reference.sun, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(sharing.value > load_sharing_instantaneous(exact.series.force.topRows(3)));
+  BOOST_TEST(r.sun_planet.load_sharing.instantaneous.value == sharing.value, boost::test_tools::tolerance(1e-5));
+}
+
+BOOST_AUTO_TEST_CASE(other_systems_are_refused_with_the_reason) {
+  auto stage = stages::backlash_paper();
+  stage.sun_mesh = HarmonicStiffness{4.5e8, 0.2, 0};
+  const auto r = piecewise_response(stage);
+  BOOST_TEST(!r.solved);
+  BOOST_TEST(r.periodic.trouble.find("changes continuously") != std::string::npos);
+  const auto system = assemble(stages::backlash_paper());
+  BOOST_TEST(why_not_piecewise(system, 1.3 / stages::backlash_paper().mesh_frequency()) != "");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
