@@ -131,6 +131,7 @@ std::string report_html(const RunResult& result) {
   add("sweeps", "Sweeps", sweeps_section(result.scene, result.studies));
   add("grids", "Grids", grids_section(result.scene, result.studies));
   add("sensitivity", "Sensitivity", sensitivity_section(result.studies));
+  add("optimisation", "Optimisation", optimise_section(result.studies));
   add("coupling", "Coupling through the ring", coupling_section(result));
   add("motion", "Bearings and sun orbit", motion_section(result));
   add("modes", "Natural frequencies", modes_section(result));

@@ -24,6 +24,7 @@ enum class MeshDamping { in_contact, always };
 enum class RimCoupling { automatic, none, statical, elastic };
 enum class SweepScale { linear, logarithmic };
 enum class ErrorPhases { given, unknown };
+enum class Goal { smallest, largest };
 enum class RandomKind { uniform, normal, lognormal };
 
 inline constexpr double rigid = std::numeric_limits<double>::infinity();
@@ -142,6 +143,24 @@ struct MonteCarloInput {
   ErrorPhases phases = ErrorPhases::unknown;
 };
 
+/// An input that an optimiser may change.
+struct VariableInput {
+  std::string input;  ///< key path
+  double low = 0, high = 0;
+  SweepScale scale = SweepScale::linear;
+};
+
+struct OptimiseInput {
+  std::vector<std::string> objective;  ///< columns of figures
+  std::vector<double> weights;         ///< one per figure; empty: their mean
+  Goal goal = Goal::smallest;
+  std::optional<std::string> ring;      ///< absent: the first one
+  std::vector<std::string> optimisers;  ///< names of dynamics::Optimiser
+  int generations = 0, population = 0, repeats = 0, seed = 0;
+  double elite = 0, crossover = 0, mutation = 0;
+  int starts = 0;  ///< initial conditions tried before and after
+};
+
 struct SensitivityInput {
   std::vector<std::string> inputs;  ///< empty: the supports, damping ratios and backlash
   double factor = 0;
@@ -167,6 +186,8 @@ struct Scene {
   std::optional<MonteCarloInput> monte_carlo;
   std::vector<RandomInput> random_inputs;
   std::optional<SensitivityInput> sensitivity;
+  std::optional<OptimiseInput> optimise;
+  std::vector<VariableInput> variables;  ///< of [optimise]
 
   /// The file as read, from which changed scenes are made (overrides.h). Empty in a changed scene, which has no studies
   /// of its own.

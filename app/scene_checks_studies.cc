@@ -6,6 +6,8 @@
 
 #include "app/overrides.h"
 #include "app/scene_checks.h"
+#include "app/stage_kinds.h"
+#include "app/optimisation.h"
 
 namespace annulus::app {
 
@@ -29,7 +31,7 @@ class StudyChecker {
 
   void run() {
     if (!scene_.dynamics) {
-      for (const auto* key : {"sweep.input", "grid.x_input", "monte_carlo.samples", "sensitivity.factor"}) {
+      for (const auto* key : {"sweep.input", "grid.x_input", "monte_carlo.samples", "sensitivity.factor", "optimise.objective"}) {
         if (find(key, 0)) problem(key, 0, "needs [dynamics]: studies vary what the lumped model answers");
       }
       return;
@@ -39,6 +41,7 @@ class StudyChecker {
     if (!scene_.random_inputs.empty() && !scene_.monte_carlo)
       problem("monte_carlo.input.input", 0, "needs [monte_carlo] with the number of samples");
     for (std::size_t i = 0; i < scene_.random_inputs.size(); ++i) random(scene_.random_inputs[i], i);
+    optimise();
     if (scene_.sensitivity) {
       for (const auto& path : scene_.sensitivity->inputs) input("sensitivity.inputs", 0, path);
     }
@@ -125,6 +128,59 @@ class StudyChecker {
       need("mean", r.mean);
       need("deviation", r.deviation);
     }
+  }
+
+  void optimise() {
+    if (!scene_.optimise) {
+      if (!scene_.variables.empty()) problem("optimise.variable.input", 0, "needs [optimise] with the objective");
+      return;
+    }
+    const auto& o = *scene_.optimise;
+    std::vector<std::string> known;
+    for (const auto& figure : stage_figures(scene_.stage.kind)) known.push_back(figure.column);
+    if (o.objective.empty()) problem("optimise.objective", 0, "needs at least one figure");
+    for (const auto& figure : o.objective) {
+      if (std::find(known.begin(), known.end(), figure) != known.end()) continue;
+      const std::string near = nearest(figure, known);
+      problem("optimise.objective", 0,
+              fmt::format("there is no figure \"{}\"; {}", figure,
+                          near.empty() ? "the columns of dynamics/sweep_1.csv are the figures"
+                                       : "did you mean \"" + near + "\"?"));
+    }
+    if (!o.weights.empty() && o.weights.size() != o.objective.size())
+      problem("optimise.weights", 0,
+              fmt::format("needs one weight per figure: {} weights for {} figures", o.weights.size(), o.objective.size()));
+    const auto& names = optimiser_names();
+    if (o.optimisers.empty()) problem("optimise.optimisers", 0, "needs at least one");
+    for (const auto& name : o.optimisers) {
+      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+      const std::string near = nearest(name, names);
+      problem("optimise.optimisers", 0,
+              fmt::format("there is no optimiser \"{}\"{}", name, near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+    }
+    if (o.population % 2) problem("optimise.population", 0, "must be even: parents are crossed in pairs");
+    if (o.ring && std::none_of(scene_.rings.begin(), scene_.rings.end(), [&](const auto& r) { return r.name == *o.ring; }))
+      problem("optimise.ring", 0, "there is no ring of this name");
+    if (scene_.variables.empty()) problem("optimise.objective", 0, "needs an [[optimise.variable]] at least");
+    for (std::size_t i = 0; i < scene_.variables.size(); ++i) variable(scene_.variables[i], i);
+  }
+
+  void variable(const VariableInput& v, std::size_t i) {
+    const std::string table = "optimise.variable.";
+    if (!input(table + "input", i, v.input)) return;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (scene_.variables[j].input == v.input) return problem(table + "input", i, "is given twice");
+    }
+    const auto& parameter = *find_input(scene_, v.input).parameter;
+    for (const auto& [key, value] : {std::pair{"low", v.low}, {"high", v.high}}) {
+      if (!parameter.in_range(value))
+        problem(table + key, i, fmt::format("{} must be in range: {}", v.input, parameter.range_text()));
+    }
+    if (!(v.low < v.high)) problem(table + "high", i, "must be larger than low");
+    if (v.scale == SweepScale::logarithmic && v.low <= 0) problem(table + "scale", i, "needs values above zero");
+    const bool whole = parameter.kind == Parameter::Kind::integer;
+    if (whole && (v.low != std::floor(v.low) || v.high != std::floor(v.high)))
+      problem(table + "low", i, v.input + " is a whole number, so must be its limits");
   }
 
   const Scene& scene_;

@@ -370,7 +370,9 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& name) {
   return scene;
 }
 
-Scene with_overrides(const Scene& scene, const std::vector<Override>& overrides) {
+namespace {
+
+toml::table changed_root(const Scene& scene, const std::vector<Override>& overrides) {
   require(!scene.text.empty(), "only a scene read from a file or text can be changed");
   toml::table root = toml::parse(scene.text, scene.file.string());
   // A changed scene answers one question: it has no studies of its own, and no one asks for its assumptions.
@@ -379,7 +381,21 @@ Scene with_overrides(const Scene& scene, const std::vector<Override>& overrides)
   }
   root.erase("assumed");
   for (const auto& edit : resolve(scene, overrides)) set_number(root, edit);
-  return Reader(root, scene.file).read();
+  return root;
+}
+
+}  // namespace
+
+Scene with_overrides(const Scene& scene, const std::vector<Override>& overrides) {
+  return Reader(changed_root(scene, overrides), scene.file).read();
+}
+
+std::string scene_text(const Scene& scene, const std::vector<Override>& overrides) {
+  toml::table root = changed_root(scene, overrides);
+  root.erase("reference");  // its path is relative to the original
+  std::ostringstream text;
+  text << root << '\n';
+  return text.str();
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {

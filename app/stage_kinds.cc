@@ -73,6 +73,17 @@ std::vector<std::string> tables_to_solve(const Scene& nominal, const Scene& chan
   no_such_kind();
 }
 
+std::vector<StudyFigure> stage_figures(StageKind kind) {
+  switch (kind) {
+    case StageKind::planetary:
+      return planetary_figures();
+    case StageKind::helical_pair:
+    case StageKind::two_k_v:
+      break;
+  }
+  no_such_kind();
+}
+
 std::size_t variant_count(const Scene& scene) {
   return scene.stage.kind == StageKind::planetary ? scene.rings.size() : 1;
 }

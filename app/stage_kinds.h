@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/scene.h"
+#include "app/study_result.h"
 
 /// Where the kinds of stages differ, in one place: a new kind adds its tables (scene_schema.cc), its checks
 /// (scene_checks.cc) and a case to each function here.
@@ -14,6 +15,9 @@ void check_stage(const Scene& scene);
 
 /// Stiffness tables (labels for people) that a changed scene needs and the nominal one does not have.
 [[nodiscard]] std::vector<std::string> tables_to_solve(const Scene& nominal, const Scene& changed);
+
+/// What the lumped model of such a stage answers with.
+[[nodiscard]] std::vector<StudyFigure> stage_figures(StageKind kind);
 
 /// How many lumped models a scene compares (rings).
 [[nodiscard]] std::size_t variant_count(const Scene& scene);

@@ -110,6 +110,7 @@ StudyResults run_studies(const StudySubject& subject) {
   for (std::size_t i = 0; i < scene.sweeps.size(); ++i) results.sweeps.push_back(run_sweep(subject, i));
   for (std::size_t i = 0; i < scene.grids.size(); ++i) results.grids.push_back(run_grid(subject, i));
   if (scene.monte_carlo) results.monte_carlo = run_monte_carlo(subject);
+  if (scene.optimise) results.optimise = run_optimise(subject);
   if (scene.sensitivity) results.sensitivity = run_sensitivity(subject);
   return results;
 }

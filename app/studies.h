@@ -2,7 +2,7 @@
 
 #include "app/study_subject.h"
 
-/// [[sweep]], [[grid]], [monte_carlo] and [sensitivity]: the dynamics of a scene again, for other inputs.
+/// [[sweep]], [[grid]], [monte_carlo], [sensitivity] and [optimise]: the dynamics of a scene again, for other inputs.
 namespace annulus::app {
 
 /// Makes every changed scene of sweeps, grids and sensitivity and checks it, draws every sample and checks its range.
@@ -10,7 +10,7 @@ namespace annulus::app {
 void check_studies(const Scene& scene);
 
 /// All studies of the nominal scene on its tables and others where needed. Writes OUT/<variant>/dynamics/sweep_<n>.csv,
-/// sweep_<n>_poincare.csv, grid_<n>.csv, monte_carlo.csv and OUT/sensitivity.csv; finished points are kept and reused.
+/// sweep_<n>_poincare.csv, grid_<n>.csv, monte_carlo.csv, optimise/ and OUT/sensitivity.csv; finished points are kept and reused.
 [[nodiscard]] StudyResults run_studies(const StudySubject& subject);
 
 // The studies one by one.
@@ -18,5 +18,6 @@ void check_studies(const Scene& scene);
 [[nodiscard]] GridResult run_grid(const StudySubject& subject, std::size_t grid);
 [[nodiscard]] MonteCarloResult run_monte_carlo(const StudySubject& subject);
 [[nodiscard]] SensitivityResult run_sensitivity(const StudySubject& subject);
+[[nodiscard]] OptimiseResults run_optimise(const StudySubject& subject);
 
 }  // namespace annulus::app

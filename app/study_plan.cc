@@ -1,9 +1,13 @@
 #include "app/study_plan.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "app/stage_kinds.h"
 #include "app/study_cases.h"
+#include "core/errors.h"
 
 namespace annulus::app {
 
@@ -25,7 +29,7 @@ std::string row_text(const Scene& scene, const SweepInput& s) {
 
 std::vector<StudyPlan> plan_studies(const Scene& scene) {
   std::vector<StudyPlan> list;
-  const bool any = !scene.sweeps.empty() || !scene.grids.empty() || scene.monte_carlo || scene.sensitivity;
+  const bool any = !scene.sweeps.empty() || !scene.grids.empty() || scene.monte_carlo || scene.sensitivity || scene.optimise;
   if (!any || !scene.dynamics) return list;
   const auto variants = static_cast<long>(variant_count(scene));
   const double each = response_seconds(scene);
@@ -53,6 +57,26 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
         fmt::format("{} inputs, each divided and multiplied by {}", cases.size() / 2,
                     to_text(scene.sensitivity->factor)),
         cases.size() + 1, count_tables(scene, cases));
+  }
+  if (scene.optimise) {
+    const auto& o = *scene.optimise;
+    const long searches = static_cast<long>(o.optimisers.size()) * o.repeats;
+    const long points = searches * (o.generations + 1L) * o.population;
+    std::string inputs;
+    int tables = 0;
+    for (const auto& v : scene.variables) {
+      inputs += (inputs.empty() ? "" : ", ") + v.input;
+      const StudyCase end{{{v.input, v.high}}, "[optimise]", ""};
+      try {
+        tables = std::max(tables, count_tables(scene, {end}));
+      } catch (const InputError&) {  // an end of the range alone need not make a good scene
+      }
+    }
+    list.push_back({"[optimise]",
+                    fmt::format("{} over {}, {} search{} of {} generations of {}", fmt::join(o.objective, ", "), inputs,
+                                searches, searches == 1 ? "" : "es", o.generations, o.population),
+                    points, tables ? static_cast<int>(std::min(points * tables, 1'000'000'000L)) : 0,
+                    each / static_cast<double>(variants) * static_cast<double>(points)});
   }
   return list;
 }

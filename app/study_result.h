@@ -8,6 +8,7 @@
 #include "app/scene.h"
 #include "core/csv.h"
 #include "dynamics/figures.h"
+#include "dynamics/optimise.h"
 #include "dynamics/statistics.h"
 #include "dynamics/study_point.h"
 
@@ -100,6 +101,44 @@ struct SensitivityResult {
   std::vector<SensitivityRow> rows;
 };
 
+/// Steady motions found from several initial conditions.
+struct StartSpread {
+  int starts = 0, motions = 0;   ///< motions: distinct ones
+  std::vector<double> low, high; ///< of every quick figure of the subject over the starts
+  int not_steady = 0;
+};
+
+/// One search by one optimiser.
+struct OptimiseRun {
+  std::string optimiser;
+  int repeat = 0;
+  dynamics::OptimiseResult search;  ///< its values are to be made small: negative where the goal is the largest
+  int kept = 0;                     ///< evaluations answered from an earlier run
+};
+
+/// A design and its figures.
+struct Design {
+  std::vector<double> x;  ///< values of the variables, in the unit of the inputs
+  double objective = 0;   ///< NaN when the response fails
+  StudyPoint point;
+  std::optional<StartSpread> starts;
+};
+
+struct OptimiseResults {
+  OptimiseInput settings;
+  std::vector<VariableInput> variables;
+  std::vector<std::string> units;  ///< of the variables
+  std::size_t variant = 0;
+  std::vector<OptimiseRun> runs;
+  std::size_t best_run = 0;
+  Design given, best;
+  double numerical_error = 0;      ///< of the objective, where the scene's own figures tell it
+  dynamics::ObjectiveRange range;  ///< over all evaluations of all runs, of values to be made small
+  /// Evaluations until the objective of the best run was met within 1 % of the gain (at least the numerical error), by
+  /// run; absent: never.
+  std::vector<std::optional<long>> evaluations_to_best;
+};
+
 struct StudyResults {
   std::vector<std::string> variants;  ///< names; a single empty one for kinds without variants
   std::vector<StudyFigure> figures;
@@ -108,6 +147,7 @@ struct StudyResults {
   std::vector<GridResult> grids{};
   std::optional<MonteCarloResult> monte_carlo{};
   std::optional<SensitivityResult> sensitivity{};
+  std::optional<OptimiseResults> optimise{};
 
   /// Of a point by column; NaN when there is none.
   [[nodiscard]] double value(const StudyPoint& point, const std::string& column) const;

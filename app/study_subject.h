@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,14 @@ class StudySubject {
   /// nominal results serve. Throws InputError, naming `where`, for a scene that is not a good one.
   [[nodiscard]] virtual ChangedModel model(const std::vector<Override>& overrides, const std::string& where,
                                            std::size_t variant, const std::string& folder, bool with_id) const = 0;
+
+  /// The motion followed from several initial conditions; nothing for kinds that do not offer it.
+  [[nodiscard]] virtual std::optional<StartSpread> starts(const std::vector<Override>& overrides,
+                                                          const std::string& where, std::size_t variant,
+                                                          const std::string& folder, int count, int seed) const {
+    (void)overrides, (void)where, (void)variant, (void)folder, (void)count, (void)seed;
+    return std::nullopt;
+  }
 
   /// OUT/<variant>/dynamics
   [[nodiscard]] std::filesystem::path folder(std::size_t variant) const;

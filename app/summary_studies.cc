@@ -89,8 +89,46 @@ std::string variant_studies_json(const StudyResults& studies, std::size_t varian
   return all.dump();
 }
 
+namespace {
+
+StudyJson design_json(const StudyResults& studies, const OptimiseResults& o, const Design& design) {
+  StudyJson json = {{"objective", finite_or_null(design.objective)}};
+  for (std::size_t i = 0; i < design.x.size(); ++i) json["inputs"][o.variables[i].input] = finite_or_null(design.x[i]);
+  json["figures"] = point_json(studies, design.point);
+  if (design.starts)
+    json["initial_conditions"] = {{"tried", design.starts->starts},
+                                  {"motions", design.starts->motions},
+                                  {"not_steady", design.starts->not_steady}};
+  return json;
+}
+
+StudyJson optimise_json(const StudyResults& studies) {
+  const auto& o = *studies.optimise;
+  const double sign = o.settings.goal == Goal::smallest ? 1 : -1;
+  StudyJson json = {{"objective", o.settings.objective},
+                    {"flat", o.range.flat},
+                    {"least_meaning", finite_or_null(o.range.least_meaning)},
+                    {"given", design_json(studies, o, o.given)},
+                    {"best", design_json(studies, o, o.best)}};
+  if (!studies.variants[o.variant].empty()) json["ring"] = studies.variants[o.variant];
+  for (std::size_t i = 0; i < o.runs.size(); ++i) {
+    const auto& run = o.runs[i];
+    json["searches"].push_back(
+        {{"optimiser", run.optimiser},
+         {"repeat", run.repeat},
+         {"best", finite_or_null(sign * run.search.value)},
+         {"evaluations", run.search.evaluations.size()},
+         {"failed", run.search.failed},
+         {"evaluations_to_best", o.evaluations_to_best[i] ? StudyJson(*o.evaluations_to_best[i]) : StudyJson(nullptr)}});
+  }
+  return json;
+}
+
+}  // namespace
+
 std::string studies_json(const StudyResults& studies) {
   StudyJson json = StudyJson::object();
+  if (studies.optimise) json["optimise"] = optimise_json(studies);
   if (studies.monte_carlo && studies.variants.size() > 1) {
     auto& orders = json["monte_carlo"]["orders"] = StudyJson::array();
     for (const auto& o : studies.monte_carlo->orders)
