@@ -34,6 +34,8 @@ struct PairMotions {
   MotionFigures relative;            ///< y_1 + u_1 - y_2 + u_2, (10): with the bending of shafts and bearings
 };
 
+/// Where contact is lost the damper holds the parting teeth back up to the last instant and its force then ends in a
+/// jump: force_min, unlike force_max, then depends on where the samples fall, which its error does not tell.
 struct PairResponse {
   double mesh_frequency = 0;    ///< Hz
   double static_force = 0;      ///< N, T_1/(r_1 cos b)
