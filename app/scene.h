@@ -98,6 +98,7 @@ struct SupportInput {
 struct MeshInput {
   StiffnessShape stiffness = StiffnessShape::computed;
   std::optional<double> mean, ripple, duty, phase;
+  std::optional<double> half_backlash;  ///< instead of that of [dynamics]
   std::optional<std::string> file;
 };
 
@@ -122,6 +123,11 @@ struct SweepInput {
   std::vector<double> values;
 
   [[nodiscard]] std::vector<double> points() const;
+};
+
+/// Two inputs run through all combinations of their values.
+struct GridInput {
+  SweepInput x, y;
 };
 
 /// An uncertain input.
@@ -157,6 +163,7 @@ struct Scene {
   MeshInput sun_planet, ring_planet;
   std::optional<DynamicsInput> dynamics;  ///< absent: no dynamics wanted
   std::vector<SweepInput> sweeps;
+  std::vector<GridInput> grids;
   std::optional<MonteCarloInput> monte_carlo;
   std::vector<RandomInput> random_inputs;
   std::optional<SensitivityInput> sensitivity;

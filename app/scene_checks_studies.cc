@@ -29,12 +29,13 @@ class StudyChecker {
 
   void run() {
     if (!scene_.dynamics) {
-      for (const auto* key : {"sweep.input", "monte_carlo.samples", "sensitivity.factor"}) {
+      for (const auto* key : {"sweep.input", "grid.x_input", "monte_carlo.samples", "sensitivity.factor"}) {
         if (find(key, 0)) problem(key, 0, "needs [dynamics]: studies vary what the lumped model answers");
       }
       return;
     }
-    for (std::size_t i = 0; i < scene_.sweeps.size(); ++i) sweep(scene_.sweeps[i], i);
+    for (std::size_t i = 0; i < scene_.sweeps.size(); ++i) row("sweep.", scene_.sweeps[i], i);
+    for (std::size_t i = 0; i < scene_.grids.size(); ++i) grid(scene_.grids[i], i);
     if (!scene_.random_inputs.empty() && !scene_.monte_carlo)
       problem("monte_carlo.input.input", 0, "needs [monte_carlo] with the number of samples");
     for (std::size_t i = 0; i < scene_.random_inputs.size(); ++i) random(scene_.random_inputs[i], i);
@@ -76,22 +77,29 @@ class StudyChecker {
     }
   }
 
-  void sweep(const SweepInput& s, std::size_t i) {
-    input("sweep.input", i, s.input);
-    const bool row = s.from || s.to || s.count;
-    if (given("sweep.values", i)) {
-      if (row) return problem("sweep.values", i, "give either values or from, to and count");
-      if (s.values.empty()) return problem("sweep.values", i, "needs at least one value");
+  /// `table` with the prefix of its keys: "sweep.", "grid.x_".
+  void row(const std::string& table, const SweepInput& s, std::size_t i) {
+    input(table + "input", i, s.input);
+    const bool steps = s.from || s.to || s.count;
+    if (given(table + "values", i)) {
+      if (steps) return problem(table + "values", i, "give either values or from, to and count");
+      if (s.values.empty()) return problem(table + "values", i, "needs at least one value");
       const std::set<double> distinct(s.values.begin(), s.values.end());
-      if (distinct.size() != s.values.size()) return problem("sweep.values", i, "the same value stands there twice");
+      if (distinct.size() != s.values.size()) return problem(table + "values", i, "the same value stands there twice");
     } else if (!s.from || !s.to || !s.count) {
-      return problem("sweep.input", i, "needs from, to and count, or values");
+      return problem(table + "input", i, "needs from, to and count, or values");
     } else if (*s.from == *s.to) {
-      return problem("sweep.to", i, "must differ from `from`");
+      return problem(table + "to", i, "must differ from `from`");
     }
     const auto points = s.points();
     if (s.scale == SweepScale::logarithmic && *std::min_element(points.begin(), points.end()) <= 0)
-      problem("sweep.scale", i, "needs values above zero");
+      problem(table + "scale", i, "needs values above zero");
+  }
+
+  void grid(const GridInput& g, std::size_t i) {
+    row("grid.x_", g.x, i);
+    row("grid.y_", g.y, i);
+    if (g.x.input == g.y.input) problem("grid.y_input", i, "must differ from x_input");
   }
 
   void random(const RandomInput& r, std::size_t i) {

@@ -10,27 +10,48 @@ constexpr const char* path_meaning =
     "is that of every ring that has it, \"ring.NAME.pins\" that of one; \"errors.planet_eccentricity_um[2]\" is the "
     "value of planet 2, counted from 1.";
 
+/// Keys of one input and its values, their names behind a prefix.
+Table row_of_values(const char* path, const char* meaning, const std::string& prefix,
+                    SweepInput& (*section)(Scene&, std::size_t)) {
+  Declarations<SweepInput> row(path, meaning, section);
+  row.on_request();
+  const auto name = [&](const char* key) { return prefix + key; };
+  row.key(name("input").c_str(), &SweepInput::input, (std::string("What is varied: ") + path_meaning).c_str())
+      .required();
+  row.key(name("from").c_str(), &SweepInput::from, "First value, in the unit of the input.")
+      .absent("give values instead");
+  row.key(name("to").c_str(), &SweepInput::to, "Last value, in the unit of the input.").absent("give values instead");
+  row.key(name("count").c_str(), &SweepInput::count, "Number of values between these two, both included.")
+      .from(2, 1e5)
+      .absent("give values instead");
+  row.choice(name("scale").c_str(), &SweepInput::scale,
+             {{"linear", SweepScale::linear}, {"logarithmic", SweepScale::logarithmic}},
+             "Spacing of the values, and the axis of the plots.")
+      .fallback(std::string("linear"), "equal steps");
+  row.key(name("values").c_str(), &SweepInput::values, "The values themselves, in the unit of the input.")
+      .absent("give from, to and count instead");
+  Table table = row.done();
+  table.repeated = true;
+  return table;
+}
+
 }  // namespace
 
 void declare_studies(std::vector<Table>& tables) {
-  Declarations<SweepInput> sweep(
-      "sweep", "One input run through a row of values, for every ring; several tables are several sweeps.",
+  Table sweep = row_of_values(
+      "sweep", "One input run through a row of values, for every ring; several tables are several sweeps.", "",
       [](Scene& s, std::size_t i) -> SweepInput& { return s.sweeps.at(i); });
-  sweep.repeated([](Scene& s, std::size_t n) { s.sweeps.resize(n); }).on_request();
-  static const std::string sweep_input = std::string("What is varied: ") + path_meaning;
-  sweep.key("input", &SweepInput::input, sweep_input.c_str()).required();
-  sweep.key("from", &SweepInput::from, "First value, in the unit of the input.").absent("give values instead");
-  sweep.key("to", &SweepInput::to, "Last value, in the unit of the input.").absent("give values instead");
-  sweep.key("count", &SweepInput::count, "Number of values from `from` to `to`, both included.")
-      .from(2, 1e5)
-      .absent("give values instead");
-  sweep
-      .choice("scale", &SweepInput::scale, {{"linear", SweepScale::linear}, {"logarithmic", SweepScale::logarithmic}},
-              "Spacing of the values between `from` and `to`, and the axis of the plots.")
-      .fallback(std::string("linear"), "equal steps");
-  sweep.key("values", &SweepInput::values, "The values themselves, in the unit of the input.")
-      .absent("give from, to and count instead");
-  tables.push_back(sweep.done());
+  sweep.resize = [](Scene& s, std::size_t n) { s.sweeps.resize(n); };
+  tables.push_back(std::move(sweep));
+
+  Table grid = row_of_values(
+      "grid", "Two inputs run through all combinations of their values; several tables are several grids.", "x_",
+      [](Scene& s, std::size_t i) -> SweepInput& { return s.grids.at(i).x; });
+  const Table grid_y =
+      row_of_values("grid", "", "y_", [](Scene& s, std::size_t i) -> SweepInput& { return s.grids.at(i).y; });
+  grid.parameters.insert(grid.parameters.end(), grid_y.parameters.begin(), grid_y.parameters.end());
+  grid.resize = [](Scene& s, std::size_t n) { s.grids.resize(n); };
+  tables.push_back(std::move(grid));
 
   Declarations<MonteCarloInput> monte_carlo(
       "monte_carlo",
