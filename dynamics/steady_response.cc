@@ -141,12 +141,13 @@ std::optional<DirectWindows> solve_directly(const LumpedSystem& system, const St
   return windows;
 }
 
-void set_energy(const SystemState& end, double before, double after, EnergyBalance& energy) {
-  energy.supplied = end.supplied;
-  energy.dissipated = end.dissipated;
+/// What a run has booked before `begin`, in a window that did not confirm, is none of this one's.
+void set_energy(const SystemState& begin, const SystemState& end, double before, double after, EnergyBalance& energy) {
+  energy.supplied = end.supplied - begin.supplied;
+  energy.dissipated = end.dissipated - begin.dissipated;
   energy.change = after - before;
-  energy.relative = std::abs(energy.change - end.supplied + end.dissipated) /
-                    (end.dissipated + std::max(std::abs(before), std::abs(after)));
+  energy.relative = std::abs(energy.change - energy.supplied + energy.dissipated) /
+                    (energy.dissipated + std::max(std::abs(before), std::abs(after)));
 }
 
 /// The last window of a march, its energies booked, and the same window with a looser integration.
@@ -157,7 +158,7 @@ void march_last_window(ResponseRun& run, int cycles, const SimulationOptions& op
   ResponseRun loose_run = run;
   run.advance(cycles, &response.best, true);
   response.end = run.state();
-  set_energy(run.state(), before, run.energy(), response.energy);
+  set_energy(response.begin, response.end, before, run.energy(), response.energy);
   if (options.estimate_error) {
     loose_run.loosen(10);
     response.loose.emplace();
