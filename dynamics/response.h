@@ -1,62 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <limits>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "dynamics/figures.h"
-#include "dynamics/integrate.h"
-#include "dynamics/integrator_choice.h"
-#include "dynamics/periodic_response.h"
 #include "dynamics/planetary_stage.h"
+#include "dynamics/steady_response.h"
 
 namespace annulus::dynamics {
-
-/// How the periodic steady state is looked for.
-enum class SteadyState {
-  direct,    ///< by harmonic balance; marching over one window confirms it, or goes on where it does not
-  marching,  ///< by time integration from quasi-static equilibrium until windows repeat
-};
-
-struct SimulationOptions {
-  SteadyState steady_state = SteadyState::direct;
-  /// `direct` only. false: where the harmonic balance converges, its solution is taken without any time integration
-  /// (sweeps, Monte Carlo); the errors then compare with half the samples, and there is no energy balance.
-  bool confirm = true;
-  bool keep_series = true;   ///< false: figures only
-  PeriodicOptions periodic;  ///< samples_per_cycle and motion are set from what stands here
-  IntegratorOptions integrator;
-  /// Total mesh cycles from the start, by marching alone. Absent: until the response repeats, then one error period.
-  std::optional<int> mesh_cycles;
-  /// The response counts as periodic when no mesh force differs by more than this, relative to the mean mesh force,
-  /// from the harmonic balance; or from one evaluated window earlier, and the differences, continued geometrically, add
-  /// up to no more.
-  double steady_tolerance = 1e-3;
-  int max_windows = 40;  ///< gives up after so many windows (chaos, nearly undamped): `steady` is then false
-  /// Of the time series and the harmonic balance (a multiple of 8 there); the highest excited frequency needs at least
-  /// four samples.
-  int samples_per_cycle = 64;
-  /// The window is the error period, or as many error periods as reach this many mesh cycles: differences between
-  /// short windows say little about slow transients.
-  int min_window_cycles = 20;
-  /// Upper limit of the window (memory): sun, planet and housing errors together repeat after lcm(z_s, z_p, z_r) mesh
-  /// cycles, which may be tens of thousands. A window cut by it cannot be compared with the one before.
-  int max_window_cycles = 2000;
-  /// Integrates the last window again with a tolerance ten times looser to estimate the integrator's part of the error.
-  bool estimate_error = true;
-};
-
-/// Time series over the evaluated window, equidistant, the end point not included.
-struct TimeSeries {
-  std::vector<std::string> freedoms;  ///< sun_x, planet1_u, ... (all are lengths, m)
-  std::vector<std::string> meshes;    ///< sun_planet1 ... ring_planetN
-  Eigen::VectorXd time;               ///< s
-  Eigen::MatrixXd displacement;       ///< m, one row per freedom, one column per time; rigid rotation included
-  Eigen::MatrixXd velocity;           ///< m/s
-  Eigen::MatrixXd force;              ///< N, one row per mesh; positive pushes the teeth apart
-};
 
 /// One branch of the power flow: the mesh of one planet with sun or ring.
 struct BranchResult {
@@ -69,25 +20,6 @@ struct BranchResult {
 struct MeshKindResult {
   LoadSharing load_sharing;
   std::vector<BranchResult> branches;  ///< one per planet
-};
-
-/// Energy bookkeeping over the window: change of energy = supplied - dissipated.
-struct EnergyBalance {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  ///< nothing was integrated
-  double supplied = unknown;    ///< J, by torques, errors and stiffness change
-  double dissipated = unknown;  ///< J, by dampers (>= 0)
-  double change = unknown;      ///< J, kinetic + elastic
-  double relative = unknown;    ///< |change - supplied + dissipated| / (dissipated + energy)
-};
-
-/// How the harmonic balance fared.
-struct DirectSolution {
-  bool converged = false;
-  std::string trouble;  ///< why not
-  double residual = 0;  ///< see PeriodicOptions::tolerance
-  int newton_iterations = 0, linear_iterations = 0;
-  double sampling_difference =
-      0;  ///< largest force difference to half the samples / mean mesh force; at least the residual
 };
 
 struct DynamicResponse {
@@ -112,11 +44,6 @@ struct DynamicResponse {
   IntegratorStatistics statistics;
   TimeSeries series;
 };
-
-/// Mesh cycles from which on a window counts as long: its samples stand near every peak even when they are few.
-inline constexpr int long_window = 200;
-/// Samples per mesh cycle that figures need where many responses are compared (their peaks are refined).
-[[nodiscard]] int enough_samples(int window_cycles);
 
 /// Periodic steady state of the stage and its figures: solved for directly and confirmed by marching over one window
 /// from there (two independent methods); where they disagree, no balance is found or the error period is longer than

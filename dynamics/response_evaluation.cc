@@ -4,50 +4,16 @@
 #include <cmath>
 
 #include "dynamics/figures.h"
+#include "dynamics/peaks.h"
 
 namespace annulus::dynamics {
 
 namespace {
 
-/// Largest value of a sampled curve: as sampled, and at the top of the parabola through the highest sample and its
-/// neighbours. Their difference tells what the sampling misses.
-struct Peak {
-  double sampled = 0, refined = 0;
-};
-
-Peak peak_of(const Eigen::Ref<const Eigen::RowVectorXd>& values) {
-  Eigen::Index i = 0;
-  Peak peak;
-  peak.sampled = peak.refined = values.maxCoeff(&i);
-  if (i == 0 || i + 1 >= values.size() || !std::isfinite(peak.sampled)) return peak;
-  const double rise = values[i] - values[i - 1], fall = values[i] - values[i + 1];
-  if (rise + fall > 0) peak.refined += (rise - fall) * (rise - fall) / (8 * (rise + fall));
-  return peak;
-}
-
-Peak highest(const Peak& a, const Peak& b) { return {std::max(a.sampled, b.sampled), std::max(a.refined, b.refined)}; }
-
-/// Highest peak over the rows of a matrix of branches x times.
-Peak peak_of_rows(const Eigen::Ref<const Eigen::MatrixXd>& values) {
-  Peak peak = peak_of(values.row(0));
-  for (Eigen::Index i = 1; i < values.rows(); ++i) peak = highest(peak, peak_of(values.row(i)));
-  return peak;
-}
-
 Peak sharing_peak(const Eigen::Ref<const Eigen::MatrixXd>& force) {
   const double sampled = load_sharing_instantaneous(force);
   if (!std::isfinite(sampled)) return {sampled, sampled};
   return peak_of_rows(load_sharing_over_time(force));
-}
-
-/// The refined peak with the sum of what the sampling misses and of the differences to other runs: these are
-/// independent causes that may add up.
-Figure figure(const Peak& best, std::initializer_list<Peak> others) {
-  Figure result{best.refined, 0};
-  if (!std::isfinite(best.refined)) return result;
-  result.error = best.refined - best.sampled;
-  for (const auto& other : others) result.error += std::abs(best.refined - other.refined);
-  return result;
 }
 
 /// Forces averaged over the mesh cycle that begins at each sample.

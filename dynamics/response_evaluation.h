@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dynamics/response_run.h"
+#include "dynamics/response.h"
 
 namespace annulus::dynamics {
 

@@ -3,20 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.h"
 #include "dynamics/static_solver.h"
 
 namespace annulus::dynamics {
 
-ResponseRun::ResponseRun(const PlanetaryStage& stage, const LumpedSystem& system, const SimulationOptions& options,
+ResponseRun::ResponseRun(const LumpedSystem& system, double mesh_frequency, int samples_per_cycle,
                          const IntegratorOptions& integrator)
-    : stage_(stage),
-      system_(system),
-      samples_per_cycle_(options.samples_per_cycle),
+    : system_(system),
+      mesh_frequency_(mesh_frequency),
+      samples_per_cycle_(samples_per_cycle),
       workspace_(system.workspace()),
       integrator_(integrator) {
-  if (!integrator_.absolute_tolerance)
-    integrator_.absolute_tolerance =
-        0.1 * integrator_.relative_tolerance * stage.mean_mesh_force() / mean_stiffness(stage.sun_mesh);
+  require(integrator_.absolute_tolerance.has_value(), "a run needs an absolute tolerance");
   start_from_equilibrium();
 }
 
@@ -24,7 +23,7 @@ void ResponseRun::start_from_equilibrium() {
   StaticSolver solver(system_);
   state_.v = Eigen::VectorXd::Zero(system_.freedoms());
   if (!std::isfinite(system_.next_jump(0))) {
-    const double h = 1e-3 / stage_.mesh_frequency();  // a thousandth of a cycle: smooth there, far above rounding
+    const double h = 1e-3 / mesh_frequency_;  // a thousandth of a cycle: smooth there, far above rounding
     const Eigen::VectorXd after = solver.solve(h, workspace_), before = solver.solve(-h, workspace_);
     state_.v = (after - before) / (2 * h);
   }
@@ -39,7 +38,7 @@ void ResponseRun::start_from(const Eigen::VectorXd& displacement, const Eigen::V
 }
 
 void ResponseRun::advance(int cycles, ResponseWindow* window, bool track_energy) {
-  const double end = (cycles_ + cycles) / stage_.mesh_frequency();
+  const double end = (cycles_ + cycles) / mesh_frequency_;
   const int samples = window ? cycles * samples_per_cycle_ : 0;
   if (window) {
     window->samples_per_cycle = samples_per_cycle_;

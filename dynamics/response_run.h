@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "dynamics/response.h"
+#include "dynamics/integrate.h"
 
 namespace annulus::dynamics {
 
@@ -14,11 +14,12 @@ struct ResponseWindow {
   Eigen::VectorXd open;  ///< fraction of the samples without contact, per mesh
 };
 
-/// The stage on its way: state and workspace, advanced window by window.
+/// A system on its way: state and workspace, advanced window by window.
 class ResponseRun {
  public:
-  /// At time 0, in quasi-static equilibrium: this excites less than a start from rest.
-  ResponseRun(const PlanetaryStage& stage, const LumpedSystem& system, const SimulationOptions& options,
+  /// At time 0, in quasi-static equilibrium: this excites less than a start from rest. `mesh_frequency` (Hz) tells what
+  /// a cycle is.
+  ResponseRun(const LumpedSystem& system, double mesh_frequency, int samples_per_cycle,
               const IntegratorOptions& integrator);
 
   /// Begins at time 0 with this state instead.
@@ -38,8 +39,8 @@ class ResponseRun {
  private:
   void start_from_equilibrium();
 
-  const PlanetaryStage& stage_;
   const LumpedSystem& system_;
+  double mesh_frequency_ = 0;
   int samples_per_cycle_ = 0;
   LumpedSystem::Workspace workspace_;
   IntegratorOptions integrator_;

@@ -1,0 +1,196 @@
+#include "dynamics/steady_response.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/errors.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+void check(const SteadyProblem& problem, const SimulationOptions& options) {
+  if (!(problem.mesh_frequency > 0) || !std::isfinite(problem.mesh_frequency))
+    throw InputError("a time response needs a speed above zero");
+  if (problem.period_in_cycles < 1)
+    throw InputError(fmt::format("a period of {} mesh cycles is none", problem.period_in_cycles));
+  if (!(problem.force_scale > 0) || !std::isfinite(problem.force_scale) || !(problem.stiffness > 0) ||
+      !std::isfinite(problem.stiffness))
+    throw InputError("a time response needs a positive scale of force and stiffness to measure differences against");
+  if (options.samples_per_cycle < 4) throw InputError("a time series needs at least 4 samples per mesh cycle");
+  if (options.mesh_cycles && *options.mesh_cycles < 1) throw InputError("a simulation needs at least one mesh cycle");
+  if (!(options.steady_tolerance > 0)) throw InputError("the tolerance of the steady state must be positive");
+  if (options.max_windows < 2) throw InputError("finding the steady state takes at least two windows");
+  if (options.min_window_cycles < 1 || options.max_window_cycles < 1)
+    throw InputError("the evaluated window must be at least one mesh cycle long");
+}
+
+struct WindowLength {
+  int cycles = 0;
+  bool whole = false;  ///< whole error periods
+};
+
+WindowLength window_length(const SteadyProblem& problem, const SimulationOptions& options) {
+  const int period = problem.period_in_cycles;
+  const int limit = std::min(options.max_window_cycles, options.mesh_cycles.value_or(options.max_window_cycles));
+  if (period > limit) return {limit, false};
+  const int wanted = period * ((options.min_window_cycles + period - 1) / period);
+  return {wanted <= limit ? wanted : limit / period * period, true};
+}
+
+double largest_difference(const ResponseWindow& a, const ResponseWindow& b, double mean_force) {
+  return (a.force - b.force).cwiseAbs().maxCoeff() / mean_force;
+}
+
+/// Integrates until successive windows agree; leaves the last one in `window`.
+bool reach_steady_state(ResponseRun& run, int cycles, const SimulationOptions& options, double mean_force,
+                        ResponseWindow& window) {
+  ResponseWindow before;
+  double previous = 0;
+  run.advance(cycles, &window);
+  for (int i = 1; i < options.max_windows; ++i) {
+    std::swap(before, window);
+    run.advance(cycles, &window);
+    const double difference = largest_difference(window, before, mean_force);
+    // What a geometric decay at the observed ratio still has ahead; the first difference knows no ratio and has to be
+    // clearly smaller by itself.
+    const double ratio = i > 1 ? difference / previous : 0.9;
+    if (difference <= options.steady_tolerance &&
+        (ratio < 1 ? difference * ratio / (1 - ratio) <= options.steady_tolerance
+                   // No decay left to see: the differences are the integrator's own.
+                   : difference <= 0.5 * options.steady_tolerance))
+      return true;
+    previous = difference;
+  }
+  return false;
+}
+
+/// The solution of the harmonic balance as a window from time 0, and its forces at half the samples.
+struct DirectWindows {
+  ResponseWindow fine, coarse;
+};
+
+/// Absent when the harmonic balance did not converge; `direct` says so.
+std::optional<DirectWindows> solve_directly(const LumpedSystem& system, const SteadyProblem& problem, int cycles,
+                                            const SimulationOptions& options, std::optional<DirectSolution>& direct) {
+  PeriodicOptions periodic_options = options.periodic;
+  periodic_options.samples_per_cycle = options.samples_per_cycle;
+  periodic_options.motion = true;
+  auto periodic = periodic_response(system, cycles / problem.mesh_frequency, cycles, periodic_options);
+  direct = DirectSolution{periodic.converged, periodic.trouble, periodic.residual, periodic.newton_iterations,
+                          periodic.linear_iterations,
+                          // Where the balance with half the samples already holds at the finer ones, no
+                          // step is taken and only the residual is known of what is left.
+                          std::max(periodic.sampling_difference / problem.force_scale, periodic.residual)};
+  if (!periodic.converged) return std::nullopt;
+  DirectWindows windows;
+  windows.fine = {options.samples_per_cycle,        std::move(periodic.time),     std::move(periodic.force),
+                  std::move(periodic.displacement), std::move(periodic.velocity), std::move(periodic.open)};
+  windows.coarse.samples_per_cycle = options.samples_per_cycle / 2;
+  windows.coarse.force = std::move(periodic.coarse_force);
+  return windows;
+}
+
+void set_energy(const SystemState& end, double before, double after, EnergyBalance& energy) {
+  energy.supplied = end.supplied;
+  energy.dissipated = end.dissipated;
+  energy.change = after - before;
+  energy.relative = std::abs(energy.change - end.supplied + end.dissipated) /
+                    (end.dissipated + std::max(std::abs(before), std::abs(after)));
+}
+
+/// The last window of a march, its energies booked, and the same window with a looser integration.
+void march_last_window(ResponseRun& run, int cycles, const SimulationOptions& options, SteadyResponse& response) {
+  response.begin = run.state();
+  run.pass_jump();
+  const double before = run.energy();
+  ResponseRun loose_run = run;
+  run.advance(cycles, &response.best, true);
+  response.end = run.state();
+  set_energy(run.state(), before, run.energy(), response.energy);
+  if (options.estimate_error) {
+    loose_run.loosen(10);
+    response.loose.emplace();
+    loose_run.advance(cycles, &*response.loose);
+  }
+}
+
+}  // namespace
+
+TimeSeries series_of(const LumpedSystem& system, ResponseWindow window) {
+  TimeSeries series;
+  series.freedoms = system.names();
+  for (const auto& mesh : system.meshes()) series.meshes.push_back(mesh.name);
+  series.time = std::move(window.time);
+  series.displacement = std::move(window.displacement);
+  series.velocity = std::move(window.velocity);
+  series.force = std::move(window.force);
+  return series;
+}
+
+int enough_samples(int window_cycles) { return window_cycles > long_window ? 16 : 32; }
+
+SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& problem,
+                               const SimulationOptions& options) {
+  check(problem, options);
+  const auto [cycles, whole] = window_length(problem, options);
+  SteadyResponse response;
+  response.window_cycles = cycles;
+  response.whole_period = whole;
+
+  std::optional<DirectWindows> direct;
+  if (options.steady_state == SteadyState::direct && !options.mesh_cycles && whole)
+    direct = solve_directly(system, problem, cycles, options, response.direct);
+  if (direct && !options.confirm) {
+    response.steady = true;
+    response.begin = response.end = {0, direct->fine.displacement.col(0), direct->fine.velocity.col(0)};
+    response.best = std::move(direct->fine);
+    response.before = std::move(direct->coarse);
+    return response;
+  }
+
+  IntegratorOptions integrator = options.integrator;
+  if (integrator.method == Integrator::automatic) {
+    response.integrator = choose_integrator(system, integrator.relative_tolerance);
+    integrator.method = response.integrator->method;
+  }
+  if (!integrator.absolute_tolerance)
+    integrator.absolute_tolerance = 0.1 * integrator.relative_tolerance * problem.force_scale / problem.stiffness;
+  ResponseRun run(system, problem.mesh_frequency, options.samples_per_cycle, integrator);
+  if (direct) {
+    run.start_from(direct->fine.displacement.col(0), direct->fine.velocity.col(0));
+    march_last_window(run, cycles, options, response);
+    response.steady_difference = largest_difference(response.best, direct->fine, problem.force_scale);
+    response.steady = response.confirmed = *response.steady_difference <= options.steady_tolerance;
+    if (response.confirmed) response.before = std::move(direct->fine);
+  }
+  if (!response.confirmed) {
+    ResponseWindow before;
+    bool compared = false;
+    if (!options.mesh_cycles && whole) {
+      response.steady = reach_steady_state(run, cycles, options, problem.force_scale, before);
+      compared = true;
+    } else {
+      // A given length, or windows that do not repeat: no search for the steady state.
+      const int lead = options.mesh_cycles ? *options.mesh_cycles - cycles : cycles;
+      if (lead > cycles) run.advance(lead - cycles, nullptr);
+      if (lead >= cycles) run.advance(cycles, &before);
+      if (lead > 0 && lead < cycles) run.advance(lead, nullptr);
+      compared = whole && lead >= cycles;
+    }
+    march_last_window(run, cycles, options, response);
+    if (compared) {
+      response.steady_difference = largest_difference(response.best, before, problem.force_scale);
+      if (options.mesh_cycles) response.steady = *response.steady_difference <= options.steady_tolerance;
+      response.before = std::move(before);
+    }
+  }
+  response.total_cycles = run.cycles();
+  response.statistics = run.statistics();
+  return response;
+}
+
+}  // namespace annulus::dynamics

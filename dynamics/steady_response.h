@@ -1,0 +1,122 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/integrate.h"
+#include "dynamics/integrator_choice.h"
+#include "dynamics/periodic_response.h"
+#include "dynamics/response_run.h"
+
+namespace annulus::dynamics {
+
+/// How the periodic steady state is looked for.
+enum class SteadyState {
+  direct,    ///< by harmonic balance; marching over one window confirms it, or goes on where it does not
+  marching,  ///< by time integration from quasi-static equilibrium until windows repeat
+};
+
+struct SimulationOptions {
+  SteadyState steady_state = SteadyState::direct;
+  /// `direct` only. false: where the harmonic balance converges, its solution is taken without any time integration
+  /// (sweeps, Monte Carlo); the errors then compare with half the samples, and there is no energy balance.
+  bool confirm = true;
+  bool keep_series = true;   ///< false: figures only
+  PeriodicOptions periodic;  ///< samples_per_cycle and motion are set from what stands here
+  IntegratorOptions integrator;
+  /// Total mesh cycles from the start, by marching alone. Absent: until the response repeats, then one error period.
+  std::optional<int> mesh_cycles;
+  /// The response counts as periodic when no mesh force differs by more than this, relative to the mean mesh force,
+  /// from the harmonic balance; or from one evaluated window earlier, and the differences, continued geometrically, add
+  /// up to no more.
+  double steady_tolerance = 1e-3;
+  int max_windows = 40;  ///< gives up after so many windows (chaos, nearly undamped): `steady` is then false
+  /// Of the time series and the harmonic balance (a multiple of 8 there); the highest excited frequency needs at least
+  /// four samples.
+  int samples_per_cycle = 64;
+  /// The window is the error period, or as many error periods as reach this many mesh cycles: differences between
+  /// short windows say little about slow transients.
+  int min_window_cycles = 20;
+  /// Upper limit of the window (memory): sun, planet and housing errors together repeat after lcm(z_s, z_p, z_r) mesh
+  /// cycles, which may be tens of thousands. A window cut by it cannot be compared with the one before.
+  int max_window_cycles = 2000;
+  /// Integrates the last window again with a tolerance ten times looser to estimate the integrator's part of the error.
+  bool estimate_error = true;
+};
+
+/// Time series over the evaluated window, equidistant, the end point not included.
+struct TimeSeries {
+  std::vector<std::string> freedoms;  ///< sun_x, planet1_u, ... (all are lengths, m)
+  std::vector<std::string> meshes;    ///< sun_planet1 ... ring_planetN
+  Eigen::VectorXd time;               ///< s
+  Eigen::MatrixXd displacement;       ///< m, one row per freedom, one column per time; rigid rotation included
+  Eigen::MatrixXd velocity;           ///< m/s
+  Eigen::MatrixXd force;              ///< N, one row per mesh; positive pushes the teeth apart
+};
+[[nodiscard]] TimeSeries series_of(const LumpedSystem& system, ResponseWindow window);
+
+/// Energy bookkeeping over the window: change of energy = supplied - dissipated.
+struct EnergyBalance {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  ///< nothing was integrated
+  double supplied = unknown;    ///< J, by torques, errors and stiffness change
+  double dissipated = unknown;  ///< J, by dampers (>= 0)
+  double change = unknown;      ///< J, kinetic + elastic
+  double relative = unknown;    ///< |change - supplied + dissipated| / (dissipated + energy)
+};
+
+/// How the harmonic balance fared.
+struct DirectSolution {
+  bool converged = false;
+  std::string trouble;  ///< why not
+  double residual = 0;  ///< see PeriodicOptions::tolerance
+  int newton_iterations = 0, linear_iterations = 0;
+  double sampling_difference =
+      0;  ///< largest force difference to half the samples / mean mesh force; at least the residual
+};
+
+/// What a steady state is asked of, beside the system itself.
+struct SteadyProblem {
+  double mesh_frequency = 0;  ///< Hz, > 0: of the cycles in which windows, samples and the period are counted
+  int period_in_cycles = 1;   ///< after so many cycles excitation, errors and mesh vectors repeat
+  double force_scale = 0;     ///< N, > 0: the mean mesh force, or what stands for it without a torque
+  double stiffness = 0;       ///< N/m, > 0: force_scale / stiffness is the deflection integrators resolve
+};
+
+/// The steady state of a system, and the windows that tell how well it is known.
+struct SteadyResponse {
+  int window_cycles = 0;      ///< evaluated at the end
+  bool whole_period = false;  ///< false when `mesh_cycles` or `max_window_cycles` was too short for one period
+  int total_cycles = 0;       ///< integrated cycles; 0: none, the harmonic balance alone
+  bool steady = false;        ///< within steady_tolerance (see there), or taken from the harmonic balance alone
+  bool confirmed = false;     ///< harmonic balance and time integration agree
+  std::optional<double> steady_difference;     ///< see DynamicResponse
+  std::optional<DirectSolution> direct;        ///< absent when only marching was asked for or possible
+  std::optional<IntegratorChoice> integrator;  ///< present when it was left to the program and something was integrated
+  EnergyBalance energy;
+  IntegratorStatistics statistics;
+
+  ResponseWindow best;
+  /// What `best` should equal: the harmonic balance, with half the samples where nothing was integrated (forces alone),
+  /// or the window before. Absent when there is none to compare with.
+  std::optional<ResponseWindow> before;
+  std::optional<ResponseWindow> loose;  ///< `best` under a ten times looser integration
+  SystemState begin, end;  ///< of `best` where it was integrated; otherwise both the state at its first sample
+};
+
+/// Periodic steady state of any system: solved for directly by harmonic balance and confirmed by marching over one
+/// window from there; where they disagree, no balance is found (mesh vectors that move in time refuse it) or the period
+/// is longer than `max_window_cycles`, by marching alone. The torque may have either sign or be zero. `keep_series` has
+/// no meaning here: all windows are returned. Throws InputError when problem or options are not usable or the load is
+/// not balanced, SolverError when the integrator fails.
+[[nodiscard]] SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& problem,
+                                             const SimulationOptions& options = {});
+
+/// Mesh cycles from which on a window counts as long: its samples stand near every peak even when they are few.
+inline constexpr int long_window = 200;
+/// Samples per mesh cycle that figures need where many responses are compared (their peaks are refined).
+[[nodiscard]] int enough_samples(int window_cycles);
+
+}  // namespace annulus::dynamics
