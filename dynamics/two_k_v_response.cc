@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "core/errors.h"
@@ -103,6 +104,27 @@ std::optional<double> torque_balance(const TwoKVStage& stage, const LumpedSystem
   return std::abs(meshes + momentum - torque) / torque;
 }
 
+/// Puts the start on the periodic orbit where shooting finds it.
+std::optional<double> shoot_for_start(const TwoKVStage& stage, const LumpedSystem& system,
+                                      const SimulationOptions& options, SteadyProblem& problem) {
+  if (options.mesh_cycles || problem.period_in_cycles > options.max_window_cycles) return std::nullopt;
+  ShootingOptions shooting;
+  shooting.displacement = problem.force_scale / problem.stiffness;
+  shooting.tolerance = 0.1 * options.steady_tolerance * shooting.displacement;
+  shooting.rate = 2 * std::numbers::pi * problem.mesh_frequency;
+  shooting.integrator = options.integrator;
+  if (!shooting.integrator.absolute_tolerance)
+    shooting.integrator.absolute_tolerance =
+        0.1 * shooting.integrator.relative_tolerance * problem.force_scale / problem.stiffness;
+  StaticSolver solver(system);
+  auto workspace = system.workspace();
+  const SystemState guess{0, solver.solve(0, workspace), Eigen::VectorXd::Zero(system.freedoms())};
+  const auto found = shoot(system, problem.period_in_cycles / problem.mesh_frequency, guess, shooting);
+  if (found.converged) problem.start = found.start;
+  const bool rigid_motion_exists = stage.input_support == 0 && stage.output_support == 0;
+  return std::abs(found.multipliers[rigid_motion_exists ? 2 : 0]);
+}
+
 }  // namespace
 
 int period_in_crank_turns(const TwoKVStage& stage) {
@@ -121,9 +143,10 @@ TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options
     throw InputError("2K-V stage: with input and output held no torque acts; leave one end free");
   const LumpedSystem system = assemble(stage);
   const double arc_force = stage.mean_arc_mesh_force();
-  const SteadyProblem problem{stage.sun_mesh_frequency(), period_in_crank_turns(stage) * stage.planet_teeth, arc_force,
-                              mean_stiffness(stage.arc_mesh)};
+  SteadyProblem problem{stage.sun_mesh_frequency(), period_in_crank_turns(stage) * stage.planet_teeth, arc_force,
+                        mean_stiffness(stage.arc_mesh), std::nullopt};
   TwoKVResponse response;
+  response.largest_multiplier = shoot_for_start(stage, system, options, problem);
   response.steady = steady_response(system, problem, options);
   auto& steady = response.steady;
   response.crank_frequency = stage.crank_frequency();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "dynamics/figures.h"
+#include "dynamics/shooting.h"
 #include "dynamics/steady_response.h"
 #include "dynamics/two_k_v.h"
 
@@ -45,6 +46,9 @@ struct TwoKVResponse {
   /// Mean torque of the sun meshes on the sun, change of the momentum of sun and input included, against T/ratio;
   /// absent where the input has a support.
   std::optional<double> torque_balance_relative;
+  /// Largest amount of a Floquet multiplier of one period but the double unit one of a rigid motion: below 1 the motion
+  /// is stable, above 1 the changing stiffness feeds it. Absent without shooting.
+  std::optional<double> largest_multiplier;
   SteadyResponse steady;  ///< without its windows
   TimeSeries series;      ///< empty without `keep_series`
 };
@@ -55,9 +59,11 @@ struct TwoKVResponse {
 [[nodiscard]] int period_in_crank_turns(const TwoKVStage& stage);
 
 /// Periodic steady state at output_speed under output_torque (both > 0) with everything that changes in time: mesh
-/// stiffnesses and bearing directions. Vectors that turn leave the marching solver (see steady_response). Cycles of the
-/// options are those of the sun meshes. Throws InputError when both ends are held or the load is not balanced (one end
-/// free of supports and the other held: balanced).
+/// stiffnesses and bearing directions. Found by shooting (the first mode dies slowly: the dampers of stiff bearings
+/// take little from a motion that hardly strains them, and marching alone would wait hundreds of crank turns), then
+/// marched on until windows repeat; with `mesh_cycles` by marching from quasi-static equilibrium alone. Cycles of the
+/// options are those of the sun meshes. Throws InputError when no torque acts (both ends held) or the load is not
+/// balanced.
 [[nodiscard]] TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options = {});
 
 }  // namespace annulus::dynamics

@@ -123,9 +123,9 @@ double difference_sensitivity(const TwoKVStage& stage, const std::string& input)
          (2 * step);
 }
 
-/// ln(f/f_0) over ln(factor) on an even grid, NaN where no stage exists.
 struct SampledFrequency {
-  std::vector<double> factor, value;
+  std::vector<double> factor;  ///< its logarithm, even grid
+  std::vector<double> value;   ///< Hz, NaN where no stage exists
 };
 
 /// Where the sampled curve passes `level`, nearest to factor 1, refined.
@@ -217,15 +217,15 @@ InputBand band_of_input(const TwoKVStage& stage, const std::string& input, doubl
     sampled.factor.push_back(factor);
     sampled.value.push_back(value);
   }
-  const auto below = crossing(stage, input, sampled, target * (1 - relative));
-  const auto above = crossing(stage, input, sampled, target * (1 + relative));
-  double first = 0, last = 0;
-  for (const double value : sampled.value) {
-    if (!std::isfinite(value)) continue;
-    if (first == 0) first = value;
-    last = value;
+  InputBand band;
+  for (const double side : {1 - relative, 1 + relative}) {
+    const auto found = crossing(stage, input, sampled, target * side);
+    if (!found) continue;
+    constexpr double step = 1e-3;  // which way the frequency goes there
+    const bool rises = first_frequency(stage, input, *found * (1 + step)) > first_frequency(stage, input, *found);
+    (rises == (side < 1) ? band.low : band.high) = found;
   }
-  return last > first ? InputBand{below, above} : InputBand{above, below};
+  return band;
 }
 
 }  // namespace annulus::dynamics

@@ -62,8 +62,9 @@ BOOST_AUTO_TEST_CASE(slow_motion_is_quasi_static) {
   BOOST_TEST((response.dynamic.series - response.quasi_static.series).cwiseAbs().maxCoeff() <= 2e-2 * swing);
 }
 
-BOOST_AUTO_TEST_CASE(both_ends_free_give_the_same_mesh_forces_at_a_crawl) {
-  auto stage = running(0.05);
+// Free at both ends the first elastic mode is at 1893 Hz: meshing at 162 Hz is slow.
+BOOST_AUTO_TEST_CASE(both_ends_free_give_the_same_mesh_forces) {
+  auto stage = running(1);
   stage.output_support = 0;
   SimulationOptions options;
   options.samples_per_cycle = 16;
