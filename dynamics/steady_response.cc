@@ -208,6 +208,7 @@ SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& 
   if (!integrator.absolute_tolerance)
     integrator.absolute_tolerance = 0.1 * integrator.relative_tolerance * problem.force_scale / problem.stiffness;
   ResponseRun run(system, problem.mesh_frequency, options.samples_per_cycle, integrator);
+  if (problem.start) run.start_from(problem.start->q, problem.start->v);
   if (direct) {
     run.start_from(direct->fine.displacement.col(0), direct->fine.velocity.col(0));
     march_last_window(run, cycles, options, response);

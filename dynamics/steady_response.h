@@ -90,10 +90,11 @@ struct DirectSolution {
 
 /// What a steady state is asked of, beside the system itself.
 struct SteadyProblem {
-  double mesh_frequency = 0;  ///< Hz, > 0: of the cycles in which windows, samples and the period are counted
-  int period_in_cycles = 1;   ///< after so many cycles excitation, errors and mesh vectors repeat
-  double force_scale = 0;     ///< N, > 0: the mean mesh force, or what stands for it without a torque
-  double stiffness = 0;       ///< N/m, > 0: force_scale / stiffness is the deflection integrators resolve
+  double mesh_frequency = 0;           ///< Hz, > 0: of the cycles in which windows, samples and the period are counted
+  int period_in_cycles = 1;            ///< after so many cycles excitation, errors and mesh vectors repeat
+  double force_scale = 0;              ///< N, > 0: the mean mesh force, or what stands for it without a torque
+  double stiffness = 0;                ///< N/m, > 0: force_scale / stiffness is the deflection integrators resolve
+  std::optional<SystemState> start{};  ///< where marching begins at time 0; absent: in quasi-static equilibrium
 };
 
 /// The steady state of a system, and the windows that tell how well it is known.
