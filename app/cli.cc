@@ -16,7 +16,6 @@
 #include "app/scene_schema.h"
 #include "app/stage_kinds.h"
 #include "app/studies.h"
-#include "app/summary.h"
 #include "core/errors.h"
 #include "core/log.h"
 
@@ -45,8 +44,7 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
   options.out =
       arguments.out.empty() ? std::filesystem::path("out") / scene.file.stem() : std::filesystem::path(arguments.out);
   if (!arguments.tables.empty()) options.tables = arguments.tables;
-  const RunResult result = run(scene, options);
-  fmt::print("{}", summary_text(result));
+  fmt::print("{}", run_scene(scene, options));
   fmt::print("report  {}\n", (options.out / "report.html").string());
 }
 
@@ -59,8 +57,7 @@ void dynamics_command(const Arguments& arguments) {
 void plan_command(const Arguments& arguments) {
   const Scene scene = read_scene(arguments.scene);
   check_studies(scene);
-  const Plan plan = make_plan(scene, make_geometry(scene));
-  fmt::print("{}", arguments.json ? to_json(plan) : to_text(plan));
+  fmt::print("{}", plan_scene(scene, arguments.json));
 }
 
 void check_command(const Arguments& arguments) {

@@ -33,6 +33,10 @@ struct GearGeometry {
   [[nodiscard]] const geometry::GearPair& sun_mesh() const { return rings.front().set.sun_mesh(); }
 };
 
+/// A gear of the scene. `hand`: 1 for the hand of stage.helix_angle_deg, -1 for the other.
+[[nodiscard]] geometry::Gear make_gear(const Scene& scene, const GearInput& input, geometry::GearKind kind,
+                                       int hand = 1);
+
 /// m. Throws GeometryError when it follows from a gear that cannot exist.
 [[nodiscard]] double outside_radius(const Scene& scene, const RingInput& ring);
 

@@ -39,13 +39,14 @@ fem::RingStructure structure_of(const RingInput& ring) {
       .unilateral = ring.structure == Structure::pinned};
 }
 
-fem::LoadedMeshProblem problem_of(const Scene& scene, const GearGeometry& geometry, const geometry::GearPair& pair) {
+fem::LoadedMeshProblem problem_of(const Scene& scene, const geometry::GearPair& pair, double mean_force,
+                                  const HubGearInput& planet) {
   std::vector<double> loads;
-  for (const double factor : table_load_factors) loads.push_back(factor * geometry.operating_point.mean_mesh_force);
+  for (const double factor : table_load_factors) loads.push_back(factor * mean_force);
   return {.pair = pair,
           .material = {scene.material.youngs_modulus, scene.material.poisson_ratio, scene.material.density},
           .face_width = scene.stage.face_width,
-          .planet_bore_radius = scene.planet.bore_diameter.value_or(0) / 2,
+          .planet_bore_radius = planet.bore_diameter.value_or(0) / 2,
           .loads = std::move(loads),
           .phases = table_phases};
 }
@@ -135,14 +136,14 @@ void add_reason(std::string& reasons, bool applies, const std::string& reason) {
 bool lead_modified(const GearInput& gear) { return gear.lead_crowning != 0 || gear.lead_slope != 0; }
 
 /// What both meshes have in common: the teeth themselves.
-std::string tooth_reasons(const Scene& scene, const GearInput& wheel, const std::string& wheel_name,
-                          double misalignment) {
+std::string tooth_reasons(const Scene& scene, const GearInput& planet, const std::string& planet_name,
+                          const GearInput& wheel, const std::string& wheel_name, double misalignment) {
   constexpr const char* lead = "the lead of the {} is modified, so the load varies along the face width";
   std::string reasons;
   add_reason(reasons, scene.stage.helix_angle != 0,
              "helical teeth enter the contact progressively along the face width");
   add_reason(reasons, lead_modified(wheel), fmt::format(lead, wheel_name));
-  add_reason(reasons, lead_modified(scene.planet), fmt::format(lead, "planet"));
+  add_reason(reasons, lead_modified(planet), fmt::format(lead, planet_name));
   add_reason(reasons, misalignment != 0, "the flanks are misaligned, so the load varies along the face width");
   return reasons;
 }
@@ -222,6 +223,7 @@ std::string MeshModel::id() const {
 }
 
 std::string MeshModel::label() const {
+  if (mesh == pinion_wheel) return "mesh of pinion and wheel";
   return ring.empty() ? "sun-planet mesh" : fmt::format("ring-planet mesh of '{}'", ring);
 }
 
@@ -232,28 +234,44 @@ std::string solid_reason(const Scene& scene, const RingInput& ring) {
   add_reason(reasons, ring.flange_width.has_value(),
              "a flange holds the ring at one end, so the deflection grows toward the other");
   add_reason(reasons, ring.hoop_width.has_value(), "a hoop stiffens the free end");
-  const std::string teeth = tooth_reasons(scene, ring, "ring", scene.errors.ring_planet_misalignment);
+  const std::string teeth = tooth_reasons(scene, scene.planet, "planet", ring, "ring", scene.errors.ring_planet_misalignment);
   add_reason(reasons, !teeth.empty(), teeth);
   return reasons;
 }
 
 std::string solid_reason(const Scene& scene) {
-  return tooth_reasons(scene, scene.sun, "sun", scene.errors.sun_planet_misalignment);
+  return tooth_reasons(scene, scene.planet, "planet", scene.sun, "sun", scene.errors.sun_planet_misalignment);
+}
+
+std::string solid_reason(const Scene& scene, const ExternalMesh& mesh) {
+  return tooth_reasons(scene, mesh.planet, mesh.planet_name, mesh.wheel, mesh.wheel_name, mesh.misalignment);
+}
+
+MeshModel external_mesh_model(const Scene& scene, const ExternalMesh& mesh) {
+  MeshModel model{.mesh = mesh.mesh};
+  if (mesh.input.stiffness != StiffnessShape::computed) {
+    set_given(model, shape_text(mesh.input.stiffness));
+    return model;
+  }
+  set_rung(model, scene, solid_reason(scene, mesh),
+           "spur gears without lead modifications on hubs over the full width: nothing changes along the face width");
+  model.repeats = "equal teeth on concentric hubs: one mesh cycle tells all";
+  model.problem = problem_of(scene, mesh.pair, mesh.mean_force, mesh.planet);
+  model.problem->wheel_support_radius = mesh.wheel.bore_diameter.value_or(0) / 2;
+  model.problem->misalignment = mesh.misalignment;
+  return model;
 }
 
 MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry) {
-  MeshModel model{.mesh = sun_planet};
-  if (scene.sun_planet.stiffness != StiffnessShape::computed) {
-    set_given(model, shape_text(scene.sun_planet.stiffness));
-    return model;
-  }
-  set_rung(model, scene, solid_reason(scene),
-           "spur gears without lead modifications on hubs over the full width: nothing changes along the face width");
-  model.repeats = "equal teeth on concentric hubs: one mesh cycle tells all";
-  model.problem = problem_of(scene, geometry, geometry.sun_mesh());
-  model.problem->wheel_support_radius = scene.sun.bore_diameter.value_or(0) / 2;
-  model.problem->misalignment = scene.errors.sun_planet_misalignment;
-  return model;
+  return external_mesh_model(scene, {.mesh = sun_planet,
+                                     .pair = geometry.sun_mesh(),
+                                     .input = scene.sun_planet,
+                                     .planet = scene.planet,
+                                     .wheel = scene.sun,
+                                     .planet_name = "planet",
+                                     .wheel_name = "sun",
+                                     .misalignment = scene.errors.sun_planet_misalignment,
+                                     .mean_force = geometry.operating_point.mean_mesh_force});
 }
 
 MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
@@ -270,7 +288,8 @@ MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std:
   model.repeats = input.has_pins() || input.structure == Structure::splined
                       ? repeats_text(input, model.positions)
                       : "the support is the same behind every tooth: one mesh cycle tells all";
-  model.problem = problem_of(scene, geometry, ring_geometry.set.ring_mesh());
+  model.problem =
+      problem_of(scene, ring_geometry.set.ring_mesh(), geometry.operating_point.mean_mesh_force, scene.planet);
   model.problem->wheel_support_radius = ring_geometry.outside_radius;
   model.problem->structure = structure;
   model.problem->misalignment = scene.errors.ring_planet_misalignment;

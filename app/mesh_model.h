@@ -12,10 +12,11 @@ namespace annulus::app {
 
 inline constexpr const char* sun_planet = "sun_planet";
 inline constexpr const char* ring_planet = "ring_planet";
+inline constexpr const char* pinion_wheel = "pinion_wheel";
 
 /// How the stiffness of one mesh is found, and why so: the decision of the planner, carried out by the pipeline.
 struct MeshModel {
-  std::string mesh{};  ///< "sun_planet" or "ring_planet"
+  std::string mesh{};  ///< "sun_planet", "ring_planet" or "pinion_wheel"
   std::string ring{};  ///< empty for the sun mesh, which all rings share
   std::string rung{};  ///< "closed_form", "plane", "solid", "resolved_plane", "resolved_solid", or "given" by the scene
   std::string reason{};                             ///< why this rung
@@ -42,6 +43,20 @@ inline constexpr int table_phases = 32;
 /// Why a mesh needs a solid model: what changes along its face width. Empty when nothing does.
 [[nodiscard]] std::string solid_reason(const Scene& scene, const RingInput& ring);  ///< ring-planet mesh
 [[nodiscard]] std::string solid_reason(const Scene& scene);                         ///< sun-planet mesh
+
+/// Two external gears on rigid hubs.
+struct ExternalMesh {
+  std::string mesh;  ///< name of files and tables
+  const geometry::GearPair& pair;
+  const MeshInput& input;
+  const HubGearInput &planet, &wheel;       ///< in the roles they have in the pair
+  std::string planet_name, wheel_name;      ///< for people
+  double misalignment = 0;                  ///< m
+  double mean_force = 0;                    ///< N, of one mesh
+};
+[[nodiscard]] MeshModel external_mesh_model(const Scene& scene, const ExternalMesh& mesh);
+/// Why it needs a solid model: what changes along its face width. Empty when nothing does.
+[[nodiscard]] std::string solid_reason(const Scene& scene, const ExternalMesh& mesh);
 
 [[nodiscard]] MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry);
 [[nodiscard]] MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring);

@@ -21,7 +21,9 @@ std::size_t most_pairs(const fem::LoadedMeshResult& solved) {
   return pairs;
 }
 
-const char* wheel_name(const MeshModel& model) { return model.mesh == sun_planet ? "sun" : "ring"; }
+const char* wheel_name(const MeshModel& model) {
+  return model.mesh == sun_planet ? "sun" : model.mesh == pinion_wheel ? "wheel" : "ring";
+}
 
 bool over_face_width(const fem::LoadedMeshResult& solved) { return solved.slice_edges.size() > 2; }
 

@@ -19,9 +19,9 @@ namespace {
 
 void write_meshes(const MeshModel& model, const fem::LoadedMeshResult& solved, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  const std::string wheel = model.mesh == sun_planet ? "_sun" : "_ring";
+  const std::string wheel = model.mesh == sun_planet ? "_sun" : model.mesh == pinion_wheel ? "_wheel" : "_ring";
   for (const auto& [mesh, name] :
-       {std::pair{&solved.planet_sector, model.mesh + "_planet"}, {&solved.wheel_sector, model.mesh + wheel}}) {
+       {std::pair{&solved.planet_sector, model.mesh + (model.mesh == pinion_wheel ? "_pinion" : "_planet")}, {&solved.wheel_sector, model.mesh + wheel}}) {
     if (mesh->cells.empty()) continue;  // a closed form meshes nothing
     geometry::write_msh(*mesh, folder / (name + ".msh"));
     geometry::write_vtu(*mesh, folder / (name + ".vtu"));
@@ -97,6 +97,29 @@ fem::LoadedMeshResult solve_contact(const MeshModel& model, int threads) {
   return solved;
 }
 
+MeshResult computed_stiffness(const MeshModel& model, const std::vector<std::string>& folders,
+                              const RunOptions& options) {
+  std::optional<MeshResult> result;
+  std::filesystem::path source;
+  for (const auto& folder : folders) {
+    for (const auto& root : {options.out, options.tables.value_or(options.out)}) {
+      if (result) continue;
+      result = load(model, root / folder);
+      source = root / folder;
+    }
+  }
+  if (result) {
+    log::info(fmt::format("{}: unchanged, reused", model.label()));
+    for (const auto& folder : folders) copy_meshes(model, source / "mesh", options.out / folder / "mesh");
+  } else {
+    const auto solved = solve_contact(model, options.threads);
+    result = pack(model, solved);
+    for (const auto& folder : folders) write_meshes(model, solved, options.out / folder / "mesh");
+  }
+  for (const auto& folder : folders) save(*result, options.out / folder);
+  return std::move(*result);
+}
+
 MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
                           const std::vector<std::string>& rings, const RunOptions& options) {
   const bool sun = model.mesh == sun_planet;
@@ -105,28 +128,11 @@ MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, cons
     return given_stiffness(model, sun ? scene.sun_planet : scene.ring_planet, scene, pair.contact_ratio(),
                            geometry.operating_point.mean_mesh_force);
   }
-  std::optional<MeshResult> result;
-  std::filesystem::path source;
-  for (const auto& ring : rings) {
-    for (const auto& root : {options.out, options.tables.value_or(options.out)}) {
-      if (result) continue;
-      result = load(model, root / ring);
-      source = root / ring;
-    }
-  }
-  if (result) {
-    log::info(fmt::format("{}: unchanged, reused", model.label()));
-    for (const auto& ring : rings) copy_meshes(model, source / "mesh", options.out / ring / "mesh");
-  } else {
-    const auto solved = solve_contact(model, options.threads);
-    result = pack(model, solved);
-    for (const auto& ring : rings) write_meshes(model, solved, options.out / ring / "mesh");
-  }
-  for (const auto& ring : rings) save(*result, options.out / ring);
+  auto result = computed_stiffness(model, rings, options);
   if (options.with_dynamics && may_be_coupled(scene, model))
-    result->coupling = std::make_shared<SolvedCoupling>(solve_coupling(
-        scene, geometry, model, 1 / result->mean_stiffness().value, options.threads, options.out / rings.front()));
-  return std::move(*result);
+    result.coupling = std::make_shared<SolvedCoupling>(solve_coupling(
+        scene, geometry, model, 1 / result.mean_stiffness().value, options.threads, options.out / rings.front()));
+  return result;
 }
 
 StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry, std::size_t ring,

@@ -63,6 +63,10 @@ struct RunResult {
 [[nodiscard]] MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
                                         const std::vector<std::string>& rings, const RunOptions& options);
 
+//    The same for a mesh that is computed, whatever its stage; kept in OUT/<folder> for each folder.
+[[nodiscard]] MeshResult computed_stiffness(const MeshModel& model, const std::vector<std::string>& folders,
+                                            const RunOptions& options);
+
 // 5. Dynamics of one ring on its tables: read back if unchanged, else simulated and saved.
 [[nodiscard]] StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                              const MeshResult& sun_mesh, const MeshResult& ring_mesh,
@@ -73,7 +77,8 @@ struct RunResult {
 
 // 6. Report: OUT/report.html and OUT/summary.json (report.h, summary.h).
 
-/// All stages. Throws what the stages throw; what is finished by then stays on disk and is reused.
+/// All stages of a planetary set. Throws what the stages throw; what is finished by then stays on disk and is reused.
+/// Scenes of any kind: run_scene (stage_kinds.h).
 RunResult run(const Scene& scene, const RunOptions& options);
 
 }  // namespace annulus::app

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <numeric>
 
+#include "app/plan.h"
 #include "app/planetary_subject.h"
+#include "app/summary.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -92,6 +94,30 @@ double response_seconds(const Scene& scene) {
   switch (scene.stage.kind) {
     case StageKind::planetary:
       return planetary_seconds(scene);
+    case StageKind::helical_pair:
+    case StageKind::two_k_v:
+      break;
+  }
+  no_such_kind();
+}
+
+std::string run_scene(const Scene& scene, const RunOptions& options) {
+  switch (scene.stage.kind) {
+    case StageKind::planetary:
+      return summary_text(run(scene, options));
+    case StageKind::helical_pair:
+    case StageKind::two_k_v:
+      break;
+  }
+  no_such_kind();
+}
+
+std::string plan_scene(const Scene& scene, bool json) {
+  switch (scene.stage.kind) {
+    case StageKind::planetary: {
+      const Plan plan = make_plan(scene, make_geometry(scene));
+      return json ? to_json(plan) : to_text(plan);
+    }
     case StageKind::helical_pair:
     case StageKind::two_k_v:
       break;

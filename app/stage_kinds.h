@@ -10,6 +10,8 @@
 /// (scene_checks.cc) and a case to each function here.
 namespace annulus::app {
 
+struct RunOptions;
+
 /// Makes the geometry and whatever else needs no solving. Throws InputError where the scene is not a good one.
 void check_stage(const Scene& scene);
 
@@ -24,6 +26,12 @@ void check_stage(const Scene& scene);
 
 /// Rough wall time of the responses of all variants on one core.
 [[nodiscard]] double response_seconds(const Scene& scene);
+
+/// Everything the scene asks for, into options.out; the summary for the standard output.
+std::string run_scene(const Scene& scene, const RunOptions& options);
+
+/// `annulus plan`
+[[nodiscard]] std::string plan_scene(const Scene& scene, bool json);
 
 /// What `annulus check` says of a good scene: "3 rings, 5 planets".
 [[nodiscard]] std::string stage_text(const Scene& scene);

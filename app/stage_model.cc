@@ -116,7 +116,8 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   stage.ring_mesh = excitation_of(scene.ring_planet, ring_mesh, point.mean_mesh_force, scene.dynamics->load_dependence);
   if (ring_mesh.coupling)
     stage.ring_coupling = taken_coupling(*ring_mesh.coupling, coupling_choice(scene, *ring_mesh.coupling).taken);
-  stage.set_half_backlash(scene.dynamics->half_backlash);
+  stage.sun_half_backlash = scene.sun_planet.half_backlash.value_or(scene.dynamics->half_backlash);
+  stage.ring_half_backlash = scene.ring_planet.half_backlash.value_or(scene.dynamics->half_backlash);
   stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;
   stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
   stage.damping_without_contact = scene.dynamics->mesh_damping == MeshDamping::always;
