@@ -22,16 +22,24 @@ enum class SteadyState {
   marching,  ///< by time integration from quasi-static equilibrium until windows repeat
 };
 
+/// A state at time 0.
+struct StartState {
+  Eigen::VectorXd displacement, velocity;  ///< m, m/s, one entry per freedom
+};
+
 struct SimulationOptions {
   SteadyState steady_state = SteadyState::direct;
   /// `direct` only. false: where the harmonic balance converges, its solution is taken without any time integration
-  /// (sweeps, Monte Carlo); the errors then compare with half the samples, and there is no energy balance.
+  /// (sweeps, Monte Carlo); the errors then compare with half the samples, and there is no energy balance. Marching
+  /// gives up where windows come closer so slowly (chaos: not at all) that `max_windows` will not do.
   bool confirm = true;
   bool keep_series = true;   ///< false: figures only
   PeriodicOptions periodic;  ///< samples_per_cycle and motion are set from what stands here
   IntegratorOptions integrator;
+  /// Where marching begins. Absent: in quasi-static equilibrium. (A direct solution begins with its own state.)
+  std::optional<StartState> start{};
   /// Total mesh cycles from the start, by marching alone. Absent: until the response repeats, then one error period.
-  std::optional<int> mesh_cycles;
+  std::optional<int> mesh_cycles{};
   /// The response counts as periodic when no mesh force differs by more than this, relative to the mean mesh force,
   /// from the harmonic balance; or from one evaluated window earlier, and the differences, continued geometrically, add
   /// up to no more.
