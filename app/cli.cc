@@ -14,6 +14,7 @@
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/scene_schema.h"
+#include "app/stage_kinds.h"
 #include "app/studies.h"
 #include "app/summary.h"
 #include "core/errors.h"
@@ -64,10 +65,9 @@ void plan_command(const Arguments& arguments) {
 
 void check_command(const Arguments& arguments) {
   const Scene scene = read_scene(arguments.scene);
-  const auto geometry = make_geometry(scene);
+  check_stage(scene);
   check_studies(scene);
-  fmt::print("{}: good ({} ring{}, {} planets)\n", arguments.scene, geometry.rings.size(),
-             geometry.rings.size() == 1 ? "" : "s", scene.stage.planets);
+  fmt::print("{}: good ({})\n", arguments.scene, stage_text(scene));
 }
 
 void explain_command(const Arguments& arguments) {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/content_id.h"
-#include "app/point_store.h"
+#include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/studies.h"
 #include "app/study_cases.h"
@@ -18,14 +18,23 @@ namespace {
 const std::string failure_of = "failure_";
 constexpr int chunk_size = 20;  // samples per kept file: the most that an interruption costs, per thread
 
-/// All samples of one ring, kept in chunks in OUT/<ring>/dynamics/monte_carlo.
-class RingSamples {
+std::vector<std::string> quick_columns(const std::vector<StudyFigure>& figures) {
+  std::vector<std::string> names;
+  for (const auto& figure : figures) {
+    if (figure.quick) names.push_back(figure.column);
+  }
+  return names;
+}
+
+/// All samples of one variant, kept in chunks in OUT/<variant>/dynamics/monte_carlo.
+class SampleStore {
  public:
-  RingSamples(const ChangedStages& stages, std::size_t ring, const std::vector<RandomVariable>& variables)
-      : stages_(stages),
-        ring_(ring),
+  SampleStore(const StudySubject& subject, std::size_t variant, const std::vector<RandomVariable>& variables)
+      : subject_(subject),
+        variant_(variant),
         variables_(variables),
-        folder_(stages.options().out / stages.nominal().rings[ring].name / "dynamics" / "monte_carlo"),
+        figures_(subject.figures()),
+        folder_(subject.folder(variant) / "monte_carlo"),
         id_(identity()) {
     std::filesystem::create_directories(folder_);
   }
@@ -47,7 +56,7 @@ class RingSamples {
   [[nodiscard]] std::vector<std::string> columns() const {
     std::vector<std::string> names = {"sample", "failed"};
     for (const auto& variable : variables_) names.push_back(file_name(variable.input));
-    for (const auto& figure : figure_columns(false)) names.push_back(figure);
+    for (const auto& figure : quick_columns(figures_)) names.push_back(figure);
     return names;
   }
 
@@ -58,12 +67,12 @@ class RingSamples {
  private:
   /// Of everything a sample depends on: the scene, the tables, the distributions and the seed; not of their number.
   [[nodiscard]] std::string identity() const {
-    const auto& scene = stages_.nominal().scene;
-    const auto stage = stages_.stage({}, "[monte_carlo]", ring_, "", true);
+    const auto& scene = subject_.scene();
     ContentId id;
-    id.add("response", stage.id).add("method", dynamics::point_method()).add("seed", scene.monte_carlo->seed);
+    id.add("response", subject_.model({}, "[monte_carlo]", variant_, "", true).id);
+    id.add("seed", scene.monte_carlo->seed);
     for (const auto& input : scene.inputs) {
-      if (input.key == "title" || input.key == "reference" || of_a_study(input.key)) continue;
+      if (input.key == "title" || input.key == "reference" || is_study_table(input.key)) continue;
       const auto* number = std::get_if<double>(&input.value);
       const auto* list = std::get_if<std::vector<double>>(&input.value);
       const std::string name = input.key + "." + input.ring;
@@ -83,10 +92,6 @@ class RingSamples {
     return id.id();
   }
 
-  static bool of_a_study(const std::string& key) {
-    return key.starts_with("sweep.") || key.starts_with("monte_carlo.") || key.starts_with("sensitivity.");
-  }
-
   /// The rows kept in a file of this identity, else none.
   [[nodiscard]] Csv kept(const std::filesystem::path& file) const {
     Csv empty;
@@ -103,34 +108,36 @@ class RingSamples {
   }
 
   void add(Csv& csv, int sample) const {
-    const auto drawn = sample_case(variables_, stages_.nominal().scene.monte_carlo->seed, sample);
+    const auto drawn = sample_case(variables_, subject_.scene().monte_carlo->seed, sample);
     StudyPoint point;
     try {
-      point = evaluate(stages_.stage(drawn.overrides, drawn.where, ring_, "", false), false);
+      point = evaluate(subject_.model(drawn.overrides, drawn.where, variant_, "", false), true);
     } catch (const InputError& error) {
       point.failure = error.what();  // a combination of draws that makes no stage
     }
     auto& row = csv.rows.emplace_back();
     row = {static_cast<double>(sample + 1), point.failure.empty() ? 0.0 : 1.0};
     for (const auto& change : drawn.overrides) row.push_back(change.value);
-    const auto figures = figure_row(point, false);
-    row.insert(row.end(), figures.begin(), figures.end());
+    for (std::size_t i = 0; i < figures_.size(); ++i) {
+      if (figures_[i].quick) row.push_back(point.value(i));
+    }
     if (point.failure.empty()) return;
     std::replace(point.failure.begin(), point.failure.end(), '\n', ' ');
     csv.header.emplace_back(failure_of + std::to_string(sample + 1), point.failure);
   }
 
-  const ChangedStages& stages_;
-  std::size_t ring_;
+  const StudySubject& subject_;
+  std::size_t variant_;
   const std::vector<RandomVariable>& variables_;
+  std::vector<StudyFigure> figures_;
   std::filesystem::path folder_;
   std::string id_;
 };
 
-std::vector<FigureStatistics> statistics_of(const Csv& samples) {
+std::vector<FigureStatistics> statistics_of(const Csv& samples, const std::vector<std::string>& figures) {
   std::vector<FigureStatistics> list;
   const auto failed = samples.column("failed");
-  for (const auto& figure : figure_columns(false)) {
+  for (const auto& figure : figures) {
     if (figure == "steady") continue;
     const auto column = samples.column(figure);
     std::vector<double> values;
@@ -145,12 +152,12 @@ std::vector<FigureStatistics> statistics_of(const Csv& samples) {
   return list;
 }
 
-PairedOrder paired_order(const std::vector<MonteCarloRing>& rings, std::size_t a, std::size_t b,
+PairedOrder paired_order(const std::vector<VariantSamples>& variants, std::size_t a, std::size_t b,
                          const std::string& figure) {
   PairedOrder order{.a = a, .b = b, .figure = figure};
   std::vector<double> differences;
-  const auto& first = rings[a].samples;
-  const auto& second = rings[b].samples;
+  const auto& first = variants[a].samples;
+  const auto& second = variants[b].samples;
   const auto column = first.column(figure), failed = first.column("failed");
   for (std::size_t i = 0; i < first.rows.size(); ++i) {
     if (first.rows[i][failed] != 0 || second.rows[i][failed] != 0) continue;
@@ -167,56 +174,59 @@ PairedOrder paired_order(const std::vector<MonteCarloRing>& rings, std::size_t a
 
 }  // namespace
 
-MonteCarloResult run_monte_carlo(const RunResult& nominal, const RunOptions& options) {
-  const auto& settings = *nominal.scene.monte_carlo;
-  const auto variables = random_variables(nominal.scene);
-  const ChangedStages stages(nominal, options);
-  std::vector<RingSamples> rings;
-  for (std::size_t i = 0; i < nominal.rings.size(); ++i) rings.emplace_back(stages, i, variables);
+MonteCarloResult run_monte_carlo(const StudySubject& subject) {
+  const auto& settings = *subject.scene().monte_carlo;
+  const auto variables = random_variables(subject.scene());
+  const auto figures = subject.figures();
+  const auto names = subject.variants();
+  std::vector<SampleStore> stores;
+  for (std::size_t i = 0; i < names.size(); ++i) stores.emplace_back(subject, i, variables);
 
   const int chunks = (settings.samples + chunk_size - 1) / chunk_size;
-  std::vector<std::vector<Csv>> found(rings.size(), std::vector<Csv>(static_cast<std::size_t>(chunks)));
-  const auto tasks = static_cast<std::size_t>(chunks) * rings.size();
+  std::vector<std::vector<Csv>> found(names.size(), std::vector<Csv>(static_cast<std::size_t>(chunks)));
+  const auto tasks = static_cast<std::size_t>(chunks) * names.size();
   TaskProgress progress("Monte Carlo", tasks);
-  for_each_task(tasks, options.threads, [&](std::size_t task) {
-    // All rings of a chunk first: an interrupted run has paired samples.
-    const std::size_t ring = task % rings.size(), chunk = task / rings.size();
+  for_each_task(tasks, subject.options().threads, [&](std::size_t task) {
+    // All variants of a chunk first: an interrupted run has paired samples.
+    const std::size_t variant = task % names.size(), chunk = task / names.size();
     const int first = static_cast<int>(chunk) * chunk_size;
-    found[ring][chunk] = rings[ring].chunk(first, std::min(first + chunk_size, settings.samples));
+    found[variant][chunk] = stores[variant].chunk(first, std::min(first + chunk_size, settings.samples));
     progress.done();
   });
 
   MonteCarloResult result{.samples = settings.samples, .seed = settings.seed};
   for (const auto& variable : variables) result.inputs.push_back(variable.input);
   int failures = 0;
-  for (std::size_t i = 0; i < rings.size(); ++i) {
-    MonteCarloRing ring;
-    ring.samples.header = rings[i].header();
-    ring.samples.columns = rings[i].columns();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    VariantSamples variant;
+    variant.samples.header = stores[i].header();
+    variant.samples.columns = stores[i].columns();
     for (const auto& chunk : found[i]) {
-      ring.samples.rows.insert(ring.samples.rows.end(), chunk.rows.begin(), chunk.rows.end());
-      ring.samples.header.insert(ring.samples.header.end(), chunk.header.begin() + 2, chunk.header.end());
+      variant.samples.rows.insert(variant.samples.rows.end(), chunk.rows.begin(), chunk.rows.end());
+      variant.samples.header.insert(variant.samples.header.end(), chunk.header.begin() + 2, chunk.header.end());
     }
-    const auto failed = ring.samples.column("failed"), steady = ring.samples.column("steady");
-    for (const auto& row : ring.samples.rows) {
-      ring.failed += row[failed] != 0 ? 1 : 0;
-      ring.not_steady += row[failed] == 0 && row[steady] == 0 ? 1 : 0;
+    const auto failed = variant.samples.column("failed"), steady = variant.samples.column("steady");
+    for (const auto& row : variant.samples.rows) {
+      variant.failed += row[failed] != 0 ? 1 : 0;
+      variant.not_steady += row[failed] == 0 && row[steady] == 0 ? 1 : 0;
     }
-    failures += ring.failed;
-    ring.statistics = statistics_of(ring.samples);
-    ring.samples.write(options.out / nominal.rings[i].name / "dynamics" / "monte_carlo.csv");
-    if (ring.failed)
-      log::warn(fmt::format("Monte Carlo, ring '{}': {} of {} samples failed; monte_carlo.csv tells why",
-                            nominal.rings[i].name, ring.failed, settings.samples));
-    result.rings.push_back(std::move(ring));
+    failures += variant.failed;
+    variant.statistics = statistics_of(variant.samples, quick_columns(figures));
+    variant.samples.write(subject.folder(i) / "monte_carlo.csv");
+    if (variant.failed)
+      log::warn(fmt::format("Monte Carlo{}: {} of {} samples failed; monte_carlo.csv tells why",
+                            names[i].empty() ? "" : ", ring '" + names[i] + "'", variant.failed, settings.samples));
+    result.variants.push_back(std::move(variant));
   }
-  for (const std::string figure : {ordering_figure, "ring_planet_load_sharing_averaged", "sun_planet_dynamic_factor"}) {
-    for (std::size_t a = 0; a < rings.size(); ++a) {
-      for (std::size_t b = a + 1; b < rings.size(); ++b)
-        result.orders.push_back(paired_order(result.rings, a, b, figure));
+  for (const auto& figure : figures) {
+    if (!figure.ordering) continue;
+    for (std::size_t a = 0; a < names.size(); ++a) {
+      for (std::size_t b = a + 1; b < names.size(); ++b)
+        result.orders.push_back(paired_order(result.variants, a, b, figure.column));
     }
   }
-  progress.finish(fmt::format("{} samples × {} rings{}", settings.samples, rings.size(),
+  progress.finish(fmt::format("{} samples{}{}", settings.samples,
+                              names.size() > 1 ? fmt::format(" × {} rings", names.size()) : "",
                               failures ? fmt::format(", {} failed", failures) : ""));
   return result;
 }

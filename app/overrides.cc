@@ -10,13 +10,9 @@ namespace annulus::app {
 
 namespace {
 
-bool of_a_study(const Parameter& p) {
-  return p.table == "sweep" || p.table.starts_with("monte_carlo") || p.table == "sensitivity";
-}
-
 bool numeric(const Parameter& p) {
   using Kind = Parameter::Kind;
-  return (p.kind == Kind::integer || p.kind == Kind::real || p.kind == Kind::reals) && !of_a_study(p);
+  return (p.kind == Kind::integer || p.kind == Kind::real || p.kind == Kind::reals) && !is_study_table(p.table);
 }
 
 const Input* find_in(const Scene& scene, const std::string& key, std::size_t entry) {
@@ -30,8 +26,9 @@ const Input* find_in(const Scene& scene, const std::string& key, std::size_t ent
 std::vector<std::string> all_paths(const Scene& scene) {
   std::vector<std::string> paths;
   for (const auto& table : schema()) {
+    if (!table.applies_to(scene.stage.kind)) continue;
     for (const auto& p : table.parameters) {
-      if (!numeric(p)) continue;
+      if (!numeric(p) || !p.applies_to(scene.stage.kind)) continue;
       paths.push_back(p.key());
       if (p.table != "ring") continue;
       for (const auto& ring : scene.rings) paths.push_back("ring." + ring.name + "." + p.name);

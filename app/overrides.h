@@ -58,4 +58,7 @@ struct InputEdit {
 [[nodiscard]] Scene with_overrides(const Scene& scene, const std::vector<Override>& overrides);
 [[nodiscard]] Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides);
 
+/// The same scene as the text of a file. Comments are lost.
+[[nodiscard]] std::string scene_text(const Scene& scene, const std::vector<Override>& overrides);
+
 }  // namespace annulus::app

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/planetary_subject.h"
 #include "app/progress.h"
 #include "app/report.h"
 #include "app/studies.h"
@@ -179,7 +180,7 @@ RunResult run(const Scene& scene, const RunOptions& options) {
   }
   if (options.with_dynamics) {
     const auto timer = timers.measure("studies");
-    result.studies = run_studies(result, options);
+    result.studies = run_studies(PlanetarySubject(result, options));
   }
   result.timings = timings_of(result, timers);
   result.peak_memory_MB = peak_memory_MB();

@@ -210,7 +210,7 @@ Plan make_plan(const Scene& scene, const GearGeometry& geometry) {
     plan.meshes.push_back(ring_mesh_model(scene, geometry, i));
   }
   if (scene.dynamics) plan.freedoms = freedoms(scene.supports, scene.stage.planets);
-  plan.studies = plan_studies(scene, geometry);
+  plan.studies = plan_studies(scene);
   plan.remarks = remarks(scene, geometry, plan.meshes);
   return plan;
 }

@@ -127,9 +127,11 @@ std::string report_html(const RunResult& result) {
   add("supports", "Pins and splines", supports_section(result));
   add("contact", "Face width, pressure, stress", contact_section(result));
   add("dynamics", "Load sharing and dynamic factors", dynamics_section(result));
-  add("spread", "Spread", spread_section(result));
-  add("sweeps", "Sweeps", sweeps_section(result));
-  add("sensitivity", "Sensitivity", sensitivity_section(result));
+  add("spread", "Spread", spread_section(result.studies));
+  add("sweeps", "Sweeps", sweeps_section(result.scene, result.studies));
+  add("grids", "Grids", grids_section(result.scene, result.studies));
+  add("sensitivity", "Sensitivity", sensitivity_section(result.studies));
+  add("optimisation", "Optimisation", optimise_section(result.studies));
   add("coupling", "Coupling through the ring", coupling_section(result));
   add("motion", "Bearings and sun orbit", motion_section(result));
   add("modes", "Natural frequencies", modes_section(result));

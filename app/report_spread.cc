@@ -10,7 +10,7 @@ namespace annulus::app {
 
 namespace {
 
-std::vector<double> sampled(const MonteCarloRing& ring, const std::string& figure) {
+std::vector<double> sampled(const VariantSamples& ring, const std::string& figure) {
   const auto column = ring.samples.column(figure), failed = ring.samples.column("failed");
   std::vector<double> values;
   for (const auto& row : ring.samples.rows) {
@@ -19,56 +19,24 @@ std::vector<double> sampled(const MonteCarloRing& ring, const std::string& figur
   return values;
 }
 
-struct SpreadFigure {
-  std::string title, column;
-  dynamics::Figure (*nominal)(const dynamics::DynamicResponse&);
-};
-
-double largest_factor(const dynamics::MeshKindResult& kind, double dynamics::Figure::*member) {
-  const auto best = std::max_element(kind.branches.begin(), kind.branches.end(), [](const auto& a, const auto& b) {
-    return a.dynamic_factor_max.value < b.dynamic_factor_max.value;
-  });
-  return best->dynamic_factor_max.*member;
-}
-
-std::vector<SpreadFigure> spread_figures() {
-  using Response = dynamics::DynamicResponse;
-  return {{"Load sharing of the sun meshes, averaged", ordering_figure,
-           [](const Response& r) { return r.sun_planet.load_sharing.averaged; }},
-          {"Load sharing of the ring meshes, averaged", "ring_planet_load_sharing_averaged",
-           [](const Response& r) { return r.ring_planet.load_sharing.averaged; }},
-          {"Dynamic factor of the sun meshes", "sun_planet_dynamic_factor",
-           [](const Response& r) {
-             return dynamics::Figure{largest_factor(r.sun_planet, &dynamics::Figure::value),
-                                     largest_factor(r.sun_planet, &dynamics::Figure::error)};
-           }},
-          {"Dynamic factor of the ring meshes", "ring_planet_dynamic_factor", [](const Response& r) {
-             return dynamics::Figure{largest_factor(r.ring_planet, &dynamics::Figure::value),
-                                     largest_factor(r.ring_planet, &dynamics::Figure::error)};
-           }}};
-}
-
-std::string spread_picture(const RunResult& result, const SpreadFigure& figure) {
-  SpreadPlot plot{.title = figure.title, .y_label = figure.column.ends_with("factor") ? "F / mean force" : "N F / ΣF"};
-  for (std::size_t i = 0; i < result.rings.size(); ++i) {
-    const auto& ring = result.studies.monte_carlo->rings[i];
-    auto values = sampled(ring, figure.column);
+std::string spread_picture(const StudyResults& studies, const StudyFigure& figure) {
+  SpreadPlot plot{.title = figure.title, .y_label = figure.label};
+  for (std::size_t i = 0; i < studies.variants.size(); ++i) {
+    auto values = sampled(studies.monte_carlo->variants[i], figure.column);
     if (values.empty()) continue;
+    for (auto& v : values) v *= figure.scale;
     const auto quantile = [&](double p) { return dynamics::quantile_interval(values, p).value; };
-    SpreadColumn column{.label = result.rings[i].name,
+    SpreadColumn column{.label = studies.variants[i],
                         .colour = i,
                         .q05 = quantile(0.05),
                         .q25 = quantile(0.25),
                         .median = quantile(0.5),
                         .q75 = quantile(0.75),
                         .q95 = quantile(0.95)};
-    if (result.rings[i].response) {
-      const auto nominal = figure.nominal(result.rings[i].response->figures);
-      column.nominal = nominal.value;
-      column.nominal_error = nominal.error;
-    } else {
-      column.nominal = std::nan("");
-    }
+    const auto nominal = studies.nominal[i].find(figure.column);
+    const bool known = nominal != studies.nominal[i].end();
+    column.nominal = known ? figure.scale * nominal->second.value : std::nan("");
+    column.nominal_error = known ? figure.scale * nominal->second.error : 0;
     column.values = std::move(values);
     plot.columns.push_back(std::move(column));
   }
@@ -80,7 +48,7 @@ std::string percent(const dynamics::Interval& share) {
                      100 * dynamics::usual_confidence, 100 * share.low, 100 * share.high);
 }
 
-std::string order_sentence(const RunResult& result, const PairedOrder& order) {
+std::string order_sentence(const StudyResults& studies, const PairedOrder& order) {
   if (order.samples == 0) return "";
   // Told from the ring that is more often above.
   const bool swap = 2 * order.above + order.equal < order.samples;
@@ -88,53 +56,47 @@ std::string order_sentence(const RunResult& result, const PairedOrder& order) {
   const auto share = swap ? dynamics::share_interval(above, order.samples) : order.share;
   const double sign = swap ? -1 : 1, half = order.difference.high - order.difference.value;
   return fmt::format("<li><b>{}</b> lies above <b>{}</b> in {}{}, on average by {}.</li>\n",
-                     escape(result.rings[swap ? order.b : order.a].name),
-                     escape(result.rings[swap ? order.a : order.b].name), percent(share),
+                     escape(studies.variants[swap ? order.b : order.a]),
+                     escape(studies.variants[swap ? order.a : order.b]), percent(share),
                      order.equal ? fmt::format("; equal in {}", order.equal) : "",
                      std::isfinite(half) ? fmt::format("{:.2g} ± {:.1g}", sign * order.difference.value, half)
                                          : to_text(sign * order.difference.value, 2));
 }
 
-std::string bounds(const dynamics::Interval& i) {
-  const auto end = [](double x) { return std::isfinite(x) ? fmt::format("{:.4f}", x) : std::string("?"); };
-  return fmt::format("{:.4f} <span class=\"muted\">[{}, {}]</span>", i.value, end(i.low), end(i.high));
+std::string bounds(const dynamics::Interval& i, double scale) {
+  const auto end = [&](double x) { return std::isfinite(x) ? to_text(scale * x, 5) : std::string("?"); };
+  return fmt::format("{} <span class=\"muted\">[{}, {}]</span>", to_text(scale * i.value, 5), end(i.low), end(i.high));
 }
 
-HtmlTable statistics_table(const RunResult& result) {
+HtmlTable statistics_table(const StudyResults& studies) {
   HtmlTable table{
       .head = {"", "mean", "standard deviation", "5 %", "median", "95 %"}, .rows = {}, .css_class = "numbers"};
-  std::vector<std::pair<std::string, std::string>> figures;
-  for (const std::string mesh : {"sun", "ring"}) {
-    const std::string column = mesh + "_planet_";
-    figures.insert(
-        figures.end(),
-        {{"Load sharing of the " + mesh + " meshes, averaged over a mesh cycle", column + "load_sharing_averaged"},
-         {"Load sharing of the " + mesh + " meshes, instantaneous", column + "load_sharing_instantaneous"},
-         {"Load sharing of the " + mesh + " meshes, quasi-static", column + "load_sharing_quasi_static"},
-         {"Dynamic factor of the " + mesh + " meshes", column + "dynamic_factor"}});
-  }
-  for (const auto& [label, figure] : figures) {
-    table.rows.push_back({label});
-    for (std::size_t i = 0; i < result.rings.size(); ++i) {
-      const auto* s = result.studies.monte_carlo->rings[i].find(figure);
+  for (const auto& figure : studies.figures) {
+    if (!figure.spread) continue;
+    const std::string title = escape(figure.title + (figure.label.empty() ? "" : ", " + figure.label));
+    const bool named = !studies.variants.front().empty();
+    if (named) table.rows.push_back({title});
+    for (std::size_t i = 0; i < studies.variants.size(); ++i) {
+      const auto* s = studies.monte_carlo->variants[i].find(figure.column);
       if (!s) continue;
-      table.rows.push_back({escape(result.rings[i].name), bounds(s->mean), fmt::format("{:.4f}", s->deviation),
-                            bounds(s->q05), bounds(s->median), bounds(s->q95)});
+      table.rows.push_back({named ? escape(studies.variants[i]) : title, bounds(s->mean, figure.scale),
+                            to_text(figure.scale * s->deviation, 5), bounds(s->q05, figure.scale),
+                            bounds(s->median, figure.scale), bounds(s->q95, figure.scale)});
     }
   }
   return table;
 }
 
-std::string counted(const RunResult& result) {
+std::string counted(const StudyResults& studies) {
   std::string text;
-  for (std::size_t i = 0; i < result.rings.size(); ++i) {
-    const auto& ring = result.studies.monte_carlo->rings[i];
-    if (ring.failed)
-      text += fmt::format(" With {}, {} samples failed and are left out of the statistics.",
-                          escape(result.rings[i].name), ring.failed);
-    if (ring.not_steady)
-      text += fmt::format(" With {}, {} samples did not become periodic and count with the window they have.",
-                          escape(result.rings[i].name), ring.not_steady);
+  for (std::size_t i = 0; i < studies.variants.size(); ++i) {
+    const auto& samples = studies.monte_carlo->variants[i];
+    const std::string with = studies.variants[i].empty() ? "" : " With " + escape(studies.variants[i]) + ",";
+    if (samples.failed)
+      text += fmt::format("{} {} samples failed and are left out of the statistics.", with, samples.failed);
+    if (samples.not_steady)
+      text += fmt::format("{} {} samples did not become periodic and count with the window they have.", with,
+                          samples.not_steady);
   }
   return text;
 }
@@ -156,22 +118,24 @@ std::string inputs_text(const MonteCarloResult& samples) {
 
 }  // namespace
 
-std::string spread_section(const RunResult& result) {
-  if (!result.studies.monte_carlo) return "";
-  const auto& samples = *result.studies.monte_carlo;
-  std::string text = fmt::format(
-      "<h2 id=\"spread\">Spread over what is not known</h2>\n<p>{} samples (seed {}) of {}. Every ring sees the same "
-      "samples.{}</p>\n",
-      samples.samples, samples.seed, inputs_text(samples), counted(result));
+std::string spread_section(const StudyResults& studies) {
+  if (!studies.monte_carlo) return "";
+  const auto& samples = *studies.monte_carlo;
+  std::string text =
+      fmt::format("<h2 id=\"spread\">Spread over what is not known</h2>\n<p>{} samples (seed {}) of {}.{}{}</p>\n",
+                  samples.samples, samples.seed, inputs_text(samples),
+                  studies.variants.size() > 1 ? " Every ring sees the same samples." : "", counted(studies));
   std::string sentences;
+  const auto* ordering = studies.ordering();
   for (const auto& order : samples.orders) {
-    if (order.figure == ordering_figure) sentences += order_sentence(result, order);
+    if (ordering && order.figure == ordering->column) sentences += order_sentence(studies, order);
   }
   if (!sentences.empty())
-    text += "<p>Load sharing of the sun meshes, averaged over a mesh cycle, sample by sample:</p>\n<ul>" + sentences +
-            "</ul>\n";
+    text += "<p>" + escape(ordering->title) + ", sample by sample:</p>\n<ul>" + sentences + "</ul>\n";
   std::vector<std::string> pictures;
-  for (const auto& spread : spread_figures()) pictures.push_back(spread_picture(result, spread));
+  for (const auto& figure : studies.figures) {
+    if (figure.spread && figure.plotted) pictures.push_back(spread_picture(studies, figure));
+  }
   text +=
       figure(pictures, "",
              "Dots: samples. Box: quartiles and median; whiskers: 5 and 95 %. Diamond: the scene as given, with the "
@@ -181,7 +145,7 @@ std::string spread_section(const RunResult& result) {
              "<p>In brackets: {:.0f} % confidence intervals, of the mean by Student's t, of quantiles "
              "between order statistics.</p>\n",
              100 * dynamics::usual_confidence) +
-         html(statistics_table(result));
+         html(statistics_table(studies));
 }
 
 }  // namespace annulus::app

@@ -24,6 +24,7 @@ enum class MeshDamping { in_contact, always };
 enum class RimCoupling { automatic, none, statical, elastic };
 enum class SweepScale { linear, logarithmic };
 enum class ErrorPhases { given, unknown };
+enum class Goal { smallest, largest };
 enum class RandomKind { uniform, normal, lognormal };
 
 inline constexpr double rigid = std::numeric_limits<double>::infinity();
@@ -98,6 +99,7 @@ struct SupportInput {
 struct MeshInput {
   StiffnessShape stiffness = StiffnessShape::computed;
   std::optional<double> mean, ripple, duty, phase;
+  std::optional<double> half_backlash;  ///< instead of that of [dynamics]
   std::optional<std::string> file;
 };
 
@@ -124,6 +126,11 @@ struct SweepInput {
   [[nodiscard]] std::vector<double> points() const;
 };
 
+/// Two inputs run through all combinations of their values.
+struct GridInput {
+  SweepInput x, y;
+};
+
 /// An uncertain input.
 struct RandomInput {
   std::string input;  ///< key path; `[*]` draws for every planet by itself
@@ -134,6 +141,24 @@ struct RandomInput {
 struct MonteCarloInput {
   int samples = 0, seed = 0;
   ErrorPhases phases = ErrorPhases::unknown;
+};
+
+/// An input that an optimiser may change.
+struct VariableInput {
+  std::string input;  ///< key path
+  double low = 0, high = 0;
+  SweepScale scale = SweepScale::linear;
+};
+
+struct OptimiseInput {
+  std::vector<std::string> objective;  ///< columns of figures
+  std::vector<double> weights;         ///< one per figure; empty: their mean
+  Goal goal = Goal::smallest;
+  std::optional<std::string> ring;      ///< absent: the first one
+  std::vector<std::string> optimisers;  ///< names of dynamics::Optimiser
+  int generations = 0, population = 0, repeats = 0, seed = 0;
+  double elite = 0, crossover = 0, mutation = 0;
+  int starts = 0;  ///< initial conditions tried before and after
 };
 
 struct SensitivityInput {
@@ -157,9 +182,12 @@ struct Scene {
   MeshInput sun_planet, ring_planet;
   std::optional<DynamicsInput> dynamics;  ///< absent: no dynamics wanted
   std::vector<SweepInput> sweeps;
+  std::vector<GridInput> grids;
   std::optional<MonteCarloInput> monte_carlo;
   std::vector<RandomInput> random_inputs;
   std::optional<SensitivityInput> sensitivity;
+  std::optional<OptimiseInput> optimise;
+  std::vector<VariableInput> variables;  ///< of [optimise]
 
   /// The file as read, from which changed scenes are made (overrides.h). Empty in a changed scene, which has no studies
   /// of its own.

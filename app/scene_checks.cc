@@ -23,7 +23,7 @@ class Checker {
   Checker(Scene& scene, std::vector<Problem>& problems) : scene_(scene), problems_(problems) {}
 
   void run() {
-    if (!stage()) return;
+    speed();
     errors();
     ring_names();
     // Rings of the same name cannot be told apart by the rules between keys, so only the first one is checked.
@@ -66,12 +66,7 @@ class Checker {
     problems_.push_back({input ? input->line : 0, input ? input->column : 0, head + ": " + rule});
   }
 
-  bool stage() {
-    const auto& s = scene_.stage;
-    if (s.kind != StageKind::planetary) {
-      problem("stage.kind", "", "is not yet available in this version; only \"planetary\" is");
-      return false;
-    }
+  void speed() {
     const bool sun = given("stage.sun_speed_rpm"), carrier = given("stage.carrier_speed_rpm");
     if (sun && carrier) {
       problem("stage.carrier_speed_rpm", "",
@@ -80,7 +75,6 @@ class Checker {
       problem("stage.sun_speed_rpm", "",
               "give the speed of the sun (sun_speed_rpm) or of the carrier (carrier_speed_rpm)");
     }
-    return true;
   }
 
   void errors() {
@@ -397,7 +391,15 @@ class Checker {
 }  // namespace
 
 void complete_and_check(Scene& scene, std::vector<Problem>& problems) {
-  Checker(scene, problems).run();
+  switch (scene.stage.kind) {
+    case StageKind::planetary:
+      Checker(scene, problems).run();
+      break;
+    case StageKind::helical_pair:
+    case StageKind::two_k_v:
+      problems.push_back({0, 0, "stage.kind: is not yet available in this version; only \"planetary\" is"});
+      break;
+  }
   // Paths are looked up among the inputs, which have to be right for that.
   if (problems.empty()) check_study_keys(scene, problems);
 }

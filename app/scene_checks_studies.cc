@@ -4,8 +4,10 @@
 #include <cmath>
 #include <set>
 
+#include "app/optimisation.h"
 #include "app/overrides.h"
 #include "app/scene_checks.h"
+#include "app/stage_kinds.h"
 
 namespace annulus::app {
 
@@ -29,15 +31,18 @@ class StudyChecker {
 
   void run() {
     if (!scene_.dynamics) {
-      for (const auto* key : {"sweep.input", "monte_carlo.samples", "sensitivity.factor"}) {
+      for (const auto* key :
+           {"sweep.input", "grid.x_input", "monte_carlo.samples", "sensitivity.factor", "optimise.objective"}) {
         if (find(key, 0)) problem(key, 0, "needs [dynamics]: studies vary what the lumped model answers");
       }
       return;
     }
-    for (std::size_t i = 0; i < scene_.sweeps.size(); ++i) sweep(scene_.sweeps[i], i);
+    for (std::size_t i = 0; i < scene_.sweeps.size(); ++i) row("sweep.", scene_.sweeps[i], i);
+    for (std::size_t i = 0; i < scene_.grids.size(); ++i) grid(scene_.grids[i], i);
     if (!scene_.random_inputs.empty() && !scene_.monte_carlo)
       problem("monte_carlo.input.input", 0, "needs [monte_carlo] with the number of samples");
     for (std::size_t i = 0; i < scene_.random_inputs.size(); ++i) random(scene_.random_inputs[i], i);
+    optimise();
     if (scene_.sensitivity) {
       for (const auto& path : scene_.sensitivity->inputs) input("sensitivity.inputs", 0, path);
     }
@@ -76,22 +81,29 @@ class StudyChecker {
     }
   }
 
-  void sweep(const SweepInput& s, std::size_t i) {
-    input("sweep.input", i, s.input);
-    const bool row = s.from || s.to || s.count;
-    if (given("sweep.values", i)) {
-      if (row) return problem("sweep.values", i, "give either values or from, to and count");
-      if (s.values.empty()) return problem("sweep.values", i, "needs at least one value");
+  /// `table` with the prefix of its keys: "sweep.", "grid.x_".
+  void row(const std::string& table, const SweepInput& s, std::size_t i) {
+    input(table + "input", i, s.input);
+    const bool steps = s.from || s.to || s.count;
+    if (given(table + "values", i)) {
+      if (steps) return problem(table + "values", i, "give either values or from, to and count");
+      if (s.values.empty()) return problem(table + "values", i, "needs at least one value");
       const std::set<double> distinct(s.values.begin(), s.values.end());
-      if (distinct.size() != s.values.size()) return problem("sweep.values", i, "the same value stands there twice");
+      if (distinct.size() != s.values.size()) return problem(table + "values", i, "the same value stands there twice");
     } else if (!s.from || !s.to || !s.count) {
-      return problem("sweep.input", i, "needs from, to and count, or values");
+      return problem(table + "input", i, "needs from, to and count, or values");
     } else if (*s.from == *s.to) {
-      return problem("sweep.to", i, "must differ from `from`");
+      return problem(table + "to", i, "must differ from `from`");
     }
     const auto points = s.points();
     if (s.scale == SweepScale::logarithmic && *std::min_element(points.begin(), points.end()) <= 0)
-      problem("sweep.scale", i, "needs values above zero");
+      problem(table + "scale", i, "needs values above zero");
+  }
+
+  void grid(const GridInput& g, std::size_t i) {
+    row("grid.x_", g.x, i);
+    row("grid.y_", g.y, i);
+    if (g.x.input == g.y.input) problem("grid.y_input", i, "must differ from x_input");
   }
 
   void random(const RandomInput& r, std::size_t i) {
@@ -117,6 +129,62 @@ class StudyChecker {
       need("mean", r.mean);
       need("deviation", r.deviation);
     }
+  }
+
+  void optimise() {
+    if (!scene_.optimise) {
+      if (!scene_.variables.empty()) problem("optimise.variable.input", 0, "needs [optimise] with the objective");
+      return;
+    }
+    const auto& o = *scene_.optimise;
+    std::vector<std::string> known;
+    for (const auto& figure : stage_figures(scene_.stage.kind)) known.push_back(figure.column);
+    if (o.objective.empty()) problem("optimise.objective", 0, "needs at least one figure");
+    for (const auto& figure : o.objective) {
+      if (std::find(known.begin(), known.end(), figure) != known.end()) continue;
+      const std::string near = nearest(figure, known);
+      problem("optimise.objective", 0,
+              fmt::format("there is no figure \"{}\"; {}", figure,
+                          near.empty() ? "the columns of dynamics/sweep_1.csv are the figures"
+                                       : "did you mean \"" + near + "\"?"));
+    }
+    if (!o.weights.empty() && o.weights.size() != o.objective.size())
+      problem(
+          "optimise.weights", 0,
+          fmt::format("needs one weight per figure: {} weights for {} figures", o.weights.size(), o.objective.size()));
+    const auto& names = optimiser_names();
+    if (o.optimisers.empty()) problem("optimise.optimisers", 0, "needs at least one");
+    for (const auto& name : o.optimisers) {
+      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+      const std::string near = nearest(name, names);
+      problem(
+          "optimise.optimisers", 0,
+          fmt::format("there is no optimiser \"{}\"{}", name, near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+    }
+    if (o.population % 2) problem("optimise.population", 0, "must be even: parents are crossed in pairs");
+    if (o.ring &&
+        std::none_of(scene_.rings.begin(), scene_.rings.end(), [&](const auto& r) { return r.name == *o.ring; }))
+      problem("optimise.ring", 0, "there is no ring of this name");
+    if (scene_.variables.empty()) problem("optimise.objective", 0, "needs an [[optimise.variable]] at least");
+    for (std::size_t i = 0; i < scene_.variables.size(); ++i) variable(scene_.variables[i], i);
+  }
+
+  void variable(const VariableInput& v, std::size_t i) {
+    const std::string table = "optimise.variable.";
+    if (!input(table + "input", i, v.input)) return;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (scene_.variables[j].input == v.input) return problem(table + "input", i, "is given twice");
+    }
+    const auto& parameter = *find_input(scene_, v.input).parameter;
+    for (const auto& [key, value] : {std::pair{"low", v.low}, {"high", v.high}}) {
+      if (!parameter.in_range(value))
+        problem(table + key, i, fmt::format("{} must be in range: {}", v.input, parameter.range_text()));
+    }
+    if (!(v.low < v.high)) problem(table + "high", i, "must be larger than low");
+    if (v.scale == SweepScale::logarithmic && v.low <= 0) problem(table + "scale", i, "needs values above zero");
+    const bool whole = parameter.kind == Parameter::Kind::integer;
+    if (whole && (v.low != std::floor(v.low) || v.high != std::floor(v.high)))
+      problem(table + "low", i, v.input + " is a whole number, so must be its limits");
   }
 
   const Scene& scene_;

@@ -43,6 +43,9 @@ class Declared {
     p_.note = why;
     return *this;
   }
+  /// Kinds of stages that have this key.
+  Declared& only(std::vector<StageKind> kinds) { return p_.kinds = std::move(kinds), *this; }
+  Declared& required_for(std::vector<StageKind> kinds) { return p_.required_for = std::move(kinds), *this; }
   Declared& absent(const char* what_then) { return p_.note = what_then, *this; }
   Declared& from(double low, double high) { return p_.low = low, p_.high = high, *this; }
   Declared& above(double low, double high) { return p_.low_included = false, from(low, high); }
@@ -69,6 +72,11 @@ class Declarations {
   Declarations& optional() { return table_.required = false, *this; }
   /// Optional, and without effect when absent.
   Declarations& on_request() { return table_.on_request = true, optional(); }
+  /// Kinds of stages that have this table.
+  Declarations& only(std::vector<StageKind> kinds) {
+    table_.kinds = std::move(kinds);
+    return *this;
+  }
   Table done() { return std::move(table_); }
 
   template <class Base, class T>

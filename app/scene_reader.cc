@@ -39,11 +39,25 @@ std::string node_text(const toml::node& node) {
 /// Reads the tables of one file against the schema and collects every problem.
 class Reader {
  public:
-  Reader(const toml::table& root, const std::filesystem::path& file) : root_(root) { scene_.file = file; }
+  Reader(const toml::table& root, const std::filesystem::path& file) : root_(root) {
+    scene_.file = file;
+    // Which keys there are depends on the kind; a wrong one is told about where it stands.
+    const auto name = root["stage"]["kind"].value<std::string>();
+    for (const auto kind : stage_kinds()) {
+      if (name && *name == kind_name(kind)) kind_ = kind;
+    }
+  }
 
   Scene read() {
     check_root_keys();
-    for (const auto& table : schema()) read_table(table);
+    for (const auto& table : schema()) {
+      if (table.applies_to(kind_)) {
+        read_table(table);
+      } else if (const auto* node = root_.at_path(table.path).node()) {
+        problem(place_of(node->source()), fmt::format("{}: has no meaning for a stage of kind \"{}\"; it belongs to {}",
+                                                      table.header(), kind_name(kind_), kinds_text(table.kinds)));
+      }
+    }
     read_assumed();
     complete_and_check(scene_, problems_);
     std::stable_sort(problems_.begin(), problems_.end(),
@@ -85,10 +99,10 @@ class Reader {
     read_keys(table, *entry, 0, "");
   }
 
-  static bool needs_presence(const Table& table) {
+  [[nodiscard]] bool needs_presence(const Table& table) const {
     if (table.on_request) return true;
     for (const auto& p : table.parameters) {
-      if (p.presence == Parameter::Presence::required) return true;
+      if (p.required(kind_)) return true;
     }
     return false;
   }
@@ -98,9 +112,16 @@ class Reader {
     for (const auto& p : table.parameters) {
       Input input{.key = p.key(), .ring = ring, .unit = p.unit, .meaning = p.meaning, .entry = index};
       const auto found = entry.find(p.name);
+      if (!p.applies_to(kind_)) {
+        if (found == entry.end()) continue;
+        problem(place_of(found->first.source()),
+                fmt::format("{} = {}: has no meaning for a stage of kind \"{}\"; it belongs to {}", p.key(),
+                            node_text(found->second), kind_name(kind_), kinds_text(p.kinds)));
+        continue;
+      }
       if (found == entry.end()) {
         const Place at = place_of(entry.source());
-        if (p.presence == Parameter::Presence::required) {
+        if (p.required(kind_)) {
           problem(at, fmt::format("{}: is missing{}; must be {}. {}", p.key(),
                                   ring.empty() ? "" : " for ring '" + ring + "'", expected(p), p.meaning));
           continue;
@@ -239,14 +260,26 @@ class Reader {
       }
       problem(place_of(key.source()), what);
     }
-    if (const auto* mesh = root_["mesh"].as_table()) {
-      for (const auto& [key, node] : *mesh) {
-        const std::string name(key.str());
-        if (name == "sun_planet" || name == "ring_planet") continue;
-        problem(place_of(key.source()),
-                fmt::format("mesh.{}: unknown table; did you mean mesh.{}?", name,
-                            name.starts_with("r") || name.starts_with("planet_r") ? "ring_planet" : "sun_planet"));
-      }
+    check_mesh_names();
+  }
+
+  void check_mesh_names() {
+    const auto* mesh = root_["mesh"].as_table();
+    if (!mesh) return;
+    std::vector<std::string> all, of_kind;
+    for (const auto& table : schema()) {
+      if (!table.path.starts_with("mesh.")) continue;
+      all.push_back(table.path);
+      if (table.applies_to(kind_)) of_kind.push_back(table.path);
+    }
+    for (const auto& [key, node] : *mesh) {
+      const std::string name = "mesh." + std::string(key.str());
+      if (std::find(all.begin(), all.end(), name) != all.end()) continue;
+      const std::string near = nearest(name, of_kind);
+      std::string list;
+      for (const auto& path : of_kind) list += (list.empty() ? "" : ", ") + path;
+      problem(place_of(key.source()), fmt::format("{}: unknown table; {}", name,
+                                                  near.empty() ? "there are " + list : "did you mean " + near + "?"));
     }
   }
 
@@ -287,6 +320,7 @@ class Reader {
   }
 
   const toml::table& root_;
+  StageKind kind_ = StageKind::planetary;
   Scene scene_;
   std::vector<Problem> problems_;
 };
@@ -336,13 +370,32 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& name) {
   return scene;
 }
 
-Scene with_overrides(const Scene& scene, const std::vector<Override>& overrides) {
+namespace {
+
+toml::table changed_root(const Scene& scene, const std::vector<Override>& overrides) {
   require(!scene.text.empty(), "only a scene read from a file or text can be changed");
   toml::table root = toml::parse(scene.text, scene.file.string());
   // A changed scene answers one question: it has no studies of its own, and no one asks for its assumptions.
-  for (const auto* table : {"sweep", "monte_carlo", "sensitivity", "assumed"}) root.erase(table);
+  for (const auto& table : schema()) {
+    if (is_study_table(table.path)) root.erase(table.path);
+  }
+  root.erase("assumed");
   for (const auto& edit : resolve(scene, overrides)) set_number(root, edit);
-  return Reader(root, scene.file).read();
+  return root;
+}
+
+}  // namespace
+
+Scene with_overrides(const Scene& scene, const std::vector<Override>& overrides) {
+  return Reader(changed_root(scene, overrides), scene.file).read();
+}
+
+std::string scene_text(const Scene& scene, const std::vector<Override>& overrides) {
+  toml::table root = changed_root(scene, overrides);
+  root.erase("reference");  // its path is relative to the original
+  std::ostringstream text;
+  text << root << '\n';
+  return text.str();
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {

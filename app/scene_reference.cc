@@ -24,6 +24,49 @@ std::vector<std::string> all_keys() {
   return keys;
 }
 
+const std::vector<StageKind>& stage_kinds() {
+  static const std::vector<StageKind> kinds = {StageKind::planetary, StageKind::helical_pair, StageKind::two_k_v};
+  return kinds;
+}
+
+const char* kind_name(StageKind kind) {
+  switch (kind) {
+    case StageKind::planetary:
+      return "planetary";
+    case StageKind::helical_pair:
+      return "helical_pair";
+    case StageKind::two_k_v:
+      break;
+  }
+  return "two_k_v";
+}
+
+std::string kinds_text(const std::vector<StageKind>& kinds) {
+  std::string text;
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == kinds.size() ? " and " : ", ") + std::string(kind_name(kinds[i]));
+  return text;
+}
+
+namespace {
+bool among(StageKind kind, const std::vector<StageKind>& kinds) {
+  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+}
+}  // namespace
+
+bool is_study_table(const std::string& path) {
+  for (const std::string study : {"sweep", "grid", "monte_carlo", "sensitivity", "optimise"}) {
+    if (path == study || path.starts_with(study + ".")) return true;
+  }
+  return false;
+}
+
+bool Table::applies_to(StageKind kind) const { return kinds.empty() || among(kind, kinds); }
+bool Parameter::applies_to(StageKind stage) const { return kinds.empty() || among(stage, kinds); }
+bool Parameter::required(StageKind stage) const {
+  return applies_to(stage) && (presence == Presence::required || among(stage, required_for));
+}
+
 std::string Parameter::type_text() const {
   switch (kind) {
     case Kind::integer:
@@ -68,8 +111,10 @@ std::string presence_text(const Parameter& p) {
   switch (p.presence) {
     case Parameter::Presence::required:
       return "required";
-    case Parameter::Presence::optional:
-      return p.note.empty() ? "optional" : "optional; absent: " + p.note;
+    case Parameter::Presence::optional: {
+      const std::string kinds = p.required_for.empty() ? "" : "required for " + kinds_text(p.required_for) + ", else ";
+      return kinds + (p.note.empty() ? "optional" : "optional; absent: " + p.note);
+    }
     case Parameter::Presence::defaulted:
       break;
   }
@@ -88,6 +133,7 @@ std::string explain(const Parameter& p) {
   if (!p.unit.empty()) text += " in " + p.unit;
   if (const auto range = p.range_text(); !range.empty()) text += "; " + range;
   text += "\n  " + presence_text(p) + "\n";
+  if (!p.kinds.empty()) text += "  for stages of kind " + kinds_text(p.kinds) + "\n";
   return text;
 }
 
@@ -99,10 +145,11 @@ std::string scene_reference() {
   for (const auto& table : schema()) {
     text += fmt::format("\n## {}\n\n{}", table.path.empty() ? "Top level" : "`" + table.header() + "`", table.meaning);
     if (!table.required) text += " Optional.";
+    if (!table.kinds.empty()) text += " For stages of kind " + kinds_text(table.kinds) + ".";
     text += "\n\n| key | type | range | presence | meaning |\n|---|---|---|---|---|\n";
     for (const auto& p : table.parameters) {
-      text += fmt::format("| `{}` | {} | {} | {} | {} |\n", p.name, p.type_text(), p.range_text(), presence_text(p),
-                          p.meaning);
+      text += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", p.name, p.type_text(), p.range_text(), presence_text(p),
+                          p.meaning, p.kinds.empty() ? "" : " For " + kinds_text(p.kinds) + ".");
     }
   }
   text +=

@@ -49,8 +49,11 @@ void declare_gear(Declarations<Section>& t, bool internal) {
       .from(-1000, 1000);
 }
 
+const std::vector<StageKind> planetary = {StageKind::planetary};
+
 Table hub_gear_table(const char* path, const char* meaning, HubGearInput& (*section)(Scene&, std::size_t)) {
   Declarations<HubGearInput> t(path, meaning, section);
+  t.only(planetary);
   declare_gear(t, false);
   t.key("bore_diameter_mm", &HubGearInput::bore_diameter, "Diameter of the bore, where the body meets a rigid hub.")
       .above(0, 1e5)
@@ -60,7 +63,7 @@ Table hub_gear_table(const char* path, const char* meaning, HubGearInput& (*sect
 
 Table mesh_table(const char* path, const char* meaning, MeshInput& (*section)(Scene&, std::size_t)) {
   Declarations<MeshInput> t(path, meaning, section);
-  t.optional();
+  t.optional().only(planetary);
   t.choice("stiffness", &MeshInput::stiffness,
            {{"computed", StiffnessShape::computed},
             {"constant", StiffnessShape::constant},
@@ -83,6 +86,9 @@ Table mesh_table(const char* path, const char* meaning, MeshInput& (*section)(Sc
   t.key("phase", &MeshInput::phase, "Lag of this wave in mesh cycles, on top of the phasing derived from the geometry.")
       .from(-1, 1)
       .absent("no lag");
+  t.key("half_backlash_um", &MeshInput::half_backlash, "Half the backlash of this mesh along the line of action.")
+      .from(0, 1e4)
+      .absent("that of [dynamics]");
   t.key("file", &MeshInput::file, "Stiffness table (CSV as annulus writes it), relative to the scene.")
       .absent("needed by table");
   return t.done();
@@ -120,7 +126,10 @@ std::vector<Table> declare_tables() {
                {"two_k_v", StageKind::two_k_v}},
               "Kind of stage.")
       .required();
-  stage.key("planets", &StageInput::planets, "Number of equally spaced planets.").required().from(1, 50);
+  stage.key("planets", &StageInput::planets, "Number of equally spaced planets.")
+      .from(1, 50)
+      .required()
+      .only(planetary);
   stage.key("module_mm", &StageInput::module, "Module.").required().from(0.05, 100);
   stage.key("pressure_angle_deg", &StageInput::pressure_angle, "Pressure angle of the basic rack.")
       .required()
@@ -135,16 +144,20 @@ std::vector<Table> declare_tables() {
       .from(-45, 45);
   stage.key("face_width_mm", &StageInput::face_width, "Common face width.").required().above(0, 5000);
   stage.key("centre_distance_mm", &StageInput::centre_distance, "Working centre distance of sun and planet.")
+      .above(0, 1e5)
       .required()
-      .above(0, 1e5);
+      .only(planetary);
   stage.key("power_kW", &StageInput::power, "Transmitted power; the sun drives, the carrier is driven.")
+      .above(0, 1e6)
       .required()
-      .above(0, 1e6);
+      .only(planetary);
   stage.key("sun_speed_rpm", &StageInput::sun_speed, "Speed of the sun; give this or carrier_speed_rpm.")
       .above(0, 1e6)
+      .only(planetary)
       .absent("follows from carrier_speed_rpm");
   stage.key("carrier_speed_rpm", &StageInput::carrier_speed, "Speed of the carrier; give this or sun_speed_rpm.")
       .above(0, 1e6)
+      .only(planetary)
       .absent("follows from sun_speed_rpm");
   tables.push_back(stage.done());
 
@@ -164,7 +177,7 @@ std::vector<Table> declare_tables() {
 
   Declarations<CarrierInput> carrier("carrier", "The planet carrier.",
                                      [](Scene& s, std::size_t) -> CarrierInput& { return s.carrier; });
-  carrier.optional();
+  carrier.optional().only(planetary);
   carrier.key("mass_kg", &CarrierInput::mass, "Mass without planets.").above(0, 1e6).absent(needs_dynamics);
   carrier.key("inertia_kg_m2", &CarrierInput::inertia, "Moment of inertia about the axis, without planets.")
       .above(0, 1e6)
@@ -173,7 +186,7 @@ std::vector<Table> declare_tables() {
 
   Declarations<RingInput> ring("ring", "A ring gear and what holds it; several rings are compared with each other.",
                                [](Scene& s, std::size_t i) -> RingInput& { return s.rings.at(i); });
-  ring.repeated([](Scene& s, std::size_t n) { s.rings.resize(n); });
+  ring.repeated([](Scene& s, std::size_t n) { s.rings.resize(n); }).only(planetary);
   ring.key("name", &RingInput::name, "Name, also of the folder of its results.").required();
   ring.choice("structure", &RingInput::structure,
               {{"traditional", Structure::traditional},
@@ -269,7 +282,7 @@ std::vector<Table> declare_tables() {
   Declarations<ErrorInput> errors(
       "errors", "Manufacturing errors. Lists have one value per planet. Eccentricities turn with their body.",
       [](Scene& s, std::size_t) -> ErrorInput& { return s.errors; });
-  errors.optional();
+  errors.optional().only(planetary);
   const auto list = [&](const char* name, std::vector<double> ErrorInput::*member, const char* meaning, double limit) {
     errors.key(name, member, meaning).fallback(std::vector<double>{}, "0 for every planet").from(-limit, limit);
   };
@@ -307,7 +320,7 @@ std::vector<Table> declare_tables() {
   Declarations<SupportInput> supports(
       "supports", "Stiffness of the bearings; absent or inf means rigid, and the freedom is dropped.",
       [](Scene& s, std::size_t) -> SupportInput& { return s.supports; });
-  supports.optional();
+  supports.optional().only(planetary);
   const auto bearing = [&](const char* name, double SupportInput::*member, const char* meaning) {
     supports.key(name, member, meaning).fallback(rigid, "rigid: the freedom is dropped").above(0, 1e14).infinite();
   };
@@ -371,6 +384,7 @@ std::vector<Table> declare_tables() {
               "How the meshes of one ring act on each other through it. none: not at all; static: by its compliance at "
               "every ring position; elastic: with the inertia of its elastic modes besides, by time integration; "
               "automatic: static where the coupling exceeds the wanted accuracy, else none.")
+      .only(planetary)
       .fallback(std::string("automatic"), "only what changes the answer is modelled");
   lumped
       .choice("integrator", &DynamicsInput::integrator,
@@ -407,7 +421,6 @@ const std::vector<Table>& schema() {
 const std::vector<std::pair<std::string, std::string>>& unavailable_tables() {
   static const std::vector<std::pair<std::string, std::string>> tables = {
       {"modes", "choice of vibration modes"},
-      {"optimise", "optimisation of inputs"},
   };
   return tables;
 }

@@ -21,7 +21,9 @@ struct Parameter {
   double si = 1;       ///< value in SI units = value in the file x si
   Presence presence = Presence::optional;
   Value default_value{};
-  std::string note{};  ///< reason of the default, or what absence means
+  std::string note{};                     ///< reason of the default, or what absence means
+  std::vector<StageKind> kinds{};         ///< of stages that have this key; empty: those of its table
+  std::vector<StageKind> required_for{};  ///< kinds that cannot do without it, where others can
   double low = -rigid, high = rigid;
   bool low_included = true;
   bool may_be_infinite = false;
@@ -31,6 +33,8 @@ struct Parameter {
   std::function<void(Scene&, std::size_t, const Value&)> store{};
 
   [[nodiscard]] std::string key() const { return table.empty() ? name : table + "." + name; }
+  [[nodiscard]] bool applies_to(StageKind stage) const;
+  [[nodiscard]] bool required(StageKind stage) const;
   [[nodiscard]] std::string type_text() const;      ///< "a whole number", "a list of numbers"
   [[nodiscard]] bool in_range(double value) const;  ///< in the unit of the file
   [[nodiscard]] std::string range_text() const;     ///< "0 < value <= 100 mm"; empty when anything goes
@@ -42,10 +46,12 @@ struct Table {
   bool required = true;     ///< false: absent as a whole is fine, and then none of its keys applies
   bool on_request = false;  ///< its presence is itself the question: defaults apply only when it is there
   std::string meaning{};
+  std::vector<StageKind> kinds{};  ///< of stages that have this table; empty: all
   std::vector<Parameter> parameters{};
   /// Makes room for the tables of an array ([[path]]).
   std::function<void(Scene&, std::size_t)> resize{};
 
+  [[nodiscard]] bool applies_to(StageKind kind) const;
   [[nodiscard]] std::string header() const { return repeated ? "[[" + path + "]]" : "[" + path + "]"; }
 };
 
@@ -53,6 +59,16 @@ struct Table {
 [[nodiscard]] const std::vector<Table>& schema();
 /// Tables of the format that this version cannot use yet, with what they will do.
 [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& unavailable_tables();
+
+/// "planetary", as in the file.
+[[nodiscard]] const char* kind_name(StageKind kind);
+/// All of them, in the order of the enumeration.
+[[nodiscard]] const std::vector<StageKind>& stage_kinds();
+/// "planetary" or "planetary and two_k_v", for messages; empty when there is no restriction.
+[[nodiscard]] std::string kinds_text(const std::vector<StageKind>& kinds);
+
+/// Tables that ask for studies: no inputs of the model.
+[[nodiscard]] bool is_study_table(const std::string& path);
 
 /// [[sweep]], [monte_carlo], [[monte_carlo.input]], [sensitivity] (scene_schema_studies.cc).
 void declare_studies(std::vector<Table>& tables);

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "app/pipeline.h"
 #include "app/point_store.h"
 #include "app/progress.h"
+#include "app/stage_kinds.h"
 #include "app/study_runner.h"
 #include "app/tasks.h"
 #include "core/log.h"
@@ -12,8 +14,7 @@ namespace annulus::app {
 
 namespace {
 
-void check_random_input(const Scene& scene, const std::vector<MeshModel>& nominal, const GearGeometry& geometry,
-                        const RandomVariable& variable) {
+void check_random_input(const Scene& scene, const RandomVariable& variable) {
   const std::string where = "[[monte_carlo.input]] " + variable.input;
   const auto target = find_input(scene, variable.input);
   const auto refuse = [&](const std::string& why) {
@@ -32,14 +33,12 @@ void check_random_input(const Scene& scene, const std::vector<MeshModel>& nomina
                          sample + 1, to_text(x, 6), target.parameter->range_text()));
   }
   const auto changed = change_scene(scene, {{{variable.input, draw(variable, scene.monte_carlo->seed, 0)}}, where, ""});
-  const auto models = mesh_models(changed.scene, changed.geometry);
-  for (std::size_t i = 0; i < models.size(); ++i) {
-    if (!table_serves(nominal[i], models[i], geometry.operating_point.mean_mesh_force))
-      refuse(
-          fmt::format("changes the stiffness table of the {}, which every sample would have to solve again; use "
-                      "[[sweep]] or [sensitivity], or give the stiffness in [mesh]",
-                      models[i].label()));
-  }
+  const auto tables = tables_to_solve(scene, changed);
+  if (!tables.empty())
+    refuse(
+        fmt::format("changes the stiffness table of the {}, which every sample would have to solve again; use "
+                    "[[sweep]] or [sensitivity], or give the stiffness in [mesh]",
+                    tables.front()));
 }
 
 }  // namespace
@@ -49,6 +48,9 @@ void check_studies(const Scene& scene) {
   for (std::size_t i = 0; i < scene.sweeps.size(); ++i) {
     for (const auto& study_case : sweep_cases(scene, i)) (void)change_scene(scene, study_case);
   }
+  for (std::size_t i = 0; i < scene.grids.size(); ++i) {
+    for (const auto& study_case : grid_cases(scene, i)) (void)change_scene(scene, study_case);
+  }
   for (const auto& study_case : sensitivity_cases(scene)) (void)change_scene(scene, study_case);
   if (!scene.monte_carlo) return;
   const auto variables = random_variables(scene);
@@ -56,57 +58,60 @@ void check_studies(const Scene& scene) {
     throw InputError(scene.file.string() +
                      ": [monte_carlo]: nothing is uncertain: there are no errors of unknown phase and no "
                      "[[monte_carlo.input]]");
-  const auto geometry = make_geometry(scene);
-  const auto models = mesh_models(scene, geometry);
   for (const auto& variable : variables) {
     const bool phase = variable.input.find("_phase_deg") != std::string::npos;
-    if (!phase) check_random_input(scene, models, geometry, variable);
+    if (!phase) check_random_input(scene, variable);
   }
 }
 
-CasePoints run_cases(const ChangedStages& stages, const std::vector<StudyCase>& cases, const std::string& label) {
-  const std::size_t rings = stages.nominal().rings.size(), n = cases.size();
+CasePoints run_cases(const StudySubject& subject, const std::vector<StudyCase>& cases, const std::string& label) {
+  const auto names = subject.variants();
+  const std::size_t variants = names.size(), n = cases.size();
   CasePoints result;
-  result.rings.assign(rings, std::vector<StudyPoint>(n));
+  result.variants.assign(variants, std::vector<StudyPoint>(n));
   std::vector<std::string> failures(n);
   for (std::size_t i = 0; i < n; ++i) {
     try {
-      result.tables += stages.prepare(cases[i].overrides, cases[i].where, cases[i].folder) ? 1 : 0;
+      result.tables += subject.prepare(cases[i].overrides, cases[i].where, cases[i].folder) ? 1 : 0;
     } catch (const SolverError& error) {
       failures[i] = error.what();
     }
   }
-  TaskProgress progress(label, n * rings);
-  const PointStore store(stages);
-  for_each_task(n * rings, stages.options().threads, [&](std::size_t task) {
-    const std::size_t i = task / rings, ring = task % rings;
-    auto& point = result.rings[ring][i];
+  TaskProgress progress(label, n * variants);
+  const PointStore store(subject);
+  for_each_task(n * variants, subject.options().threads, [&](std::size_t task) {
+    const std::size_t i = task / variants, variant = task % variants;
+    auto& point = result.variants[variant][i];
     if (failures[i].empty())
-      point = store.point(cases[i].overrides, cases[i].where, ring, cases[i].folder);
+      point = store.point(cases[i].overrides, cases[i].where, variant, cases[i].folder);
     else
       point.failure = failures[i];
     progress.done();
   });
   std::size_t failed = 0;
-  for (std::size_t ring = 0; ring < rings; ++ring) {
+  for (std::size_t variant = 0; variant < variants; ++variant) {
     for (std::size_t i = 0; i < n; ++i) {
-      const auto& point = result.rings[ring][i];
+      const auto& point = result.variants[variant][i];
       if (point.failure.empty()) continue;
       ++failed;
-      log::warn(fmt::format("{}, ring '{}': {}", cases[i].where, stages.nominal().rings[ring].name, point.failure));
+      log::warn(fmt::format("{}{}: {}", cases[i].where, names[variant].empty() ? "" : ", ring '" + names[variant] + "'",
+                            point.failure));
     }
   }
-  progress.finish(fmt::format("{} responses{}", n * rings, failed ? fmt::format(", {} failed", failed) : ""));
+  progress.finish(fmt::format("{} responses{}", n * variants, failed ? fmt::format(", {} failed", failed) : ""));
   return result;
 }
 
-StudyResults run_studies(const RunResult& nominal, const RunOptions& options) {
-  StudyResults results;
-  if (!nominal.scene.dynamics) return results;
-  for (std::size_t i = 0; i < nominal.scene.sweeps.size(); ++i)
-    results.sweeps.push_back(run_sweep(nominal, options, i));
-  if (nominal.scene.monte_carlo) results.monte_carlo = run_monte_carlo(nominal, options);
-  if (nominal.scene.sensitivity) results.sensitivity = run_sensitivity(nominal, options);
+StudyResults run_studies(const StudySubject& subject) {
+  const auto& scene = subject.scene();
+  StudyResults results{.variants = subject.variants(), .figures = subject.figures()};
+  for (std::size_t i = 0; i < results.variants.size(); ++i) results.nominal.push_back(subject.nominal(i));
+  if (!scene.dynamics) return results;
+  for (std::size_t i = 0; i < scene.sweeps.size(); ++i) results.sweeps.push_back(run_sweep(subject, i));
+  for (std::size_t i = 0; i < scene.grids.size(); ++i) results.grids.push_back(run_grid(subject, i));
+  if (scene.monte_carlo) results.monte_carlo = run_monte_carlo(subject);
+  if (scene.optimise) results.optimise = run_optimise(subject);
+  if (scene.sensitivity) results.sensitivity = run_sensitivity(subject);
   return results;
 }
 

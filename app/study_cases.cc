@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/stage_kinds.h"
+#include "core/errors.h"
+
 namespace annulus::app {
 
 namespace {
@@ -66,6 +69,41 @@ std::vector<StudyCase> sweep_cases(const Scene& scene, std::size_t sweep) {
   return cases;
 }
 
+void rethrow_at(const Scene& scene, const std::string& where) {
+  try {
+    throw;
+  } catch (const SceneError& error) {
+    throw InputError(scene.file.string() + ": " + where + ": " + error.problems().front().message);
+  } catch (const InputError& error) {
+    throw InputError(scene.file.string() + ": " + where + ": " + error.what());
+  }
+}
+
+Scene change_scene(const Scene& scene, const StudyCase& study_case) {
+  try {
+    Scene changed = with_overrides(scene, study_case.overrides);
+    check_stage(changed);
+    return changed;
+  } catch (const InputError&) {
+    rethrow_at(scene, study_case.where);
+  }
+}
+
+std::vector<StudyCase> grid_cases(const Scene& scene, std::size_t grid) {
+  const auto& g = scene.grids.at(grid);
+  const auto xs = g.x.points(), ys = g.y.points();
+  std::vector<StudyCase> cases;
+  for (const double y : ys) {
+    for (const double x : xs)
+      cases.push_back({{{g.x.input, x}, {g.y.input, y}},
+                       fmt::format("[[grid]] {}, point {} of {} ({} = {}, {} = {})", grid + 1, cases.size() + 1,
+                                   xs.size() * ys.size(), g.x.input, to_text(x), g.y.input, to_text(y)),
+                       fmt::format("grid/{}_{}_{}_{}", file_name(g.x.input), to_text(x, 15), file_name(g.y.input),
+                                   to_text(y, 15))});
+  }
+  return cases;
+}
+
 std::vector<std::string> sensitivity_inputs(const Scene& scene) {
   if (!scene.sensitivity) return {};
   if (!scene.sensitivity->inputs.empty()) return scene.sensitivity->inputs;
@@ -74,7 +112,7 @@ std::vector<std::string> sensitivity_inputs(const Scene& scene) {
     for (const auto& p : table.parameters) {
       const bool assumed_mostly = p.table == "supports" || p.key() == "dynamics.mesh_damping_ratio" ||
                                   p.key() == "dynamics.support_damping_ratio" || p.key() == "dynamics.half_backlash_um";
-      if (!assumed_mostly) continue;
+      if (!assumed_mostly || !table.applies_to(scene.stage.kind) || !p.applies_to(scene.stage.kind)) continue;
       const double value = input_value(scene, find_input(scene, p.key())).value_or(0);
       if (value != 0 && std::isfinite(value)) inputs.push_back(p.key());
     }

@@ -19,6 +19,15 @@ struct StudyCase {
 /// One per value.
 [[nodiscard]] std::vector<StudyCase> sweep_cases(const Scene& scene, std::size_t sweep);
 
+/// Throws the error again as InputError "file: where: what" when it is one of the input; others unchanged.
+[[noreturn]] void rethrow_at(const Scene& scene, const std::string& where);
+
+/// The changed scene. Throws InputError naming the study and the value where it is not a good one.
+[[nodiscard]] Scene change_scene(const Scene& scene, const StudyCase& study_case);
+
+/// One per point of the grid, x fastest.
+[[nodiscard]] std::vector<StudyCase> grid_cases(const Scene& scene, std::size_t grid);
+
 /// The inputs of [sensitivity]: those listed, or the finite supports, damping ratios and backlash.
 [[nodiscard]] std::vector<std::string> sensitivity_inputs(const Scene& scene);
 /// Two per input: divided, multiplied.

@@ -1,73 +1,51 @@
 #include "app/study_plan.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numeric>
 
-#include "app/changed_stage.h"
+#include "app/stage_kinds.h"
 #include "app/study_cases.h"
-#include "dynamics/study_point.h"
+#include "core/errors.h"
 
 namespace annulus::app {
 
 namespace {
 
-/// How many of the cases need tables of their own, and how many tables.
-int tables_to_solve(const Scene& scene, const GearGeometry& geometry, const std::vector<StudyCase>& cases) {
-  const auto nominal = mesh_models(scene, geometry);
-  int tables = 0;
-  for (const auto& study_case : cases) {
-    const auto changed = change_scene(scene, study_case);
-    const auto models = mesh_models(changed.scene, changed.geometry);
-    for (std::size_t i = 0; i < models.size(); ++i)
-      tables += table_serves(nominal[i], models[i], changed.geometry.operating_point.mean_mesh_force) ? 0 : 1;
-  }
-  return tables;
+int count_tables(const Scene& scene, const std::vector<StudyCase>& cases) {
+  std::size_t tables = 0;
+  for (const auto& study_case : cases) tables += tables_to_solve(scene, change_scene(scene, study_case)).size();
+  return static_cast<int>(tables);
 }
 
-/// Rough time of one response of every ring: the period follows from errors and tables, not from stiffness.
-double seconds_of_all_rings(const Scene& scene, const GearGeometry& geometry) {
-  Scene rough = scene;
-  rough.sun_planet = {};
-  rough.sun_planet.stiffness = StiffnessShape::constant;
-  rough.sun_planet.mean = 1e9;
-  rough.ring_planet = rough.sun_planet;
-  const auto models = mesh_models(scene, geometry);
-  double seconds = 0;
-  // A constant stiffness reads no table: any will do.
-  const MeshResult none{
-      .model = {},
-      .table = StiffnessTable("sun_planet", 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
-  for (std::size_t i = 0; i < scene.rings.size(); ++i) {
-    const auto stage = make_stage(rough, geometry, i, none, none);
-    const int period = std::lcm(stage.error_period(), models[i + 1].positions);
-    const auto options = simulation_options(scene, stage);
-    seconds += dynamics::point_seconds(stage, std::min(period, std::max(options.max_window_cycles, 4000)));
-  }
-  return seconds;
+std::string row_text(const Scene& scene, const SweepInput& s) {
+  const auto values = s.points();
+  return fmt::format("{} from {} to {} {}, {} values", s.input, to_text(values.front()), to_text(values.back()),
+                     find_input(scene, s.input).parameter->unit, values.size());
 }
 
 }  // namespace
 
-std::vector<StudyPlan> plan_studies(const Scene& scene, const GearGeometry& geometry) {
+std::vector<StudyPlan> plan_studies(const Scene& scene) {
   std::vector<StudyPlan> list;
-  const bool any = !scene.sweeps.empty() || scene.monte_carlo || scene.sensitivity;
+  const bool any =
+      !scene.sweeps.empty() || !scene.grids.empty() || scene.monte_carlo || scene.sensitivity || scene.optimise;
   if (!any || !scene.dynamics) return list;
-  const auto rings = static_cast<long>(scene.rings.size());
-  const double each = seconds_of_all_rings(scene, geometry);
+  const auto variants = static_cast<long>(variant_count(scene));
+  const double each = response_seconds(scene);
   const auto add = [&](std::string name, std::string what, std::size_t cases, int tables) {
     const auto n = static_cast<long>(cases);
-    list.push_back({std::move(name), std::move(what), n * rings, tables, each * static_cast<double>(n)});
+    list.push_back({std::move(name), std::move(what), n * variants, tables, each * static_cast<double>(n)});
   };
   for (std::size_t i = 0; i < scene.sweeps.size(); ++i) {
-    const auto& s = scene.sweeps[i];
     const auto cases = sweep_cases(scene, i);
-    const auto values = s.points();
-    add(fmt::format("[[sweep]] {}", i + 1),
-        fmt::format("{} from {} to {} {}, {} values", s.input, to_text(values.front()), to_text(values.back()),
-                    find_input(scene, s.input).parameter->unit, values.size()),
-        cases.size(), tables_to_solve(scene, geometry, cases));
+    add(fmt::format("[[sweep]] {}", i + 1), row_text(scene, scene.sweeps[i]), cases.size(), count_tables(scene, cases));
+  }
+  for (std::size_t i = 0; i < scene.grids.size(); ++i) {
+    const auto cases = grid_cases(scene, i);
+    add(fmt::format("[[grid]] {}", i + 1), row_text(scene, scene.grids[i].x) + "; " + row_text(scene, scene.grids[i].y),
+        cases.size(), count_tables(scene, cases));
   }
   if (scene.monte_carlo)
     add("[monte_carlo]",
@@ -79,7 +57,27 @@ std::vector<StudyPlan> plan_studies(const Scene& scene, const GearGeometry& geom
     add("[sensitivity]",
         fmt::format("{} inputs, each divided and multiplied by {}", cases.size() / 2,
                     to_text(scene.sensitivity->factor)),
-        cases.size() + 1, tables_to_solve(scene, geometry, cases));
+        cases.size() + 1, count_tables(scene, cases));
+  }
+  if (scene.optimise) {
+    const auto& o = *scene.optimise;
+    const long searches = static_cast<long>(o.optimisers.size()) * o.repeats;
+    const long points = searches * (o.generations + 1L) * o.population;
+    std::string inputs;
+    int tables = 0;
+    for (const auto& v : scene.variables) {
+      inputs += (inputs.empty() ? "" : ", ") + v.input;
+      const StudyCase end{{{v.input, v.high}}, "[optimise]", ""};
+      try {
+        tables = std::max(tables, count_tables(scene, {end}));
+      } catch (const InputError&) {  // an end of the range alone need not make a good scene
+      }
+    }
+    list.push_back({"[optimise]",
+                    fmt::format("{} over {}, {} search{} of {} generations of {}", fmt::join(o.objective, ", "), inputs,
+                                searches, searches == 1 ? "" : "es", o.generations, o.population),
+                    points, tables ? static_cast<int>(std::min(points * tables, 1'000'000'000L)) : 0,
+                    each / static_cast<double>(variants) * static_cast<double>(points)});
   }
   return list;
 }

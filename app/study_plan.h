@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "app/gear_geometry.h"
 #include "app/scene.h"
 
 namespace annulus::app {
@@ -16,6 +15,6 @@ struct StudyPlan {
   int tables = 0;      ///< stiffness tables to be solved besides the nominal ones
   double seconds = 0;  ///< rough wall time of the responses on one core, tables not counted
 };
-[[nodiscard]] std::vector<StudyPlan> plan_studies(const Scene& scene, const GearGeometry& geometry);
+[[nodiscard]] std::vector<StudyPlan> plan_studies(const Scene& scene);
 
 }  // namespace annulus::app

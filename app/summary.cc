@@ -129,10 +129,10 @@ std::string summary_json(const RunResult& result) {
   for (std::size_t i = 0; i < result.rings.size(); ++i) {
     const auto& ring = result.rings[i];
     auto& entry = json["rings"][ring.name] = ring_json(ring, result.sun_mesh);
-    entry.update(SummaryJson::parse(ring_studies_json(result, i)));
+    entry.update(SummaryJson::parse(variant_studies_json(result.studies, i)));
     ids += ring.mesh.model.id();
   }
-  json.update(SummaryJson::parse(studies_json(result)));
+  json.update(SummaryJson::parse(studies_json(result.studies)));
   ContentId inputs;
   for (const auto& input : result.scene.inputs) inputs.add(input.ring + "." + input.key, to_text(input.value));
   json["inputs_id"] = inputs.add("meshes", ids).id();

@@ -2,14 +2,14 @@
 
 #include <string>
 
-#include "app/pipeline.h"
+#include "app/study_result.h"
 
 /// The studies as JSON objects (text), to be merged into summary.json.
 namespace annulus::app {
 
-/// "monte_carlo" and "sweeps" of one ring.
-[[nodiscard]] std::string ring_studies_json(const RunResult& result, std::size_t ring);
-/// "monte_carlo" (orders of the rings) and "sensitivity".
-[[nodiscard]] std::string studies_json(const RunResult& result);
+/// "monte_carlo", "sweeps" and "grids" of one variant.
+[[nodiscard]] std::string variant_studies_json(const StudyResults& studies, std::size_t variant);
+/// "monte_carlo" (orders of the variants) and "sensitivity".
+[[nodiscard]] std::string studies_json(const StudyResults& studies);
 
 }  // namespace annulus::app

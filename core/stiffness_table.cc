@@ -51,7 +51,8 @@ StiffnessTable::StiffnessTable(std::string mesh, int phases, std::vector<double>
       loads_(std::move(loads)),
       entries_(std::move(entries)) {
   const auto refuse = [&](const std::string& what) { throw InputError("stiffness table " + mesh_ + ": " + what); };
-  if (mesh_ != "sun_planet" && mesh_ != "ring_planet") refuse("the mesh must be sun_planet or ring_planet");
+  if (mesh_ != "sun_planet" && mesh_ != "ring_planet" && mesh_ != "arc_pins")
+    refuse("the mesh must be sun_planet, ring_planet or arc_pins");
   if (phases_ < 1 || ring_angles_.empty() || loads_.empty()) refuse("it needs a phase, a ring position and a load");
   const auto expected = static_cast<std::size_t>(phases_) * ring_angles_.size() * loads_.size();
   if (entries_.size() != expected)

@@ -29,7 +29,7 @@ class StiffnessTable {
   StiffnessTable(std::string mesh, int phases, std::vector<double> ring_angles, std::vector<double> loads,
                  std::vector<StiffnessEntry> entries);
 
-  [[nodiscard]] const std::string& mesh() const { return mesh_; }  ///< "sun_planet" or "ring_planet"
+  [[nodiscard]] const std::string& mesh() const { return mesh_; }  ///< "sun_planet", "ring_planet" or "arc_pins"
   [[nodiscard]] int phases() const { return phases_; }
   [[nodiscard]] int positions() const { return static_cast<int>(ring_angles_.size()); }
   [[nodiscard]] const std::vector<double>& ring_angles() const { return ring_angles_; }  ///< rad, one per position

@@ -6,6 +6,7 @@
 #include "dynamics/lumped_system.h"
 #include "dynamics/planetary_stage.h"
 #include "dynamics/stage_errors.h"
+#include "dynamics/support.h"
 
 namespace annulus::dynamics {
 
@@ -14,8 +15,6 @@ namespace {
 struct PlaneBody {
   LinearForm x, y, u;
 };
-
-double critical_share(double ratio, double stiffness, double mass) { return 2 * ratio * std::sqrt(stiffness * mass); }
 
 /// `speed`: of the frame its x and y are measured in, for inertia and damping.
 PlaneBody add_central(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const CentralBody& body,

@@ -29,11 +29,10 @@ class StartSampler {
       if (mode.frequency == 0) rigid_.push_back(mode.shape);
   }
 
-  [[nodiscard]] StartState draw(std::uint64_t start) const {
-    StartState state{equilibrium_, Eigen::VectorXd::Zero(system_.freedoms())};
-    const Eigen::VectorXd displaced = size_ * random_vector(start, " displacement");
-    state.displacement += displaced;
-    state.velocity = size_ * rate_ * random_vector(start, " velocity");
+  [[nodiscard]] SystemState draw(std::uint64_t start) const {
+    SystemState state{0, equilibrium_, {}};
+    state.q += size_ * random_vector(start, " displacement");
+    state.v = size_ * rate_ * random_vector(start, " velocity");
     return state;
   }
 
@@ -81,10 +80,8 @@ InitialSpread initial_spread(const PlanetaryStage& stage, const InitialSpreadOpt
   point.simulation.steady_state = SteadyState::marching;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr ValueRange nothing{infinity, -infinity};
-  InitialSpread spread{.starts = {},
-                       .sun_load_sharing = nothing,
-                       .ring_load_sharing = nothing,
-                       .contact_loss = nothing};
+  InitialSpread spread{
+      .starts = {}, .sun_load_sharing = nothing, .ring_load_sharing = nothing, .contact_loss = nothing};
   for (int i = 0; i <= options.random_starts; ++i) {
     if (i > 0) point.simulation.start = sampler.draw(static_cast<std::uint64_t>(i));
     const PointFigures figures = evaluate_point(stage, point);

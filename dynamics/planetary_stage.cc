@@ -9,28 +9,12 @@
 #include <string>
 
 #include "core/errors.h"
+#include "dynamics/input_checks.h"
 #include "dynamics/stage_errors.h"
 
 namespace annulus::dynamics {
 
 namespace {
-
-void check_positive(double value, const std::string& name) {
-  if (!(value > 0) || !std::isfinite(value))
-    throw InputError(fmt::format("{} = {} must be positive and finite", name, value));
-}
-
-void check_not_negative(double value, const std::string& name) {
-  if (!(value >= 0) || !std::isfinite(value))
-    throw InputError(fmt::format("{} = {} must not be negative, and finite", name, value));
-}
-
-/// A stiffness may be infinite.
-void check_support(double value, const std::string& name, bool zero_allowed) {
-  if (!(value > 0 || (zero_allowed && value == 0)))
-    throw InputError(fmt::format("{} = {} N/m must {} (absent or inf: rigid)", name, value,
-                                 zero_allowed ? "not be negative" : "be positive"));
-}
 
 void check_errors(const BodyErrors& errors, const std::string& name) {
   for (const auto& d : {errors.eccentricity, errors.installation})

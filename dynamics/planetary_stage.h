@@ -1,12 +1,12 @@
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/ring_coupling.h"
 #include "dynamics/mesh_excitation.h"
+#include "dynamics/support.h"
 
 namespace annulus::geometry {
 class PlanetarySet;
@@ -15,9 +15,6 @@ class PlanetarySet;
 namespace annulus::dynamics {
 
 class LumpedSystem;
-
-/// A stiffness that leaves no freedom: the freedom it supports is dropped from the system.
-inline constexpr double rigid = std::numeric_limits<double>::infinity();
 
 /// A radial deviation and its direction: the vector (cos phase, sin phase) x amount.
 struct Deviation {

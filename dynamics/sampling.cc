@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/distributions/lognormal.hpp>
 #include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/rayleigh.hpp>
 #include <cmath>
 #include <random>
 
@@ -40,18 +41,24 @@ boost::math::lognormal lognormal_law(const Distribution& d) {
   return {std::log(d.mean) - variance / 2, std::sqrt(variance)};
 }
 
-}  // namespace
-
-double uniform_draw(std::uint64_t seed, std::uint64_t sample, std::string_view quantity) {
+std::uint64_t random_word(std::uint64_t seed, std::uint64_t sample, std::string_view quantity) {
   const auto low = [](std::uint64_t x) { return static_cast<std::uint32_t>(x); };
   const auto high = [](std::uint64_t x) { return static_cast<std::uint32_t>(x >> 32); };
   const std::uint64_t name = name_hash(quantity);
   // Both the seeding and the generator are fixed bit by bit in the C++ standard.
   std::seed_seq words{low(seed), high(seed), low(sample), high(sample), low(name), high(name)};
   std::mt19937_64 generator(words);
-  // The middle of one of 2^53 equal intervals: never 0 or 1.
-  return (static_cast<double>(generator() >> 11) + 0.5) * 0x1p-53;
+  return generator();
 }
+
+}  // namespace
+
+double uniform_draw(std::uint64_t seed, std::uint64_t sample, std::string_view quantity) {
+  // The middle of one of 2^53 equal intervals: never 0 or 1.
+  return (static_cast<double>(random_word(seed, sample, quantity) >> 11) + 0.5) * 0x1p-53;
+}
+
+CounterDraws::CounterDraws(std::uint64_t seed, std::string_view quantity) : start_(random_word(seed, 0, quantity)) {}
 
 void Distribution::check() const {
   if (std::isnan(mean) || std::isnan(deviation) || std::isnan(low) || std::isnan(high) || !(low < high))
@@ -60,15 +67,24 @@ void Distribution::check() const {
     if (!std::isfinite(low) || !std::isfinite(high)) throw InputError("a uniform distribution needs both ends");
     return;
   }
-  if (!(deviation > 0) || !std::isfinite(deviation)) throw InputError("the deviation must be above zero");
+  if (kind == Kind::rayleigh) {
+    if (!(scale > 0) || !std::isfinite(scale))
+      throw InputError("the scale of a Rayleigh distribution must be positive");
+  } else if (!(deviation > 0) || !std::isfinite(deviation)) {
+    throw InputError("the deviation must be above zero");
+  }
   if (kind == Kind::lognormal && !(mean > 0)) throw InputError("the mean of a lognormal distribution must be positive");
   const double share = [&] {
     if (kind == Kind::normal) {
       const boost::math::normal law(mean, deviation);
       return kept(law, low, high, std::isfinite(low) && low > mean);
     }
-    const auto law = lognormal_law(*this);
     if (!(high > 0)) return 0.0;
+    if (kind == Kind::rayleigh) {
+      const boost::math::rayleigh law(scale);
+      return kept(law, std::max(low, 0.0), high, low > median(law));
+    }
+    const auto law = lognormal_law(*this);
     return kept(law, std::max(low, 0.0), high, low > median(law));
   }();
   if (!(share >= 1e-3)) throw InputError("less than a thousandth of the distribution lies between its ends");
@@ -81,6 +97,8 @@ double Distribution::quantile(double probability) const {
       break;
     case Kind::normal:
       return truncated_quantile(boost::math::normal(mean, deviation), low, high, probability);
+    case Kind::rayleigh:
+      return truncated_quantile(boost::math::rayleigh(scale), std::max(low, 0.0), high, probability);
     case Kind::lognormal:
       return truncated_quantile(lognormal_law(*this), std::max(low, 0.0), high, probability);
   }

@@ -49,25 +49,45 @@ Interval mean_interval(const std::vector<double>& values, double confidence) {
 Interval quantile_interval(const std::vector<double>& values, double probability, double confidence) {
   if (values.empty()) throw InputError("statistics of no values");
   if (!(probability > 0 && probability < 1)) throw InputError("a quantile needs a probability between 0 and 1");
-  std::vector<double> sorted = values;
-  std::sort(sorted.begin(), sorted.end());
-  const auto n = static_cast<long>(sorted.size());
+  const auto n = static_cast<long>(values.size());
   const double place = probability * static_cast<double>(n - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  const auto below = static_cast<long>(place);
   const double part = place - static_cast<double>(below);
-  Interval result{part == 0 ? sorted[below] : (1 - part) * sorted[below] + part * sorted[above], -unbounded, unbounded};
   // With B values below the true quantile, order statistic r (from 1) exceeds it when B < r: the lower end is the
   // largest r with P(B <= r - 1) <= alpha/2, the upper end the smallest with P(B <= r - 1) >= 1 - alpha/2.
   const double tail = (1 - confidence) / 2;
-  for (long r = 1; r <= n; ++r) {
-    const double missed = at_most(r - 1, n, probability);
-    if (missed <= tail) result.low = sorted[static_cast<std::size_t>(r - 1)];
-    if (missed >= 1 - tail) {
-      result.high = sorted[static_cast<std::size_t>(r - 1)];
-      break;
+  // Both conditions hold from one r on (or up to one): bisection.
+  const auto first = [n](const auto& holds) {
+    long from = 1, to = n + 1;
+    while (from < to) {
+      const long middle = (from + to) / 2;
+      if (holds(middle)) {
+        to = middle;
+      } else {
+        from = middle + 1;
+      }
     }
-  }
+    return from;
+  };
+  const auto missed = [&](long r) { return at_most(r - 1, n, probability); };
+  const long low = first([&](long r) { return missed(r) > tail; }) - 1;
+  const long high = first([&](long r) { return missed(r) >= 1 - tail; });
+  // Order statistics from 0; each search leaves the larger values behind it for the next.
+  std::vector<double> sorted = values;
+  auto from = sorted.begin();
+  const auto ordered = [&](long i) {
+    const auto at = sorted.begin() + i;
+    if (at >= from) {
+      std::nth_element(from, at, sorted.end());
+      from = at + 1;
+    }
+    return *at;
+  };
+  Interval result{0, -unbounded, unbounded};
+  if (low >= 1) result.low = ordered(low - 1);
+  const double lower = ordered(below);
+  result.value = part == 0 ? lower : (1 - part) * lower + part * ordered(std::min(below + 1, n - 1));
+  if (high <= n) result.high = ordered(high - 1);
   return result;
 }
 

@@ -155,12 +155,13 @@ std::optional<DirectWindows> solve_directly(const LumpedSystem& system, const St
   return windows;
 }
 
-void set_energy(const SystemState& end, double before, double after, EnergyBalance& energy) {
-  energy.supplied = end.supplied;
-  energy.dissipated = end.dissipated;
+/// What a run has booked before `begin`, in a window that did not confirm, is none of this one's.
+void set_energy(const SystemState& begin, const SystemState& end, double before, double after, EnergyBalance& energy) {
+  energy.supplied = end.supplied - begin.supplied;
+  energy.dissipated = end.dissipated - begin.dissipated;
   energy.change = after - before;
-  energy.relative = std::abs(energy.change - end.supplied + end.dissipated) /
-                    (end.dissipated + std::max(std::abs(before), std::abs(after)));
+  energy.relative = std::abs(energy.change - energy.supplied + energy.dissipated) /
+                    (energy.dissipated + std::max(std::abs(before), std::abs(after)));
 }
 
 /// The last window of a march, its energies booked, and the same window with a looser integration.
@@ -171,7 +172,7 @@ void march_last_window(ResponseRun& run, int cycles, const SimulationOptions& op
   ResponseRun loose_run = run;
   run.advance(cycles, &response.best, true);
   response.end = run.state();
-  set_energy(run.state(), before, run.energy(), response.energy);
+  set_energy(response.begin, response.end, before, run.energy(), response.energy);
   if (options.estimate_error) {
     loose_run.loosen(10);
     response.loose.emplace();
@@ -221,11 +222,11 @@ SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& 
   if (!integrator.absolute_tolerance)
     integrator.absolute_tolerance = 0.1 * integrator.relative_tolerance * problem.force_scale / problem.stiffness;
   ResponseRun run(system, problem.mesh_frequency, options.samples_per_cycle, integrator);
-  if (options.start && !direct) {
-    if (options.start->displacement.size() != system.freedoms() || options.start->velocity.size() != system.freedoms())
+  if (problem.start) {
+    if (problem.start->q.size() != system.freedoms() || problem.start->v.size() != system.freedoms())
       throw InputError(
           fmt::format("a start of the time integration needs {} displacements and velocities", system.freedoms()));
-    run.start_from(options.start->displacement, options.start->velocity);
+    run.start_from(problem.start->q, problem.start->v);
   }
   if (direct) {
     run.start_from(direct->fine.displacement.col(0), direct->fine.velocity.col(0));

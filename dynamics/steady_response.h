@@ -22,11 +22,6 @@ enum class SteadyState {
   marching,  ///< by time integration from quasi-static equilibrium until windows repeat
 };
 
-/// A state at time 0.
-struct StartState {
-  Eigen::VectorXd displacement, velocity;  ///< m, m/s, one entry per freedom
-};
-
 struct SimulationOptions {
   SteadyState steady_state = SteadyState::direct;
   /// `direct` only. false: where the harmonic balance converges, its solution is taken without any time integration
@@ -36,8 +31,9 @@ struct SimulationOptions {
   bool keep_series = true;   ///< false: figures only
   PeriodicOptions periodic;  ///< samples_per_cycle and motion are set from what stands here
   IntegratorOptions integrator;
-  /// Where marching begins. Absent: in quasi-static equilibrium. (A direct solution begins with its own state.)
-  std::optional<StartState> start{};
+  /// Where marching of a stage begins at time 0 (see SteadyProblem::start); a direct solution begins with its own
+  /// state.
+  std::optional<SystemState> start{};
   /// Total mesh cycles from the start, by marching alone. Absent: until the response repeats, then one error period.
   std::optional<int> mesh_cycles{};
   /// The response counts as periodic when no mesh force differs by more than this, relative to the mean mesh force,
@@ -98,10 +94,11 @@ struct DirectSolution {
 
 /// What a steady state is asked of, beside the system itself.
 struct SteadyProblem {
-  double mesh_frequency = 0;  ///< Hz, > 0: of the cycles in which windows, samples and the period are counted
-  int period_in_cycles = 1;   ///< after so many cycles excitation, errors and mesh vectors repeat
-  double force_scale = 0;     ///< N, > 0: the mean mesh force, or what stands for it without a torque
-  double stiffness = 0;       ///< N/m, > 0: force_scale / stiffness is the deflection integrators resolve
+  double mesh_frequency = 0;           ///< Hz, > 0: of the cycles in which windows, samples and the period are counted
+  int period_in_cycles = 1;            ///< after so many cycles excitation, errors and mesh vectors repeat
+  double force_scale = 0;              ///< N, > 0: the mean mesh force, or what stands for it without a torque
+  double stiffness = 0;                ///< N/m, > 0: force_scale / stiffness is the deflection integrators resolve
+  std::optional<SystemState> start{};  ///< where marching begins at time 0; absent: in quasi-static equilibrium
 };
 
 /// The steady state of a system, and the windows that tell how well it is known.

@@ -148,8 +148,21 @@ BOOST_AUTO_TEST_CASE(ring_names_are_unique) {
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_available_is_said_so) {
-  check_refused("kind = \"planetary\"", "kind = \"helical_pair\"", {"not yet available"});
-  check_refused("[errors]", "[optimise]\n[errors]", {"optimise", "not yet available"});
+  check_refused("[errors]", "[modes]\n[errors]", {"modes", "not yet available"});
+}
+
+BOOST_AUTO_TEST_CASE(what_belongs_to_another_kind_of_stage_is_said_so) {
+  const auto problems = problems_of(test::replaced(test::quick_scene(), "kind = \"planetary\"", "kind = \"two_k_v\""));
+  const auto told = [&](const std::string& what) {
+    return std::any_of(problems.begin(), problems.end(), [&](const auto& p) {
+      return p.line > 0 && p.message.find(what) != std::string::npos &&
+             p.message.find("has no meaning for a stage of kind \"two_k_v\"; it belongs to planetary") !=
+                 std::string::npos;
+    });
+  };
+  BOOST_TEST(told("[[ring]]"));
+  BOOST_TEST(told("[errors]"));
+  BOOST_TEST(told("stage.power_kW = "));
 }
 
 BOOST_AUTO_TEST_CASE(pins_by_number_or_by_place) {

@@ -90,6 +90,40 @@ BOOST_AUTO_TEST_CASE(distributions_have_their_moments) {
   BOOST_TEST(tail.first == (pdf(law, a) - pdf(law, b)) / (cdf(law, b) - cdf(law, a)), close);
 }
 
+BOOST_AUTO_TEST_CASE(rayleigh_has_its_moments_and_truncation) {
+  using Kind = Distribution::Kind;
+  const auto close = boost::test_tools::tolerance(1e-3);  // the midpoint rule cuts the tails
+  const auto whole = moments({.kind = Kind::rayleigh, .scale = 3});
+  BOOST_TEST(whole.first == 3 * std::sqrt(M_PI / 2), close);
+  BOOST_TEST(whole.second == 3 * std::sqrt(2 - M_PI / 2), close);
+  // r^2 of a Rayleigh amplitude is exponential and has no memory: beyond 4 it is 16 more than from 0.
+  const Distribution free{.kind = Kind::rayleigh, .scale = 3}, tail{.kind = Kind::rayleigh, .low = 4, .scale = 3};
+  for (const double p : {0.01, 0.5, 0.99})
+    BOOST_TEST(tail.quantile(p) == std::hypot(4, free.quantile(p)), boost::test_tools::tolerance(1e-12));
+  BOOST_CHECK_NO_THROW(tail.check());
+  BOOST_CHECK_THROW((Distribution{.kind = Kind::rayleigh}.check()), InputError);
+  BOOST_CHECK_THROW((Distribution{.kind = Kind::rayleigh, .high = -1, .scale = 3}.check()), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(counter_draws_are_uniform_and_independent) {
+  constexpr int n = 10000;
+  const CounterDraws a(3, "a"), b(3, "b"), other_seed(4, "a");
+  std::vector<double> values;
+  double names = 0, seeds = 0, serial = 0;
+  for (std::uint64_t i = 0; i < n; ++i) {
+    values.push_back(a(i));
+    names += 12 * (a(i) - 0.5) * (b(i) - 0.5) / n;
+    seeds += 12 * (a(i) - 0.5) * (other_seed(i) - 0.5) / n;
+    serial += 12 * (a(i) - 0.5) * (a(i + 1) - 0.5) / n;
+  }
+  // All have the standard deviation 1/sqrt(n): four of them.
+  for (const double correlation : {names, seeds, serial}) BOOST_TEST(std::abs(correlation) < 4 / std::sqrt(n));
+  std::sort(values.begin(), values.end());
+  double distance = 0;
+  for (int i = 0; i < n; ++i) distance = std::max(distance, std::abs(values[i] - (i + 0.5) / n));
+  BOOST_TEST(distance < 1.95 / std::sqrt(n));  // Kolmogorov, 0.999
+}
+
 BOOST_AUTO_TEST_CASE(impossible_distributions_are_refused) {
   using Kind = Distribution::Kind;
   const auto refused = [](const Distribution& d) { BOOST_CHECK_THROW(d.check(), InputError); };

@@ -1,0 +1,114 @@
+#include "app/stage_kinds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "app/planetary_subject.h"
+#include "core/errors.h"
+
+namespace annulus::app {
+
+namespace {
+
+[[noreturn]] void no_such_kind() { throw InternalError("internal error: a stage of a kind that is not handled"); }
+
+std::vector<std::string> planetary_tables_to_solve(const Scene& nominal, const Scene& changed) {
+  const auto geometry = make_geometry(changed);
+  const auto before = mesh_models(nominal, make_geometry(nominal)), after = mesh_models(changed, geometry);
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    if (!table_serves(before[i], after[i], geometry.operating_point.mean_mesh_force))
+      labels.push_back(after[i].label());
+  }
+  return labels;
+}
+
+/// The period follows from errors and tables, not from stiffness.
+double planetary_seconds(const Scene& scene) {
+  const auto geometry = make_geometry(scene);
+  Scene rough = scene;
+  rough.sun_planet = {};
+  rough.sun_planet.stiffness = StiffnessShape::constant;
+  rough.sun_planet.mean = 1e9;
+  rough.ring_planet = rough.sun_planet;
+  const auto models = mesh_models(scene, geometry);
+  double seconds = 0;
+  // A constant stiffness reads no table: any will do.
+  const MeshResult none{
+      .model = {},
+      .table = StiffnessTable("sun_planet", 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
+  for (std::size_t i = 0; i < scene.rings.size(); ++i) {
+    const auto stage = make_stage(rough, geometry, i, none, none);
+    const int period = std::lcm(stage.error_period(), models[i + 1].positions);
+    const auto options = simulation_options(scene, stage);
+    seconds += dynamics::point_seconds(stage, std::min(period, std::max(options.max_window_cycles, 4000)));
+  }
+  return seconds;
+}
+
+}  // namespace
+
+void check_stage(const Scene& scene) {
+  switch (scene.stage.kind) {
+    case StageKind::planetary:
+      (void)make_geometry(scene);
+      return;
+    case StageKind::helical_pair:
+    case StageKind::two_k_v:
+      break;
+  }
+  no_such_kind();
+}
+
+std::vector<std::string> tables_to_solve(const Scene& nominal, const Scene& changed) {
+  switch (nominal.stage.kind) {
+    case StageKind::planetary:
+      return planetary_tables_to_solve(nominal, changed);
+    case StageKind::helical_pair:
+    case StageKind::two_k_v:
+      break;
+  }
+  no_such_kind();
+}
+
+std::vector<StudyFigure> stage_figures(StageKind kind) {
+  switch (kind) {
+    case StageKind::planetary:
+      return planetary_figures();
+    case StageKind::helical_pair:
+    case StageKind::two_k_v:
+      break;
+  }
+  no_such_kind();
+}
+
+std::size_t variant_count(const Scene& scene) {
+  return scene.stage.kind == StageKind::planetary ? scene.rings.size() : 1;
+}
+
+double response_seconds(const Scene& scene) {
+  switch (scene.stage.kind) {
+    case StageKind::planetary:
+      return planetary_seconds(scene);
+    case StageKind::helical_pair:
+    case StageKind::two_k_v:
+      break;
+  }
+  no_such_kind();
+}
+
+std::string stage_text(const Scene& scene) {
+  switch (scene.stage.kind) {
+    case StageKind::planetary:
+      return fmt::format("{} ring{}, {} planets", scene.rings.size(), scene.rings.size() == 1 ? "" : "s",
+                         scene.stage.planets);
+    case StageKind::helical_pair:
+    case StageKind::two_k_v:
+      break;
+  }
+  no_such_kind();
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/scene.h"
+#include "app/study_result.h"
+
+/// Where the kinds of stages differ, in one place: a new kind adds its tables (scene_schema.cc), its checks
+/// (scene_checks.cc) and a case to each function here.
+namespace annulus::app {
+
+/// Makes the geometry and whatever else needs no solving. Throws InputError where the scene is not a good one.
+void check_stage(const Scene& scene);
+
+/// Stiffness tables (labels for people) that a changed scene needs and the nominal one does not have.
+[[nodiscard]] std::vector<std::string> tables_to_solve(const Scene& nominal, const Scene& changed);
+
+/// What the lumped model of such a stage answers with.
+[[nodiscard]] std::vector<StudyFigure> stage_figures(StageKind kind);
+
+/// How many lumped models a scene compares (rings).
+[[nodiscard]] std::size_t variant_count(const Scene& scene);
+
+/// Rough wall time of the responses of all variants on one core.
+[[nodiscard]] double response_seconds(const Scene& scene);
+
+/// What `annulus check` says of a good scene: "3 rings, 5 planets".
+[[nodiscard]] std::string stage_text(const Scene& scene);
+
+}  // namespace annulus::app

@@ -1,0 +1,80 @@
+#include "dynamics/shooting.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+BOOST_AUTO_TEST_SUITE(shooting)
+
+using namespace annulus::dynamics;
+
+constexpr double mass = 2, stiffness = 8e6, damping = 40, frequency = 250, amount = 1e-6, load = 30;
+
+/// A mass on a mesh with a harmonic error and a steady load.
+LumpedSystem oscillator() {
+  LumpedSystemBuilder builder;
+  const auto x = builder.add_freedom("mass_x");
+  builder.add_mass(x, mass);
+  MeshElement mesh;
+  mesh.name = "mesh";
+  mesh.b = x;
+  mesh.excitation = ConstantStiffness{stiffness};
+  mesh.frequency = frequency;
+  mesh.damping = damping;
+  mesh.errors.push_back({amount, 2 * std::numbers::pi * frequency, 0});
+  builder.add_mesh(mesh);
+  builder.add_load(x, load);
+  return builder.build();
+}
+
+ShootingOptions options() {
+  ShootingOptions o;
+  o.displacement = 1e-6;
+  o.rate = 2 * std::numbers::pi * frequency;
+  o.tolerance = 1e-13;
+  o.integrator.relative_tolerance = 1e-9;
+  o.integrator.absolute_tolerance = 1e-16;
+  return o;
+}
+
+// Forced vibration and free decay in closed form.
+BOOST_AUTO_TEST_CASE(linear_oscillator) {
+  const auto system = oscillator();
+  const double period = 1 / frequency, w = 2 * std::numbers::pi * frequency;
+  const auto found = shoot(system, period, {0, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)}, options());
+  BOOST_TEST(found.converged);
+  BOOST_TEST(found.iterations <= 2);
+  const std::complex<double> spring(stiffness, w * damping);
+  const std::complex<double> response = amount * spring / (spring - mass * w * w);  // e = Im(amount exp(i w t))
+  const double q = load / stiffness + response.imag(), v = w * response.real();
+  // The disturbance and the decay of 1 % per period multiply the integrator's 1e-9 by some hundred.
+  BOOST_TEST(std::abs(found.start.q[0] - q) <= 1e-6 * std::abs(q));
+  BOOST_TEST(std::abs(found.start.v[0] - v) <= 1e-6 * w * amount);
+  BOOST_TEST(std::abs(std::abs(found.multipliers[0]) - std::exp(-damping / (2 * mass) * period)) <= 1e-7);
+}
+
+// A free body: its rigid motion stays where the guess has it.
+BOOST_AUTO_TEST_CASE(rigid_motion_stays) {
+  LumpedSystemBuilder builder;
+  const auto x = builder.add_freedom("one_x"), y = builder.add_freedom("two_x");
+  builder.add_mass(x, 1);
+  builder.add_mass(y, 1);
+  MeshElement mesh;
+  mesh.name = "mesh";
+  mesh.b = x + (-1.0) * y;
+  mesh.excitation = ConstantStiffness{stiffness};
+  mesh.frequency = frequency;
+  mesh.damping = damping;
+  builder.add_mesh(mesh);
+  builder.add_load(x, load);
+  builder.add_load(y, -load);
+  const auto found =
+      shoot(builder.build(), 1 / frequency, {0, Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)}, options());
+  BOOST_TEST(found.converged);
+  BOOST_TEST(std::abs(found.start.q[0] - found.start.q[1] - load / stiffness) <= 1e-6 * load / stiffness);
+  BOOST_TEST(std::abs(found.start.q.sum()) <= 1e-6 * load / stiffness);
+  BOOST_TEST(std::abs(found.multipliers[1] - 1.0) <= 1e-4);  // a double root: the square root of the accuracy
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,100 @@
+#include "dynamics/steady_response.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "core/errors.h"
+
+BOOST_AUTO_TEST_SUITE(steady_response)
+
+using namespace annulus;
+using namespace annulus::dynamics;
+
+constexpr double frequency = 200, mass = 2, ground = 4e6, mesh_stiffness = 3e7;
+
+/// A mass on a spring and a mesh, b = 1 + swing sin(2 pi f t).
+LumpedSystem swinging(double swing, double load) {
+  LumpedSystemBuilder builder;
+  const auto x = builder.add_freedom("x");
+  builder.add_mass(x, mass);
+  builder.add_spring(x, ground, 2 * 0.1 * std::sqrt(ground * mass));
+  builder.add_load(x, load);
+  MeshElement mesh;
+  mesh.name = "mesh";
+  mesh.b = x;
+  mesh.excitation = ConstantStiffness{mesh_stiffness};
+  mesh.frequency = frequency;
+  mesh.damping = 500;
+  mesh.errors = {{1e-6, 2 * std::numbers::pi * frequency, 0.3}};
+  if (swing != 0) mesh.moving = {{0, {}, {swing, 2 * std::numbers::pi * frequency, 0}}};
+  builder.add_mesh(mesh);
+  return builder.build();
+}
+
+const SteadyProblem problem{frequency, 1, 1000, mesh_stiffness};
+
+BOOST_AUTO_TEST_CASE(moving_mesh_vectors_are_marched) {
+  const auto moving = dynamics::steady_response(swinging(0.2, 1000), problem);
+  BOOST_REQUIRE(moving.direct.has_value());
+  BOOST_TEST(!moving.direct->converged);
+  BOOST_TEST(!moving.direct->trouble.empty());
+  BOOST_TEST(moving.steady);
+  BOOST_TEST(!moving.confirmed);
+  BOOST_TEST(moving.total_cycles > moving.window_cycles);
+  // Tolerance of the integrator, 1e-6, times some thousand steps.
+  BOOST_TEST(moving.energy.relative < 1e-4);
+  BOOST_TEST(std::abs(moving.energy.change) < 1e-3 * moving.energy.dissipated);
+  // A small swing is near the solution without, and linear in it.
+  const auto still = dynamics::steady_response(swinging(0, 1000), problem);
+  BOOST_TEST(still.confirmed);
+  const auto distance = [&](double swing) {
+    const auto r = dynamics::steady_response(swinging(swing, 1000), problem);
+    return (r.best.displacement - still.best.displacement).cwiseAbs().maxCoeff();
+  };
+  // The neglected second order is as large as the swing; both windows are steady to 1e-3 of the force alone.
+  BOOST_TEST(distance(0.04) / distance(0.02) == 2.0, boost::test_tools::tolerance(0.05));
+}
+
+BOOST_AUTO_TEST_CASE(load_may_be_zero_or_reversed) {
+  const auto forward = dynamics::steady_response(swinging(0, 1000), problem);
+  const auto none = dynamics::steady_response(swinging(0, 0), problem);
+  const auto back = dynamics::steady_response(swinging(0, -1000), problem);
+  const double share = mesh_stiffness / (mesh_stiffness + ground);
+  // Linear: the load adds its static part and nothing else. Harmonic balance and marching agree to 1e-3 of the scale.
+  for (const auto* r : {&forward, &none, &back}) BOOST_TEST(r->confirmed);
+  const double error = (forward.best.force - none.best.force).array().operator-(1000 * share).abs().maxCoeff() +
+                       (back.best.force - none.best.force).array().operator+(1000 * share).abs().maxCoeff();
+  BOOST_TEST(error < 1e-2);
+}
+
+BOOST_AUTO_TEST_CASE(windows_tell_what_they_compare_with) {
+  SimulationOptions options;
+  options.confirm = false;
+  const auto system = swinging(0, 1000);
+  const auto direct = dynamics::steady_response(system, problem, options);
+  BOOST_TEST(direct.total_cycles == 0);
+  BOOST_REQUIRE(direct.before.has_value());
+  BOOST_TEST(direct.before->force.cols() * 2 == direct.best.force.cols());
+  BOOST_TEST(!direct.loose.has_value());
+  options = {};
+  options.mesh_cycles = 30;  // shorter than two windows: nothing to compare with
+  const auto given = dynamics::steady_response(system, problem, options);
+  BOOST_TEST(given.total_cycles == 30);
+  BOOST_TEST(given.window_cycles == 20);
+  BOOST_TEST(!given.before.has_value());
+  BOOST_TEST(given.loose.has_value());
+}
+
+BOOST_AUTO_TEST_CASE(unusable_problems_are_refused) {
+  const auto system = swinging(0, 1000);
+  const auto refused = [&](const SteadyProblem& p) {
+    BOOST_CHECK_THROW((void)dynamics::steady_response(system, p), InputError);
+  };
+  refused({0, 1, 1000, 1e7});
+  refused({200, 0, 1000, 1e7});
+  refused({200, 1, 0, 1e7});
+  refused({200, 1, 1000, std::nan("")});
+}
+
+BOOST_AUTO_TEST_SUITE_END()
