@@ -9,8 +9,8 @@
 namespace annulus::app {
 
 namespace {
-const std::string failure_of = "failure_";
-constexpr auto save_interval = std::chrono::seconds(2);  // the most that an interruption costs
+const std::string failure_line = "failure_";
+constexpr auto evaluations_interval = std::chrono::seconds(2);  // the most that an interruption costs
 }  // namespace
 
 EvaluationStore::EvaluationStore(std::filesystem::path file, std::string id, std::vector<std::string> variables,
@@ -39,7 +39,7 @@ void EvaluationStore::read() {
       if (values[variables_.size()] == 0)
         point.values.assign(values.begin() + n + 1, values.end());
       else
-        point.failure = failures.at(failure_of + std::to_string(row + 1));
+        point.failure = failures.at(failure_line + std::to_string(row + 1));
       order_.push_back(x);
       points_[x] = std::move(point);
     }
@@ -58,7 +58,7 @@ const StudyPoint* EvaluationStore::find(const std::vector<double>& x) const {
 void EvaluationStore::add(const std::vector<double>& x, StudyPoint point) {
   if (points_.emplace(x, std::move(point)).second) order_.push_back(x);
   changed_ = true;
-  if (std::chrono::steady_clock::now() - saved_ > save_interval) save();
+  if (std::chrono::steady_clock::now() - saved_ > evaluations_interval) save();
 }
 
 void EvaluationStore::save() {
@@ -74,7 +74,7 @@ void EvaluationStore::save() {
     row.push_back(point.failure.empty() ? 0.0 : 1.0);
     for (std::size_t i = 0; i < figures_.size(); ++i) row.push_back(point.value(i));
     csv.rows.push_back(std::move(row));
-    if (!point.failure.empty()) csv.header.emplace_back(failure_of + std::to_string(csv.rows.size()), point.failure);
+    if (!point.failure.empty()) csv.header.emplace_back(failure_line + std::to_string(csv.rows.size()), point.failure);
   }
   std::filesystem::create_directories(file_.parent_path());
   csv.write(file_);

@@ -120,23 +120,23 @@ struct OptimiseRun {
 struct Design {
   std::vector<double> x;  ///< values of the variables, in the unit of the inputs
   double objective = 0;   ///< NaN when the response fails
-  StudyPoint point;
-  std::optional<StartSpread> starts;
+  StudyPoint point{};
+  std::optional<StartSpread> starts{};
 };
 
 struct OptimiseResults {
   OptimiseInput settings;
   std::vector<VariableInput> variables;
-  std::vector<std::string> units;  ///< of the variables
+  std::vector<std::string> units{};  ///< of the variables
   std::size_t variant = 0;
-  std::vector<OptimiseRun> runs;
+  std::vector<OptimiseRun> runs{};
   std::size_t best_run = 0;
-  Design given, best;
+  Design given{}, best{};
   double numerical_error = 0;      ///< of the objective, where the scene's own figures tell it
-  dynamics::ObjectiveRange range;  ///< over all evaluations of all runs, of values to be made small
+  dynamics::ObjectiveRange range{};  ///< over all evaluations of all runs, of values to be made small
   /// Evaluations until the objective of the best run was met within 1 % of the gain (at least the numerical error), by
   /// run; absent: never.
-  std::vector<std::optional<long>> evaluations_to_best;
+  std::vector<std::optional<long>> evaluations_to_best{};
 };
 
 struct StudyResults {

@@ -84,7 +84,7 @@ WindowPeaks peaks_of(const HelicalPair& pair, const LumpedSystem& system, const 
   return p;
 }
 
-Peak operator+(const Peak& a, const Peak& b) { return {a.sampled + b.sampled, a.refined + b.refined}; }
+Peak sum(const Peak& a, const Peak& b) { return {a.sampled + b.sampled, a.refined + b.refined}; }
 
 /// The peaks of the best window and those it is compared with, or bounds where only the forces are known.
 class PairEvidence {
@@ -124,7 +124,7 @@ class PairEvidence {
     return of(peak, share * acceleration_per_force_);
   }
   [[nodiscard]] MotionFigures motion(const Row& row, Peak WindowPeaks::*high, Peak WindowPeaks::*low) const {
-    return {row.mean(), of([=](const WindowPeaks& p) { return p.*high + p.*low; }, 2 * motion_per_force_),
+    return {row.mean(), of([=](const WindowPeaks& p) { return sum(p.*high, p.*low); }, 2 * motion_per_force_),
             of([=](const WindowPeaks& p) { return higher(p.*high, p.*low); }, motion_per_force_)};
   }
 
@@ -136,7 +136,7 @@ class PairEvidence {
 
 MotionFigures sampled_motion(const Row& row) {
   const Peak high = peak_of(row), low = peak_of(-row);
-  return {row.mean(), figure(high + low, {}), figure(higher(high, low), {})};
+  return {row.mean(), figure(sum(high, low), {}), figure(higher(high, low), {})};
 }
 
 PairMotions quasi_static_motions(const HelicalPair& pair, const LumpedSystem& system,
