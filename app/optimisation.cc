@@ -161,8 +161,9 @@ OptimiseRun search(const StudySubject& subject, const DesignObjective& objective
     if (f.quick || !objective.quick()) figures.push_back(f.column);
   }
   // The answers depend on the scene, not on how the search goes on; the file is one search's.
-  EvaluationStore store(subject.folder(objective.variant()) / "optimise" / fmt::format("{}_{}.csv", optimiser, repeat + 1),
-                        subject.model({}, "[optimise]", objective.variant(), "", true).id, variables, figures);
+  EvaluationStore store(
+      subject.folder(objective.variant()) / "optimise" / fmt::format("{}_{}.csv", optimiser, repeat + 1),
+      subject.model({}, "[optimise]", objective.variant(), "", true).id, variables, figures);
   OptimiseRun run{.optimiser = optimiser, .repeat = repeat + 1, .search = {}, .kept = 0};
   const auto answer = [&](const std::vector<double>& x) {
     const StudyPoint* known = store.find(x);
@@ -176,8 +177,7 @@ OptimiseRun search(const StudySubject& subject, const DesignObjective& objective
     return objective.sign() * objective.value(*known);
   };
   const auto options = search_options(*scene.optimise, optimiser, repeat);
-  run.search =
-      dynamics::optimise(search_variables(scene), answer, options, [&](const auto&) { progress.done(); });
+  run.search = dynamics::optimise(search_variables(scene), answer, options, [&](const auto&) { progress.done(); });
   store.save();
   return run;
 }
@@ -221,7 +221,8 @@ OptimiseResults run_optimise(const StudySubject& subject) {
   const auto& scene = subject.scene();
   const auto& settings = *scene.optimise;
   const DesignObjective objective(subject);
-  OptimiseResults result{.settings = settings, .variables = scene.variables, .units = {}, .variant = objective.variant()};
+  OptimiseResults result{
+      .settings = settings, .variables = scene.variables, .units = {}, .variant = objective.variant()};
   for (const auto& v : scene.variables) result.units.push_back(find_input(scene, v.input).parameter->unit);
 
   const auto repeats = static_cast<std::size_t>(settings.repeats);
@@ -229,8 +230,8 @@ OptimiseResults run_optimise(const StudySubject& subject) {
   result.runs.resize(tasks);
   TaskProgress progress("optimisation", tasks * static_cast<std::size_t>(settings.generations + 1));
   for_each_task(tasks, subject.options().threads, [&](std::size_t task) {
-    result.runs[task] = search(subject, objective, settings.optimisers[task / repeats],
-                               static_cast<int>(task % repeats), progress);
+    result.runs[task] =
+        search(subject, objective, settings.optimisers[task / repeats], static_cast<int>(task % repeats), progress);
   });
   std::vector<dynamics::OptimiseEvaluation> all;
   for (std::size_t i = 0; i < tasks; ++i) {

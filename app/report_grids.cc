@@ -54,11 +54,13 @@ std::string one_grid(const Scene& scene, const StudyResults& studies, std::size_
   std::string text = fmt::format(
       "<h3>{} and {}</h3>\n<p>{} {} {} × {} points; all else as in the scene. Table: "
       "<code>dynamics/grid_{}.csv</code>.{}{}</p>\n",
-      escape(grid.grid.x.input), escape(grid.grid.y.input), escape(find_input(scene, grid.grid.x.input).parameter->meaning),
+      escape(grid.grid.x.input), escape(grid.grid.y.input),
+      escape(find_input(scene, grid.grid.x.input).parameter->meaning),
       escape(find_input(scene, grid.grid.y.input).parameter->meaning), grid.x.size(), grid.y.size(), n + 1,
       failed ? fmt::format(" {} responses failed and are left out.", failed) : "",
-      not_steady ? fmt::format(" {} responses did not become periodic; their figures hold for the window only.", not_steady)
-                 : "");
+      not_steady
+          ? fmt::format(" {} responses did not become periodic; their figures hold for the window only.", not_steady)
+          : "");
   std::vector<std::pair<std::string, std::size_t>> entries;
   for (const std::size_t row : shown_rows(grid.y.size()))
     entries.emplace_back(to_text(grid.y[row], 5) + " " + grid.y_unit, entries.size());

@@ -51,17 +51,17 @@ std::string verdict(const StudyResults& studies, const OptimiseResults& o) {
     text += fmt::format("<b>The scene as given is as good as the best found:</b> {} against {}.",
                         to_text(o.given.objective, 6), to_text(o.best.objective, 6));
   } else {
-    text += fmt::format("<b>The objective goes from {} to {}</b> ({:.1f} % of its value).", to_text(o.given.objective, 6),
-                        to_text(o.best.objective, 6),
+    text += fmt::format("<b>The objective goes from {} to {}</b> ({:.1f} % of its value).",
+                        to_text(o.given.objective, 6), to_text(o.best.objective, 6),
                         100 * std::abs(o.given.objective - o.best.objective) / std::abs(o.given.objective));
   }
   text += "</p>\n";
   for (const std::string mesh : {"sun_planet", "ring_planet", "mesh"}) {
     const auto loss = find_figure(studies.figures, mesh + "_contact_loss");
     if (loss == std::string::npos) continue;
-    text += fmt::format("<p>{}: {} % with the given values, {} % with the best.</p>\n",
-                        escape(studies.figures[loss].title), to_text(100 * o.given.point.value(loss), 3),
-                        to_text(100 * o.best.point.value(loss), 3));
+    text +=
+        fmt::format("<p>{}: {} % with the given values, {} % with the best.</p>\n", escape(studies.figures[loss].title),
+                    to_text(100 * o.given.point.value(loss), 3), to_text(100 * o.best.point.value(loss), 3));
   }
   return text + "</div>\n";
 }
@@ -158,17 +158,19 @@ std::string optimise_section(const StudyResults& studies) {
                                  studies.variants[o.variant].empty() ? "" : ", " + escape(studies.variants[o.variant]));
   text += verdict(studies, o);
   text += "<p>Given: " + values_text(o, o.given) + ". Best: " + values_text(o, o.best) + ".</p>\n";
-  if (!o.best.point.failure.empty()) text += "<p>The best design failed when repeated: " + escape(o.best.point.failure) + "</p>\n";
-  const std::string starts =
-      starts_text(studies, o, o.given, "As given") + starts_text(studies, o, o.best, "Best");
+  if (!o.best.point.failure.empty())
+    text += "<p>The best design failed when repeated: " + escape(o.best.point.failure) + "</p>\n";
+  const std::string starts = starts_text(studies, o, o.given, "As given") + starts_text(studies, o, o.best, "Best");
   if (!starts.empty()) text += "<ul>" + starts + "</ul>\n";
   std::vector<std::pair<std::string, std::size_t>> entries;
   for (std::size_t i = 0; i < o.runs.size(); ++i) entries.emplace_back(name_of(o, o.runs[i]), i);
   std::vector<std::string> pictures = {history_picture(o)};
-  for (std::size_t i = 0; i < std::min<std::size_t>(o.variables.size(), 5); ++i) pictures.push_back(cloud_picture(o, i));
+  for (std::size_t i = 0; i < std::min<std::size_t>(o.variables.size(), 5); ++i)
+    pictures.push_back(cloud_picture(o, i));
   text += figure(pictures, legend_html(entries),
                  "Tables: <code>dynamics/optimise</code>; the best design as a scene: <code>best.toml</code> there.");
-  text += "<p>“To the best”: evaluations until the best objective of all searches was met within 1 % of the gain.</p>\n";
+  text +=
+      "<p>“To the best”: evaluations until the best objective of all searches was met within 1 % of the gain.</p>\n";
   return text + "<div class=\"wide\">" + html(runs_table(o)) + "</div>\n<h3>Figures of both designs</h3>\n" +
          html(figures_table(studies, o));
 }

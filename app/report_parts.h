@@ -55,7 +55,8 @@ inline constexpr double shown_cycles = 110;
 [[nodiscard]] std::string contact_section(const RunResult& result);  ///< face width, pressure, stress; empty if unknown
 // report_dynamics.cc
 [[nodiscard]] std::string dynamics_section(const RunResult& result);  ///< load sharing, dynamic factors, spectra
-// report_spread.cc, report_sweeps.cc, report_grids.cc, report_sensitivity.cc, report_optimise.cc; empty where the scene does not ask
+// report_spread.cc, report_sweeps.cc, report_grids.cc, report_sensitivity.cc, report_optimise.cc; empty where the scene
+// does not ask
 [[nodiscard]] std::string spread_section(const StudyResults& studies);  ///< Monte Carlo samples
 [[nodiscard]] std::string sweeps_section(const Scene& scene, const StudyResults& studies);
 [[nodiscard]] std::string grids_section(const Scene& scene, const StudyResults& studies);

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <set>
 
+#include "app/optimisation.h"
 #include "app/overrides.h"
 #include "app/scene_checks.h"
 #include "app/stage_kinds.h"
-#include "app/optimisation.h"
 
 namespace annulus::app {
 
@@ -31,7 +31,8 @@ class StudyChecker {
 
   void run() {
     if (!scene_.dynamics) {
-      for (const auto* key : {"sweep.input", "grid.x_input", "monte_carlo.samples", "sensitivity.factor", "optimise.objective"}) {
+      for (const auto* key :
+           {"sweep.input", "grid.x_input", "monte_carlo.samples", "sensitivity.factor", "optimise.objective"}) {
         if (find(key, 0)) problem(key, 0, "needs [dynamics]: studies vary what the lumped model answers");
       }
       return;
@@ -148,18 +149,21 @@ class StudyChecker {
                                        : "did you mean \"" + near + "\"?"));
     }
     if (!o.weights.empty() && o.weights.size() != o.objective.size())
-      problem("optimise.weights", 0,
-              fmt::format("needs one weight per figure: {} weights for {} figures", o.weights.size(), o.objective.size()));
+      problem(
+          "optimise.weights", 0,
+          fmt::format("needs one weight per figure: {} weights for {} figures", o.weights.size(), o.objective.size()));
     const auto& names = optimiser_names();
     if (o.optimisers.empty()) problem("optimise.optimisers", 0, "needs at least one");
     for (const auto& name : o.optimisers) {
       if (std::find(names.begin(), names.end(), name) != names.end()) continue;
       const std::string near = nearest(name, names);
-      problem("optimise.optimisers", 0,
-              fmt::format("there is no optimiser \"{}\"{}", name, near.empty() ? "" : "; did you mean \"" + near + "\"?"));
+      problem(
+          "optimise.optimisers", 0,
+          fmt::format("there is no optimiser \"{}\"{}", name, near.empty() ? "" : "; did you mean \"" + near + "\"?"));
     }
     if (o.population % 2) problem("optimise.population", 0, "must be even: parents are crossed in pairs");
-    if (o.ring && std::none_of(scene_.rings.begin(), scene_.rings.end(), [&](const auto& r) { return r.name == *o.ring; }))
+    if (o.ring &&
+        std::none_of(scene_.rings.begin(), scene_.rings.end(), [&](const auto& r) { return r.name == *o.ring; }))
       problem("optimise.ring", 0, "there is no ring of this name");
     if (scene_.variables.empty()) problem("optimise.objective", 0, "needs an [[optimise.variable]] at least");
     for (std::size_t i = 0; i < scene_.variables.size(); ++i) variable(scene_.variables[i], i);

@@ -10,7 +10,8 @@ namespace annulus::app {
 void check_studies(const Scene& scene);
 
 /// All studies of the nominal scene on its tables and others where needed. Writes OUT/<variant>/dynamics/sweep_<n>.csv,
-/// sweep_<n>_poincare.csv, grid_<n>.csv, monte_carlo.csv, optimise/ and OUT/sensitivity.csv; finished points are kept and reused.
+/// sweep_<n>_poincare.csv, grid_<n>.csv, monte_carlo.csv, optimise/ and OUT/sensitivity.csv; finished points are kept
+/// and reused.
 [[nodiscard]] StudyResults run_studies(const StudySubject& subject);
 
 // The studies one by one.

@@ -29,7 +29,8 @@ std::string row_text(const Scene& scene, const SweepInput& s) {
 
 std::vector<StudyPlan> plan_studies(const Scene& scene) {
   std::vector<StudyPlan> list;
-  const bool any = !scene.sweeps.empty() || !scene.grids.empty() || scene.monte_carlo || scene.sensitivity || scene.optimise;
+  const bool any =
+      !scene.sweeps.empty() || !scene.grids.empty() || scene.monte_carlo || scene.sensitivity || scene.optimise;
   if (!any || !scene.dynamics) return list;
   const auto variants = static_cast<long>(variant_count(scene));
   const double each = response_seconds(scene);

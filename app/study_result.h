@@ -103,8 +103,8 @@ struct SensitivityResult {
 
 /// Steady motions found from several initial conditions.
 struct StartSpread {
-  int starts = 0, motions = 0;   ///< motions: distinct ones
-  std::vector<double> low, high; ///< of every quick figure of the subject over the starts
+  int starts = 0, motions = 0;    ///< motions: distinct ones
+  std::vector<double> low, high;  ///< of every quick figure of the subject over the starts
   int not_steady = 0;
 };
 

@@ -113,13 +113,13 @@ StudyJson optimise_json(const StudyResults& studies) {
   if (!studies.variants[o.variant].empty()) json["ring"] = studies.variants[o.variant];
   for (std::size_t i = 0; i < o.runs.size(); ++i) {
     const auto& run = o.runs[i];
-    json["searches"].push_back(
-        {{"optimiser", run.optimiser},
-         {"repeat", run.repeat},
-         {"best", finite_or_null(sign * run.search.value)},
-         {"evaluations", run.search.evaluations.size()},
-         {"failed", run.search.failed},
-         {"evaluations_to_best", o.evaluations_to_best[i] ? StudyJson(*o.evaluations_to_best[i]) : StudyJson(nullptr)}});
+    json["searches"].push_back({{"optimiser", run.optimiser},
+                                {"repeat", run.repeat},
+                                {"best", finite_or_null(sign * run.search.value)},
+                                {"evaluations", run.search.evaluations.size()},
+                                {"failed", run.search.failed},
+                                {"evaluations_to_best", o.evaluations_to_best[i] ? StudyJson(*o.evaluations_to_best[i])
+                                                                                 : StudyJson(nullptr)}});
   }
   return json;
 }

@@ -72,8 +72,8 @@ void check(const std::vector<OptimiseVariable>& variables, const OptimiseOptions
   if (o.generations < 1) throw InputError("an optimisation needs at least one generation");
   if (o.population < 5) throw InputError(fmt::format("a population of {} is too small: at least 5", o.population));
   if (o.optimiser == Optimiser::genetic && o.population % 2 != 0)
-    throw InputError(fmt::format("a population of {} cannot pair: the genetic algorithm needs an even one",
-                                 o.population));
+    throw InputError(
+        fmt::format("a population of {} cannot pair: the genetic algorithm needs an even one", o.population));
   if (!(o.elite > 0 && o.elite <= 1)) throw InputError(fmt::format("elite share {} must lie in (0, 1]", o.elite));
   for (const auto& [value, name] : {std::pair{o.crossover, "crossover"}, std::pair{o.mutation, "mutation"}})
     if (!(value >= 0 && value <= 1)) throw InputError(fmt::format("{} rate {} must lie in [0, 1]", name, value));
@@ -116,7 +116,8 @@ const char* to_text(Optimiser optimiser) {
 }
 
 OptimiseResult optimise(const std::vector<OptimiseVariable>& variables, const Objective& objective,
-                        const OptimiseOptions& options, const std::function<void(const OptimiseGeneration&)>& progress) {
+                        const OptimiseOptions& options,
+                        const std::function<void(const OptimiseGeneration&)>& progress) {
   check(variables, options);
   OptimiseLog log(variables, objective);
   OptimiseResult result;
@@ -140,7 +141,7 @@ OptimiseResult optimise(const std::vector<OptimiseVariable>& variables, const Ob
     const long asked = log.asked();
     population = std::visit([&](const auto& m) { return m.evolve(std::move(population)); }, method);
     if (log.asked() == asked) {
-      result.stopped = fmt::format("the population collapsed before generation {}", generation);
+      result.stopped = fmt::format("the optimiser had nothing left to try in generation {}", generation);
       break;
     }
     note(generation);

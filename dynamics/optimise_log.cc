@@ -116,13 +116,15 @@ ObjectiveRange objective_range(const std::vector<OptimiseEvaluation>& evaluation
   range.least_meaning = std::max(numerical_error, relative * std::max(std::abs(range.low), std::abs(range.high)));
   const double difference = range.high - range.low;
   range.flat = difference <= range.least_meaning;
-  range.verdict =
-      range.flat ? fmt::format("flat: over {} points the objective moves by {:.2g}, less than the {:.2g} below which "
-                               "differences mean nothing; any point is as good as another",
-                               range.evaluations, difference, range.least_meaning)
-                 : fmt::format("over {} points the objective moves by {:.4g}, from {:.6g} to {:.6g}; differences below "
-                               "{:.2g} mean nothing",
-                               range.evaluations, difference, range.low, range.high, range.least_meaning);
+  range.verdict = range.flat
+                      ? fmt::format(
+                            "flat: over {} points the objective moves by {:.2g}, less than the {:.2g} below which "
+                            "differences mean nothing; any point is as good as another",
+                            range.evaluations, difference, range.least_meaning)
+                      : fmt::format(
+                            "over {} points the objective moves by {:.4g}, from {:.6g} to {:.6g}; differences below "
+                            "{:.2g} mean nothing",
+                            range.evaluations, difference, range.low, range.high, range.least_meaning);
   return range;
 }
 

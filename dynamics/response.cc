@@ -34,9 +34,12 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
   response.mesh_frequency = stage.mesh_frequency();
   response.mean_mesh_force = stage.mean_mesh_force();
   const LumpedSystem system = assemble(stage);
-  auto found = steady_response(
-      system, {response.mesh_frequency, stage.error_period(), response.mean_mesh_force, mean_stiffness(stage.sun_mesh)},
-      options);
+  const SteadyProblem problem{.mesh_frequency = response.mesh_frequency,
+                              .period_in_cycles = stage.error_period(),
+                              .force_scale = response.mean_mesh_force,
+                              .stiffness = mean_stiffness(stage.sun_mesh),
+                              .start = options.start};
+  auto found = steady_response(system, problem, options);
   response.window_cycles = found.window_cycles;
   response.whole_error_period = found.whole_period;
   response.total_cycles = found.total_cycles;

@@ -46,11 +46,22 @@ double largest_difference(const ResponseWindow& a, const ResponseWindow& b, doub
   return (a.force - b.force).cwiseAbs().maxCoeff() / mean_force;
 }
 
+/// Is the tolerance out of reach in `left` more windows at the pace at which the largest differences of eight windows
+/// went down from the eight before? (Chaos: they do not.)
+bool hopeless(const std::vector<double>& differences, int left, double tolerance) {
+  constexpr std::ptrdiff_t stretch = 8;
+  if (static_cast<std::ptrdiff_t>(differences.size()) < 2 * stretch) return false;
+  const auto end = differences.end();
+  const double now = *std::max_element(end - stretch, end), then = *std::max_element(end - 2 * stretch, end - stretch);
+  return now * std::pow(std::min(now / then, 1.0), static_cast<double>(left) / stretch) > tolerance;
+}
+
 /// Integrates until successive windows agree; leaves the last one in `window`.
 bool reach_steady_state(ResponseRun& run, int cycles, const SimulationOptions& options, double mean_force,
                         ResponseWindow& window) {
   ResponseWindow before;
   double previous = 0;
+  std::vector<double> differences;
   run.advance(cycles, &window);
   for (int i = 1; i < options.max_windows; ++i) {
     std::swap(before, window);
@@ -65,6 +76,9 @@ bool reach_steady_state(ResponseRun& run, int cycles, const SimulationOptions& o
                    : difference <= 0.5 * options.steady_tolerance))
       return true;
     previous = difference;
+    // One response among many is not worth every effort.
+    differences.push_back(difference);
+    if (!options.confirm && hopeless(differences, options.max_windows - i, options.steady_tolerance)) return false;
   }
   return false;
 }
@@ -208,7 +222,12 @@ SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& 
   if (!integrator.absolute_tolerance)
     integrator.absolute_tolerance = 0.1 * integrator.relative_tolerance * problem.force_scale / problem.stiffness;
   ResponseRun run(system, problem.mesh_frequency, options.samples_per_cycle, integrator);
-  if (problem.start) run.start_from(problem.start->q, problem.start->v);
+  if (problem.start) {
+    if (problem.start->q.size() != system.freedoms() || problem.start->v.size() != system.freedoms())
+      throw InputError(
+          fmt::format("a start of the time integration needs {} displacements and velocities", system.freedoms()));
+    run.start_from(problem.start->q, problem.start->v);
+  }
   if (direct) {
     run.start_from(direct->fine.displacement.col(0), direct->fine.velocity.col(0));
     march_last_window(run, cycles, options, response);

@@ -25,13 +25,17 @@ enum class SteadyState {
 struct SimulationOptions {
   SteadyState steady_state = SteadyState::direct;
   /// `direct` only. false: where the harmonic balance converges, its solution is taken without any time integration
-  /// (sweeps, Monte Carlo); the errors then compare with half the samples, and there is no energy balance.
+  /// (sweeps, Monte Carlo); the errors then compare with half the samples, and there is no energy balance. Marching
+  /// gives up where windows come closer so slowly (chaos: not at all) that `max_windows` will not do.
   bool confirm = true;
   bool keep_series = true;   ///< false: figures only
   PeriodicOptions periodic;  ///< samples_per_cycle and motion are set from what stands here
   IntegratorOptions integrator;
+  /// Where marching of a stage begins at time 0 (see SteadyProblem::start); a direct solution begins with its own
+  /// state.
+  std::optional<SystemState> start{};
   /// Total mesh cycles from the start, by marching alone. Absent: until the response repeats, then one error period.
-  std::optional<int> mesh_cycles;
+  std::optional<int> mesh_cycles{};
   /// The response counts as periodic when no mesh force differs by more than this, relative to the mean mesh force,
   /// from the harmonic balance; or from one evaluated window earlier, and the differences, continued geometrically, add
   /// up to no more.

@@ -125,12 +125,14 @@ BOOST_AUTO_TEST_CASE(logarithmic_variables_spend_equal_effort_on_every_decade) {
   OptimiseOptions options;
   options.optimiser = Optimiser::cma_es;
   options.generations = 60;
-  const auto r = optimise(half, [](const auto& x) { return square(std::log10(x[0]) + 4.5); }, options);
+  const auto r = optimise(
+      half, [](const auto& x) { return square(std::log10(x[0]) + 4.5); }, options);
   BOOST_TEST(r.x[0] == std::pow(10, -4.5), boost::test_tools::tolerance(1e-3));
   options.optimiser = Optimiser::genetic;
   options.population = 1000;
   options.generations = 1;
-  const auto many = optimise(half, [](const auto&) { return 1.0; }, options);
+  const auto many = optimise(
+      half, [](const auto&) { return 1.0; }, options);
   long low = 0;
   for (int i = 0; i < 1000; ++i) low += many.evaluations[i].x[0] < 1e-4;
   BOOST_TEST(std::abs(low - 500) < 64);  // four standard deviations of a fair coin
@@ -155,10 +157,12 @@ BOOST_AUTO_TEST_CASE(a_failing_region_is_left_counted_and_told) {
     BOOST_TEST(failed == r.failed);
     for (const auto& g : r.history) BOOST_TEST((!(g.worst > 2e3)));  // penalties are no values
   }
-  BOOST_CHECK_THROW(search(Optimiser::genetic, [](const auto&) -> double { throw SolverError("never"); }, 1, 2),
+  BOOST_CHECK_THROW(search(
+                        Optimiser::genetic, [](const auto&) -> double { throw SolverError("never"); }, 1, 2),
                     SolverError);
   // What is not a failed point ends the search.
-  BOOST_CHECK_THROW(search(Optimiser::genetic, [](const auto&) -> double { throw std::bad_alloc(); }, 1, 2),
+  BOOST_CHECK_THROW(search(
+                        Optimiser::genetic, [](const auto&) -> double { throw std::bad_alloc(); }, 1, 2),
                     std::bad_alloc);
 }
 

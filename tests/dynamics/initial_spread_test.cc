@@ -1,0 +1,63 @@
+#include "dynamics/initial_spread.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "core/errors.h"
+#include "stages.h"
+
+using namespace annulus;
+using namespace annulus::dynamics;
+
+namespace {
+
+PlanetaryStage at_speed(double revolutions) {
+  auto stage = stages::backlash_paper();
+  stage.set_half_backlash(10e-6);
+  stage.carrier_speed *= revolutions / 1500;
+  return stage;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(initial_spread_of_motions)
+
+BOOST_AUTO_TEST_CASE(all_starts_lead_to_the_one_exact_motion_where_it_is_the_only_one) {
+  const auto stage = at_speed(1500);
+  const auto spread = initial_spread(stage, {.random_starts = 3});
+  BOOST_TEST(spread.starts.size() == 4u);
+  BOOST_TEST(spread.attractors == 1);
+  BOOST_TEST(spread.unsteady == 0);
+  BOOST_TEST(spread.contact_loss.high == 0.0);
+  // Windows agree to 1e-3 of the mean force where they count as steady, mostly far better.
+  BOOST_TEST(spread.sun_load_sharing.high - spread.sun_load_sharing.low <= 1e-3);
+  const auto exact = evaluate_point(stage, {.simulation = {}, .motion = false});
+  BOOST_TEST(spread.starts[0].sun_planet.instantaneous == exact.sun_planet.instantaneous,
+             boost::test_tools::tolerance(1e-3));
+  // The peak of the ring meshes stands between samples of the march.
+  BOOST_TEST(spread.starts[0].ring_planet.instantaneous == exact.ring_planet.instantaneous,
+             boost::test_tools::tolerance(5e-3));
+}
+
+// Below a resonance gap makes soft, a motion with closed teeth and one that loses contact stand side by side.
+BOOST_AUTO_TEST_CASE(two_motions_are_found_beside_a_softening_resonance) {
+  const auto stage = at_speed(5000);
+  const auto spread = initial_spread(stage), again = initial_spread(stage);
+  BOOST_TEST(spread.attractors == 2);
+  BOOST_TEST(spread.contact_loss.low == 0.0);
+  BOOST_TEST(spread.contact_loss.high > 0.1);
+  BOOST_TEST(spread.ring_load_sharing.high > 1.3 * spread.ring_load_sharing.low);
+  const auto exact = evaluate_point(stage, {.simulation = {}, .motion = false});
+  BOOST_TEST(exact.sun_planet.instantaneous == spread.sun_load_sharing.low, boost::test_tools::tolerance(2e-3));
+  for (std::size_t i = 0; i < spread.starts.size(); ++i) {
+    BOOST_TEST(spread.starts[i].attractor == again.starts[i].attractor);
+    BOOST_TEST(spread.starts[i].sun_planet.instantaneous == again.starts[i].sun_planet.instantaneous);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(wrong_options_are_refused) {
+  BOOST_CHECK_THROW((void)initial_spread(at_speed(1500), {.factor = 0}), InputError);
+  BOOST_CHECK_THROW((void)initial_spread(at_speed(1500), {.random_starts = -1}), InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
