@@ -224,6 +224,7 @@ std::string MeshModel::id() const {
 
 std::string MeshModel::label() const {
   if (mesh == pinion_wheel) return "mesh of pinion and wheel";
+  if (mesh == arc_pins) return "mesh of arc teeth and pins";
   return ring.empty() ? "sun-planet mesh" : fmt::format("ring-planet mesh of '{}'", ring);
 }
 

@@ -13,10 +13,11 @@ namespace annulus::app {
 inline constexpr const char* sun_planet = "sun_planet";
 inline constexpr const char* ring_planet = "ring_planet";
 inline constexpr const char* pinion_wheel = "pinion_wheel";
+inline constexpr const char* arc_pins = "arc_pins";
 
 /// How the stiffness of one mesh is found, and why so: the decision of the planner, carried out by the pipeline.
 struct MeshModel {
-  std::string mesh{};  ///< "sun_planet", "ring_planet" or "pinion_wheel"
+  std::string mesh{};  ///< "sun_planet", "ring_planet", "pinion_wheel" or "arc_pins"
   std::string ring{};  ///< empty for the sun mesh, which all rings share
   std::string rung{};  ///< "closed_form", "plane", "solid", "resolved_plane", "resolved_solid", or "given" by the scene
   std::string reason{};                             ///< why this rung

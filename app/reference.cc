@@ -64,6 +64,16 @@ Reference read_reference(const std::filesystem::path& file) {
                                    text_of(*table, "where", false, name)});
     }
   }
+  if (const auto* values = root["value"].as_array()) {
+    for (const auto& value : *values) {
+      const auto* table = value.as_table();
+      if (!table) continue;
+      const auto number = (*table)["value"].value<double>();
+      if (!number) throw InputError(name + ": a [[value]] needs the published number, value = ...");
+      reference.values.push_back({text_of(*table, "quantity", true, name), *number, (*table)["within"].value_or(0.0),
+                                  text_of(*table, "statement", true, name), text_of(*table, "where", false, name)});
+    }
+  }
   return reference;
 }
 

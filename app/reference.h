@@ -6,7 +6,7 @@
 
 namespace annulus::app {
 
-/// Published statements about the rings of a scene, read from a file with their source (data/reference).
+/// Published statements about a scene, read from a file with their source (data/reference).
 struct Reference {
   /// "The first ring has the largest value, the last the smallest."
   struct Order {
@@ -20,9 +20,17 @@ struct Reference {
   struct AtPin {
     std::string ring, statement, where;
   };
+  /// A published number of a stage without variants.
+  struct Value {
+    std::string quantity;  ///< column of a figure of the stage: "frequency_1_Hz"
+    double value = 0;
+    double within = 0;  ///< relative difference that still counts as agreement
+    std::string statement, where;
+  };
   std::string source, doi, note;
   std::vector<Order> orders;
   std::vector<AtPin> at_pins;
+  std::vector<Value> values;
 };
 
 /// Throws InputError naming the file and what is wrong with it.

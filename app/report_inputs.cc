@@ -13,7 +13,9 @@ namespace {
 
 std::string small(double x) { return std::isfinite(x) ? fmt::format("{:.1e}", x) : "–"; }
 
-std::vector<std::string> check_row(const std::string& label, const MeshResult& mesh) {
+}  // namespace
+
+std::vector<std::string> mesh_check_row(const std::string& label, const MeshResult& mesh) {
   return {escape(label),
           small(mesh.fact("force_balance_relative")),
           small(mesh.fact("energy_balance_relative")),
@@ -25,6 +27,24 @@ std::vector<std::string> check_row(const std::string& label, const MeshResult& m
                                                             : "–",
           std::isfinite(mesh.fact("unknowns")) ? fmt::format("{:.0f}", mesh.fact("unknowns")) : "–"};
 }
+
+HtmlTable mesh_check_table() {
+  return {.head = {"mesh", "Σ force × lever arm – torque", "work – strain energy", "LTE(1) – LTE(0)", "reciprocity",
+                   "largest penetration, m", "largest error estimate", "worst cell", "unknowns"},
+          .rows = {},
+          .css_class = "numbers"};
+}
+
+std::string cost_html(const std::vector<std::pair<std::string, double>>& timings, double peak_memory_MB) {
+  HtmlTable times{.head = {"stage", "wall time, s"}, .rows = {}, .css_class = "numbers"};
+  for (const auto& [stage, seconds] : timings) times.rows.push_back({stage, fmt::format("{:.2f}", seconds)});
+  return html(times) + fmt::format(
+                           "<p class=\"muted\">Peak memory {:.0f} MB. annulus {}. Results that were unchanged since "
+                           "an earlier run were read back and cost no time here.</p>\n",
+                           peak_memory_MB, version());
+}
+
+namespace {
 
 /// How the response of each ring was found, and loads its tables do not reach.
 std::string solution_notes(const RunResult& result) {
@@ -63,31 +83,31 @@ std::string solution_notes(const RunResult& result) {
 
 }  // namespace
 
-std::string model_section(const RunResult& result) {
+std::string model_html(const Plan& plan) {
   std::string text = "<h2 id=\"model\">What was modelled, and why</h2>\n";
   HtmlTable meshes{.head = {"mesh", "model", "why", "positions", "why so many"}, .rows = {}};
-  for (const auto& m : result.plan.meshes) {
+  for (const auto& m : plan.meshes) {
     meshes.rows.push_back({escape(m.label()), m.rung, escape(m.reason),
                            m.computed() ? fmt::format("{} × {}", m.problem->phases, m.positions) : "–",
                            escape(m.repeats)});
   }
   text += html(meshes);
-  if (!result.plan.freedoms.empty()) {
+  if (!plan.freedoms.empty()) {
     HtmlTable freedoms{.head = {"freedom of the lumped model", "", "why"}, .rows = {}};
-    for (const auto& f : result.plan.freedoms)
+    for (const auto& f : plan.freedoms)
       freedoms.rows.push_back({escape(f.name), f.kept ? "kept" : "dropped", escape(f.reason)});
     text += html(freedoms);
   }
   text += "<ul>";
-  for (const auto& remark : result.plan.remarks) text += "<li>" + escape(remark) + "</li>";
+  for (const auto& remark : plan.remarks) text += "<li>" + escape(remark) + "</li>";
   return text + "</ul>\n";
 }
 
-std::string inputs_section(const RunResult& result) {
+std::string inputs_html(const Plan& plan) {
   std::string text = "<h2 id=\"inputs\">Inputs</h2>\n";
   HtmlTable assumed{.head = {"assumed input", "value", "reason"}, .rows = {}};
   std::set<std::string> seen;
-  for (const auto& input : result.plan.inputs) {
+  for (const auto& input : plan.inputs) {
     const std::string value = to_text(input.value) + " " + input.unit;
     if (input.assumed.empty() || !seen.insert(input.key + value).second) continue;
     assumed.rows.push_back({"<code>" + escape(input.key) + "</code>", escape(value), escape(input.assumed)});
@@ -100,7 +120,7 @@ std::string inputs_section(const RunResult& result) {
     text += html(assumed);
   }
   HtmlTable all{.head = {"key", "value", "origin", "meaning"}, .rows = {}};
-  for (const auto& input : result.plan.inputs) {
+  for (const auto& input : plan.inputs) {
     std::string origin = to_text(input.origin);
     if (!input.assumed.empty()) origin += " <span class=\"tag assumed\">assumed</span>";
     if (input.origin != Origin::scene && !input.note.empty()) origin += ": " + escape(input.note);
@@ -108,11 +128,11 @@ std::string inputs_section(const RunResult& result) {
                             (input.ring.empty() ? "" : " <span class=\"muted\">" + escape(input.ring) + "</span>"),
                         escape(to_text(input.value) + " " + input.unit), origin, escape(input.meaning)});
   }
-  for (const auto& q : result.plan.quantities) {
+  for (const auto& q : plan.quantities) {
     all.rows.push_back({"<code>" + escape(q.key) + "</code>", escape(to_text(q.value, 8) + " " + q.unit), "derived",
                         escape(q.meaning)});
   }
-  for (const auto& [ring, quantities] : result.plan.rings) {
+  for (const auto& [ring, quantities] : plan.rings) {
     for (const auto& q : quantities) {
       all.rows.push_back({"<code>" + escape(q.key) + "</code> <span class=\"muted\">" + escape(ring) + "</span>",
                           escape(to_text(q.value, 8) + " " + q.unit), "derived", escape(q.meaning)});
@@ -122,16 +142,15 @@ std::string inputs_section(const RunResult& result) {
          "</details>\n";
 }
 
+std::string model_section(const RunResult& result) { return model_html(result.plan); }
+std::string inputs_section(const RunResult& result) { return inputs_html(result.plan); }
+
 std::string quality_section(const RunResult& result) {
   std::string text = "<h2 id=\"quality\">Checks and cost</h2>\n";
-  HtmlTable checks{
-      .head = {"mesh", "Σ force × lever arm – torque", "work – strain energy", "LTE(1) – LTE(0)", "reciprocity",
-               "largest penetration, m", "largest error estimate", "worst cell", "unknowns"},
-      .rows = {},
-      .css_class = "numbers"};
-  if (result.sun_mesh.model.computed()) checks.rows.push_back(check_row("sun mesh", result.sun_mesh));
+  HtmlTable checks = mesh_check_table();
+  if (result.sun_mesh.model.computed()) checks.rows.push_back(mesh_check_row("sun mesh", result.sun_mesh));
   for (const auto& ring : result.rings) {
-    if (ring.mesh.model.computed()) checks.rows.push_back(check_row("ring mesh, " + ring.name, ring.mesh));
+    if (ring.mesh.model.computed()) checks.rows.push_back(mesh_check_row("ring mesh, " + ring.name, ring.mesh));
   }
   if (!checks.rows.empty()) {
     text +=
@@ -155,14 +174,7 @@ std::string quality_section(const RunResult& result) {
          fmt::format("{}", f.statistics.steps)});
   }
   if (!dynamics.rows.empty()) text += html(dynamics) + solution_notes(result);
-  HtmlTable times{.head = {"stage", "wall time, s"}, .rows = {}, .css_class = "numbers"};
-  for (const auto& [stage, seconds] : result.timings) times.rows.push_back({stage, fmt::format("{:.2f}", seconds)});
-  text += html(times);
-  return text + fmt::format(
-                    "<p class=\"muted\">Peak memory {:.0f} MB. annulus {}. Results that were unchanged since an "
-                    "earlier run were "
-                    "read back and cost no time here.</p>\n",
-                    result.peak_memory_MB, version());
+  return text + cost_html(result.timings, result.peak_memory_MB);
 }
 
 }  // namespace annulus::app

@@ -19,6 +19,23 @@ struct HtmlTable {
 };
 [[nodiscard]] std::string html(const HtmlTable& table);
 
+/// A section with the anchor and name of its link; empty sections are left out.
+struct ReportSection {
+  const char* anchor;
+  const char* name;
+  std::string html;
+};
+/// The whole page; `subtitle` and `verdict` are HTML.
+[[nodiscard]] std::string report_page(const std::string& title, const std::string& subtitle, const std::string& verdict,
+                                      const std::vector<ReportSection>& sections);
+/// What was modelled and why; every input with its origin, the assumed ones first.
+[[nodiscard]] std::string model_html(const Plan& plan);
+[[nodiscard]] std::string inputs_html(const Plan& plan);
+[[nodiscard]] std::string cost_html(const std::vector<std::pair<std::string, double>>& timings, double peak_memory_MB);
+/// Invariants of contact solves, for `mesh_check_head`.
+[[nodiscard]] std::vector<std::string> mesh_check_row(const std::string& label, const MeshResult& mesh);
+[[nodiscard]] HtmlTable mesh_check_table();
+
 /// Plots side by side under one legend and one caption (HTML).
 [[nodiscard]] std::string figure(const std::vector<std::string>& pictures, const std::string& legend,
                                  const std::string& caption);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/scene_value.h"
+#include "dynamics/arc_tooth.h"
 #include "dynamics/integrate.h"
 #include "dynamics/mesh_excitation.h"
 
@@ -20,6 +21,7 @@ enum class StageKind { planetary, helical_pair, two_k_v };
 enum class Rung { automatic, closed_form, plane, solid, resolved };
 enum class Structure { traditional, thin_walled, pinned, bolted, splined };
 enum class StiffnessShape { computed, constant, harmonic, rectangular, table };
+enum class Compare { none, computed };
 enum class MeshDamping { in_contact, always };
 enum class RimCoupling { automatic, none, statical, elastic };
 enum class SweepScale { linear, logarithmic };
@@ -98,9 +100,37 @@ struct SupportInput {
 /// Mesh stiffness given instead of computed.
 struct MeshInput {
   StiffnessShape stiffness = StiffnessShape::computed;
+  Compare compare = Compare::none;  ///< two_k_v only
   std::optional<double> mean, ripple, duty, phase;
   std::optional<double> half_backlash;  ///< instead of that of [dynamics]
   std::optional<std::string> file;
+};
+
+/// A crank shaft of a 2K-V stage: its planet sits on one end, its eccentrics carry the arc gears.
+struct CrankInput {
+  std::optional<double> inertia, shaft, bearing;  ///< kg m^2; N m/rad planet to eccentrics; N/m in the carrier
+  double angle = 0;                               ///< of the eccentrics at time 0, rad
+};
+
+/// The arc-tooth gears of a 2K-V stage and the pins of the housing.
+struct ArcGearInput {
+  int count = 0, pins = 0;
+  double eccentricity = 0;
+  std::optional<double> pin_circle_diameter, pin_diameter, arc_radius, width;
+  double clearance = 0;
+  dynamics::LineApproach approach = dynamics::LineApproach::handbook;
+  std::optional<double> mass, inertia, bearing;  ///< of one; N/m on one eccentric
+};
+
+struct InputShaftInput {
+  std::optional<double> inertia, shaft;  ///< kg m^2; N m/rad to the sun
+  double support = 0;                    ///< N m/rad; 0: free
+};
+
+struct OutputInput {
+  double torque = 0, speed = 0;
+  std::optional<double> inertia;
+  double support = 0;  ///< N m/rad; `rigid`: held
 };
 
 struct DynamicsInput {
@@ -179,7 +209,11 @@ struct Scene {
   std::vector<RingInput> rings;
   ErrorInput errors;
   SupportInput supports;
-  MeshInput sun_planet, ring_planet;
+  MeshInput sun_planet, ring_planet, arc_pins;
+  CrankInput crank;
+  ArcGearInput arc_gear;
+  InputShaftInput input;
+  OutputInput output;
   std::optional<DynamicsInput> dynamics;  ///< absent: no dynamics wanted
   std::vector<SweepInput> sweeps;
   std::vector<GridInput> grids;

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "app/gear_geometry.h"
+#include "app/key_checks.h"
 #include "app/mesh_model.h"
 #include "app/scene_schema.h"
 #include "core/errors.h"
@@ -18,9 +19,9 @@ namespace annulus::app {
 
 namespace {
 
-class Checker {
+class Checker : KeyChecks {
  public:
-  Checker(Scene& scene, std::vector<Problem>& problems) : scene_(scene), problems_(problems) {}
+  using KeyChecks::KeyChecks;
 
   void run() {
     speed();
@@ -39,33 +40,6 @@ class Checker {
   }
 
  private:
-  [[nodiscard]] const Input* find(const std::string& key, const std::string& ring = "") const {
-    for (const auto& input : scene_.inputs) {
-      if (input.key == key && input.ring == ring) return &input;
-    }
-    return nullptr;
-  }
-
-  /// Written in the scene, with whatever value.
-  [[nodiscard]] bool given(const std::string& key, const std::string& ring = "") const {
-    const Input* input = find(key, ring);
-    return input && input->origin == Origin::scene;
-  }
-
-  /// Written in the scene with a value of the right type and range, or left to its default.
-  [[nodiscard]] bool usable(const std::string& key, const std::string& ring = "") const {
-    const Input* input = find(key, ring);
-    return input && !std::holds_alternative<std::monostate>(input->value);
-  }
-
-  void problem(const std::string& key, const std::string& ring, const std::string& rule) {
-    const Input* input = find(key, ring);
-    std::string head = key;
-    if (input && input->origin == Origin::scene) head += " = " + to_text(input->value);
-    if (!ring.empty()) head += " (ring '" + ring + "')";
-    problems_.push_back({input ? input->line : 0, input ? input->column : 0, head + ": " + rule});
-  }
-
   void speed() {
     const bool sun = given("stage.sun_speed_rpm"), carrier = given("stage.carrier_speed_rpm");
     if (sun && carrier) {
@@ -287,21 +261,6 @@ class Checker {
       refuse(fmt::format("ring-planet mesh of '{}'", ring.name), solid_reason(scene_, ring));
   }
 
-  void required_if(bool condition, const std::vector<std::string>& keys, const std::string& ring, const char* why) {
-    if (!condition) return;
-    for (const auto& key : keys) {
-      if (!given(key, ring)) problem(key, ring, fmt::format("is required by {}", why));
-    }
-  }
-
-  void forbidden_unless(bool condition, const std::vector<std::string>& keys, const std::string& ring,
-                        const char* why) {
-    if (condition) return;
-    for (const auto& key : keys) {
-      if (given(key, ring)) problem(key, ring, fmt::format("has a meaning only with {}", why));
-    }
-  }
-
   void ring_names() {
     constexpr const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.";
     std::set<std::string> seen;
@@ -321,28 +280,6 @@ class Checker {
       problems_.push_back(
           {input.line, input.column,
            fmt::format("ring.name = {}: is the name of more than one ring; each needs its own", input.ring)});
-    }
-  }
-
-  void mesh(const MeshInput& m, const std::string& path) {
-    if (given(path + ".stiffness") && !usable(path + ".stiffness")) return;
-    const auto needs = [&](bool condition, const char* key, const char* shapes) {
-      if (condition && !given(path + key)) problem(path + key, "", std::string("is required by stiffness = ") + shapes);
-      if (!condition && given(path + key))
-        problem(path + key, "", std::string("has a meaning only with stiffness = ") + shapes);
-    };
-    const bool wave = m.stiffness == StiffnessShape::harmonic || m.stiffness == StiffnessShape::rectangular;
-    needs(wave || m.stiffness == StiffnessShape::constant, ".mean_N_per_m",
-          "\"constant\", \"harmonic\" or \"rectangular\"");
-    needs(wave, ".ripple", "\"harmonic\" or \"rectangular\"");
-    needs(m.stiffness == StiffnessShape::rectangular, ".duty", "\"rectangular\"");
-    needs(m.stiffness == StiffnessShape::table, ".file", "\"table\"");
-    if (!wave && given(path + ".phase")) problem(path + ".phase", "", "has a meaning only with a wave");
-    if (m.stiffness == StiffnessShape::harmonic && m.ripple && *m.ripple >= 1) {
-      problem(path + ".ripple", "", "must stay below 1: the stiffness would become negative");
-    }
-    if (m.stiffness == StiffnessShape::rectangular && m.ripple && m.duty && *m.ripple * *m.duty >= 1) {
-      problem(path + ".ripple", "", "times duty must stay below 1: the stiffness would become negative");
     }
   }
 
@@ -371,21 +308,13 @@ class Checker {
       need("ring.mass_kg", ring.name);
       need("ring.inertia_kg_m2", ring.name);
     }
-    const bool fixed = scene_.dynamics->integrator == dynamics::Integrator::runge_kutta_4;
-    if (fixed && !scene_.dynamics->steps_per_cycle)
-      problem("dynamics.steps_per_cycle", "", "is required by integrator = \"runge_kutta_4\", which has fixed steps");
-    if (!fixed && scene_.dynamics->steps_per_cycle)
-      problem("dynamics.steps_per_cycle", "",
-              "goes with integrator = \"runge_kutta_4\" only; the others choose their steps");
+    integrator();
     const auto coupling = scene_.dynamics->rim_coupling;
     if ((coupling == RimCoupling::elastic || coupling == RimCoupling::statical) &&
         scene_.ring_planet.stiffness != StiffnessShape::computed)
       problem("dynamics.rim_coupling", "",
               "needs a computed ring mesh: a given stiffness tells nothing about the ring");
   }
-
-  Scene& scene_;
-  std::vector<Problem>& problems_;
 };
 
 }  // namespace
@@ -395,9 +324,11 @@ void complete_and_check(Scene& scene, std::vector<Problem>& problems) {
     case StageKind::planetary:
       Checker(scene, problems).run();
       break;
-    case StageKind::helical_pair:
     case StageKind::two_k_v:
-      problems.push_back({0, 0, "stage.kind: is not yet available in this version; only \"planetary\" is"});
+      check_two_k_v_keys(scene, problems);
+      break;
+    case StageKind::helical_pair:
+      problems.push_back({0, 0, "stage.kind: is not yet available in this version; only \"planetary\" and \"two_k_v\" are"});
       break;
   }
   // Paths are looked up among the inputs, which have to be right for that.

@@ -50,10 +50,12 @@ void declare_gear(Declarations<Section>& t, bool internal) {
 }
 
 const std::vector<StageKind> planetary = {StageKind::planetary};
+const std::vector<StageKind> with_planets = {StageKind::planetary, StageKind::two_k_v};
 
-Table hub_gear_table(const char* path, const char* meaning, HubGearInput& (*section)(Scene&, std::size_t)) {
+Table hub_gear_table(const char* path, const char* meaning, const std::vector<StageKind>& kinds,
+                     HubGearInput& (*section)(Scene&, std::size_t)) {
   Declarations<HubGearInput> t(path, meaning, section);
-  t.only(planetary);
+  t.only(kinds);
   declare_gear(t, false);
   t.key("bore_diameter_mm", &HubGearInput::bore_diameter, "Diameter of the bore, where the body meets a rigid hub.")
       .above(0, 1e5)
@@ -61,17 +63,24 @@ Table hub_gear_table(const char* path, const char* meaning, HubGearInput& (*sect
   return t.done();
 }
 
-Table mesh_table(const char* path, const char* meaning, MeshInput& (*section)(Scene&, std::size_t)) {
+Table mesh_table(const char* path, const char* meaning, const std::vector<StageKind>& kinds,
+                 MeshInput& (*section)(Scene&, std::size_t)) {
   Declarations<MeshInput> t(path, meaning, section);
-  t.optional().only(planetary);
+  t.optional().only(kinds);
   t.choice("stiffness", &MeshInput::stiffness,
            {{"computed", StiffnessShape::computed},
             {"constant", StiffnessShape::constant},
             {"harmonic", StiffnessShape::harmonic},
             {"rectangular", StiffnessShape::rectangular},
             {"table", StiffnessShape::table}},
-           "Where the mesh stiffness comes from; everything but `computed` replaces the finite-element solve.")
+           "Where the mesh stiffness comes from; everything but `computed` replaces the finite-element solve (of arc "
+           "teeth: the contact formulas).")
       .required();
+  t.choice("compare", &MeshInput::compare, {{"none", Compare::none}, {"computed", Compare::computed}},
+           "Also compute the stiffness of a mesh that is given: the report shows what the computed one makes of all "
+           "figures.")
+      .fallback(std::string("none"), "the given stiffness alone")
+      .only({StageKind::two_k_v});
   t.key("mean_N_per_m", &MeshInput::mean, "Mean stiffness of one mesh.")
       .above(0, 1e13)
       .absent("needed by all given shapes but a table");
@@ -129,7 +138,7 @@ std::vector<Table> declare_tables() {
   stage.key("planets", &StageInput::planets, "Number of equally spaced planets.")
       .from(1, 50)
       .required()
-      .only(planetary);
+      .only(with_planets);
   stage.key("module_mm", &StageInput::module, "Module.").required().from(0.05, 100);
   stage.key("pressure_angle_deg", &StageInput::pressure_angle, "Pressure angle of the basic rack.")
       .required()
@@ -171,9 +180,9 @@ std::vector<Table> declare_tables() {
   tables.push_back(material.done());
 
   tables.push_back(
-      hub_gear_table("sun", "The sun gear.", [](Scene& s, std::size_t) -> HubGearInput& { return s.sun; }));
+      hub_gear_table("sun", "The sun gear.", with_planets, [](Scene& s, std::size_t) -> HubGearInput& { return s.sun; }));
   tables.push_back(
-      hub_gear_table("planet", "Each planet gear.", [](Scene& s, std::size_t) -> HubGearInput& { return s.planet; }));
+      hub_gear_table("planet", "Each planet gear.", with_planets, [](Scene& s, std::size_t) -> HubGearInput& { return s.planet; }));
 
   Declarations<CarrierInput> carrier("carrier", "The planet carrier.",
                                      [](Scene& s, std::size_t) -> CarrierInput& { return s.carrier; });
@@ -183,6 +192,7 @@ std::vector<Table> declare_tables() {
       .above(0, 1e6)
       .absent(needs_dynamics);
   tables.push_back(carrier.done());
+  declare_two_k_v(tables);
 
   Declarations<RingInput> ring("ring", "A ring gear and what holds it; several rings are compared with each other.",
                                [](Scene& s, std::size_t i) -> RingInput& { return s.rings.at(i); });
@@ -342,10 +352,13 @@ std::vector<Table> declare_tables() {
       .from(0, 1e14);
   tables.push_back(supports.done());
 
-  tables.push_back(mesh_table("mesh.sun_planet", "Stiffness of the sun mesh, given instead of computed.",
+  tables.push_back(mesh_table("mesh.sun_planet", "Stiffness of the sun mesh, given instead of computed.", with_planets,
                               [](Scene& s, std::size_t) -> MeshInput& { return s.sun_planet; }));
-  tables.push_back(mesh_table("mesh.ring_planet", "Stiffness of the ring mesh, given instead of computed.",
+  tables.push_back(mesh_table("mesh.ring_planet", "Stiffness of the ring mesh, given instead of computed.", planetary,
                               [](Scene& s, std::size_t) -> MeshInput& { return s.ring_planet; }));
+  tables.push_back(mesh_table("mesh.arc_pins", "Stiffness of the arc teeth on their pins, given instead of computed.",
+                              {StageKind::two_k_v},
+                              [](Scene& s, std::size_t) -> MeshInput& { return s.arc_pins; }));
 
   Declarations<DynamicsInput> lumped("dynamics", "The lumped model; absent: meshes and stiffness only.",
                                      [](Scene& s, std::size_t) -> DynamicsInput& {

@@ -73,6 +73,9 @@ struct Table {
 /// [[sweep]], [monte_carlo], [[monte_carlo.input]], [sensitivity] (scene_schema_studies.cc).
 void declare_studies(std::vector<Table>& tables);
 
+/// [crank], [arc_gear], [input], [output] of a 2K-V stage (scene_schema_two_k_v.cc).
+void declare_two_k_v(std::vector<Table>& tables);
+
 /// nullptr when there is no such key.
 [[nodiscard]] const Parameter* find_parameter(const std::string& key);
 [[nodiscard]] std::vector<std::string> all_keys();

@@ -8,6 +8,8 @@
 #include "app/plan.h"
 #include "app/planetary_subject.h"
 #include "app/summary.h"
+#include "app/two_k_v_run.h"
+#include "app/two_k_v_subject.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -57,8 +59,10 @@ void check_stage(const Scene& scene) {
     case StageKind::planetary:
       (void)make_geometry(scene);
       return;
-    case StageKind::helical_pair:
     case StageKind::two_k_v:
+      check_two_k_v(scene);
+      return;
+    case StageKind::helical_pair:
       break;
   }
   no_such_kind();
@@ -68,8 +72,9 @@ std::vector<std::string> tables_to_solve(const Scene& nominal, const Scene& chan
   switch (nominal.stage.kind) {
     case StageKind::planetary:
       return planetary_tables_to_solve(nominal, changed);
-    case StageKind::helical_pair:
     case StageKind::two_k_v:
+      return two_k_v_tables_to_solve(nominal, changed);
+    case StageKind::helical_pair:
       break;
   }
   no_such_kind();
@@ -79,8 +84,9 @@ std::vector<StudyFigure> stage_figures(StageKind kind) {
   switch (kind) {
     case StageKind::planetary:
       return planetary_figures();
-    case StageKind::helical_pair:
     case StageKind::two_k_v:
+      return two_k_v_figures();
+    case StageKind::helical_pair:
       break;
   }
   no_such_kind();
@@ -94,8 +100,9 @@ double response_seconds(const Scene& scene) {
   switch (scene.stage.kind) {
     case StageKind::planetary:
       return planetary_seconds(scene);
-    case StageKind::helical_pair:
     case StageKind::two_k_v:
+      return two_k_v_seconds(scene);
+    case StageKind::helical_pair:
       break;
   }
   no_such_kind();
@@ -105,8 +112,9 @@ std::string run_scene(const Scene& scene, const RunOptions& options) {
   switch (scene.stage.kind) {
     case StageKind::planetary:
       return summary_text(run(scene, options));
-    case StageKind::helical_pair:
     case StageKind::two_k_v:
+      return two_k_v_text(run_two_k_v(scene, options));
+    case StageKind::helical_pair:
       break;
   }
   no_such_kind();
@@ -118,8 +126,11 @@ std::string plan_scene(const Scene& scene, bool json) {
       const Plan plan = make_plan(scene, make_geometry(scene));
       return json ? to_json(plan) : to_text(plan);
     }
+    case StageKind::two_k_v: {
+      const Plan plan = make_two_k_v_plan(scene);
+      return json ? to_json(plan) : to_text(plan);
+    }
     case StageKind::helical_pair:
-    case StageKind::two_k_v:
       break;
   }
   no_such_kind();
@@ -130,8 +141,10 @@ std::string stage_text(const Scene& scene) {
     case StageKind::planetary:
       return fmt::format("{} ring{}, {} planets", scene.rings.size(), scene.rings.size() == 1 ? "" : "s",
                          scene.stage.planets);
-    case StageKind::helical_pair:
     case StageKind::two_k_v:
+      return fmt::format("{} cranks with a planet each, {} arc gears on {} pins, ratio {}", scene.stage.planets,
+                         scene.arc_gear.count, scene.arc_gear.pins, to_text(two_k_v_kinematics(scene).ratio(), 6));
+    case StageKind::helical_pair:
       break;
   }
   no_such_kind();

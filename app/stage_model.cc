@@ -7,8 +7,6 @@
 
 namespace annulus::app {
 
-namespace {
-
 dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult& mesh, double nominal_load,
                                        dynamics::LoadDependence dependence) {
   switch (input.stiffness) {
@@ -26,6 +24,8 @@ dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult&
   if (mesh.table.loads().size() == 1) dependence = dynamics::LoadDependence::nominal;
   return dynamics::table_stiffness(mesh.table, nominal_load, 0, dependence);
 }
+
+namespace {
 
 void add_coupling(ContentId& id, const RingCoupling& coupling) {
   id.add("coupling.per_cycle", coupling.per_cycle).add("mass", coupling.mass).add("turn", coupling.rotational_mass);
@@ -48,6 +48,8 @@ void add_body(ContentId& id, const std::string& name, const dynamics::CentralBod
   id.add(name + ".support", body.support).add(name + ".torsional", body.torsional_support);
   add_deviation(id, name, body.errors);
 }
+
+}  // namespace
 
 void add_excitation(ContentId& id, const std::string& name, const dynamics::MeshExcitation& excitation,
                     const MeshResult& mesh) {
@@ -75,8 +77,6 @@ void add_excitation(ContentId& id, const std::string& name, const dynamics::Mesh
     }
   }
 }
-
-}  // namespace
 
 dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                     const MeshResult& sun_mesh, const MeshResult& ring_mesh) {

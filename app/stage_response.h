@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/carried_errors.h"
+#include "app/content_id.h"
 #include "app/gear_geometry.h"
 #include "app/mesh_result.h"
 #include "app/scene.h"
@@ -28,6 +29,14 @@ struct StageResponse {
   Csv spectrum;        ///< force amplitude of every branch over frequency and mesh order
   bool reused = false;
 };
+
+/// How the lumped model sees a mesh: the wave the scene gives, or the curves of its table at the nominal load (N) or
+/// over all of them.
+[[nodiscard]] dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult& mesh,
+                                                     double nominal_load, dynamics::LoadDependence dependence);
+/// Adds everything an excitation depends on: its parameters, or the numbers of the table.
+void add_excitation(ContentId& id, const std::string& name, const dynamics::MeshExcitation& excitation,
+                    const MeshResult& mesh);
 
 /// The stage of one ring as lumped masses: the scene, its kinematics and its mesh stiffnesses put together.
 [[nodiscard]] dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,

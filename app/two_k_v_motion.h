@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/csv.h"
+#include "dynamics/two_k_v_response.h"
+
+namespace annulus::app {
+
+/// The periodic motion of a 2K-V stage, as it is kept in OUT/dynamics. Angles in rad, forces in N.
+struct TwoKVMotion {
+  double crank_frequency = 0, sun_mesh_frequency = 0, arc_mesh_frequency = 0;  ///< Hz, in the frame of the carrier
+  double mean_sun_force = 0, mean_arc_force = 0;
+  int crank_turns = 0, total_cycles = 0;
+  bool steady = false;
+  std::optional<double> steady_difference, torque_balance_relative, largest_multiplier;
+  double energy_relative = 0;
+  dynamics::Figure error_peak_to_peak;  ///< of the output against the input
+  double error_mean = 0, static_error_mean = 0, static_error_peak_to_peak = 0;
+  std::vector<dynamics::TwoKVMeshResult> sun_planet, arc_pins;
+  std::vector<dynamics::ArcBearingResult> arc_bearings;
+
+  Csv output_error;  ///< crank_turn, time_s, error_rad
+  Csv static_error;  ///< crank_turn, error_rad: K(t) q = f
+  Csv spectrum;      ///< frequency_Hz, crank_order, amplitude_rad; empty where the window holds no whole turns
+  Csv forces;        ///< crank_turn, F / mean mesh force of every mesh
+  bool reused = false;
+
+  [[nodiscard]] double dynamic_factor(bool arc) const;  ///< largest of all meshes of the kind
+  [[nodiscard]] double contact_loss(bool arc) const;
+  [[nodiscard]] double largest_bearing_force() const;
+};
+
+[[nodiscard]] TwoKVMotion motion_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVResponse& response);
+
+/// Simulates and writes figures.json, output_error.csv, output_error_static.csv, spectrum.csv, forces.csv and
+/// time_series.csv into `folder`.
+[[nodiscard]] TwoKVMotion simulate_two_k_v(const dynamics::TwoKVStage& stage,
+                                           const dynamics::SimulationOptions& options, const std::string& id,
+                                           const std::filesystem::path& folder);
+/// The motion kept in `folder`, if its inputs are those of `id`.
+[[nodiscard]] std::optional<TwoKVMotion> load_two_k_v(const std::string& id, const std::filesystem::path& folder);
+
+}  // namespace annulus::app

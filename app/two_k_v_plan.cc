@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/two_k_v_run.h"
+#include "core/units.h"
+
+namespace annulus::app {
+
+namespace {
+
+std::vector<Quantity> two_k_v_quantities(const Scene& scene, const geometry::GearPair& pair) {
+  const auto stage = two_k_v_kinematics(scene);
+  std::vector<Quantity> list = {
+      {"ratio", stage.ratio(), "", "turns of the input per turn of the output: 1 + (planet teeth / sun teeth) × pins"},
+      {"input_speed_rpm", scene.output.speed * stage.ratio() / units::rpm, "r/min", "speed of the input"},
+      {"input_torque_Nm", scene.output.torque / stage.ratio(), "N m", "torque of the input, without losses"},
+      {"crank_circle_radius_mm", stage.crank_circle_radius() / units::mm, "mm",
+       "from the axis to the cranks: the centre distance of sun and planets"},
+      {"arc_teeth", static_cast<double>(stage.arc_teeth), "", "teeth of an arc gear, one less than pins"},
+      {"crank_frequency_Hz", stage.crank_frequency(), "Hz", "turns of the cranks against the carrier"},
+      {"sun_mesh_frequency_Hz", stage.sun_mesh_frequency(), "Hz", "mesh frequency of sun and planets"},
+      {"arc_mesh_frequency_Hz", stage.arc_mesh_frequency(), "Hz", "mesh frequency of arc teeth and pins"},
+      {"mean_sun_mesh_force_N", stage.mean_sun_mesh_force(), "N",
+       "mean force of each sun mesh, along the line of action"},
+      {"mean_arc_mesh_force_N", stage.mean_arc_mesh_force(), "N",
+       "mean force of each arc mesh, along the tangent of the pitch point"},
+      {"sun_mesh_contact_ratio", pair.contact_ratio(), "", "contact ratio of the sun mesh"},
+      {"sun_mesh_normal_backlash_um", pair.normal_backlash() / units::um, "µm",
+       "backlash of the sun mesh along the line of action, from the profile shifts"},
+      {"planet_tip_diameter_mm", 2 * pair.planet().tip_radius() / units::mm, "mm", "planet tip diameter"},
+      {"sun_tip_diameter_mm", 2 * pair.wheel().tip_radius() / units::mm, "mm", "sun tip diameter"},
+  };
+  if (const auto arc = arc_tooth_mesh(scene))
+    list.push_back({"shortening", arc->eccentricity * arc->pins / arc->pin_circle_radius, "",
+                    "eccentricity × pins / radius of the pin circle: where the pitch point lies"});
+  return list;
+}
+
+std::vector<FreedomPlan> two_k_v_freedoms(const Scene& scene) {
+  const auto held = [](const std::string& name, double support) {
+    const bool kept = std::isfinite(support);
+    return FreedomPlan{name, kept,
+                       !kept          ? "held: dropped"
+                       : support == 0 ? "free to turn: carries the power"
+                                      : fmt::format("torsional support of {} N m/rad", to_text(support))};
+  };
+  const std::string planets = fmt::format("planet 1 ... {}", scene.stage.planets),
+                    cranks = fmt::format("crank 1 ... {}", scene.stage.planets),
+                    gears = fmt::format("arc gear 1 ... {}", scene.arc_gear.count);
+  return {held("input u", scene.input.support),
+          {"sun u", true, "turns between input shaft and planets"},
+          {planets + " u", true, "each turns between the sun and its crank shaft"},
+          {planets + " x", true, "along the circle of the cranks, in the crank's bearings"},
+          {cranks + " u", true, "each turns between its planet and the arc gears"},
+          {gears + " u", true, "each turns with the output"},
+          {gears + " x", true, "along the circle of the eccentric"},
+          held("output u", scene.output.support)};
+}
+
+std::vector<std::string> two_k_v_remarks(const Scene& scene, const std::vector<MeshModel>& meshes) {
+  std::vector<std::string> list;
+  bool computed = false;
+  for (const auto& mesh : meshes) computed = computed || mesh.computed();
+  if (computed) {
+    list.emplace_back("Only the driving flanks are solved; friction is left out.");
+    list.emplace_back("All sun meshes are alike and solved once; each meets its own phase of the table.");
+  }
+  if (compared_scene(scene))
+    list.emplace_back("Stiffness that is given is also computed, and everything is answered with both.");
+  if (!scene.dynamics) {
+    list.emplace_back("No [dynamics]: mesh stiffness only.");
+    return list;
+  }
+  list.emplace_back(
+      "The directions of the eccentrics turn with the crank: stiffness and modes change over its turn even where the "
+      "mesh stiffness is constant.");
+  list.emplace_back("Centrifugal and gyroscopic terms are left out, as in the paper; the crank turns slowly.");
+  if (scene.dynamics->half_backlash == 0)
+    list.emplace_back("Without backlash no mesh parts: its force may take either sign.");
+  if (!scene.dynamics->mesh_cycles)
+    list.emplace_back("The motion is looked for directly (shooting) and confirmed by time integration.");
+  return list;
+}
+
+}  // namespace
+
+Plan make_two_k_v_plan(const Scene& scene) {
+  const auto pair = sun_planet_pair(scene);
+  Plan plan;
+  plan.title = scene.title;
+  for (const auto& input : scene.inputs)
+    if (!std::holds_alternative<std::monostate>(input.value)) plan.inputs.push_back(input);
+  plan.quantities = two_k_v_quantities(scene, pair);
+  const auto other = compared_scene(scene);
+  const Scene& shown = other ? *other : scene;
+  plan.meshes = {two_k_v_sun_model(shown), arc_pins_model(shown)};
+  if (scene.dynamics) plan.freedoms = two_k_v_freedoms(scene);
+  plan.studies = plan_studies(scene);
+  plan.remarks = two_k_v_remarks(scene, plan.meshes);
+  return plan;
+}
+
+}  // namespace annulus::app
