@@ -53,11 +53,12 @@ std::string outline_path(const Mesh& mesh) {
 }
 
 std::string teeth(const Mesh& sector, const std::string& id, const char* fill, double pitch, double first,
-                  int each_side, double centre) {
+                  int each_side, double centre, double pen) {
   std::string svg = fmt::format(
-      "<defs><g id=\"{}\"><path d=\"{}\" fill=\"{}\" stroke=\"#46586a\" stroke-opacity=\"0.6\" stroke-width=\"0.025\"/>"
-      "<path d=\"{}\" fill=\"none\" stroke=\"#2c3a48\" stroke-width=\"0.22\" stroke-linecap=\"round\"/></g></defs>",
-      id, cells_path(sector), fill, outline_path(sector));
+      "<defs><g id=\"{}\"><path d=\"{}\" fill=\"{}\" stroke=\"#46586a\" stroke-opacity=\"0.6\" "
+      "stroke-width=\"{:.3g}\"/><path d=\"{}\" fill=\"none\" stroke=\"#2c3a48\" stroke-width=\"{:.3g}\" "
+      "stroke-linecap=\"round\"/></g></defs>",
+      id, cells_path(sector), fill, 0.025 * pen, outline_path(sector), 0.22 * pen);
   for (int i = -each_side; i <= each_side; ++i) {
     // On the page the y axis points down and x became upright: a counter-clockwise angle turns by minus the angle.
     svg += fmt::format("<use href=\"#{}\" transform=\"translate(0 {:.3f}) rotate({:.5f})\"/>", id, -centre / units::mm,
@@ -154,12 +155,14 @@ std::string plane_picture(const fem::LoadedMeshProblem& problem, const fem::Load
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.2f} {:.2f} {:.2f} {:.2f}\" role=\"img\" "
       "aria-label=\"mesh\">",
       -width / 2, -(high + margin) / units::mm, width, height);
-  svg += teeth(solved.wheel_sector, "wheel-" + name, wheel_fill, wheel.pitch_angle(), wheel_first, each_side, 0);
-  svg +=
-      teeth(solved.planet_sector, "planet-" + name, planet_fill, planet.pitch_angle(), planet_first, each_side, centre);
+  const double pen = planet.parameters().module / (3.8 * units::mm);  // lines as thick for the eye, whatever the size
+  svg += teeth(solved.wheel_sector, "wheel-" + name, wheel_fill, wheel.pitch_angle(), wheel_first, each_side, 0, pen);
+  svg += teeth(solved.planet_sector, "planet-" + name, planet_fill, planet.pitch_angle(), planet_first, each_side,
+               centre, pen);
   svg += supports(problem, wheel_first, (each_side + 0.5) * wheel.pitch_angle());
-  svg += fmt::format("<circle cx=\"0\" cy=\"{:.3f}\" r=\"0.9\" fill=\"none\" stroke=\"#000\" stroke-width=\"0.35\"/>",
-                     -wheel_pitch / units::mm);
+  svg += fmt::format(
+      "<circle cx=\"0\" cy=\"{:.3f}\" r=\"{:.3g}\" fill=\"none\" stroke=\"#000\" stroke-width=\"{:.3g}\"/>",
+      -wheel_pitch / units::mm, 0.9 * pen, 0.35 * pen);
   return svg + "</svg>";
 }
 

@@ -126,6 +126,11 @@ double largest_of(const std::vector<dynamics::TwoKVMeshResult>& meshes, double (
 
 }  // namespace
 
+bool TwoKVMotion::output_moves() const {
+  constexpr double rounding = 1e-9;  // of the wind-up: a thousandth of what the integrators resolve
+  return std::max(error_peak_to_peak.value, static_error_peak_to_peak) > rounding * std::abs(error_mean);
+}
+
 double TwoKVMotion::dynamic_factor(bool arc) const {
   return largest_of(arc ? arc_pins : sun_planet, [](const auto& mesh) { return mesh.dynamic_factor_max.value; });
 }

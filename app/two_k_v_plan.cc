@@ -27,7 +27,7 @@ std::vector<Quantity> two_k_v_quantities(const Scene& scene, const geometry::Gea
       {"mean_arc_mesh_force_N", stage.mean_arc_mesh_force(), "N",
        "mean force of each arc mesh, along the tangent of the pitch point"},
       {"sun_mesh_contact_ratio", pair.contact_ratio(), "", "contact ratio of the sun mesh"},
-      {"sun_mesh_normal_backlash_um", pair.normal_backlash() / units::um, "µm",
+      {"sun_mesh_normal_backlash_um", std::round(pair.normal_backlash() / units::um * 1e6) / 1e6, "µm",
        "backlash of the sun mesh along the line of action, from the profile shifts"},
       {"planet_tip_diameter_mm", 2 * pair.planet().tip_radius() / units::mm, "mm", "planet tip diameter"},
       {"sun_tip_diameter_mm", 2 * pair.wheel().tip_radius() / units::mm, "mm", "sun tip diameter"},

@@ -55,7 +55,7 @@ const Reference::Value* published_frequency(const TwoKVResult& result, std::size
 }
 
 /// What an agreement with the published first frequency is worth.
-std::string worth(const TwoKVResult& result) {
+std::string worth(const TwoKVResult& result, bool in_short) {
   const auto* first = published_frequency(result, 0);
   if (!first) return "";
   const auto& v = *result.own.vibration;
@@ -76,6 +76,7 @@ std::string worth(const TwoKVResult& result) {
                 "confirms neither them nor the model.</b>"
               : "<b>The differences are larger than that: model and published values disagree beyond the assumed "
                 "inputs.</b>";
+  if (in_short) return text + " <a href=\"#comparison\">More</a></p>\n";
   const auto& strongest = v.inputs.front();
   for (const auto& input : v.inputs) {
     if (!result.scene().assumed.contains(input.key)) continue;
@@ -110,12 +111,12 @@ std::string reducer_verdict(const TwoKVResult& result) {
   while (v.modes.modes[mode].frequency == 0) ++mode;
   const auto& e = v.estimate;
   text += fmt::format(
-      ". It is the {} mode. The input's inertia times the ratio squared, {} kg m², on the torsional stiffness of {} "
+      ". It is the mode “{}”. The input's inertia times the ratio squared, {} kg m², on the torsional stiffness of {} "
       "N m/rad alone makes {:.1f} Hz; with all bodies that turn with it {:.1f} Hz: the whole train swings as one "
       "against its bearings.</p>\n",
       escape(mode_words(v.names[mode])), to_text(e.input_inertia, 4), to_text(e.stiffness, 4), e.input_frequency,
       e.train_frequency);
-  text += worth(result);
+  text += worth(result, true);
   text += fmt::format(
       "<p>Torsional stiffness from the output: <b>{} N m/arc minute</b>, wind-up under the load {} arc seconds, lost "
       "motion {} arc seconds.</p>\n",
@@ -124,11 +125,12 @@ std::string reducer_verdict(const TwoKVResult& result) {
   for (const auto& shown : shown_cases(result)) {
     if (!shown.result->motion) continue;
     const auto& m = *shown.result->motion;
-    text += fmt::format("<p>Output error under load, {}: <b>{}</b> arc seconds peak to peak, {} without inertia.{}</p>\n",
-                        escape(shown.name),
-                        measured(m.error_peak_to_peak.value / arc_second, m.error_peak_to_peak.error / arc_second),
-                        to_text(m.static_error_peak_to_peak / arc_second, 4),
-                        m.steady ? "" : " No periodic steady state was reached; the figure holds for the window only.");
+    text += fmt::format("<p>Output error under load, {}: <b>{}</b> arc seconds peak to peak", escape(shown.name),
+                        error_text(m));
+    text += m.output_moves() ? fmt::format(", {} without inertia.", to_text(m.static_error_peak_to_peak / arc_second, 4))
+                             : ": constant mesh stiffness excites nothing.";
+    if (!m.steady) text += " No periodic steady state was reached; the figure holds for the window only.";
+    text += "</p>\n";
   }
   return text + "</div>\n";
 }
@@ -152,9 +154,7 @@ std::string reducer_figures(const TwoKVResult& result) {
     rows[2].push_back(fmt::format("{:.2f}", c.vibration->modes.modes[mode].frequency));
     rows[3].push_back(fmt::format("{:.2f}", c.vibration->modes.modes.at(mode + 1).frequency));
     rows[4].push_back(to_text(c.vibration->torsion.mean(), 5));
-    rows[5].push_back(c.motion ? measured(c.motion->error_peak_to_peak.value / arc_second,
-                                          c.motion->error_peak_to_peak.error / arc_second)
-                               : "–");
+    rows[5].push_back(c.motion ? error_text(*c.motion) : "–");
     rows[6].push_back(
         c.motion ? to_text(std::max(c.motion->dynamic_factor(false), c.motion->dynamic_factor(true)), 5) : "–");
   }
@@ -183,12 +183,13 @@ std::string reducer_comparison(const TwoKVResult& result) {
       if (!computed || shown.result != &result.own) continue;
       tag = std::abs(*computed / value.value - 1) <= value.within ? "<span class=\"tag agrees\">agrees</span>"
                                                                   : "<span class=\"tag disagrees\">disagrees</span>";
-      tag += fmt::format(" <span class=\"muted\">within {} %</span>", to_text(100 * value.within));
+      constexpr double told = 1e-4;  // below, the numbers are the same
+      if (value.within >= told) tag += fmt::format(" <span class=\"muted\">within {} %</span>", to_text(100 * value.within));
     }
     row.push_back(tag);
     table.rows.push_back(std::move(row));
   }
-  return text + html(table) + worth(result);
+  return text + html(table) + worth(result, false);
 }
 
 std::string reducer_quality(const TwoKVResult& result) {

@@ -130,8 +130,8 @@ std::string reducer_meshes_section(const TwoKVResult& result) {
   for (const auto& shown : shown_cases(result)) {
     const auto& sun = shown.result->tables.sun;
     if (sun.picture.empty()) continue;
-    text += "<figure class=\"meshes\"><div class=\"row\"><div>" + sun.picture +
-            "</div></div><figcaption>Finite-element mesh of planet and sun.</figcaption></figure>\n";
+    text += "<figure class=\"meshes\"><div class=\"row one\"><div>" + sun.picture +
+            "</div></div><figcaption>Finite-element mesh of planet and sun, held at their bores.</figcaption></figure>\n";
     break;
   }
   return text + arc_part(result);

@@ -16,59 +16,73 @@ std::vector<double> about_mean(std::vector<double> values, double mean, double u
   return values;
 }
 
-std::string error_plot(const ShownCase& shown) {
+std::string error_plot(const ShownCase& shown, double turns) {
   const auto& m = *shown.result->motion;
-  Plot plot{.title = "Output error, " + shown.name, .x_label = "turns of the crank", .y_label = "arc seconds"};
-  plot.series.push_back({.label = "with inertia",
-                         .x = column_values(m.output_error, "crank_turn"),
-                         .y = about_mean(column_values(m.output_error, "error_rad"), m.error_mean, arc_second),
-                         .colour = 0});
+  Plot plot{.title = "Output error, " + shown.name,
+            .x_label = "turns of the crank",
+            .y_label = "arc seconds",
+            .x_range = Range{0, turns}};
   plot.series.push_back({.label = "quasi-static",
-                         .x = column_values(m.static_error, "crank_turn"),
-                         .y = about_mean(column_values(m.static_error, "error_rad"), m.static_error_mean, arc_second),
+                         .x = column_values(m.static_error, "crank_turn", turns),
+                         .y = about_mean(column_values(m.static_error, "error_rad", turns), m.static_error_mean, arc_second),
                          .colour = 1,
-                         .dashed = true});
+                         .dashed = turns < 1});
+  plot.series.push_back({.label = "with inertia",
+                         .x = column_values(m.output_error, "crank_turn", turns),
+                         .y = about_mean(column_values(m.output_error, "error_rad", turns), m.error_mean, arc_second),
+                         .colour = 0});
   return to_svg(plot);
 }
+
+bool is_multiple(double order, int of) { return std::abs(order / of - std::round(order / of)) < 1e-9; }
 
 std::string spectrum_plot(const ShownCase& shown) {
   const auto& m = *shown.result->motion;
   if (m.spectrum.rows.empty()) return "";
-  Plot plot{.title = "Its spectrum, " + shown.name, .x_label = "frequency, Hz", .y_label = "arc seconds"};
-  Series bars{.label = "amplitude", .colour = 0, .style = Series::Style::bars};
-  double largest = 0;
+  const auto stage = two_k_v_kinematics(shown.result->scene);
+  Series sun{.label = "sun mesh", .colour = 0, .style = Series::Style::bars};
+  Series arc{.label = "arc mesh", .colour = 2, .style = Series::Style::bars};
+  Series rest{.label = "others", .colour = 1, .style = Series::Style::bars};
   const auto order = m.spectrum.column("crank_order"), hertz = m.spectrum.column("frequency_Hz"),
              amplitude = m.spectrum.column("amplitude_rad");
+  double top = 0;
   for (const auto& row : m.spectrum.rows) {
     if (row[order] == 0) continue;  // the wind-up
-    bars.x.push_back(row[hertz]);
-    bars.y.push_back(row[amplitude] / arc_second);
-    largest = std::max(largest, bars.y.back());
+    auto& series = is_multiple(row[order], stage.planet_teeth) ? sun : is_multiple(row[order], stage.arc_teeth) ? arc : rest;
+    series.x.push_back(row[hertz]);
+    series.y.push_back(row[amplitude] / arc_second);
+    top = std::max(top, row[hertz]);
   }
-  if (!(largest > 0)) return "";
-  const auto note_at = [&](double frequency, const char* name) {
-    for (std::size_t i = 0; i < bars.x.size(); ++i)
-      if (std::abs(bars.x[i] - frequency) < 1e-6 * frequency) plot.notes.push_back({bars.x[i], bars.y[i], name});
-  };
-  note_at(m.sun_mesh_frequency, "sun mesh");
-  note_at(m.arc_mesh_frequency, "arc mesh");
-  plot.series.push_back(std::move(bars));
+  Plot plot{.title = "Its spectrum, " + shown.name,
+            .x_label = "frequency, Hz",
+            .y_label = "arc seconds",
+            .x_range = Range{0, 1.03 * top}};
+  for (auto* series : {&rest, &sun, &arc})
+    if (!series->x.empty()) plot.series.push_back(std::move(*series));
   return to_svg(plot);
 }
+
+/// Sun mesh cycles shown of the period: enough to see the shape of a cycle and how the next one differs.
+constexpr double shown_sun_cycles = 6;
+
+double shown_turns(const ShownCase& shown) { return shown_sun_cycles / shown.result->scene.planet.teeth; }
 
 std::string force_plot(const ShownCase& shown, bool arc) {
   const auto& m = *shown.result->motion;
   const char* prefix = arc ? "arc_pins" : "sun_planet";
   Plot plot{.title = std::string(arc ? "Arc meshes, " : "Sun meshes, ") + shown.name,
             .x_label = "turns of the crank",
-            .y_label = "F / mean mesh force"};
+            .y_label = "F / mean mesh force",
+            .x_range = Range{0, shown_turns(shown)}};
   std::size_t colour = 0;
   for (const auto& column : m.forces.columns) {
     if (!column.starts_with(prefix)) continue;
     plot.series.push_back({.label = column,
-                           .x = column_values(m.forces, "crank_turn"),
-                           .y = column_values(m.forces, column),
-                           .colour = colour++});
+                           .x = column_values(m.forces, "crank_turn", shown_turns(shown)),
+                           .y = column_values(m.forces, column, shown_turns(shown)),
+                           .colour = colour,
+                           .dashed = colour % 2 == 1});
+    ++colour;
   }
   return to_svg(plot);
 }
@@ -96,8 +110,8 @@ std::string motion_table(const TwoKVResult& result) {
       });
       return measured(top->dynamic_factor_max.value, top->dynamic_factor_max.error);
     };
-    rows[0].push_back(measured(m.error_peak_to_peak.value / arc_second, m.error_peak_to_peak.error / arc_second));
-    rows[1].push_back(to_text(m.static_error_peak_to_peak / arc_second, 4));
+    rows[0].push_back(error_text(m));
+    rows[1].push_back(m.output_moves() ? to_text(m.static_error_peak_to_peak / arc_second, 4) : "0");
     rows[2].push_back(to_text(m.error_mean / arc_second, 5));
     rows[3].push_back(factor(m.sun_planet));
     rows[4].push_back(factor(m.arc_pins));
@@ -115,6 +129,11 @@ std::string motion_table(const TwoKVResult& result) {
 
 }  // namespace
 
+std::string error_text(const TwoKVMotion& m) {
+  if (!m.output_moves()) return "0";
+  return measured(m.error_peak_to_peak.value / arc_second, m.error_peak_to_peak.error / arc_second);
+}
+
 std::string reducer_motion_section(const TwoKVResult& result) {
   if (!result.own.motion) return "";
   const auto& scene = result.scene();
@@ -128,11 +147,25 @@ std::string reducer_motion_section(const TwoKVResult& result) {
       to_text(m.sun_mesh_frequency, 5), to_text(m.arc_mesh_frequency, 5));
   text += motion_table(result);
   for (const auto& shown : shown_cases(result)) {
-    std::vector<std::string> pictures = {error_plot(shown), spectrum_plot(shown)};
-    if (pictures.back().empty()) pictures.pop_back();
-    text += figure(pictures, legend_html({{"with inertia", 0}, {"quasi-static (dashed)", 1}}),
-                   "Quasi-static: the changing stiffness alone, without inertia and damping.");
-    text += figure({force_plot(shown, false), force_plot(shown, true)}, legend_html({{"first", 0}, {"second", 1}}),
+    const auto& motion = *shown.result->motion;
+    if (!motion.output_moves()) {
+      text += fmt::format(
+          "<p>{}: the output follows the input but for the wind-up, and all forces stay constant. With constant mesh "
+          "stiffness the turning directions of the eccentrics alone excite nothing: what one crank's bearings give, "
+          "the others take.</p>\n",
+          escape(shown.name));
+      continue;
+    }
+    std::vector<std::string> pictures = {error_plot(shown, shown_turns(shown)), error_plot(shown, motion.crank_turns)};
+    text += figure(pictures, legend_html({{"with inertia", 0}, {"quasi-static", 1}}),
+                   "A few cycles of the sun mesh, and a whole turn of the crank. Quasi-static: the changing stiffness "
+                   "alone, without inertia and damping.");
+    const auto spectrum = spectrum_plot(shown);
+    if (!spectrum.empty())
+      text += figure({spectrum}, legend_html({{"multiples of the sun mesh", 0}, {"of the arc mesh", 2}, {"others", 1}}),
+                     "Spectrum of the output error with inertia.");
+    text += figure({force_plot(shown, false), force_plot(shown, true)},
+                   legend_html({{"first", 0}, {"second (dashed)", 1}}),
                    "Over the mean force the load asks of each mesh.");
   }
   return text;

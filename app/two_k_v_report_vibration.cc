@@ -47,6 +47,7 @@ std::string freedom_words(const std::string& freedom) {
       text += ' ';
     text += c;
   }
+  if (text.starts_with("arc")) text.replace(0, 3, "arc gear");
   return text;
 }
 
@@ -132,7 +133,7 @@ std::string shape_pictures(const TwoKVVibration& v) {
                    .reach = 1,
                    .two_sided = true,
                    .width = 260,
-                   .label_width = 100,
+                   .label_width = 112,
                    .row_height = 14};
     for (Eigen::Index i = 0; i < mode.shape.size(); ++i)
       chart.bars.push_back({freedom_words(v.modes.freedoms[static_cast<std::size_t>(i)]),

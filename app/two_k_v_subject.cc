@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "app/content_id.h"
 #include "app/pipeline.h"
@@ -16,7 +17,13 @@ namespace annulus::app {
 namespace {
 
 constexpr std::size_t told_frequencies = 6;
-constexpr int stiffness_positions = 24;  // over a crank turn: more change mean and range in the fourth digit
+
+/// Over a crank turn: as no mesh has a whole number of cycles between two of them, each meets as many phases.
+int stiffness_positions(const dynamics::TwoKVStage& stage) {
+  int count = 37;
+  while (std::gcd(count, stage.planet_teeth) != 1 || std::gcd(count, stage.arc_teeth) != 1) ++count;
+  return count;
+}
 constexpr double arc_seconds = 180 * 3600 / std::numbers::pi;  // per radian
 
 /// Both ways a stage with tables is taken, and how it is simulated.
@@ -35,7 +42,7 @@ StudyPoint two_k_v_point(const TwoKVPoint& p, bool quick) {
     if (mode.frequency > 0) frequencies.push_back(mode.frequency);
   for (std::size_t i = 0; i < told_frequencies; ++i)
     values.push_back(i < frequencies.size() ? frequencies[i] : unknown);
-  const auto torsion = dynamics::torsional_stiffness(p.at_nominal, stiffness_positions);
+  const auto torsion = dynamics::torsional_stiffness(p.at_nominal, stiffness_positions(p.at_nominal));
   const auto lost = lost_motion(p.at_nominal, torsion.mean(), p.arc_clearance);
   values.insert(values.end(), {torsion.mean(), torsion.ripple(), lost.wind_up, lost.total()});
   if (quick) {

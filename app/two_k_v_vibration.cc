@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -92,6 +93,13 @@ double hertz(double stiffness, double inertia) { return std::sqrt(stiffness / in
 
 }  // namespace
 
+int crank_positions(const dynamics::TwoKVStage& stage) {
+  constexpr int least = 72, per_cycle = 8;
+  const bool constant = std::holds_alternative<dynamics::ConstantStiffness>(stage.sun_mesh) &&
+                        std::holds_alternative<dynamics::ConstantStiffness>(stage.arc_mesh);
+  return constant ? least : std::max(least, per_cycle * std::max(stage.planet_teeth, stage.arc_teeth));
+}
+
 OneFreedom one_freedom(const dynamics::TwoKVStage& stage) {
   OneFreedom one;
   one.stiffness = dynamics::torsional_stiffness(stage, 1, dynamics::FrozenStiffness::mean).from_output[0];
@@ -135,10 +143,11 @@ TwoKVVibration vibration_of(const dynamics::TwoKVStage& stage, double arc_cleara
   for (std::size_t m = 0; m < v.modes.modes.size(); ++m)
     v.names.push_back(dynamics::mode_name(v.energy, static_cast<Eigen::Index>(m)));
   const auto start = std::chrono::steady_clock::now();
-  v.over_crank = dynamics::modes_over_crank(stage, crank_positions);
+  const int positions = crank_positions(stage);
+  v.over_crank = dynamics::modes_over_crank(stage, positions);
   v.seconds_per_position =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / crank_positions;
-  v.torsion = dynamics::torsional_stiffness(stage, crank_positions);
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / positions;
+  v.torsion = dynamics::torsional_stiffness(stage, positions);
   v.estimate = one_freedom(stage);
   v.lost = lost_motion(stage, v.torsion.mean(), arc_clearance);
   v.inputs = frequency_inputs_of(stage, v.first_frequency(), targets);

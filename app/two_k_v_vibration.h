@@ -46,7 +46,8 @@ struct FrequencyInput {
 };
 inline constexpr double frequency_band = 0.05;
 
-inline constexpr int crank_positions = 72;  ///< over one turn of the crank
+/// Positions over one turn of the crank: eight per mesh cycle where the mesh stiffness changes.
+[[nodiscard]] int crank_positions(const dynamics::TwoKVStage& stage);
 
 struct TwoKVVibration {
   dynamics::Modes modes;                  ///< mean mesh stiffness, at the crank angle of the scene
