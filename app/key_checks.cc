@@ -29,7 +29,8 @@ void KeyChecks::problem(const std::string& key, const std::string& ring, const s
   problems_.push_back({input ? input->line : 0, input ? input->column : 0, head + ": " + rule});
 }
 
-void KeyChecks::required_if(bool condition, const std::vector<std::string>& keys, const std::string& ring, const char* why) {
+void KeyChecks::required_if(bool condition, const std::vector<std::string>& keys, const std::string& ring,
+                            const char* why) {
   if (!condition) return;
   for (const auto& key : keys) {
     if (!given(key, ring)) problem(key, ring, fmt::format("is required by {}", why));
@@ -37,7 +38,7 @@ void KeyChecks::required_if(bool condition, const std::vector<std::string>& keys
 }
 
 void KeyChecks::forbidden_unless(bool condition, const std::vector<std::string>& keys, const std::string& ring,
-                      const char* why) {
+                                 const char* why) {
   if (condition) return;
   for (const auto& key : keys) {
     if (given(key, ring)) problem(key, ring, fmt::format("has a meaning only with {}", why));

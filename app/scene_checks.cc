@@ -328,7 +328,8 @@ void complete_and_check(Scene& scene, std::vector<Problem>& problems) {
       check_two_k_v_keys(scene, problems);
       break;
     case StageKind::helical_pair:
-      problems.push_back({0, 0, "stage.kind: is not yet available in this version; only \"planetary\" and \"two_k_v\" are"});
+      problems.push_back(
+          {0, 0, "stage.kind: is not yet available in this version; only \"planetary\" and \"two_k_v\" are"});
       break;
   }
   // Paths are looked up among the inputs, which have to be right for that.

@@ -179,10 +179,10 @@ std::vector<Table> declare_tables() {
       .from(100, 30000);
   tables.push_back(material.done());
 
-  tables.push_back(
-      hub_gear_table("sun", "The sun gear.", with_planets, [](Scene& s, std::size_t) -> HubGearInput& { return s.sun; }));
-  tables.push_back(
-      hub_gear_table("planet", "Each planet gear.", with_planets, [](Scene& s, std::size_t) -> HubGearInput& { return s.planet; }));
+  tables.push_back(hub_gear_table("sun", "The sun gear.", with_planets,
+                                  [](Scene& s, std::size_t) -> HubGearInput& { return s.sun; }));
+  tables.push_back(hub_gear_table("planet", "Each planet gear.", with_planets,
+                                  [](Scene& s, std::size_t) -> HubGearInput& { return s.planet; }));
 
   Declarations<CarrierInput> carrier("carrier", "The planet carrier.",
                                      [](Scene& s, std::size_t) -> CarrierInput& { return s.carrier; });
@@ -357,8 +357,7 @@ std::vector<Table> declare_tables() {
   tables.push_back(mesh_table("mesh.ring_planet", "Stiffness of the ring mesh, given instead of computed.", planetary,
                               [](Scene& s, std::size_t) -> MeshInput& { return s.ring_planet; }));
   tables.push_back(mesh_table("mesh.arc_pins", "Stiffness of the arc teeth on their pins, given instead of computed.",
-                              {StageKind::two_k_v},
-                              [](Scene& s, std::size_t) -> MeshInput& { return s.arc_pins; }));
+                              {StageKind::two_k_v}, [](Scene& s, std::size_t) -> MeshInput& { return s.arc_pins; }));
 
   Declarations<DynamicsInput> lumped("dynamics", "The lumped model; absent: meshes and stiffness only.",
                                      [](Scene& s, std::size_t) -> DynamicsInput& {

@@ -15,8 +15,7 @@ void declare_two_k_v(std::vector<Table>& tables) {
   crank.key("inertia_kg_m2", &CrankInput::inertia, "Moment of inertia of one shaft without its planet.")
       .above(0, 1e6)
       .absent(needed);
-  crank
-      .key("shaft_Nm_per_rad", &CrankInput::shaft, "Torsional stiffness of one shaft between planet and eccentrics.")
+  crank.key("shaft_Nm_per_rad", &CrankInput::shaft, "Torsional stiffness of one shaft between planet and eccentrics.")
       .above(0, 1e14)
       .absent(needed);
   crank
@@ -65,7 +64,8 @@ void declare_two_k_v(std::vector<Table>& tables) {
   arc.key("inertia_kg_m2", &ArcGearInput::inertia, "Moment of inertia of one arc gear about its axis.")
       .above(0, 1e6)
       .absent(needed);
-  arc.key("bearing_N_per_m", &ArcGearInput::bearing, "Stiffness of an arc gear's bearing on one eccentric, any direction.")
+  arc.key("bearing_N_per_m", &ArcGearInput::bearing,
+          "Stiffness of an arc gear's bearing on one eccentric, any direction.")
       .above(0, 1e14)
       .absent(needed);
   tables.push_back(arc.done());
@@ -79,7 +79,8 @@ void declare_two_k_v(std::vector<Table>& tables) {
   input.key("shaft_Nm_per_rad", &InputShaftInput::shaft, "Torsional stiffness of the shaft between input and sun.")
       .above(0, 1e14)
       .absent(needed);
-  input.key("support_Nm_per_rad", &InputShaftInput::support, "Torsional support of the input in the housing; inf: held.")
+  input
+      .key("support_Nm_per_rad", &InputShaftInput::support, "Torsional support of the input in the housing; inf: held.")
       .fallback(0.0, "free: it carries the power")
       .from(0, 1e14)
       .infinite();

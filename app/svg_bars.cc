@@ -22,8 +22,8 @@ std::string to_svg(const BarChart& chart) {
   const double top = chart.title.empty() ? 8 : 26, left = chart.label_width, note_width = notes ? 62 : 8;
   const double bottom = top + chart.row_height * static_cast<double>(chart.bars.size());
   const double note_left = negative ? note_width : 0, right = chart.width - (positive || !negative ? note_width : 8);
-  const Frame frame{left + note_left, right, top, bottom, {negative ? -reach : 0, positive || !negative ? reach : 0},
-                    {0, 1}};
+  const Frame frame{
+      left + note_left, right, top, bottom, {negative ? -reach : 0, positive || !negative ? reach : 0}, {0, 1}};
   const int height = static_cast<int>(bottom) + (chart.x_label.empty() ? 8 : 44);
   std::string svg = open_svg(chart.title, chart.width, height, 4);
   if (!chart.x_label.empty()) {
@@ -47,8 +47,8 @@ std::string to_svg(const BarChart& chart) {
                        std::min(x, zero), y - 0.36 * chart.row_height, std::abs(x - zero), 0.72 * chart.row_height,
                        palette(bar.colour));
     if (!bar.note.empty())
-      svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>",
-                         bar.value < 0 ? x - 4 : x + 4, y + 4, bar.value < 0 ? "end" : "start", escape(bar.note));
+      svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", bar.value < 0 ? x - 4 : x + 4,
+                         y + 4, bar.value < 0 ? "end" : "start", escape(bar.note));
   }
   svg += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}\" stroke=\"#888\"/>", zero, top, bottom);
   return svg + "</svg>";

@@ -160,9 +160,9 @@ std::string plane_picture(const fem::LoadedMeshProblem& problem, const fem::Load
   svg += teeth(solved.planet_sector, "planet-" + name, planet_fill, planet.pitch_angle(), planet_first, each_side,
                centre, pen);
   svg += supports(problem, wheel_first, (each_side + 0.5) * wheel.pitch_angle());
-  svg += fmt::format(
-      "<circle cx=\"0\" cy=\"{:.3f}\" r=\"{:.3g}\" fill=\"none\" stroke=\"#000\" stroke-width=\"{:.3g}\"/>",
-      -wheel_pitch / units::mm, 0.9 * pen, 0.35 * pen);
+  svg +=
+      fmt::format("<circle cx=\"0\" cy=\"{:.3f}\" r=\"{:.3g}\" fill=\"none\" stroke=\"#000\" stroke-width=\"{:.3g}\"/>",
+                  -wheel_pitch / units::mm, 0.9 * pen, 0.35 * pen);
   return svg + "</svg>";
 }
 

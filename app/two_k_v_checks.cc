@@ -30,10 +30,10 @@ class TwoKVChecker : KeyChecks {
     why = scene_.arc_pins.stiffness == StiffnessShape::computed
               ? "the computed mesh of arc teeth and pins; or give its stiffness in [mesh.arc_pins]"
               : "mesh.arc_pins.compare = \"computed\"";
-    needed(arc,
-           {"arc_gear.pin_circle_diameter_mm", "arc_gear.pin_diameter_mm", "arc_gear.arc_radius_mm",
-            "arc_gear.width_mm"},
-           why);
+    needed(
+        arc,
+        {"arc_gear.pin_circle_diameter_mm", "arc_gear.pin_diameter_mm", "arc_gear.arc_radius_mm", "arc_gear.width_mm"},
+        why);
     arc_teeth();
     rung(sun);
     dynamics();
@@ -105,7 +105,8 @@ class TwoKVChecker : KeyChecks {
   void dynamics() {
     if (!scene_.dynamics) return;
     if (!find("input.inertia_kg_m2") || !given("input.inertia_kg_m2"))
-      problem("input.inertia_kg_m2", "", "is required by [dynamics]: with the ratio squared it sets the lowest frequency");
+      problem("input.inertia_kg_m2", "",
+              "is required by [dynamics]: with the ratio squared it sets the lowest frequency");
     needed(true,
            {"input.shaft_Nm_per_rad", "sun.inertia_kg_m2", "planet.mass_kg", "planet.inertia_kg_m2",
             "crank.inertia_kg_m2", "crank.shaft_Nm_per_rad", "crank.bearing_N_per_m", "arc_gear.mass_kg",

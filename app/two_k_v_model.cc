@@ -142,10 +142,8 @@ MeshResult arc_pins_result(const Scene& scene) {
                          double(mesh->approach), stage.arc_torque()})
     id.add("arc", x);
   table.provenance = {{"annulus_version", version()}, {"inputs_id", id.id()}, {"rung", model.rung}};
-  return {.model = model,
-          .contact_ratio = loaded / table_phases,
-          .table = std::move(table),
-          .nominal = nominal_load_index};
+  return {
+      .model = model, .contact_ratio = loaded / table_phases, .table = std::move(table), .nominal = nominal_load_index};
 }
 
 dynamics::TwoKVStage make_two_k_v(const Scene& scene, const TwoKVTables& tables, dynamics::LoadDependence dependence) {

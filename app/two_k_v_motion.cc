@@ -118,7 +118,8 @@ Csv motion_series(const dynamics::TimeSeries& series) {
   return csv;
 }
 
-double largest_of(const std::vector<dynamics::TwoKVMeshResult>& meshes, double (*pick)(const dynamics::TwoKVMeshResult&)) {
+double largest_of(const std::vector<dynamics::TwoKVMeshResult>& meshes,
+                  double (*pick)(const dynamics::TwoKVMeshResult&)) {
   double largest = 0;
   for (const auto& mesh : meshes) largest = std::max(largest, pick(mesh));
   return largest;
@@ -171,7 +172,8 @@ TwoKVMotion motion_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVRe
   m.output_error.columns = {"crank_turn", "time_s", "error_rad"};
   m.forces.columns = {"crank_turn"};
   const auto toothed = static_cast<std::size_t>(stage.cranks + stage.arc_gears);
-  for (std::size_t i = 0; i < std::min(toothed, series.meshes.size()); ++i) m.forces.columns.push_back(series.meshes[i]);
+  for (std::size_t i = 0; i < std::min(toothed, series.meshes.size()); ++i)
+    m.forces.columns.push_back(series.meshes[i]);
   for (Eigen::Index i = 0; i < series.time.size(); ++i) {
     const double turn = (series.time[i] - series.time[0]) * r.crank_frequency;
     m.output_error.rows.push_back({turn, series.time[i], r.dynamic.series[i]});

@@ -127,8 +127,9 @@ std::string reducer_verdict(const TwoKVResult& result) {
     const auto& m = *shown.result->motion;
     text += fmt::format("<p>Output error under load, {}: <b>{}</b> arc seconds peak to peak", escape(shown.name),
                         error_text(m));
-    text += m.output_moves() ? fmt::format(", {} without inertia.", to_text(m.static_error_peak_to_peak / arc_second, 4))
-                             : ": constant mesh stiffness excites nothing.";
+    text += m.output_moves()
+                ? fmt::format(", {} without inertia.", to_text(m.static_error_peak_to_peak / arc_second, 4))
+                : ": constant mesh stiffness excites nothing.";
     if (!m.steady) text += " No periodic steady state was reached; the figure holds for the window only.";
     text += "</p>\n";
   }
@@ -138,10 +139,10 @@ std::string reducer_verdict(const TwoKVResult& result) {
 std::string reducer_figures(const TwoKVResult& result) {
   if (!result.own.vibration) return "";
   HtmlTable table{.head = {""}, .rows = {}, .css_class = "numbers"};
-  const char* names[] = {"sun mesh stiffness, mean, N/µm", "arc mesh stiffness, mean, N/µm",
-                         "first frequency, Hz",            "second frequency, Hz",
-                         "torsional stiffness, N m/rad",   "output error, peak to peak, arc seconds",
-                         "dynamic factor, largest"};
+  const char* names[] = {
+      "sun mesh stiffness, mean, N/µm", "arc mesh stiffness, mean, N/µm", "first frequency, Hz",
+      "second frequency, Hz",           "torsional stiffness, N m/rad",   "output error, peak to peak, arc seconds",
+      "dynamic factor, largest"};
   std::vector<std::vector<std::string>> rows;
   for (const auto* name : names) rows.push_back({name});
   for (const auto& shown : shown_cases(result)) {
@@ -155,8 +156,8 @@ std::string reducer_figures(const TwoKVResult& result) {
     rows[3].push_back(fmt::format("{:.2f}", c.vibration->modes.modes.at(mode + 1).frequency));
     rows[4].push_back(to_text(c.vibration->torsion.mean(), 5));
     rows[5].push_back(c.motion ? error_text(*c.motion) : "–");
-    rows[6].push_back(
-        c.motion ? to_text(std::max(c.motion->dynamic_factor(false), c.motion->dynamic_factor(true)), 5) : "–");
+    rows[6].push_back(c.motion ? to_text(std::max(c.motion->dynamic_factor(false), c.motion->dynamic_factor(true)), 5)
+                               : "–");
   }
   table.rows = std::move(rows);
   return "<h2 id=\"figures\">Key figures</h2>\n" + html(table);
@@ -179,12 +180,14 @@ std::string reducer_comparison(const TwoKVResult& result) {
     std::string tag = "<span class=\"tag undecided\">not computed here</span>";
     for (const auto& shown : shown_cases(result)) {
       const auto computed = reducer_quantity(result, *shown.result, value.quantity);
-      row.push_back(computed ? fmt::format("{} ({})", to_text(*computed, 5), percent_off(*computed, value.value)) : "–");
+      row.push_back(computed ? fmt::format("{} ({})", to_text(*computed, 5), percent_off(*computed, value.value))
+                             : "–");
       if (!computed || shown.result != &result.own) continue;
       tag = std::abs(*computed / value.value - 1) <= value.within ? "<span class=\"tag agrees\">agrees</span>"
                                                                   : "<span class=\"tag disagrees\">disagrees</span>";
       constexpr double told = 1e-4;  // below, the numbers are the same
-      if (value.within >= told) tag += fmt::format(" <span class=\"muted\">within {} %</span>", to_text(100 * value.within));
+      if (value.within >= told)
+        tag += fmt::format(" <span class=\"muted\">within {} %</span>", to_text(100 * value.within));
     }
     row.push_back(tag);
     table.rows.push_back(std::move(row));
@@ -227,10 +230,10 @@ std::string mode_words(const std::string& name) {
 std::string two_k_v_report(const TwoKVResult& result) {
   const auto& scene = result.scene();
   const auto stage = two_k_v_kinematics(scene);
-  const std::string subtitle = fmt::format(
-      "annulus {} · scene <code>{}</code> · ratio {}, {} N m at {} r/min of the output", version(),
-      escape(scene.file.filename().string()), to_text(stage.ratio(), 6), to_text(scene.output.torque, 5),
-      to_text(scene.output.speed / units::rpm, 5));
+  const std::string subtitle =
+      fmt::format("annulus {} · scene <code>{}</code> · ratio {}, {} N m at {} r/min of the output", version(),
+                  escape(scene.file.filename().string()), to_text(stage.ratio(), 6), to_text(scene.output.torque, 5),
+                  to_text(scene.output.speed / units::rpm, 5));
   return report_page(scene.title, subtitle, reducer_verdict(result),
                      {{"figures", "Key figures", reducer_figures(result)},
                       {"comparison", "Comparison with the source", reducer_comparison(result)},

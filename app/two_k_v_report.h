@@ -26,9 +26,9 @@ inline constexpr double arc_second = std::numbers::pi / (180 * 3600);  ///< rad
 inline constexpr double arc_minute = 60 * arc_second;                  ///< rad
 
 // two_k_v_report_vibration.cc; empty without [dynamics]
-[[nodiscard]] std::string frequencies_section(const TwoKVResult& result);     ///< over the crank angle, shapes
-[[nodiscard]] std::string first_frequency_section(const TwoKVResult& result); ///< what it depends on, bands
-[[nodiscard]] std::string torsion_section(const TwoKVResult& result);         ///< torsional stiffness, lost motion
+[[nodiscard]] std::string frequencies_section(const TwoKVResult& result);      ///< over the crank angle, shapes
+[[nodiscard]] std::string first_frequency_section(const TwoKVResult& result);  ///< what it depends on, bands
+[[nodiscard]] std::string torsion_section(const TwoKVResult& result);          ///< torsional stiffness, lost motion
 /// Output error, peak to peak, arc seconds; "0" where it is rounding.
 [[nodiscard]] std::string error_text(const TwoKVMotion& motion);
 

@@ -40,8 +40,7 @@ std::string cycle_plot(const TwoKVResult& result, bool arc) {
   RangeFinder range;
   range.add(0);
   for (const auto& shown : shown_cases(result)) {
-    plot.series.push_back(
-        stiffness_curve(arc ? shown.result->tables.arc : shown.result->tables.sun, shown));
+    plot.series.push_back(stiffness_curve(arc ? shown.result->tables.arc : shown.result->tables.sun, shown));
     range.add(plot.series.back().y);
   }
   plot.y_range = Range{0, range.range().high};
@@ -63,9 +62,10 @@ std::string mesh_table_html(const TwoKVResult& result) {
       const auto [low, high] = std::minmax_element(curve.begin(), curve.end());
       const auto mean = mesh->mean_stiffness();
       std::string name = mesh->model.label();
-      table.rows.push_back({name, escape(shown.name), mesh->model.rung,
-                            measured(mean.value / 1e6, mesh->model.computed() ? mean.error_relative * mean.value / 1e6 : 0),
-                            fmt::format("{:.1f}", 100e6 * (*high - *low) / mean.value)});
+      table.rows.push_back(
+          {name, escape(shown.name), mesh->model.rung,
+           measured(mean.value / 1e6, mesh->model.computed() ? mean.error_relative * mean.value / 1e6 : 0),
+           fmt::format("{:.1f}", 100e6 * (*high - *low) / mean.value)});
     }
   return html(table);
 }
@@ -121,7 +121,8 @@ std::string arc_part(const TwoKVResult& result) {
 
 std::string reducer_meshes_section(const TwoKVResult& result) {
   std::string text =
-      "<h2 id=\"meshes\">Mesh stiffness</h2>\n<p>Secant at the load of the scene: of one involute mesh along its line of "
+      "<h2 id=\"meshes\">Mesh stiffness</h2>\n<p>Secant at the load of the scene: of one involute mesh along its line "
+      "of "
       "action, of one arc gear along the tangent of the pitch point.</p>\n";
   text += mesh_table_html(result);
   std::vector<std::pair<std::string, std::size_t>> legend;
@@ -130,8 +131,9 @@ std::string reducer_meshes_section(const TwoKVResult& result) {
   for (const auto& shown : shown_cases(result)) {
     const auto& sun = shown.result->tables.sun;
     if (sun.picture.empty()) continue;
-    text += "<figure class=\"meshes\"><div class=\"row one\"><div>" + sun.picture +
-            "</div></div><figcaption>Finite-element mesh of planet and sun, held at their bores.</figcaption></figure>\n";
+    text +=
+        "<figure class=\"meshes\"><div class=\"row one\"><div>" + sun.picture +
+        "</div></div><figcaption>Finite-element mesh of planet and sun, held at their bores.</figcaption></figure>\n";
     break;
   }
   return text + arc_part(result);

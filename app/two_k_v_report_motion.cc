@@ -22,11 +22,12 @@ std::string error_plot(const ShownCase& shown, double turns) {
             .x_label = "turns of the crank",
             .y_label = "arc seconds",
             .x_range = Range{0, turns}};
-  plot.series.push_back({.label = "quasi-static",
-                         .x = column_values(m.static_error, "crank_turn", turns),
-                         .y = about_mean(column_values(m.static_error, "error_rad", turns), m.static_error_mean, arc_second),
-                         .colour = 1,
-                         .dashed = turns < 1});
+  plot.series.push_back(
+      {.label = "quasi-static",
+       .x = column_values(m.static_error, "crank_turn", turns),
+       .y = about_mean(column_values(m.static_error, "error_rad", turns), m.static_error_mean, arc_second),
+       .colour = 1,
+       .dashed = turns < 1});
   plot.series.push_back({.label = "with inertia",
                          .x = column_values(m.output_error, "crank_turn", turns),
                          .y = about_mean(column_values(m.output_error, "error_rad", turns), m.error_mean, arc_second),
@@ -48,7 +49,9 @@ std::string spectrum_plot(const ShownCase& shown) {
   double top = 0;
   for (const auto& row : m.spectrum.rows) {
     if (row[order] == 0) continue;  // the wind-up
-    auto& series = is_multiple(row[order], stage.planet_teeth) ? sun : is_multiple(row[order], stage.arc_teeth) ? arc : rest;
+    auto& series = is_multiple(row[order], stage.planet_teeth) ? sun
+                   : is_multiple(row[order], stage.arc_teeth)  ? arc
+                                                               : rest;
     series.x.push_back(row[hertz]);
     series.y.push_back(row[amplitude] / arc_second);
     top = std::max(top, row[hertz]);
@@ -56,7 +59,9 @@ std::string spectrum_plot(const ShownCase& shown) {
   Plot plot{.title = "Its spectrum, " + shown.name,
             .x_label = "frequency, Hz",
             .y_label = "arc seconds",
-            .x_range = Range{0, 1.03 * top}};
+            .x_range = Range{0, 1.03 * top},
+            .width = 900,
+            .height = 280};
   for (auto* series : {&rest, &sun, &arc})
     if (!series->x.empty()) plot.series.push_back(std::move(*series));
   return to_svg(plot);
@@ -112,7 +117,7 @@ std::string motion_table(const TwoKVResult& result) {
     };
     rows[0].push_back(error_text(m));
     rows[1].push_back(m.output_moves() ? to_text(m.static_error_peak_to_peak / arc_second, 4) : "0");
-    rows[2].push_back(to_text(m.error_mean / arc_second, 5));
+    rows[2].push_back(to_text(std::abs(m.error_mean) / arc_second, 5));
     rows[3].push_back(factor(m.sun_planet));
     rows[4].push_back(factor(m.arc_pins));
     rows[5].push_back(to_text(100 * std::max(m.contact_loss(false), m.contact_loss(true)), 3));
@@ -140,8 +145,10 @@ std::string reducer_motion_section(const TwoKVResult& result) {
   const auto& m = *result.own.motion;
   std::string text = fmt::format(
       "<h2 id=\"motion\">Motion under load</h2>\n<p>Periodic motion at {} r/min of the output under {} N m, everything "
-      "that changes in time included: mesh stiffness and the directions of the eccentrics. One turn of the crank against "
-      "the carrier ({} Hz) brings all back: the sun meshes pass at {} Hz, the arc meshes at {} Hz. Output error: turn of "
+      "that changes in time included: mesh stiffness and the directions of the eccentrics. One turn of the crank "
+      "against "
+      "the carrier ({} Hz) brings all back: the sun meshes pass at {} Hz, the arc meshes at {} Hz. Output error: turn "
+      "of "
       "the output less turn of the input over the ratio, about its mean.</p>\n",
       to_text(scene.output.speed / units::rpm, 5), to_text(scene.output.torque, 5), to_text(m.crank_frequency, 5),
       to_text(m.sun_mesh_frequency, 5), to_text(m.arc_mesh_frequency, 5));
@@ -150,10 +157,11 @@ std::string reducer_motion_section(const TwoKVResult& result) {
     const auto& motion = *shown.result->motion;
     if (!motion.output_moves()) {
       text += fmt::format(
-          "<p>{}: the output follows the input but for the wind-up, and all forces stay constant. With constant mesh "
+          "<p>With {}, the output follows the input but for the wind-up, and all forces stay constant: with constant "
+          "mesh "
           "stiffness the turning directions of the eccentrics alone excite nothing: what one crank's bearings give, "
           "the others take.</p>\n",
-          escape(shown.name));
+          shown_cases(result).size() > 1 ? "the stiffness as given" : "the stiffness of the scene");
       continue;
     }
     std::vector<std::string> pictures = {error_plot(shown, shown_turns(shown)), error_plot(shown, motion.crank_turns)};
@@ -164,9 +172,9 @@ std::string reducer_motion_section(const TwoKVResult& result) {
     if (!spectrum.empty())
       text += figure({spectrum}, legend_html({{"multiples of the sun mesh", 0}, {"of the arc mesh", 2}, {"others", 1}}),
                      "Spectrum of the output error with inertia.");
-    text += figure({force_plot(shown, false), force_plot(shown, true)},
-                   legend_html({{"first", 0}, {"second (dashed)", 1}}),
-                   "Over the mean force the load asks of each mesh.");
+    text +=
+        figure({force_plot(shown, false), force_plot(shown, true)}, legend_html({{"first", 0}, {"second (dashed)", 1}}),
+               "Over the mean force the load asks of each mesh.");
   }
   return text;
 }

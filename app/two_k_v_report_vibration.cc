@@ -51,18 +51,21 @@ std::string freedom_words(const std::string& freedom) {
   return text;
 }
 
+std::string body_words(const std::string& body) {
+  return body == "arc" ? "arc gears" : body == "planet" || body == "crank" ? body + "s" : body;
+}
+
 std::string strain_words(const TwoKVVibration& v, std::size_t mode) {
   const auto groups = dynamics::by_group(v.energy);
   std::vector<std::pair<double, std::string>> shares;
   for (std::size_t g = 0; g < groups.groups.size(); ++g)
-    shares.emplace_back(groups.strain(static_cast<Eigen::Index>(g), static_cast<Eigen::Index>(mode)),
-                        groups.groups[g]);
+    shares.emplace_back(groups.strain(static_cast<Eigen::Index>(g), static_cast<Eigen::Index>(mode)), groups.groups[g]);
   std::stable_sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, shares.size()); ++i) {
     if (shares[i].first < 0.05) break;
-    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", element_words(shares[i].second),
-                        100 * shares[i].first);
+    text +=
+        fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", element_words(shares[i].second), 100 * shares[i].first);
   }
   return text;
 }
@@ -77,7 +80,7 @@ std::string frequency_table(const TwoKVResult& result) {
     const auto of = v.names[m].find(" on ");
     std::vector<std::string> cells = {fmt::format("{}", m + 1), fmt::format("{:.2f}", v.modes.modes[m].frequency),
                                       fmt::format("{:.2f} … {:.2f}", row.minCoeff(), row.maxCoeff()),
-                                      strain_words(v, m), escape(v.names[m].substr(0, of))};
+                                      strain_words(v, m), body_words(v.names[m].substr(0, of))};
     if (v.modes.modes[m].frequency == 0) cells[3] = "free rotation";
     if (result.computed) {
       const auto& other = result.computed->vibration->modes.modes;
@@ -103,7 +106,8 @@ std::string over_crank_plots(const ShownCase& shown) {
     const auto row = v.over_crank.frequency.row(m);
     if (!(row.minCoeff() > 0)) continue;
     const auto colour = static_cast<std::size_t>(m);
-    absolute.series.push_back({.label = fmt::format("mode {}", m + 1), .x = x, .y = closed(row, 1e-3), .colour = colour});
+    absolute.series.push_back(
+        {.label = fmt::format("mode {}", m + 1), .x = x, .y = closed(row, 1e-3), .colour = colour});
     auto relative = closed(row, 100 / row.mean());
     for (auto& value : relative) value -= 100;
     change.series.push_back({.label = fmt::format("mode {}", m + 1), .x = x, .y = relative, .colour = colour});
@@ -137,7 +141,8 @@ std::string shape_pictures(const TwoKVVibration& v) {
                    .row_height = 14};
     for (Eigen::Index i = 0; i < mode.shape.size(); ++i)
       chart.bars.push_back({freedom_words(v.modes.freedoms[static_cast<std::size_t>(i)]),
-                            sign * mode.shape[i] / largest, body_colour(v.modes.freedoms[static_cast<std::size_t>(i)]),
+                            sign * mode.shape[i] / largest,
+                            body_colour(v.modes.freedoms[static_cast<std::size_t>(i)]),
                             {}});
     text += "<div>" + to_svg(chart) + "</div>\n";
   }
@@ -158,7 +163,8 @@ std::string frequencies_section(const TwoKVResult& result) {
   const auto& v = *result.own.vibration;
   std::string text = fmt::format(
       "<h2 id=\"frequencies\">Natural frequencies over the crank angle</h2>\n<p>Undamped, without rotation; the table "
-      "holds at the mean mesh stiffness and the crank angle of the scene. All modes of one crank angle take {:.0f} µs.</p>\n",
+      "holds at the mean mesh stiffness and the crank angle of the scene. All modes of one crank angle take {:.0f} "
+      "µs.</p>\n",
       1e6 * v.seconds_per_position);
   text += frequency_table(result);
   for (const auto& shown : shown_cases(result)) text += over_crank_plots(shown);
@@ -170,19 +176,15 @@ std::string first_frequency_section(const TwoKVResult& result) {
   const auto& v = *result.own.vibration;
   const auto& scene = result.scene();
   std::string text =
-      "<h2 id=\"first-frequency\">What the first frequency depends on</h2>\n<p>d ln f₁/d ln p: by how many per cent the "
+      "<h2 id=\"first-frequency\">What the first frequency depends on</h2>\n<p>d ln f₁/d ln p: by how many per cent "
+      "the "
       "first frequency rises when the input rises by one per cent. Stiffnesses add up to ½, inertias and masses to "
       "−½: they are shares of the energies of the mode. The range: factors on one input alone between which f₁ stays "
       "within ±5 %.</p>\n";
-  BarChart chart{.title = {},
-                 .x_label = "d ln f₁ / d ln p",
-                 .bars = {},
-                 .width = 900,
-                 .label_width = 220,
-                 .row_height = 20};
-  HtmlTable table{.head = {"input", "value", "d ln f₁/d ln p", "f₁ within ±5 %: from", "to"},
-                  .rows = {},
-                  .css_class = "numbers"};
+  BarChart chart{
+      .title = {}, .x_label = "d ln f₁ / d ln p", .bars = {}, .width = 900, .label_width = 220, .row_height = 20};
+  HtmlTable table{
+      .head = {"input", "value", "d ln f₁/d ln p", "f₁ within ±5 %: from", "to"}, .rows = {}, .css_class = "numbers"};
   for (const double target : v.targets) table.head.push_back(fmt::format("for {} Hz", to_text(target)));
   for (const auto& input : v.inputs) {
     const bool assumed = scene.assumed.contains(input.key);
@@ -218,6 +220,7 @@ std::string torsion_section(const TwoKVResult& result) {
                                                 {"lost motion by backlash, arc seconds"},
                                                 {"lost motion by ±3 % of the load, arc seconds"},
                                                 {"lost motion, together, arc seconds"}};
+  constexpr double rounding = 1e-10;  // of the condensation
   for (const auto& shown : shown_cases(result)) {
     const auto& v = *shown.result->vibration;
     plot.series.push_back({.label = shown.name,
@@ -228,7 +231,7 @@ std::string torsion_section(const TwoKVResult& result) {
     table.head.push_back(escape(shown.name));
     const double values[] = {v.torsion.mean(),
                              v.torsion.mean() * arc_minute,
-                             100 * v.torsion.ripple(),
+                             v.torsion.ripple() > rounding ? 100 * v.torsion.ripple() : 0,
                              v.lost.wind_up / arc_second,
                              v.lost.backlash / arc_second,
                              v.lost.elastic / arc_second,

@@ -97,9 +97,9 @@ TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options) {
   auto other = compared_scene(scene);
   auto sun = sun_result(scene, "", options);
   std::optional<MeshResult> other_sun;
-  if (other) other_sun = other->sun_planet.stiffness == scene.sun_planet.stiffness
-                             ? sun
-                             : sun_result(*other, compared_folder, options);
+  if (other)
+    other_sun =
+        other->sun_planet.stiffness == scene.sun_planet.stiffness ? sun : sun_result(*other, compared_folder, options);
   std::optional<TwoKVCase> own, computed;
   {
     const auto timer = timers.measure("modes");

@@ -53,9 +53,9 @@ StudyPoint two_k_v_point(const TwoKVPoint& p, bool quick) {
   auto simulation = p.simulation;
   simulation.keep_series = false;
   const auto m = motion_of(p.moving, dynamics::simulate(p.moving, simulation));
-  values.insert(values.end(), {m.steady ? 1.0 : 0.0, m.error_peak_to_peak.value, m.static_error_peak_to_peak,
-                               m.dynamic_factor(false), m.dynamic_factor(true), m.contact_loss(false),
-                               m.contact_loss(true), m.largest_bearing_force()});
+  values.insert(values.end(),
+                {m.steady ? 1.0 : 0.0, m.error_peak_to_peak.value, m.static_error_peak_to_peak, m.dynamic_factor(false),
+                 m.dynamic_factor(true), m.contact_loss(false), m.contact_loss(true), m.largest_bearing_force()});
   return point;
 }
 
@@ -107,18 +107,20 @@ std::vector<StudyFigure> two_k_v_figures() {
                   .scale = arc_seconds,
                   .quick = false});
   for (const std::string mesh : {"sun_planet", "arc_pins"})
-    list.push_back({.column = mesh + "_dynamic_factor",
-                    .title = mesh == "arc_pins" ? "Dynamic factor of the arc meshes" : "Dynamic factor of the sun meshes",
-                    .label = "largest F / mean mesh force",
-                    .quick = false,
-                    .plotted = true});
+    list.push_back(
+        {.column = mesh + "_dynamic_factor",
+         .title = mesh == "arc_pins" ? "Dynamic factor of the arc meshes" : "Dynamic factor of the sun meshes",
+         .label = "largest F / mean mesh force",
+         .quick = false,
+         .plotted = true});
   for (const std::string mesh : {"sun_planet", "arc_pins"})
-    list.push_back({.column = mesh + "_contact_loss",
-                    .title = mesh == "arc_pins" ? "Time without contact, arc meshes" : "Time without contact, sun meshes",
-                    .label = "worst, %",
-                    .scale = 100,
-                    .quick = false,
-                    .plotted = true});
+    list.push_back(
+        {.column = mesh + "_contact_loss",
+         .title = mesh == "arc_pins" ? "Time without contact, arc meshes" : "Time without contact, sun meshes",
+         .label = "worst, %",
+         .scale = 100,
+         .quick = false,
+         .plotted = true});
   list.push_back({.column = "arc_bearing_force_N",
                   .title = "Largest force of an eccentric's bearing",
                   .label = "N",

@@ -20,10 +20,11 @@ ReducerJson finite(const std::optional<double>& x) { return x ? finite(*x) : Red
 
 ReducerJson mesh_json_of(const MeshResult& mesh) {
   const auto k = mesh.mean_stiffness();
-  ReducerJson json = {{"rung", mesh.model.rung},
-                      {"mean_stiffness_N_per_m", {{"value", finite(k.value)}, {"error_relative", finite(k.error_relative)}}},
-                      {"nominal_load_N", mesh.table.loads()[mesh.nominal]},
-                      {"reused", mesh.reused}};
+  ReducerJson json = {
+      {"rung", mesh.model.rung},
+      {"mean_stiffness_N_per_m", {{"value", finite(k.value)}, {"error_relative", finite(k.error_relative)}}},
+      {"nominal_load_N", mesh.table.loads()[mesh.nominal]},
+      {"reused", mesh.reused}};
   for (const auto& [name, value] : mesh.facts) json[name] = finite(value);
   return json;
 }
@@ -59,15 +60,15 @@ ReducerJson vibration_json(const TwoKVVibration& v) {
 }
 
 ReducerJson motion_summary(const TwoKVMotion& m) {
-  ReducerJson json = {{"steady", m.steady},
-                      {"steady_difference", finite(m.steady_difference)},
-                      {"largest_multiplier", finite(m.largest_multiplier)},
-                      {"torque_balance_relative", finite(m.torque_balance_relative)},
-                      {"energy_balance_relative", finite(m.energy_relative)},
-                      {"output_error_peak_to_peak_rad",
-                       {{"value", m.error_peak_to_peak.value}, {"error", m.error_peak_to_peak.error}}},
-                      {"output_error_mean_rad", m.error_mean},
-                      {"output_error_quasi_static_rad", m.static_error_peak_to_peak}};
+  ReducerJson json = {
+      {"steady", m.steady},
+      {"steady_difference", finite(m.steady_difference)},
+      {"largest_multiplier", finite(m.largest_multiplier)},
+      {"torque_balance_relative", finite(m.torque_balance_relative)},
+      {"energy_balance_relative", finite(m.energy_relative)},
+      {"output_error_peak_to_peak_rad", {{"value", m.error_peak_to_peak.value}, {"error", m.error_peak_to_peak.error}}},
+      {"output_error_mean_rad", m.error_mean},
+      {"output_error_quasi_static_rad", m.static_error_peak_to_peak}};
   for (const bool arc : {false, true})
     for (const auto& mesh : arc ? m.arc_pins : m.sun_planet)
       json[arc ? "arc_pins" : "sun_planet"].push_back(
@@ -91,8 +92,7 @@ ReducerJson case_json(const TwoKVCase& c) {
 
 std::string two_k_v_summary(const TwoKVResult& result) {
   const auto& scene = result.scene();
-  ReducerJson json = {
-      {"title", scene.title}, {"annulus_version", version()}, {"accuracy_wanted", scene.accuracy}};
+  ReducerJson json = {{"title", scene.title}, {"annulus_version", version()}, {"accuracy_wanted", scene.accuracy}};
   for (const auto& q : result.plan.quantities) json["operating_point"][q.key] = q.value;
   json.update(case_json(result.own));
   if (result.computed) json["computed"] = case_json(*result.computed);

@@ -82,8 +82,13 @@ std::vector<FrequencyInput> frequency_inputs_of(const dynamics::TwoKVStage& stag
     for (const auto& named : named_inputs)
       if (s.input == named.name) known = &named;
     if (!known) throw InternalError("internal error: an input of the first frequency without a key: " + s.input);
-    list.push_back({s.input, known->key, value_of(stage, s.input), known->unit, s.value,
-                    dynamics::band_of_input(stage, s.input, first, frequency_band), {}});
+    list.push_back({s.input,
+                    known->key,
+                    value_of(stage, s.input),
+                    known->unit,
+                    s.value,
+                    dynamics::band_of_input(stage, s.input, first, frequency_band),
+                    {}});
     for (const double target : targets) list.back().reaching.push_back(factor_reaching(stage, s.input, target));
   }
   return list;
@@ -120,8 +125,8 @@ LostMotion lost_motion(const dynamics::TwoKVStage& stage, double stiffness, doub
   const double sun = 1 / (stage.ratio() * stage.sun_base_radius());
   const double arc = (1 - 1 / stage.ratio()) / (stage.eccentricity * stage.pins);
   LostMotion lost;
-  lost.backlash = 2 * (sun * stage.sun_half_backlash.value_or(0) +
-                       arc * (stage.arc_half_backlash.value_or(0) + arc_clearance));
+  lost.backlash =
+      2 * (sun * stage.sun_half_backlash.value_or(0) + arc * (stage.arc_half_backlash.value_or(0) + arc_clearance));
   constexpr double test_torque = 0.03;  // of the rated torque
   lost.elastic = 2 * test_torque * stage.output_torque / stiffness;
   lost.wind_up = stage.output_torque / stiffness;
@@ -145,8 +150,7 @@ TwoKVVibration vibration_of(const dynamics::TwoKVStage& stage, double arc_cleara
   const auto start = std::chrono::steady_clock::now();
   const int positions = crank_positions(stage);
   v.over_crank = dynamics::modes_over_crank(stage, positions);
-  v.seconds_per_position =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / positions;
+  v.seconds_per_position = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / positions;
   v.torsion = dynamics::torsional_stiffness(stage, positions);
   v.estimate = one_freedom(stage);
   v.lost = lost_motion(stage, v.torsion.mean(), arc_clearance);
@@ -183,20 +187,18 @@ void write_vibration(const TwoKVVibration& v, const std::filesystem::path& folde
 
   Csv crank{.header = {}, .columns = {"crank_angle_deg"}, .rows = {}};
   for (Eigen::Index m = 0; m < modes; ++m) crank.columns.push_back(fmt::format("mode{}_Hz", m + 1));
-  Csv torsion{.header = {},
-              .columns = {"crank_angle_deg", "from_output_Nm_per_rad", "from_input_Nm_per_rad"},
-              .rows = {}};
+  Csv torsion{
+      .header = {}, .columns = {"crank_angle_deg", "from_output_Nm_per_rad", "from_input_Nm_per_rad"}, .rows = {}};
   for (Eigen::Index i = 0; i < v.over_crank.angle.size(); ++i) {
     auto& row = crank.rows.emplace_back(1, v.over_crank.angle[i] / units::deg);
     for (Eigen::Index m = 0; m < modes; ++m) row.push_back(v.over_crank.frequency(m, i));
-    torsion.rows.push_back(
-        {v.torsion.angle[i] / units::deg, v.torsion.from_output[i], v.torsion.from_input[i]});
+    torsion.rows.push_back({v.torsion.angle[i] / units::deg, v.torsion.from_output[i], v.torsion.from_input[i]});
   }
   write(std::move(crank), "modes_over_crank.csv");
   write(std::move(torsion), "torsional_stiffness.csv");
 
-  Csv inputs{.header = {}, .columns = {"input", "value_SI", "d_ln_f1_per_d_ln_p", "factor_low", "factor_high"},
-             .rows = {}};
+  Csv inputs{
+      .header = {}, .columns = {"input", "value_SI", "d_ln_f1_per_d_ln_p", "factor_low", "factor_high"}, .rows = {}};
   for (std::size_t i = 0; i < v.inputs.size(); ++i) {
     const auto& input = v.inputs[i];
     inputs.header.emplace_back(fmt::format("input_{}", i + 1), input.key);
