@@ -101,6 +101,13 @@ class DesignObjective {
 
   [[nodiscard]] Design design(const std::vector<double>& x) const {
     Design d{.x = x, .objective = 0, .point = evaluate(x, false), .starts = std::nullopt};
+    if (quick_ && d.point.failure.empty()) {
+      // The same numbers as the search saw: the motion is sampled otherwise.
+      const auto as_searched = evaluate(x, true);
+      for (std::size_t i = 0; i < figures_.size(); ++i) {
+        if (figures_[i].quick) d.point.values[i] = as_searched.value(i);
+      }
+    }
     d.objective = value(d.point);
     if (!d.point.failure.empty() || settings_.starts == 0) return d;
     const auto changed = study_case(x);

@@ -13,9 +13,9 @@ struct ResponseWindow {
   Eigen::VectorXd open;  ///< fraction of the samples without contact, per mesh
 
   /// Where stiffnesses jump (empty otherwise), from the beginning of the window to before its end: the forces on both
-  /// sides, meshes x jumps, and the samples right after a jump, at or behind it. Extremes stand at the jumps, and curves
-  /// do not go on smoothly across. The beginning is always among them: there the end of the window is followed by its
-  /// beginning.
+  /// sides, meshes x jumps, and the samples right after a jump, at or behind it. Extremes stand at the jumps, and
+  /// curves do not go on smoothly across. The beginning is always among them: there the end of the window is followed
+  /// by its beginning.
   Eigen::VectorXd jump_time{};
   Eigen::MatrixXd force_before{}, force_after{};
   std::vector<Eigen::Index> after_jump{};
