@@ -83,7 +83,8 @@ BOOST_AUTO_TEST_CASE(searches_are_the_same_for_any_number_of_threads_and_find_wh
   BOOST_REQUIRE(two.studies.optimise.has_value());
   const auto& o = *two.studies.optimise;
   BOOST_TEST(o.best.x == one.studies.optimise->best.x, boost::test_tools::per_element());
-  for (const auto* file : {"genetic_1", "genetic_1_history", "cma_es_1", "cma_es_1_history", "differential_evolution_1"}) {
+  for (const auto* file :
+       {"genetic_1", "genetic_1_history", "cma_es_1", "cma_es_1_history", "differential_evolution_1"}) {
     const auto name = std::string("held/dynamics/optimise/") + file + ".csv";
     BOOST_TEST(file_contents(folder.path() / "one" / name) == file_contents(folder.path() / "two" / name), file);
   }
@@ -101,7 +102,8 @@ BOOST_AUTO_TEST_CASE(searches_are_the_same_for_any_number_of_threads_and_find_wh
     }
   }
   // The best design as a scene of its own, run as any other scene is: marched and confirmed, not a study's answer.
-  const auto best = run_search(file_contents(folder.path() / "two/held/dynamics/optimise/best.toml"), folder.path() / "best");
+  const auto best =
+      run_search(file_contents(folder.path() / "two/held/dynamics/optimise/best.toml"), folder.path() / "best");
   const auto& sharing = best.rings.front().response->figures.sun_planet.load_sharing.averaged;
   BOOST_TEST(std::abs(sharing.value - o.best.objective) <= std::max(sharing.error, 1e-4));
   // Softer bearings even out errors of the planets (Lin and Parker): the search goes there.
@@ -117,7 +119,8 @@ BOOST_AUTO_TEST_CASE(searches_are_the_same_for_any_number_of_threads_and_find_wh
 
 BOOST_AUTO_TEST_CASE(an_interrupted_search_goes_on_to_the_same_bytes) {
   const test::TemporaryFolder folder("optimise_killed");
-  write_file(folder.path() / "scene.toml", searched_scene(test::replaced(bearing_search, "generations = 6", "generations = 60")));
+  write_file(folder.path() / "scene.toml",
+             searched_scene(test::replaced(bearing_search, "generations = 6", "generations = 60")));
   const auto start = [&](const char* out) {
     const pid_t child = ::fork();
     if (child == 0) {
