@@ -198,7 +198,7 @@ PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& opt
   response.force_max = evidence.of(&WindowPeaks::force_high, 1);
   response.force_min = evidence.of(&WindowPeaks::force_low, 1);
   response.force_min.value *= -1;
-  response.force_mean = found.best.force.row(0).mean();
+  response.force_mean = averaging_force(found.best).row(0).mean();
   const double f = response.static_force;
   response.dynamic_factor = f == 0  ? Figure{std::numeric_limits<double>::quiet_NaN(), 0}
                             : f > 0 ? Figure{response.force_max.value / f, response.force_max.error / f}

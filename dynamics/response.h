@@ -36,10 +36,10 @@ struct DynamicResponse {
   std::optional<DirectSolution> direct;        ///< absent when only marching was asked for or possible
   std::optional<IntegratorChoice> integrator;  ///< present when it was left to the program and something was integrated
   MeshKindResult sun_planet, ring_planet;
+  Eigen::MatrixXd cycle_force;  ///< N, forces averaged over each mesh cycle: sun meshes, then ring meshes x cycles
   EnergyBalance energy;
   /// Momentum balance of the sun's rotation over the window, relative to T_s: mean of sum F_sn r_bs (and of its
-  /// torsional support, and the change of angular momentum) against T_s. The mean is taken over the samples: with jumps
-  /// of the stiffness it is exact to jumps / samples only.
+  /// torsional support, and the change of angular momentum) against T_s.
   double force_balance_relative = 0;
   IntegratorStatistics statistics;
   TimeSeries series;

@@ -70,7 +70,7 @@ std::vector<TwoKVMeshResult> mesh_results(const SteadyResponse& steady, Eigen::I
     result.dynamic_factor_max = figure(peak_in(steady.best), {peak_in(steady.before ? *steady.before : steady.best),
                                                               peak_in(steady.loose ? *steady.loose : steady.best)});
     result.dynamic_factor_min = steady.best.force.row(m).minCoeff() / mean_force;
-    result.mean_force = steady.best.force.row(m).mean();
+    result.mean_force = averaging_force(steady.best).row(m).mean();
     result.contact_loss = steady.best.open[m];
     results.push_back(result);
   }
@@ -93,7 +93,8 @@ std::optional<double> torque_balance(const TwoKVStage& stage, const LumpedSystem
                                      const SteadyResponse& steady) {
   if (stage.input_support != 0) return std::nullopt;
   const double torque = stage.output_torque / stage.ratio();
-  const double meshes = steady.best.force.topRows(stage.cranks).colwise().sum().mean() * stage.sun_base_radius();
+  const double meshes =
+      averaging_force(steady.best).topRows(stage.cranks).colwise().sum().mean() * stage.sun_base_radius();
   double momentum = 0;
   const double span = steady.end.time - steady.begin.time;
   if (span > 0)
