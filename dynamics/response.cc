@@ -48,16 +48,7 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
                               .stiffness = mean_stiffness(stage.sun_mesh),
                               .start = options.start};
   auto found = steady_response(system, problem, options);
-  response.window_cycles = found.window_cycles;
-  response.whole_error_period = found.whole_period;
-  response.total_cycles = found.total_cycles;
-  response.steady = found.steady;
-  response.confirmed = found.confirmed;
-  response.steady_difference = found.steady_difference;
-  response.direct = std::move(found.direct);
-  response.integrator = std::move(found.integrator);
-  response.energy = found.energy;
-  response.statistics = found.statistics;
+  static_cast<SteadyOutcome&>(response) = found;
   response.cycle_force = cycle_means(averaging_force(found.best), found.window_cycles);
   response.force_balance_relative =
       force_balance(stage, system, found.best, found.begin, found.end, found.window_cycles);

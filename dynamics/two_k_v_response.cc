@@ -148,8 +148,8 @@ TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options
                         mean_stiffness(stage.arc_mesh), std::nullopt};
   TwoKVResponse response;
   response.largest_multiplier = shoot_for_start(stage, system, options, problem);
-  response.steady = steady_response(system, problem, options);
-  auto& steady = response.steady;
+  auto steady = steady_response(system, problem, options);
+  response.steady = steady;
   response.crank_frequency = stage.crank_frequency();
   response.sun_mesh_frequency = stage.sun_mesh_frequency();
   response.arc_mesh_frequency = stage.arc_mesh_frequency();
@@ -168,9 +168,6 @@ TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options
   if (steady.window_cycles % stage.planet_teeth == 0)
     response.error_spectrum = spectrum(response.dynamic.series, response.crank_turns);
   if (options.keep_series) response.series = series_of(system, std::move(steady.best));
-  steady.best = {};
-  steady.before.reset();
-  steady.loose.reset();
   return response;
 }
 

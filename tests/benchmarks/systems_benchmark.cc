@@ -1,5 +1,5 @@
-// Cost of the answers users wait for on the helical pair, the 2K-H and the 2K-V reducer: the errors of a pair, a grid of
-// torque and speed, a search over designs, modes over the crank angle.
+// Cost of the answers users wait for on the helical pair, the 2K-H and the 2K-V reducer: the errors of a pair, a grid
+// of torque and speed, a search over designs, modes over the crank angle.
 
 #include <fmt/format.h>
 
@@ -67,9 +67,10 @@ void pair_grid(int points) {
       marched += march.cpu();
       compared += once;
     }
-    fmt::print("{0} x {0} torques and speeds, half backlash {1:.0f} um: {2:.2f} s, teeth part at {3} points; marching "
-               "costs {4:.0f} times as much\n",
-               points, half_backlash / units::um, time, parted, marched / compared);
+    fmt::print(
+        "{0} x {0} torques and speeds, half backlash {1:.0f} um: {2:.2f} s, teeth part at {3} points; marching "
+        "costs {4:.0f} times as much\n",
+        points, half_backlash / units::um, time, parted, marched / compared);
   }
 }
 
@@ -93,9 +94,10 @@ void reducer_search(int evaluations) {
     const double each = watch.cpu() / count;
     const Stopwatch march;
     (void)simulate(stage, marching);
-    fmt::print("objective of the backlash search at {:.0f} r/min: {:.2f} ms, {} evaluations {:.1f} s, teeth part in {} of "
-               "{}; marching costs {:.0f} times as much\n",
-               rpm, 1e3 * each, evaluations, each * evaluations, parted, count, march.cpu() / each);
+    fmt::print(
+        "objective of the backlash search at {:.0f} r/min: {:.2f} ms, {} evaluations {:.1f} s, teeth part in {} of "
+        "{}; marching costs {:.0f} times as much\n",
+        rpm, 1e3 * each, evaluations, each * evaluations, parted, count, march.cpu() / each);
   }
 }
 
@@ -108,7 +110,8 @@ void crank_modes() {
     stage.crank_angle = 2 * std::numbers::pi * i / angles;
     first = modes(stage).modes.front().frequency;
   }
-  fmt::print("modes of the 2K-V reducer: {:.3f} ms per crank angle, first {:.2f} Hz\n", 1e3 * watch.cpu() / angles, first);
+  fmt::print("modes of the 2K-V reducer: {:.3f} ms per crank angle, first {:.2f} Hz\n", 1e3 * watch.cpu() / angles,
+             first);
 }
 
 }  // namespace

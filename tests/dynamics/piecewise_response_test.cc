@@ -250,19 +250,24 @@ BOOST_AUTO_TEST_CASE(averages_take_each_side_of_a_jump_up_to_it) {
 
 BOOST_AUTO_TEST_CASE(equal_planets_share_equally_on_average) {
   // Without errors planet n does what planet 1 does a third of a mesh cycle off: over a whole cycle all carry the same.
-  auto stage = stages::backlash_paper();
-  for (const int samples : {64, 128}) {
-    SimulationOptions options;
-    options.samples_per_cycle = samples;
-    const auto r = simulate(stage, options);
-    for (const auto* kind : {&r.sun_planet, &r.ring_planet}) {
-      const auto& averaged = kind->load_sharing.averaged;
-      BOOST_TEST(averaged.value >= 1 - 1e-12);
-      BOOST_TEST(averaged.value - 1 <= averaged.error, samples << ": " << averaged.value << " +- " << averaged.error);
+  // So exactly, and marched for a hundred cycles where teeth part: there jumps come late in time.
+  for (const double speed : {1.0, 5200.0 / 1500}) {
+    auto stage = stages::backlash_paper();
+    stage.carrier_speed *= speed;
+    for (const int samples : {64, 128}) {
+      SimulationOptions options;
+      options.samples_per_cycle = samples;
+      const auto r = simulate(stage, options);
+      BOOST_TEST(r.steady);
+      BOOST_TEST((r.direct->converged == (speed == 1)));
+      for (const auto* kind : {&r.sun_planet, &r.ring_planet}) {
+        const auto& averaged = kind->load_sharing.averaged;
+        BOOST_TEST(averaged.value >= 1 - 1e-12);
+        BOOST_TEST(averaged.value - 1 <= averaged.error, samples << ": " << averaged.value << " +- " << averaged.error);
+        // A plain mean of the samples is wrong by 2e-3 here.
+        BOOST_TEST(averaged.value - 1 <= 4e-4);
+      }
     }
-    // A plain mean of the samples is wrong by 2e-3 here.
-    BOOST_TEST(r.sun_planet.load_sharing.averaged.value - 1 <= 3e-4);
-    BOOST_TEST(r.ring_planet.load_sharing.averaged.value - 1 <= 3e-4);
   }
 }
 
