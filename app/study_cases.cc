@@ -104,13 +104,26 @@ std::vector<StudyCase> grid_cases(const Scene& scene, std::size_t grid) {
   return cases;
 }
 
+namespace {
+
+/// Stiffnesses and inertias of a 2K-V stage.
+bool among_usually_assumed(const Parameter& p) {
+  for (const char* table : {"crank", "arc_gear", "input", "output"}) {
+    if (p.table == table && (p.unit == "N/m" || p.unit == "N m/rad" || p.unit == "kg m²" || p.unit == "kg"))
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 std::vector<std::string> sensitivity_inputs(const Scene& scene) {
   if (!scene.sensitivity) return {};
   if (!scene.sensitivity->inputs.empty()) return scene.sensitivity->inputs;
   std::vector<std::string> inputs;
   for (const auto& table : schema()) {
     for (const auto& p : table.parameters) {
-      const bool assumed_mostly = p.table == "supports" || p.key() == "dynamics.mesh_damping_ratio" ||
+      const bool assumed_mostly = p.table == "supports" || among_usually_assumed(p) || p.key() == "dynamics.mesh_damping_ratio" ||
                                   p.key() == "dynamics.support_damping_ratio" || p.key() == "dynamics.half_backlash_um";
       if (!assumed_mostly || !table.applies_to(scene.stage.kind) || !p.applies_to(scene.stage.kind)) continue;
       const double value = input_value(scene, find_input(scene, p.key())).value_or(0);

@@ -53,9 +53,10 @@ StudyPoint two_k_v_point(const TwoKVPoint& p, bool quick) {
   auto simulation = p.simulation;
   simulation.keep_series = false;
   const auto m = motion_of(p.moving, dynamics::simulate(p.moving, simulation));
-  values.insert(values.end(),
-                {m.steady ? 1.0 : 0.0, m.error_peak_to_peak.value, m.static_error_peak_to_peak, m.dynamic_factor(false),
-                 m.dynamic_factor(true), m.contact_loss(false), m.contact_loss(true), m.largest_bearing_force()});
+  const bool moves = m.output_moves();
+  values.insert(values.end(), {m.steady ? 1.0 : 0.0, moves ? m.error_peak_to_peak.value : 0,
+                               moves ? m.static_error_peak_to_peak : 0, m.dynamic_factor(false), m.dynamic_factor(true),
+                               m.contact_loss(false), m.contact_loss(true), m.largest_bearing_force()});
   return point;
 }
 
