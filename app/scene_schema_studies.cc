@@ -107,7 +107,10 @@ void declare_studies(std::vector<Table>& tables) {
   sensitivity.on_request();
   static const std::string sensitivity_inputs = std::string("Which inputs; each is ") + path_meaning;
   sensitivity.key("inputs", &SensitivityInput::inputs, sensitivity_inputs.c_str())
-      .fallback(std::vector<std::string>{}, "the stiffnesses of [supports], the damping ratios and the backlash");
+      .fallback(
+          std::vector<std::string>{},
+          "the stiffnesses of [supports], the damping ratios and the backlash; of a 2K-V stage all stiffnesses and "
+          "inertias besides");
   sensitivity.key("factor", &SensitivityInput::factor, "The factor.").fallback(2.0, "a usual doubt").above(1, 1e6);
   tables.push_back(sensitivity.done());
 

@@ -28,7 +28,8 @@ struct StudyCase {
 /// One per point of the grid, x fastest.
 [[nodiscard]] std::vector<StudyCase> grid_cases(const Scene& scene, std::size_t grid);
 
-/// The inputs of [sensitivity]: those listed, or the finite supports, damping ratios and backlash.
+/// The inputs of [sensitivity]: those listed, or the finite supports, damping ratios and backlash
+/// (of a 2K-V stage: stiffnesses and inertias besides).
 [[nodiscard]] std::vector<std::string> sensitivity_inputs(const Scene& scene);
 /// Two per input: divided, multiplied.
 [[nodiscard]] std::vector<StudyCase> sensitivity_cases(const Scene& scene);

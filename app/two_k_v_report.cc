@@ -129,7 +129,7 @@ std::string reducer_verdict(const TwoKVResult& result) {
                         error_text(m));
     text += m.output_moves()
                 ? fmt::format(", {} without inertia.", to_text(m.static_error_peak_to_peak / arc_second, 4))
-                : ": constant mesh stiffness excites nothing.";
+                : ": nothing beyond rounding.";
     if (!m.steady) text += " No periodic steady state was reached; the figure holds for the window only.";
     text += "</p>\n";
   }

@@ -155,17 +155,16 @@ std::string reducer_motion_section(const TwoKVResult& result) {
   text += motion_table(result);
   for (const auto& shown : shown_cases(result)) {
     const auto& motion = *shown.result->motion;
-    if (!motion.output_moves()) {
+    if (constant_stiffness(*shown.result->stage)) {
       text += fmt::format(
           "<p>With {}, the output follows the input but for the wind-up, and all forces stay constant: with constant "
-          "mesh "
-          "stiffness the turning directions of the eccentrics alone excite nothing: what one crank's bearings give, "
-          "the others take.</p>\n",
+          "mesh stiffness the turning directions of the eccentrics alone excite nothing, for what one crank's bearings "
+          "give, the others take.</p>\n",
           shown_cases(result).size() > 1 ? "the stiffness as given" : "the stiffness of the scene");
       continue;
     }
-    std::vector<std::string> pictures = {error_plot(shown, shown_turns(shown)), error_plot(shown, motion.crank_turns)};
-    text += figure(pictures, legend_html({{"with inertia", 0}, {"quasi-static", 1}}),
+    text += figure({error_plot(shown, shown_turns(shown)), error_plot(shown, motion.crank_turns)},
+                   legend_html({{"with inertia", 0}, {"quasi-static", 1}}),
                    "A few cycles of the sun mesh, and a whole turn of the crank. Quasi-static: the changing stiffness "
                    "alone, without inertia and damping.");
     const auto spectrum = spectrum_plot(shown);

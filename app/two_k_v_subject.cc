@@ -44,7 +44,9 @@ StudyPoint two_k_v_point(const TwoKVPoint& p, bool quick) {
     values.push_back(i < frequencies.size() ? frequencies[i] : unknown);
   const auto torsion = dynamics::torsional_stiffness(p.at_nominal, stiffness_positions(p.at_nominal));
   const auto lost = lost_motion(p.at_nominal, torsion.mean(), p.arc_clearance);
-  values.insert(values.end(), {torsion.mean(), torsion.ripple(), lost.wind_up, lost.total()});
+  constexpr double rounding = 1e-10;  // of the condensation
+  values.insert(values.end(),
+                {torsion.mean(), torsion.ripple() > rounding ? torsion.ripple() : 0, lost.wind_up, lost.total()});
   if (quick) {
     values.push_back(1);  // nothing was integrated
     values.insert(values.end(), 7, unknown);
@@ -53,10 +55,12 @@ StudyPoint two_k_v_point(const TwoKVPoint& p, bool quick) {
   auto simulation = p.simulation;
   simulation.keep_series = false;
   const auto m = motion_of(p.moving, dynamics::simulate(p.moving, simulation));
-  const bool moves = m.output_moves();
-  values.insert(values.end(), {m.steady ? 1.0 : 0.0, moves ? m.error_peak_to_peak.value : 0,
-                               moves ? m.static_error_peak_to_peak : 0, m.dynamic_factor(false), m.dynamic_factor(true),
-                               m.contact_loss(false), m.contact_loss(true), m.largest_bearing_force()});
+  // Nothing is excited, so what is left is rounding.
+  const bool still = constant_stiffness(p.moving) && m.steady && !m.output_moves();
+  values.insert(values.end(),
+                {m.steady ? 1.0 : 0.0, still ? 0 : m.error_peak_to_peak.value, still ? 0 : m.static_error_peak_to_peak,
+                 still ? 1 : m.dynamic_factor(false), still ? 1 : m.dynamic_factor(true), m.contact_loss(false),
+                 m.contact_loss(true), m.largest_bearing_force()});
   return point;
 }
 

@@ -98,11 +98,14 @@ double hertz(double stiffness, double inertia) { return std::sqrt(stiffness / in
 
 }  // namespace
 
+bool constant_stiffness(const dynamics::TwoKVStage& stage) {
+  return std::holds_alternative<dynamics::ConstantStiffness>(stage.sun_mesh) &&
+         std::holds_alternative<dynamics::ConstantStiffness>(stage.arc_mesh);
+}
+
 int crank_positions(const dynamics::TwoKVStage& stage) {
   constexpr int least = 72, per_cycle = 8;
-  const bool constant = std::holds_alternative<dynamics::ConstantStiffness>(stage.sun_mesh) &&
-                        std::holds_alternative<dynamics::ConstantStiffness>(stage.arc_mesh);
-  return constant ? least : std::max(least, per_cycle * std::max(stage.planet_teeth, stage.arc_teeth));
+  return constant_stiffness(stage) ? least : std::max(least, per_cycle * std::max(stage.planet_teeth, stage.arc_teeth));
 }
 
 OneFreedom one_freedom(const dynamics::TwoKVStage& stage) {

@@ -46,6 +46,8 @@ struct FrequencyInput {
 };
 inline constexpr double frequency_band = 0.05;
 
+/// No mesh changes its stiffness: nothing but the directions of the eccentrics turns, and that excites nothing.
+[[nodiscard]] bool constant_stiffness(const dynamics::TwoKVStage& stage);
 /// Positions over one turn of the crank: eight per mesh cycle where the mesh stiffness changes.
 [[nodiscard]] int crank_positions(const dynamics::TwoKVStage& stage);
 

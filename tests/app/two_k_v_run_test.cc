@@ -88,15 +88,16 @@ BOOST_AUTO_TEST_CASE(first_frequency_and_its_estimate) {
 BOOST_AUTO_TEST_CASE(runs_agree_whatever_the_threads_and_are_reused) {
   const test::TemporaryFolder folder("reducer_threads");
   // One turn of the crank from equilibrium will do for the comparison.
-  const auto text = moving_scene() + "mesh_cycles = 34\n[[sweep]]\ninput = \"crank.bearing_N_per_m\"\nvalues = [1e8, 1.5e8, 3e8]\n";
+  const auto text =
+      moving_scene() + "mesh_cycles = 34\n[[sweep]]\ninput = \"crank.bearing_N_per_m\"\nvalues = [1e8, 1.5e8, 3e8]\n";
   const auto one = run_reducer(text, folder.path() / "one", 1);
   const auto three = run_reducer(text, folder.path() / "three", 3);
   BOOST_TEST(!one.own.motion->reused);
   BOOST_TEST(one.own.motion->output_moves());
   for (const char* file : {"output_error.csv", "forces.csv", "modes_over_crank.csv", "sweep_1.csv"})
-    BOOST_TEST(file_contents(folder.path() / "one/dynamics" / file) ==
-                   file_contents(folder.path() / "three/dynamics" / file),
-               file);
+    BOOST_TEST(
+        file_contents(folder.path() / "one/dynamics" / file) == file_contents(folder.path() / "three/dynamics" / file),
+        file);
   const auto again = run_reducer(text, folder.path() / "one", 2);
   BOOST_TEST(again.own.motion->reused);
   BOOST_TEST(again.own.motion->error_peak_to_peak.value == one.own.motion->error_peak_to_peak.value);
@@ -107,9 +108,9 @@ BOOST_AUTO_TEST_CASE(runs_agree_whatever_the_threads_and_are_reused) {
   const auto& v = *three.own.vibration;
   BOOST_TEST(point_value(three, points[1], "frequency_1_Hz") == v.first_frequency(),
              boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(point_value(three, points[1], "output_error_peak_to_peak_rad") ==
-                 three.own.motion->error_peak_to_peak.value,
-             boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(
+      point_value(three, points[1], "output_error_peak_to_peak_rad") == three.own.motion->error_peak_to_peak.value,
+      boost::test_tools::tolerance(1e-9));
   BOOST_TEST(point_value(three, points[0], "frequency_1_Hz") < v.first_frequency());
   BOOST_TEST(point_value(three, points[2], "frequency_1_Hz") > v.first_frequency());
 }
@@ -118,12 +119,11 @@ BOOST_AUTO_TEST_CASE(runs_agree_whatever_the_threads_and_are_reused) {
 BOOST_AUTO_TEST_CASE(comparison_is_the_run_with_computed_stiffness) {
   const test::TemporaryFolder folder("reducer_compare");
   const auto scene = test::reducer_scene() + "mesh_cycles = 34\n";
-  const auto given = test::replaced(scene, "mean_N_per_m = 7.5e8",
-                                    "mean_N_per_m = 7.5e8\ncompare = \"computed\"");
+  const auto given = test::replaced(scene, "mean_N_per_m = 7.5e8", "mean_N_per_m = 7.5e8\ncompare = \"computed\"");
   const auto both = run_reducer(given, folder.path() / "both");
-  const auto alone = run_reducer(test::replaced(scene, "stiffness = \"constant\"\nmean_N_per_m = 7.5e8",
-                                                "stiffness = \"computed\""),
-                                 folder.path() / "alone");
+  const auto alone =
+      run_reducer(test::replaced(scene, "stiffness = \"constant\"\nmean_N_per_m = 7.5e8", "stiffness = \"computed\""),
+                  folder.path() / "alone");
   BOOST_REQUIRE(both.computed.has_value());
   BOOST_TEST(!alone.computed.has_value());
   BOOST_TEST(both.computed->vibration->first_frequency() == alone.own.vibration->first_frequency());
@@ -147,12 +147,12 @@ BOOST_AUTO_TEST_CASE(lost_motion_of_backlash) {
 
 BOOST_AUTO_TEST_CASE(studies_answer_with_named_figures) {
   const test::TemporaryFolder folder("reducer_studies");
-  const auto result = run_reducer(
-      test::reducer_scene() + "mesh_cycles = 34\n" +
-          "[monte_carlo]\nsamples = 30\nseed = 3\n[[monte_carlo.input]]\ninput = \"input.inertia_kg_m2\"\n"
-          "distribution = \"lognormal\"\nmean = 8.405e-6\ndeviation = 8.405e-7\n"
-          "[sensitivity]\ninputs = [\"crank.bearing_N_per_m\", \"output.torque_Nm\"]\nfactor = 1.1\n",
-      folder.path());
+  const auto result =
+      run_reducer(test::reducer_scene() + "mesh_cycles = 34\n" +
+                      "[monte_carlo]\nsamples = 30\nseed = 3\n[[monte_carlo.input]]\ninput = \"input.inertia_kg_m2\"\n"
+                      "distribution = \"lognormal\"\nmean = 8.405e-6\ndeviation = 8.405e-7\n"
+                      "[sensitivity]\ninputs = [\"crank.bearing_N_per_m\", \"output.torque_Nm\"]\nfactor = 1.1\n",
+                  folder.path());
   const auto& samples = result.studies.monte_carlo->variants.front();
   BOOST_TEST(samples.failed == 0);
   const auto* frequency = samples.find("frequency_1_Hz");

@@ -80,7 +80,8 @@ BOOST_AUTO_TEST_CASE(bad_values_are_refused_with_place_and_remedy) {
   refused("speed_rpm = 30", "speed_rpm = 0", "output.speed_rpm", "0 < value");
   refused("shaft_Nm_per_rad = 536", "shaft_Nm_per_rad = 0", "input.shaft_Nm_per_rad", "0 < value");
   refused("support_Nm_per_rad = inf", "support_Nm_per_rad = -1", "output.support_Nm_per_rad", "0 <= value");
-  refused("[output]\n", "[output]\nsuport_Nm_per_rad = 1\n", "output.suport_Nm_per_rad", "did you mean output.support_Nm_per_rad");
+  refused("[output]\n", "[output]\nsuport_Nm_per_rad = 1\n", "output.suport_Nm_per_rad",
+          "did you mean output.support_Nm_per_rad");
   refused("width_mm = 8\n", "width_mm = 8\napproach = \"hertz\"\n", "arc_gear.approach = \"hertz\"", "handbook");
   refused("stiffness = \"constant\"\nmean_N_per_m = 1.4e8", "stiffness = \"constant\"\ncompare = \"plane\"\n",
           "mesh.sun_planet.compare", "computed");
@@ -123,9 +124,9 @@ BOOST_AUTO_TEST_CASE(gears_that_cannot_be_are_refused) {
   BOOST_CHECK_THROW((void)parse(undercut), GeometryError);
   refused("planets = 2", "planets = 4", "stage.planets = 4", "take fewer");
   // Line contact no longer holds where the load is far too high.
-  const auto crushed = test::replaced(
-      test::replaced(test::reducer_scene(), "torque_Nm = 58", "torque_Nm = 1e8"),
-      "[mesh.arc_pins]\nstiffness = \"constant\"\nmean_N_per_m = 7.5e8", "[mesh.arc_pins]\nstiffness = \"computed\"");
+  const auto crushed = test::replaced(test::replaced(test::reducer_scene(), "torque_Nm = 58", "torque_Nm = 1e8"),
+                                      "[mesh.arc_pins]\nstiffness = \"constant\"\nmean_N_per_m = 7.5e8",
+                                      "[mesh.arc_pins]\nstiffness = \"computed\"");
   BOOST_CHECK_THROW((void)parse(crushed), Error);
 }
 
@@ -142,7 +143,8 @@ BOOST_AUTO_TEST_CASE(every_key_of_the_kind_can_be_varied) {
 }
 
 BOOST_AUTO_TEST_CASE(a_comparison_computes_what_is_given) {
-  auto text = test::replaced(test::reducer_scene(), "mean_N_per_m = 7.5e8", "mean_N_per_m = 7.5e8\ncompare = \"computed\"");
+  auto text =
+      test::replaced(test::reducer_scene(), "mean_N_per_m = 7.5e8", "mean_N_per_m = 7.5e8\ncompare = \"computed\"");
   const auto scene = parse(text);
   const auto other = app::compared_scene(scene);
   BOOST_REQUIRE(other.has_value());
