@@ -103,28 +103,27 @@ std::vector<std::pair<std::string, const MeshResult*>> all_meshes(const RunResul
   return list;
 }
 
-std::string report_page(const std::string& title, const std::string& subtitle, const std::string& verdict,
-                        const std::vector<ReportSection>& sections) {
-  const std::string name = escape(title);
-  std::string page = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + name +
+std::string report_page(const std::string& title, const std::string& sub, const std::string& verdict,
+                        const std::vector<Section>& sections) {
+  std::string page = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title +
                      "</title><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><style>" + style +
                      "</style></head><body><main>\n";
-  page += "<h1>" + name + "</h1>\n<p class=\"sub\">" + subtitle + "</p>\n" + verdict;
+  page += "<h1>" + title + "</h1>\n<p class=\"sub\">" + sub + "</p>\n" + verdict;
   std::string links, body;
   for (const auto& section : sections) {
-    if (section.html.empty()) continue;
+    if (section.text.empty()) continue;
     links += fmt::format("<a href=\"#{}\">{}</a>", section.anchor, section.name);
-    body += section.html;
+    body += section.text;
   }
   return page + "<nav>" + links + "</nav>\n" + body + "</main></body></html>\n";
 }
 
 std::string report_html(const RunResult& result) {
-  const std::string subtitle = fmt::format(
-      "annulus {} · scene <code>{}</code> · {} planets, {} kW at {} r/min of the sun", version(),
-      escape(result.scene.file.filename().string()), result.scene.stage.planets,
-      to_text(result.scene.stage.power / 1e3), to_text(result.geometry.operating_point.sun_speed / units::rpm, 6));
-  return report_page(result.scene.title, subtitle, verdict_section(result),
+  const std::string sub = fmt::format("annulus {} · scene <code>{}</code> · {} planets, {} kW at {} r/min of the sun",
+                                      version(), escape(result.scene.file.filename().string()),
+                                      result.scene.stage.planets, to_text(result.scene.stage.power / 1e3),
+                                      to_text(result.geometry.operating_point.sun_speed / units::rpm, 6));
+  return report_page(escape(result.scene.title), sub, verdict_section(result),
                      {{"figures", "Key figures", key_figures_section(result)},
                       {"comparison", "Comparison with the source", comparison_section(result)},
                       {"meshes", "Meshes", meshes_section(result)},

@@ -83,7 +83,10 @@ std::string solution_notes(const RunResult& result) {
 
 }  // namespace
 
-std::string model_html(const Plan& plan) {
+std::string model_section(const RunResult& result) { return model_section(result.plan); }
+std::string inputs_section(const RunResult& result) { return inputs_section(result.plan); }
+
+std::string model_section(const Plan& plan) {
   std::string text = "<h2 id=\"model\">What was modelled, and why</h2>\n";
   HtmlTable meshes{.head = {"mesh", "model", "why", "positions", "why so many"}, .rows = {}};
   for (const auto& m : plan.meshes) {
@@ -103,7 +106,7 @@ std::string model_html(const Plan& plan) {
   return text + "</ul>\n";
 }
 
-std::string inputs_html(const Plan& plan) {
+std::string inputs_section(const Plan& plan) {
   std::string text = "<h2 id=\"inputs\">Inputs</h2>\n";
   HtmlTable assumed{.head = {"assumed input", "value", "reason"}, .rows = {}};
   std::set<std::string> seen;
@@ -141,9 +144,6 @@ std::string inputs_html(const Plan& plan) {
   return text + "<details><summary>All inputs with their origin, and what follows from them</summary>" + html(all) +
          "</details>\n";
 }
-
-std::string model_section(const RunResult& result) { return model_html(result.plan); }
-std::string inputs_section(const RunResult& result) { return inputs_html(result.plan); }
 
 std::string quality_section(const RunResult& result) {
   std::string text = "<h2 id=\"quality\">Checks and cost</h2>\n";

@@ -19,20 +19,8 @@ struct HtmlTable {
 };
 [[nodiscard]] std::string html(const HtmlTable& table);
 
-/// A section with the anchor and name of its link; empty sections are left out.
-struct ReportSection {
-  const char* anchor;
-  const char* name;
-  std::string html;
-};
-/// The whole page; `subtitle` and `verdict` are HTML.
-[[nodiscard]] std::string report_page(const std::string& title, const std::string& subtitle, const std::string& verdict,
-                                      const std::vector<ReportSection>& sections);
-/// What was modelled and why; every input with its origin, the assumed ones first.
-[[nodiscard]] std::string model_html(const Plan& plan);
-[[nodiscard]] std::string inputs_html(const Plan& plan);
 [[nodiscard]] std::string cost_html(const std::vector<std::pair<std::string, double>>& timings, double peak_memory_MB);
-/// Invariants of contact solves, for `mesh_check_head`.
+/// Invariants of a contact solve, for `mesh_check_table`.
 [[nodiscard]] std::vector<std::string> mesh_check_row(const std::string& label, const MeshResult& mesh);
 [[nodiscard]] HtmlTable mesh_check_table();
 
@@ -44,6 +32,14 @@ struct ReportSection {
 
 /// Legend shared by the plots of a figure: label and palette index.
 [[nodiscard]] std::string legend_html(const std::vector<std::pair<std::string, std::size_t>>& entries);
+
+/// A part of a report page; without text it is left out.
+struct Section {
+  std::string anchor, name, text;
+};
+/// The whole page: title, line below it, verdict, links and sections. `title` and `sub` are HTML.
+[[nodiscard]] std::string report_page(const std::string& title, const std::string& sub, const std::string& verdict,
+                                      const std::vector<Section>& sections);
 
 /// The rings whose dynamics were asked for.
 [[nodiscard]] std::vector<const RingResult*> rings_with_response(const RunResult& result);
@@ -62,6 +58,8 @@ inline constexpr double shown_cycles = 110;
 [[nodiscard]] std::string model_section(const RunResult& result);  ///< what was modelled and why
 [[nodiscard]] std::string inputs_section(
     const RunResult& result);  ///< every input with its origin, the assumed ones first
+[[nodiscard]] std::string model_section(const Plan& plan);
+[[nodiscard]] std::string inputs_section(const Plan& plan);
 [[nodiscard]] std::string quality_section(const RunResult& result);  ///< invariants, timings, versions
 // report_stiffness.cc
 [[nodiscard]] std::string meshes_section(const RunResult& result);

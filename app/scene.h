@@ -17,11 +17,11 @@ namespace annulus::app {
 /// What the user asks for, checked and in SI units. Every member is declared to the file format, with its key, unit,
 /// default, bounds and meaning, in scene_schema.cc and nowhere else.
 
+enum class Compare { none, computed };
 enum class StageKind { planetary, helical_pair, two_k_v };
 enum class Rung { automatic, closed_form, plane, solid, resolved };
 enum class Structure { traditional, thin_walled, pinned, bolted, splined };
 enum class StiffnessShape { computed, constant, harmonic, rectangular, table };
-enum class Compare { none, computed };
 enum class MeshDamping { in_contact, always };
 enum class RimCoupling { automatic, none, statical, elastic };
 enum class SweepScale { linear, logarithmic };
@@ -206,14 +206,15 @@ struct Scene {
   MaterialInput material;
   HubGearInput sun, planet;
   CarrierInput carrier;
+  CrankInput crank;
+  ArcGearInput arc_gear;
+  MeshInput arc_pins;
+  InputShaftInput input;
+  OutputInput output;
   std::vector<RingInput> rings;
   ErrorInput errors;
   SupportInput supports;
-  MeshInput sun_planet, ring_planet, arc_pins;
-  CrankInput crank;
-  ArcGearInput arc_gear;
-  InputShaftInput input;
-  OutputInput output;
+  MeshInput sun_planet, ring_planet;
   std::optional<DynamicsInput> dynamics;  ///< absent: no dynamics wanted
   std::vector<SweepInput> sweeps;
   std::vector<GridInput> grids;

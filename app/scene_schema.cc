@@ -7,6 +7,7 @@ namespace annulus::app {
 namespace {
 
 constexpr const char* needs_dynamics = "needed by [dynamics]";
+const std::vector<StageKind> with_planets = {StageKind::planetary, StageKind::two_k_v};
 
 template <class Section>
 void declare_gear(Declarations<Section>& t, bool internal) {
@@ -50,7 +51,6 @@ void declare_gear(Declarations<Section>& t, bool internal) {
 }
 
 const std::vector<StageKind> planetary = {StageKind::planetary};
-const std::vector<StageKind> with_planets = {StageKind::planetary, StageKind::two_k_v};
 
 Table hub_gear_table(const char* path, const char* meaning, const std::vector<StageKind>& kinds,
                      HubGearInput& (*section)(Scene&, std::size_t)) {
@@ -73,8 +73,7 @@ Table mesh_table(const char* path, const char* meaning, const std::vector<StageK
             {"harmonic", StiffnessShape::harmonic},
             {"rectangular", StiffnessShape::rectangular},
             {"table", StiffnessShape::table}},
-           "Where the mesh stiffness comes from; everything but `computed` replaces the finite-element solve (of arc "
-           "teeth: the contact formulas).")
+           "Where the mesh stiffness comes from; everything but `computed` replaces the finite-element solve.")
       .required();
   t.choice("compare", &MeshInput::compare, {{"none", Compare::none}, {"computed", Compare::computed}},
            "Also compute the stiffness of a mesh that is given: the report shows what the computed one makes of all "
@@ -356,7 +355,7 @@ std::vector<Table> declare_tables() {
                               [](Scene& s, std::size_t) -> MeshInput& { return s.sun_planet; }));
   tables.push_back(mesh_table("mesh.ring_planet", "Stiffness of the ring mesh, given instead of computed.", planetary,
                               [](Scene& s, std::size_t) -> MeshInput& { return s.ring_planet; }));
-  tables.push_back(mesh_table("mesh.arc_pins", "Stiffness of the arc teeth on their pins, given instead of computed.",
+  tables.push_back(mesh_table("mesh.arc_pins", "Stiffness of the arc teeth on their pins, given instead of computed by the contact formulas.",
                               {StageKind::two_k_v}, [](Scene& s, std::size_t) -> MeshInput& { return s.arc_pins; }));
 
   Declarations<DynamicsInput> lumped("dynamics", "The lumped model; absent: meshes and stiffness only.",

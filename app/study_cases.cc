@@ -123,12 +123,19 @@ std::vector<std::string> sensitivity_inputs(const Scene& scene) {
   std::vector<std::string> inputs;
   for (const auto& table : schema()) {
     for (const auto& p : table.parameters) {
-      const bool assumed_mostly = p.table == "supports" || among_usually_assumed(p) ||
-                                  p.key() == "dynamics.mesh_damping_ratio" ||
+      const bool assumed_mostly = p.table == "supports" || p.key() == "dynamics.mesh_damping_ratio" ||
                                   p.key() == "dynamics.support_damping_ratio" || p.key() == "dynamics.half_backlash_um";
       if (!assumed_mostly || !table.applies_to(scene.stage.kind) || !p.applies_to(scene.stage.kind)) continue;
       const double value = input_value(scene, find_input(scene, p.key())).value_or(0);
       if (value != 0 && std::isfinite(value)) inputs.push_back(p.key());
+    }
+  }
+  for (const auto& table : schema()) {
+    for (const auto& p : table.parameters) {
+      if (!among_usually_assumed(p) || !table.applies_to(scene.stage.kind)) continue;
+      const double value = input_value(scene, find_input(scene, p.key())).value_or(0);
+      const bool listed = std::find(inputs.begin(), inputs.end(), p.key()) != inputs.end();
+      if (!listed && value != 0 && std::isfinite(value)) inputs.push_back(p.key());
     }
   }
   return inputs;

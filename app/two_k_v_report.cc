@@ -234,7 +234,7 @@ std::string two_k_v_report(const TwoKVResult& result) {
       fmt::format("annulus {} · scene <code>{}</code> · ratio {}, {} N m at {} r/min of the output", version(),
                   escape(scene.file.filename().string()), to_text(stage.ratio(), 6), to_text(scene.output.torque, 5),
                   to_text(scene.output.speed / units::rpm, 5));
-  return report_page(scene.title, subtitle, reducer_verdict(result),
+  return report_page(escape(scene.title), subtitle, reducer_verdict(result),
                      {{"figures", "Key figures", reducer_figures(result)},
                       {"comparison", "Comparison with the source", reducer_comparison(result)},
                       {"frequencies", "Natural frequencies", frequencies_section(result)},
@@ -247,8 +247,8 @@ std::string two_k_v_report(const TwoKVResult& result) {
                       {"grids", "Grids", grids_section(scene, result.studies)},
                       {"sensitivity", "Sensitivity", sensitivity_section(result.studies)},
                       {"optimisation", "Optimisation", optimise_section(result.studies)},
-                      {"model", "What was modelled", model_html(result.plan)},
-                      {"inputs", "Inputs", inputs_html(result.plan)},
+                      {"model", "What was modelled", model_section(result.plan)},
+                      {"inputs", "Inputs", inputs_section(result.plan)},
                       {"quality", "Checks and cost", reducer_quality(result)}});
 }
 
