@@ -355,8 +355,9 @@ std::vector<Table> declare_tables() {
                               [](Scene& s, std::size_t) -> MeshInput& { return s.sun_planet; }));
   tables.push_back(mesh_table("mesh.ring_planet", "Stiffness of the ring mesh, given instead of computed.", planetary,
                               [](Scene& s, std::size_t) -> MeshInput& { return s.ring_planet; }));
-  tables.push_back(mesh_table("mesh.arc_pins", "Stiffness of the arc teeth on their pins, given instead of computed by the contact formulas.",
-                              {StageKind::two_k_v}, [](Scene& s, std::size_t) -> MeshInput& { return s.arc_pins; }));
+  tables.push_back(mesh_table(
+      "mesh.arc_pins", "Stiffness of the arc teeth on their pins, given instead of computed by the contact formulas.",
+      {StageKind::two_k_v}, [](Scene& s, std::size_t) -> MeshInput& { return s.arc_pins; }));
 
   Declarations<DynamicsInput> lumped("dynamics", "The lumped model; absent: meshes and stiffness only.",
                                      [](Scene& s, std::size_t) -> DynamicsInput& {
