@@ -103,42 +103,46 @@ std::vector<std::pair<std::string, const MeshResult*>> all_meshes(const RunResul
   return list;
 }
 
-std::string report_html(const RunResult& result) {
-  const std::string title = escape(result.scene.title);
+std::string report_page(const std::string& title, const std::string& sub, const std::string& verdict,
+                        const std::vector<Section>& sections) {
   std::string page = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title +
                      "</title><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><style>" + style +
                      "</style></head><body><main>\n";
-  page += "<h1>" + title + "</h1>\n";
-  page += fmt::format(
-      "<p class=\"sub\">annulus {} · scene <code>{}</code> · {} planets, {} kW at {} r/min of the sun</p>\n", version(),
+  page += "<h1>" + title + "</h1>\n<p class=\"sub\">" + sub + "</p>\n" + verdict;
+  std::string links, body;
+  for (const auto& section : sections) {
+    if (section.text.empty()) continue;
+    links += fmt::format("<a href=\"#{}\">{}</a>", section.anchor, section.name);
+    body += section.text;
+  }
+  return page + "<nav>" + links + "</nav>\n" + body + "</main></body></html>\n";
+}
+
+std::string report_html(const RunResult& result) {
+  const std::string sub = fmt::format(
+      "annulus {} · scene <code>{}</code> · {} planets, {} kW at {} r/min of the sun", version(),
       escape(result.scene.file.filename().string()), result.scene.stage.planets,
       to_text(result.scene.stage.power / 1e3), to_text(result.geometry.operating_point.sun_speed / units::rpm, 6));
-  page += verdict_section(result);
-  std::string links, body;
-  const auto add = [&](const char* anchor, const char* name, const std::string& section) {
-    if (section.empty()) return;
-    links += fmt::format("<a href=\"#{}\">{}</a>", anchor, name);
-    body += section;
-  };
-  add("figures", "Key figures", key_figures_section(result));
-  add("comparison", "Comparison with the source", comparison_section(result));
-  add("meshes", "Meshes", meshes_section(result));
-  add("stiffness", "Transmission error and stiffness", stiffness_section(result));
-  add("supports", "Pins and splines", supports_section(result));
-  add("contact", "Face width, pressure, stress", contact_section(result));
-  add("dynamics", "Load sharing and dynamic factors", dynamics_section(result));
-  add("spread", "Spread", spread_section(result.studies));
-  add("sweeps", "Sweeps", sweeps_section(result.scene, result.studies));
-  add("grids", "Grids", grids_section(result.scene, result.studies));
-  add("sensitivity", "Sensitivity", sensitivity_section(result.studies));
-  add("optimisation", "Optimisation", optimise_section(result.studies));
-  add("coupling", "Coupling through the ring", coupling_section(result));
-  add("motion", "Bearings and sun orbit", motion_section(result));
-  add("modes", "Natural frequencies", modes_section(result));
-  add("model", "What was modelled", model_section(result));
-  add("inputs", "Inputs", inputs_section(result));
-  add("quality", "Checks and cost", quality_section(result));
-  return page + "<nav>" + links + "</nav>\n" + body + "</main></body></html>\n";
+  return report_page(
+      escape(result.scene.title), sub, verdict_section(result),
+      {{"figures", "Key figures", key_figures_section(result)},
+       {"comparison", "Comparison with the source", comparison_section(result)},
+       {"meshes", "Meshes", meshes_section(result)},
+       {"stiffness", "Transmission error and stiffness", stiffness_section(result)},
+       {"supports", "Pins and splines", supports_section(result)},
+       {"contact", "Face width, pressure, stress", contact_section(result)},
+       {"dynamics", "Load sharing and dynamic factors", dynamics_section(result)},
+       {"spread", "Spread", spread_section(result.studies)},
+       {"sweeps", "Sweeps", sweeps_section(result.scene, result.studies)},
+       {"grids", "Grids", grids_section(result.scene, result.studies)},
+       {"sensitivity", "Sensitivity", sensitivity_section(result.studies)},
+       {"optimisation", "Optimisation", optimise_section(result.studies)},
+       {"coupling", "Coupling through the ring", coupling_section(result)},
+       {"motion", "Bearings and sun orbit", motion_section(result)},
+       {"modes", "Natural frequencies", modes_section(result)},
+       {"model", "What was modelled", model_section(result)},
+       {"inputs", "Inputs", inputs_section(result)},
+       {"quality", "Checks and cost", quality_section(result)}});
 }
 
 }  // namespace annulus::app

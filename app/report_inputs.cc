@@ -63,31 +63,34 @@ std::string solution_notes(const RunResult& result) {
 
 }  // namespace
 
-std::string model_section(const RunResult& result) {
+std::string model_section(const RunResult& result) { return model_section(result.plan); }
+std::string inputs_section(const RunResult& result) { return inputs_section(result.plan); }
+
+std::string model_section(const Plan& plan) {
   std::string text = "<h2 id=\"model\">What was modelled, and why</h2>\n";
   HtmlTable meshes{.head = {"mesh", "model", "why", "positions", "why so many"}, .rows = {}};
-  for (const auto& m : result.plan.meshes) {
+  for (const auto& m : plan.meshes) {
     meshes.rows.push_back({escape(m.label()), m.rung, escape(m.reason),
                            m.computed() ? fmt::format("{} × {}", m.problem->phases, m.positions) : "–",
                            escape(m.repeats)});
   }
   text += html(meshes);
-  if (!result.plan.freedoms.empty()) {
+  if (!plan.freedoms.empty()) {
     HtmlTable freedoms{.head = {"freedom of the lumped model", "", "why"}, .rows = {}};
-    for (const auto& f : result.plan.freedoms)
+    for (const auto& f : plan.freedoms)
       freedoms.rows.push_back({escape(f.name), f.kept ? "kept" : "dropped", escape(f.reason)});
     text += html(freedoms);
   }
   text += "<ul>";
-  for (const auto& remark : result.plan.remarks) text += "<li>" + escape(remark) + "</li>";
+  for (const auto& remark : plan.remarks) text += "<li>" + escape(remark) + "</li>";
   return text + "</ul>\n";
 }
 
-std::string inputs_section(const RunResult& result) {
+std::string inputs_section(const Plan& plan) {
   std::string text = "<h2 id=\"inputs\">Inputs</h2>\n";
   HtmlTable assumed{.head = {"assumed input", "value", "reason"}, .rows = {}};
   std::set<std::string> seen;
-  for (const auto& input : result.plan.inputs) {
+  for (const auto& input : plan.inputs) {
     const std::string value = to_text(input.value) + " " + input.unit;
     if (input.assumed.empty() || !seen.insert(input.key + value).second) continue;
     assumed.rows.push_back({"<code>" + escape(input.key) + "</code>", escape(value), escape(input.assumed)});
@@ -100,7 +103,7 @@ std::string inputs_section(const RunResult& result) {
     text += html(assumed);
   }
   HtmlTable all{.head = {"key", "value", "origin", "meaning"}, .rows = {}};
-  for (const auto& input : result.plan.inputs) {
+  for (const auto& input : plan.inputs) {
     std::string origin = to_text(input.origin);
     if (!input.assumed.empty()) origin += " <span class=\"tag assumed\">assumed</span>";
     if (input.origin != Origin::scene && !input.note.empty()) origin += ": " + escape(input.note);
@@ -108,11 +111,11 @@ std::string inputs_section(const RunResult& result) {
                             (input.ring.empty() ? "" : " <span class=\"muted\">" + escape(input.ring) + "</span>"),
                         escape(to_text(input.value) + " " + input.unit), origin, escape(input.meaning)});
   }
-  for (const auto& q : result.plan.quantities) {
+  for (const auto& q : plan.quantities) {
     all.rows.push_back({"<code>" + escape(q.key) + "</code>", escape(to_text(q.value, 8) + " " + q.unit), "derived",
                         escape(q.meaning)});
   }
-  for (const auto& [ring, quantities] : result.plan.rings) {
+  for (const auto& [ring, quantities] : plan.rings) {
     for (const auto& q : quantities) {
       all.rows.push_back({"<code>" + escape(q.key) + "</code> <span class=\"muted\">" + escape(ring) + "</span>",
                           escape(to_text(q.value, 8) + " " + q.unit), "derived", escape(q.meaning)});

@@ -28,6 +28,14 @@ struct HtmlTable {
 /// Legend shared by the plots of a figure: label and palette index.
 [[nodiscard]] std::string legend_html(const std::vector<std::pair<std::string, std::size_t>>& entries);
 
+/// A part of a report page; without text it is left out.
+struct Section {
+  std::string anchor, name, text;
+};
+/// The whole page: title, line below it, verdict, links and sections. `title` and `sub` are HTML.
+[[nodiscard]] std::string report_page(const std::string& title, const std::string& sub, const std::string& verdict,
+                                      const std::vector<Section>& sections);
+
 /// The rings whose dynamics were asked for.
 [[nodiscard]] std::vector<const RingResult*> rings_with_response(const RunResult& result);
 /// A column of a table, of the rows whose first column lies below `rows_to`.
@@ -45,6 +53,8 @@ inline constexpr double shown_cycles = 110;
 [[nodiscard]] std::string model_section(const RunResult& result);  ///< what was modelled and why
 [[nodiscard]] std::string inputs_section(
     const RunResult& result);  ///< every input with its origin, the assumed ones first
+[[nodiscard]] std::string model_section(const Plan& plan);
+[[nodiscard]] std::string inputs_section(const Plan& plan);
 [[nodiscard]] std::string quality_section(const RunResult& result);  ///< invariants, timings, versions
 // report_stiffness.cc
 [[nodiscard]] std::string meshes_section(const RunResult& result);

@@ -10,6 +10,7 @@
 
 #include "app/gear_geometry.h"
 #include "app/mesh_model.h"
+#include "app/pair_checks.h"
 #include "app/scene_schema.h"
 #include "core/errors.h"
 #include "core/units.h"
@@ -396,8 +397,10 @@ void complete_and_check(Scene& scene, std::vector<Problem>& problems) {
       Checker(scene, problems).run();
       break;
     case StageKind::helical_pair:
+      complete_and_check_pair(scene, problems);
+      break;
     case StageKind::two_k_v:
-      problems.push_back({0, 0, "stage.kind: is not yet available in this version; only \"planetary\" is"});
+      problems.push_back({0, 0, "stage.kind: is not yet available in this version; only \"planetary\" and \"helical_pair\" are"});
       break;
   }
   // Paths are looked up among the inputs, which have to be right for that.

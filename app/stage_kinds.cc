@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "app/pair_run.h"
+#include "app/pair_subject.h"
 #include "app/plan.h"
 #include "app/planetary_subject.h"
 #include "app/summary.h"
@@ -25,6 +27,13 @@ std::vector<std::string> planetary_tables_to_solve(const Scene& nominal, const S
       labels.push_back(after[i].label());
   }
   return labels;
+}
+
+std::vector<std::string> pair_tables_to_solve(const Scene& nominal, const Scene& changed) {
+  const auto geometry = make_pair_geometry(changed);
+  const auto before = pair_mesh_model(nominal, make_pair_geometry(nominal)), after = pair_mesh_model(changed, geometry);
+  if (table_serves(before, after, geometry.transverse_force)) return {};
+  return {after.label()};
 }
 
 /// The period follows from errors and tables, not from stiffness.
@@ -58,6 +67,8 @@ void check_stage(const Scene& scene) {
       (void)make_geometry(scene);
       return;
     case StageKind::helical_pair:
+      (void)make_pair_geometry(scene);
+      return;
     case StageKind::two_k_v:
       break;
   }
@@ -69,6 +80,7 @@ std::vector<std::string> tables_to_solve(const Scene& nominal, const Scene& chan
     case StageKind::planetary:
       return planetary_tables_to_solve(nominal, changed);
     case StageKind::helical_pair:
+      return pair_tables_to_solve(nominal, changed);
     case StageKind::two_k_v:
       break;
   }
@@ -80,6 +92,7 @@ std::vector<StudyFigure> stage_figures(StageKind kind) {
     case StageKind::planetary:
       return planetary_figures();
     case StageKind::helical_pair:
+      return pair_figures();
     case StageKind::two_k_v:
       break;
   }
@@ -95,6 +108,7 @@ double response_seconds(const Scene& scene) {
     case StageKind::planetary:
       return planetary_seconds(scene);
     case StageKind::helical_pair:
+      return pair_seconds(scene);
     case StageKind::two_k_v:
       break;
   }
@@ -106,6 +120,7 @@ std::string run_scene(const Scene& scene, const RunOptions& options) {
     case StageKind::planetary:
       return summary_text(run(scene, options));
     case StageKind::helical_pair:
+      return pair_summary_text(run_pair(scene, options));
     case StageKind::two_k_v:
       break;
   }
@@ -118,7 +133,10 @@ std::string plan_scene(const Scene& scene, bool json) {
       const Plan plan = make_plan(scene, make_geometry(scene));
       return json ? to_json(plan) : to_text(plan);
     }
-    case StageKind::helical_pair:
+    case StageKind::helical_pair: {
+      const Plan plan = make_pair_plan(scene, make_pair_geometry(scene));
+      return json ? to_json(plan) : to_text(plan);
+    }
     case StageKind::two_k_v:
       break;
   }
@@ -131,6 +149,7 @@ std::string stage_text(const Scene& scene) {
       return fmt::format("{} ring{}, {} planets", scene.rings.size(), scene.rings.size() == 1 ? "" : "s",
                          scene.stage.planets);
     case StageKind::helical_pair:
+      return fmt::format("helical pair, {} and {} teeth", scene.pinion.teeth, scene.wheel.teeth);
     case StageKind::two_k_v:
       break;
   }

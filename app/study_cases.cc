@@ -110,7 +110,7 @@ std::vector<std::string> sensitivity_inputs(const Scene& scene) {
   std::vector<std::string> inputs;
   for (const auto& table : schema()) {
     for (const auto& p : table.parameters) {
-      const bool assumed_mostly = p.table == "supports" || p.key() == "dynamics.mesh_damping_ratio" ||
+      const bool assumed_mostly = p.table == "supports" || p.name.starts_with("bearing_") || p.key() == "dynamics.mesh_damping_ratio" ||
                                   p.key() == "dynamics.support_damping_ratio" || p.key() == "dynamics.half_backlash_um";
       if (!assumed_mostly || !table.applies_to(scene.stage.kind) || !p.applies_to(scene.stage.kind)) continue;
       const double value = input_value(scene, find_input(scene, p.key())).value_or(0);
