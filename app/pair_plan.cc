@@ -64,7 +64,7 @@ std::vector<std::string> pair_remarks(const Scene& scene, const PairGeometry& ge
     const double used = scene.pinion_wheel.half_backlash.value_or(scene.dynamics->half_backlash);
     if (used > half + 1 * units::um)
       list.push_back(fmt::format("The dynamics uses the given half backlash of {} µm; the geometry leaves {} µm.",
-                                 to_text(used / units::um, 4), to_text(half / units::um, 2)));
+                                 to_text(used / units::um, 4), to_text(std::round(1e3 * half / units::um) / 1e3, 3)));
     if (!scene.pinion.inertia || !scene.wheel.inertia)
       list.emplace_back("Inertias that are not given are those of solid discs of the given mass.");
     // A gear heavier than its disc has a shaft, a lighter one a web: either makes the disc's inertia a guess.

@@ -71,7 +71,8 @@ PairResponseResult respond(const PairRunResult& result, const std::filesystem::p
   std::filesystem::create_directories(folder);
   const auto& pair = *result.pair;
   const auto simulation = pair_simulation(result.scene);
-  PairResponseResult response{.figures = dynamics::evaluate_pair(pair, simulation), .modes = dynamics::modes(pair)};
+  PairResponseResult response{
+      .figures = dynamics::evaluate_pair(pair, simulation), .modes = dynamics::modes(pair), .series = {}, .spectrum = {}};
   response.series = series_table(pair, response.figures);
   response.spectrum = spectrum_table(response.figures);
   response.figures.series = {};
