@@ -36,8 +36,11 @@ std::string histogram_picture(const PairRunResult& result) {
     top = std::max({top, static_cast<double>(h.count[i]), h.expected[i]});
   }
   const double q = 1e6 * reading.sample.value;
-  plot.series = {drawn, law, {.label = "quantile", .x = {q, q}, .y = {0, 0.75 * top}, .colour = 5, .dashed = true}};
-  plot.notes.push_back({q, 0.77 * top,
+  plot.series = {drawn,
+                 law,
+                 {.label = "quantile", .x = {q, q}, .y = {0, 0.75 * top}, .colour = 5, .dashed = true}};
+  // Beside the line, where the histogram is low; a note ends at its place.
+  plot.notes.push_back({q + 0.27 * drawn.x.back(), 0.72 * top,
                         fmt::format("{:.0f} % of the draws lie below {:.2f} µm",
                                     100 * result.errors.problem->probability, q)});
   return figure({to_svg(plot)}, legend_html({{"drawn", 0}, {"exact law (hypoexponential in the square)", 1},

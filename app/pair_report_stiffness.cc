@@ -51,7 +51,8 @@ std::string means_sentence(const PairRunResult& result) {
   return fmt::format(
       "<p>From the softest ({}) to the stiffest ({}) it is {:.1f} %. The formula stands for standard teeth and solid "
       "bodies and knows nothing of bores, rims or the load at hand; the closed form lets each slice of the helix bend as "
-      "a spur tooth of its own; the finite elements let the slices support each other.</p>\n",
+      "a spur tooth of its own in plane strain; finite elements have teeth that are free at the end faces, contact lines "
+      "of finite length and slices that hold each other.</p>\n",
       source_words(low->source), source_words(high->source), 100 * (high->value / low->value - 1));
 }
 
