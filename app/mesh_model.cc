@@ -238,7 +238,8 @@ std::string solid_reason(const Scene& scene, const RingInput& ring) {
   add_reason(reasons, ring.flange_width.has_value(),
              "a flange holds the ring at one end, so the deflection grows toward the other");
   add_reason(reasons, ring.hoop_width.has_value(), "a hoop stiffens the free end");
-  const std::string teeth = tooth_reasons(scene, scene.planet, "planet", ring, "ring", scene.errors.ring_planet_misalignment);
+  const std::string teeth =
+      tooth_reasons(scene, scene.planet, "planet", ring, "ring", scene.errors.ring_planet_misalignment);
   add_reason(reasons, !teeth.empty(), teeth);
   return reasons;
 }

@@ -49,10 +49,10 @@ struct ExternalMesh {
   std::string mesh;  ///< name of files and tables
   const geometry::GearPair& pair;
   const MeshInput& input;
-  const HubGearInput &planet, &wheel;       ///< in the roles they have in the pair
-  std::string planet_name, wheel_name;      ///< for people
-  double misalignment = 0;                  ///< m
-  double mean_force = 0;                    ///< N, of one mesh
+  const HubGearInput &planet, &wheel;   ///< in the roles they have in the pair
+  std::string planet_name, wheel_name;  ///< for people
+  double misalignment = 0;              ///< m
+  double mean_force = 0;                ///< N, of one mesh
 };
 [[nodiscard]] MeshModel external_mesh_model(const Scene& scene, const ExternalMesh& mesh);
 /// Why it needs a solid model: what changes along its face width. Empty when nothing does.

@@ -58,7 +58,8 @@ Path split(const std::string& path) {
 
 InputError unknown(const Scene& scene, const std::string& path, const std::string& key) {
   const auto* known = find_parameter(key);
-  if (known && applies(scene, *known)) return InputError(fmt::format("{}: is {}, not a number that can be varied", path, known->type_text()));
+  if (known && applies(scene, *known))
+    return InputError(fmt::format("{}: is {}, not a number that can be varied", path, known->type_text()));
   const std::string near = nearest(key, all_paths(scene));
   return InputError(fmt::format("{}: there is no such numeric input{}{}", path,
                                 known ? fmt::format(" of a stage of kind \"{}\"", kind_name(scene.stage.kind)) : "",

@@ -86,9 +86,10 @@ class PairChecker {
       problem(table + "ripple", "times duty must stay below 1: the stiffness would become negative");
 
     if (scene_.errors.pinion_wheel_misalignment != 0 && !is({Shape::computed}))
-      problem("errors.pinion_wheel_misalignment_um",
-              "has a meaning only with stiffness = \"computed\" in [mesh.pinion_wheel]: a given stiffness knows nothing of "
-              "the face width");
+      problem(
+          "errors.pinion_wheel_misalignment_um",
+          "has a meaning only with stiffness = \"computed\" in [mesh.pinion_wheel]: a given stiffness knows nothing of "
+          "the face width");
     const bool tabulated = is({Shape::computed, Shape::closed_form, Shape::table});
     if (is({Shape::computed, Shape::closed_form})) {
       for (const auto* key : {"pinion.bore_diameter_mm", "wheel.bore_diameter_mm"}) {
@@ -96,9 +97,10 @@ class PairChecker {
       }
     }
     if (tabulated && usable("stage.pinion_torque_Nm") && scene_.stage.pinion_torque <= 0)
-      problem("stage.pinion_torque_Nm",
-              "must be above 0 with a tabulated stiffness (computed, closed_form or table): it holds for loaded driving "
-              "flanks");
+      problem(
+          "stage.pinion_torque_Nm",
+          "must be above 0 with a tabulated stiffness (computed, closed_form or table): it holds for loaded driving "
+          "flanks");
   }
 
   void errors() {
@@ -150,8 +152,8 @@ class PairChecker {
     if (!usable(key)) return;
     const auto& t = *scene_.transmission_error;
     if (t.pinion_torques.empty()) problem(key, "needs at least one torque");
-    for (const auto& [name, list] : {std::pair{key, &t.pinion_torques},
-                                     {"transmission_error.pinion_speeds_rpm", &t.pinion_speeds}}) {
+    for (const auto& [name, list] :
+         {std::pair{key, &t.pinion_torques}, {"transmission_error.pinion_speeds_rpm", &t.pinion_speeds}}) {
       if (std::set<double>(list->begin(), list->end()).size() != list->size())
         problem(name, "the same value stands there twice");
     }
@@ -169,9 +171,8 @@ class PairChecker {
       problem("dynamics.steps_per_cycle",
               "goes with integrator = \"runge_kutta_4\" only; the others choose their steps");
     const auto& e = scene_.errors;
-    const bool no_error =
-        e.mesh_error.value_or(0) == 0 && e.pinion_error == 0 && e.wheel_error == 0 &&
-        (!scene_.manufacturing_error || scene_.manufacturing_error->reading == "none");
+    const bool no_error = e.mesh_error.value_or(0) == 0 && e.pinion_error == 0 && e.wheel_error == 0 &&
+                          (!scene_.manufacturing_error || scene_.manufacturing_error->reading == "none");
     if (usable("stage.pinion_torque_Nm") && scene_.stage.pinion_torque == 0 && no_error)
       problem("stage.pinion_torque_Nm", "must not be 0 without errors: nothing moves the pair");
   }
@@ -190,18 +191,18 @@ class PairChecker {
       return;  // told with its reason where the gears are made
     }
     if (!given("stage.centre_distance_mm"))
-      derive("stage.centre_distance_mm", pair->gears.centre_distance() / units::mm, "no backlash at the profile shifts");
-    for (const auto& [name, gear, input] : {std::tuple{"pinion", &pair->pinion(), &scene_.pinion},
-                                            {"wheel", &pair->wheel(), &scene_.wheel}}) {
+      derive("stage.centre_distance_mm", pair->gears.centre_distance() / units::mm,
+             "no backlash at the profile shifts");
+    for (const auto& [name, gear, input] :
+         {std::tuple{"pinion", &pair->pinion(), &scene_.pinion}, {"wheel", &pair->wheel(), &scene_.wheel}}) {
       if (input->bore_diameter && *input->bore_diameter >= 2 * gear->root_radius())
         problem(std::string(name) + ".bore_diameter_mm",
                 fmt::format("must be smaller than the root diameter, value < {} mm",
                             to_text(2 * gear->root_radius() / units::mm, 7)));
     }
     if (pair->gears.contact_ratio() < 1 && scene_.pinion_wheel.stiffness == StiffnessShape::iso_6336)
-      problem("mesh.pinion_wheel.stiffness",
-              fmt::format("needs a transverse contact ratio of 1 at least; it is {}",
-                          to_text(pair->gears.contact_ratio(), 4)));
+      problem("mesh.pinion_wheel.stiffness", fmt::format("needs a transverse contact ratio of 1 at least; it is {}",
+                                                         to_text(pair->gears.contact_ratio(), 4)));
     if (scene_.pinion_wheel.stiffness == StiffnessShape::closed_form) {
       if (const auto why = no_closed_form(scene_); !why.empty())
         problem("mesh.pinion_wheel.stiffness", "is not possible: " + why + "; use \"computed\"");
@@ -211,10 +212,10 @@ class PairChecker {
     if (scene_.rung == Rung::resolved && scene_.stage.helix_angle != 0)
       problem("rung", "cannot represent helical gears: use \"automatic\" or \"solid\"");
     if ((scene_.rung == Rung::plane || scene_.rung == Rung::closed_form) && !solid.empty())
-      problem("rung", fmt::format("cannot represent the mesh: {}; use \"automatic\" or \"solid\"{}", solid,
-                                  scene_.rung == Rung::closed_form
-                                      ? ", or stiffness = \"closed_form\" in [mesh.pinion_wheel]"
-                                      : ""));
+      problem("rung",
+              fmt::format(
+                  "cannot represent the mesh: {}; use \"automatic\" or \"solid\"{}", solid,
+                  scene_.rung == Rung::closed_form ? ", or stiffness = \"closed_form\" in [mesh.pinion_wheel]" : ""));
   }
 
   Scene& scene_;

@@ -97,8 +97,8 @@ void save_pair_errors(const PairErrors& errors, const std::filesystem::path& fol
   for (const auto& [key, value] : provenance(problem)) readings += fmt::format("# {}: {}\n", key, value);
   readings += "reading,sample_quantile_m,sample_low_m,sample_high_m,exact_quantile_m\n";
   for (const auto& r : errors.law->readings)
-    readings += fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g}\n", r.name, r.sample.value, r.sample.low,
-                            r.sample.high, r.exact);
+    readings += fmt::format("{},{:.17g},{:.17g},{:.17g},{:.17g}\n", r.name, r.sample.value, r.sample.low, r.sample.high,
+                            r.exact);
   write_file(folder / "readings.csv", readings);
 }
 

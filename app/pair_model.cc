@@ -71,7 +71,8 @@ double pair_centre_distance(const Scene& scene) {
   const double shift = scene.pinion.profile_shift + scene.wheel.profile_shift, at = gear.transverse_pressure_angle();
   // inv(working angle), ISO 21771.
   const double inv = geometry::involute(at) + 2 * std::tan(stage.pressure_angle) * shift / teeth;
-  if (inv < 0) throw GeometryError("pinion, wheel: the profile shifts leave no working pressure angle; make them larger");
+  if (inv < 0)
+    throw GeometryError("pinion, wheel: the profile shifts leave no working pressure angle; make them larger");
   // Without shifts nothing need be inverted.
   const double working = shift == 0 ? at : geometry::inverse_involute(inv);
   return gear.transverse_module() * teeth / 2 * std::cos(at) / std::cos(working);

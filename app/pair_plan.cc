@@ -55,7 +55,8 @@ std::vector<FreedomPlan> pair_freedoms(const Scene& scene) {
 std::vector<std::string> pair_remarks(const Scene& scene, const PairGeometry& geometry, const MeshModel& mesh) {
   std::vector<std::string> list;
   if (mesh.computed())
-    list.emplace_back("Only the driving flanks are solved, without friction; the contact is hard and the sliding small.");
+    list.emplace_back(
+        "Only the driving flanks are solved, without friction; the contact is hard and the sliding small.");
   list.emplace_back(
       "Stiffness, error and backlash of the lumped model act along the normal of the flanks; a stiffness table holds "
       "the transverse section and is turned by cos² of the base helix angle.");
@@ -68,8 +69,8 @@ std::vector<std::string> pair_remarks(const Scene& scene, const PairGeometry& ge
     if (!scene.pinion.inertia || !scene.wheel.inertia)
       list.emplace_back("Inertias that are not given are those of solid discs of the given mass.");
     // A gear heavier than its disc has a shaft, a lighter one a web: either makes the disc's inertia a guess.
-    for (const auto& [name, gear, input] : {std::tuple{"pinion", &geometry.pinion(), &scene.pinion},
-                                            {"wheel", &geometry.wheel(), &scene.wheel}}) {
+    for (const auto& [name, gear, input] :
+         {std::tuple{"pinion", &geometry.pinion(), &scene.pinion}, {"wheel", &geometry.wheel(), &scene.wheel}}) {
       const double r = gear->reference_radius();
       const double disc = std::numbers::pi * r * r * scene.stage.face_width * scene.material.density;
       if (input->mass && std::abs(*input->mass / disc - 1) > 0.25)

@@ -8,12 +8,12 @@ namespace annulus::app {
 
 std::string pair_report_html(const PairRunResult& result) {
   const auto& scene = result.scene;
-  const std::string sub = fmt::format("annulus {} · scene <code>{}</code> · {} and {} teeth, {} N m at {} r/min of the "
-                                      "pinion, mesh frequency {} Hz",
-                                      version(), escape(scene.file.filename().string()), scene.pinion.teeth,
-                                      scene.wheel.teeth, to_text(scene.stage.pinion_torque),
-                                      to_text(scene.stage.pinion_speed / units::rpm, 6),
-                                      to_text(scene.pinion.teeth * scene.stage.pinion_speed / units::rpm / 60, 6));
+  const std::string sub = fmt::format(
+      "annulus {} · scene <code>{}</code> · {} and {} teeth, {} N m at {} r/min of the "
+      "pinion, mesh frequency {} Hz",
+      version(), escape(scene.file.filename().string()), scene.pinion.teeth, scene.wheel.teeth,
+      to_text(scene.stage.pinion_torque), to_text(scene.stage.pinion_speed / units::rpm, 6),
+      to_text(scene.pinion.teeth * scene.stage.pinion_speed / units::rpm / 60, 6));
   return report_page(escape(scene.title), sub, pair_verdict(result),
                      {{"figures", "Key figures", pair_figures_section(result)},
                       {"conclusions", "The paper's conclusions", pair_conclusions_section(result)},

@@ -36,18 +36,17 @@ std::string histogram_picture(const PairRunResult& result) {
     top = std::max({top, static_cast<double>(h.count[i]), h.expected[i]});
   }
   const double q = 1e6 * reading.sample.value;
-  plot.series = {drawn,
-                 law,
-                 {.label = "quantile", .x = {q, q}, .y = {0, 0.75 * top}, .colour = 5, .dashed = true}};
+  plot.series = {drawn, law, {.label = "quantile", .x = {q, q}, .y = {0, 0.75 * top}, .colour = 5, .dashed = true}};
   // Beside the line, where the histogram is low; a note ends at its place.
-  plot.notes.push_back({q + 0.27 * drawn.x.back(), 0.72 * top,
-                        fmt::format("{:.0f} % of the draws lie below {:.2f} µm",
-                                    100 * result.errors.problem->probability, q)});
-  return figure({to_svg(plot)}, legend_html({{"drawn", 0}, {"exact law (hypoexponential in the square)", 1},
-                                             {"quantile of the draws", 5}}),
-                "The pinion's error over a turn is T = X₁ sin θ + X₂ sin zθ with Rayleigh amplitudes; this is how large "
-                "its envelope becomes from gear to gear. Table: <code>errors/samples.csv</code>, "
-                "<code>errors/histogram.csv</code>.");
+  plot.notes.push_back(
+      {q + 0.27 * drawn.x.back(), 0.72 * top,
+       fmt::format("{:.0f} % of the draws lie below {:.2f} µm", 100 * result.errors.problem->probability, q)});
+  return figure(
+      {to_svg(plot)},
+      legend_html({{"drawn", 0}, {"exact law (hypoexponential in the square)", 1}, {"quantile of the draws", 5}}),
+      "The pinion's error over a turn is T = X₁ sin θ + X₂ sin zθ with Rayleigh amplitudes; this is how large "
+      "its envelope becomes from gear to gear. Table: <code>errors/samples.csv</code>, "
+      "<code>errors/histogram.csv</code>.");
 }
 
 }  // namespace
@@ -57,8 +56,10 @@ std::string pair_errors_section(const PairRunResult& result) {
   const auto& problem = *result.errors.problem;
   const auto* taken = result.errors.taken(result.scene);
   std::string text = fmt::format(
-      "<h2 id=\"errors\">Manufacturing errors</h2>\n<p>{} draws per gear, seed {}. Scales of the Rayleigh laws with the "
-      "divisor {}: η₁ = {:.3f} µm (once per turn) and η₂ = {:.3f} µm (once per tooth) for the pinion, {:.3f} and {:.3f} "
+      "<h2 id=\"errors\">Manufacturing errors</h2>\n<p>{} draws per gear, seed {}. Scales of the Rayleigh laws with "
+      "the "
+      "divisor {}: η₁ = {:.3f} µm (once per turn) and η₂ = {:.3f} µm (once per tooth) for the pinion, {:.3f} and "
+      "{:.3f} "
       "µm for the wheel.</p>\n",
       problem.samples, problem.seed, to_text(problem.divisor, 5), 1e6 * problem.eta_1(0), 1e6 * problem.eta_2(0),
       1e6 * problem.eta_1(1), 1e6 * problem.eta_2(1));
@@ -71,27 +72,28 @@ std::string pair_errors_section(const PairRunResult& result) {
   HtmlTable table{.head = {"reading", "of", "draws, µm", "interval, µm", "exact, µm", ""}, .rows = {}};
   for (const auto& r : result.errors.law->readings) {
     const bool inside = r.exact >= r.sample.low && r.exact <= r.sample.high;
-    table.rows.push_back(
-        {"<code>" + r.name + "</code>", escape(r.quantity), micrometre_text(r.sample.value),
-         micrometre_text(r.sample.low) + " … " + micrometre_text(r.sample.high),
-         micrometre_text(r.exact) + (inside ? "" : " <span class=\"muted\">outside</span>"),
-         taken == &r ? "<span class=\"tag agrees\">taken</span>" : ""});
+    table.rows.push_back({"<code>" + r.name + "</code>", escape(r.quantity), micrometre_text(r.sample.value),
+                          micrometre_text(r.sample.low) + " … " + micrometre_text(r.sample.high),
+                          micrometre_text(r.exact) + (inside ? "" : " <span class=\"muted\">outside</span>"),
+                          taken == &r ? "<span class=\"tag agrees\">taken</span>" : ""});
   }
   text += html(table);
   const auto outside = std::count_if(result.errors.law->readings.begin(), result.errors.law->readings.end(),
                                      [](const auto& r) { return r.exact < r.sample.low || r.exact > r.sample.high; });
   const auto count = result.errors.law->readings.size();
   text += fmt::format(
-      "<p>{} of {} exact values lie outside their intervals; {:.1f} are to be expected at this confidence if the readings "
+      "<p>{} of {} exact values lie outside their intervals; {:.1f} are to be expected at this confidence if the "
+      "readings "
       "were independent, which those of one gear are not.</p>\n",
       outside, count, (1 - problem.confidence) * static_cast<double>(count));
   if (!taken)
     return text + fmt::format("<p>None of them is taken: the scene gives {} µm at mesh frequency.</p>\n",
                               to_text(1e6 * result.errors.amplitude, 5));
-  return text + fmt::format("<p>The {} quantile of <code>{}</code>, {} µm, is the amplitude of the error at mesh "
-                            "frequency in the dynamics.</p>\n",
-                            result.scene.manufacturing_error->amount == ErrorAmount::sample ? "drawn" : "exact",
-                            taken->name, micrometre_text(result.errors.amplitude));
+  return text + fmt::format(
+                    "<p>The {} quantile of <code>{}</code>, {} µm, is the amplitude of the error at mesh "
+                    "frequency in the dynamics.</p>\n",
+                    result.scene.manufacturing_error->amount == ErrorAmount::sample ? "drawn" : "exact", taken->name,
+                    micrometre_text(result.errors.amplitude));
 }
 
 }  // namespace annulus::app

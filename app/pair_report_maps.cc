@@ -14,9 +14,9 @@ namespace {
 
 struct MapAxis {
   std::string label;
-  std::vector<double> values;       ///< in the unit of the label
-  std::vector<Range> cells;         ///< halfway to the neighbours
-  std::vector<std::size_t> order;   ///< rising values
+  std::vector<double> values;      ///< in the unit of the label
+  std::vector<Range> cells;        ///< halfway to the neighbours
+  std::vector<std::size_t> order;  ///< rising values
 };
 
 MapAxis map_axis(const SweepInput& input, const std::vector<double>& values, const std::string& unit) {
@@ -87,9 +87,10 @@ std::string map_words(const StudyResults& studies, const GridResult& grid) {
       top = i;
   }
   const auto nx = grid.x.size();
-  return fmt::format("<p>The acceleration is largest, {} m/s², at {} {} and {} {}. The teeth part at {} of {} points.</p>\n",
-                     to_text(points[top].value(acceleration), 4), to_text(grid.x[top % nx], 5), grid.x_unit,
-                     to_text(grid.y[top / nx], 5), grid.y_unit, parted, points.size());
+  return fmt::format(
+      "<p>The acceleration is largest, {} m/s², at {} {} and {} {}. The teeth part at {} of {} points.</p>\n",
+      to_text(points[top].value(acceleration), 4), to_text(grid.x[top % nx], 5), grid.x_unit,
+      to_text(grid.y[top / nx], 5), grid.y_unit, parted, points.size());
 }
 
 }  // namespace

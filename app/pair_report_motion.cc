@@ -35,8 +35,9 @@ std::string pair_figures_section(const PairRunResult& result) {
   };
   table.rows.push_back({"Mesh force along the normal of the flanks"});
   plain("static", f.static_force / 1e3, "kN");
-  row("largest", f.force_max, 1e-3, "kN");
-  row("smallest", f.force_min, 1e-3, "kN");
+  const auto force = loaded_force(f);
+  row("largest, in the direction of the load", force.largest, 1e-3, "kN");
+  row("smallest", force.smallest, 1e-3, "kN");
   if (std::isfinite(f.dynamic_factor.value)) row("dynamic factor, largest / static", f.dynamic_factor, 1, "");
   plain("time without contact", 100 * f.contact_loss, "%");
   table.rows.push_back({"Largest accelerations"});
@@ -54,7 +55,8 @@ std::string pair_figures_section(const PairRunResult& result) {
   motion("The same, quasi-static", f.quasi_static.transmission_error);
   motion("Relative motion with the bending of shafts and bearings, y₁ + u₁ – y₂ + u₂", f.dynamic.relative);
   return fmt::format(
-             "<h2 id=\"figures\">Key figures</h2>\n<p>At {} N m and {} r/min of the pinion, error at mesh frequency {} µm. "
+             "<h2 id=\"figures\">Key figures</h2>\n<p>At {} N m and {} r/min of the pinion, error at mesh frequency {} "
+             "µm. "
              "± is the estimated numerical error; it does not contain the uncertainty of the inputs.</p>\n",
              to_text(result.scene.stage.pinion_torque), to_text(result.scene.stage.pinion_speed / units::rpm, 6),
              to_text(1e6 * result.errors.amplitude, 4)) +
@@ -82,8 +84,10 @@ std::string pair_motion_section(const PairRunResult& result) {
   auto te = plot("Transmission error u₁ + u₂", "µm", "transmission_error_m", 1e6, 1);
   Plot axes{.title = "Axes of the gears about their mean", .x_label = "mesh cycles", .y_label = "µm", .legend = true};
   std::size_t colour = 0;
-  for (const auto& [name, label] : {std::pair{"pinion_y_m", "pinion y"}, {"pinion_z_m", "pinion z"},
-                                    {"wheel_y_m", "wheel y"}, {"wheel_z_m", "wheel z"}}) {
+  for (const auto& [name, label] : {std::pair{"pinion_y_m", "pinion y"},
+                                    {"pinion_z_m", "pinion z"},
+                                    {"wheel_y_m", "wheel y"},
+                                    {"wheel_z_m", "wheel z"}}) {
     ++colour;
     if (std::find(csv.columns.begin(), csv.columns.end(), name) == csv.columns.end()) continue;  // rigid bearing
     auto y = scaled_column(csv, name, rows, 1e6);
@@ -127,14 +131,16 @@ std::string pair_modes_section(const PairRunResult& result) {
     const bool free = mode.frequency == 0;
     const double omega = 2 * std::numbers::pi * mode.frequency, closing = system.mesh_vector(0).dot(mode.shape);
     std::vector<std::string> cells = {
-        fmt::format("{}", i + 1), free ? "0 <span class=\"muted\">free rotation</span>" : fmt::format("{:.1f}", mode.frequency),
+        fmt::format("{}", i + 1),
+        free ? "0 <span class=\"muted\">free rotation</span>" : fmt::format("{:.1f}", mode.frequency),
         free ? "–" : fmt::format("{:.0f}", 60 * mode.frequency / result.scene.pinion.teeth),
         free ? "–" : fmt::format("{:.0f} %", 100 * stiffness * closing * closing / (omega * omega))};
     for (Eigen::Index k = 0; k < mode.shape.size(); ++k)
       cells.push_back(fmt::format("{:.0f} %", 100 * system.mass()(k, k) * mode.shape[k] * mode.shape[k]));
     table.rows.push_back(std::move(cells));
   }
-  return "<h2 id=\"modes\">Natural frequencies</h2>\n<p>With the mean mesh stiffness, undamped. Strain in the mesh: its "
+  return "<h2 id=\"modes\">Natural frequencies</h2>\n<p>With the mean mesh stiffness, undamped. Strain in the mesh: "
+         "its "
          "share of the elastic energy, what makes a mode answer to the mesh. The last columns are the shares of the "
          "kinetic energy.</p>\n" +
          html(table);
@@ -146,9 +152,10 @@ std::string pair_quality_section(const PairRunResult& result) {
     const auto& f = result.response->figures;
     std::string how = "marched";
     if (f.direct && f.direct->converged)
-      how = fmt::format("harmonic balance ({} Newton iterations; half the samples change a force by {:.1e} of the mean){}",
-                        f.direct->newton_iterations, f.direct->sampling_difference,
-                        f.confirmed ? ", confirmed by time integration over one window" : "");
+      how = fmt::format(
+          "harmonic balance ({} Newton iterations; half the samples change a force by {:.1e} of the mean){}",
+          f.direct->newton_iterations, f.direct->sampling_difference,
+          f.confirmed ? ", confirmed by time integration over one window" : "");
     else if (f.direct)
       how = "marched: the direct solution failed (" + f.direct->trouble + ")";
     HtmlTable table{.head = {"how the response was found", "window", "integrated", "steady", "energy balance", "steps"},
@@ -161,9 +168,10 @@ std::string pair_quality_section(const PairRunResult& result) {
   HtmlTable times{.head = {"stage", "wall time, s"}, .rows = {}, .css_class = "numbers"};
   for (const auto& [stage, seconds] : result.timings) times.rows.push_back({stage, fmt::format("{:.2f}", seconds)});
   return text + html(times) +
-         fmt::format("<p class=\"muted\">Peak memory {:.0f} MB. annulus {}. What was unchanged since an earlier run was "
-                     "read back and cost no time here.</p>\n",
-                     result.peak_memory_MB, version());
+         fmt::format(
+             "<p class=\"muted\">Peak memory {:.0f} MB. annulus {}. What was unchanged since an earlier run was "
+             "read back and cost no time here.</p>\n",
+             result.peak_memory_MB, version());
 }
 
 }  // namespace annulus::app

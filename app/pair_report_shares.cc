@@ -73,16 +73,18 @@ void add_shares(std::vector<Conclusion>& list, const PairRunResult& result) {
                               um_text(first.shares.errors_alone.quasi_static),
                               um_text(first.shares.stiffness_alone.quasi_static), torque_text(first.pinion_torque),
                               um_text(last.shares.stiffness_alone.quasi_static), torque_text(last.pinion_torque)),
-                  "Holds " + where_text(range, rows) + ". The errors do not depend on the load, the stiffness ripple "
-                  "moves the teeth in proportion to it.",
+                  "Holds " + where_text(range, rows) +
+                      ". The errors do not depend on the load, the stiffness ripple "
+                      "moves the teeth in proportion to it.",
                   range && std::isinf(*range)});
   list.push_back({"The same of its largest value; deflection under load matters little",
                   fmt::format("amplitude of the errors {} µm; mean deflection {} µm at {} to {} µm at {}",
-                              um_text(first.shares.errors_alone.quasi_static / 2), um_text(first.shares.load_deflection),
-                              torque_text(first.pinion_torque), um_text(last.shares.load_deflection),
-                              torque_text(last.pinion_torque)),
-                  "Holds " + where_text(largest, rows) + ". Beyond, the largest transmission error is deflection of "
-                  "teeth and bearings.",
+                              um_text(first.shares.errors_alone.quasi_static / 2),
+                              um_text(first.shares.load_deflection), torque_text(first.pinion_torque),
+                              um_text(last.shares.load_deflection), torque_text(last.pinion_torque)),
+                  "Holds " + where_text(largest, rows) +
+                      ". Beyond, the largest transmission error is deflection of "
+                      "teeth and bearings.",
                   largest && std::isinf(*largest)});
 }
 
@@ -113,12 +115,13 @@ void add_loads(std::vector<Conclusion>& list, const PairRunResult& result) {
       }
       if (x.size() < 3) continue;
       const bool grows = std::is_sorted(y.begin(), y.end());
-      list.push_back({words, fmt::format("{} to {} {} from {} to {}, at {} {}", to_text(y.front(), 4),
-                                         to_text(y.back(), 4), unit, torque_text(x.front()), torque_text(x.back()),
-                                         to_text(grid.y.front(), 4), grid.y_unit),
-                      fmt::format("{}; farthest from a straight line by {:.1f} % of the range.",
-                                  grows ? "It grows throughout" : "It does not grow throughout", 100 * off_line(x, y)),
-                      grows});
+      list.push_back(
+          {words,
+           fmt::format("{} to {} {} from {} to {}, at {} {}", to_text(y.front(), 4), to_text(y.back(), 4), unit,
+                       torque_text(x.front()), torque_text(x.back()), to_text(grid.y.front(), 4), grid.y_unit),
+           fmt::format("{}; farthest from a straight line by {:.1f} % of the range.",
+                       grows ? "It grows throughout" : "It does not grow throughout", 100 * off_line(x, y)),
+           grows});
     }
     return;
   }
@@ -129,9 +132,8 @@ void add_speeds(std::vector<Conclusion>& list, const PairRunResult& result) {
   if (rows.size() < 4) return;
   const auto &low = *rows.front(), &high = *rows.back();
   const auto rpm = [](const SpeedRow& row) { return to_text(row.pinion_speed / units::rpm, 5) + " r/min"; };
-  const auto top = *std::max_element(rows.begin(), rows.end(), [](const auto* a, const auto* b) {
-    return a->all.acceleration < b->all.acceleration;
-  });
+  const auto top = *std::max_element(
+      rows.begin(), rows.end(), [](const auto* a, const auto* b) { return a->all.acceleration < b->all.acceleration; });
   // "Steady at low speed": the lower half of the speeds changes little beside what the upper half does.
   const auto& middle = *rows[rows.size() / 2];
   for (const auto& [words, pick, unit, scale] :
@@ -148,32 +150,35 @@ void add_speeds(std::vector<Conclusion>& list, const PairRunResult& result) {
     std::optional<bool> agrees;
     if (!rises || change > 0.2) agrees = false;
     if (rises && change < 0.05) agrees = true;
-    list.push_back({words,
-                    fmt::format("{} at {}, {} at {}, {} {} at most", to_text(scale * a, 4), rpm(low),
-                                to_text(scale * b, 4), rpm(middle), to_text(scale * peak, 4), unit),
-                    fmt::format("Between the lowest and the middle speed it changes by {:.0f} % of its largest value; from the "
-                                "middle speed to the peak it {}. Below 5 % a linear axis shows it as steady, above 20 % it "
-                                "does not.",
-                                100 * change, rises ? "rises" : "does not rise"),
-                    agrees});
+    list.push_back(
+        {words,
+         fmt::format("{} at {}, {} at {}, {} {} at most", to_text(scale * a, 4), rpm(low), to_text(scale * b, 4),
+                     rpm(middle), to_text(scale * peak, 4), unit),
+         fmt::format("Between the lowest and the middle speed it changes by {:.0f} % of its largest value; from the "
+                     "middle speed to the peak it {}. Below 5 % a linear axis shows it as steady, above 20 % it "
+                     "does not.",
+                     100 * change, rises ? "rises" : "does not rise"),
+         agrees});
   }
   const bool stiffness_low = low.stiffness_alone.acceleration > low.errors_alone.acceleration,
              errors_high = high.errors_alone.acceleration > high.stiffness_alone.acceleration,
              errors_top = top->errors_alone.acceleration > top->stiffness_alone.acceleration;
   list.push_back(
       {"Stiffness excites most at low speed, the errors at high speed",
-       fmt::format("acceleration, errors alone against stiffness alone: {} and {} m/s² at {}, {} and {} m/s² at {} (the "
-                   "largest), {} and {} m/s² at {}",
-                   to_text(low.errors_alone.acceleration, 3), to_text(low.stiffness_alone.acceleration, 3), rpm(low),
-                   to_text(top->errors_alone.acceleration, 4), to_text(top->stiffness_alone.acceleration, 4), rpm(*top),
-                   to_text(high.errors_alone.acceleration, 4), to_text(high.stiffness_alone.acceleration, 4), rpm(high)),
-       fmt::format("At the lowest speed the {} excite{} more, at the highest the {}. {}", stiffness_low ? "stiffness" : "errors",
-                   stiffness_low ? "s" : "", errors_high ? "errors" : "stiffness",
-                   std::holds_alternative<dynamics::HarmonicStiffness>(result.pair->mesh)
-                       ? "A harmonic stiffness and the error both excite at mesh frequency: their ratio follows from the "
-                         "amplitude of the error against the ripple of the deflection, hardly from the speed."
-                       : "What the stiffness excites at multiples of the mesh frequency weighs at low speed, where the error "
-                         "at mesh frequency moves nothing but the teeth."),
+       fmt::format(
+           "acceleration, errors alone against stiffness alone: {} and {} m/s² at {}, {} and {} m/s² at {} (the "
+           "largest), {} and {} m/s² at {}",
+           to_text(low.errors_alone.acceleration, 3), to_text(low.stiffness_alone.acceleration, 3), rpm(low),
+           to_text(top->errors_alone.acceleration, 4), to_text(top->stiffness_alone.acceleration, 4), rpm(*top),
+           to_text(high.errors_alone.acceleration, 4), to_text(high.stiffness_alone.acceleration, 4), rpm(high)),
+       fmt::format(
+           "At the lowest speed the {} excite{} more, at the highest the {}. {}",
+           stiffness_low ? "stiffness" : "errors", stiffness_low ? "s" : "", errors_high ? "errors" : "stiffness",
+           std::holds_alternative<dynamics::HarmonicStiffness>(result.pair->mesh)
+               ? "A harmonic stiffness and the error both excite at mesh frequency: their ratio follows from the "
+                 "amplitude of the error against the ripple of the deflection, hardly from the speed."
+               : "What the stiffness excites at multiples of the mesh frequency weighs at low speed, where the error "
+                 "at mesh frequency moves nothing but the teeth."),
        stiffness_low && errors_high && errors_top});
 }
 
@@ -187,18 +192,18 @@ std::vector<Conclusion> conclusions(const PairRunResult& result) {
 
 std::string shares_table(const std::vector<const ShareRow*>& rows) {
   HtmlTable table{.head = {"torque of the pinion", "peak to peak, all causes", "errors alone", "stiffness alone",
-                           "share of the errors", "mean deflection", "largest, all causes",
-                           "peak to peak, all causes", "errors alone", "stiffness alone", "share of the errors"},
+                           "share of the errors", "mean deflection", "largest, all causes", "peak to peak, all causes",
+                           "errors alone", "stiffness alone", "share of the errors"},
                   .rows = {{"Quasi-static: columns 2 to 7; in motion: columns 8 to 11; µm"}},
                   .css_class = "numbers"};
   for (const auto* row : rows) {
     const auto& s = row->shares;
     const auto share = s.error_share();
-    table.rows.push_back({torque_text(row->pinion_torque), um_text(s.all.quasi_static), um_text(s.errors_alone.quasi_static),
-                          um_text(s.stiffness_alone.quasi_static), fmt::format("{:.0f} %", 100 * share.quasi_static),
-                          um_text(s.load_deflection), um_text(row->largest_static), um_text(s.all.dynamic),
-                          um_text(s.errors_alone.dynamic), um_text(s.stiffness_alone.dynamic),
-                          fmt::format("{:.0f} %", 100 * share.dynamic)});
+    table.rows.push_back({torque_text(row->pinion_torque), um_text(s.all.quasi_static),
+                          um_text(s.errors_alone.quasi_static), um_text(s.stiffness_alone.quasi_static),
+                          fmt::format("{:.0f} %", 100 * share.quasi_static), um_text(s.load_deflection),
+                          um_text(row->largest_static), um_text(s.all.dynamic), um_text(s.errors_alone.dynamic),
+                          um_text(s.stiffness_alone.dynamic), fmt::format("{:.0f} %", 100 * share.dynamic)});
   }
   return html(table);
 }
@@ -214,23 +219,23 @@ std::string shares_pictures(const std::vector<const ShareRow*>& rows) {
   };
   const auto plot = [&](const char* title, bool dynamic) {
     const auto of = [dynamic](const dynamics::PeakToPeak& p) { return dynamic ? p.dynamic : p.quasi_static; };
-    return to_svg(Plot{.title = title,
-                       .x_label = "torque of the pinion, kN m",
-                       .y_label = "peak to peak, µm",
-                       .x_range = loads,
-                       .series = {series("all", 0, false, [=](const auto& r) { return of(r.shares.all); }),
-                                  series("errors", 1, false, [=](const auto& r) { return of(r.shares.errors_alone); }),
-                                  series("stiffness", 2, false,
-                                         [=](const auto& r) { return of(r.shares.stiffness_alone); })}});
+    return to_svg(
+        Plot{.title = title,
+             .x_label = "torque of the pinion, kN m",
+             .y_label = "peak to peak, µm",
+             .x_range = loads,
+             .series = {series("all", 0, false, [=](const auto& r) { return of(r.shares.all); }),
+                        series("errors", 1, false, [=](const auto& r) { return of(r.shares.errors_alone); }),
+                        series("stiffness", 2, false, [=](const auto& r) { return of(r.shares.stiffness_alone); })}});
   };
-  Plot largest{.title = "Largest value",
-               .x_label = "torque of the pinion, kN m",
-               .y_label = "µm",
-               .x_range = loads,
-               .series = {series("largest", 0, false, [](const auto& r) { return r.largest_dynamic; }),
-                          series("amplitude", 1, false,
-                                 [](const auto& r) { return r.shares.errors_alone.quasi_static / 2; }),
-                          series("deflection", 5, true, [](const auto& r) { return r.shares.load_deflection; })}};
+  Plot largest{
+      .title = "Largest value",
+      .x_label = "torque of the pinion, kN m",
+      .y_label = "µm",
+      .x_range = loads,
+      .series = {series("largest", 0, false, [](const auto& r) { return r.largest_dynamic; }),
+                 series("amplitude", 1, false, [](const auto& r) { return r.shares.errors_alone.quasi_static / 2; }),
+                 series("deflection", 5, true, [](const auto& r) { return r.shares.load_deflection; })}};
   return figure({plot("Range, quasi-static", false), plot("Range, in motion", true), to_svg(largest)},
                 legend_html({{"all causes", 0},
                              {"errors alone (last picture: their amplitude)", 1},
@@ -267,10 +272,14 @@ std::string pair_verdict(const PairRunResult& result) {
   std::string text = "<div class=\"verdict\">\n";
   if (result.response) {
     const auto& f = result.response->figures;
+    const auto force = loaded_force(f).largest;
     text += fmt::format(
-        "<p>Largest mesh force {} kN (dynamic factor {}), largest acceleration of the teeth {} m/s², transmission error "
+        "<p>Largest mesh force {} kN{}, largest acceleration of the teeth {} m/s², transmission error "
         "{} µm peak to peak about a mean of {} µm.{}</p>\n",
-        measured(f.force_max.value / 1e3, f.force_max.error / 1e3), measured(f.dynamic_factor.value, f.dynamic_factor.error),
+        measured(force.value / 1e3, force.error / 1e3),
+        std::isfinite(f.dynamic_factor.value)
+            ? fmt::format(" (dynamic factor {})", measured(f.dynamic_factor.value, f.dynamic_factor.error))
+            : "",
         measured(f.acceleration.tooth.value, f.acceleration.tooth.error),
         measured(1e6 * f.dynamic.transmission_error.peak_to_peak.value,
                  1e6 * f.dynamic.transmission_error.peak_to_peak.error),
@@ -294,9 +303,10 @@ std::string pair_verdict(const PairRunResult& result) {
     return std::count_if(all.begin(), all.end(), [&](const auto& c) { return c.agrees == what; });
   };
   if (!all.empty())
-    text += fmt::format("<p>Conclusions of the paper behind this model, held against these numbers: {} hold, {} fail, {} cannot "
-                        "be decided (<a href=\"#conclusions\">details</a>).</p>\n",
-                        count(true), count(false), count(std::nullopt));
+    text += fmt::format(
+        "<p>Conclusions of the paper behind this model, held against these numbers: {} hold, {} fail, {} cannot "
+        "be decided (<a href=\"#conclusions\">details</a>).</p>\n",
+        count(true), count(false), count(std::nullopt));
   if (!result.response) text += "<p>Mesh stiffness and error law only.</p>\n";
   return text + "</div>\n";
 }
@@ -306,7 +316,7 @@ std::string pair_conclusions_section(const PairRunResult& result) {
   if (all.empty()) return "";
   HtmlTable table{.head = {"statement", "computed", "", "why"}, .rows = {}};
   for (const auto& c : all) {
-    const char* tag = !c.agrees    ? "<span class=\"tag undecided\">undecided</span>"
+    const char* tag = !c.agrees   ? "<span class=\"tag undecided\">undecided</span>"
                       : *c.agrees ? "<span class=\"tag agrees\">holds</span>"
                                   : "<span class=\"tag disagrees\">fails</span>";
     table.rows.push_back({escape(c.statement), escape(c.numbers), tag, escape(c.why)});

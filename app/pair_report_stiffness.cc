@@ -28,11 +28,10 @@ std::string means_table(const PairRunResult& result) {
   for (const auto& s : result.stiffnesses) {
     const bool known = std::isfinite(s.value);
     const std::string error = std::isfinite(s.error_relative) ? fmt::format(" ± {:.1f} %", 100 * s.error_relative) : "";
-    table.rows.push_back(
-        {source_words(s.source), known ? to_text(s.value / 1e6, 5) + error : "–",
-         known ? to_text(s.value / result.geometry.to_normal() / 1e6, 5) : "–",
-         known ? fmt::format("{:+.1f} %", 100 * (s.value / reference - 1)) : "–", escape(s.note),
-         s.taken ? "<span class=\"tag agrees\">taken</span>" : ""});
+    table.rows.push_back({source_words(s.source), known ? to_text(s.value / 1e6, 5) + error : "–",
+                          known ? to_text(s.value / result.geometry.to_normal() / 1e6, 5) : "–",
+                          known ? fmt::format("{:+.1f} %", 100 * (s.value / reference - 1)) : "–", escape(s.note),
+                          s.taken ? "<span class=\"tag agrees\">taken</span>" : ""});
   }
   return html(table);
 }
@@ -50,8 +49,10 @@ std::string means_sentence(const PairRunResult& result) {
   if (known < 2) return "";
   return fmt::format(
       "<p>From the softest ({}) to the stiffest ({}) it is {:.1f} %. The formula stands for standard teeth and solid "
-      "bodies and knows nothing of bores, rims or the load at hand; the closed form lets each slice of the helix bend as "
-      "a spur tooth of its own in plane strain; finite elements have teeth that are free at the end faces, contact lines "
+      "bodies and knows nothing of bores, rims or the load at hand; the closed form lets each slice of the helix bend "
+      "as "
+      "a spur tooth of its own in plane strain; finite elements have teeth that are free at the end faces, contact "
+      "lines "
       "of finite length and slices that hold each other.</p>\n",
       source_words(low->source), source_words(high->source), 100 * (high->value / low->value - 1));
 }
@@ -81,8 +82,9 @@ std::string cycle_picture(const PairRunResult& result) {
   const auto& input = result.scene.pinion_wheel;
   for (const auto& s : result.stiffnesses) {
     if (s.source == "closed_form" && std::isfinite(s.value)) {
-      const auto table = s.taken ? *result.mesh.table
-                                 : closed_form_pair_table(result.scene, result.geometry, result.geometry.transverse_force);
+      const auto table = s.taken
+                             ? *result.mesh.table
+                             : closed_form_pair_table(result.scene, result.geometry, result.geometry.transverse_force);
       plot.series.push_back(curve_over_cycle("closed form", table, result.geometry, 1));
     }
     const bool wave = s.taken && (s.source == "iso_6336" || (s.source == "given" && !result.mesh.table));
@@ -95,8 +97,9 @@ std::string cycle_picture(const PairRunResult& result) {
       constexpr int points = 400;
       for (int i = 0; i <= points; ++i) {
         const double at = static_cast<double>(i) / points, lag = at - phase;
-        const double shape = steps ? (lag - std::floor(lag) < input.duty.value_or(0.5) ? 1 : 0) - input.duty.value_or(0.5)
-                                   : std::cos(2 * std::numbers::pi * lag);
+        const double shape = steps
+                                 ? (lag - std::floor(lag) < input.duty.value_or(0.5) ? 1 : 0) - input.duty.value_or(0.5)
+                                 : std::cos(2 * std::numbers::pi * lag);
         series.x.push_back(at);
         series.y.push_back(s.value / 1e6 * (1 + ripple * shape));
       }

@@ -71,8 +71,10 @@ PairResponseResult respond(const PairRunResult& result, const std::filesystem::p
   std::filesystem::create_directories(folder);
   const auto& pair = *result.pair;
   const auto simulation = pair_simulation(result.scene);
-  PairResponseResult response{
-      .figures = dynamics::evaluate_pair(pair, simulation), .modes = dynamics::modes(pair), .series = {}, .spectrum = {}};
+  PairResponseResult response{.figures = dynamics::evaluate_pair(pair, simulation),
+                              .modes = dynamics::modes(pair),
+                              .series = {},
+                              .spectrum = {}};
   response.series = series_table(pair, response.figures);
   response.spectrum = spectrum_table(response.figures);
   response.figures.series = {};
@@ -163,8 +165,8 @@ void save_shares(const std::vector<ShareRow>& rows, const std::filesystem::path&
     if (!row.failure.empty()) continue;
     const auto& s = row.shares;
     csv.rows.push_back({row.pinion_torque, s.load_deflection, s.all.quasi_static, s.errors_alone.quasi_static,
-                        s.stiffness_alone.quasi_static, s.all.dynamic, s.errors_alone.dynamic, s.stiffness_alone.dynamic,
-                        row.largest_static, row.largest_dynamic});
+                        s.stiffness_alone.quasi_static, s.all.dynamic, s.errors_alone.dynamic,
+                        s.stiffness_alone.dynamic, row.largest_static, row.largest_dynamic});
   }
   csv.write(folder / "transmission_error_shares.csv");
 }
@@ -185,6 +187,11 @@ std::vector<std::pair<std::string, double>> pair_timings(const StageTimers& time
 }
 
 }  // namespace
+
+LoadedForce loaded_force(const dynamics::PairResponse& r) {
+  if (r.static_force >= 0) return {r.force_max, r.force_min};
+  return {{-r.force_min.value, r.force_min.error}, {-r.force_max.value, r.force_max.error}};
+}
 
 double pair_seconds(const Scene& scene) {
   // Measured: 4 ms at the ends of a torque and speed grid, some tens where the teeth part; a wave once per turn makes

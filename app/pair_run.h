@@ -34,16 +34,22 @@ struct SpeedRow {
     double force_range = 0;   ///< N, largest - smallest mesh force
     double te_range = 0;      ///< m, peak-to-peak u_1 + u_2
   };
-  double pinion_speed = 0;                ///< rad/s
+  double pinion_speed = 0;                          ///< rad/s
   Motion all{}, errors_alone{}, stiffness_alone{};  ///< errors alone: at constant mean stiffness
   std::string failure{};
 };
 
+/// Largest and smallest mesh force in the direction of the load (that of the driving flanks without a torque), N.
+struct LoadedForce {
+  dynamics::Figure largest, smallest;
+};
+[[nodiscard]] LoadedForce loaded_force(const dynamics::PairResponse& response);
+
 struct PairResponseResult {
   dynamics::PairResponse figures;  ///< without the series
   dynamics::Modes modes;
-  Csv series;                      ///< one row per sample: time, freedoms, force, transmission error
-  Csv spectrum;                    ///< of the mesh force
+  Csv series;    ///< one row per sample: time, freedoms, force, transmission error
+  Csv spectrum;  ///< of the mesh force
 };
 
 struct PairRunResult {
@@ -53,7 +59,7 @@ struct PairRunResult {
   PairMesh mesh{};
   std::vector<MeanStiffness> stiffnesses{};
   PairErrors errors{};
-  std::optional<dynamics::HelicalPair> pair{};      ///< absent without [dynamics]
+  std::optional<dynamics::HelicalPair> pair{};  ///< absent without [dynamics]
   std::optional<PairResponseResult> response{};
   std::vector<ShareRow> shares{};
   std::vector<SpeedRow> speeds{};

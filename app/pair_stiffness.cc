@@ -145,9 +145,9 @@ PairMesh pair_mesh(const Scene& scene, const PairGeometry& geometry, const MeshM
       mesh.table = closed_form_pair_table(scene, geometry, geometry.transverse_force);
       break;
     case StiffnessShape::table:
-      mesh.table = given_stiffness(model, scene.pinion_wheel, scene, geometry.gears.contact_ratio(),
-                                   geometry.transverse_force)
-                       .table;
+      mesh.table =
+          given_stiffness(model, scene.pinion_wheel, scene, geometry.gears.contact_ratio(), geometry.transverse_force)
+              .table;
       break;
     case StiffnessShape::constant:
     case StiffnessShape::harmonic:
@@ -194,8 +194,7 @@ std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeomet
   MeanStiffness closed{"closed_form", no_number, no_number, no_closed_form(scene),
                        shape == StiffnessShape::closed_form};
   if (closed.note.empty()) {
-    const auto table =
-        closed.taken ? *mesh.table : closed_form_pair_table(scene, geometry, geometry.transverse_force);
+    const auto table = closed.taken ? *mesh.table : closed_form_pair_table(scene, geometry, geometry.transverse_force);
     closed.value = geometry.to_normal() * mean_secant(table, geometry.transverse_force);
     closed.note = "tooth cantilevers, rims and line contact of the transverse section, staggered along the helix";
   } else {
@@ -209,8 +208,8 @@ std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeomet
     const auto mean = mesh.computed->mean_stiffness();
     computed.value = geometry.to_normal() * mean.value;
     computed.error_relative = mean.error_relative;
-    computed.note = fmt::format("finite elements ({}), mean over {} phases", mesh.model.rung,
-                                mesh.computed->table.phases());
+    computed.note =
+        fmt::format("finite elements ({}), mean over {} phases", mesh.model.rung, mesh.computed->table.phases());
   }
   list.push_back(computed);
   if (std::none_of(list.begin(), list.end(), [](const auto& s) { return s.taken; })) {

@@ -38,8 +38,8 @@ namespace annulus::app {
 /// The stiffness the lumped model takes.
 struct PairMesh {
   MeshModel model{};
-  std::optional<MeshResult> computed{};    ///< by finite elements
-  std::optional<StiffnessTable> table{};   ///< transverse; of computed, closed_form and table
+  std::optional<MeshResult> computed{};   ///< by finite elements
+  std::optional<StiffnessTable> table{};  ///< transverse; of computed, closed_form and table
 };
 /// Everything but finite elements, which `solved` brings. Throws InputError for a table that cannot be read.
 [[nodiscard]] PairMesh pair_mesh(const Scene& scene, const PairGeometry& geometry, const MeshModel& model,
@@ -49,8 +49,8 @@ struct PairMesh {
 
 /// A mean stiffness at the operating point, N/m along the normal.
 struct MeanStiffness {
-  std::string source;  ///< "iso_6336", "closed_form", "computed", "given"
-  double value = 0;    ///< NaN: not available
+  std::string source;         ///< "iso_6336", "closed_form", "computed", "given"
+  double value = 0;           ///< NaN: not available
   double error_relative = 0;  ///< NaN: not controlled
   std::string note;           ///< what it is, or why it is not available
   bool taken = false;         ///< by the lumped model

@@ -49,11 +49,8 @@ std::vector<StudyFigure> pair_figures() {
                   .plotted = true,
                   .spread = true,
                   .ordering = true});
-  list.push_back({.column = "contact_loss",
-                  .title = "Time without contact",
-                  .label = "%",
-                  .scale = 100,
-                  .plotted = true});
+  list.push_back(
+      {.column = "contact_loss", .title = "Time without contact", .label = "%", .scale = 100, .plotted = true});
   list.push_back({.column = "transmission_error_max_m",
                   .title = "Largest transmission error",
                   .label = "µm",
@@ -69,10 +66,8 @@ std::vector<StudyFigure> pair_figures() {
                   .spread = true,
                   .ordering = true,
                   .with = "transmission_error_static_peak_to_peak_m"});
-  list.push_back({.column = "transmission_error_mean_m",
-                  .title = "Transmission error, mean",
-                  .label = "µm",
-                  .scale = 1e6});
+  list.push_back(
+      {.column = "transmission_error_mean_m", .title = "Transmission error, mean", .label = "µm", .scale = 1e6});
   list.push_back({.column = "transmission_error_static_max_m",
                   .title = "Largest transmission error, quasi-static",
                   .label = "µm",
@@ -109,12 +104,13 @@ std::vector<double> pair_frequencies(const dynamics::HelicalPair& pair) {
 std::vector<double> pair_figure_values(const dynamics::PairResponse& r, const std::vector<double>& frequencies) {
   const auto& te = r.dynamic.transmission_error;
   const auto& still = r.quasi_static.transmission_error;
+  const auto force = loaded_force(r);
   std::vector<double> values = {r.acceleration.tooth.value,
                                 r.acceleration.line_of_action.value,
                                 r.acceleration.axial.value,
                                 r.acceleration.rotation.value,
-                                r.force_max.value,
-                                r.force_min.value,
+                                force.largest.value,
+                                force.smallest.value,
                                 r.dynamic_factor.value,
                                 r.contact_loss,
                                 te.largest.value,
@@ -134,9 +130,10 @@ NominalFigures PairSubject::nominal(std::size_t /*variant*/) const {
   if (!nominal_.response) return {};
   const auto& r = nominal_.response->figures;
   const auto& te = r.dynamic.transmission_error;
+  const auto force = loaded_force(r);
   return {{"acceleration_max_m_per_s2", r.acceleration.tooth},
-          {"mesh_force_max_N", r.force_max},
-          {"mesh_force_min_N", r.force_min},
+          {"mesh_force_max_N", force.largest},
+          {"mesh_force_min_N", force.smallest},
           {"dynamic_factor", r.dynamic_factor},
           {"transmission_error_max_m", te.largest},
           {"transmission_error_peak_to_peak_m", te.peak_to_peak}};

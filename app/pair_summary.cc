@@ -16,7 +16,9 @@ using PairJson = nlohmann::ordered_json;
 
 PairJson pair_number(double x) { return std::isfinite(x) ? PairJson(x) : PairJson(nullptr); }
 
-PairJson pair_figure(const dynamics::Figure& f) { return {{"value", pair_number(f.value)}, {"error", pair_number(f.error)}}; }
+PairJson pair_figure(const dynamics::Figure& f) {
+  return {{"value", pair_number(f.value)}, {"error", pair_number(f.error)}};
+}
 
 PairJson motion_json(const dynamics::MotionFigures& m) {
   return {{"mean_m", m.mean}, {"peak_to_peak_m", pair_figure(m.peak_to_peak)}, {"largest_m", pair_figure(m.largest)}};
@@ -24,7 +26,7 @@ PairJson motion_json(const dynamics::MotionFigures& m) {
 
 PairJson errors_json(const PairRunResult& result) {
   const auto& problem = *result.errors.problem;
-  PairJson json = {{"samples", problem.samples},       {"seed", problem.seed},
+  PairJson json = {{"samples", problem.samples},         {"seed", problem.seed},
                    {"probability", problem.probability}, {"confidence", problem.confidence},
                    {"divisor", problem.divisor},         {"eta_1_m", problem.eta_1(0)},
                    {"eta_2_m", problem.eta_2(0)}};
@@ -58,8 +60,8 @@ PairJson response_json_of(const PairResponseResult& response) {
   const auto& f = response.figures;
   PairJson json = {{"mesh_frequency_Hz", f.mesh_frequency},
                    {"static_force_N", f.static_force},
-                   {"mesh_force_max_N", pair_figure(f.force_max)},
-                   {"mesh_force_min_N", pair_figure(f.force_min)},
+                   {"mesh_force_max_N", pair_figure(loaded_force(f).largest)},
+                   {"mesh_force_min_N", pair_figure(loaded_force(f).smallest)},
                    {"dynamic_factor", pair_figure(f.dynamic_factor)},
                    {"contact_loss", f.contact_loss},
                    {"acceleration_m_per_s2",
@@ -90,9 +92,8 @@ std::string pair_summary_json(const PairRunResult& result) {
                    {"accuracy_wanted", result.scene.accuracy}};
   for (const auto& q : result.plan.quantities) json["derived"][q.key] = pair_number(q.value);
   for (const auto& s : result.stiffnesses)
-    json["mean_stiffness_N_per_m"][s.source] = {{"value", pair_number(s.value)},
-                                                {"error_relative", pair_number(s.error_relative)},
-                                                {"taken", s.taken}};
+    json["mean_stiffness_N_per_m"][s.source] = {
+        {"value", pair_number(s.value)}, {"error_relative", pair_number(s.error_relative)}, {"taken", s.taken}};
   if (const auto& computed = result.mesh.computed) {
     auto& mesh = json["pinion_wheel"] = {{"rung", computed->model.rung},
                                          {"contact_ratio", computed->contact_ratio},
@@ -150,9 +151,10 @@ std::string pair_summary_text(const PairRunResult& result) {
   if (result.response) {
     const auto& f = result.response->figures;
     text += fmt::format(
-        "response       acceleration {:.4g} m/s2, mesh force {:.4g} kN (dynamic factor {:.3f}), transmission error "
+        "response       acceleration {:.4g} m/s2, mesh force {:.4g} kN{}, transmission error "
         "{:.2f} um peak to peak, {:.2f} um at most\n",
-        f.acceleration.tooth.value, f.force_max.value / 1e3, f.dynamic_factor.value,
+        f.acceleration.tooth.value, loaded_force(f).largest.value / 1e3,
+        std::isfinite(f.dynamic_factor.value) ? fmt::format(" (dynamic factor {:.3f})", f.dynamic_factor.value) : "",
         1e6 * f.dynamic.transmission_error.peak_to_peak.value, 1e6 * f.dynamic.transmission_error.largest.value);
   }
   text += "\ntime   ";

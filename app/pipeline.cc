@@ -21,7 +21,8 @@ void write_meshes(const MeshModel& model, const fem::LoadedMeshResult& solved, c
   std::filesystem::create_directories(folder);
   const std::string wheel = model.mesh == sun_planet ? "_sun" : model.mesh == pinion_wheel ? "_wheel" : "_ring";
   for (const auto& [mesh, name] :
-       {std::pair{&solved.planet_sector, model.mesh + (model.mesh == pinion_wheel ? "_pinion" : "_planet")}, {&solved.wheel_sector, model.mesh + wheel}}) {
+       {std::pair{&solved.planet_sector, model.mesh + (model.mesh == pinion_wheel ? "_pinion" : "_planet")},
+        {&solved.wheel_sector, model.mesh + wheel}}) {
     if (mesh->cells.empty()) continue;  // a closed form meshes nothing
     geometry::write_msh(*mesh, folder / (name + ".msh"));
     geometry::write_vtu(*mesh, folder / (name + ".vtu"));

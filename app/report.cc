@@ -119,30 +119,29 @@ std::string report_page(const std::string& title, const std::string& sub, const 
 }
 
 std::string report_html(const RunResult& result) {
-  const std::string sub = fmt::format(
-      "annulus {} · scene <code>{}</code> · {} planets, {} kW at {} r/min of the sun", version(),
-      escape(result.scene.file.filename().string()), result.scene.stage.planets,
-      to_text(result.scene.stage.power / 1e3), to_text(result.geometry.operating_point.sun_speed / units::rpm, 6));
-  return report_page(
-      escape(result.scene.title), sub, verdict_section(result),
-      {{"figures", "Key figures", key_figures_section(result)},
-       {"comparison", "Comparison with the source", comparison_section(result)},
-       {"meshes", "Meshes", meshes_section(result)},
-       {"stiffness", "Transmission error and stiffness", stiffness_section(result)},
-       {"supports", "Pins and splines", supports_section(result)},
-       {"contact", "Face width, pressure, stress", contact_section(result)},
-       {"dynamics", "Load sharing and dynamic factors", dynamics_section(result)},
-       {"spread", "Spread", spread_section(result.studies)},
-       {"sweeps", "Sweeps", sweeps_section(result.scene, result.studies)},
-       {"grids", "Grids", grids_section(result.scene, result.studies)},
-       {"sensitivity", "Sensitivity", sensitivity_section(result.studies)},
-       {"optimisation", "Optimisation", optimise_section(result.studies)},
-       {"coupling", "Coupling through the ring", coupling_section(result)},
-       {"motion", "Bearings and sun orbit", motion_section(result)},
-       {"modes", "Natural frequencies", modes_section(result)},
-       {"model", "What was modelled", model_section(result)},
-       {"inputs", "Inputs", inputs_section(result)},
-       {"quality", "Checks and cost", quality_section(result)}});
+  const std::string sub = fmt::format("annulus {} · scene <code>{}</code> · {} planets, {} kW at {} r/min of the sun",
+                                      version(), escape(result.scene.file.filename().string()),
+                                      result.scene.stage.planets, to_text(result.scene.stage.power / 1e3),
+                                      to_text(result.geometry.operating_point.sun_speed / units::rpm, 6));
+  return report_page(escape(result.scene.title), sub, verdict_section(result),
+                     {{"figures", "Key figures", key_figures_section(result)},
+                      {"comparison", "Comparison with the source", comparison_section(result)},
+                      {"meshes", "Meshes", meshes_section(result)},
+                      {"stiffness", "Transmission error and stiffness", stiffness_section(result)},
+                      {"supports", "Pins and splines", supports_section(result)},
+                      {"contact", "Face width, pressure, stress", contact_section(result)},
+                      {"dynamics", "Load sharing and dynamic factors", dynamics_section(result)},
+                      {"spread", "Spread", spread_section(result.studies)},
+                      {"sweeps", "Sweeps", sweeps_section(result.scene, result.studies)},
+                      {"grids", "Grids", grids_section(result.scene, result.studies)},
+                      {"sensitivity", "Sensitivity", sensitivity_section(result.studies)},
+                      {"optimisation", "Optimisation", optimise_section(result.studies)},
+                      {"coupling", "Coupling through the ring", coupling_section(result)},
+                      {"motion", "Bearings and sun orbit", motion_section(result)},
+                      {"modes", "Natural frequencies", modes_section(result)},
+                      {"model", "What was modelled", model_section(result)},
+                      {"inputs", "Inputs", inputs_section(result)},
+                      {"quality", "Checks and cost", quality_section(result)}});
 }
 
 }  // namespace annulus::app

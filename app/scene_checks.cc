@@ -400,7 +400,8 @@ void complete_and_check(Scene& scene, std::vector<Problem>& problems) {
       complete_and_check_pair(scene, problems);
       break;
     case StageKind::two_k_v:
-      problems.push_back({0, 0, "stage.kind: is not yet available in this version; only \"planetary\" and \"helical_pair\" are"});
+      problems.push_back(
+          {0, 0, "stage.kind: is not yet available in this version; only \"planetary\" and \"helical_pair\" are"});
       break;
   }
   // Paths are looked up among the inputs, which have to be right for that.

@@ -197,8 +197,8 @@ std::vector<Table> declare_tables() {
 
   tables.push_back(
       hub_gear_table("sun", "The sun gear.", planetary, [](Scene& s, std::size_t) -> HubGearInput& { return s.sun; }));
-  tables.push_back(
-      hub_gear_table("planet", "Each planet gear.", planetary, [](Scene& s, std::size_t) -> HubGearInput& { return s.planet; }));
+  tables.push_back(hub_gear_table("planet", "Each planet gear.", planetary,
+                                  [](Scene& s, std::size_t) -> HubGearInput& { return s.planet; }));
 
   Declarations<CarrierInput> carrier("carrier", "The planet carrier.",
                                      [](Scene& s, std::size_t) -> CarrierInput& { return s.carrier; });
@@ -309,7 +309,8 @@ std::vector<Table> declare_tables() {
       [](Scene& s, std::size_t) -> ErrorInput& { return s.errors; });
   errors.optional().only(planetary_and_pair);
   const auto list = [&](const char* name, std::vector<double> ErrorInput::*member, const char* meaning, double limit) {
-    errors.key(name, member, meaning).fallback(std::vector<double>{}, "0 for every planet")
+    errors.key(name, member, meaning)
+        .fallback(std::vector<double>{}, "0 for every planet")
         .from(-limit, limit)
         .only(planetary);
   };
@@ -402,8 +403,7 @@ std::vector<Table> declare_tables() {
                                      });
   lumped.optional();
   lumped
-      .key("half_backlash_um", &DynamicsInput::half_backlash,
-           "Half the backlash along the line of action, every mesh.")
+      .key("half_backlash_um", &DynamicsInput::half_backlash, "Half the backlash along the line of action, every mesh.")
       .required()
       .from(0, 1e4);
   lumped.key("mesh_damping_ratio", &DynamicsInput::mesh_damping_ratio, "Damping ratio ζ of every mesh: c = 2ζ√(k m_e).")

@@ -48,7 +48,8 @@ Table stiffness_table_of_pairs() {
 Table manufacturing_error_table() {
   Declarations<ManufacturingErrorInput> t(
       "manufacturing_error",
-      "Tangential composite deviations of both gears as random amplitudes: X₁ = (F′ − f′)/2 once per turn and X₂ = f′/2 "
+      "Tangential composite deviations of both gears as random amplitudes: X₁ = (F′ − f′)/2 once per turn and X₂ = "
+      "f′/2 "
       "once per tooth, Rayleigh, under a uniform phase. One reading of their quantile becomes the error at mesh "
       "frequency.",
       [](Scene& s, std::size_t) -> ManufacturingErrorInput& {
@@ -87,8 +88,7 @@ Table manufacturing_error_table() {
         "error_magnitude, x1, x2, envelope √(X₁² + X₂²) or crest X₁ + X₂; sum or sum_magnitude of both gears; none: "
         "the law is reported, the error is given by errors.mesh_error_um.")
       .fallback(std::string("pinion_envelope"), "the amplitude of one gear, both terms");
-  t.choice("amount", &ManufacturingErrorInput::amount,
-           {{"sample", ErrorAmount::sample}, {"exact", ErrorAmount::exact}},
+  t.choice("amount", &ManufacturingErrorInput::amount, {{"sample", ErrorAmount::sample}, {"exact", ErrorAmount::exact}},
            "Quantile of the draws, or of the law itself.")
       .fallback(std::string("sample"), "as in the paper; its confidence interval stands beside it");
   return t.done();

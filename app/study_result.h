@@ -132,7 +132,7 @@ struct OptimiseResults {
   std::vector<OptimiseRun> runs{};
   std::size_t best_run = 0;
   Design given{}, best{};
-  double numerical_error = 0;      ///< of the objective, where the scene's own figures tell it
+  double numerical_error = 0;        ///< of the objective, where the scene's own figures tell it
   dynamics::ObjectiveRange range{};  ///< over all evaluations of all runs, of values to be made small
   /// Evaluations until the objective of the best run was met within 1 % of the gain (at least the numerical error), by
   /// run; absent: never.

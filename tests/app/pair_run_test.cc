@@ -130,10 +130,12 @@ BOOST_AUTO_TEST_CASE(shares_follow_statics) {
                boost::test_tools::tolerance(1e-6));
   }
   // The paper's conclusion for the range, and where it fails for the largest value.
-  BOOST_TEST(result.shares.back().shares.errors_alone.quasi_static > result.shares.back().shares.stiffness_alone.quasi_static);
+  BOOST_TEST(result.shares.back().shares.errors_alone.quasi_static >
+             result.shares.back().shares.stiffness_alone.quasi_static);
   const auto report = pair_file(folder.path() / "report.html");
-  BOOST_TEST(report.find("peak to peak, <b>at all torques up to 50 kN m</b>, and for its largest value <b>up to 0.5 kN m "
-                         "only</b>") != std::string::npos);
+  BOOST_TEST(
+      report.find("peak to peak, <b>at all torques up to 50 kN m</b>, and for its largest value <b>up to 0.5 kN m "
+                  "only</b>") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(the_verdict_follows_the_numbers) {
@@ -142,16 +144,19 @@ BOOST_AUTO_TEST_CASE(the_verdict_follows_the_numbers) {
   auto text = test::quick_pair() + small_studies;
   for (const auto* line : {"pinion_", "wheel_"}) {
     text = test::replaced(text, std::string(line) + "total_um = 48.927", std::string(line) + "total_um = 0.48927");
-    text = test::replaced(text, std::string(line) + "tooth_to_tooth_um = 12.927", std::string(line) + "tooth_to_tooth_um = 0.12927");
+    text = test::replaced(text, std::string(line) + "tooth_to_tooth_um = 12.927",
+                          std::string(line) + "tooth_to_tooth_um = 0.12927");
   }
   (void)run_pair_text(text, folder.path() / "small");
-  BOOST_TEST(pair_file(folder.path() / "small/report.html")
-                 .find("peak to peak, <b>up to 0.5 kN m only</b>, and for its largest value <b>at none of the torques</b>") !=
-             std::string::npos);
+  BOOST_TEST(
+      pair_file(folder.path() / "small/report.html")
+          .find("peak to peak, <b>up to 0.5 kN m only</b>, and for its largest value <b>at none of the torques</b>") !=
+      std::string::npos);
   // Without ripple the stiffness moves nothing.
   (void)run_pair_text(test::replaced(text, "ripple = 0.05\n", ""), folder.path() / "constant");
-  BOOST_TEST(pair_file(folder.path() / "constant/report.html").find("peak to peak, <b>at all torques up to 50 kN m</b>") !=
-             std::string::npos);
+  BOOST_TEST(
+      pair_file(folder.path() / "constant/report.html").find("peak to peak, <b>at all torques up to 50 kN m</b>") !=
+      std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(threads_change_nothing_and_a_second_run_reads_back) {
@@ -173,11 +178,13 @@ BOOST_AUTO_TEST_CASE(threads_change_nothing_and_a_second_run_reads_back) {
 
 BOOST_AUTO_TEST_CASE(finite_elements_of_a_pair_are_solved_compared_and_reused) {
   const test::TemporaryFolder folder("pair_solved");
-  const auto text = test::solved_pair() + "[transmission_error]\npinion_torques_Nm = [200, 600, 1100]\n"
-                                          "[[sweep]]\ninput = \"stage.pinion_torque_Nm\"\nvalues = [400, 600, 2000]\n";
+  const auto text = test::solved_pair() +
+                    "[transmission_error]\npinion_torques_Nm = [200, 600, 1100]\n"
+                    "[[sweep]]\ninput = \"stage.pinion_torque_Nm\"\nvalues = [400, 600, 2000]\n";
   const auto result = run_pair_text(text, folder.path());
   BOOST_TEST_REQUIRE(result.stiffnesses.size() == 3U);
-  const double iso = result.stiffnesses[0].value, closed = result.stiffnesses[1].value, solved = result.stiffnesses[2].value;
+  const double iso = result.stiffnesses[0].value, closed = result.stiffnesses[1].value,
+               solved = result.stiffnesses[2].value;
   BOOST_TEST(result.stiffnesses[2].taken);
   // Two independent models of the same teeth, both in plane strain: cantilever formulas are a few per cent off.
   BOOST_TEST(std::abs(closed / solved - 1) < 0.05);
@@ -210,8 +217,8 @@ BOOST_AUTO_TEST_CASE(finite_elements_of_a_pair_are_solved_compared_and_reused) {
 
 BOOST_AUTO_TEST_CASE(tables_outside_their_loads_fail_their_row_alone) {
   const test::TemporaryFolder folder("pair_outside");
-  const auto result = run_pair_text(
-      test::solved_pair() + "[transmission_error]\npinion_torques_Nm = [600, 5000]\n", folder.path());
+  const auto result =
+      run_pair_text(test::solved_pair() + "[transmission_error]\npinion_torques_Nm = [600, 5000]\n", folder.path());
   BOOST_TEST(result.shares[0].failure.empty());
   BOOST_TEST(!result.shares[1].failure.empty());
   BOOST_TEST(pair_file(folder.path() / "report.html").find("Left out, for no response was found") != std::string::npos);
@@ -229,6 +236,22 @@ BOOST_AUTO_TEST_CASE(a_scene_without_dynamics_has_stiffness_and_errors) {
   BOOST_TEST(report.find("id=\"motion\"") == std::string::npos);
   // `solve` of a scene with dynamics stops at the same place.
   BOOST_TEST(!run_pair_text(test::quick_pair(), folder.path() / "solve", 1, false).response.has_value());
+}
+
+BOOST_AUTO_TEST_CASE(the_other_direction_mirrors_the_pair) {
+  const test::TemporaryFolder folder("pair_mirror");
+  // Back flanks, the error half a turn on: every force changes its sign and nothing else.
+  const auto forth = run_pair_text(test::quick_pair(), folder.path() / "forth");
+  const auto back = run_pair_text(
+      test::replaced(test::replaced(test::quick_pair(), "pinion_torque_Nm = 20000", "pinion_torque_Nm = -20000"),
+                     "[manufacturing_error]", "[errors]\nmesh_error_phase_deg = 180\n[manufacturing_error]"),
+      folder.path() / "back");
+  const auto a = app::loaded_force(forth.response->figures), b = app::loaded_force(back.response->figures);
+  // Equal motions, found separately to the tolerance of the solution.
+  BOOST_TEST(b.largest.value == a.largest.value, boost::test_tools::tolerance(1e-5));
+  BOOST_TEST(b.smallest.value == a.smallest.value, boost::test_tools::tolerance(1e-5));
+  BOOST_TEST(back.response->figures.dynamic_factor.value == forth.response->figures.dynamic_factor.value,
+             boost::test_tools::tolerance(1e-5));
 }
 
 BOOST_AUTO_TEST_CASE(scenes_of_the_paper_are_good) {

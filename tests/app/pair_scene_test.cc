@@ -44,17 +44,20 @@ BOOST_AUTO_TEST_CASE(absent_inertias_and_centre_distance_are_derived) {
   BOOST_TEST(std::get<double>(distance.value) == 15 * 58 / (2 * std::cos(14 * units::deg)),
              boost::test_tools::tolerance(1e-9));
   // Given ones stay.
-  const auto given = parsed_pair(test::replaced(test::quick_pair(), "mass_kg = 289", "mass_kg = 289\ninertia_kg_m2 = 9"));
+  const auto given =
+      parsed_pair(test::replaced(test::quick_pair(), "mass_kg = 289", "mass_kg = 289\ninertia_kg_m2 = 9"));
   BOOST_CHECK(input_of(given, "wheel.inertia_kg_m2").origin == app::Origin::scene);
   BOOST_TEST(*app::pair_inertia(given, given.wheel) == 9.0);
 }
 
 BOOST_AUTO_TEST_CASE(profile_shifts_set_the_centre_distance_without_backlash) {
-  auto text = test::replaced(test::quick_pair(), "teeth = 21\nprofile_shift = 0\n", "teeth = 21\nprofile_shift = 0.3\n");
+  auto text =
+      test::replaced(test::quick_pair(), "teeth = 21\nprofile_shift = 0\n", "teeth = 21\nprofile_shift = 0.3\n");
   const auto geometry = app::make_pair_geometry(parsed_pair(text));
   // Rounding of a metre.
   BOOST_TEST(std::abs(geometry.gears.normal_backlash()) < 1e-14);
-  BOOST_TEST(geometry.gears.centre_distance() > app::make_pair_geometry(parsed_pair(test::quick_pair())).gears.centre_distance());
+  BOOST_TEST(geometry.gears.centre_distance() >
+             app::make_pair_geometry(parsed_pair(test::quick_pair())).gears.centre_distance());
 }
 
 BOOST_AUTO_TEST_CASE(the_lumped_pair_has_the_statics_of_the_gears) {
@@ -110,7 +113,8 @@ BOOST_AUTO_TEST_CASE(reading_amount_and_divisor_choose_the_amplitude) {
   auto known = with("");
   known.law->readings.front().sample.value = 42;
   BOOST_TEST(app::pair_errors(parsed_pair(test::quick_pair()), &known).law->readings.front().sample.value == 42);
-  const auto other = parsed_pair(test::replaced(test::quick_pair(), "[manufacturing_error]\n", "[manufacturing_error]\nseed = 2\n"));
+  const auto other =
+      parsed_pair(test::replaced(test::quick_pair(), "[manufacturing_error]\n", "[manufacturing_error]\nseed = 2\n"));
   BOOST_TEST(app::pair_errors(other, &known).law->readings.front().sample.value != 42);
 }
 
@@ -169,15 +173,17 @@ BOOST_AUTO_TEST_CASE(closed_form_and_iso_formula_agree) {
   // computed ones it is known to some 10 %.
   BOOST_TEST(std::abs(list[1].value / list[0].value - 1) < 0.1);
   BOOST_TEST(std::isnan(list[2].value));
-  const auto modified = parsed_pair(test::replaced(test::quick_pair(), "teeth = 21\n", "teeth = 21\ntip_relief_um = 20\n"));
-  const auto without =
-      app::mean_stiffnesses(modified, geometry, app::pair_mesh(modified, geometry, app::pair_mesh_model(modified, geometry), {}));
+  const auto modified =
+      parsed_pair(test::replaced(test::quick_pair(), "teeth = 21\n", "teeth = 21\ntip_relief_um = 20\n"));
+  const auto without = app::mean_stiffnesses(
+      modified, geometry, app::pair_mesh(modified, geometry, app::pair_mesh_model(modified, geometry), {}));
   BOOST_TEST(std::isnan(without[1].value));
   BOOST_TEST(without[1].note.find("modifications") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(phases_of_the_errors_are_what_is_random) {
-  const auto variables = app::random_variables(parsed_pair(test::quick_pair() + "[errors]\nwheel_error_um = 5\n[monte_carlo]\nsamples = 3\n"));
+  const auto variables = app::random_variables(
+      parsed_pair(test::quick_pair() + "[errors]\nwheel_error_um = 5\n[monte_carlo]\nsamples = 3\n"));
   BOOST_TEST_REQUIRE(variables.size() == 2U);
   BOOST_TEST(variables[0].input == "errors.mesh_error_phase_deg");
   BOOST_TEST(variables[1].input == "errors.wheel_error_phase_deg");
@@ -185,10 +191,10 @@ BOOST_AUTO_TEST_CASE(phases_of_the_errors_are_what_is_random) {
 
 BOOST_AUTO_TEST_CASE(default_sensitivity_takes_bearings_damping_and_backlash) {
   const auto inputs = app::sensitivity_inputs(parsed_pair(test::quick_pair() + "[sensitivity]\nfactor = 2\n"));
-  const std::vector<std::string> expected = {
-      "pinion.bearing_transverse_N_per_m", "pinion.bearing_axial_N_per_m", "wheel.bearing_transverse_N_per_m",
-      "wheel.bearing_axial_N_per_m",       "dynamics.half_backlash_um",    "dynamics.mesh_damping_ratio",
-      "dynamics.support_damping_ratio"};
+  const std::vector<std::string> expected = {"pinion.bearing_transverse_N_per_m", "pinion.bearing_axial_N_per_m",
+                                             "wheel.bearing_transverse_N_per_m",  "wheel.bearing_axial_N_per_m",
+                                             "dynamics.half_backlash_um",         "dynamics.mesh_damping_ratio",
+                                             "dynamics.support_damping_ratio"};
   BOOST_TEST(inputs == expected, boost::test_tools::per_element());
 }
 
@@ -200,41 +206,65 @@ struct BadPair {
 BOOST_AUTO_TEST_CASE(bad_input_is_refused_with_place_and_remedy) {
   const BadPair cases[] = {
       // Out of range, of the wrong type, missing or unknown.
-      {"pinion_speed_rpm = 1500", "pinion_speed_rpm = 0", "pair.toml:9:1: stage.pinion_speed_rpm = 0", "0 < value <= 1e6 r/min"},
+      {"pinion_speed_rpm = 1500", "pinion_speed_rpm = 0", "pair.toml:9:1: stage.pinion_speed_rpm = 0",
+       "0 < value <= 1e6 r/min"},
       {"pinion_speed_rpm = 1500", "", "stage.pinion_speed_rpm: is missing", "Speed of the pinion"},
-      {"pinion_torque_Nm = 20000", "pinion_torque_Nm = \"much\"", "pair.toml:8:1: stage.pinion_torque_Nm", "must be a number"},
-      {"pinion_torque_Nm = 20000", "pinion_torque_kNm = 20", "pair.toml:8:1: stage.pinion_torque_kNm", "did you mean stage.pinion_torque_Nm?"},
+      {"pinion_torque_Nm = 20000", "pinion_torque_Nm = \"much\"", "pair.toml:8:1: stage.pinion_torque_Nm",
+       "must be a number"},
+      {"pinion_torque_Nm = 20000", "pinion_torque_kNm = 20", "pair.toml:8:1: stage.pinion_torque_kNm",
+       "did you mean stage.pinion_torque_Nm?"},
       {"teeth = 37", "teeth = 37.5", "wheel.teeth = 37.5", "a whole number"},
       {"mass_kg = 205", "mass_kg = -1", "pinion.mass_kg = -1", "0 < value"},
       {"mass_kg = 205\n", "", "pinion.mass_kg: is required by [dynamics]", ""},
       {"module_mm = 15", "module_mm = 15\nplanets = 3", "stage.planets = 3", "belongs to planetary"},
-      {"[wheel]", "[planet]", "[planet]: has no meaning for a stage of kind \"helical_pair\"", "it belongs to planetary"},
-      {"bearing_axial_N_per_m = 1e9\n[wheel]", "bearing_axial_N_per_m = 0\n[wheel]", "pinion.bearing_axial_N_per_m = 0", "or inf"},
+      {"[wheel]", "[planet]", "[planet]: has no meaning for a stage of kind \"helical_pair\"",
+       "it belongs to planetary"},
+      {"bearing_axial_N_per_m = 1e9\n[wheel]", "bearing_axial_N_per_m = 0\n[wheel]", "pinion.bearing_axial_N_per_m = 0",
+       "or inf"},
       // Between the keys of the mesh.
-      {"stiffness = \"iso_6336\"", "stiffness = \"iso6336\"", "mesh.pinion_wheel.stiffness = \"iso6336\"", "did you mean \"iso_6336\"?"},
-      {"stiffness = \"iso_6336\"", "stiffness = \"harmonic\"", "mesh.pinion_wheel.mean_N_per_m: is required by", "harmonic"},
+      {"stiffness = \"iso_6336\"", "stiffness = \"iso6336\"", "mesh.pinion_wheel.stiffness = \"iso6336\"",
+       "did you mean \"iso_6336\"?"},
+      {"stiffness = \"iso_6336\"", "stiffness = \"harmonic\"", "mesh.pinion_wheel.mean_N_per_m: is required by",
+       "harmonic"},
       {"ripple = 0.05", "ripple = 1.2", "mesh.pinion_wheel.ripple = 1.2", "must stay below 1"},
       {"ripple = 0.05", "mean_N_per_m = 1e9", "mesh.pinion_wheel.mean_N_per_m = 1e9", "has a meaning only with"},
       {"ripple = 0.05", "duty = 0.5", "mesh.pinion_wheel.duty", "rectangular"},
-      {"stiffness = \"iso_6336\"\nripple = 0.05", "stiffness = \"computed\"\nsingle_stiffness_GPa = 14", "mesh.pinion_wheel.single_stiffness_GPa = 14", "iso_6336"},
-      {"bore_diameter_mm = 260", "bore_diameter_mm = 570", "wheel.bore_diameter_mm = 570", "must be smaller than the root diameter"},
+      {"stiffness = \"iso_6336\"\nripple = 0.05", "stiffness = \"computed\"\nsingle_stiffness_GPa = 14",
+       "mesh.pinion_wheel.single_stiffness_GPa = 14", "iso_6336"},
+      {"bore_diameter_mm = 260", "bore_diameter_mm = 570", "wheel.bore_diameter_mm = 570",
+       "must be smaller than the root diameter"},
       // Of the errors.
-      {"wheel_tooth_to_tooth_um = 12.927", "wheel_tooth_to_tooth_um = 60", "manufacturing_error.wheel_tooth_to_tooth_um = 60", "value <= 48.927"},
-      {"pinion_total_um = 48.927\npinion_tooth_to_tooth_um = 12.927", "pinion_total_um = 0\npinion_tooth_to_tooth_um = 0", "manufacturing_error.pinion_total_um = 0", "must be above 0"},
-      {"[manufacturing_error]", "[manufacturing_error]\nreading = \"pinion_envelop\"", "manufacturing_error.reading = pinion_envelop", "did you mean \"pinion_envelope\"?"},
-      {"[manufacturing_error]", "[errors]\nmesh_error_um = 5\n[manufacturing_error]", "errors.mesh_error_um = 5", "reading = \"none\""},
-      {"[manufacturing_error]", "[manufacturing_error]\nsamples = 100\nprobability = 0.999", "manufacturing_error.samples = 100", "too few"},
-      {"[manufacturing_error]", "[manufacturing_error]\nsamples = 10", "manufacturing_error.samples = 10", "100 <= value"},
-      {"[manufacturing_error]", "[manufacturing_error]\ndivisor = \"rounded\"", "manufacturing_error.divisor", "printed"},
-      {"[manufacturing_error]", "[errors]\npinion_wheel_misalignment_um = 5\n[manufacturing_error]", "errors.pinion_wheel_misalignment_um = 5", "computed"},
-      {"[manufacturing_error]", "[errors]\nsun_eccentricity_um = 5\n[manufacturing_error]", "errors.sun_eccentricity_um", "belongs to planetary"},
+      {"wheel_tooth_to_tooth_um = 12.927", "wheel_tooth_to_tooth_um = 60",
+       "manufacturing_error.wheel_tooth_to_tooth_um = 60", "value <= 48.927"},
+      {"pinion_total_um = 48.927\npinion_tooth_to_tooth_um = 12.927",
+       "pinion_total_um = 0\npinion_tooth_to_tooth_um = 0", "manufacturing_error.pinion_total_um = 0",
+       "must be above 0"},
+      {"[manufacturing_error]", "[manufacturing_error]\nreading = \"pinion_envelop\"",
+       "manufacturing_error.reading = pinion_envelop", "did you mean \"pinion_envelope\"?"},
+      {"[manufacturing_error]", "[errors]\nmesh_error_um = 5\n[manufacturing_error]", "errors.mesh_error_um = 5",
+       "reading = \"none\""},
+      {"[manufacturing_error]", "[manufacturing_error]\nsamples = 100\nprobability = 0.999",
+       "manufacturing_error.samples = 100", "too few"},
+      {"[manufacturing_error]", "[manufacturing_error]\nsamples = 10", "manufacturing_error.samples = 10",
+       "100 <= value"},
+      {"[manufacturing_error]", "[manufacturing_error]\ndivisor = \"rounded\"", "manufacturing_error.divisor",
+       "printed"},
+      {"[manufacturing_error]", "[errors]\npinion_wheel_misalignment_um = 5\n[manufacturing_error]",
+       "errors.pinion_wheel_misalignment_um = 5", "computed"},
+      {"[manufacturing_error]", "[errors]\nsun_eccentricity_um = 5\n[manufacturing_error]",
+       "errors.sun_eccentricity_um", "belongs to planetary"},
       // Of what is asked.
-      {"[dynamics]", "[transmission_error]\npinion_torques_Nm = []\n[dynamics]", "transmission_error.pinion_torques_Nm", "at least one torque"},
-      {"[dynamics]", "[transmission_error]\npinion_torques_Nm = [1, -2]\n[dynamics]", "transmission_error.pinion_torques_Nm", "0 < each value"},
-      {"[dynamics]", "[transmission_error]\npinion_torques_Nm = [5, 5]\n[dynamics]", "transmission_error.pinion_torques_Nm", "stands there twice"},
+      {"[dynamics]", "[transmission_error]\npinion_torques_Nm = []\n[dynamics]", "transmission_error.pinion_torques_Nm",
+       "at least one torque"},
+      {"[dynamics]", "[transmission_error]\npinion_torques_Nm = [1, -2]\n[dynamics]",
+       "transmission_error.pinion_torques_Nm", "0 < each value"},
+      {"[dynamics]", "[transmission_error]\npinion_torques_Nm = [5, 5]\n[dynamics]",
+       "transmission_error.pinion_torques_Nm", "stands there twice"},
       {"[dynamics]", "[dynamics]\nintegrator = \"runge_kutta_4\"", "dynamics.steps_per_cycle", "runge_kutta_4"},
       {"[dynamics]", "[dynamics]\nrim_coupling = \"none\"", "dynamics.rim_coupling", "belongs to planetary"},
-      {"[dynamics]", "[[sweep]]\ninput = \"stage.sun_speed_rpm\"\nvalues = [1]\n[dynamics]", "sweep.input = stage.sun_speed_rpm", "of a stage of kind \"helical_pair\"; did you mean stage.pinion_speed_rpm?"},
+      {"[dynamics]", "[[sweep]]\ninput = \"stage.sun_speed_rpm\"\nvalues = [1]\n[dynamics]",
+       "sweep.input = stage.sun_speed_rpm",
+       "of a stage of kind \"helical_pair\"; did you mean stage.pinion_speed_rpm?"},
   };
   for (const auto& bad : cases) {
     const auto text = test::replaced(test::quick_pair(), bad.what, bad.by);
@@ -258,18 +288,27 @@ BOOST_AUTO_TEST_CASE(what_needs_several_changes_is_refused_too) {
       BOOST_TEST(std::string(error.what()).find(message) != std::string::npos, error.what());
     }
   };
-  const auto computed = test::replaced(test::quick_pair(), "stiffness = \"iso_6336\"\nripple = 0.05", "stiffness = \"computed\"");
-  refused(test::replaced(computed, "bore_diameter_mm = 150\n", ""), "pinion.bore_diameter_mm: is required because the mesh is computed");
-  refused(test::replaced(computed, "pinion_torque_Nm = 20000", "pinion_torque_Nm = -5"), "must be above 0 with a tabulated stiffness");
-  refused(test::replaced(computed, "title", "rung = \"plane\"\ntitle"), "rung = plane: cannot represent the mesh: helical teeth");
-  refused(test::replaced(computed, "title", "rung = \"closed_form\"\ntitle"), "stiffness = \"closed_form\" in [mesh.pinion_wheel]");
+  const auto computed =
+      test::replaced(test::quick_pair(), "stiffness = \"iso_6336\"\nripple = 0.05", "stiffness = \"computed\"");
+  refused(test::replaced(computed, "bore_diameter_mm = 150\n", ""),
+          "pinion.bore_diameter_mm: is required because the mesh is computed");
+  refused(test::replaced(computed, "pinion_torque_Nm = 20000", "pinion_torque_Nm = -5"),
+          "must be above 0 with a tabulated stiffness");
+  refused(test::replaced(computed, "title", "rung = \"plane\"\ntitle"),
+          "rung = plane: cannot represent the mesh: helical teeth");
+  refused(test::replaced(computed, "title", "rung = \"closed_form\"\ntitle"),
+          "stiffness = \"closed_form\" in [mesh.pinion_wheel]");
   refused(test::replaced(computed, "title", "rung = \"resolved\"\ntitle"), "cannot represent helical gears");
-  const auto closed = test::replaced(test::quick_pair(), "stiffness = \"iso_6336\"\nripple = 0.05", "stiffness = \"closed_form\"");
-  refused(test::replaced(closed, "teeth = 21\n", "teeth = 21\nlead_crowning_um = 5\n"), "modifications have no closed form");
-  auto still = test::replaced(test::quick_pair(), "[manufacturing_error]\n", "[manufacturing_error]\nreading = \"none\"\n");
+  const auto closed =
+      test::replaced(test::quick_pair(), "stiffness = \"iso_6336\"\nripple = 0.05", "stiffness = \"closed_form\"");
+  refused(test::replaced(closed, "teeth = 21\n", "teeth = 21\nlead_crowning_um = 5\n"),
+          "modifications have no closed form");
+  auto still =
+      test::replaced(test::quick_pair(), "[manufacturing_error]\n", "[manufacturing_error]\nreading = \"none\"\n");
   refused(test::replaced(still, "pinion_torque_Nm = 20000", "pinion_torque_Nm = 0"), "nothing moves the pair");
   // Gears that cannot exist are told where they are made.
-  const auto pointed = parsed_pair(test::replaced(test::quick_pair(), "teeth = 21\nprofile_shift = 0", "teeth = 8\nprofile_shift = 0"));
+  const auto pointed =
+      parsed_pair(test::replaced(test::quick_pair(), "teeth = 21\nprofile_shift = 0", "teeth = 8\nprofile_shift = 0"));
   BOOST_CHECK_THROW(app::check_stage(pointed), GeometryError);
 }
 
