@@ -106,11 +106,58 @@ void add_loads(std::vector<Conclusion>& list, const PairRunResult& result) {
   }
 }
 
+std::string rpm_text(const SpeedRow& row) { return to_text(row.pinion_speed / units::rpm, 5) + " r/min"; }
+
+/// From which multiple of the mesh frequency on the computed transmission error is smaller than its estimated error.
+struct KnownOrders {
+  double error = 0;  ///< m
+  int first_unknown = 1;
+};
+KnownOrders known_orders(const MeshResult& mesh) {
+  Eigen::VectorXd lte(mesh.table.phases());
+  for (int i = 0; i < mesh.table.phases(); ++i) lte[i] = mesh.table.at(0, i, static_cast<int>(mesh.nominal)).lte;
+  const auto spectrum = dynamics::spectrum(lte, 1);
+  KnownOrders known{.error = mesh.lte_mean().value * mesh.lte_mean().error_relative};
+  while (known.first_unknown < spectrum.amplitude.size() && spectrum.amplitude[known.first_unknown] > known.error)
+    ++known.first_unknown;
+  return known;
+}
+
+Conclusion excitation(const PairRunResult& result, const SpeedRow& low, const SpeedRow& top, const SpeedRow& high) {
+  const auto errors_more = [](const SpeedRow& row) {
+    return row.errors_alone.acceleration > row.stiffness_alone.acceleration;
+  };
+  const bool stiffness_low = !errors_more(low), errors_high = errors_more(high);
+  Conclusion c{.statement = "Stiffness excites most at low speed, the errors at high speed", .numbers = {}, .why = {}};
+  for (const auto* row : {&low, &top, &high})
+    c.numbers += fmt::format("{}{} and {} m/s² at {}", c.numbers.empty() ? "acceleration, errors alone and stiffness alone: " : ", ",
+                             to_text(row->errors_alone.acceleration, 3), to_text(row->stiffness_alone.acceleration, 3),
+                             rpm_text(*row));
+  c.why = fmt::format("At the lowest speed the {} excite{} more, at the highest the {}. ",
+                      stiffness_low ? "stiffness" : "errors", stiffness_low ? "s" : "",
+                      errors_high ? "errors" : "stiffness");
+  c.agrees = stiffness_low && errors_high && errors_more(top);
+  if (std::holds_alternative<dynamics::HarmonicStiffness>(result.pair->mesh)) {
+    c.why += "A harmonic stiffness and the error both excite at mesh frequency: their ratio follows from the amplitude of "
+             "the error against the ripple of the deflection, hardly from the speed.";
+  } else {
+    c.why += "At low speed the higher harmonics of the stiffness weigh most.";
+  }
+  if (!result.mesh.computed || !stiffness_low) return c;
+  // What excites at low speed may be the roughness of the table.
+  const auto known = known_orders(*result.mesh.computed);
+  c.why += fmt::format(
+      " From order {} on those of the table are smaller than its estimated error of ±{} µm: whether they are real is not "
+      "known.",
+      known.first_unknown, um_text(known.error, 2));
+  if (c.agrees == true) c.agrees = std::nullopt;
+  return c;
+}
+
 void add_speeds(std::vector<Conclusion>& list, const PairRunResult& result) {
   const auto rows = good_speeds(result);
   if (rows.size() < 4) return;
   const auto &low = *rows.front(), &high = *rows.back();
-  const auto rpm = [](const SpeedRow& row) { return to_text(row.pinion_speed / units::rpm, 5) + " r/min"; };
   const auto top = *std::max_element(
       rows.begin(), rows.end(), [](const auto* a, const auto* b) { return a->all.acceleration < b->all.acceleration; });
   // "Steady at low speed": the lower half of the speeds changes little beside what the upper half does.
@@ -131,34 +178,15 @@ void add_speeds(std::vector<Conclusion>& list, const PairRunResult& result) {
     if (rises && change < 0.05) agrees = true;
     list.push_back(
         {words,
-         fmt::format("{} at {}, {} at {}, {} {} at most", to_text(scale * a, 4), rpm(low), to_text(scale * b, 4),
-                     rpm(middle), to_text(scale * peak, 4), unit),
+         fmt::format("{} at {}, {} at {}, {} {} at most", to_text(scale * a, 4), rpm_text(low), to_text(scale * b, 4),
+                     rpm_text(middle), to_text(scale * peak, 4), unit),
          fmt::format("Between the lowest and the middle speed it changes by {:.0f} % of its largest value; from the "
                      "middle speed to the peak it {}. Below 5 % a linear axis shows it as steady, above 20 % it "
                      "does not.",
                      100 * change, rises ? "rises" : "does not rise"),
          agrees});
   }
-  const bool stiffness_low = low.stiffness_alone.acceleration > low.errors_alone.acceleration,
-             errors_high = high.errors_alone.acceleration > high.stiffness_alone.acceleration,
-             errors_top = top->errors_alone.acceleration > top->stiffness_alone.acceleration;
-  list.push_back(
-      {"Stiffness excites most at low speed, the errors at high speed",
-       fmt::format(
-           "acceleration, errors alone against stiffness alone: {} and {} m/s² at {}, {} and {} m/s² at {} (the "
-           "largest), {} and {} m/s² at {}",
-           to_text(low.errors_alone.acceleration, 3), to_text(low.stiffness_alone.acceleration, 3), rpm(low),
-           to_text(top->errors_alone.acceleration, 4), to_text(top->stiffness_alone.acceleration, 4), rpm(*top),
-           to_text(high.errors_alone.acceleration, 4), to_text(high.stiffness_alone.acceleration, 4), rpm(high)),
-       fmt::format(
-           "At the lowest speed the {} excite{} more, at the highest the {}. {}",
-           stiffness_low ? "stiffness" : "errors", stiffness_low ? "s" : "", errors_high ? "errors" : "stiffness",
-           std::holds_alternative<dynamics::HarmonicStiffness>(result.pair->mesh)
-               ? "A harmonic stiffness and the error both excite at mesh frequency: their ratio follows from the "
-                 "amplitude of the error against the ripple of the deflection, hardly from the speed."
-               : "What the stiffness excites at multiples of the mesh frequency weighs at low speed, where the error "
-                 "at mesh frequency moves nothing but the teeth."),
-       stiffness_low && errors_high && errors_top});
+  list.push_back(excitation(result, low, *top, high));
 }
 
 std::vector<Conclusion> conclusions(const PairRunResult& result) {
