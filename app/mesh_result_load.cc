@@ -42,16 +42,31 @@ std::size_t nearest_load(const StiffnessTable& table, double load) {
   return best;
 }
 
+/// So many that the jumps of a rectangular wave fall between samples in step with its duty: its mean is met.
+int samples_of(const MeshInput& input) {
+  constexpr int fewest = 64, most = 256;
+  if (input.stiffness != StiffnessShape::rectangular) return fewest;
+  const auto missed = [&](int n) { return std::abs(n * *input.duty - std::round(n * *input.duty)) / n; };
+  int best = fewest;
+  for (int n = fewest; n <= most; ++n) {
+    if (missed(n) < missed(best) - 1e-12) best = n;
+  }
+  return best;
+}
+
 /// One cycle of a given wave, as the dynamics sees it; for figures and plots only.
 StiffnessTable sampled(const std::string& mesh, const MeshInput& input, double load) {
-  constexpr int samples = 64;
+  constexpr double rounding = 1e-12;
+  const int samples = samples_of(input);
   std::vector<StiffnessEntry> entries;
   for (int i = 0; i < samples; ++i) {
     const double phase = static_cast<double>(i) / samples - input.phase.value_or(0);
     double wave = 0;
     if (input.stiffness == StiffnessShape::harmonic) wave = std::cos(2 * std::numbers::pi * phase);
-    if (input.stiffness == StiffnessShape::rectangular)
-      wave = (phase - std::floor(phase) < *input.duty ? 1 : 0) - *input.duty;
+    if (input.stiffness == StiffnessShape::rectangular) {
+      const double late = phase + rounding;
+      wave = (late - std::floor(late) < *input.duty ? 1 : 0) - *input.duty;
+    }
     const double k = *input.mean * (1 + input.ripple.value_or(0) * wave);
     entries.push_back(
         {.unloaded_te = 0, .lte = load / k, .stiffness_secant = k, .stiffness_tangent = k, .error_relative = 0});

@@ -30,6 +30,7 @@ class DesignObjective {
         figures_(subject.figures()),
         variant_(variant_of(subject)) {
     for (const auto& column : settings_.objective) columns_.push_back(find_figure(figures_, column));
+    steady_ = find_figure(figures_, "steady");
     quick_ = std::all_of(columns_.begin(), columns_.end(), [&](std::size_t i) { return figures_[i].quick; });
     weights_ = settings_.weights;
     const auto n = static_cast<double>(columns_.size());
@@ -45,6 +46,13 @@ class DesignObjective {
     double sum = 0;
     for (std::size_t i = 0; i < columns_.size(); ++i) sum += weights_[i] * point.value(columns_[i]);
     return sum;
+  }
+
+  /// Why the point has no value; empty when it has. Figures of a motion that does not repeat depend on where the
+  /// integration happened to end: noise, among which a search finds its luck.
+  [[nodiscard]] std::string trouble(const StudyPoint& point) const {
+    if (!point.failure.empty()) return point.failure;
+    return steady_ != std::string::npos && point.value(steady_) == 0 ? "the motion does not become periodic" : "";
   }
 
   /// Of the objective at the scene as given, as far as its figures carry errors.
@@ -93,6 +101,13 @@ class DesignObjective {
 
   [[nodiscard]] Design design(const std::vector<double>& x) const {
     Design d{.x = x, .objective = 0, .point = evaluate(x, false), .starts = std::nullopt};
+    if (quick_ && d.point.failure.empty()) {
+      // The same numbers as the search saw: the motion is sampled otherwise.
+      const auto as_searched = evaluate(x, true);
+      for (std::size_t i = 0; i < figures_.size(); ++i) {
+        if (figures_[i].quick) d.point.values[i] = as_searched.value(i);
+      }
+    }
     d.objective = value(d.point);
     if (!d.point.failure.empty() || settings_.starts == 0) return d;
     const auto changed = study_case(x);
@@ -126,6 +141,7 @@ class DesignObjective {
   std::vector<StudyFigure> figures_;
   std::size_t variant_ = 0;
   std::vector<std::size_t> columns_;
+  std::size_t steady_ = 0;  ///< column, npos: the kind does not tell
   std::vector<double> weights_;
   bool quick_ = true;
   mutable std::mutex solving_;
@@ -173,7 +189,7 @@ OptimiseRun search(const StudySubject& subject, const DesignObjective& objective
       store.add(x, objective.evaluate(x, objective.quick()));
       known = store.find(x);
     }
-    if (!known->failure.empty()) throw SolverError(known->failure);
+    if (const auto trouble = objective.trouble(*known); !trouble.empty()) throw SolverError(trouble);
     return objective.sign() * objective.value(*known);
   };
   const auto options = search_options(*scene.optimise, optimiser, repeat);

@@ -130,16 +130,17 @@ Conclusion excitation(const PairRunResult& result, const SpeedRow& low, const Sp
   const bool stiffness_low = !errors_more(low), errors_high = errors_more(high);
   Conclusion c{.statement = "Stiffness excites most at low speed, the errors at high speed", .numbers = {}, .why = {}};
   for (const auto* row : {&low, &top, &high})
-    c.numbers += fmt::format("{}{} and {} m/s² at {}", c.numbers.empty() ? "acceleration, errors alone and stiffness alone: " : ", ",
-                             to_text(row->errors_alone.acceleration, 3), to_text(row->stiffness_alone.acceleration, 3),
-                             rpm_text(*row));
+    c.numbers += fmt::format(
+        "{}{} and {} m/s² at {}", c.numbers.empty() ? "acceleration, errors alone and stiffness alone: " : ", ",
+        to_text(row->errors_alone.acceleration, 3), to_text(row->stiffness_alone.acceleration, 3), rpm_text(*row));
   c.why = fmt::format("At the lowest speed the {} excite{} more, at the highest the {}. ",
                       stiffness_low ? "stiffness" : "errors", stiffness_low ? "s" : "",
                       errors_high ? "errors" : "stiffness");
   c.agrees = stiffness_low && errors_high && errors_more(top);
   if (std::holds_alternative<dynamics::HarmonicStiffness>(result.pair->mesh)) {
-    c.why += "A harmonic stiffness and the error both excite at mesh frequency: their ratio follows from the amplitude of "
-             "the error against the ripple of the deflection, hardly from the speed.";
+    c.why +=
+        "A harmonic stiffness and the error both excite at mesh frequency: their ratio follows from the amplitude of "
+        "the error against the ripple of the deflection, hardly from the speed.";
   } else {
     c.why += "At low speed the higher harmonics of the stiffness weigh most.";
   }
@@ -147,7 +148,8 @@ Conclusion excitation(const PairRunResult& result, const SpeedRow& low, const Sp
   // What excites at low speed may be the roughness of the table.
   const auto known = known_orders(*result.mesh.computed);
   c.why += fmt::format(
-      " From order {} on those of the table are smaller than its estimated error of ±{} µm: whether they are real is not "
+      " From order {} on those of the table are smaller than its estimated error of ±{} µm: whether they are real is "
+      "not "
       "known.",
       known.first_unknown, um_text(known.error, 2));
   if (c.agrees == true) c.agrees = std::nullopt;

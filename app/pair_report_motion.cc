@@ -153,7 +153,8 @@ std::string pair_quality_section(const PairRunResult& result) {
     std::string how = "marched";
     if (f.direct && f.direct->converged)
       how = fmt::format(
-          "harmonic balance ({} Newton iterations; half the samples change a force by {:.1e} of the mean){}",
+          "{} ({} Newton iterations; half the samples change a force by {:.1e} of the mean){}",
+          f.direct->method == dynamics::DirectMethod::piecewise ? "exactly, piece by piece" : "harmonic balance",
           f.direct->newton_iterations, f.direct->sampling_difference,
           f.confirmed ? ", confirmed by time integration over one window" : "");
     else if (f.direct)

@@ -8,6 +8,7 @@
 #include "app/content_id.h"
 #include "app/study_cases.h"
 #include "core/log.h"
+#include "dynamics/initial_spread.h"
 
 namespace annulus::app {
 
@@ -215,6 +216,29 @@ ChangedModel PlanetarySubject::model(const std::vector<Override>& overrides, con
   const std::string id =
       with_id ? ContentId().add("response", changed.id).add("method", dynamics::point_method()).id() : std::string();
   return {id, [changed = std::move(changed)](bool quick) { return point_of(changed, quick); }};
+}
+
+std::optional<StartSpread> PlanetarySubject::starts(const std::vector<Override>& overrides, const std::string& where,
+                                                    std::size_t ring, const std::string& folder, int count,
+                                                    int seed) const {
+  const auto changed = stage(overrides, where, ring, folder, false);
+  const auto spread = dynamics::initial_spread(
+      changed.stage,
+      {.random_starts = count - 1, .seed = static_cast<std::uint64_t>(seed), .simulation = changed.simulation});
+  StartSpread result{
+      .starts = count, .motions = spread.attractors, .low = {}, .high = {}, .not_steady = spread.unsteady};
+  for (const auto& start : spread.starts) {
+    std::vector<double> row;
+    append(row, start.sun_planet);
+    append(row, start.ring_planet);
+    row.push_back(start.steady ? 1 : 0);
+    if (result.low.empty()) result.low = result.high = row;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      result.low[i] = std::min(result.low[i], row[i]);
+      result.high[i] = std::max(result.high[i], row[i]);
+    }
+  }
+  return result;
 }
 
 }  // namespace annulus::app

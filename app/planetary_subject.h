@@ -40,6 +40,9 @@ class PlanetarySubject final : public StudySubject {
                const std::string& folder) const override;
   [[nodiscard]] ChangedModel model(const std::vector<Override>& overrides, const std::string& where, std::size_t ring,
                                    const std::string& folder, bool with_id) const override;
+  [[nodiscard]] std::optional<StartSpread> starts(const std::vector<Override>& overrides, const std::string& where,
+                                                  std::size_t ring, const std::string& folder, int count,
+                                                  int seed) const override;
 
  private:
   [[nodiscard]] ChangedStage stage(const std::vector<Override>& overrides, const std::string& where, std::size_t ring,

@@ -189,6 +189,8 @@ std::string dynamics_section(const RunResult& result) {
   const Lines sharing{&StageResponse::load_sharing, "_averaged", "", ""};
   const Lines factor{&StageResponse::dynamic_factor, "_max", "_min", "_max"};
   const Lines waveform{&StageResponse::waveform, "", "", "", 6};
+  const Lines sharing_waveform{&StageResponse::sharing_waveform, "", "", "", 6};
+  const char* first_cycles = "The first six mesh cycles of the window, at full resolution.";
   const std::string cut =
       fmt::format(" Windows longer than {:.0f} mesh cycles are cut here; the files hold them whole.", shown_cycles);
   text +=
@@ -197,17 +199,17 @@ std::string dynamics_section(const RunResult& result) {
           result, sun_planet, sharing, "N F / ΣF",
           "Each planet's part of the power, forces averaged over a mesh cycle. The coefficient is the highest point." +
               cut);
+  text += per_planet(result, sun_planet, sharing_waveform, "N F / ΣF", first_cycles);
   text += "<h3>Load sharing of the ring meshes</h3>\n" +
           per_planet(result, ring_planet, sharing, "N F / ΣF", "The same for the ring meshes.");
+  text += per_planet(result, ring_planet, sharing_waveform, "N F / ΣF", first_cycles);
   text += "<h3>Dynamic factor of the sun meshes</h3>\n" +
           per_planet(result, sun_planet, factor, "F / mean mesh force",
                      "Line: largest force of each mesh cycle; band: down to the smallest." + cut);
-  text += per_planet(result, sun_planet, waveform, "F / mean mesh force",
-                     "The first six mesh cycles of the window, at full resolution.");
+  text += per_planet(result, sun_planet, waveform, "F / mean mesh force", first_cycles);
   text += "<h3>Dynamic factor of the ring meshes</h3>\n" +
           per_planet(result, ring_planet, factor, "F / mean mesh force", "As above.");
-  text += per_planet(result, ring_planet, waveform, "F / mean mesh force",
-                     "The first six mesh cycles of the window, at full resolution.");
+  text += per_planet(result, ring_planet, waveform, "F / mean mesh force", first_cycles);
   text += error_bars(result);
   text += "<h3>Spectrum of the mesh forces</h3>\n<p>Sun mesh</p>\n" + spectra(result, sun_planet) +
           "<p>Ring mesh</p>\n" + spectra(result, ring_planet);

@@ -153,7 +153,7 @@ std::string quality_section(const RunResult& result) {
     const std::string steady = f.steady ? "reached" : "not reached";
     dynamics.rows.push_back(
         {escape(ring.name), steady + (f.steady_difference ? fmt::format(" ({:.1e})", *f.steady_difference) : ""),
-         fmt::format("{} mesh cycles{}", f.window_cycles, f.whole_error_period ? "" : ", less than an error period"),
+         fmt::format("{} mesh cycles{}", f.window_cycles, f.whole_period ? "" : ", less than an error period"),
          fmt::format("{} mesh cycles", f.total_cycles), small(f.force_balance_relative), small(f.energy.relative),
          fmt::format("{}", f.statistics.steps)});
   }

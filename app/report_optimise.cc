@@ -170,7 +170,9 @@ std::string optimise_section(const StudyResults& studies) {
   text += figure(pictures, legend_html(entries),
                  "Tables: <code>dynamics/optimise</code>; the best design as a scene: <code>best.toml</code> there.");
   text +=
-      "<p>“To the best”: evaluations until the best objective of all searches was met within 1 % of the gain.</p>\n";
+      "<p>“To the best”: evaluations until the best objective of all searches was met within 1 % of the gain, or "
+      "within "
+      "the error of the objective where that is larger.</p>\n";
   return text + "<div class=\"wide\">" + html(runs_table(o)) + "</div>\n<h3>Figures of both designs</h3>\n" +
          html(figures_table(studies, o));
 }

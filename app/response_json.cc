@@ -159,7 +159,7 @@ std::string response_json(const StageResponse& response, const std::string& id) 
       {"mesh_frequency_Hz", f.mesh_frequency},
       {"mean_mesh_force_N", f.mean_mesh_force},
       {"window_cycles", f.window_cycles},
-      {"whole_error_period", f.whole_error_period},
+      {"whole_error_period", f.whole_period},
       {"total_cycles", f.total_cycles},
       {"steady", f.steady},
       {"steady_difference", number(f.steady_difference.value_or(std::numeric_limits<double>::quiet_NaN()))},
@@ -186,7 +186,7 @@ std::optional<StageResponse> parse_response_json(const std::filesystem::path& fi
   f.mesh_frequency = number(json.at("mesh_frequency_Hz"));
   f.mean_mesh_force = number(json.at("mean_mesh_force_N"));
   f.window_cycles = json.at("window_cycles");
-  f.whole_error_period = json.at("whole_error_period");
+  f.whole_period = json.at("whole_error_period");
   f.total_cycles = json.at("total_cycles");
   f.steady = json.at("steady");
   if (const auto& d = json.at("steady_difference"); !d.is_null()) f.steady_difference = number(d);

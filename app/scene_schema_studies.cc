@@ -170,8 +170,8 @@ void declare_studies(std::vector<Table>& tables) {
                                        [](Scene& s, std::size_t i) -> VariableInput& { return s.variables.at(i); });
   variable.repeated([](Scene& s, std::size_t n) { s.variables.resize(n); }).on_request();
   variable.key("input", &VariableInput::input, (std::string("What is searched: ") + path_meaning).c_str()).required();
-  variable.key("low", &VariableInput::low, "Smallest value, in the unit of the input.").required();
-  variable.key("high", &VariableInput::high, "Largest value, in the unit of the input.").required();
+  variable.key("low", &VariableInput::low, "Smallest value, in the unit of the input.").required().from(-1e12, 1e12);
+  variable.key("high", &VariableInput::high, "Largest value, in the unit of the input.").required().from(-1e12, 1e12);
   variable
       .choice("scale", &VariableInput::scale,
               {{"linear", SweepScale::linear}, {"logarithmic", SweepScale::logarithmic}},

@@ -71,7 +71,7 @@ void add_section(StageMotion& motion, const dynamics::PlanetaryStage& stage, con
   const auto section = dynamics::poincare_section(stage, response.series, static_cast<int>(samples_per_cycle));
   auto pattern = dynamics::section_pattern(section, stage.error_period());
   // One error period alone does not show whether it repeats; the comparison with the window before does.
-  if (pattern.kind == dynamics::SectionKind::undecided && response.steady && response.whole_error_period) {
+  if (pattern.kind == dynamics::SectionKind::undecided && response.steady && response.whole_period) {
     pattern.kind = dynamics::SectionKind::period_1;
     pattern.period = response.window_cycles;
   }

@@ -51,21 +51,13 @@ Eigen::MatrixXd sharing(const Eigen::MatrixXd& force, Eigen::Index planets) {
   return result;
 }
 
-/// Mean over each mesh cycle; columns span whole cycles.
-Eigen::MatrixXd cycle_means(const Eigen::MatrixXd& values, int cycles) {
-  const Eigen::Index samples = values.cols() / cycles;
-  Eigen::MatrixXd means(values.rows(), cycles);
-  for (int c = 0; c < cycles; ++c) means.col(c) = values.middleCols(c * samples, samples).rowwise().mean();
-  return means;
-}
-
 void tabulate(StageResponse& result, const dynamics::DynamicResponse& response, int planets) {
   const auto& series = response.series;
   const int cycles = response.window_cycles;
   const Eigen::Index samples = series.time.size() / cycles;
   const Eigen::MatrixXd factor = series.force / response.mean_mesh_force;
   const Eigen::MatrixXd momentary = sharing(series.force, planets);
-  const Eigen::MatrixXd averaged = sharing(cycle_means(series.force, cycles), planets);
+  const Eigen::MatrixXd averaged = sharing(response.cycle_force, planets);
 
   result.load_sharing.columns = columns("mesh_cycle", series.meshes, {"_averaged", "_min", "_max"});
   result.dynamic_factor.columns = columns("mesh_cycle", series.meshes, {"_min", "_max"});
@@ -80,11 +72,17 @@ void tabulate(StageResponse& result, const dynamics::DynamicResponse& response, 
     }
   }
 
-  result.waveform.columns = columns("mesh_cycle", series.meshes, {""});
-  for (Eigen::Index i = 0; i < std::min(waveform_cycles, cycles) * samples; ++i) {
-    auto& row = result.waveform.rows.emplace_back(1, static_cast<double>(i) / static_cast<double>(samples));
-    row.insert(row.end(), factor.col(i).begin(), factor.col(i).end());
-  }
+  const auto first_cycles = [&](const Eigen::MatrixXd& values) {
+    Csv csv;
+    csv.columns = columns("mesh_cycle", series.meshes, {""});
+    for (Eigen::Index i = 0; i < std::min(waveform_cycles, cycles) * samples; ++i) {
+      auto& row = csv.rows.emplace_back(1, static_cast<double>(i) / static_cast<double>(samples));
+      row.insert(row.end(), values.col(i).begin(), values.col(i).end());
+    }
+    return csv;
+  };
+  result.waveform = first_cycles(factor);
+  result.sharing_waveform = first_cycles(momentary);
 
   result.spectrum.columns = columns("frequency_Hz", series.meshes, {"_N"});
   result.spectrum.columns.insert(result.spectrum.columns.begin() + 1, "mesh_order");
@@ -109,6 +107,7 @@ std::vector<std::pair<const char*, Csv*>> tables_of(StageResponse& r) {
   return {{"load_sharing.csv", &r.load_sharing},
           {"dynamic_factor.csv", &r.dynamic_factor},
           {"waveform.csv", &r.waveform},
+          {"load_sharing_waveform.csv", &r.sharing_waveform},
           {"spectrum.csv", &r.spectrum},
           {"bearing_forces.csv", &r.motion.bearing_forces},
           {"sun_orbit.csv", &r.motion.sun_orbit},

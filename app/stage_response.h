@@ -22,10 +22,11 @@ struct StageResponse {
   ResponseErrors errors;              ///< the parts of the errors
   StageModes modes;
   StageMotion motion;
-  Csv load_sharing;    ///< per mesh cycle: N F / sum F of every branch, forces averaged over the cycle
-  Csv dynamic_factor;  ///< per mesh cycle: smallest and largest F / mean mesh force of every branch
-  Csv waveform;        ///< F / mean mesh force of every branch over the first mesh cycles of the window
-  Csv spectrum;        ///< force amplitude of every branch over frequency and mesh order
+  Csv load_sharing;      ///< per mesh cycle: N F / sum F of every branch, forces averaged over the cycle
+  Csv dynamic_factor;    ///< per mesh cycle: smallest and largest F / mean mesh force of every branch
+  Csv waveform;          ///< F / mean mesh force of every branch over the first mesh cycles of the window
+  Csv sharing_waveform;  ///< N F / sum F of every branch over the same time
+  Csv spectrum;          ///< force amplitude of every branch over frequency and mesh order
   bool reused = false;
 };
 

@@ -108,7 +108,7 @@ SummaryJson ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
   json["dynamics"] = {{"steady", f.steady},
                       {"steady_difference", f.steady_difference ? known(*f.steady_difference) : SummaryJson(nullptr)},
                       {"window_cycles", f.window_cycles},
-                      {"whole_error_period", f.whole_error_period},
+                      {"whole_error_period", f.whole_period},
                       {"total_cycles", f.total_cycles},
                       {"energy_balance_relative", known(f.energy.relative)},
                       {"force_balance_relative", known(f.force_balance_relative)},

@@ -29,7 +29,8 @@ class StiffnessTable {
   StiffnessTable(std::string mesh, int phases, std::vector<double> ring_angles, std::vector<double> loads,
                  std::vector<StiffnessEntry> entries);
 
-  [[nodiscard]] const std::string& mesh() const { return mesh_; }  ///< "sun_planet", "ring_planet" or "arc_pins"
+  /// "sun_planet", "ring_planet", "pinion_wheel" or "arc_pins"
+  [[nodiscard]] const std::string& mesh() const { return mesh_; }
   [[nodiscard]] int phases() const { return phases_; }
   [[nodiscard]] int positions() const { return static_cast<int>(ring_angles_.size()); }
   [[nodiscard]] const std::vector<double>& ring_angles() const { return ring_angles_; }  ///< rad, one per position

@@ -198,7 +198,7 @@ PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& opt
   response.force_max = evidence.of(&WindowPeaks::force_high, 1);
   response.force_min = evidence.of(&WindowPeaks::force_low, 1);
   response.force_min.value *= -1;
-  response.force_mean = found.best.force.row(0).mean();
+  response.force_mean = averaging_force(found.best).row(0).mean();
   const double f = response.static_force;
   response.dynamic_factor = f == 0  ? Figure{std::numeric_limits<double>::quiet_NaN(), 0}
                             : f > 0 ? Figure{response.force_max.value / f, response.force_max.error / f}
@@ -212,15 +212,7 @@ PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& opt
                       evidence.motion(rows.relative, &WindowPeaks::relative_high, &WindowPeaks::relative_low)};
   response.quasi_static = quasi_static_motions(pair, system, options);
 
-  response.window_cycles = found.window_cycles;
-  response.total_cycles = found.total_cycles;
-  response.whole_period = found.whole_period;
-  response.steady = found.steady;
-  response.confirmed = found.confirmed;
-  response.direct = std::move(found.direct);
-  response.integrator = std::move(found.integrator);
-  response.energy = found.energy;
-  response.statistics = found.statistics;
+  static_cast<SteadyOutcome&>(response) = found;
   if (options.keep_series) response.series = series_of(system, std::move(found.best));
   return response;
 }

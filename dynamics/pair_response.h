@@ -36,7 +36,7 @@ struct PairMotions {
 
 /// Where contact is lost the damper holds the parting teeth back up to the last instant and its force then ends in a
 /// jump: force_min, unlike force_max, then depends on where the samples fall, which its error does not tell.
-struct PairResponse {
+struct PairResponse : SteadyOutcome {
   double mesh_frequency = 0;    ///< Hz
   double static_force = 0;      ///< N, T_1/(r_1 cos b)
   Figure force_max, force_min;  ///< N
@@ -46,14 +46,7 @@ struct PairResponse {
   PairAccelerations acceleration;
   PairMotions dynamic;
   PairMotions quasi_static;  ///< without inertia, damping and speed; no errors are estimated
-
-  int window_cycles = 0, total_cycles = 0;                       ///< total: integrated; 0: the harmonic balance alone
-  bool whole_period = false, steady = false, confirmed = false;  ///< see SteadyResponse
-  std::optional<DirectSolution> direct;
-  std::optional<IntegratorChoice> integrator;
-  EnergyBalance energy;
-  IntegratorStatistics statistics;
-  TimeSeries series;  ///< with `keep_series`
+  TimeSeries series;         ///< with `keep_series`
 };
 
 /// Steady state of the pair and its figures. The error of a figure adds up what the sampling misses and the differences

@@ -16,6 +16,14 @@ void check_simulation(const PlanetaryStage& stage) {
   if (!(stage.sun_torque > 0)) throw InputError("a time response needs a positive sun torque (drive flanks loaded)");
 }
 
+/// Mean over each mesh cycle; columns span whole cycles.
+Eigen::MatrixXd cycle_means(const Eigen::MatrixXd& values, int cycles) {
+  const Eigen::Index samples = values.cols() / cycles;
+  Eigen::MatrixXd means(values.rows(), cycles);
+  for (int c = 0; c < cycles; ++c) means.col(c) = values.middleCols(c * samples, samples).rowwise().mean();
+  return means;
+}
+
 void set_figures(const PlanetaryStage& stage, const SimulationOptions& options, const ResponseEvidence& evidence,
                  DynamicResponse& response) {
   int positions = options.samples_per_cycle;
@@ -40,16 +48,8 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
                               .stiffness = mean_stiffness(stage.sun_mesh),
                               .start = options.start};
   auto found = steady_response(system, problem, options);
-  response.window_cycles = found.window_cycles;
-  response.whole_error_period = found.whole_period;
-  response.total_cycles = found.total_cycles;
-  response.steady = found.steady;
-  response.confirmed = found.confirmed;
-  response.steady_difference = found.steady_difference;
-  response.direct = std::move(found.direct);
-  response.integrator = std::move(found.integrator);
-  response.energy = found.energy;
-  response.statistics = found.statistics;
+  static_cast<SteadyOutcome&>(response) = found;
+  response.cycle_force = cycle_means(averaging_force(found.best), found.window_cycles);
   response.force_balance_relative =
       force_balance(stage, system, found.best, found.begin, found.end, found.window_cycles);
   set_figures(stage, options,

@@ -22,26 +22,14 @@ struct MeshKindResult {
   std::vector<BranchResult> branches;  ///< one per planet
 };
 
-struct DynamicResponse {
-  double mesh_frequency = 0;        ///< Hz
-  double mean_mesh_force = 0;       ///< N, T_s / (N r_bs)
-  int window_cycles = 0;            ///< evaluated at the end, mesh cycles
-  bool whole_error_period = false;  ///< false when `mesh_cycles` or `max_window_cycles` was too short for one
-  int total_cycles = 0;             ///< integrated mesh cycles; 0: none, the harmonic balance alone
-  bool steady = false;              ///< within steady_tolerance (see there), or taken from the harmonic balance alone
-  bool confirmed = false;           ///< harmonic balance and time integration agree
-  /// Largest mesh force difference to the harmonic balance (when `confirmed`) or to the window before / mean mesh
-  /// force; absent when there was none to compare with.
-  std::optional<double> steady_difference;
-  std::optional<DirectSolution> direct;        ///< absent when only marching was asked for or possible
-  std::optional<IntegratorChoice> integrator;  ///< present when it was left to the program and something was integrated
+struct DynamicResponse : SteadyOutcome {
+  double mesh_frequency = 0;   ///< Hz
+  double mean_mesh_force = 0;  ///< N, T_s / (N r_bs)
   MeshKindResult sun_planet, ring_planet;
-  EnergyBalance energy;
+  Eigen::MatrixXd cycle_force;  ///< N, forces averaged over each mesh cycle: sun meshes, then ring meshes x cycles
   /// Momentum balance of the sun's rotation over the window, relative to T_s: mean of sum F_sn r_bs (and of its
-  /// torsional support, and the change of angular momentum) against T_s. The mean is taken over the samples: with jumps
-  /// of the stiffness it is exact to jumps / samples only.
+  /// torsional support, and the change of angular momentum) against T_s.
   double force_balance_relative = 0;
-  IntegratorStatistics statistics;
   TimeSeries series;
 };
 

@@ -37,7 +37,7 @@ struct KindWindow {
   Eigen::Index first, planets;
 
   [[nodiscard]] auto force() const { return window.force.middleRows(first, planets); }
-  [[nodiscard]] bool jumps() const { return window.jump_force.size() > 0; }
+  [[nodiscard]] bool jumps() const { return window.jumps(); }
   /// What peaks are looked for in, and where it jumps.
   [[nodiscard]] auto curves() const {
     return (window.dense_force.size() > 0 ? window.dense_force : window.force).middleRows(first, planets);
@@ -45,7 +45,32 @@ struct KindWindow {
   [[nodiscard]] const auto& breaks() const {
     return window.dense_force.size() > 0 ? window.dense_after_jump : window.after_jump;
   }
-  [[nodiscard]] auto at_jumps() const { return window.jump_force.middleRows(first, planets); }
+  /// Both sides of all jumps.
+  [[nodiscard]] Eigen::MatrixXd at_jumps() const {
+    Eigen::MatrixXd forces(planets, 2 * window.jump_time.size());
+    forces << window.force_before.middleRows(first, planets), window.force_after.middleRows(first, planets);
+    return forces;
+  }
+  [[nodiscard]] Peak averaged() const {
+    if (!jumps()) return averaged_peak(force(), window.samples_per_cycle);
+    return averaged_peak(averaging_force(window).middleRows(first, planets), window.samples_per_cycle);
+  }
+  /// What every second sample says: behind jumps the trapezoidal rule is no longer exact to rounding.
+  [[nodiscard]] Peak averaged_coarsely() const {
+    if (!jumps() || window.samples_per_cycle % 2 != 0) return averaged();
+    const Eigen::Index samples = window.force.cols() / 2;
+    ResponseWindow coarse;
+    coarse.samples_per_cycle = window.samples_per_cycle / 2;
+    coarse.time = window.time(Eigen::seqN(0, samples, 2));
+    coarse.force = window.force(Eigen::all, Eigen::seqN(0, samples, 2));
+    coarse.jump_time = window.jump_time;
+    coarse.force_before = window.force_before;
+    coarse.force_after = window.force_after;
+    return KindWindow{coarse, first, planets}.averaged();
+  }
+  [[nodiscard]] double mean_force(Eigen::Index branch) const {
+    return (jumps() ? averaging_force(window) : window.force).row(first + branch).mean();
+  }
 
   [[nodiscard]] Peak sharing() const {
     if (!jumps()) return sharing_peak(curves());
@@ -83,9 +108,7 @@ MeshKindResult evaluate_meshes(const ResponseEvidence& evidence, Eigen::Index fi
   MeshKindResult result;
   auto& sharing = result.load_sharing;
   sharing.instantaneous = figure(best.sharing(), {before.sharing(), loose.sharing()});
-  sharing.averaged = figure(averaged_peak(best.force(), evidence.best.samples_per_cycle),
-                            {averaged_peak(before.force(), evidence.before.samples_per_cycle),
-                             averaged_peak(loose.force(), evidence.loose.samples_per_cycle)});
+  sharing.averaged = figure(best.averaged(), {before.averaged(), loose.averaged(), best.averaged_coarsely()});
   sharing.quasi_static = figure(quasi_static_peak(quasi_static_force, best.jumps()), {});
   for (Eigen::Index p = 0; p < planets; ++p) {
     const double f = evidence.mean_force;
@@ -93,7 +116,7 @@ MeshKindResult evaluate_meshes(const ResponseEvidence& evidence, Eigen::Index fi
     branch.dynamic_factor_max =
         figure(best.largest_force(p) / f, {before.largest_force(p) / f, loose.largest_force(p) / f});
     branch.dynamic_factor_min = best.least_force(p) / f;
-    branch.mean_force = evidence.best.force.row(first + p).mean();
+    branch.mean_force = best.mean_force(p);
     branch.contact_loss = evidence.best.open[first + p];
     result.branches.push_back(branch);
   }
@@ -104,7 +127,7 @@ double force_balance(const PlanetaryStage& stage, const LumpedSystem& system, co
                      const SystemState& begin, const SystemState& end, int cycles) {
   const int u = system.find("sun_u");
   const double duration = cycles / stage.mesh_frequency();
-  const double forces = window.force.topRows(stage.planets()).colwise().sum().mean();
+  const double forces = averaging_force(window).topRows(stage.planets()).colwise().sum().mean();
   const double support = system.stiffness()(u, u) * window.displacement.row(u).mean() +
                          system.damping()(u, u) * (end.q[u] - begin.q[u]) / duration;
   const double inertia = system.mass()(u, u) * (end.v[u] - begin.v[u]) / duration;

@@ -9,6 +9,30 @@
 
 namespace annulus::dynamics {
 
+namespace {
+
+/// Jumps come with the forces before and after; at the end of the window those before alone, its beginning follows.
+void set_jumps(ResponseWindow& window, const std::vector<double>& times, const std::vector<double>& forces) {
+  const Eigen::Index meshes = window.force.rows(), notes = static_cast<Eigen::Index>(times.size());
+  const Eigen::Map<const Eigen::MatrixXd> noted(forces.data(), meshes, notes);
+  const Eigen::Index jumps = (notes + 1) / 2;
+  window.jump_time.resize(jumps);
+  window.force_before.resize(meshes, jumps);
+  window.force_after.resize(meshes, jumps);
+  if (jumps == 0) return;
+  require(notes % 2 == 1, "jumps come in pairs of forces, the end of a window alone");
+  window.jump_time[0] = window.time[0];
+  window.force_before.col(0) = noted.col(notes - 1);
+  window.force_after.col(0) = window.force.col(0);
+  for (Eigen::Index j = 1; j < jumps; ++j) {
+    window.jump_time[j] = times[static_cast<std::size_t>(2 * j - 2)];
+    window.force_before.col(j) = noted.col(2 * j - 2);
+    window.force_after.col(j) = noted.col(2 * j - 1);
+  }
+}
+
+}  // namespace
+
 ResponseRun::ResponseRun(const LumpedSystem& system, double mesh_frequency, int samples_per_cycle,
                          const IntegratorOptions& integrator)
     : system_(system),
@@ -59,12 +83,13 @@ void ResponseRun::advance(int cycles, ResponseWindow* window, bool track_energy)
       if (workspace_.contact[m] == LumpedSystem::Contact::open) window->open[m] += 1.0 / samples;
     }
   };
-  std::vector<double> jump_force;
+  std::vector<double> jump_time, jump_force;
   const double start = state_.time, spacing = (end - start) / std::max(samples, 1);
   std::function<void(double)> at_jump;
   if (window) {
     window->after_jump.clear();
     at_jump = [&](double time) {
+      jump_time.push_back(time);
       jump_force.insert(jump_force.end(), workspace_.force.begin(), workspace_.force.end());
       // Rounding of a sample that stands on the jump itself: far below a billionth of the spacing.
       const auto sample_after = static_cast<Eigen::Index>(std::ceil((time - start) / spacing - 1e-9));
@@ -73,9 +98,7 @@ void ResponseRun::advance(int cycles, ResponseWindow* window, bool track_energy)
     };
   }
   const auto s = integrate(system_, state_, end, integrator_, workspace_, samples, sample, track_energy, at_jump);
-  if (window)
-    window->jump_force = Eigen::Map<const Eigen::MatrixXd>(
-        jump_force.data(), window->force.rows(), static_cast<Eigen::Index>(jump_force.size()) / window->force.rows());
+  if (window) set_jumps(*window, jump_time, jump_force);
   cycles_ += cycles;
   statistics_.steps += s.steps;
   statistics_.rhs_evaluations += s.rhs_evaluations;

@@ -1,27 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "dynamics/integrate.h"
+#include "dynamics/response_window.h"
 
 namespace annulus::dynamics {
-
-/// Samples of one window: meshes (and freedoms) x times.
-struct ResponseWindow {
-  int samples_per_cycle = 0;
-  Eigen::VectorXd time;
-  Eigen::MatrixXd force, displacement, velocity;
-  Eigen::VectorXd open;  ///< fraction of the samples without contact, per mesh
-  /// Where stiffnesses jump (empty otherwise): forces on both sides of the jumps, meshes x any number, and the samples
-  /// right after a jump, at or behind it. Extremes stand at the jumps, and curves do not go on smoothly across.
-  Eigen::MatrixXd jump_force{};
-  std::vector<Eigen::Index> after_jump{};
-  /// Forces at closer times, over as much of the window as shows everything (empty: there are none): peaks are then
-  /// taken from here; and its samples right after a jump.
-  Eigen::MatrixXd dense_force{};
-  std::vector<Eigen::Index> dense_after_jump{};
-};
 
 /// A system on its way: state and workspace, advanced window by window.
 class ResponseRun {

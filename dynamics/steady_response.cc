@@ -100,6 +100,17 @@ std::vector<Eigen::Index> samples_after_jumps(const LumpedSystem& system, double
   return list;
 }
 
+/// The jumps of the exact solution, which spans one period of the excitation, over the whole window.
+void set_jumps(const PiecewiseResponse& exact, double duration, int cycles, ResponseWindow& window) {
+  const Eigen::Index jumps = exact.jump_time.size(), periods = cycles / exact.solved_cycles;
+  window.jump_time.resize(periods * jumps);
+  for (Eigen::Index i = 0; i < periods; ++i)
+    window.jump_time.segment(i * jumps, jumps) =
+        exact.jump_time.array() + static_cast<double>(i) * duration / static_cast<double>(periods);
+  window.force_before = exact.force_before.replicate(1, periods);
+  window.force_after = exact.force_after.replicate(1, periods);
+}
+
 /// Absent when teeth part or the motion is unstable; `direct` says so.
 std::optional<DirectWindows> solve_exactly(const LumpedSystem& system, const SteadyProblem& problem, int cycles,
                                            const SimulationOptions& options, std::optional<DirectSolution>& direct) {
@@ -120,8 +131,7 @@ std::optional<DirectWindows> solve_exactly(const LumpedSystem& system, const Ste
   windows.fine.dense_after_jump = std::move(exact.dense_after_jump);
   windows.fine.after_jump = samples_after_jumps(system, duration, windows.fine.time.size());
   if (!std::isfinite(system.next_jump(0))) return windows;
-  windows.fine.jump_force.resize(exact.force_before.rows(), 2 * exact.force_before.cols());
-  windows.fine.jump_force << exact.force_before, exact.force_after;
+  set_jumps(exact, duration, cycles, windows.fine);
   return windows;
 }
 

@@ -101,19 +101,24 @@ struct SteadyProblem {
   std::optional<SystemState> start{};  ///< where marching begins at time 0; absent: in quasi-static equilibrium
 };
 
-/// The steady state of a system, and the windows that tell how well it is known.
-struct SteadyResponse {
+/// How the steady state was found, and how well it is known.
+struct SteadyOutcome {
   int window_cycles = 0;      ///< evaluated at the end
   bool whole_period = false;  ///< false when `mesh_cycles` or `max_window_cycles` was too short for one period
-  int total_cycles = 0;       ///< integrated cycles; 0: none, the harmonic balance alone
-  bool steady = false;        ///< within steady_tolerance (see there), or taken from the harmonic balance alone
-  bool confirmed = false;     ///< harmonic balance and time integration agree
-  std::optional<double> steady_difference;     ///< see DynamicResponse
+  int total_cycles = 0;       ///< integrated cycles; 0: none, the direct solution alone
+  bool steady = false;        ///< within steady_tolerance (see there), or taken from the direct solution alone
+  bool confirmed = false;     ///< direct solution and time integration agree
+  /// Largest mesh force difference to the direct solution (when `confirmed`) or to the window before / force scale (the
+  /// mean mesh force); absent when there was none to compare with.
+  std::optional<double> steady_difference;
   std::optional<DirectSolution> direct;        ///< absent when only marching was asked for or possible
   std::optional<IntegratorChoice> integrator;  ///< present when it was left to the program and something was integrated
   EnergyBalance energy;
   IntegratorStatistics statistics;
+};
 
+/// The steady state of a system, and the windows that tell how well it is known.
+struct SteadyResponse : SteadyOutcome {
   ResponseWindow best;
   /// What `best` should equal: the harmonic balance, with half the samples where nothing was integrated (forces alone),
   /// or the window before. Absent when there is none to compare with.

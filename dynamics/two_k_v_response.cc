@@ -70,7 +70,7 @@ std::vector<TwoKVMeshResult> mesh_results(const SteadyResponse& steady, Eigen::I
     result.dynamic_factor_max = figure(peak_in(steady.best), {peak_in(steady.before ? *steady.before : steady.best),
                                                               peak_in(steady.loose ? *steady.loose : steady.best)});
     result.dynamic_factor_min = steady.best.force.row(m).minCoeff() / mean_force;
-    result.mean_force = steady.best.force.row(m).mean();
+    result.mean_force = averaging_force(steady.best).row(m).mean();
     result.contact_loss = steady.best.open[m];
     results.push_back(result);
   }
@@ -93,7 +93,8 @@ std::optional<double> torque_balance(const TwoKVStage& stage, const LumpedSystem
                                      const SteadyResponse& steady) {
   if (stage.input_support != 0) return std::nullopt;
   const double torque = stage.output_torque / stage.ratio();
-  const double meshes = steady.best.force.topRows(stage.cranks).colwise().sum().mean() * stage.sun_base_radius();
+  const double meshes =
+      averaging_force(steady.best).topRows(stage.cranks).colwise().sum().mean() * stage.sun_base_radius();
   double momentum = 0;
   const double span = steady.end.time - steady.begin.time;
   if (span > 0)
@@ -147,8 +148,8 @@ TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options
                         mean_stiffness(stage.arc_mesh), std::nullopt};
   TwoKVResponse response;
   response.largest_multiplier = shoot_for_start(stage, system, options, problem);
-  response.steady = steady_response(system, problem, options);
-  auto& steady = response.steady;
+  auto steady = steady_response(system, problem, options);
+  response.steady = steady;
   response.crank_frequency = stage.crank_frequency();
   response.sun_mesh_frequency = stage.sun_mesh_frequency();
   response.arc_mesh_frequency = stage.arc_mesh_frequency();
@@ -167,9 +168,6 @@ TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options
   if (steady.window_cycles % stage.planet_teeth == 0)
     response.error_spectrum = spectrum(response.dynamic.series, response.crank_turns);
   if (options.keep_series) response.series = series_of(system, std::move(steady.best));
-  steady.best = {};
-  steady.before.reset();
-  steady.loose.reset();
   return response;
 }
 

@@ -49,8 +49,8 @@ struct TwoKVResponse {
   /// Largest amount of a Floquet multiplier of one period but the double unit one of a rigid motion: below 1 the motion
   /// is stable, above 1 the changing stiffness feeds it. Absent without shooting.
   std::optional<double> largest_multiplier;
-  SteadyResponse steady;  ///< without its windows
-  TimeSeries series;      ///< empty without `keep_series`
+  SteadyOutcome steady;
+  TimeSeries series;  ///< empty without `keep_series`
 };
 
 /// Turns of the crank against the carrier after which all repeats. One turn moves every sun mesh on by z_p whole

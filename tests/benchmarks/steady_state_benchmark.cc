@@ -13,6 +13,7 @@
 #include "dynamics/sampling.h"
 #include "dynamics/stages.h"
 #include "dynamics/study_point.h"
+#include "dynamics/tables.h"
 
 namespace {
 
@@ -26,30 +27,21 @@ struct Options {
 
 constexpr double wanted = 1e-3;  // accuracy of the load sharing coefficient
 
-/// In the shape of the stage's harmonic stiffness with a second harmonic and a stiffness that rises with the load.
-annulus::StiffnessTable table_like(const char* mesh, const MeshExcitation& excitation, double nominal) {
-  constexpr int phases = 32;
-  const auto& wave = std::get<HarmonicStiffness>(excitation);
-  std::vector<double> loads;
-  for (const double factor : {0.25, 0.5, 1.0, 1.5, 2.0}) loads.push_back(factor * nominal);
-  std::vector<annulus::StiffnessEntry> entries;
-  for (int i = 0; i < phases; ++i) {
-    const double angle = 2 * std::numbers::pi * i / phases;
-    const double shape = 1 + wave.ripple * (std::cos(angle) + 0.3 * std::cos(2 * angle + 1));
-    for (const double load : loads) {
-      constexpr double exponent = 0.05;  // line contact: k ~ F^0.05, tangent = secant / (1 - exponent)
-      const double secant = wave.mean * shape * std::pow(load / nominal, exponent);
-      entries.push_back({0, load / secant, secant, secant / (1 - exponent), 0.002});
-    }
-  }
-  return {mesh, phases, {0.0}, loads, entries};
-}
-
+/// The stage with tables in the shape of its harmonic stiffness that stiffen with the load.
 PlanetaryStage tabulated_stage() {
   PlanetaryStage stage = stages::ring_paper();
   const double force = stage.mean_mesh_force();
-  stage.sun_mesh = table_stiffness(table_like("sun_planet", stage.sun_mesh, force), force, 0, LoadDependence::table);
-  stage.ring_mesh = table_stiffness(table_like("ring_planet", stage.ring_mesh, force), force, 0, LoadDependence::table);
+  for (auto* mesh : {&stage.sun_mesh, &stage.ring_mesh}) {
+    const auto wave = std::get<HarmonicStiffness>(*mesh);
+    const tables::BentTable table{.mesh = mesh == &stage.sun_mesh ? "sun_planet" : "ring_planet",
+                                  .mean = wave.mean,
+                                  .ripple = wave.ripple,
+                                  .bend = 0.05,  // line contact
+                                  .nominal = force,
+                                  .shares = {0.25, 0.5, 1, 1.5, 2},
+                                  .phases = 32};
+    *mesh = table_stiffness(table.table(), force, 0, LoadDependence::table);
+  }
   return stage;
 }
 

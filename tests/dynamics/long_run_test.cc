@@ -100,20 +100,34 @@ LumpedSystem small_system() {
   return builder.build();
 }
 
+/// The small system on its way from beside its equilibrium.
+class SmallRun {
+ public:
+  explicit SmallRun(const LumpedSystem& system) : system_(system), workspace_(system.workspace()) {
+    state_.q = Eigen::VectorXd::Constant(1, 1.6e-3);
+    state_.v = Eigen::VectorXd::Zero(1);
+    options_.method = Integrator::arkode_explicit;
+    options_.absolute_tolerance = 1e-9;
+  }
+  template <class Sample>
+  IntegratorStatistics integrate_to(double end, int samples, Sample sample) {
+    return integrate(system_, state_, end, options_, workspace_, samples, sample);
+  }
+
+ private:
+  const LumpedSystem& system_;
+  LumpedSystem::Workspace workspace_;
+  SystemState state_;
+  IntegratorOptions options_;
+};
+
 BOOST_AUTO_TEST_CASE(memory_does_not_grow_with_the_length_of_a_run) {
   const auto system = small_system();
   const auto run = [&](int cycles) {
-    auto workspace = system.workspace();
-    SystemState state;
-    state.q = Eigen::VectorXd::Constant(1, 1.6e-3);
-    state.v = Eigen::VectorXd::Zero(1);
-    IntegratorOptions options;
-    options.method = Integrator::arkode_explicit;
-    options.absolute_tolerance = 1e-9;
+    SmallRun small(system);
     double sum = 0;
     const long before = allocations();
-    integrate(system, state, cycles / 70.0, options, workspace, 8 * cycles,
-              [&](int, const SystemState& s) { sum += s.q[0]; });
+    small.integrate_to(cycles / 70.0, 8 * cycles, [&](int, const SystemState& s) { sum += s.q[0]; });
     BOOST_TEST(std::isfinite(sum));
     return allocations() - before;
   };
@@ -129,14 +143,7 @@ BOOST_AUTO_TEST_CASE(memory_does_not_grow_with_the_length_of_a_run) {
 BOOST_AUTO_TEST_CASE(samples_do_not_force_steps) {
   const auto system = small_system();
   const auto steps = [&](int samples) {
-    auto workspace = system.workspace();
-    SystemState state;
-    state.q = Eigen::VectorXd::Constant(1, 1.6e-3);
-    state.v = Eigen::VectorXd::Zero(1);
-    IntegratorOptions options;
-    options.method = Integrator::arkode_explicit;
-    options.absolute_tolerance = 1e-9;
-    return integrate(system, state, 1.0, options, workspace, samples, [](int, const SystemState&) {}).steps;
+    return SmallRun(system).integrate_to(1.0, samples, [](int, const SystemState&) {}).steps;
   };
   // The last step may end elsewhere.
   BOOST_TEST(std::abs(steps(50'000) - steps(0)) <= 2);

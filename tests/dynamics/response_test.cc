@@ -21,7 +21,7 @@ BOOST_AUTO_TEST_CASE(base_scene_reaches_its_steady_state) {
   const auto stage = stages::ring_paper();
   const auto r = simulate(stage, quick());
   BOOST_TEST(r.steady);
-  BOOST_TEST(r.whole_error_period);
+  BOOST_TEST(r.whole_period);
   BOOST_TEST(r.window_cycles == 55);
   BOOST_TEST(r.total_cycles % 55 == 0);
   BOOST_TEST(*r.steady_difference <= SimulationOptions{}.steady_tolerance);
@@ -257,14 +257,14 @@ BOOST_AUTO_TEST_CASE(windows_that_cannot_be_compared_say_so) {
   options.mesh_cycles = 30;  // less than one error period
   options.estimate_error = false;
   const auto cut = simulate(stage, options);
-  BOOST_TEST(!cut.whole_error_period);
+  BOOST_TEST(!cut.whole_period);
   BOOST_TEST(!cut.steady);
   BOOST_TEST(!cut.steady_difference.has_value());
   BOOST_TEST(cut.window_cycles == 30);
   options.mesh_cycles.reset();
   options.max_window_cycles = 20;
   const auto limited = simulate(stage, options);
-  BOOST_TEST(!limited.whole_error_period);
+  BOOST_TEST(!limited.whole_period);
   BOOST_TEST(limited.window_cycles == 20);
   BOOST_TEST(limited.total_cycles == 40);
 }

@@ -37,6 +37,33 @@ SolvedRingCoupling solve(const RingStructure& structure, int planets, int per_cy
   return solve_ring_coupling(ring_mesh(structure, 2), planets, nominal_load, settings);
 }
 
+/// The paper's ring on pins, made of the parts of the program one by one.
+struct PinnedRing {
+  template <class Pins>
+  PinnedRing(const LoadedMeshProblem& problem, const Pins& pins)
+      : plan(annulus::fem::pin_sites(pins, {162, ring_outside, problem.face_width, problem.material}), 162,
+             {0, problem.face_width}),
+        flexibility(flexibility_of(problem, plan)),
+        supported(flexibility, plan) {}
+
+  static annulus::fem::RingFlexibility flexibility_of(const LoadedMeshProblem& problem,
+                                                      const annulus::fem::SupportPlan& plan) {
+    const annulus::geometry::ToothProfile profile(problem.pair.wheel());
+    const annulus::fem::BodyPlan body(problem, profile, true, annulus::geometry::Boundary::trailing_flank, 2, false);
+    annulus::fem::RingFlexibilityOptions options;
+    options.roll = problem.pair.wheel_roll_length(problem.pair.roll_length_pitch());
+    options.face_width = problem.face_width;
+    options.motions = {1, 0};
+    options.arcs = plan.arcs();
+    return make_ring_flexibility(body, annulus::fem::plane_resolution(problem.pair.wheel(), 1), problem.material,
+                                 options);
+  }
+
+  annulus::fem::SupportPlan plan;
+  annulus::fem::RingFlexibility flexibility;
+  RingOnSupports supported;
+};
+
 double largest(const Eigen::MatrixXd& matrix) { return matrix.cwiseAbs().maxCoeff(); }
 
 BOOST_AUTO_TEST_CASE(mesh_and_inertia_loads_of_a_held_ring_are_those_of_the_whole_mesh) {
@@ -209,20 +236,8 @@ BOOST_AUTO_TEST_CASE(the_diagonal_makes_equal_loads_exact) {
     const auto solved = solve(pins, 5);
     BOOST_TEST(solved.coupling.compliance.size() == 18U);
     // Anew from the states, at some positions.
-    const LoadedMeshProblem problem = ring_mesh(pins, 2);
-    const annulus::geometry::ToothProfile profile(problem.pair.wheel());
-    const annulus::fem::BodyPlan body(problem, profile, true, annulus::geometry::Boundary::trailing_flank, 2, false);
-    const annulus::fem::SupportPlan plan(
-        annulus::fem::pin_sites(pins, {162, ring_outside, problem.face_width, problem.material}), 162,
-        {0, problem.face_width});
-    annulus::fem::RingFlexibilityOptions options;
-    options.roll = problem.pair.wheel_roll_length(problem.pair.roll_length_pitch());
-    options.face_width = problem.face_width;
-    options.motions = {1, 0};
-    options.arcs = plan.arcs();
-    const auto ring =
-        make_ring_flexibility(body, annulus::fem::plane_resolution(problem.pair.wheel(), 1), problem.material, options);
-    const RingOnSupports supported(ring, plan);
+    const PinnedRing ring(ring_mesh(pins, 2), pins);
+    const auto& supported = ring.supported;
     for (const int position : {0, 7, 16}) {
       Eigen::MatrixXd patterns(162, 5);
       for (int n = 0; n < 5; ++n) patterns.col(n) = annulus::fem::mesh_force_on_teeth(position + 32.4 * n, 162);
@@ -280,19 +295,8 @@ BOOST_AUTO_TEST_CASE(pins_carry_what_they_carry_in_the_loaded_mesh) {
   auto pins = paper_pins(6, 0.3);
   const auto problem = ring_mesh(pins, 2);
   const auto table = solve_plane(problem);
-  const annulus::geometry::ToothProfile profile(problem.pair.wheel());
-  const annulus::fem::BodyPlan body(problem, profile, true, annulus::geometry::Boundary::trailing_flank, 2, false);
-  const annulus::fem::SupportPlan plan(
-      annulus::fem::pin_sites(pins, {162, ring_outside, problem.face_width, problem.material}), 162,
-      {0, problem.face_width});
-  annulus::fem::RingFlexibilityOptions options;
-  options.roll = problem.pair.wheel_roll_length(problem.pair.roll_length_pitch());
-  options.face_width = problem.face_width;
-  options.motions = {1, 0};
-  options.arcs = plan.arcs();
-  const auto ring =
-      make_ring_flexibility(body, annulus::fem::plane_resolution(problem.pair.wheel(), 1), problem.material, options);
-  const RingOnSupports supported(ring, plan);
+  const PinnedRing ring(problem, pins);
+  const auto& supported = ring.supported;
   for (const int i : {0, 1, 8, 21, 40}) {
     const auto& position = table.positions[i];
     const auto differ = [&](double shift) {
