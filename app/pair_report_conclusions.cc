@@ -33,7 +33,7 @@ bool errors_rule_largest(const ShareRow& row) {
 
 struct Conclusion {
   std::string statement, numbers, why;
-  std::optional<bool> agrees;
+  std::optional<bool> agrees{};  ///< nothing: cannot be decided
 };
 
 std::string where_text(const std::optional<double>& limit, const std::vector<const ShareRow*>& rows) {
@@ -62,8 +62,9 @@ void add_shares(std::vector<Conclusion>& list, const PairRunResult& result) {
                               um_text(first.shares.load_deflection), torque_text(first.pinion_torque),
                               um_text(last.shares.load_deflection), torque_text(last.pinion_torque)),
                   "Holds " + where_text(largest, rows) +
-                      ". Beyond, the largest transmission error is deflection of "
-                      "teeth and bearings.",
+                      (largest && std::isinf(*largest)
+                           ? "."
+                           : ". Elsewhere the largest transmission error is deflection of teeth and bearings."),
                   largest && std::isinf(*largest)});
 }
 

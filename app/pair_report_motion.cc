@@ -57,9 +57,14 @@ std::string pair_figures_section(const PairRunResult& result) {
   return fmt::format(
              "<h2 id=\"figures\">Key figures</h2>\n<p>At {} N m and {} r/min of the pinion, error at mesh frequency {} "
              "µm. "
-             "± is the estimated numerical error; it does not contain the uncertainty of the inputs.</p>\n",
+             "± is the estimated numerical error{}; it does not contain the uncertainty of the inputs.</p>\n",
              to_text(result.scene.stage.pinion_torque), to_text(result.scene.stage.pinion_speed / units::rpm, 6),
-             to_text(1e6 * result.errors.amplitude, 4)) +
+             to_text(1e6 * result.errors.amplitude, 4),
+             result.mesh.computed ? ", of the solution in time and of the stiffness table together"
+             : result.mesh.table
+                 ? ", of the solution in time and of the phases of the stiffness table; its own error is "
+                   "not known"
+                 : "") +
          html(table);
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/content_id.h"
 #include "app/pair_subject.h"
+#include "app/pair_table_errors.h"
 #include "app/progress.h"
 #include "app/studies.h"
 #include "app/tasks.h"
@@ -78,6 +79,7 @@ PairResponseResult respond(const PairRunResult& result, const std::filesystem::p
   response.series = series_table(pair, response.figures);
   response.spectrum = spectrum_table(response.figures);
   response.figures.series = {};
+  add_table_errors(result, response.figures);
   const auto id = pair_id(pair, simulation, result.mesh.table ? &*result.mesh.table : nullptr);
   write_table(response.series, id, folder / "time_series.csv");
   write_table(response.spectrum, id, folder / "spectrum.csv");
