@@ -52,7 +52,15 @@ double mean_secant(const StiffnessTable& table, double load) {
 }  // namespace
 
 MeshModel pair_mesh_model(const Scene& scene, const PairGeometry& geometry) {
-  return external_mesh_model(scene, external_pair(scene, geometry));
+  auto model = external_mesh_model(scene, external_pair(scene, geometry));
+  const auto asked = [&](const char* rung, const char* what, const char* shape) {
+    model.rung = rung;
+    model.reason = fmt::format("{} (stiffness = \"{}\")", what, shape);
+  };
+  if (scene.pinion_wheel.stiffness == StiffnessShape::iso_6336) asked("formula", "ISO 6336-1, method B", "iso_6336");
+  if (scene.pinion_wheel.stiffness == StiffnessShape::closed_form)
+    asked("closed_form", "tooth formulas of the transverse section, staggered along the helix", "closed_form");
+  return model;
 }
 
 std::string pair_solid_reason(const Scene& scene, const PairGeometry& geometry) {

@@ -17,7 +17,8 @@ using PairFigures = std::vector<dynamics::Figure*>;
 
 PairFigures figures_of(dynamics::PairResponse& r) {
   auto& a = r.acceleration;
-  PairFigures list = {&r.force_max, &r.force_min, &r.dynamic_factor, &a.line_of_action, &a.axial, &a.rotation, &a.tooth};
+  PairFigures list = {&r.force_max, &r.force_min, &r.dynamic_factor, &a.line_of_action,
+                      &a.axial,     &a.rotation,  &a.tooth};
   for (auto* motions : {&r.dynamic, &r.quasi_static}) {
     for (auto* m : {&motions->transmission_error, &motions->relative}) {
       list.push_back(&m->peak_to_peak);

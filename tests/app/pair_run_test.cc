@@ -1,8 +1,11 @@
 #include "app/pair_run.h"
 
+#include <sys/wait.h>
+
 #include <boost/test/unit_test.hpp>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -268,6 +271,29 @@ BOOST_AUTO_TEST_CASE(scenes_of_the_paper_are_good) {
     BOOST_TEST(nlohmann::json::parse(app::plan_scene(scene, true))["freedoms"].size() == 6U);
     BOOST_CHECK_NO_THROW(app::check_studies(scene));
   }
+}
+
+BOOST_AUTO_TEST_CASE(the_program_takes_pairs) {
+  const test::TemporaryFolder folder("pair_program");
+  const auto scene = folder.path() / "pair.toml", log = folder.path() / "log";
+  const auto status = [&](const std::string& text, const std::string& arguments) {
+    std::ofstream(scene) << text;
+    const int code =
+        std::system((std::string(ANNULUS_PROGRAM) + " " + arguments + " > " + log.string() + " 2>&1").c_str());
+    return WEXITSTATUS(code);
+  };
+  const auto file = scene.string(), out = " -o " + (folder.path() / "out").string();
+  BOOST_TEST(status(test::quick_pair(), "check " + file) == 0);
+  BOOST_TEST(pair_file(log).find("good (helical pair, 21 and 37 teeth)") != std::string::npos);
+  BOOST_TEST(status(test::quick_pair(), "plan " + file) == 0);
+  BOOST_TEST(pair_file(log).find("ISO 6336-1, method B") != std::string::npos);
+  BOOST_TEST(status(test::quick_pair(), "solve -q " + file + out) == 0);
+  BOOST_TEST(status(test::quick_pair(), "dynamics -q " + file + out) == 0);
+  BOOST_TEST(status(test::quick_pair(), "run -q " + file + out) == 0);
+  BOOST_TEST(pair_file(log).find("mesh force 137.9 kN") != std::string::npos);
+  BOOST_TEST(status(test::replaced(test::quick_pair(), "teeth = 37", "teeth = 3"), "check " + file) == 2);
+  BOOST_TEST(pair_file(log).find("pair.toml:20:1: wheel.teeth = 3: must be in range") != std::string::npos,
+             pair_file(log));
 }
 
 BOOST_AUTO_TEST_CASE(draws_and_a_grid_meet_their_times) {
