@@ -164,6 +164,10 @@ std::string shape_text(StiffnessShape shape) {
       return "harmonic";
     case StiffnessShape::rectangular:
       return "rectangular";
+    case StiffnessShape::iso_6336:
+      return "iso_6336";
+    case StiffnessShape::closed_form:
+      return "closed_form";
     case StiffnessShape::table:
       break;
   }

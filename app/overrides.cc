@@ -22,6 +22,13 @@ const Input* find_in(const Scene& scene, const std::string& key, std::size_t ent
   return nullptr;
 }
 
+bool applies(const Scene& scene, const Parameter& p) {
+  const auto kind = scene.stage.kind;
+  return p.applies_to(kind) && std::any_of(schema().begin(), schema().end(), [&](const Table& table) {
+           return table.path == p.table && table.applies_to(kind);
+         });
+}
+
 /// Every path the scene knows, lists without their index.
 std::vector<std::string> all_paths(const Scene& scene) {
   std::vector<std::string> paths;
@@ -51,9 +58,11 @@ Path split(const std::string& path) {
 
 InputError unknown(const Scene& scene, const std::string& path, const std::string& key) {
   const auto* known = find_parameter(key);
-  if (known) return InputError(fmt::format("{}: is {}, not a number that can be varied", path, known->type_text()));
+  if (known && applies(scene, *known))
+    return InputError(fmt::format("{}: is {}, not a number that can be varied", path, known->type_text()));
   const std::string near = nearest(key, all_paths(scene));
-  return InputError(fmt::format("{}: there is no such numeric input{}", path,
+  return InputError(fmt::format("{}: there is no such numeric input{}{}", path,
+                                known ? fmt::format(" of a stage of kind \"{}\"", kind_name(scene.stage.kind)) : "",
                                 near.empty() ? "; see `annulus explain`" : "; did you mean " + near + "?"));
 }
 
@@ -125,7 +134,8 @@ InputTarget find_input(const Scene& scene, const std::string& path) {
   InputTarget target;
   if (key.starts_with("ring.")) target.rings = find_rings(scene, path, key);
   target.parameter = find_parameter(key);
-  if (!target.parameter || !numeric(*target.parameter)) throw unknown(scene, path, key);
+  if (!target.parameter || !numeric(*target.parameter) || !applies(scene, *target.parameter))
+    throw unknown(scene, path, key);
   const bool list = target.parameter->kind == Parameter::Kind::reals;
   if (has_index && !list) throw InputError(path + ": is a single number, not a list");
   if (!list) return target;

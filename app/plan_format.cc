@@ -84,8 +84,8 @@ std::string to_text(const Plan& plan) {
 
   if (!plan.studies.empty()) text += "\nStudies\n";
   for (const auto& s : plan.studies) {
-    text += fmt::format("  {}: {}; {} responses of all rings, about {} on one core", s.name, s.what, s.responses,
-                        duration(s.seconds));
+    text += fmt::format("  {}: {}; {} responses{}, about {} on one core", s.name, s.what, s.responses,
+                        plan.rings.empty() ? "" : " of all rings", duration(s.seconds));
     text += s.tables ? fmt::format("; {} stiffness tables of their own\n", s.tables) : ", on the tables of the scene\n";
   }
 

@@ -165,7 +165,10 @@ std::string one_sweep(const Scene& scene, const StudyResults& studies, std::size
   }
   text +=
       figure(pictures, variant_legend(studies),
-             dashed ? "Largest over the planets. Load sharing: averaged over a mesh cycle, dashed quasi-static." : "");
+             !dashed                            ? ""
+             : studies.variants.front().empty() ? "Dashed: quasi-static."
+                                                : "Largest over the planets. Load sharing: averaged over a mesh cycle, "
+                                                  "dashed quasi-static.");
   if (const auto frequencies = draw.frequencies(); !frequencies.empty())
     text += figure(frequencies, "", "The lowest natural frequencies, tangent stiffness, without rotation.");
   const auto points = draw.bifurcation();

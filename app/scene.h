@@ -21,13 +21,15 @@ enum class Compare { none, computed };
 enum class StageKind { planetary, helical_pair, two_k_v };
 enum class Rung { automatic, closed_form, plane, solid, resolved };
 enum class Structure { traditional, thin_walled, pinned, bolted, splined };
-enum class StiffnessShape { computed, constant, harmonic, rectangular, table };
+enum class StiffnessShape { computed, constant, harmonic, rectangular, table, iso_6336, closed_form };
 enum class MeshDamping { in_contact, always };
 enum class RimCoupling { automatic, none, statical, elastic };
 enum class SweepScale { linear, logarithmic };
 enum class ErrorPhases { given, unknown };
 enum class Goal { smallest, largest };
 enum class RandomKind { uniform, normal, lognormal };
+enum class ErrorDivisor { printed, exact };
+enum class ErrorAmount { sample, exact };
 
 inline constexpr double rigid = std::numeric_limits<double>::infinity();
 
@@ -37,6 +39,7 @@ struct StageInput {
   double module = 0, pressure_angle = 0, helix_angle = 0, face_width = 0, centre_distance = 0;
   double power = 0;
   std::optional<double> sun_speed, carrier_speed;  ///< rad/s; exactly one is given
+  double pinion_torque = 0, pinion_speed = 0;      ///< helical_pair
 };
 
 struct MaterialInput {
@@ -56,6 +59,11 @@ struct GearInput {
 
 struct HubGearInput : GearInput {
   std::optional<double> bore_diameter;
+};
+
+/// A gear of a helical pair; its bearings: `rigid` drops the freedom.
+struct PairGearInput : HubGearInput {
+  double bearing_transverse = rigid, bearing_axial = rigid;
 };
 
 struct CarrierInput {
@@ -89,6 +97,26 @@ struct ErrorInput {
   double carrier_eccentricity = 0, carrier_eccentricity_phase = 0;
   double carrier_installation = 0, carrier_installation_phase = 0;
   double sun_planet_misalignment = 0, ring_planet_misalignment = 0;  ///< over the face width, normal to the flanks
+  // Of a helical pair: waves along the normal of the flanks, at mesh frequency and once per turn.
+  std::optional<double> mesh_error;
+  double mesh_error_phase = 0;
+  double pinion_error = 0, pinion_error_phase = 0, wheel_error = 0, wheel_error_phase = 0;
+  double pinion_wheel_misalignment = 0;
+};
+
+/// Composite deviations of both gears of a pair as random amplitudes (dynamics/manufacturing_error.h).
+struct ManufacturingErrorInput {
+  double pinion_total = 0, pinion_tooth_to_tooth = 0, wheel_total = 0, wheel_tooth_to_tooth = 0;
+  int samples = 0, seed = 0;
+  double probability = 0, confidence = 0;
+  ErrorDivisor divisor = ErrorDivisor::printed;
+  std::string reading;  ///< name of the one that becomes the error at mesh frequency; "none"
+  ErrorAmount amount = ErrorAmount::sample;
+};
+
+/// Asks where the motion of a pair comes from, at these torques and speeds of the pinion.
+struct TransmissionErrorInput {
+  std::vector<double> pinion_torques, pinion_speeds;
 };
 
 /// N/m; `rigid` drops the freedom. Torsional values are in the coordinate u = base radius x angle.
@@ -104,6 +132,7 @@ struct MeshInput {
   std::optional<double> mean, ripple, duty, phase;
   std::optional<double> half_backlash;  ///< instead of that of [dynamics]
   std::optional<std::string> file;
+  std::optional<double> single_stiffness;  ///< c' of ISO 6336-1, Pa
 };
 
 /// A crank shaft of a 2K-V stage: its planet sits on one end, its eccentrics carry the arc gears.
@@ -205,6 +234,7 @@ struct Scene {
   StageInput stage;
   MaterialInput material;
   HubGearInput sun, planet;
+  PairGearInput pinion, wheel;
   CarrierInput carrier;
   CrankInput crank;
   ArcGearInput arc_gear;
@@ -214,7 +244,9 @@ struct Scene {
   std::vector<RingInput> rings;
   ErrorInput errors;
   SupportInput supports;
-  MeshInput sun_planet, ring_planet;
+  MeshInput sun_planet, ring_planet, pinion_wheel;
+  std::optional<ManufacturingErrorInput> manufacturing_error;
+  std::optional<TransmissionErrorInput> transmission_error;
   std::optional<DynamicsInput> dynamics;  ///< absent: no dynamics wanted
   std::vector<SweepInput> sweeps;
   std::vector<GridInput> grids;

@@ -11,6 +11,7 @@
 #include "app/gear_geometry.h"
 #include "app/key_checks.h"
 #include "app/mesh_model.h"
+#include "app/pair_checks.h"
 #include "app/scene_schema.h"
 #include "core/errors.h"
 #include "core/units.h"
@@ -324,12 +325,11 @@ void complete_and_check(Scene& scene, std::vector<Problem>& problems) {
     case StageKind::planetary:
       Checker(scene, problems).run();
       break;
+    case StageKind::helical_pair:
+      complete_and_check_pair(scene, problems);
+      break;
     case StageKind::two_k_v:
       check_two_k_v_keys(scene, problems);
-      break;
-    case StageKind::helical_pair:
-      problems.push_back(
-          {0, 0, "stage.kind: is not yet available in this version; only \"planetary\" and \"two_k_v\" are"});
       break;
   }
   // Paths are looked up among the inputs, which have to be right for that.

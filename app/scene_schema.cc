@@ -50,7 +50,10 @@ void declare_gear(Declarations<Section>& t, bool internal) {
       .from(-1000, 1000);
 }
 
-const std::vector<StageKind> planetary = {StageKind::planetary};
+const std::vector<StageKind> planetary = {StageKind::planetary}, pair_alone = {StageKind::helical_pair},
+                             planetary_and_pair = {StageKind::planetary, StageKind::helical_pair};
+
+}  // namespace
 
 Table hub_gear_table(const char* path, const char* meaning, const std::vector<StageKind>& kinds,
                      HubGearInput& (*section)(Scene&, std::size_t)) {
@@ -67,12 +70,16 @@ Table mesh_table(const char* path, const char* meaning, const std::vector<StageK
                  MeshInput& (*section)(Scene&, std::size_t)) {
   Declarations<MeshInput> t(path, meaning, section);
   t.optional().only(kinds);
-  t.choice("stiffness", &MeshInput::stiffness,
-           {{"computed", StiffnessShape::computed},
-            {"constant", StiffnessShape::constant},
-            {"harmonic", StiffnessShape::harmonic},
-            {"rectangular", StiffnessShape::rectangular},
-            {"table", StiffnessShape::table}},
+  std::vector<Choice<StiffnessShape>> shapes = {{"computed", StiffnessShape::computed},
+                                                {"constant", StiffnessShape::constant},
+                                                {"harmonic", StiffnessShape::harmonic},
+                                                {"rectangular", StiffnessShape::rectangular},
+                                                {"table", StiffnessShape::table}};
+  if (kinds == pair_alone) {
+    shapes.push_back({"iso_6336", StiffnessShape::iso_6336});
+    shapes.push_back({"closed_form", StiffnessShape::closed_form});
+  }
+  t.choice("stiffness", &MeshInput::stiffness, shapes,
            "Where the mesh stiffness comes from; everything but `computed` replaces the finite-element solve.")
       .required();
   t.choice("compare", &MeshInput::compare, {{"none", Compare::none}, {"computed", Compare::computed}},
@@ -101,6 +108,8 @@ Table mesh_table(const char* path, const char* meaning, const std::vector<StageK
       .absent("needed by table");
   return t.done();
 }
+
+namespace {
 
 std::vector<Table> declare_tables() {
   std::vector<Table> tables;
@@ -144,17 +153,21 @@ std::vector<Table> declare_tables() {
       .from(10, 35);
   stage
       .key("helix_angle_deg", &StageInput::helix_angle,
-           "Helix angle at the reference circle; positive: planets and ring right-handed, the sun left-handed. The "
+           "Helix angle at the reference circle; positive: planets, ring and pinion right-handed, sun and wheel "
+           "left-handed. The "
            "module, "
            "pressure angle and profile shifts are then those of the normal section; forces and transmission errors "
-           "those of the transverse one.")
+           "of a planetary stage those of the transverse one.")
       .fallback(0.0, "spur gears")
       .from(-45, 45);
   stage.key("face_width_mm", &StageInput::face_width, "Common face width.").required().above(0, 5000);
-  stage.key("centre_distance_mm", &StageInput::centre_distance, "Working centre distance of sun and planet.")
+  stage
+      .key("centre_distance_mm", &StageInput::centre_distance,
+           "Working centre distance of sun and planet, or of pinion and wheel.")
       .above(0, 1e5)
-      .required()
-      .only(planetary);
+      .required_for(planetary)
+      .only(planetary_and_pair)
+      .absent("that without backlash, from the profile shifts");
   stage.key("power_kW", &StageInput::power, "Transmitted power; the sun drives, the carrier is driven.")
       .above(0, 1e6)
       .required()
@@ -167,6 +180,16 @@ std::vector<Table> declare_tables() {
       .above(0, 1e6)
       .only(planetary)
       .absent("follows from sun_speed_rpm");
+  stage
+      .key("pinion_torque_Nm", &StageInput::pinion_torque,
+           "Torque that drives the pinion. Negative: the back flanks carry it.")
+      .from(-1e9, 1e9)
+      .required()
+      .only(pair_alone);
+  stage.key("pinion_speed_rpm", &StageInput::pinion_speed, "Speed of the pinion.")
+      .above(0, 1e6)
+      .required()
+      .only(pair_alone);
   tables.push_back(stage.done());
 
   Declarations<MaterialInput> material("material", "Material of all gears.",
@@ -291,12 +314,15 @@ std::vector<Table> declare_tables() {
   Declarations<ErrorInput> errors(
       "errors", "Manufacturing errors. Lists have one value per planet. Eccentricities turn with their body.",
       [](Scene& s, std::size_t) -> ErrorInput& { return s.errors; });
-  errors.optional().only(planetary);
+  errors.optional().only(planetary_and_pair);
   const auto list = [&](const char* name, std::vector<double> ErrorInput::*member, const char* meaning, double limit) {
-    errors.key(name, member, meaning).fallback(std::vector<double>{}, "0 for every planet").from(-limit, limit);
+    errors.key(name, member, meaning)
+        .fallback(std::vector<double>{}, "0 for every planet")
+        .from(-limit, limit)
+        .only(planetary);
   };
   const auto single = [&](const char* name, double ErrorInput::*member, const char* meaning, double limit) {
-    errors.key(name, member, meaning).fallback(0.0, "no error").from(-limit, limit);
+    errors.key(name, member, meaning).fallback(0.0, "no error").from(-limit, limit).only(planetary);
   };
   list("planet_eccentricity_um", &ErrorInput::planet_eccentricity, "Eccentricity of each planet.", 1e4);
   list("planet_eccentricity_phase_deg", &ErrorInput::planet_eccentricity_phase,
@@ -324,6 +350,25 @@ std::vector<Table> declare_tables() {
          "Misalignment of the ring mesh over the face width, normal to the flanks; positive opens it towards +z. The "
          "mesh becomes solid.",
          1000);
+  const auto wave = [&](const char* name, double ErrorInput::*member, const char* meaning, double limit) {
+    errors.key(name, member, meaning).fallback(0.0, "no error").from(-limit, limit).only(pair_alone);
+  };
+  errors
+      .key("mesh_error_um", &ErrorInput::mesh_error,
+           "Amplitude of the error at mesh frequency, along the normal of the flanks.")
+      .from(-1e4, 1e4)
+      .only(pair_alone)
+      .absent("the reading of [manufacturing_error], or none");
+  wave("mesh_error_phase_deg", &ErrorInput::mesh_error_phase, "Its phase: e sin(2π mesh frequency t + phase).", 360);
+  wave("pinion_error_um", &ErrorInput::pinion_error,
+       "Amplitude of the pinion's error once per turn, along the normal of the flanks.", 1e4);
+  wave("pinion_error_phase_deg", &ErrorInput::pinion_error_phase, "Its phase.", 360);
+  wave("wheel_error_um", &ErrorInput::wheel_error,
+       "Amplitude of the wheel's error once per turn, along the normal of the flanks.", 1e4);
+  wave("wheel_error_phase_deg", &ErrorInput::wheel_error_phase, "Its phase.", 360);
+  wave("pinion_wheel_misalignment_um", &ErrorInput::pinion_wheel_misalignment,
+       "Misalignment of a computed mesh over the face width, normal to the flanks; positive opens it towards +z.",
+       1000);
   tables.push_back(errors.done());
 
   Declarations<SupportInput> supports(
@@ -359,6 +404,8 @@ std::vector<Table> declare_tables() {
       "mesh.arc_pins", "Stiffness of the arc teeth on their pins, given instead of computed by the contact formulas.",
       {StageKind::two_k_v}, [](Scene& s, std::size_t) -> MeshInput& { return s.arc_pins; }));
 
+  declare_pair(tables);
+
   Declarations<DynamicsInput> lumped("dynamics", "The lumped model; absent: meshes and stiffness only.",
                                      [](Scene& s, std::size_t) -> DynamicsInput& {
                                        if (!s.dynamics) s.dynamics.emplace();
@@ -366,8 +413,7 @@ std::vector<Table> declare_tables() {
                                      });
   lumped.optional();
   lumped
-      .key("half_backlash_um", &DynamicsInput::half_backlash,
-           "Half the backlash along the line of action, both meshes.")
+      .key("half_backlash_um", &DynamicsInput::half_backlash, "Half the backlash along the line of action, every mesh.")
       .required()
       .from(0, 1e4);
   lumped.key("mesh_damping_ratio", &DynamicsInput::mesh_damping_ratio, "Damping ratio ζ of every mesh: c = 2ζ√(k m_e).")

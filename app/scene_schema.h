@@ -70,6 +70,15 @@ struct Table {
 /// Tables that ask for studies: no inputs of the model.
 [[nodiscard]] bool is_study_table(const std::string& path);
 
+/// A gear on a rigid hub, and the stiffness of a mesh (scene_schema.cc).
+[[nodiscard]] Table hub_gear_table(const char* path, const char* meaning, const std::vector<StageKind>& kinds,
+                                   HubGearInput& (*section)(Scene&, std::size_t));
+[[nodiscard]] Table mesh_table(const char* path, const char* meaning, const std::vector<StageKind>& kinds,
+                               MeshInput& (*section)(Scene&, std::size_t));
+
+/// [pinion], [wheel], [mesh.pinion_wheel], [manufacturing_error], [transmission_error] (scene_schema_pair.cc).
+void declare_pair(std::vector<Table>& tables);
+
 /// [[sweep]], [monte_carlo], [[monte_carlo.input]], [sensitivity] (scene_schema_studies.cc).
 void declare_studies(std::vector<Table>& tables);
 

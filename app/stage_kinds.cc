@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "app/pair_run.h"
+#include "app/pair_subject.h"
 #include "app/plan.h"
 #include "app/planetary_subject.h"
 #include "app/summary.h"
@@ -27,6 +29,13 @@ std::vector<std::string> planetary_tables_to_solve(const Scene& nominal, const S
       labels.push_back(after[i].label());
   }
   return labels;
+}
+
+std::vector<std::string> pair_tables_to_solve(const Scene& nominal, const Scene& changed) {
+  const auto geometry = make_pair_geometry(changed);
+  const auto before = pair_mesh_model(nominal, make_pair_geometry(nominal)), after = pair_mesh_model(changed, geometry);
+  if (table_serves(before, after, geometry.transverse_force)) return {};
+  return {after.label()};
 }
 
 /// The period follows from errors and tables, not from stiffness.
@@ -59,11 +68,12 @@ void check_stage(const Scene& scene) {
     case StageKind::planetary:
       (void)make_geometry(scene);
       return;
+    case StageKind::helical_pair:
+      (void)make_pair_geometry(scene);
+      return;
     case StageKind::two_k_v:
       check_two_k_v(scene);
       return;
-    case StageKind::helical_pair:
-      break;
   }
   no_such_kind();
 }
@@ -72,10 +82,10 @@ std::vector<std::string> tables_to_solve(const Scene& nominal, const Scene& chan
   switch (nominal.stage.kind) {
     case StageKind::planetary:
       return planetary_tables_to_solve(nominal, changed);
+    case StageKind::helical_pair:
+      return pair_tables_to_solve(nominal, changed);
     case StageKind::two_k_v:
       return two_k_v_tables_to_solve(nominal, changed);
-    case StageKind::helical_pair:
-      break;
   }
   no_such_kind();
 }
@@ -84,10 +94,10 @@ std::vector<StudyFigure> stage_figures(StageKind kind) {
   switch (kind) {
     case StageKind::planetary:
       return planetary_figures();
+    case StageKind::helical_pair:
+      return pair_figures();
     case StageKind::two_k_v:
       return two_k_v_figures();
-    case StageKind::helical_pair:
-      break;
   }
   no_such_kind();
 }
@@ -100,10 +110,10 @@ double response_seconds(const Scene& scene) {
   switch (scene.stage.kind) {
     case StageKind::planetary:
       return planetary_seconds(scene);
+    case StageKind::helical_pair:
+      return pair_seconds(scene);
     case StageKind::two_k_v:
       return two_k_v_seconds(scene);
-    case StageKind::helical_pair:
-      break;
   }
   no_such_kind();
 }
@@ -112,10 +122,10 @@ std::string run_scene(const Scene& scene, const RunOptions& options) {
   switch (scene.stage.kind) {
     case StageKind::planetary:
       return summary_text(run(scene, options));
+    case StageKind::helical_pair:
+      return pair_summary_text(run_pair(scene, options));
     case StageKind::two_k_v:
       return two_k_v_text(run_two_k_v(scene, options));
-    case StageKind::helical_pair:
-      break;
   }
   no_such_kind();
 }
@@ -126,12 +136,14 @@ std::string plan_scene(const Scene& scene, bool json) {
       const Plan plan = make_plan(scene, make_geometry(scene));
       return json ? to_json(plan) : to_text(plan);
     }
+    case StageKind::helical_pair: {
+      const Plan plan = make_pair_plan(scene, make_pair_geometry(scene));
+      return json ? to_json(plan) : to_text(plan);
+    }
     case StageKind::two_k_v: {
       const Plan plan = make_two_k_v_plan(scene);
       return json ? to_json(plan) : to_text(plan);
     }
-    case StageKind::helical_pair:
-      break;
   }
   no_such_kind();
 }
@@ -141,11 +153,11 @@ std::string stage_text(const Scene& scene) {
     case StageKind::planetary:
       return fmt::format("{} ring{}, {} planets", scene.rings.size(), scene.rings.size() == 1 ? "" : "s",
                          scene.stage.planets);
+    case StageKind::helical_pair:
+      return fmt::format("helical pair, {} and {} teeth", scene.pinion.teeth, scene.wheel.teeth);
     case StageKind::two_k_v:
       return fmt::format("{} cranks with a planet each, {} arc gears on {} pins, ratio {}", scene.stage.planets,
                          scene.arc_gear.count, scene.arc_gear.pins, to_text(two_k_v_kinematics(scene).ratio(), 6));
-    case StageKind::helical_pair:
-      break;
   }
   no_such_kind();
 }

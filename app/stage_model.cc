@@ -18,6 +18,8 @@ dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult&
       return dynamics::RectangularStiffness{*input.mean, *input.ripple, *input.duty, input.phase.value_or(0)};
     case StiffnessShape::computed:
     case StiffnessShape::table:
+    case StiffnessShape::iso_6336:  // of pairs alone
+    case StiffnessShape::closed_form:
       break;
   }
   // A single load tells nothing about others.

@@ -12,9 +12,10 @@ namespace annulus::app {
 
 namespace {
 
-constexpr const char* error_bodies[] = {"planet_eccentricity",  "planet_installation", "sun_eccentricity",
-                                        "sun_installation",     "ring_eccentricity",   "ring_installation",
-                                        "carrier_eccentricity", "carrier_installation"};
+constexpr const char* error_bodies[] = {"planet_eccentricity",  "planet_installation",  "sun_eccentricity",
+                                        "sun_installation",     "ring_eccentricity",    "ring_installation",
+                                        "carrier_eccentricity", "carrier_installation", "mesh_error",
+                                        "pinion_error",         "wheel_error"};
 
 bool drawn(const Scene& scene, const std::string& path) {
   for (const auto& random : scene.random_inputs) {
@@ -29,11 +30,14 @@ bool drawn(const Scene& scene, const std::string& path) {
 std::vector<std::string> unknown_phases(const Scene& scene) {
   std::vector<std::string> paths;
   for (const std::string body : error_bodies) {
+    if (!find_parameter("errors." + body + "_um")->applies_to(scene.stage.kind)) continue;
     const bool planets = body.starts_with("planet");
     for (int n = 1; n <= (planets ? scene.stage.planets : 1); ++n) {
       const std::string index = planets ? fmt::format("[{}]", n) : "";
       const std::string amount = "errors." + body + "_um" + index, phase = "errors." + body + "_phase_deg" + index;
-      const bool exists = input_value(scene, find_input(scene, amount)).value_or(0) != 0 || drawn(scene, amount);
+      const bool exists =
+          input_value(scene, find_input(scene, amount)).value_or(0) != 0 || drawn(scene, amount) ||
+          (body == "mesh_error" && scene.manufacturing_error && scene.manufacturing_error->reading != "none");
       if (exists && !drawn(scene, phase)) paths.push_back(phase);
     }
   }
@@ -123,7 +127,8 @@ std::vector<std::string> sensitivity_inputs(const Scene& scene) {
   std::vector<std::string> inputs;
   for (const auto& table : schema()) {
     for (const auto& p : table.parameters) {
-      const bool assumed_mostly = p.table == "supports" || p.key() == "dynamics.mesh_damping_ratio" ||
+      const bool assumed_mostly = p.table == "supports" || p.name.starts_with("bearing_") ||
+                                  p.key() == "dynamics.mesh_damping_ratio" ||
                                   p.key() == "dynamics.support_damping_ratio" || p.key() == "dynamics.half_backlash_um";
       if (!assumed_mostly || !table.applies_to(scene.stage.kind) || !p.applies_to(scene.stage.kind)) continue;
       const double value = input_value(scene, find_input(scene, p.key())).value_or(0);
