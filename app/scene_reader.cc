@@ -28,6 +28,7 @@ std::string node_text(const toml::node& node) {
   if (const auto* text = node.as_string()) return '"' + **text + '"';
   if (const auto* number = node.as_floating_point()) {
     // A whole-valued float must look like one, or "5 must be a whole number" would puzzle.
+    if (std::isnan(**number)) return "nan";
     const std::string text = to_text(**number, 15);
     return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
   }
@@ -286,6 +287,7 @@ class Reader {
   void read_assumed() {
     const auto* node = root_.get("assumed");
     if (!node) return;
+    refused_ = !problems_.empty();
     if (const auto* table = node->as_table()) return read_assumed(*table, "");
     problem(place_of(node->source()), "assumed: must be a table of key = \"reason\"");
   }
@@ -314,7 +316,8 @@ class Reader {
           has_value = true;
         }
         scene_.assumed[path] = *reason;
-        if (!has_value) problem(at, fmt::format("assumed.{}: this scene does not set it", path));
+        // A key that was refused is not set either, and its problem is told already.
+        if (!has_value && !refused_) problem(at, fmt::format("assumed.{}: this scene does not set it", path));
       }
     }
   }
@@ -323,6 +326,7 @@ class Reader {
   StageKind kind_ = StageKind::planetary;
   Scene scene_;
   std::vector<Problem> problems_;
+  bool refused_ = false;  ///< something had a problem before [assumed] was read
 };
 
 toml::table& table_at(toml::table& root, const InputEdit& edit) {

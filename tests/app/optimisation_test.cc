@@ -215,7 +215,7 @@ BOOST_AUTO_TEST_CASE(searches_that_cannot_be_are_refused) {
       {"population = 6", "population = 6\nweights = [1, 2]", "optimise.weights", "2 weights for 1 figure"},
       {"population = 6", "population = 6\nring = \"no such\"", "optimise.ring", "no ring"},
       {"population = 6", "population = 6\nelite = 0", "optimise.elite", "0"},
-      {"population = 6", "population = 6\nmutation = nan", "optimise.mutation", "0 <= value <= 1"},
+      {"population = 6", "population = 6\nmutation = nan", "optimise.mutation = nan", "0 <= value <= 1"},
       {"population = 6", "population = 6\ngoal = \"biggest\"", "optimise.goal", "largest"},
       {"supports.planet_N_per_m", "supports.planets_N_per_m", "optimise.variable.input", "supports.planet_N_per_m"},
       {"supports.planet_N_per_m", "supports.sun_N_per_m", "optimise.variable.input", "twice"},
