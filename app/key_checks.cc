@@ -45,6 +45,16 @@ void KeyChecks::forbidden_unless(bool condition, const std::vector<std::string>&
   }
 }
 
+void KeyChecks::derive(const std::string& key, double value, const char* how) {
+  for (auto& input : scene_.inputs) {
+    if (input.key != key) continue;
+    input.value = value;
+    input.origin = Origin::derived;
+    input.note = how;
+    return;
+  }
+}
+
 void KeyChecks::mesh(const MeshInput& m, const std::string& path) {
   if (given(path + ".stiffness") && !usable(path + ".stiffness")) return;
   const auto needs = [&](bool condition, const char* key, const char* shapes) {

@@ -23,6 +23,9 @@ class KeyChecks {
   void required_if(bool condition, const std::vector<std::string>& keys, const std::string& ring, const char* why);
   void forbidden_unless(bool condition, const std::vector<std::string>& keys, const std::string& ring, const char* why);
 
+  /// Gives an input that follows from others its value, in the unit of its key.
+  void derive(const std::string& key, double value, const char* how);
+
   /// The keys of one [mesh.*].
   void mesh(const MeshInput& m, const std::string& path);
   /// Fixed steps need their number, the others choose it.

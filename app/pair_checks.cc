@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/key_checks.h"
 #include "app/pair_errors.h"
 #include "app/pair_model.h"
 #include "app/pair_stiffness.h"
@@ -16,9 +17,9 @@ namespace annulus::app {
 
 namespace {
 
-class PairChecker {
+class PairChecker : KeyChecks {
  public:
-  PairChecker(Scene& scene, std::vector<Problem>& problems) : scene_(scene), problems_(problems) {}
+  using KeyChecks::KeyChecks;
 
   void run() {
     stiffness();
@@ -30,34 +31,7 @@ class PairChecker {
   }
 
  private:
-  [[nodiscard]] Input* find(const std::string& key) {
-    for (auto& input : scene_.inputs) {
-      if (input.key == key) return &input;
-    }
-    return nullptr;
-  }
-  [[nodiscard]] bool given(const std::string& key) {
-    const Input* input = find(key);
-    return input && input->origin == Origin::scene;
-  }
-  /// Written with a value of the right type and range, or left to its default.
-  [[nodiscard]] bool usable(const std::string& key) {
-    const Input* input = find(key);
-    return input && !std::holds_alternative<std::monostate>(input->value);
-  }
-  void problem(const std::string& key, const std::string& rule) {
-    const Input* input = find(key);
-    std::string head = key;
-    if (input && input->origin == Origin::scene) head += " = " + to_text(input->value);
-    problems_.push_back({input ? input->line : 0, input ? input->column : 0, head + ": " + rule});
-  }
-  void derive(const std::string& key, double value, const char* how) {
-    Input* input = find(key);
-    if (!input) return;
-    input->value = value;
-    input->origin = Origin::derived;
-    input->note = how;
-  }
+  void problem(const std::string& key, const std::string& rule) { KeyChecks::problem(key, "", rule); }
 
   void stiffness() {
     const std::string table = "mesh.pinion_wheel.";
@@ -164,12 +138,7 @@ class PairChecker {
     for (const auto* key : {"pinion.mass_kg", "wheel.mass_kg"}) {
       if (!given(key)) problem(key, "is required by [dynamics]");
     }
-    const bool fixed = scene_.dynamics->integrator == dynamics::Integrator::runge_kutta_4;
-    if (fixed && !scene_.dynamics->steps_per_cycle)
-      problem("dynamics.steps_per_cycle", "is required by integrator = \"runge_kutta_4\", which has fixed steps");
-    if (!fixed && scene_.dynamics->steps_per_cycle)
-      problem("dynamics.steps_per_cycle",
-              "goes with integrator = \"runge_kutta_4\" only; the others choose their steps");
+    integrator();
     const auto& e = scene_.errors;
     const bool no_error = e.mesh_error.value_or(0) == 0 && e.pinion_error == 0 && e.wheel_error == 0 &&
                           (!scene_.manufacturing_error || scene_.manufacturing_error->reading == "none");
@@ -217,9 +186,6 @@ class PairChecker {
                   "cannot represent the mesh: {}; use \"automatic\" or \"solid\"{}", solid,
                   scene_.rung == Rung::closed_form ? ", or stiffness = \"closed_form\" in [mesh.pinion_wheel]" : ""));
   }
-
-  Scene& scene_;
-  std::vector<Problem>& problems_;
 };
 
 }  // namespace
