@@ -16,6 +16,7 @@
 #include "app/scene_schema.h"
 #include "app/stage_kinds.h"
 #include "app/studies.h"
+#include "app/trade_report.h"
 #include "core/errors.h"
 #include "core/log.h"
 
@@ -38,12 +39,18 @@ void on_interrupt(int) {
   std::_Exit(interrupted);
 }
 
-void run_and_print(const Arguments& arguments, bool with_dynamics) {
-  const Scene scene = read_scene(arguments.scene);
-  RunOptions options{.threads = arguments.threads, .with_dynamics = with_dynamics};
+RunOptions run_options(const Arguments& arguments, const Scene& scene) {
+  RunOptions options{.threads = arguments.threads};
   options.out =
       arguments.out.empty() ? std::filesystem::path("out") / scene.file.stem() : std::filesystem::path(arguments.out);
   if (!arguments.tables.empty()) options.tables = arguments.tables;
+  return options;
+}
+
+void run_and_print(const Arguments& arguments, bool with_dynamics) {
+  const Scene scene = read_scene(arguments.scene);
+  auto options = run_options(arguments, scene);
+  options.with_dynamics = with_dynamics;
   fmt::print("{}", run_scene(scene, options));
   fmt::print("report  {}\n", (options.out / "report.html").string());
 }
@@ -65,6 +72,15 @@ void check_command(const Arguments& arguments) {
   check_stage(scene);
   check_studies(scene);
   fmt::print("{}: good ({})\n", arguments.scene, stage_text(scene));
+}
+
+void tradeoff_command(const Arguments& arguments) {
+  const Scene scene = read_scene(arguments.scene);
+  const auto options = run_options(arguments, scene);
+  const auto trade = measure_tradeoff(scene, options);
+  write_tradeoff(trade, options.out);
+  fmt::print("{}\ntable   {}\nreport  {}\n", trade_text(trade), (options.out / "tradeoff.csv").string(),
+             (options.out / "tradeoff.html").string());
 }
 
 void explain_command(const Arguments& arguments) {
@@ -140,6 +156,8 @@ int run_command_line(int argc, char** argv) {
       out(add_command(app, arguments, "dynamics", "The lumped model from tables, solved first if missing"));
   dynamics->add_option("--tables", arguments.tables,
                        "Folder of an earlier run whose tables are used if they still fit");
+  out(add_command(app, arguments, "tradeoff",
+                  "Every way to compute the stage measured: error against time and memory"));
   auto* plan = add_command(app, arguments, "plan", "What will be modelled and why; computes nothing");
   plan->add_flag("--json", arguments.json, "As JSON");
   add_command(app, arguments, "check", "Check the scene only");
@@ -170,6 +188,7 @@ int run_command_line(int argc, char** argv) {
     if (command == "run") run_and_print(arguments, true);
     if (command == "solve") run_and_print(arguments, false);
     if (command == "dynamics") dynamics_command(arguments);
+    if (command == "tradeoff") tradeoff_command(arguments);
     if (command == "plan") plan_command(arguments);
     if (command == "check") check_command(arguments);
     if (command == "explain") explain_command(arguments);

@@ -27,6 +27,8 @@ struct MeshModel {
   fem::LoadedMeshSettings settings{};
 
   [[nodiscard]] bool computed() const { return problem.has_value(); }
+  /// Index of the nominal load among those of a computed mesh: the middle one, at which the accuracy is met.
+  [[nodiscard]] std::size_t nominal_load() const { return problem->loads.size() / 2; }
   /// Identity of all inputs this mesh's results depend on.
   [[nodiscard]] std::string id() const;
   /// For messages: "sun-planet mesh", "planet mesh of ring 'pinned'".

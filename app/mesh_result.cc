@@ -129,7 +129,7 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
                     .line_load = line_load_table(model, solved),
                     .stress = stress_table(model, solved),
                     .facts = facts_of(solved),
-                    .nominal = nominal_load_index};
+                    .nominal = model.nominal_load()};
   if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.ring);
   if (result.table.mesh() != model.mesh) result.table = renamed(result.table, model.mesh);
   result.table.provenance = {{"annulus_version", version()}, {"inputs_id", model.id()}, {"rung", model.rung}};

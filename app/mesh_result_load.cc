@@ -104,7 +104,7 @@ std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::pa
     auto positions = Csv::read(positions_file);
     if (header_value(table.provenance, "inputs_id") != id || header_value(positions.header, "inputs_id") != id)
       return std::nullopt;
-    MeshResult result{.model = model, .table = std::move(table), .nominal = nominal_load_index, .reused = true};
+    MeshResult result{.model = model, .table = std::move(table), .nominal = model.nominal_load(), .reused = true};
     for (const auto& [key, value] : without_stamp(positions.header)) {
       if (key == "contact_ratio") {
         result.contact_ratio = std::stod(value);

@@ -30,7 +30,7 @@ bool over_face_width(const fem::LoadedMeshResult& solved) { return solved.slice_
 /// Visits the positions at the nominal load.
 template <class Visit>
 void at_nominal_load(const MeshModel& model, const fem::LoadedMeshResult& solved, Visit visit) {
-  const double nominal = model.problem->loads[nominal_load_index];
+  const double nominal = model.problem->loads[model.nominal_load()];
   for (const auto& p : solved.positions) {
     if (p.load == nominal) visit(p);
   }

@@ -6,11 +6,22 @@
 
 namespace annulus::app {
 
+namespace {
+
+std::vector<std::string> log_labels(const std::vector<double>& ticks) {
+  std::vector<std::string> labels;
+  for (const double tick : ticks) labels.push_back(to_text(tick, 3));
+  return labels;
+}
+
+}  // namespace
+
 std::string y_axis(const Frame& frame, const std::string& y_label, std::optional<int> y_ticks) {
   std::string svg;
   const int fitting = static_cast<int>((frame.bottom - frame.top) / 38);
-  const auto up = nice_ticks(frame.y.low, frame.y.high, y_ticks.value_or(fitting));
-  const auto up_labels = tick_labels(up);
+  const auto up = frame.y_log ? log_ticks(frame.y.low, frame.y.high)
+                              : nice_ticks(frame.y.low, frame.y.high, y_ticks.value_or(fitting));
+  const auto up_labels = frame.y_log ? log_labels(up) : tick_labels(up);
   for (std::size_t i = 0; i < up.size() && y_ticks != 0; ++i) {
     const double y = frame.at_y(up[i]);
     svg += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\" stroke=\"#e4e4e4\"/>", frame.left, y, frame.right);
@@ -30,8 +41,7 @@ std::string axes(const Frame& frame, const std::string& x_label, const std::stri
   const auto x_ticks = frame.x_log
                            ? log_ticks(frame.x.low, frame.x.high)
                            : nice_ticks(frame.x.low, frame.x.high, static_cast<int>((frame.right - frame.left) / 60));
-  auto x_labels = tick_labels(x_ticks);
-  for (std::size_t i = 0; i < x_ticks.size() && frame.x_log; ++i) x_labels[i] = to_text(x_ticks[i], 3);
+  const auto x_labels = frame.x_log ? log_labels(x_ticks) : tick_labels(x_ticks);
   svg += y_axis(frame, y_label, y_ticks);
   for (std::size_t i = 0; i < x_ticks.size(); ++i) {
     const double x = frame.at_x(x_ticks[i]);

@@ -13,12 +13,13 @@ namespace annulus::app {
 struct Frame {
   double left, right, top, bottom;
   Range x, y;
-  bool x_log = false;  ///< logarithmic: x.low and x.high are above zero
-  [[nodiscard]] double at_x(double v) const {
-    const double part = x_log ? std::log(v / x.low) / std::log(x.high / x.low) : (v - x.low) / (x.high - x.low);
-    return left + part * (right - left);
+  bool x_log = false, y_log = false;  ///< logarithmic: both ends of the range are above zero
+  [[nodiscard]] double at_x(double v) const { return left + part(v, x, x_log) * (right - left); }
+  [[nodiscard]] double at_y(double v) const { return bottom - part(v, y, y_log) * (bottom - top); }
+  [[nodiscard]] static double part(double v, const Range& range, bool log) {
+    return log ? std::log(v / range.low) / std::log(range.high / range.low)
+               : (v - range.low) / (range.high - range.low);
   }
-  [[nodiscard]] double at_y(double v) const { return bottom - (v - y.low) / (y.high - y.low) * (bottom - top); }
 };
 
 /// Grid, ticks and labels around a frame; about `y_ticks` ticks upright, as many as fit when absent, 0 for no labels.

@@ -243,16 +243,21 @@ Frame frame_of(const Plot& plot) {
     if (s.style == Series::Style::bars) y.add(0);
   }
   for (const auto& [value, label] : plot.levels) y.add(value);
+  Range up = plot.y_range.value_or(y.range());
+  if (plot.y_log && !plot.y_range) {
+    RangeFinder positive;
+    for (const auto& s : plot.series) {
+      for (const double v : s.y) positive.add(v > 0 ? std::log(v) : std::nan(""));
+    }
+    const Range logs = positive.range();
+    up = {std::exp(logs.low), std::exp(logs.high)};
+  }
   constexpr double left = 62, right_margin = 12;
   const auto places = legend_places(plot, left, plot.width - right_margin);
   const double top = (plot.title.empty() ? 10 : 26) + (places.empty() ? 0 : 1 + legend_line * (places.back().row + 1));
-  return {left,
-          plot.width - right_margin,
-          top,
-          plot.height - 42.0,
-          plot.x_range.value_or(x.range(0)),
-          plot.y_range.value_or(y.range()),
-          plot.x_log};
+  return {
+      left,      plot.width - right_margin, top, plot.height - 42.0, plot.x_range.value_or(x.range(0)), up, plot.x_log,
+      plot.y_log};
 }
 
 }  // namespace

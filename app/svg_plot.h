@@ -60,6 +60,7 @@ struct Plot {
   std::string x_label{}, y_label{};  ///< with units
   std::optional<Range> x_range{}, y_range{};
   bool x_log = false;  ///< all x are above zero
+  bool y_log = false;  ///< values not above zero are not drawn
   std::vector<Series> series{};
   std::vector<std::pair<double, std::string>> levels{};  ///< horizontal reference lines
   std::vector<Note> notes{};

@@ -152,6 +152,42 @@ std::string shape_pictures(const TwoKVVibration& v) {
          "motion. mode_shapes.csv has the numbers.</figcaption></figure>\n";
 }
 
+/// How every shape changes while the crank turns; modes are numbered by rising frequency at each angle.
+std::string shapes_over_crank(const TwoKVVibration& v) {
+  const auto& crank = v.over_crank;
+  const auto x = degrees(crank.angle);
+  std::vector<std::string> pictures;
+  for (std::size_t m = 0; m < v.modes.modes.size(); ++m) {
+    if (!(crank.frequency.row(static_cast<Eigen::Index>(m)).minCoeff() > 0)) continue;
+    Eigen::MatrixXd shape(v.modes.modes[m].shape.size(), crank.angle.size());
+    for (Eigen::Index i = 0; i < crank.angle.size(); ++i)
+      shape.col(i) = crank.modes[static_cast<std::size_t>(i)].modes[m].shape;
+    shape /= shape.cwiseAbs().maxCoeff();
+    Plot plot{.title = fmt::format("Mode {}", m + 1),
+              .x_label = "crank angle, °",
+              .y_label = "displacement",
+              .x_range = Range{0, 360},
+              .y_range = Range{-1.05, 1.05}};
+    for (Eigen::Index f = 0; f < shape.rows(); ++f) {
+      const auto& name = v.modes.freedoms[static_cast<std::size_t>(f)];
+      auto y = closed(shape.row(f), 1);
+      // A shape may come back the other way round after a turn: that is no jump of the shape.
+      y.back() =
+          std::abs(y.front() - y[y.size() - 2]) <= std::abs(y.front() + y[y.size() - 2]) ? y.front() : -y.front();
+      plot.series.push_back({.label = freedom_words(name),
+                             .x = x,
+                             .y = std::move(y),
+                             .colour = body_colour(name),
+                             .dashed = name.find('2') != std::string::npos});
+    }
+    pictures.push_back(to_svg(plot));
+  }
+  return "<h3>Mode shapes over the crank angle</h3>\n" +
+         figure(pictures, legend_html({{"input", 4}, {"sun", 0}, {"planets", 1}, {"cranks", 3}, {"arc gears", 2}}),
+                "Stiffness as given; modes numbered by rising frequency at each angle, so two that cross change their "
+                "numbers. Dashed: the second body of its kind. Numbers: mode_shapes_over_crank.csv.");
+}
+
 std::string factor_text(const std::optional<double>& factor, const char* none) {
   return factor ? fmt::format("× {}", to_text(*factor, 4)) : std::string(none);
 }
@@ -168,7 +204,7 @@ std::string frequencies_section(const TwoKVResult& result) {
       1e6 * v.seconds_per_position);
   text += frequency_table(result);
   for (const auto& shown : shown_cases(result)) text += over_crank_plots(shown);
-  return text + shape_pictures(v);
+  return text + shape_pictures(v) + shapes_over_crank(v);
 }
 
 std::string first_frequency_section(const TwoKVResult& result) {

@@ -94,6 +94,19 @@ std::vector<FrequencyInput> frequency_inputs_of(const dynamics::TwoKVStage& stag
   return list;
 }
 
+/// Shapes have no sign of their own: each goes on from the angle before.
+void align_shapes(dynamics::CrankModes& crank) {
+  for (std::size_t i = 0; i < crank.modes.size(); ++i) {
+    for (std::size_t m = 0; m < crank.modes[i].modes.size(); ++m) {
+      auto& shape = crank.modes[i].modes[m].shape;
+      Eigen::Index most = 0;
+      shape.cwiseAbs().maxCoeff(&most);
+      const double along = i == 0 ? shape[most] : shape.dot(crank.modes[i - 1].modes[m].shape);
+      if (along < 0) shape = -shape;
+    }
+  }
+}
+
 double hertz(double stiffness, double inertia) { return std::sqrt(stiffness / inertia) / (2 * std::numbers::pi); }
 
 }  // namespace
@@ -154,6 +167,7 @@ TwoKVVibration vibration_of(const dynamics::TwoKVStage& stage, double arc_cleara
   const int positions = crank_positions(stage);
   v.over_crank = dynamics::modes_over_crank(stage, positions);
   v.seconds_per_position = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / positions;
+  align_shapes(v.over_crank);
   v.torsion = dynamics::torsional_stiffness(stage, positions);
   v.estimate = one_freedom(stage);
   v.lost = lost_motion(stage, v.torsion.mean(), arc_clearance);
@@ -186,18 +200,28 @@ void write_vibration(const TwoKVVibration& v, const std::filesystem::path& folde
     list.header.emplace_back(fmt::format("mode_{}", m + 1), v.names[static_cast<std::size_t>(m)]);
   }
   write(std::move(list), "modes.csv");
-  write(std::move(shapes), "mode_shapes.csv");
+  write(shapes, "mode_shapes.csv");
 
   Csv crank{.header = {}, .columns = {"crank_angle_deg"}, .rows = {}};
   for (Eigen::Index m = 0; m < modes; ++m) crank.columns.push_back(fmt::format("mode{}_Hz", m + 1));
   Csv torsion{
       .header = {}, .columns = {"crank_angle_deg", "from_output_Nm_per_rad", "from_input_Nm_per_rad"}, .rows = {}};
+  Csv over_crank = shapes;
+  over_crank.rows.clear();
+  over_crank.columns.insert(over_crank.columns.begin(), "crank_angle_deg");
   for (Eigen::Index i = 0; i < v.over_crank.angle.size(); ++i) {
+    const auto& at = v.over_crank.modes[static_cast<std::size_t>(i)].modes;
+    for (std::size_t m = 0; m < at.size(); ++m) {
+      auto& row = over_crank.rows.emplace_back(
+          std::vector{v.over_crank.angle[i] / units::deg, static_cast<double>(m + 1), at[m].frequency});
+      row.insert(row.end(), at[m].shape.begin(), at[m].shape.end());
+    }
     auto& row = crank.rows.emplace_back(1, v.over_crank.angle[i] / units::deg);
     for (Eigen::Index m = 0; m < modes; ++m) row.push_back(v.over_crank.frequency(m, i));
     torsion.rows.push_back({v.torsion.angle[i] / units::deg, v.torsion.from_output[i], v.torsion.from_input[i]});
   }
   write(std::move(crank), "modes_over_crank.csv");
+  write(std::move(over_crank), "mode_shapes_over_crank.csv");
   write(std::move(torsion), "torsional_stiffness.csv");
 
   Csv inputs{

@@ -55,7 +55,7 @@ struct TwoKVVibration {
   dynamics::Modes modes;           ///< mean mesh stiffness, at the crank angle of the scene
   std::vector<std::string> names;  ///< "body on group" per mode
   dynamics::ModalEnergy energy;
-  dynamics::CrankModes over_crank;       ///< stiffness at each position
+  dynamics::CrankModes over_crank;       ///< stiffness at each position; shapes go on without changes of sign
   dynamics::TorsionalStiffness torsion;  ///< likewise
   OneFreedom estimate;
   LostMotion lost;
@@ -69,7 +69,8 @@ struct TwoKVVibration {
 [[nodiscard]] TwoKVVibration vibration_of(const dynamics::TwoKVStage& stage, double arc_clearance,
                                           const std::vector<double>& targets);
 
-/// modes.csv, modes_over_crank.csv, mode_shapes.csv, torsional_stiffness.csv, sensitivity_f1.csv in `folder`.
+/// modes.csv, modes_over_crank.csv, mode_shapes.csv, mode_shapes_over_crank.csv, torsional_stiffness.csv,
+/// sensitivity_f1.csv in `folder`.
 void write_vibration(const TwoKVVibration& vibration, const std::filesystem::path& folder);
 
 }  // namespace annulus::app

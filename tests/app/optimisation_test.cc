@@ -1,19 +1,14 @@
 #include "app/optimisation.h"
 
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <boost/test/unit_test.hpp>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <thread>
 
 #include "app/pipeline.h"
 #include "app/scene_value.h"
 #include "core/log.h"
+#include "tests/app/background_run.h"
 #include "tests/app/scenes.h"
 
 namespace annulus {
@@ -120,32 +115,13 @@ BOOST_AUTO_TEST_CASE(searches_are_the_same_for_any_number_of_threads_and_find_wh
 BOOST_AUTO_TEST_CASE(an_interrupted_search_goes_on_to_the_same_bytes) {
   const test::TemporaryFolder folder("optimise_killed");
   write_file(folder.path() / "scene.toml",
-             searched_scene(test::replaced(bearing_search, "generations = 6", "generations = 60")));
-  const auto start = [&](const char* out) {
-    const pid_t child = ::fork();
-    if (child == 0) {
-      ::chdir(folder.path().c_str());
-      ::execl(ANNULUS_PROGRAM, ANNULUS_PROGRAM, "run", "scene.toml", "-q", "-o", out, "--threads", "2",
-              static_cast<char*>(nullptr));
-      ::_exit(127);
-    }
-    return child;
-  };
-  const auto wait = [](pid_t child) {
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return status;
-  };
-  BOOST_TEST(wait(start("whole")) == 0);
+             searched_scene(test::replaced(bearing_search, "generations = 6", "generations = 150")));
+  BOOST_TEST(test::BackgroundRun(folder.path(), "whole").wait() == 0);
   const auto first = folder.path() / "parts/held/dynamics/optimise/genetic_1.csv";
-  const pid_t child = start("parts");
-  for (int i = 0; i < 6000 && !std::filesystem::exists(first); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  ::kill(child, SIGKILL);
-  BOOST_TEST(WIFSIGNALED(wait(child)));
+  BOOST_TEST(test::BackgroundRun(folder.path(), "parts").kill_when_there(first));
   BOOST_TEST_REQUIRE(std::filesystem::exists(first));
   BOOST_TEST(!std::filesystem::exists(folder.path() / "parts/held/dynamics/optimise/best.toml"));
-  BOOST_TEST(wait(start("parts")) == 0);
+  BOOST_TEST(test::BackgroundRun(folder.path(), "parts").wait() == 0);
   for (const auto* file : {"genetic_1.csv", "genetic_1_history.csv", "cma_es_1_history.csv",
                            "differential_evolution_1_history.csv", "best.toml"}) {
     const auto name = std::string("held/dynamics/optimise/") + file;

@@ -1,20 +1,15 @@
 #include "app/studies.h"
 
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <boost/test/unit_test.hpp>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <thread>
 
 #include "core/log.h"
 #include "core/units.h"
+#include "tests/app/background_run.h"
 #include "tests/app/scenes.h"
 
 namespace annulus {
@@ -181,33 +176,13 @@ BOOST_AUTO_TEST_CASE(interrupted_studies_go_on_to_the_same_bytes) {
   auto text = short_scene() + "[[sweep]]\ninput = \"stage.sun_speed_rpm\"\nfrom = 800\nto = 1200\ncount = 5\n" +
               "[monte_carlo]\nsamples = 120\n[sensitivity]\ninputs = [\"supports.sun_N_per_m\"]\n";
   write_file(folder.path() / "scene.toml", text);
-  const auto start = [&](const char* out, const char* threads) {
-    const pid_t child = ::fork();
-    if (child == 0) {
-      ::chdir(folder.path().c_str());
-      ::execl(ANNULUS_PROGRAM, ANNULUS_PROGRAM, "run", "scene.toml", "-q", "-o", out, "--threads", threads,
-              static_cast<char*>(nullptr));
-      ::_exit(127);
-    }
-    return child;
-  };
-  const auto wait = [](pid_t child) {
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return status;
-  };
-  BOOST_TEST(wait(start("whole", "2")) == 0);
-  // Killed, not asked to stop, as soon as the first samples are there.
+  BOOST_TEST(test::BackgroundRun(folder.path(), "whole").wait() == 0);
   const auto first = folder.path() / "parts/held/dynamics/monte_carlo/samples_0000000.csv";
-  const pid_t child = start("parts", "2");
-  for (int i = 0; i < 6000 && !std::filesystem::exists(first); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  ::kill(child, SIGKILL);
-  BOOST_TEST(WIFSIGNALED(wait(child)));
+  BOOST_TEST(test::BackgroundRun(folder.path(), "parts").kill_when_there(first));
   BOOST_TEST_REQUIRE(std::filesystem::exists(first));
   BOOST_TEST(!std::filesystem::exists(folder.path() / "parts/sensitivity.csv"));
   const auto written = std::filesystem::last_write_time(first);
-  BOOST_TEST(wait(start("parts", "1")) == 0);
+  BOOST_TEST(test::BackgroundRun(folder.path(), "parts", 1).wait() == 0);
   BOOST_TEST((std::filesystem::last_write_time(first) == written));  // taken over, not made again
   for (const auto* file : {"held/dynamics/sweep_1.csv", "held/dynamics/sweep_1_poincare.csv",
                            "held/dynamics/monte_carlo.csv", "sensitivity.csv"})

@@ -80,8 +80,8 @@ BOOST_AUTO_TEST_CASE(first_frequency_and_its_estimate) {
   const auto report = file_contents(folder.path() / "report.html");
   for (const char* id : {"frequencies", "first-frequency", "torsion", "motion", "meshes", "inputs"})
     BOOST_TEST(report.find("id=\"" + std::string(id) + "\"") != std::string::npos, id);
-  for (const char* file : {"modes.csv", "mode_shapes.csv", "modes_over_crank.csv", "torsional_stiffness.csv",
-                           "sensitivity_f1.csv", "time_series.csv", "output_error.csv"})
+  for (const char* file : {"modes.csv", "mode_shapes.csv", "mode_shapes_over_crank.csv", "modes_over_crank.csv",
+                           "torsional_stiffness.csv", "sensitivity_f1.csv", "time_series.csv", "output_error.csv"})
     BOOST_TEST(std::filesystem::exists(folder.path() / "dynamics" / file), file);
 }
 

@@ -1,0 +1,347 @@
+#include "app/tradeoff.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "app/content_id.h"
+#include "app/progress.h"
+#include "core/csv.h"
+#include "core/errors.h"
+#include "core/log.h"
+#include "dynamics/modes.h"
+
+namespace annulus::app {
+
+namespace {
+
+using Json = nlohmann::json;
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Value and relative estimate of every figure, in the order of trade_figures().
+using Figures = std::vector<Estimate>;
+
+Json to_json(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+double number(const Json& json) { return json.is_null() ? unknown : json.get<double>(); }
+
+std::string figures_text(const Figures& figures) {
+  Json json = Json::array();
+  for (const auto& f : figures) json.push_back({to_json(f.value), to_json(f.error_relative)});
+  return json.dump();
+}
+
+Figures parse_figures(const std::string& text) {
+  Figures figures;
+  for (const auto& f : Json::parse(text)) figures.push_back({number(f[0]), number(f[1])});
+  return figures;
+}
+
+Estimate relative(const dynamics::Figure& f) { return {f.value, f.error / std::abs(f.value)}; }
+
+dynamics::Figure largest_factor(const dynamics::MeshKindResult& kind) {
+  dynamics::Figure largest{-1, 0};
+  for (const auto& branch : kind.branches) {
+    if (branch.dynamic_factor_max.value > largest.value) largest = branch.dynamic_factor_max;
+  }
+  return largest;
+}
+
+void add_response(Figures& figures, const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response) {
+  figures.push_back(relative(response.sun_planet.load_sharing.averaged));
+  figures.push_back(relative(response.sun_planet.load_sharing.instantaneous));
+  figures.push_back(relative(largest_factor(response.sun_planet)));
+  figures.push_back(relative(largest_factor(response.ring_planet)));
+  std::vector<double> frequencies;
+  constexpr double same = 1e-6;
+  for (const auto& mode : dynamics::modes(stage).modes) {
+    if (mode.frequency > 0 && (frequencies.empty() || mode.frequency > frequencies.back() * (1 + same)))
+      frequencies.push_back(mode.frequency);
+  }
+  for (std::size_t i = 0; i < 3; ++i) figures.push_back({i < frequencies.size() ? frequencies[i] : unknown, unknown});
+}
+
+/// Measured work whose answer is kept in a file, with the identity of what it depends on.
+MeasuredWork kept_work(const std::filesystem::path& file, const std::string& id,
+                       const std::function<std::string()>& work) {
+  if (std::ifstream in(file); in) {
+    try {
+      const Json json = Json::parse(in);
+      if (json.at("inputs_id") == id)
+        return {{json.at("wall_s"), json.at("processor_s"), json.at("peak_MB")}, json.at("answer"), json.at("failure")};
+    } catch (const std::exception&) {
+      // Damaged: measured again.
+    }
+  }
+  auto done = measured(work);
+  std::filesystem::create_directories(file.parent_path());
+  write_file(file, Json{{"inputs_id", id},
+                        {"wall_s", done.cost.wall},
+                        {"processor_s", done.cost.processor},
+                        {"peak_MB", done.cost.peak_memory_MB},
+                        {"answer", done.answer},
+                        {"failure", done.failure}}
+                       .dump(1));
+  return done;
+}
+
+class RingMeasurement {
+ public:
+  RingMeasurement(const Scene& scene, const GearGeometry& geometry, std::size_t ring, const RunOptions& options,
+                  const Plan& plan)
+      : scene_(scene),
+        geometry_(geometry),
+        ring_(ring),
+        options_(options),
+        sun_(plan.meshes.front()),
+        wheel_(plan.meshes.at(ring + 1)),
+        needs_solid_(!solid_reason(scene, scene.rings.at(ring)).empty() || !solid_reason(scene).empty()) {}
+
+  RingTrade run() {
+    RingTrade trade{.ring = scene_.rings.at(ring_).name, .points = {}};
+    for (const auto& setting : mesh_settings(wheel_, needs_solid_)) {
+      log::info(fmt::format("tradeoff of '{}': {}, {}", trade.ring, setting.applied(wheel_).rung, setting.text()));
+      trade.points.push_back(mesh_point(setting));
+    }
+    compare(trade.points, TradePart::mesh);
+    if (!scene_.dynamics || !finest_sun_ || !finest_wheel_) return trade;
+    prepare_coupling();
+    auto stage = make_stage(scene_, geometry_, ring_, *finest_sun_, *finest_wheel_);
+    stage.ring_coupling = static_coupling_;
+    for (const auto& setting : dynamics_settings(stage, elastic_coupling_)) {
+      log::info(fmt::format("tradeoff of '{}': {}, {}", trade.ring, setting.rung, setting.settings));
+      trade.points.push_back(dynamics_point(stage, setting));
+    }
+    compare(trade.points, TradePart::dynamics);
+    return trade;
+  }
+
+ private:
+  [[nodiscard]] RunOptions options_in(const std::filesystem::path& folder) const {
+    RunOptions inside = options_;
+    inside.out = folder;
+    inside.tables.reset();
+    return inside;
+  }
+
+  /// Solved in a process of its own, read back here.
+  std::optional<MeshResult> table(const MeshModel& model, const std::filesystem::path& folder, TradePoint& point) const {
+    const auto done = kept_work(folder / "cost.json", model.id(), [&] {
+      (void)computed_stiffness(model, {""}, options_in(folder));
+      return std::string("solved");
+    });
+    point.cost.wall += done.cost.wall;
+    point.cost.processor += done.cost.processor;
+    point.cost.peak_memory_MB = std::max(point.cost.peak_memory_MB, done.cost.peak_memory_MB);
+    if (!done.failure.empty()) {
+      point.failure = model.label() + ": " + done.failure;
+      return std::nullopt;
+    }
+    auto result = load(model, folder);
+    if (!result) point.failure = model.label() + ": its table was taken away";
+    return result;
+  }
+
+  TradePoint mesh_point(const MeshSetting& setting) {
+    const auto wheel_model = setting.applied(wheel_), sun_model = setting.applied(sun_);
+    TradePoint point{.rung = wheel_model.rung, .settings = setting.text(), .finest = setting.finest};
+    const auto root = options_.out / "tradeoff";
+    const auto name = setting.folder();
+    auto sun = table(sun_model, root / "sun_planet" / name, point);
+    auto wheel = table(wheel_model, root / scene_.rings[ring_].name / name, point);
+    if (!sun || !wheel) return point;
+    Figures figures = {sun->mean_stiffness(), wheel->mean_stiffness(), sun->lte_peak_to_peak(),
+                       wheel->lte_peak_to_peak()};
+    if (scene_.dynamics) {
+      try {
+        add_stage_figures(figures, *sun, *wheel, name);
+      } catch (const Error& error) {
+        point.failure = error.what();
+      }
+    }
+    figures.resize(trade_figures().size(), {unknown, unknown});
+    set_values(point, figures);
+    if (setting.finest) {
+      finest_sun_ = std::move(sun);
+      finest_wheel_ = std::move(wheel);
+    }
+    return point;
+  }
+
+  /// What these tables make of the stage, with the errors of the tables carried through.
+  void add_stage_figures(Figures& figures, const MeshResult& sun, const MeshResult& wheel, const std::string& name) const {
+    const auto stage = make_stage(scene_, geometry_, ring_, sun, wheel);
+    auto simulation = simulation_options(scene_, stage);
+    simulation.keep_series = false;
+    simulation.confirm = false;
+    const auto file = options_.out / "tradeoff" / scene_.rings[ring_].name / name / "figures.json";
+    const auto done = kept_work(file, response_id(stage, simulation, sun, wheel), [&] {
+      auto response = dynamics::simulate(stage, simulation);
+      const auto make = [&](const MeshResult& s, const MeshResult& w) {
+        return make_stage(scene_, geometry_, ring_, s, w);
+      };
+      const auto errors = carried_errors(response, simulation, {make, sun, wheel});
+      set_errors(errors, response);
+      Figures found;
+      add_response(found, stage, response);
+      return figures_text(found);
+    });
+    if (!done.failure.empty()) throw SolverError(done.failure);
+    const auto found = parse_figures(done.answer);
+    figures.insert(figures.end(), found.begin(), found.end());
+  }
+
+  /// Static coupling, and with the ring's modes, of the finest ring mesh; left out where it is of no concern.
+  void prepare_coupling() {
+    if (!may_be_coupled(scene_, finest_wheel_->model)) return;
+    const auto folder = options_.out / "tradeoff" / scene_.rings[ring_].name / "coupling";
+    const double compliance = 1 / finest_wheel_->mean_stiffness().value;
+    const auto done = measured([&] {
+      (void)solve_coupling(scene_, geometry_, finest_wheel_->model, compliance, options_.threads, folder);
+      return std::string("solved");
+    });
+    if (!done.failure.empty()) return log::warn("the coupling of the planets is left out: " + done.failure);
+    const auto solved = load_coupling(scene_, geometry_, finest_wheel_->model, compliance, folder);
+    if (!solved) return;
+    static_coupling_ = taken_coupling(*solved, RimCoupling::statical);
+    if (!solved->coupling.modes.empty()) elastic_coupling_ = taken_coupling(*solved, RimCoupling::elastic);
+  }
+
+  TradePoint dynamics_point(dynamics::PlanetaryStage stage, const DynamicsSetting& setting) const {
+    TradePoint point{.part = TradePart::dynamics,
+                     .rung = setting.rung,
+                     .settings = setting.settings,
+                     .finest = setting.finest,
+                     .changes_model = setting.changes_model};
+    auto simulation = simulation_options(scene_, stage);
+    simulation.keep_series = false;
+    simulation.integrator.method = dynamics::Integrator::automatic;
+    simulation.integrator.fixed_step = 0;
+    setting.apply(stage, simulation);
+    const auto id = ContentId()
+                        .add("response", response_id(stage, simulation, *finest_sun_, *finest_wheel_))
+                        .add("how", setting.rung + setting.settings)
+                        .id();
+    std::string name = setting.rung + " " + setting.settings;
+    for (char& c : name) {
+      if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+    }
+    const auto file = options_.out / "tradeoff" / scene_.rings[ring_].name / "dynamics" / (name + ".json");
+    const auto done = kept_work(file, id, [&] {
+      const auto response = dynamics::simulate(stage, simulation);
+      if (!response.steady) throw SolverError("the motion does not become periodic");
+      Figures figures(4, {unknown, unknown});
+      add_response(figures, stage, response);
+      return figures_text(figures);
+    });
+    point.cost = done.cost;
+    point.failure = done.failure;
+    if (done.failure.empty()) set_values(point, parse_figures(done.answer));
+    return point;
+  }
+
+  static void set_values(TradePoint& point, const Figures& figures) {
+    for (const auto& f : figures) point.values.push_back({f.value, unknown, f.error_relative});
+  }
+
+  static void compare(std::vector<TradePoint>& points, TradePart part) {
+    const auto finest = std::find_if(points.begin(), points.end(),
+                                     [part](const TradePoint& p) { return p.part == part && p.finest; });
+    if (finest == points.end() || finest->values.empty()) return;
+    for (auto& point : points) {
+      if (point.part != part) continue;
+      for (std::size_t i = 0; i < point.values.size(); ++i) {
+        auto& value = point.values[i];
+        value.error = std::abs(value.value / finest->values[i].value - 1);
+      }
+    }
+  }
+
+  const Scene& scene_;
+  const GearGeometry& geometry_;
+  std::size_t ring_;
+  const RunOptions& options_;
+  MeshModel sun_, wheel_;
+  bool needs_solid_;
+  std::optional<MeshResult> finest_sun_, finest_wheel_;
+  std::shared_ptr<const RingCoupling> static_coupling_, elastic_coupling_;
+};
+
+}  // namespace
+
+const std::vector<TradeFigure>& trade_figures() {
+  static const std::vector<TradeFigure> figures = {
+      {"sun_planet_mean_stiffness_N_per_m", "mean stiffness of the sun mesh"},
+      {"ring_planet_mean_stiffness_N_per_m", "mean stiffness of the ring mesh"},
+      {"sun_planet_lte_peak_to_peak_m", "transmission error of the sun mesh, peak to peak"},
+      {"ring_planet_lte_peak_to_peak_m", "transmission error of the ring mesh, peak to peak"},
+      {"sun_planet_load_sharing_averaged", "load sharing, averaged over a mesh cycle"},
+      {"sun_planet_load_sharing_instantaneous", "load sharing, instantaneous"},
+      {"sun_planet_dynamic_factor", "dynamic factor of the sun meshes"},
+      {"ring_planet_dynamic_factor", "dynamic factor of the ring meshes"},
+      {"frequency_1_Hz", "first natural frequency"},
+      {"frequency_2_Hz", "second natural frequency"},
+      {"frequency_3_Hz", "third natural frequency"}};
+  return figures;
+}
+
+std::optional<std::size_t> TradePoint::worst_figure() const {
+  std::optional<std::size_t> worst;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i].error) && (!worst || values[i].error > values[*worst].error)) worst = i;
+  }
+  return worst;
+}
+
+double TradePoint::worst_error() const {
+  const auto worst = worst_figure();
+  return failure.empty() && worst ? values[*worst].error : unknown;
+}
+
+const TradePoint* RingTrade::cheapest(TradePart part, double accuracy) const {
+  const TradePoint* best = nullptr;
+  for (const auto& p : points) {
+    if (p.part != part || p.finest || !(p.worst_error() <= accuracy)) continue;
+    if (!best || p.cost.wall < best->cost.wall) best = &p;
+  }
+  return best;
+}
+
+std::vector<const TradePoint*> RingTrade::front(TradePart part) const {
+  std::vector<const TradePoint*> list;
+  for (const auto& p : points) {
+    if (p.part == part && !p.finest && std::isfinite(p.worst_error())) list.push_back(&p);
+  }
+  std::stable_sort(list.begin(), list.end(), [](const auto* a, const auto* b) { return a->cost.wall < b->cost.wall; });
+  double best = std::numeric_limits<double>::infinity();
+  std::erase_if(list, [&](const TradePoint* p) {
+    if (p->worst_error() >= best) return true;
+    best = p->worst_error();
+    return false;
+  });
+  return list;
+}
+
+TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options) {
+  if (scene.stage.kind != StageKind::planetary)
+    throw InputError(scene.file.string() + ": a tradeoff is measured for planetary stages only so far");
+  const auto start = std::chrono::steady_clock::now();
+  const auto geometry = make_geometry(scene);
+  const Plan plan = make_plan(scene, geometry);
+  for (const auto& mesh : plan.meshes) {
+    if (!mesh.computed())
+      throw InputError(fmt::format("{}: the {} has a given stiffness: there is nothing to trade", scene.file.string(),
+                                   mesh.label()));
+  }
+  TradeOff trade{.scene = scene, .rings = {}, .total_seconds = 0};
+  for (std::size_t i = 0; i < scene.rings.size(); ++i)
+    trade.rings.push_back(RingMeasurement(scene, geometry, i, options, plan).run());
+  trade.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return trade;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/measured_work.h"
+#include "app/pipeline.h"
+#include "app/trade_settings.h"
+
+/// Every rung and setting measured: what it costs and how wrong it is (`annulus tradeoff`).
+namespace annulus::app {
+
+/// A figure users decide by.
+struct TradeFigure {
+  const char* column;  ///< sun_planet_mean_stiffness_N_per_m
+  const char* title;   ///< for people
+};
+[[nodiscard]] const std::vector<TradeFigure>& trade_figures();
+
+/// A figure as one setting gives it.
+struct TradeValue {
+  double value = 0;           ///< NaN: the setting does not give it
+  double error = 0;           ///< true relative error: against the finest setting of its part
+  double error_estimate = 0;  ///< what the program says of itself, relative; NaN: nothing
+};
+
+/// One setting on one ring.
+struct TradePoint {
+  TradePart part = TradePart::mesh;
+  std::string rung;      ///< "plane"; of the dynamics: how the motion is found, "marching"
+  std::string settings;  ///< "degree 2, level 1, 32 phases, 5 loads"
+  bool finest = false;   ///< the others are held against it
+  bool changes_model = false;
+  Cost cost{};                     ///< meshes: of both tables, the memory of the larger one; dynamics: of the response
+  std::string failure{};           ///< why there are no figures
+  std::vector<TradeValue> values{};  ///< in the order of trade_figures()
+
+  /// Largest error over all figures that both settings give; NaN for a failure.
+  [[nodiscard]] double worst_error() const;
+  [[nodiscard]] std::optional<std::size_t> worst_figure() const;
+};
+
+struct RingTrade {
+  std::string ring;
+  std::vector<TradePoint> points;  ///< those of the meshes, then those of the dynamics
+
+  /// The cheapest setting of a part by wall time whose worst error is within the accuracy; the finest itself does not
+  /// count. nullptr: none.
+  [[nodiscard]] const TradePoint* cheapest(TradePart part, double accuracy) const;
+  /// Points no other of the part beats in both wall time and worst error, by rising time.
+  [[nodiscard]] std::vector<const TradePoint*> front(TradePart part) const;
+};
+
+struct TradeOff {
+  Scene scene;
+  std::vector<RingTrade> rings;
+  double total_seconds = 0;
+};
+
+/// Runs everything, each setting in a process of its own, one after the other with options.threads threads, below
+/// OUT/tradeoff; what an earlier run measured there is taken over. Throws InputError for a stage that is not planetary
+/// or whose stiffness is given, and what making its geometry throws.
+[[nodiscard]] TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options);
+
+}  // namespace annulus::app
