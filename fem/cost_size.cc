@@ -1,0 +1,89 @@
+#include "fem/cost_size.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/resolution.h"
+
+namespace annulus::fem {
+namespace {
+
+/// Nodes of a structured section by Euler's formula: V = 1 + E - F, E = (4 F + boundary edges) / 2.
+double section_nodes(double cells, double boundary, int degree) {
+  const double edges = (4 * cells + boundary) / 2, vertices = 1 + edges - cells;
+  return vertices + edges * (degree - 1) + cells * (degree - 1) * (degree - 1);
+}
+
+struct SectionCounts {
+  double flank = 0, across = 0, rim_rows = 0, fillet = 0, root = 0, thickness = 0;
+};
+
+SectionCounts section_counts(const geometry::SectorResolution& r) {
+  SectionCounts c;
+  c.flank = r.flank_fractions.empty() ? r.flank_cells : static_cast<double>(r.flank_fractions.size() - 1);
+  c.thickness = r.thickness_cells;
+  c.fillet = r.fillet_cells;
+  c.root = r.root_cells;
+  c.rim_rows = r.rim_cells;
+  c.across = c.thickness + c.fillet + 2 * c.root;
+  return c;
+}
+
+/// Nodes of the whole section: tooth down to the middle of the fillets, and rim.
+double nodes_of_section(const SectionCounts& c, int degree) {
+  const double cells = c.thickness * (c.flank + c.fillet / 2) + c.rim_rows * c.across;
+  const double boundary = c.thickness + 2 * (c.flank + c.fillet + c.root + c.rim_rows) + c.across;
+  return section_nodes(cells, boundary, degree);
+}
+
+/// Nodes of a rectangle of the rim.
+double nodes_of_rim(const SectionCounts& c, double rows, int degree) {
+  return (degree * rows + 1) * (degree * c.across + 1);
+}
+
+double solid_unknowns(const LoadedMeshProblem& problem, const BodyResolution& r, const geometry::Gear& gear, bool wheel,
+                      int degree) {
+  const auto c = section_counts(r.section);
+  double nodes = nodes_of_section(c, degree) * (degree * r.face_cells + 1);
+  if (!wheel) return 3 * nodes;
+  const double rim = std::abs(problem.wheel_support_radius - gear.root_radius());
+  if (const auto* held = std::get_if<EndFaceHeld>(&problem.structure)) {
+    const double rows = std::max(1.0, std::round(c.rim_rows * std::min(1.0, held->sleeve_thickness / rim)));
+    nodes += nodes_of_rim(c, rows, degree) * degree * r.sleeve_cells;
+    if (held->hoop)
+      nodes += nodes_of_rim(c, 1, degree) * (degree * std::max(1.0, r.face_cells * held->hoop->width / problem.face_width) + 1);
+  } else if (const auto* flange = std::get_if<FlangeHeld>(&problem.structure)) {
+    nodes += nodes_of_rim(c, 1, degree) * (degree * std::max(1.0, r.face_cells * flange->width / problem.face_width) + 1);
+  }
+  return 3 * nodes;
+}
+
+}  // namespace
+
+int last_level(Rung rung) {
+  switch (rung) {
+    case Rung::closed_form:
+      return 0;
+    case Rung::plane:
+    case Rung::resolved_plane:
+      return last_plane_level;
+    case Rung::solid:
+    case Rung::resolved_solid:
+      break;
+  }
+  return last_solid_level;
+}
+
+double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
+  if (settings.rung == Rung::closed_form) return 0;
+  const bool solid = settings.rung == Rung::solid || settings.rung == Rung::resolved_solid;
+  double unknowns = 0;
+  for (const bool wheel : {false, true}) {
+    const auto& gear = wheel ? problem.pair.wheel() : problem.pair.planet();
+    unknowns += solid ? solid_unknowns(problem, solid_resolution(level), gear, wheel, settings.degree)
+                      : 2 * nodes_of_section(section_counts(plane_resolution(gear, level).section), settings.degree);
+  }
+  return unknowns;
+}
+
+}  // namespace annulus::fem

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "fem/loaded_mesh.h"
+
+/// How large the solve of a loaded mesh will be, counted without meshing or solving anything.
+namespace annulus::fem {
+
+/// Finest level of resolution a rung has; 0 for the closed form.
+[[nodiscard]] int last_level(Rung rung);
+
+/// Freedoms of the two sectors at a level (LoadedMeshResult::unknowns): exact to a per cent in the plane, an estimate
+/// for solid bodies, whose sleeves, hoops and flanges are counted by their share of the section. The resolved rungs are
+/// counted like the unresolved ones: their patches come on top. 0 for the closed form.
+[[nodiscard]] double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level);
+
+}  // namespace annulus::fem
