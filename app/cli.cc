@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "app/content_id.h"
+#include "app/cost_budget.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/scene_schema.h"
@@ -27,7 +28,7 @@ namespace {
 enum ExitStatus { done = 0, defect = 1, wrong_input = 2, refused = 3, interrupted = 130 };
 
 struct Arguments {
-  std::string scene, out, tables, key;
+  std::string scene, out, tables, key, budget;
   bool json = false, markdown = false, quiet = false, verbose = false;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
@@ -47,11 +48,25 @@ RunOptions run_options(const Arguments& arguments, const Scene& scene) {
   return options;
 }
 
+/// The scene as the file has it, or as accurate as the budget allows; what that means goes into `sentence`.
+Scene wanted_scene(const Arguments& arguments, std::string& sentence) {
+  const bool limited = !arguments.budget.empty();
+  const double budget = limited ? parse_duration(arguments.budget) : 0;  // before the file: both are arguments
+  Scene scene = read_scene(arguments.scene);
+  if (!limited) return scene;
+  auto choice = fit_budget(scene, budget, arguments.threads, CostModel::of_this_machine());
+  sentence = std::move(choice.sentence);
+  return std::move(choice.scene);
+}
+
 void run_and_print(const Arguments& arguments, bool with_dynamics) {
-  const Scene scene = read_scene(arguments.scene);
+  std::string budget;
+  const Scene scene = wanted_scene(arguments, budget);
+  if (!budget.empty()) log::info(budget);
   auto options = run_options(arguments, scene);
   options.with_dynamics = with_dynamics;
   fmt::print("{}", run_scene(scene, options));
+  if (!budget.empty()) fmt::print("{}\n", budget);
   fmt::print("report  {}\n", (options.out / "report.html").string());
 }
 
@@ -62,9 +77,10 @@ void dynamics_command(const Arguments& arguments) {
 }
 
 void plan_command(const Arguments& arguments) {
-  const Scene scene = read_scene(arguments.scene);
+  std::string budget;
+  const Scene scene = wanted_scene(arguments, budget);
   check_studies(scene);
-  fmt::print("{}", plan_scene(scene, arguments.json));
+  fmt::print("{}", plan_scene(scene, arguments.json, arguments.threads, budget));
 }
 
 void check_command(const Arguments& arguments) {
@@ -150,7 +166,12 @@ int run_command_line(int argc, char** argv) {
     command->add_option("-o,--out", arguments.out, "Folder of the results; default out/<scene name>");
     return command;
   };
-  out(add_command(app, arguments, "run", "Everything the scene asks for, and the report"));
+  const auto budget = [&](CLI::App* command) {
+    command->add_option("--budget", arguments.budget,
+                        "The most accurate plan predicted to fit this time: 30s, 2min, 500ms, 1h");
+    return command;
+  };
+  budget(out(add_command(app, arguments, "run", "Everything the scene asks for, and the report")));
   out(add_command(app, arguments, "solve", "Meshes, loaded transmission error, stiffness tables"));
   auto* dynamics =
       out(add_command(app, arguments, "dynamics", "The lumped model from tables, solved first if missing"));
@@ -158,7 +179,8 @@ int run_command_line(int argc, char** argv) {
                        "Folder of an earlier run whose tables are used if they still fit");
   out(add_command(app, arguments, "tradeoff",
                   "Every way to compute the stage measured: error against time and memory"));
-  auto* plan = add_command(app, arguments, "plan", "What will be modelled and why; computes nothing");
+  auto* plan = budget(add_command(app, arguments, "plan",
+                                  "What will be modelled and why, predicted time and memory; computes nothing"));
   plan->add_flag("--json", arguments.json, "As JSON");
   add_command(app, arguments, "check", "Check the scene only");
   auto* explain_key = app.add_subcommand("explain", "The keys of a scene file");

@@ -59,8 +59,7 @@ double body_tasks(const CostRun& run) {
 double contact_tasks(const CostRun& run) { return run.cycles <= 1 ? run.loads : run.first_problems(); }
 
 double body_seconds(const CostLaw& law, const CostRun& run) {
-  return law.body * sum_of_levels(run, law.body_exponent) /
-         speed_up(law.body_efficiency, run.threads, body_tasks(run));
+  return law.body * sum_of_levels(run, law.body_exponent) / speed_up(law.body_efficiency, run.threads, body_tasks(run));
 }
 
 double contact_seconds(const CostLaw& law, const CostRun& run) {

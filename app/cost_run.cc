@@ -93,9 +93,9 @@ std::vector<CostRun> parse_cost_runs(const std::string& text, const std::string&
 std::string cost_runs_text(const std::vector<CostRun>& runs) {
   std::string text = std::string(cost_columns) + "\n";
   for (const auto& r : runs)
-    text += fmt::format("{},{},{},{},{:.0f},{},{},{},{},{:.3g},{:.4g},{:.4g},{:.0f}\n", r.kind, r.degree, r.level,
-                        r.levels, r.unknowns, r.loads, r.phases, r.cycles, r.threads, r.error, r.body_s, r.contact_s,
-                        r.peak_MB);
+    text +=
+        fmt::format("{},{},{},{},{:.0f},{},{},{},{},{:.3g},{:.4g},{:.4g},{:.0f}\n", r.kind, r.degree, r.level, r.levels,
+                    r.unknowns, r.loads, r.phases, r.cycles, r.threads, r.error, r.body_s, r.contact_s, r.peak_MB);
   return text;
 }
 

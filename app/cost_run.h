@@ -12,12 +12,13 @@ struct CostRun {
   /// "coupling_solid", or "response" of one ring.
   std::string kind;
   int degree = 2;
-  int level = 0;         ///< of resolution reached
-  int levels = 1;        ///< solved on the way, the reached one included
-  double unknowns = 0;   ///< of the reached level; a response: planets x mesh cycles of the period
-  int loads = 0, phases = 0, cycles = 0;  ///< of the table: loads, phases per mesh cycle, mesh cycles; a coupling: cycles
+  int level = 0;        ///< of resolution reached
+  int levels = 1;       ///< solved on the way, the reached one included
+  double unknowns = 0;  ///< of the reached level; a response: planets x mesh cycles of the period
+  int loads = 0, phases = 0,
+      cycles = 0;  ///< of the table: loads, phases per mesh cycle, mesh cycles; a coupling: cycles
   int threads = 1;
-  double error = 0;  ///< estimated relative error at the reached level; 0: not known
+  double error = 0;      ///< estimated relative error at the reached level; 0: not known
   double body_s = 0;     ///< s, meshing and condensing; all there is of a coupling or a response
   double contact_s = 0;  ///< s
   double peak_MB = 0;    ///< of the process; 0: not measured

@@ -58,6 +58,9 @@ struct InputEdit {
 [[nodiscard]] Scene with_overrides(const Scene& scene, const std::vector<Override>& overrides);
 [[nodiscard]] Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides);
 
+/// The scene with another wanted accuracy, studies and assumptions included; `note` says where it comes from.
+[[nodiscard]] Scene with_accuracy(const Scene& scene, double accuracy, const std::string& note);
+
 /// The same scene as the text of a file. Comments are lost.
 [[nodiscard]] std::string scene_text(const Scene& scene, const std::vector<Override>& overrides);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/cost_actual.h"
 #include "app/planetary_subject.h"
 #include "app/progress.h"
 #include "app/report.h"
@@ -57,6 +58,14 @@ std::optional<CouplingEffect> effect_of_coupling(const Scene& scene, const GearG
   return effect;
 }
 
+/// Later predictions on this machine learn from it.
+void keep_costs(const PlanCost& cost) {
+  std::vector<CostRun> runs;
+  for (const auto& step : cost.steps)
+    if (step.actual && step.actual->seconds() > 0) runs.push_back(*step.actual);
+  add_user_costs(user_costs_file(), runs);
+}
+
 std::vector<std::string> ring_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const auto& ring : scene.rings) names.push_back(ring.name);
@@ -87,10 +96,12 @@ std::vector<std::pair<std::string, double>> timings_of(const RunResult& result, 
 }  // namespace
 
 fem::LoadedMeshResult solve_contact(const MeshModel& model, int threads) {
-  Progress progress(model.label());
+  const auto costs = CostModel::of_this_machine();
+  Progress progress(model.label(), costs.predict(mesh_size(model, threads, costs)).seconds);
   fem::LoadedMeshSettings settings = model.settings;
   settings.threads = threads;
   settings.progress = [&](double fraction) { progress.update(fraction); };
+  progress.update(0);
   auto solved = fem::solve_loaded_mesh(*model.problem, settings);
   progress.finish(fmt::format(
       "{} positions, {} unknowns per pair of sectors; mesh {:.2f} s, condense {:.2f} s, contact {:.2f} s",
@@ -168,7 +179,7 @@ RunResult run(const Scene& scene, const RunOptions& options) {
   if (scene.reference) reference = read_reference(scene.file.parent_path() / *scene.reference);
   GearGeometry geometry = make_geometry(scene);
   if (options.with_dynamics) check_studies(scene);  // before anything expensive
-  Plan plan = make_plan(scene, geometry);
+  Plan plan = make_plan(scene, geometry, options.threads);
   auto sun_mesh = mesh_stiffness(scene, geometry, plan.meshes.front(), ring_names(scene), options);
   RunResult result{
       .scene = scene, .geometry = std::move(geometry), .plan = std::move(plan), .sun_mesh = std::move(sun_mesh)};
@@ -181,8 +192,13 @@ RunResult run(const Scene& scene, const RunOptions& options) {
     const auto timer = timers.measure("dynamics");
     for_each_task(scene.rings.size(), options.threads, [&](std::size_t i) {
       auto& ring = result.rings[i];
-      ring.response = dynamic_response(scene, result.geometry, i, result.sun_mesh, ring.mesh, options);
-      ring.coupling_effect = effect_of_coupling(scene, result.geometry, i, result.sun_mesh, ring.mesh, options);
+      StageTimers response_timers;
+      {
+        const auto response_timer = response_timers.measure("response");
+        ring.response = dynamic_response(scene, result.geometry, i, result.sun_mesh, ring.mesh, options);
+        ring.coupling_effect = effect_of_coupling(scene, result.geometry, i, result.sun_mesh, ring.mesh, options);
+      }
+      ring.response_seconds = response_timers.seconds("response");
     });
   }
   if (options.with_dynamics) {
@@ -191,6 +207,8 @@ RunResult run(const Scene& scene, const RunOptions& options) {
   }
   result.timings = timings_of(result, timers);
   result.peak_memory_MB = peak_memory_MB();
+  result.cost = actual_costs(result);
+  keep_costs(result.cost);
   std::filesystem::create_directories(options.out);
   write_file(options.out / "summary.json", summary_json(result));
   write_file(options.out / "report.html", report_html(result));

@@ -35,6 +35,7 @@ struct RingResult {
   MeshResult mesh;                                  ///< ring-planet mesh
   std::optional<StageResponse> response{};          ///< absent without dynamics
   std::optional<CouplingEffect> coupling_effect{};  ///< absent where the coupling of the planets was not looked at
+  double response_seconds = 0;                      ///< wall, of both; little when they were read back
 };
 
 /// Everything a report needs.
@@ -48,6 +49,7 @@ struct RunResult {
   StudyResults studies{};                                 ///< sweeps, samples, sensitivity, as the scene asks
   std::vector<std::pair<std::string, double>> timings{};  ///< wall seconds by stage, then "other" and "total"
   double peak_memory_MB = 0;
+  PlanCost cost{};  ///< predicted and actual, of the steps that were not reused
 };
 
 // 1. Scene: what the user wants, checked, SI (scene.h):

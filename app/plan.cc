@@ -199,7 +199,7 @@ long Plan::contact_problems() const {
   return count;
 }
 
-Plan make_plan(const Scene& scene, const GearGeometry& geometry) {
+Plan make_plan(const Scene& scene, const GearGeometry& geometry, int threads) {
   Plan plan;
   plan.title = scene.title;
   plan.inputs = resolved_inputs(scene, geometry);
@@ -212,6 +212,7 @@ Plan make_plan(const Scene& scene, const GearGeometry& geometry) {
   if (scene.dynamics) plan.freedoms = freedoms(scene.supports, scene.stage.planets);
   plan.studies = plan_studies(scene);
   plan.remarks = remarks(scene, geometry, plan.meshes);
+  plan.cost = plan_cost(scene, geometry, plan.meshes, plan.studies, threads, CostModel::of_this_machine());
   return plan;
 }
 

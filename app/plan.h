@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cost_plan.h"
 #include "app/gear_geometry.h"
 #include "app/mesh_model.h"
 #include "app/scene.h"
@@ -35,12 +36,15 @@ struct Plan {
   std::vector<FreedomPlan> freedoms;
   std::vector<StudyPlan> studies;    ///< sweeps, samples, sensitivity
   std::vector<std::string> remarks;  ///< simplifications and warnings
+  PlanCost cost{};                   ///< predicted; empty for stages other than planetary
+  std::string budget{};              ///< what a budget bought; empty without
 
   /// Contact problems per level of resolution: positions x phases x loads, closure included, over all computed meshes.
   [[nodiscard]] long contact_problems() const;
 };
 
-[[nodiscard]] Plan make_plan(const Scene& scene, const GearGeometry& geometry);
+/// The cost is predicted for a run on `threads`.
+[[nodiscard]] Plan make_plan(const Scene& scene, const GearGeometry& geometry, int threads = 1);
 
 [[nodiscard]] std::string to_text(const Plan& plan);
 [[nodiscard]] std::string to_json(const Plan& plan);

@@ -51,6 +51,28 @@ Json quantities_json(const std::vector<Quantity>& quantities) {
   return json;
 }
 
+Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+std::string cost_lines(const Plan& plan) {
+  if (plan.cost.empty()) return "";
+  const auto& cost = plan.cost;
+  std::string text = fmt::format("\nPredicted cost on {} thread{}\n", cost.threads, cost.threads == 1 ? "" : "s");
+  for (const auto& step : cost.steps) {
+    text += "  " + pad(step.label, 34) + fmt::format("{:>10}", duration_text(step.predicted.seconds));
+    text += step.kind == CostKind::mesh || step.kind == CostKind::response
+                ? fmt::format("{:>11}", memory_text(step.predicted.peak_MB))
+                : "";
+    if (step.kind == CostKind::mesh && step.size.unknowns > 0)
+      text += fmt::format(
+          "   level {}, about {:.0f} thousand unknowns, expected error {}", step.size.level, step.size.unknowns / 1e3,
+          std::isfinite(step.expected_error) ? fmt::format("{:.2g} %", 100 * step.expected_error) : "not known");
+    text += "\n";
+  }
+  text += "  " + pad("in all", 34) +
+          fmt::format("{:>10}{:>11}\n", duration_text(cost.seconds()), memory_text(cost.peak_MB()));
+  return plan.budget.empty() ? text : text + "  " + plan.budget + "\n";
+}
+
 std::string duration(double seconds) {
   if (seconds < 90) return fmt::format("{:.0f} s", std::max(1.0, seconds));
   return seconds < 5400 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
@@ -74,9 +96,8 @@ std::string to_text(const Plan& plan) {
 
   text += "\nMeshes and bodies\n";
   for (const auto& mesh : plan.meshes) text += mesh_lines(mesh);
-  text +=
-      fmt::format("  {} contact problems per level of resolution; time and memory are not predicted in this version\n",
-                  plan.contact_problems());
+  text += fmt::format("  {} contact problems per level of resolution\n", plan.contact_problems());
+  text += cost_lines(plan);
 
   if (!plan.freedoms.empty()) text += "\nLumped model\n";
   for (const auto& f : plan.freedoms)
@@ -126,6 +147,11 @@ std::string to_json(const Plan& plan) {
       item["phases"] = mesh.problem->phases;
       item["ring_positions"] = mesh.positions;
       item["loads_N"] = mesh.problem->loads;
+      for (const auto& step : plan.cost.steps) {
+        if (step.kind != CostKind::mesh || step.label != mesh.label()) continue;
+        item["predicted_s"] = finite(step.predicted.seconds);
+        item["predicted_peak_MB"] = finite(step.predicted.peak_MB);
+      }
     }
     json["meshes"].push_back(std::move(item));
   }
@@ -140,6 +166,23 @@ std::string to_json(const Plan& plan) {
                                {"seconds_on_one_core", s.seconds}});
   json["remarks"] = plan.remarks;
   json["contact_problems"] = plan.contact_problems();
+  if (plan.cost.empty()) return json.dump(2) + "\n";
+  json["threads"] = plan.cost.threads;
+  for (const auto& step : plan.cost.steps) {
+    Json item = {{"step", to_text(step.kind)},
+                 {"name", step.label},
+                 {"predicted_s", finite(step.predicted.seconds)},
+                 {"predicted_peak_MB", finite(step.predicted.peak_MB)}};
+    if (step.kind == CostKind::mesh) {
+      item["level"] = step.size.level;
+      item["unknowns"] = std::lround(step.size.unknowns);
+      item["expected_error_relative"] = finite(step.expected_error);
+    }
+    json["cost"].push_back(std::move(item));
+  }
+  json["predicted_s"] = finite(plan.cost.seconds());
+  json["predicted_peak_MB"] = finite(plan.cost.peak_MB());
+  if (!plan.budget.empty()) json["budget"] = plan.budget;
   return json.dump(2) + "\n";
 }
 

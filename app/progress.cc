@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "core/log.h"
 
@@ -16,10 +19,20 @@ std::atomic<bool> progress_shown = true;
 
 void show_progress(bool show) { progress_shown = show; }
 
-Progress::Progress(std::string label)
+double time_left(double fraction, double passed, double predicted) {
+  const bool known = predicted > 0;  // false for NaN
+  if (fraction >= 1) return 0;
+  if (fraction <= 0) return known ? std::max(0.0, predicted - passed) : std::numeric_limits<double>::quiet_NaN();
+  const double by_fraction = passed * (1 - fraction) / fraction;
+  if (!known) return by_fraction;
+  return fraction * by_fraction + (1 - fraction) * std::max(0.0, predicted - passed);
+}
+
+Progress::Progress(std::string label, double predicted)
     : label_(std::move(label)),
+      predicted_(predicted),
       start_(std::chrono::steady_clock::now()),
-      last_(start_),
+      last_(start_ - std::chrono::seconds(1)),  // the first one is drawn
       terminal_(::isatty(STDERR_FILENO) != 0) {
   if (!terminal_) log::info(label_ + " ...");
 }
@@ -37,8 +50,9 @@ void Progress::update(double fraction) {
   last_ = now;
   const double passed = std::chrono::duration<double>(now - start_).count();
   const int filled = static_cast<int>(fraction * 30);
-  fmt::print(stderr, "\r\x1b[K{} [{:#<{}}{:.<{}}] {:3.0f} %, {:.0f} s left", label_, "", filled, "", 30 - filled,
-             100 * fraction, fraction > 0 ? passed * (1 - fraction) / fraction : 0);
+  const double left = time_left(fraction, passed, predicted_);
+  fmt::print(stderr, "\r\x1b[K{} [{:#<{}}{:.<{}}] {:3.0f} %{}", label_, "", filled, "", 30 - filled, 100 * fraction,
+             std::isfinite(left) ? fmt::format(", {:.0f} s left", left) : "");
   std::fflush(stderr);
   drawn_ = true;
 }

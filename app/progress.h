@@ -7,11 +7,16 @@
 
 namespace annulus::app {
 
+/// Time left (s) of a step after `passed` seconds with `fraction` of it done: at first what was predicted, more and
+/// more what the fraction says. NaN when nothing is known yet. `predicted`: 0 or NaN when there is no prediction.
+[[nodiscard]] double time_left(double fraction, double passed, double predicted);
+
 /// Progress of one long step on standard error: a line that rewrites itself with the time left on a terminal, plain
 /// lines at the start and the end otherwise. Silent when the log is quiet.
 class Progress {
  public:
-  explicit Progress(std::string label);
+  /// `predicted`: s that the step will take, if that is known.
+  explicit Progress(std::string label, double predicted = 0);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -23,6 +28,7 @@ class Progress {
   void clear_line();
 
   std::string label_;
+  double predicted_;
   std::chrono::steady_clock::time_point start_, last_;
   bool terminal_;
   bool drawn_ = false;

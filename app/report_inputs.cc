@@ -5,6 +5,7 @@
 #include <set>
 
 #include "app/content_id.h"
+#include "app/cost_actual.h"
 #include "app/report_parts.h"
 
 namespace annulus::app {
@@ -174,7 +175,7 @@ std::string quality_section(const RunResult& result) {
          fmt::format("{}", f.statistics.steps)});
   }
   if (!dynamics.rows.empty()) text += html(dynamics) + solution_notes(result);
-  return text + cost_html(result.timings, result.peak_memory_MB);
+  return text + predicted_and_actual_html(result) + cost_html(result.timings, result.peak_memory_MB);
 }
 
 }  // namespace annulus::app

@@ -394,6 +394,21 @@ Scene with_overrides(const Scene& scene, const std::vector<Override>& overrides)
   return Reader(changed_root(scene, overrides), scene.file).read();
 }
 
+Scene with_accuracy(const Scene& scene, double accuracy, const std::string& note) {
+  require(!scene.text.empty(), "only a scene read from a file or text can be changed");
+  toml::table root = toml::parse(scene.text, scene.file.string());
+  root.insert_or_assign("accuracy", accuracy);
+  std::ostringstream text;
+  text << root << '\n';
+  Scene changed = parse_scene(text.str(), scene.file);
+  for (auto& input : changed.inputs) {
+    if (input.key != "accuracy") continue;
+    input.origin = Origin::derived;
+    input.note = note;
+  }
+  return changed;
+}
+
 std::string scene_text(const Scene& scene, const std::vector<Override>& overrides) {
   toml::table root = changed_root(scene, overrides);
   root.erase("reference");  // its path is relative to the original

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
+#include "app/cost_plan.h"
 #include "app/pair_run.h"
 #include "app/pair_subject.h"
 #include "app/plan.h"
@@ -38,26 +38,11 @@ std::vector<std::string> pair_tables_to_solve(const Scene& nominal, const Scene&
   return {after.label()};
 }
 
-/// The period follows from errors and tables, not from stiffness.
 double planetary_seconds(const Scene& scene) {
   const auto geometry = make_geometry(scene);
-  Scene rough = scene;
-  rough.sun_planet = {};
-  rough.sun_planet.stiffness = StiffnessShape::constant;
-  rough.sun_planet.mean = 1e9;
-  rough.ring_planet = rough.sun_planet;
-  const auto models = mesh_models(scene, geometry);
+  const auto periods = period_cycles(scene, geometry);
   double seconds = 0;
-  // A constant stiffness reads no table: any will do.
-  const MeshResult none{
-      .model = {},
-      .table = StiffnessTable("sun_planet", 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
-  for (std::size_t i = 0; i < scene.rings.size(); ++i) {
-    const auto stage = make_stage(rough, geometry, i, none, none);
-    const int period = std::lcm(stage.error_period(), models[i + 1].positions);
-    const auto options = simulation_options(scene, stage);
-    seconds += dynamics::point_seconds(stage, std::min(period, std::max(options.max_window_cycles, 4000)));
-  }
+  for (const int period : periods) seconds += dynamics::point_seconds(scene.stage.planets, period);
   return seconds;
 }
 
@@ -130,10 +115,11 @@ std::string run_scene(const Scene& scene, const RunOptions& options) {
   no_such_kind();
 }
 
-std::string plan_scene(const Scene& scene, bool json) {
+std::string plan_scene(const Scene& scene, bool json, int threads, const std::string& budget) {
   switch (scene.stage.kind) {
     case StageKind::planetary: {
-      const Plan plan = make_plan(scene, make_geometry(scene));
+      Plan plan = make_plan(scene, make_geometry(scene), threads);
+      plan.budget = budget;
       return json ? to_json(plan) : to_text(plan);
     }
     case StageKind::helical_pair: {

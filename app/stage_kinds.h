@@ -30,8 +30,8 @@ void check_stage(const Scene& scene);
 /// Everything the scene asks for, into options.out; the summary for the standard output.
 std::string run_scene(const Scene& scene, const RunOptions& options);
 
-/// `annulus plan`
-[[nodiscard]] std::string plan_scene(const Scene& scene, bool json);
+/// `annulus plan`; the cost is predicted for `threads`. `budget`: what a budget bought, if there was one.
+[[nodiscard]] std::string plan_scene(const Scene& scene, bool json, int threads = 1, const std::string& budget = {});
 
 /// What `annulus check` says of a good scene: "3 rings, 5 planets".
 [[nodiscard]] std::string stage_text(const Scene& scene);

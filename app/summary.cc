@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/content_id.h"
+#include "app/cost_actual.h"
 #include "app/summary_studies.h"
 
 namespace annulus::app {
@@ -116,6 +117,19 @@ SummaryJson ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
   return json;
 }
 
+/// Of what was not reused.
+SummaryJson cost_json(const RunResult& result) {
+  SummaryJson json = {{"predicted_s", known(result.cost.seconds())},
+                      {"actual_s", known(result.cost.actual_seconds())},
+                      {"predicted_peak_MB", known(result.cost.peak_MB())}};
+  for (const auto& step : result.cost.steps)
+    json["steps"].push_back({{"step", to_text(step.kind)},
+                             {"name", step.label},
+                             {"predicted_s", known(step.predicted.seconds)},
+                             {"actual_s", step.actual->seconds()}});
+  return json;
+}
+
 }  // namespace
 
 std::string summary_json(const RunResult& result) {
@@ -138,6 +152,7 @@ std::string summary_json(const RunResult& result) {
   json["inputs_id"] = inputs.add("meshes", ids).id();
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
+  if (!result.cost.empty()) json["cost"] = cost_json(result);
   return json.dump(2) + "\n";
 }
 
@@ -162,7 +177,9 @@ std::string summary_text(const RunResult& result) {
   row("(sun mesh)", result.sun_mesh, nullptr);
   text += "load sharing: sun meshes, averaged over a mesh cycle; dynamic factor: largest of all sun meshes\n\ntime   ";
   for (const auto& [stage, seconds] : result.timings) text += fmt::format(" {} {:.2f} s ", stage, seconds);
-  return text + fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
+  text += fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
+  const std::string cost = cost_sentence(result);
+  return cost.empty() ? text : text + "cost    " + cost + "\n";
 }
 
 }  // namespace annulus::app

@@ -51,6 +51,6 @@ struct PointOptions {
 [[nodiscard]] const char* point_method();
 
 /// Rough wall time of evaluate_point in seconds on one core, for plans: the window is `error_period` mesh cycles.
-[[nodiscard]] double point_seconds(const PlanetaryStage& stage, int error_period);
+[[nodiscard]] double point_seconds(int planets, int error_period);
 
 }  // namespace annulus::dynamics

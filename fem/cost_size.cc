@@ -51,9 +51,11 @@ double solid_unknowns(const LoadedMeshProblem& problem, const BodyResolution& r,
     const double rows = std::max(1.0, std::round(c.rim_rows * std::min(1.0, held->sleeve_thickness / rim)));
     nodes += nodes_of_rim(c, rows, degree) * degree * r.sleeve_cells;
     if (held->hoop)
-      nodes += nodes_of_rim(c, 1, degree) * (degree * std::max(1.0, r.face_cells * held->hoop->width / problem.face_width) + 1);
+      nodes += nodes_of_rim(c, 1, degree) *
+               (degree * std::max(1.0, r.face_cells * held->hoop->width / problem.face_width) + 1);
   } else if (const auto* flange = std::get_if<FlangeHeld>(&problem.structure)) {
-    nodes += nodes_of_rim(c, 1, degree) * (degree * std::max(1.0, r.face_cells * flange->width / problem.face_width) + 1);
+    nodes +=
+        nodes_of_rim(c, 1, degree) * (degree * std::max(1.0, r.face_cells * flange->width / problem.face_width) + 1);
   }
   return 3 * nodes;
 }

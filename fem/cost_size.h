@@ -11,6 +11,7 @@ namespace annulus::fem {
 /// Freedoms of the two sectors at a level (LoadedMeshResult::unknowns): exact to a per cent in the plane, an estimate
 /// for solid bodies, whose sleeves, hoops and flanges are counted by their share of the section. The resolved rungs are
 /// counted like the unresolved ones: their patches come on top. 0 for the closed form.
-[[nodiscard]] double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level);
+[[nodiscard]] double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
+                                        int level);
 
 }  // namespace annulus::fem

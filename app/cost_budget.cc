@@ -1,0 +1,96 @@
+#include "app/cost_budget.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "app/overrides.h"
+#include "app/planetary_subject.h"
+#include "core/errors.h"
+#include "fem/cost_size.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr double accuracy_ladder[] = {0.001, 0.003, 0.01, 0.03, 0.1};
+
+/// Whether the accuracy decides how a mesh is solved.
+bool refines(const MeshModel& model) {
+  return model.computed() && model.settings.rung != fem::Rung::closed_form && !model.settings.level;
+}
+
+PlanCost cost_of(const Scene& scene, int threads, const CostModel& costs) {
+  const auto geometry = make_geometry(scene);
+  return plan_cost(scene, geometry, mesh_models(scene, geometry), plan_studies(scene), threads, costs);
+}
+
+bool within_reach(const Scene& scene, double accuracy, const CostModel& costs) {
+  for (const auto& model : mesh_models(scene, make_geometry(scene))) {
+    if (refines(model) && costs.expected_error(model.rung, fem::last_level(model.settings.rung)) > accuracy)
+      return false;
+  }
+  return true;
+}
+
+std::string figures_text(const PlanCost& cost) {
+  return fmt::format("{} and {}", duration_text(cost.seconds()), memory_text(cost.peak_MB()));
+}
+
+}  // namespace
+
+double parse_duration(const std::string& text) {
+  static constexpr std::pair<const char*, double> time_units[] = {
+      {"", 1}, {"s", 1}, {"ms", 1e-3}, {"min", 60}, {"h", 3600}};
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc{} && std::isfinite(value) && value > 0) {
+    std::string unit(end, text.data() + text.size());
+    unit.erase(0, unit.find_first_not_of(' ') == std::string::npos ? unit.size() : unit.find_first_not_of(' '));
+    for (const auto& [name, seconds] : time_units)
+      if (unit == name) return value * seconds;
+  }
+  throw InputError(fmt::format("--budget {}: is not a time above zero; write 30s, 2min, 500ms or 1h", text));
+}
+
+BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const CostModel& costs) {
+  if (scene.stage.kind != StageKind::planetary)
+    throw InputError("--budget: the cost is predicted for planetary stages only; leave it out");
+  bool any = false;
+  for (const auto& model : mesh_models(scene, make_geometry(scene))) any = any || refines(model);
+  const auto known = [](const PlanCost& cost) {
+    if (std::isfinite(cost.seconds())) return;
+    for (const auto& step : cost.steps)
+      if (!std::isfinite(step.predicted.seconds))
+        throw SolverError(fmt::format("--budget: what the {} costs ({}) is not known; run it without a budget",
+                                      step.label, step.size.kind));
+  };
+  PlanCost cost = cost_of(scene, threads, costs);
+  known(cost);
+  if (!any) {
+    if (cost.seconds() > budget)
+      throw SolverError(fmt::format("the run is predicted to take {}, more than the budget of {}, and nothing in it "
+                                    "gets faster with less accuracy",
+                                    figures_text(cost), duration_text(budget)));
+    return {scene, cost,
+            fmt::format("budget {}: predicted {}; no mesh of this scene is refined, its accuracy stays as it is",
+                        duration_text(budget), figures_text(cost))};
+  }
+  for (const double accuracy : accuracy_ladder) {
+    if (!within_reach(scene, accuracy, costs)) continue;
+    Scene fitted = with_accuracy(scene, accuracy,
+                                 fmt::format("the most accurate that a budget of {} pays for", duration_text(budget)));
+    cost = cost_of(fitted, threads, costs);
+    if (cost.seconds() > budget) continue;
+    auto sentence = fmt::format("budget {}: buys a mesh stiffness within {:g} % (expected error {:.2g} %); predicted {}",
+                                duration_text(budget), 100 * accuracy, 100 * cost.expected_error(), figures_text(cost));
+    return {std::move(fitted), std::move(cost), std::move(sentence)};
+  }
+  throw SolverError(fmt::format(
+      "the coarsest plan, a mesh stiffness within {:g} %, is predicted to take {}: more than the budget of {}",
+      100 * std::end(accuracy_ladder)[-1], figures_text(cost), duration_text(budget)));
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,185 @@
+#include "app/cost_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "app/planetary_subject.h"
+#include "app/rim_coupling.h"
+#include "app/stage_response.h"
+#include "dynamics/study_point.h"
+#include "fem/cost_size.h"
+
+namespace annulus::app {
+
+namespace {
+
+/// Wall time of steps whose times `time_of` tells.
+template <class TimeOf>
+double wall_time(const std::vector<CostStep>& steps, int threads, TimeOf time_of) {
+  double in_turn = 0, responses = 0, longest = 0;
+  for (const auto& step : steps) {
+    const double seconds = time_of(step);
+    if (step.kind == CostKind::response) {
+      responses += seconds;
+      longest = std::max(longest, seconds);
+      if (std::isnan(seconds)) return seconds;
+    } else {
+      in_turn += seconds;
+    }
+  }
+  return in_turn + std::max(longest, responses / std::max(1, threads));
+}
+
+CostRun coupling_size(const MeshModel& model, int threads) {
+  // Solved at the first level, whatever the mesh needs (rim_coupling.cc).
+  CostRun size;
+  const bool solid = model.settings.rung == fem::Rung::solid || model.settings.rung == fem::Rung::resolved_solid;
+  const bool supported = std::holds_alternative<fem::PinHeld>(model.problem->structure) ||
+                         std::holds_alternative<fem::SplineHeld>(model.problem->structure);
+  size.kind = solid ? "coupling_solid" : supported ? "coupling_pins" : "coupling_plane";
+  size.level = 1;
+  size.cycles = model.positions;
+  size.threads = threads;
+  auto settings = model.settings;
+  settings.degree = 2;
+  // On single supports every ring position is a system of its own.
+  size.unknowns = fem::estimated_unknowns(*model.problem, settings, 1) * (supported ? model.positions : 1);
+  return size;
+}
+
+}  // namespace
+
+const char* to_text(CostKind kind) {
+  switch (kind) {
+    case CostKind::mesh:
+      return "mesh";
+    case CostKind::coupling:
+      return "coupling";
+    case CostKind::response:
+      return "response";
+    case CostKind::studies:
+      break;
+  }
+  return "studies";
+}
+
+double PlanCost::seconds() const {
+  return wall_time(steps, threads, [](const CostStep& s) { return s.predicted.seconds; });
+}
+
+double PlanCost::peak_MB() const {
+  double peak = 0;
+  for (const auto& step : steps) {
+    if (step.kind == CostKind::studies || step.kind == CostKind::coupling) continue;
+    if (std::isnan(step.predicted.peak_MB)) return step.predicted.peak_MB;
+    peak = std::max(peak, step.predicted.peak_MB);
+  }
+  return peak;
+}
+
+double PlanCost::expected_error() const {
+  double error = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& step : steps) {
+    if (step.kind != CostKind::mesh) continue;
+    if (std::isnan(step.expected_error)) return step.expected_error;
+    error = std::isnan(error) ? step.expected_error : std::max(error, step.expected_error);
+  }
+  return error;
+}
+
+PlanCost PlanCost::done() const {
+  PlanCost result{.steps = {}, .threads = threads};
+  for (const auto& step : steps)
+    if (step.actual) result.steps.push_back(step);
+  return result;
+}
+
+double PlanCost::actual_seconds() const {
+  return wall_time(steps, threads, [](const CostStep& s) { return s.actual ? s.actual->seconds() : 0.0; });
+}
+
+CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs) {
+  const auto& settings = model.settings;
+  const int last = fem::last_level(settings.rung);
+  CostRun size;
+  size.kind = model.rung;
+  size.degree = settings.degree;
+  size.level = std::clamp(
+      settings.level.value_or(costs.expected_level(model.rung, settings.accuracy, last)), 0, last);
+  // A level that is forced is solved with the one before it; refining starts at level 0 and passes them all.
+  size.levels = last == 0 ? 1 : settings.level ? 2 : size.level + 1;
+  size.unknowns = fem::estimated_unknowns(*model.problem, settings, size.level);
+  size.loads = static_cast<int>(model.problem->loads.size());
+  size.phases = model.problem->phases;
+  size.cycles = model.positions;
+  size.threads = threads;
+  return size;
+}
+
+std::vector<int> period_cycles(const Scene& scene, const GearGeometry& geometry) {
+  // The period follows from errors and tables, not from stiffness.
+  Scene rough = scene;
+  rough.sun_planet = {};
+  rough.sun_planet.stiffness = StiffnessShape::constant;
+  rough.sun_planet.mean = 1e9;
+  rough.ring_planet = rough.sun_planet;
+  const auto models = mesh_models(scene, geometry);
+  // A constant stiffness reads no table: any will do.
+  const MeshResult none{
+      .model = {},
+      .table = StiffnessTable("sun_planet", 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
+  std::vector<int> periods;
+  for (std::size_t i = 0; i < scene.rings.size(); ++i) {
+    const auto stage = make_stage(rough, geometry, i, none, none);
+    const int period = std::lcm(stage.error_period(), models[i + 1].positions);
+    periods.push_back(std::min(period, std::max(simulation_options(scene, stage).max_window_cycles, 4000)));
+  }
+  return periods;
+}
+
+PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::vector<MeshModel>& meshes,
+                   const std::vector<StudyPlan>& studies, int threads, const CostModel& costs) {
+  PlanCost cost{.steps = {}, .threads = threads};
+  const auto add = [&](CostKind kind, std::string label, std::string ring, CostRun size, double error) {
+    const auto predicted = costs.predict(size);
+    cost.steps.push_back({kind, std::move(label), std::move(ring), std::move(size), predicted, error});
+  };
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  double longest_table = 0;
+  for (const auto& model : meshes) {
+    if (!model.computed()) continue;
+    const auto size = mesh_size(model, threads, costs);
+    add(CostKind::mesh, model.label(), model.ring, size, costs.expected_error(size.kind, size.level));
+    longest_table = std::max(longest_table, cost.steps.back().predicted.seconds);
+    if (may_be_coupled(scene, model))
+      add(CostKind::coupling, fmt::format("coupling through '{}'", model.ring), model.ring,
+          coupling_size(model, threads), unknown);
+  }
+  if (!scene.dynamics) return cost;
+  const auto periods = period_cycles(scene, geometry);
+  for (std::size_t i = 0; i < scene.rings.size(); ++i) {
+    CostRun size;
+    size.kind = "response";
+    size.unknowns = static_cast<double>(scene.stage.planets) * scene.dynamics->mesh_cycles.value_or(periods[i]);
+    add(CostKind::response, fmt::format("dynamics of '{}'", scene.rings[i].name), scene.rings[i].name, size, unknown);
+  }
+  for (const auto& study : studies)
+    cost.steps.push_back({CostKind::studies, study.name, "", {},
+                          {study.seconds / threads + study.tables * longest_table, unknown}, unknown});
+  return cost;
+}
+
+std::string duration_text(double seconds) {
+  if (!std::isfinite(seconds)) return "not known";
+  if (seconds < 0.95) return fmt::format("{:.2g} s", std::max(0.01, seconds));
+  if (seconds < 90) return fmt::format("{:.{}f} s", seconds, seconds < 9.5 ? 1 : 0);
+  return seconds < 5400 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
+}
+
+std::string memory_text(double MB) { return std::isfinite(MB) ? fmt::format("{:.0f} MB", MB) : "not known"; }
+
+}  // namespace annulus::app
