@@ -29,7 +29,7 @@ UsualLaw usual_law(const std::string& kind) {
   // compliances of some sqrt(N) flank points.
   if (kind == "solid" || kind == "resolved_solid") return {{1.5, 0.1}, {0.5, 0.1}, 1, 10, 10};
   if (kind == "plane" || kind == "resolved_plane") return {{1.15, 0.15}, {0.5, 0.1}, 0.1, 1, 0.3};
-  return {{1, 0.1}, {0.5, 0.1}, 1, 0.1, 0.1};
+  return {{0.9, 0.2}, {0.5, 0.1}, 1, 0.1, 0.1};
 }
 
 /// Cells get 1.5 times smaller from level to level in the plane, and a little less than that in a solid.
@@ -101,9 +101,8 @@ struct LogFit {
     Eigen::VectorXd x(inputs());
     for (int i = 0; i < inputs(); ++i) x[i] = usual[static_cast<std::size_t>(i)].value;
     if (measured.empty()) return x;
-    const Eigen::NumericalDiff<LogFit> differences(*this);
-    Eigen::LevenbergMarquardt<Eigen::NumericalDiff<LogFit>> search(
-        const_cast<Eigen::NumericalDiff<LogFit>&>(differences));
+    Eigen::NumericalDiff<LogFit> differences(*this);
+    Eigen::LevenbergMarquardt<Eigen::NumericalDiff<LogFit>> search(differences);
     search.minimize(x);
     require(x.allFinite(), "the laws of the costs cannot be fitted");
     return x;
@@ -120,8 +119,8 @@ void fit_body(CostLaw& law, const UsualLaw& usual, const Runs& runs) {
     l.body = std::exp(x[0]), l.body_exponent = x[1], l.body_efficiency = x[2];
     return l;
   };
-  LogFit fit;
-  fit.usual = {{std::log(usual.body), free_factor}, usual.body_exponent, {0.6, 0.2}};
+  LogFit fit{
+      .usual = {{std::log(usual.body), free_factor}, usual.body_exponent, {0.6, 0.2}}, .measured = {}, .predicted = {}};
   Runs used;
   for (const auto* run : runs)
     if (run->body_s > 0) used.push_back(run), fit.measured.push_back(run->body_s);
@@ -138,11 +137,12 @@ void fit_contact(CostLaw& law, const UsualLaw& usual, const Runs& runs) {
     l.first_ms = std::exp(x[0]), l.each_ms = std::exp(x[1]), l.contact_exponent = x[2], l.contact_efficiency = x[3];
     return l;
   };
-  LogFit fit;
-  fit.usual = {{std::log(usual.first_ms), free_factor},
-               {std::log(usual.each_ms), free_factor},
-               usual.contact_exponent,
-               {0.8, 0.2}};
+  LogFit fit{.usual = {{std::log(usual.first_ms), free_factor},
+                       {std::log(usual.each_ms), free_factor},
+                       usual.contact_exponent,
+                       {0.8, 0.2}},
+             .measured = {},
+             .predicted = {}};
   Runs used;
   for (const auto* run : runs)
     if (run->contact_s > 0 && run->loads > 0) used.push_back(run), fit.measured.push_back(run->contact_s);
@@ -161,11 +161,11 @@ void fit_memory(CostLaw& law, const Runs& runs) {
     l.base_MB = std::exp(x[0]), l.per_unknown_MB = std::exp(x[1]);
     return l;
   };
-  LogFit fit;
-  fit.usual = {{std::log(200.0), 0.5}, {std::log(50.0), free_factor}};
+  LogFit fit{.usual = {{std::log(200.0), 0.5}, {std::log(50.0), free_factor}}, .measured = {}, .predicted = {}};
   Runs used;
   for (const auto* run : runs)
     if (run->peak_MB > 0) used.push_back(run), fit.measured.push_back(run->peak_MB);
+  law.base_MB = std::numeric_limits<double>::quiet_NaN();
   if (used.empty()) return;
   fit.predicted = [&](const Eigen::VectorXd& x, std::size_t i) { return peak_memory(with(x), *used[i]); };
   const auto l = with(fit.solve());
@@ -174,9 +174,8 @@ void fit_memory(CostLaw& law, const Runs& runs) {
 }
 
 void fit_error(CostLaw& law, const Runs& runs) {
-  LogFit fit;
   // The estimate is the difference of two levels, and falls with the cell size or a little faster.
-  fit.usual = {{std::log(0.003), free_factor}, {std::log(0.6), 0.1}};
+  LogFit fit{.usual = {{std::log(0.003), free_factor}, {std::log(0.6), 0.1}}, .measured = {}, .predicted = {}};
   Runs used;
   for (const auto* run : runs)
     if (run->error > 0 && run->degree == 2 && run->level > 0) used.push_back(run), fit.measured.push_back(run->error);

@@ -108,8 +108,7 @@ CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs) {
   CostRun size;
   size.kind = model.rung;
   size.degree = settings.degree;
-  size.level = std::clamp(
-      settings.level.value_or(costs.expected_level(model.rung, settings.accuracy, last)), 0, last);
+  size.level = std::clamp(settings.level.value_or(costs.expected_level(model.rung, settings.accuracy, last)), 0, last);
   // A level that is forced is solved with the one before it; refining starts at level 0 and passes them all.
   size.levels = last == 0 ? 1 : settings.level ? 2 : size.level + 1;
   size.unknowns = fem::estimated_unknowns(*model.problem, settings, size.level);
@@ -150,8 +149,10 @@ PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::
   };
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   double longest_table = 0;
+  bool computed = false;
   for (const auto& model : meshes) {
     if (!model.computed()) continue;
+    computed = true;
     const auto size = mesh_size(model, threads, costs);
     add(CostKind::mesh, model.label(), model.ring, size, costs.expected_error(size.kind, size.level));
     longest_table = std::max(longest_table, cost.steps.back().predicted.seconds);
@@ -163,13 +164,17 @@ PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::
   const auto periods = period_cycles(scene, geometry);
   for (std::size_t i = 0; i < scene.rings.size(); ++i) {
     CostRun size;
-    size.kind = "response";
+    size.kind = computed ? "response" : "response_given";
     size.unknowns = static_cast<double>(scene.stage.planets) * scene.dynamics->mesh_cycles.value_or(periods[i]);
     add(CostKind::response, fmt::format("dynamics of '{}'", scene.rings[i].name), scene.rings[i].name, size, unknown);
   }
   for (const auto& study : studies)
-    cost.steps.push_back({CostKind::studies, study.name, "", {},
-                          {study.seconds / threads + study.tables * longest_table, unknown}, unknown});
+    cost.steps.push_back({CostKind::studies,
+                          study.name,
+                          "",
+                          {},
+                          {study.seconds / threads + study.tables * longest_table, unknown},
+                          unknown});
   return cost;
 }
 

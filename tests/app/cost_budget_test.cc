@@ -1,0 +1,200 @@
+#include "app/cost_budget.h"
+
+#include <sys/wait.h>
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "app/cost_actual.h"
+#include "app/plan.h"
+#include "core/csv.h"
+#include "tests/app/scenes.h"
+
+namespace annulus {
+
+namespace {
+
+/// One ring whose meshes are computed.
+std::string computed_scene(const std::string& top = "") {
+  auto text = test::replaced(test::quick_scene(), "teeth = 48\n", "teeth = 48\nbore_diameter_mm = 130\n");
+  text = test::replaced(text, "teeth = 55\n", "teeth = 55\nbore_diameter_mm = 172\n");
+  text.erase(text.find("[mesh.sun_planet]"), text.find("[dynamics]") - text.find("[mesh.sun_planet]"));
+  return top + text;
+}
+
+struct ProgramResult {
+  int status = -1;
+  std::string out, err;
+};
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// The built program, with its own list of costs in `folder`/cache.
+ProgramResult program_with_cache(const std::filesystem::path& folder, const std::string& arguments) {
+  const std::string command = "cd '" + folder.string() + "' && ANNULUS_CACHE='" + (folder / "cache").string() + "' '" +
+                              ANNULUS_PROGRAM "' " + arguments + " >o.txt 2>e.txt";
+  const int raw = std::system(command.c_str());
+  return {WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, content(folder / "o.txt"), content(folder / "e.txt")};
+}
+
+app::BudgetChoice fitted(const app::Scene& scene, double budget) {
+  return app::fit_budget(scene, budget, 2, app::CostModel(app::kept_cost_runs()));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(cost_budget)
+
+BOOST_AUTO_TEST_CASE(durations) {
+  BOOST_TEST(app::parse_duration("30s") == 30.0);
+  BOOST_TEST(app::parse_duration("30") == 30.0);
+  BOOST_TEST(app::parse_duration("2min") == 120.0);
+  BOOST_TEST(app::parse_duration("1.5 min") == 90.0);
+  BOOST_TEST(app::parse_duration("500ms") == 0.5);
+  BOOST_TEST(app::parse_duration("1h") == 3600.0);
+  for (const auto* bad : {"", "s", "30 seconds", "-3s", "0", "nan", "inf", "1e999", "3s4", "30S", " 30"}) {
+    BOOST_CHECK_EXCEPTION((void)app::parse_duration(bad), InputError, [&](const InputError& e) {
+      return std::string(e.what()).find("--budget " + std::string(bad) + ":") == 0;
+    });
+  }
+}
+
+BOOST_AUTO_TEST_CASE(less_time_buys_less_accuracy) {
+  const auto scene = app::parse_scene(computed_scene("accuracy = 0.02\n"), "s.toml");
+  double last_accuracy = 0;
+  int different = 0;
+  for (const double budget : {3600.0, 60.0, 30.0, 15.0, 10.0, 8.0}) {
+    const auto choice = fitted(scene, budget);
+    BOOST_TEST(choice.cost.seconds() <= budget);
+    BOOST_TEST(choice.scene.accuracy >= last_accuracy);
+    BOOST_TEST(choice.cost.expected_error() <= choice.scene.accuracy);
+    different += choice.scene.accuracy > last_accuracy;
+    last_accuracy = choice.scene.accuracy;
+    BOOST_TEST(choice.sentence.find("budget") == 0U);
+  }
+  BOOST_TEST(different >= 2);  // the choice really depends on the time
+  BOOST_TEST(fitted(scene, 3600).scene.accuracy == 0.001);
+}
+
+BOOST_AUTO_TEST_CASE(a_budget_too_small_is_refused_with_the_figures) {
+  const auto scene = app::parse_scene(computed_scene(), "s.toml");
+  BOOST_CHECK_EXCEPTION((void)fitted(scene, 0.1), SolverError, [](const SolverError& e) {
+    const std::string text = e.what();
+    return text.find("within 10 %") != std::string::npos && text.find(" MB") != std::string::npos &&
+           text.find("budget of 0.1 s") != std::string::npos;
+  });
+  const auto resolved = app::parse_scene(computed_scene("rung = \"resolved\"\n"), "s.toml");
+  BOOST_CHECK_EXCEPTION((void)fitted(resolved, 1e6), SolverError, [](const SolverError& e) {
+    return std::string(e.what()).find("not known") != std::string::npos;
+  });
+  // Nothing to refine: the scene stays as it is, or is refused.
+  const auto given = app::parse_scene(test::quick_scene(), "s.toml");
+  BOOST_TEST(fitted(given, 1e4).scene.accuracy == given.accuracy);
+  BOOST_CHECK_THROW((void)fitted(given, 0.01), SolverError);
+}
+
+BOOST_AUTO_TEST_CASE(the_rest_of_the_scene_stays) {
+  const auto scene =
+      app::parse_scene(computed_scene() + "[monte_carlo]\nsamples = 20\nseed = 1\nphases = \"unknown\"\n", "s.toml");
+  const auto changed = app::with_accuracy(scene, 0.03, "said so");
+  BOOST_TEST(changed.accuracy == 0.03);
+  BOOST_REQUIRE(changed.monte_carlo.has_value());
+  BOOST_TEST(changed.monte_carlo->samples == 20);
+  BOOST_TEST(changed.inputs.size() == scene.inputs.size());
+  for (const auto& input : changed.inputs) {
+    if (input.key != "accuracy") continue;
+    BOOST_TEST((input.origin == app::Origin::derived));
+    BOOST_TEST(input.note == "said so");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_plan_tells_time_and_memory) {
+  const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
+  const auto plan = app::make_plan(scene, app::make_geometry(scene), 2);
+  const auto json = nlohmann::json::parse(app::to_json(plan));
+  for (const auto& mesh : json["meshes"]) {
+    BOOST_TEST(mesh["predicted_s"].get<double>() > 0);
+    BOOST_TEST(mesh["predicted_peak_MB"].get<double>() > 0);
+  }
+  double in_turn = 0, responses = 0, peak = 0;
+  for (const auto& step : json["cost"]) {
+    const double seconds = step["predicted_s"];
+    (step["step"] == "response" ? responses : in_turn) += seconds;
+    if (step["step"] == "mesh") peak = std::max(peak, step["predicted_peak_MB"].get<double>());
+  }
+  const double total = json["predicted_s"];
+  BOOST_TEST(total >= in_turn + responses / 2);
+  BOOST_TEST(total <= in_turn + responses);
+  BOOST_TEST(json["predicted_peak_MB"].get<double>() >= peak);
+  const auto text = app::to_text(plan);
+  BOOST_TEST(text.find("Predicted cost on 2 threads") != std::string::npos);
+  BOOST_TEST(text.find("not predicted") == std::string::npos);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(cost_of_a_run)
+
+BOOST_AUTO_TEST_CASE(predicted_and_actual_of_small_scenes) {
+  const test::TemporaryFolder folder("cost_of_a_run");
+  for (const std::string top : {"rung = \"closed_form\"\n", "accuracy = 0.1\n"}) {
+    const auto scene = app::parse_scene(computed_scene(top), folder.path() / "s.toml");
+    const app::RunOptions options{.out = folder.path() / ("out" + std::to_string(top.size())), .threads = 2};
+    const auto result = app::run(scene, options);
+    BOOST_REQUIRE(result.cost.steps.size() >= 3U);
+    // Times are told, never judged.
+    BOOST_TEST_MESSAGE(top << "  " << app::cost_sentence(result));
+    auto json = nlohmann::json::parse(content(options.out / "summary.json"));
+    BOOST_TEST(json["cost"]["predicted_s"].get<double>() > 0);
+    BOOST_TEST(json["cost"]["actual_s"].get<double>() > 0);
+    BOOST_TEST(json["cost"]["steps"].size() == result.cost.steps.size());
+    for (const auto& step : result.cost.steps) {
+      BOOST_TEST(step.actual->kind == step.size.kind);
+      if (step.size.kind == "plane") BOOST_TEST(step.actual->level == step.size.level);
+    }
+    BOOST_TEST(content(options.out / "report.html").find("as predicted before the run") != std::string::npos);
+    // All is reused: nothing to compare.
+    BOOST_TEST(app::run(scene, options).cost.empty());
+    json = nlohmann::json::parse(content(options.out / "summary.json"));
+    BOOST_TEST(!json.contains("cost"));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_program_keeps_costs_and_budgets) {
+  const test::TemporaryFolder folder("budget_program");
+  write_file(folder.path() / "s.toml", computed_scene("rung = \"closed_form\"\n"));
+  const auto first = program_with_cache(folder.path(), "run s.toml -q -o out");
+  BOOST_TEST(first.status == 0, first.err);
+  BOOST_TEST(first.out.find("cost    predicted ") != std::string::npos);
+  const auto costs = app::read_user_costs(folder.path() / "cache" / "costs.csv");
+  BOOST_TEST(costs.size() == 3U);  // two meshes, one response
+  BOOST_TEST(program_with_cache(folder.path(), "run s.toml -q -o out").status == 0);
+  BOOST_TEST(app::read_user_costs(folder.path() / "cache" / "costs.csv").size() == 3U);
+
+  write_file(folder.path() / "c.toml", computed_scene());
+  for (const auto* command : {"run", "plan"}) {
+    const auto bad = program_with_cache(folder.path(), std::string(command) + " c.toml --budget soon");
+    BOOST_TEST(bad.status == 2);
+    BOOST_TEST(bad.err.find("--budget soon: ") == 0U, bad.err);
+    const auto refused = program_with_cache(folder.path(), std::string(command) + " c.toml --budget 10ms");
+    BOOST_TEST(refused.status == 3);
+    BOOST_TEST(refused.err.find("more than the budget of 0.01 s") != std::string::npos, refused.err);
+  }
+  BOOST_TEST(!std::filesystem::exists(folder.path() / "out" / "c"));
+  const auto plan = program_with_cache(folder.path(), "plan c.toml --json --budget 1h");
+  BOOST_REQUIRE(plan.status == 0);
+  const auto json = nlohmann::json::parse(plan.out);
+  BOOST_TEST(json["predicted_s"].get<double>() < 3600);
+  BOOST_TEST(json["budget"].get<std::string>().find("within 0.1 %") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace annulus
