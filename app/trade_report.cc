@@ -101,8 +101,7 @@ HtmlTable errors_table(const RingTrade& ring, TradePart part) {
     std::vector<std::string> row = {escape(setting_text(p))};
     for (const auto& v : p.values) {
       std::string cell = std::isfinite(v.error) ? percent(v.error) : "–";
-      if (std::isfinite(v.error_estimate))
-        cell += " <span class=\"muted\">(" + percent(v.error_estimate) + ")</span>";
+      if (std::isfinite(v.error_estimate)) cell += " <span class=\"muted\">(" + percent(v.error_estimate) + ")</span>";
       row.push_back(std::move(cell));
     }
     row.resize(table.head.size(), "–");
@@ -125,8 +124,9 @@ std::string part_section(const RingTrade& ring, TradePart part) {
                              "Largest error over all figures against wall time. The line joins the settings that no "
                              "other beats in both; what leaves parts of the model out is marked apart.");
   text += "<div class=\"wide\">" + html(points_table(ring, part)) + "</div>\n" + estimates_text(ring, part);
-  return text + "<details><summary>Error of every figure (in brackets: the program's own estimate)</summary><div "
-                "class=\"wide\">" +
+  return text +
+         "<details><summary>Error of every figure (in brackets: the program's own estimate)</summary><div "
+         "class=\"wide\">" +
          html(errors_table(ring, part)) + "</div></details>\n";
 }
 
@@ -147,9 +147,11 @@ std::string trade_picture(const RingTrade& ring, TradePart part) {
   plot.series.push_back(std::move(front));
   for (const auto& p : ring.points) {
     if (p.part != part || p.finest || !(p.worst_error() > 0)) continue;
-    auto same = std::find_if(plot.series.begin(), plot.series.end(), [&](const Series& s) { return s.label == p.rung; });
+    auto same =
+        std::find_if(plot.series.begin(), plot.series.end(), [&](const Series& s) { return s.label == p.rung; });
     if (same == plot.series.end()) {
-      plot.series.push_back({.label = p.rung, .colour = plot.series.size() - 1, .style = Series::Style::dots, .size = 7});
+      plot.series.push_back(
+          {.label = p.rung, .colour = plot.series.size() - 1, .style = Series::Style::dots, .size = 7});
       same = plot.series.end() - 1;
     }
     same->x.push_back(p.cost.wall);
@@ -159,9 +161,9 @@ std::string trade_picture(const RingTrade& ring, TradePart part) {
 }
 
 std::string trade_csv(const TradeOff& trade) {
-  std::string text = fmt::format("# annulus_version: {}\n# scene: {}\n", version(), trade.scene.file.filename().string());
-  text +=
-      "ring,part,rung,settings,finest,figure,value,error,error_estimate,wall_s,processor_s,peak_MB,failure\n";
+  std::string text =
+      fmt::format("# annulus_version: {}\n# scene: {}\n", version(), trade.scene.file.filename().string());
+  text += "ring,part,rung,settings,finest,figure,value,error,error_estimate,wall_s,processor_s,peak_MB,failure\n";
   for (const auto& ring : trade.rings) {
     for (const auto& p : ring.points) {
       const std::string head = fmt::format("{},{},{},{},{:d},", csv_field(ring.ring), part_name(p.part),
@@ -172,8 +174,9 @@ std::string trade_csv(const TradeOff& trade) {
       for (std::size_t i = 0; i < p.values.size(); ++i) {
         const auto& v = p.values[i];
         if (!std::isfinite(v.value)) continue;
-        text += head + fmt::format("{},{},{},{},", trade_figures()[i].column, csv_number(v.value), csv_number(v.error),
-                                   csv_number(v.error_estimate)) +
+        text += head +
+                fmt::format("{},{},{},{},", trade_figures()[i].column, csv_number(v.value), csv_number(v.error),
+                            csv_number(v.error_estimate)) +
                 cost;
       }
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,8 +34,8 @@ struct TradePoint {
   std::string settings;  ///< "degree 2, level 1, 32 phases, 5 loads"
   bool finest = false;   ///< the others are held against it
   bool changes_model = false;
-  Cost cost{};                     ///< meshes: of both tables, the memory of the larger one; dynamics: of the response
-  std::string failure{};           ///< why there are no figures
+  Cost cost{};            ///< meshes: of both tables, the memory of the larger one; dynamics: of the response
+  std::string failure{};  ///< why there are no figures
   std::vector<TradeValue> values{};  ///< in the order of trade_figures()
 
   /// Largest error over all figures that both settings give; NaN for a failure.
@@ -58,9 +60,17 @@ struct TradeOff {
   double total_seconds = 0;
 };
 
+/// What is tried.
+struct TradeLists {
+  std::function<std::vector<MeshSetting>(const MeshModel& planned, bool needs_solid)> mesh = mesh_settings;
+  std::function<std::vector<DynamicsSetting>(const dynamics::PlanetaryStage& stage,
+                                             const std::shared_ptr<const RingCoupling>& elastic)>
+      dynamics = dynamics_settings;
+};
+
 /// Runs everything, each setting in a process of its own, one after the other with options.threads threads, below
 /// OUT/tradeoff; what an earlier run measured there is taken over. Throws InputError for a stage that is not planetary
 /// or whose stiffness is given, and what making its geometry throws.
-[[nodiscard]] TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options);
+[[nodiscard]] TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options, const TradeLists& lists = {});
 
 }  // namespace annulus::app
