@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -305,30 +304,30 @@ std::optional<std::size_t> TradePoint::worst_figure() const {
   return worst;
 }
 
-double TradePoint::worst_error() const {
-  const auto worst = worst_figure();
-  return failure.empty() && worst ? values[*worst].error : unknown;
+double TradePoint::error(std::optional<std::size_t> figure) const {
+  if (!figure) figure = worst_figure();
+  return failure.empty() && figure && *figure < values.size() ? values[*figure].error : unknown;
 }
 
-const TradePoint* RingTrade::cheapest(TradePart part, double accuracy) const {
+const TradePoint* RingTrade::cheapest(TradePart part, double accuracy, std::optional<std::size_t> figure) const {
   const TradePoint* best = nullptr;
   for (const auto& p : points) {
-    if (p.part != part || p.finest || !(p.worst_error() <= accuracy)) continue;
+    if (p.part != part || p.finest || !(p.error(figure) <= accuracy)) continue;
     if (!best || p.cost.wall < best->cost.wall) best = &p;
   }
   return best;
 }
 
-std::vector<const TradePoint*> RingTrade::front(TradePart part) const {
+std::vector<const TradePoint*> RingTrade::front(TradePart part, std::optional<std::size_t> figure) const {
   std::vector<const TradePoint*> list;
   for (const auto& p : points) {
-    if (p.part == part && !p.finest && std::isfinite(p.worst_error())) list.push_back(&p);
+    if (p.part == part && !p.finest && std::isfinite(p.error(figure))) list.push_back(&p);
   }
   std::stable_sort(list.begin(), list.end(), [](const auto* a, const auto* b) { return a->cost.wall < b->cost.wall; });
   double best = std::numeric_limits<double>::infinity();
   std::erase_if(list, [&](const TradePoint* p) {
-    if (p->worst_error() >= best) return true;
-    best = p->worst_error();
+    if (p->error(figure) >= best) return true;
+    best = p->error(figure);
     return false;
   });
   return list;
@@ -337,7 +336,6 @@ std::vector<const TradePoint*> RingTrade::front(TradePart part) const {
 TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options, const TradeLists& lists) {
   if (scene.stage.kind != StageKind::planetary)
     throw InputError(scene.file.string() + ": a tradeoff is measured for planetary stages only so far");
-  const auto start = std::chrono::steady_clock::now();
   const auto geometry = make_geometry(scene);
   const Plan plan = make_plan(scene, geometry);
   for (const auto& mesh : plan.meshes) {
@@ -348,7 +346,9 @@ TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options, const T
   TradeOff trade{.scene = scene, .rings = {}, .total_seconds = 0};
   for (std::size_t i = 0; i < scene.rings.size(); ++i)
     trade.rings.push_back(RingMeasurement(scene, geometry, i, options, plan, lists).run());
-  trade.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (const auto& ring : trade.rings) {
+    for (const auto& p : ring.points) trade.total_seconds += p.cost.wall;
+  }
   return trade;
 }
 

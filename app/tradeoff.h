@@ -38,8 +38,8 @@ struct TradePoint {
   std::string failure{};  ///< why there are no figures
   std::vector<TradeValue> values{};  ///< in the order of trade_figures()
 
-  /// Largest error over all figures that both settings give; NaN for a failure.
-  [[nodiscard]] double worst_error() const;
+  /// Of one figure; without a figure, the largest over all that both settings give. NaN for a failure.
+  [[nodiscard]] double error(std::optional<std::size_t> figure = {}) const;
   [[nodiscard]] std::optional<std::size_t> worst_figure() const;
 };
 
@@ -47,17 +47,18 @@ struct RingTrade {
   std::string ring;
   std::vector<TradePoint> points;  ///< those of the meshes, then those of the dynamics
 
-  /// The cheapest setting of a part by wall time whose worst error is within the accuracy; the finest itself does not
-  /// count. nullptr: none.
-  [[nodiscard]] const TradePoint* cheapest(TradePart part, double accuracy) const;
-  /// Points no other of the part beats in both wall time and worst error, by rising time.
-  [[nodiscard]] std::vector<const TradePoint*> front(TradePart part) const;
+  /// The cheapest setting of a part by wall time whose error (of one figure, or the largest) is within the accuracy;
+  /// the finest itself does not count. nullptr: none.
+  [[nodiscard]] const TradePoint* cheapest(TradePart part, double accuracy,
+                                           std::optional<std::size_t> figure = {}) const;
+  /// Points no other of the part beats in both wall time and that error, by rising time.
+  [[nodiscard]] std::vector<const TradePoint*> front(TradePart part, std::optional<std::size_t> figure = {}) const;
 };
 
 struct TradeOff {
   Scene scene;
   std::vector<RingTrade> rings;
-  double total_seconds = 0;
+  double total_seconds = 0;  ///< wall time of all settings
 };
 
 /// What is tried.
