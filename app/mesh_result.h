@@ -52,9 +52,10 @@ struct MeshResult {
   std::size_t nominal = 0;  ///< index of the nominal load in the table
   bool reused = false;
 
-  [[nodiscard]] Estimate mean_stiffness() const;             ///< N/m, secant, at the nominal load
-  [[nodiscard]] Estimate lte_mean() const;                   ///< m, at the nominal load
-  [[nodiscard]] Estimate lte_peak_to_peak() const;           ///< m, at the nominal load, over all ring positions
+  [[nodiscard]] Estimate mean_stiffness() const;  ///< N/m, secant, at the nominal load
+  [[nodiscard]] Estimate lte_mean() const;        ///< m, at the nominal load
+  /// m, at the nominal load, over all ring positions; its error contains what lies between the positions.
+  [[nodiscard]] Estimate lte_peak_to_peak() const;
   [[nodiscard]] double fact(const std::string& name) const;  ///< NaN when not known
   /// Of a column of `positions`; nothing when there is no such column.
   [[nodiscard]] std::optional<Peak> peak(const std::string& column) const;

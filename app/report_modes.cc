@@ -62,6 +62,7 @@ std::vector<std::string> kinds_of(const RunResult& result) {
 
 std::string mode_cell(const StageModes& modes, const Multiple& m) {
   std::string text = fmt::format("{:.1f}", m.mode->frequency);
+  if (m.mode->frequency_error > 0) text += " ± " + to_text(m.mode->frequency_error, 2);
   if (m.count > 1) text += fmt::format(" ×{}", m.count);
   if (m.mode->frequency == 0) return text + " <span class=\"muted\">free rotation</span>";
   const auto top = std::max_element(m.mode->strain.begin(), m.mode->strain.end());

@@ -76,6 +76,7 @@ ResponseJson modes_json(const StageModes& modes) {
   ResponseJson json = {{"groups", modes.groups}, {"bodies", modes.bodies}, {"list", ResponseJson::array()}};
   for (const auto& m : modes.list) {
     json["list"].push_back({{"frequency_Hz", m.frequency},
+                            {"frequency_error_Hz", m.frequency_error},
                             {"kind", m.kind},
                             {"damped_frequency_Hz", m.damped_frequency},
                             {"damping_ratio", m.damping_ratio},
@@ -90,8 +91,9 @@ StageModes modes_of(const ResponseJson& json) {
   modes.groups = json.at("groups").get<std::vector<std::string>>();
   modes.bodies = json.at("bodies").get<std::vector<std::string>>();
   for (const auto& m : json.at("list")) {
-    modes.list.push_back({number(m.at("frequency_Hz")), m.at("kind"), number(m.at("damped_frequency_Hz")),
-                          number(m.at("damping_ratio")), m.at("strain_energy").get<std::vector<double>>(),
+    modes.list.push_back({number(m.at("frequency_Hz")), number(m.at("frequency_error_Hz")), m.at("kind"),
+                          number(m.at("damped_frequency_Hz")), number(m.at("damping_ratio")),
+                          m.at("strain_energy").get<std::vector<double>>(),
                           m.at("kinetic_energy").get<std::vector<double>>()});
   }
   return modes;

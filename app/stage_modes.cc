@@ -81,13 +81,13 @@ void add_campbell(StageModes& result, const dynamics::PlanetaryStage& stage) {
 
 }  // namespace
 
-StageModes stage_modes(const dynamics::PlanetaryStage& stage) {
+StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnessErrors& errors) {
   const auto modes = dynamics::modes(stage);
   StageModes result;
   result.shapes.columns = {"mode", "frequency_Hz"};
   result.shapes.columns.insert(result.shapes.columns.end(), modes.freedoms.begin(), modes.freedoms.end());
   for (const auto& mode : modes.modes) {
-    result.list.push_back({mode.frequency, dynamics::to_string(mode.kind), 0, 0, {}, {}});
+    result.list.push_back({mode.frequency, 0, dynamics::to_string(mode.kind), 0, 0, {}, {}});
     auto& row = result.shapes.rows.emplace_back(std::vector{static_cast<double>(result.list.size()), mode.frequency});
     // The largest amplitude is 1: only the shape means something.
     Eigen::Index top = 0;
@@ -96,6 +96,9 @@ StageModes stage_modes(const dynamics::PlanetaryStage& stage) {
   }
   if (modes.modes.empty()) return result;
   add_energies(result, stage, modes);
+  for (auto& mode : result.list)  // the first two groups are the meshes
+    mode.frequency_error =
+        mode.frequency / 2 * (mode.strain[0] * errors.sun_planet + mode.strain[1] * errors.ring_planet);
   add_operating_speed(result, stage);
   if (stage.carrier_speed > 0) add_campbell(result, stage);
   return result;
@@ -105,14 +108,14 @@ std::string modes_csv(const StageModes& modes) {
   std::string text = "index,frequency_Hz,kind,damped_frequency_Hz,damping_ratio";
   for (const auto& group : modes.groups) text += ",strain_" + group;
   for (const auto& body : modes.bodies) text += ",kinetic_" + body;
-  text += "\n";
+  text += ",frequency_error_Hz\n";
   for (std::size_t i = 0; i < modes.list.size(); ++i) {
     const auto& m = modes.list[i];
     text +=
         fmt::format("{},{:.17g},{},{:.17g},{:.17g}", i + 1, m.frequency, m.kind, m.damped_frequency, m.damping_ratio);
     for (const double share : m.strain) text += fmt::format(",{:.17g}", share);
     for (const double share : m.kinetic) text += fmt::format(",{:.17g}", share);
-    text += "\n";
+    text += fmt::format(",{:.17g}\n", m.frequency_error);
   }
   return text;
 }

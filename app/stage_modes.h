@@ -11,7 +11,8 @@ namespace annulus::app {
 /// The modes of one stage and what depends on its speed.
 struct StageModes {
   struct Mode {
-    double frequency = 0;  ///< Hz, undamped, at rest
+    double frequency = 0;        ///< Hz, undamped, at rest
+    double frequency_error = 0;  ///< Hz, what the errors of the mesh stiffnesses do to it
     std::string kind;
     double damped_frequency = 0;  ///< Hz, in the carrier frame at the operating speed
     double damping_ratio = 0;     ///< there
@@ -26,7 +27,14 @@ struct StageModes {
   Csv critical_speeds;              ///< where mesh orders meet them
 };
 
-[[nodiscard]] StageModes stage_modes(const dynamics::PlanetaryStage& stage);
+/// Relative errors of the mean mesh stiffnesses; 0 for given ones, which count as exact.
+struct MeshStiffnessErrors {
+  double sun_planet = 0, ring_planet = 0;
+};
+
+/// The error of a frequency is that of the stiffnesses times half their shares of the strain energy of the mode, all
+/// taken to err the same way.
+[[nodiscard]] StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnessErrors& errors);
 
 /// The text of modes.csv without its header lines.
 [[nodiscard]] std::string modes_csv(const StageModes& modes);

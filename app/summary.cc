@@ -95,6 +95,10 @@ SummaryJson ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
                           {"ring_planet", sharing_json(f.ring_planet.load_sharing, errors.ring_planet)}};
   add_branches(json, sun_planet, f.sun_planet, errors.sun_planet);
   add_branches(json, ring_planet, f.ring_planet, errors.ring_planet);
+  json["natural_frequencies_Hz"] = SummaryJson::array();
+  for (const auto& mode : ring.response->modes.list)
+    json["natural_frequencies_Hz"].push_back(
+        {{"value", mode.frequency}, {"error", known(mode.frequency_error)}, {"kind", mode.kind}});
   const auto& m = ring.response->motion;
   json["bearing_forces"] = {{"planet_max_N", m.pin_force_max},
                             {"planet_mean_tangential_N", m.pin_force_mean_tangential},

@@ -43,13 +43,48 @@ std::string cheapest_text(const RingTrade& ring, TradePart part, double accuracy
   if (!p) return fmt::format("For {}: no setting but the finest.", percent(accuracy));
   const auto& worst = trade_figures()[*p->worst_figure()];
   return fmt::format("For {}: {}; {}, {:.0f} MB; errors up to {} ({}).", percent(accuracy), setting_text(*p),
-                     time_text(p->cost.wall), p->cost.peak_memory_MB, percent(p->worst_error()), worst.title);
+                     time_text(p->cost.wall), p->cost.peak_memory_MB, percent(p->error()), worst.title);
 }
 
 const TradePoint* finest_of(const RingTrade& ring, TradePart part) {
   const auto found = std::find_if(ring.points.begin(), ring.points.end(),
                                   [part](const TradePoint& p) { return p.part == part && p.finest; });
   return found == ring.points.end() ? nullptr : &*found;
+}
+
+/// The cheapest setting for every figure and accuracy: what a user asks who wants one thing.
+HtmlTable cheapest_table(const RingTrade& ring, TradePart part) {
+  HtmlTable table{.head = {"figure"}, .rows = {}};
+  for (const double accuracy : wanted_accuracies) table.head.push_back(percent(accuracy));
+  for (std::size_t f = 0; f < trade_figures().size(); ++f) {
+    if (ring.front(part, f).empty()) continue;
+    std::vector<std::string> row = {trade_figures()[f].title};
+    for (const double accuracy : wanted_accuracies) {
+      const auto* p = ring.cheapest(part, accuracy, f);
+      row.push_back(p ? escape(setting_text(*p)) + " <span class=\"muted\">" + time_text(p->cost.wall) + "</span>"
+                      : std::string("the finest alone"));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+/// The front of every figure.
+std::string fronts_picture(const RingTrade& ring, TradePart part) {
+  Plot plot{.title = "The front of every figure", .x_label = "wall time, s", .y_label = "error"};
+  plot.x_log = plot.y_log = plot.legend = true;
+  plot.width = 640;
+  plot.height = 460;
+  for (std::size_t f = 0; f < trade_figures().size(); ++f) {
+    Series series{.label = trade_figures()[f].title, .colour = f};
+    for (const auto* p : ring.front(part, f)) {
+      if (!(p->error(f) > 0)) continue;
+      series.x.push_back(p->cost.wall);
+      series.y.push_back(p->error(f));
+    }
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  }
+  return to_svg(plot);
 }
 
 /// How far the program's own estimates are from the errors, over all figures with both.
@@ -83,7 +118,7 @@ HtmlTable points_table(const RingTrade& ring, TradePart part) {
     } else if (p.finest) {
       row.insert(row.end(), {"finest", ""});
     } else if (const auto worst = p.worst_figure()) {
-      row.insert(row.end(), {percent(p.worst_error()), escape(trade_figures()[*worst].title)});
+      row.insert(row.end(), {percent(p.error()), escape(trade_figures()[*worst].title)});
     } else {
       row.insert(row.end(), {"", ""});
     }
@@ -101,8 +136,7 @@ HtmlTable errors_table(const RingTrade& ring, TradePart part) {
     std::vector<std::string> row = {escape(setting_text(p))};
     for (const auto& v : p.values) {
       std::string cell = std::isfinite(v.error) ? percent(v.error) : "–";
-      if (std::isfinite(v.error_estimate))
-        cell += " <span class=\"muted\">(" + percent(v.error_estimate) + ")</span>";
+      if (std::isfinite(v.error_estimate)) cell += " <span class=\"muted\">(" + percent(v.error_estimate) + ")</span>";
       row.push_back(std::move(cell));
     }
     row.resize(table.head.size(), "–");
@@ -121,12 +155,15 @@ std::string part_section(const RingTrade& ring, TradePart part) {
                       time_text(finest->cost.wall), finest->cost.peak_memory_MB);
   for (const double accuracy : wanted_accuracies)
     text += "<li>" + escape(cheapest_text(ring, part, accuracy)) + "</li>";
-  text += "</ul>\n" + figure({trade_picture(ring, part)}, "",
+  text += "</ul>\n" + figure({trade_picture(ring, part), fronts_picture(ring, part)}, "",
                              "Largest error over all figures against wall time. The line joins the settings that no "
                              "other beats in both; what leaves parts of the model out is marked apart.");
+  text += "<p>The cheapest setting for one figure alone:</p>\n<div class=\"wide\">" + html(cheapest_table(ring, part)) +
+          "</div>\n<p>All settings (bold: on the front of the largest error):</p>\n";
   text += "<div class=\"wide\">" + html(points_table(ring, part)) + "</div>\n" + estimates_text(ring, part);
-  return text + "<details><summary>Error of every figure (in brackets: the program's own estimate)</summary><div "
-                "class=\"wide\">" +
+  return text +
+         "<details><summary>Error of every figure (in brackets: the program's own estimate)</summary><div "
+         "class=\"wide\">" +
          html(errors_table(ring, part)) + "</div></details>\n";
 }
 
@@ -142,26 +179,28 @@ std::string trade_picture(const RingTrade& ring, TradePart part) {
   Series front{.label = "front", .colour = 6};
   for (const auto* p : ring.front(part)) {
     front.x.push_back(p->cost.wall);
-    front.y.push_back(p->worst_error());
+    front.y.push_back(p->error());
   }
   plot.series.push_back(std::move(front));
   for (const auto& p : ring.points) {
-    if (p.part != part || p.finest || !(p.worst_error() > 0)) continue;
-    auto same = std::find_if(plot.series.begin(), plot.series.end(), [&](const Series& s) { return s.label == p.rung; });
+    if (p.part != part || p.finest || !(p.error() > 0)) continue;
+    auto same =
+        std::find_if(plot.series.begin(), plot.series.end(), [&](const Series& s) { return s.label == p.rung; });
     if (same == plot.series.end()) {
-      plot.series.push_back({.label = p.rung, .colour = plot.series.size() - 1, .style = Series::Style::dots, .size = 7});
+      plot.series.push_back(
+          {.label = p.rung, .colour = plot.series.size() - 1, .style = Series::Style::dots, .size = 7});
       same = plot.series.end() - 1;
     }
     same->x.push_back(p.cost.wall);
-    same->y.push_back(p.worst_error());
+    same->y.push_back(p.error());
   }
   return to_svg(plot);
 }
 
 std::string trade_csv(const TradeOff& trade) {
-  std::string text = fmt::format("# annulus_version: {}\n# scene: {}\n", version(), trade.scene.file.filename().string());
-  text +=
-      "ring,part,rung,settings,finest,figure,value,error,error_estimate,wall_s,processor_s,peak_MB,failure\n";
+  std::string text =
+      fmt::format("# annulus_version: {}\n# scene: {}\n", version(), trade.scene.file.filename().string());
+  text += "ring,part,rung,settings,finest,figure,value,error,error_estimate,wall_s,processor_s,peak_MB,failure\n";
   for (const auto& ring : trade.rings) {
     for (const auto& p : ring.points) {
       const std::string head = fmt::format("{},{},{},{},{:d},", csv_field(ring.ring), part_name(p.part),
@@ -172,8 +211,9 @@ std::string trade_csv(const TradeOff& trade) {
       for (std::size_t i = 0; i < p.values.size(); ++i) {
         const auto& v = p.values[i];
         if (!std::isfinite(v.value)) continue;
-        text += head + fmt::format("{},{},{},{},", trade_figures()[i].column, csv_number(v.value), csv_number(v.error),
-                                   csv_number(v.error_estimate)) +
+        text += head +
+                fmt::format("{},{},{},{},", trade_figures()[i].column, csv_number(v.value), csv_number(v.error),
+                            csv_number(v.error_estimate)) +
                 cost;
       }
     }
@@ -189,7 +229,7 @@ std::string trade_text(const TradeOff& trade) {
       text += fmt::format("{}{}, {}\n", text.empty() ? "" : "\n", ring.ring, part_title(part));
       for (const auto* p : ring.front(part))
         text += fmt::format("  {:>9}  {:>6.0f} MB  error {:>8}  {}\n", time_text(p->cost.wall), p->cost.peak_memory_MB,
-                            percent(p->worst_error()), setting_text(*p));
+                            percent(p->error()), setting_text(*p));
       for (const double accuracy : wanted_accuracies) text += "  " + cheapest_text(ring, part, accuracy) + "\n";
     }
   }
@@ -210,10 +250,11 @@ std::string trade_html(const TradeOff& trade) {
                    "</b>. " + escape(cheapest_text(ring, part, 0.01)) + "</p>\n";
     }
   }
-  return report_page("Error against cost: " + escape(trade.scene.title),
-                     fmt::format("annulus {} · scene <code>{}</code> · measured one after the other in {}", version(),
-                                 escape(trade.scene.file.filename().string()), time_text(trade.total_seconds)),
-                     "<div class=\"verdict\">" + verdict + "</div>\n", sections);
+  return report_page(
+      "Error against cost: " + escape(trade.scene.title),
+      fmt::format("annulus {} · scene <code>{}</code> · {} for all settings, one after the other", version(),
+                  escape(trade.scene.file.filename().string()), time_text(trade.total_seconds)),
+      "<div class=\"verdict\">" + verdict + "</div>\n", sections);
 }
 
 void write_tradeoff(const TradeOff& trade, const std::filesystem::path& folder) {

@@ -95,8 +95,9 @@ std::vector<MeshSetting> mesh_settings(const MeshModel& planned, bool needs_soli
   add(Rung::plane, {3}, {1, 2});
   for (const int phases : {8, 16, 64}) list.push_back({.rung = Rung::plane, .level = 2, .phases = phases});
   for (const int loads : {1, 3, 9}) list.push_back({.rung = Rung::plane, .level = 2, .loads = loads});
-  // The resolved rung knows no pins; a cycle of it takes minutes at more phases.
-  if (!has_pins(*planned.problem)) add(Rung::resolved_plane, {2}, {1});
+  // The resolved rung knows no pins, and every position of it has a mesh of its own.
+  if (!has_pins(*planned.problem))
+    list.push_back({.rung = Rung::resolved_plane, .degree = 2, .level = 1, .phases = 16, .loads = 1});
   list.push_back({.rung = Rung::plane, .degree = 3, .level = 3, .phases = 64, .loads = 9, .finest = true});
   return list;
 }
@@ -131,12 +132,12 @@ std::vector<DynamicsSetting> dynamics_settings(const dynamics::PlanetaryStage& s
   for (const double tolerance : {1e-4, 1e-6}) marching("BDF", Integrator::cvode_bdf, tolerance);
   marching("Adams", Integrator::cvode_adams, 1e-6);
   for (const int steps : {32, 64, 128, 256}) {
-    list.push_back({"marching", fmt::format("Runge-Kutta 4, {} steps per mesh cycle", steps),
-                    [steps](Stage& s, Options& o) {
-                      o.steady_state = dynamics::SteadyState::marching;
-                      o.integrator.method = Integrator::runge_kutta_4;
-                      o.integrator.fixed_step = 1 / (s.mesh_frequency() * steps);
-                    }});
+    list.push_back(
+        {"marching", fmt::format("Runge-Kutta 4, {} steps per mesh cycle", steps), [steps](Stage& s, Options& o) {
+           o.steady_state = dynamics::SteadyState::marching;
+           o.integrator.method = Integrator::runge_kutta_4;
+           o.integrator.fixed_step = 1 / (s.mesh_frequency() * steps);
+         }});
   }
 
   const auto without = [&](const char* what, auto drop) {
@@ -166,15 +167,15 @@ std::vector<DynamicsSetting> dynamics_settings(const dynamics::PlanetaryStage& s
                     false, true});
   }
   if (elastic) {
-    list.push_back({"coupling", "ring with its elastic modes", [elastic](Stage& s, Options& o) {
+    list.push_back({"coupling", "ring with its elastic modes",
+                    [elastic](Stage& s, Options& o) {
                       s.ring_coupling = elastic;
                       o.confirm = false;
                       o.samples_per_cycle = 64;
                     },
                     false, true});
   }
-  list.push_back({"direct", fmt::format("{} samples per mesh cycle", fine_samples),
-                  directly(fine_samples), true});
+  list.push_back({"direct", fmt::format("{} samples per mesh cycle", fine_samples), directly(fine_samples), true});
   return list;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -14,7 +13,6 @@
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/log.h"
-#include "dynamics/modes.h"
 
 namespace annulus::app {
 
@@ -51,18 +49,22 @@ dynamics::Figure largest_factor(const dynamics::MeshKindResult& kind) {
   return largest;
 }
 
-void add_response(Figures& figures, const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response) {
+/// `errors` of the tables, where frequencies are to carry them.
+void add_response(Figures& figures, const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response,
+                  const std::optional<MeshStiffnessErrors>& errors) {
   figures.push_back(relative(response.sun_planet.load_sharing.averaged));
   figures.push_back(relative(response.sun_planet.load_sharing.instantaneous));
   figures.push_back(relative(largest_factor(response.sun_planet)));
   figures.push_back(relative(largest_factor(response.ring_planet)));
-  std::vector<double> frequencies;
   constexpr double same = 1e-6;
-  for (const auto& mode : dynamics::modes(stage).modes) {
-    if (mode.frequency > 0 && (frequencies.empty() || mode.frequency > frequencies.back() * (1 + same)))
-      frequencies.push_back(mode.frequency);
+  constexpr std::size_t wanted = 3;
+  Figures frequencies;
+  for (const auto& mode : stage_modes(stage, errors.value_or(MeshStiffnessErrors{})).list) {
+    if (mode.frequency > 0 && (frequencies.empty() || mode.frequency > frequencies.back().value * (1 + same)))
+      frequencies.push_back({mode.frequency, errors ? mode.frequency_error / mode.frequency : unknown});
   }
-  for (std::size_t i = 0; i < 3; ++i) figures.push_back({i < frequencies.size() ? frequencies[i] : unknown, unknown});
+  frequencies.resize(wanted, {unknown, unknown});
+  figures.insert(figures.end(), frequencies.begin(), frequencies.end());
 }
 
 /// Measured work whose answer is kept in a file, with the identity of what it depends on.
@@ -92,8 +94,9 @@ MeasuredWork kept_work(const std::filesystem::path& file, const std::string& id,
 class RingMeasurement {
  public:
   RingMeasurement(const Scene& scene, const GearGeometry& geometry, std::size_t ring, const RunOptions& options,
-                  const Plan& plan)
+                  const Plan& plan, const TradeLists& lists)
       : scene_(scene),
+        lists_(lists),
         geometry_(geometry),
         ring_(ring),
         options_(options),
@@ -103,7 +106,7 @@ class RingMeasurement {
 
   RingTrade run() {
     RingTrade trade{.ring = scene_.rings.at(ring_).name, .points = {}};
-    for (const auto& setting : mesh_settings(wheel_, needs_solid_)) {
+    for (const auto& setting : lists_.mesh(wheel_, needs_solid_)) {
       log::info(fmt::format("tradeoff of '{}': {}, {}", trade.ring, setting.applied(wheel_).rung, setting.text()));
       trade.points.push_back(mesh_point(setting));
     }
@@ -112,7 +115,7 @@ class RingMeasurement {
     prepare_coupling();
     auto stage = make_stage(scene_, geometry_, ring_, *finest_sun_, *finest_wheel_);
     stage.ring_coupling = static_coupling_;
-    for (const auto& setting : dynamics_settings(stage, elastic_coupling_)) {
+    for (const auto& setting : lists_.dynamics(stage, elastic_coupling_)) {
       log::info(fmt::format("tradeoff of '{}': {}, {}", trade.ring, setting.rung, setting.settings));
       trade.points.push_back(dynamics_point(stage, setting));
     }
@@ -129,7 +132,8 @@ class RingMeasurement {
   }
 
   /// Solved in a process of its own, read back here.
-  std::optional<MeshResult> table(const MeshModel& model, const std::filesystem::path& folder, TradePoint& point) const {
+  std::optional<MeshResult> table(const MeshModel& model, const std::filesystem::path& folder,
+                                  TradePoint& point) const {
     const auto done = kept_work(folder / "cost.json", model.id(), [&] {
       (void)computed_stiffness(model, {""}, options_in(folder));
       return std::string("solved");
@@ -173,7 +177,8 @@ class RingMeasurement {
   }
 
   /// What these tables make of the stage, with the errors of the tables carried through.
-  void add_stage_figures(Figures& figures, const MeshResult& sun, const MeshResult& wheel, const std::string& name) const {
+  void add_stage_figures(Figures& figures, const MeshResult& sun, const MeshResult& wheel,
+                         const std::string& name) const {
     const auto stage = make_stage(scene_, geometry_, ring_, sun, wheel);
     auto simulation = simulation_options(scene_, stage);
     simulation.keep_series = false;
@@ -187,7 +192,8 @@ class RingMeasurement {
       const auto errors = carried_errors(response, simulation, {make, sun, wheel});
       set_errors(errors, response);
       Figures found;
-      add_response(found, stage, response);
+      add_response(found, stage, response,
+                   MeshStiffnessErrors{sun.mean_stiffness().error_relative, wheel.mean_stiffness().error_relative});
       return figures_text(found);
     });
     if (!done.failure.empty()) throw SolverError(done.failure);
@@ -235,7 +241,7 @@ class RingMeasurement {
       const auto response = dynamics::simulate(stage, simulation);
       if (!response.steady) throw SolverError("the motion does not become periodic");
       Figures figures(4, {unknown, unknown});
-      add_response(figures, stage, response);
+      add_response(figures, stage, response, std::nullopt);
       return figures_text(figures);
     });
     point.cost = done.cost;
@@ -249,8 +255,8 @@ class RingMeasurement {
   }
 
   static void compare(std::vector<TradePoint>& points, TradePart part) {
-    const auto finest = std::find_if(points.begin(), points.end(),
-                                     [part](const TradePoint& p) { return p.part == part && p.finest; });
+    const auto finest =
+        std::find_if(points.begin(), points.end(), [part](const TradePoint& p) { return p.part == part && p.finest; });
     if (finest == points.end() || finest->values.empty()) return;
     for (auto& point : points) {
       if (point.part != part) continue;
@@ -262,6 +268,7 @@ class RingMeasurement {
   }
 
   const Scene& scene_;
+  const TradeLists& lists_;
   const GearGeometry& geometry_;
   std::size_t ring_;
   const RunOptions& options_;
@@ -297,39 +304,38 @@ std::optional<std::size_t> TradePoint::worst_figure() const {
   return worst;
 }
 
-double TradePoint::worst_error() const {
-  const auto worst = worst_figure();
-  return failure.empty() && worst ? values[*worst].error : unknown;
+double TradePoint::error(std::optional<std::size_t> figure) const {
+  if (!figure) figure = worst_figure();
+  return failure.empty() && figure && *figure < values.size() ? values[*figure].error : unknown;
 }
 
-const TradePoint* RingTrade::cheapest(TradePart part, double accuracy) const {
+const TradePoint* RingTrade::cheapest(TradePart part, double accuracy, std::optional<std::size_t> figure) const {
   const TradePoint* best = nullptr;
   for (const auto& p : points) {
-    if (p.part != part || p.finest || !(p.worst_error() <= accuracy)) continue;
+    if (p.part != part || p.finest || !(p.error(figure) <= accuracy)) continue;
     if (!best || p.cost.wall < best->cost.wall) best = &p;
   }
   return best;
 }
 
-std::vector<const TradePoint*> RingTrade::front(TradePart part) const {
+std::vector<const TradePoint*> RingTrade::front(TradePart part, std::optional<std::size_t> figure) const {
   std::vector<const TradePoint*> list;
   for (const auto& p : points) {
-    if (p.part == part && !p.finest && std::isfinite(p.worst_error())) list.push_back(&p);
+    if (p.part == part && !p.finest && std::isfinite(p.error(figure))) list.push_back(&p);
   }
   std::stable_sort(list.begin(), list.end(), [](const auto* a, const auto* b) { return a->cost.wall < b->cost.wall; });
   double best = std::numeric_limits<double>::infinity();
   std::erase_if(list, [&](const TradePoint* p) {
-    if (p->worst_error() >= best) return true;
-    best = p->worst_error();
+    if (p->error(figure) >= best) return true;
+    best = p->error(figure);
     return false;
   });
   return list;
 }
 
-TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options) {
+TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options, const TradeLists& lists) {
   if (scene.stage.kind != StageKind::planetary)
     throw InputError(scene.file.string() + ": a tradeoff is measured for planetary stages only so far");
-  const auto start = std::chrono::steady_clock::now();
   const auto geometry = make_geometry(scene);
   const Plan plan = make_plan(scene, geometry);
   for (const auto& mesh : plan.meshes) {
@@ -339,8 +345,10 @@ TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options) {
   }
   TradeOff trade{.scene = scene, .rings = {}, .total_seconds = 0};
   for (std::size_t i = 0; i < scene.rings.size(); ++i)
-    trade.rings.push_back(RingMeasurement(scene, geometry, i, options, plan).run());
-  trade.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    trade.rings.push_back(RingMeasurement(scene, geometry, i, options, plan, lists).run());
+  for (const auto& ring : trade.rings) {
+    for (const auto& p : ring.points) trade.total_seconds += p.cost.wall;
+  }
   return trade;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,12 +34,12 @@ struct TradePoint {
   std::string settings;  ///< "degree 2, level 1, 32 phases, 5 loads"
   bool finest = false;   ///< the others are held against it
   bool changes_model = false;
-  Cost cost{};                     ///< meshes: of both tables, the memory of the larger one; dynamics: of the response
-  std::string failure{};           ///< why there are no figures
+  Cost cost{};            ///< meshes: of both tables, the memory of the larger one; dynamics: of the response
+  std::string failure{};  ///< why there are no figures
   std::vector<TradeValue> values{};  ///< in the order of trade_figures()
 
-  /// Largest error over all figures that both settings give; NaN for a failure.
-  [[nodiscard]] double worst_error() const;
+  /// Of one figure; without a figure, the largest over all that both settings give. NaN for a failure.
+  [[nodiscard]] double error(std::optional<std::size_t> figure = {}) const;
   [[nodiscard]] std::optional<std::size_t> worst_figure() const;
 };
 
@@ -45,22 +47,31 @@ struct RingTrade {
   std::string ring;
   std::vector<TradePoint> points;  ///< those of the meshes, then those of the dynamics
 
-  /// The cheapest setting of a part by wall time whose worst error is within the accuracy; the finest itself does not
-  /// count. nullptr: none.
-  [[nodiscard]] const TradePoint* cheapest(TradePart part, double accuracy) const;
-  /// Points no other of the part beats in both wall time and worst error, by rising time.
-  [[nodiscard]] std::vector<const TradePoint*> front(TradePart part) const;
+  /// The cheapest setting of a part by wall time whose error (of one figure, or the largest) is within the accuracy;
+  /// the finest itself does not count. nullptr: none.
+  [[nodiscard]] const TradePoint* cheapest(TradePart part, double accuracy,
+                                           std::optional<std::size_t> figure = {}) const;
+  /// Points no other of the part beats in both wall time and that error, by rising time.
+  [[nodiscard]] std::vector<const TradePoint*> front(TradePart part, std::optional<std::size_t> figure = {}) const;
 };
 
 struct TradeOff {
   Scene scene;
   std::vector<RingTrade> rings;
-  double total_seconds = 0;
+  double total_seconds = 0;  ///< wall time of all settings
+};
+
+/// What is tried.
+struct TradeLists {
+  std::function<std::vector<MeshSetting>(const MeshModel& planned, bool needs_solid)> mesh = mesh_settings;
+  std::function<std::vector<DynamicsSetting>(const dynamics::PlanetaryStage& stage,
+                                             const std::shared_ptr<const RingCoupling>& elastic)>
+      dynamics = dynamics_settings;
 };
 
 /// Runs everything, each setting in a process of its own, one after the other with options.threads threads, below
 /// OUT/tradeoff; what an earlier run measured there is taken over. Throws InputError for a stage that is not planetary
 /// or whose stiffness is given, and what making its geometry throws.
-[[nodiscard]] TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options);
+[[nodiscard]] TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options, const TradeLists& lists = {});
 
 }  // namespace annulus::app

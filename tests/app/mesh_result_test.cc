@@ -47,6 +47,40 @@ app::MeshResult some_result() {
 
 BOOST_AUTO_TEST_SUITE(mesh_result)
 
+BOOST_AUTO_TEST_CASE(a_range_knows_what_lies_between_its_positions) {
+  // A saw with its kinks between the positions: from 0 at phase 0.05 up to 1 at 0.55, down again. The sampled range is
+  // too small by what its error says, to the last bit for straight flanks.
+  const auto model = some_model();
+  const auto entry = [](double lte, double load) { return StiffnessEntry{0, lte, load / lte, load / lte, 0}; };
+  const auto ranged = [&](int phases, const auto& shape) {
+    std::vector<StiffnessEntry> entries;
+    for (int i = 0; i < phases; ++i) {
+      for (std::size_t load = 0; load < model.problem->loads.size(); ++load)
+        entries.push_back(entry(shape(static_cast<double>(i) / phases), model.problem->loads[load]));
+    }
+    app::MeshResult result{.model = model,
+                           .contact_ratio = 1.58,
+                           .table = StiffnessTable("ring_planet", phases, {0.0}, model.problem->loads, entries)};
+    result.nominal = model.nominal_load();
+    return result.lte_peak_to_peak();
+  };
+  const auto saw = [](double phase) {
+    const double x = phase - 0.05 - std::floor(phase - 0.05);
+    return x < 0.5 ? 1 + 2 * x : 3 - 2 * x;
+  };
+  for (const int phases : {8, 16, 32}) {
+    const auto range = ranged(phases, saw);
+    BOOST_TEST(range.value < 1);
+    BOOST_TEST(range.value * (1 + range.error_relative) == 1, boost::test_tools::tolerance(1e-10));
+  }
+  // A smooth top: on the safe side, and of second order.
+  const auto wave = [](double phase) { return 2 + 0.5 * std::cos(2 * M_PI * (phase - 0.013)); };
+  const auto coarse = ranged(16, wave), fine = ranged(32, wave);
+  BOOST_TEST(coarse.value * (1 + coarse.error_relative) >= 1);
+  BOOST_TEST(fine.value * (1 + fine.error_relative) >= 1);
+  BOOST_TEST(fine.error_relative <= coarse.error_relative / 2.5);
+}
+
 BOOST_AUTO_TEST_CASE(figures) {
   const auto result = some_result();
   const double load = result.model.problem->loads[app::nominal_load_index];

@@ -1,0 +1,196 @@
+#include "app/tradeoff.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <limits>
+
+#include "app/measured_work.h"
+#include "app/trade_report.h"
+#include "core/errors.h"
+#include "core/log.h"
+#include "tests/app/scenes.h"
+
+namespace annulus {
+
+namespace {
+
+app::TradePoint made_up(const std::string& settings, double wall, double error) {
+  app::TradePoint p{.rung = "plane", .settings = settings};
+  p.cost = {wall, wall, 100};
+  p.values = {{1e9, error / 2, error}, {2e9, error, 2 * error}, {std::nan(""), std::nan(""), std::nan("")}};
+  return p;
+}
+
+app::RingTrade made_up_ring() {
+  app::RingTrade ring{.ring = "held", .points = {}};
+  ring.points = {made_up("a", 1, 0.05), made_up("b", 2, 0.2), made_up("c", 4, 0.008), made_up("d", 3, 0.009),
+                 made_up("finest", 50, 0)};
+  ring.points.back().finest = true;
+  auto failed = made_up("failed", 0.1, 0);
+  failed.failure = "no convergence, \"alas\"";
+  ring.points.push_back(failed);
+  return ring;
+}
+
+/// A light set of gears whose meshes are computed.
+std::string computed_scene() {
+  auto text = test::quick_scene();
+  const auto begin = text.find("[mesh.sun_planet]"), end = text.find("[dynamics]");
+  text.erase(begin, end - begin);
+  text = test::replaced(text, "planet_eccentricity_um", "planet_installation_um");
+  text = test::replaced(text, "[carrier]\n", "bore_diameter_mm = 172\n[carrier]\n");
+  text = test::replaced(text, "[planet]\n", "bore_diameter_mm = 130\n[planet]\n");
+  return test::replaced(text, "mesh_cycles = 110\n", "");
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(tradeoff)
+
+BOOST_AUTO_TEST_CASE(work_is_measured_in_a_process_of_its_own) {
+  const auto answer = app::measured([] { return std::string("seven"); });
+  BOOST_TEST(answer.answer == "seven");
+  BOOST_TEST(answer.failure == "");
+  BOOST_TEST(answer.cost.wall > 0);
+  BOOST_TEST(answer.cost.peak_memory_MB > 0.5);
+
+  // Two hundred megabytes are seen, and given back with the process.
+  const auto large = app::measured([] {
+    std::vector<char> block(200'000'000, 1);
+    return std::to_string(block[123'456'789]);
+  });
+  BOOST_TEST(large.answer == "1");
+  BOOST_TEST(large.cost.peak_memory_MB > answer.cost.peak_memory_MB + 180);
+  BOOST_TEST(app::measured([] { return std::string(); }).cost.peak_memory_MB < answer.cost.peak_memory_MB + 50);
+
+  int here = 1;
+  const auto thrown = app::measured([&]() -> std::string {
+    here = 2;
+    throw InputError("no such ring");
+  });
+  BOOST_TEST(thrown.failure == "no such ring");
+  BOOST_TEST(thrown.answer == "");
+  BOOST_TEST(here == 1);
+  const auto killed = app::measured([]() -> std::string {
+    std::raise(SIGKILL);
+    return "never";
+  });
+  BOOST_TEST(killed.failure.find("killed") != std::string::npos);
+  // Longer than a pipe holds at once.
+  BOOST_TEST(app::measured([] { return std::string(1'000'000, 'x'); }).answer.size() == 1'000'000U);
+}
+
+BOOST_AUTO_TEST_CASE(the_front_and_the_cheapest) {
+  const auto ring = made_up_ring();
+  const auto front = ring.front(app::TradePart::mesh);
+  std::vector<std::string> names;
+  for (const auto* p : front) names.push_back(p->settings);
+  BOOST_TEST(names == (std::vector<std::string>{"a", "d", "c"}), boost::test_tools::per_element());
+  BOOST_TEST(ring.cheapest(app::TradePart::mesh, 0.1)->settings == "a");
+  BOOST_TEST(ring.cheapest(app::TradePart::mesh, 0.01)->settings == "d");
+  BOOST_TEST(ring.cheapest(app::TradePart::mesh, 0.0085)->settings == "c");
+  BOOST_TEST(!ring.cheapest(app::TradePart::mesh, 0.001));
+  BOOST_TEST(ring.front(app::TradePart::dynamics).empty());
+  BOOST_TEST(*ring.points[0].worst_figure() == 1U);
+  // Of one figure: errors are half as large for the first, and not known for the third.
+  BOOST_TEST(ring.cheapest(app::TradePart::mesh, 0.0045, 0)->settings == "d");
+  BOOST_TEST(!ring.cheapest(app::TradePart::mesh, 1.0, 2));
+  BOOST_TEST(ring.front(app::TradePart::mesh, 2).empty());
+
+  app::TradeOff trade{
+      .scene = app::parse_scene(test::quick_scene(), "scene.toml"), .rings = {ring}, .total_seconds = 60};
+  const auto text = app::trade_text(trade);
+  BOOST_TEST(text.find("For 1 %: plane, d; 3 s, 100 MB; errors up to 0.9 % (mean stiffness of the ring mesh).") !=
+                 std::string::npos,
+             text);
+  BOOST_TEST(text.find("For 0.1 %: no setting but the finest.") != std::string::npos);
+  const auto csv = app::trade_csv(trade);
+  BOOST_TEST(csv.find("held,mesh,plane,a,0,sun_planet_mean_stiffness_N_per_m,1000000000,") != std::string::npos, csv);
+  BOOST_TEST(csv.find("\"no convergence, \"\"alas\"\"\"") != std::string::npos);
+  const auto page = app::trade_html(trade);
+  BOOST_TEST(page.find("no convergence, &quot;alas&quot;") != std::string::npos);
+  BOOST_TEST(page.find("<svg") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(settings_keep_the_problem_but_for_what_they_set) {
+  const auto scene = app::parse_scene(computed_scene(), "scene.toml");
+  const auto planned = app::ring_mesh_model(scene, app::make_geometry(scene), 0);
+  const double nominal = planned.problem->loads[planned.nominal_load()];
+  int finest = 0;
+  std::vector<std::string> folders;
+  for (const auto& setting : app::mesh_settings(planned, false)) {
+    const auto model = setting.applied(planned);
+    finest += setting.finest;
+    folders.push_back(setting.folder());
+    BOOST_TEST(model.problem->loads[model.nominal_load()] == nominal);
+    BOOST_TEST(model.problem->loads.size() == static_cast<std::size_t>(setting.loads));
+    BOOST_TEST(model.problem->phases == setting.phases);
+    BOOST_TEST(model.problem->face_width == planned.problem->face_width);
+  }
+  BOOST_TEST(finest == 1);
+  std::sort(folders.begin(), folders.end());
+  BOOST_TEST((std::adjacent_find(folders.begin(), folders.end()) == folders.end()));
+}
+
+BOOST_AUTO_TEST_CASE(errors_fall_toward_the_finest_and_measurements_are_kept) {
+  log::set_level(log::Level::quiet);
+  const test::TemporaryFolder folder("tradeoff");
+  const auto scene = app::parse_scene(computed_scene(), "scene.toml");
+  const app::RunOptions options{.out = folder.path(), .threads = 1};
+  app::TradeLists lists;
+  lists.mesh = [](const app::MeshModel&, bool needs_solid) {
+    BOOST_TEST(!needs_solid);
+    using fem::Rung;
+    return std::vector<app::MeshSetting>{
+        {.rung = Rung::closed_form, .phases = 16, .loads = 1},
+        {.rung = Rung::plane, .degree = 1, .level = 1, .phases = 16, .loads = 1},
+        {.rung = Rung::plane, .degree = 1, .level = 3, .phases = 16, .loads = 1},
+        {.rung = Rung::plane, .degree = 2, .level = 2, .phases = 16, .loads = 1, .finest = true}};
+  };
+  const auto trade = app::measure_tradeoff(scene, options, lists);
+  BOOST_TEST_REQUIRE(trade.rings.size() == 1U);
+  const auto& points = trade.rings.front().points;
+  for (const auto& p : points) BOOST_TEST(p.failure == "", p.settings << ": " << p.failure);
+  // Mean stiffness of the ring mesh: the closed form is not controlled, linear elements approach the quadratic ones.
+  const auto error = [&](std::size_t point) { return points[point].values[1].error; };
+  BOOST_TEST(error(1) > 2 * error(2));
+  BOOST_TEST(error(2) > 0);
+  BOOST_TEST(error(3) == 0);
+  BOOST_TEST(error(0) < 0.05);
+  // The estimates of the linear elements hold.
+  for (const std::size_t i : {std::size_t{1}, std::size_t{2}})
+    BOOST_TEST(error(i) <= 3 * points[i].values[1].error_estimate);
+  // The dynamics: few samples are worse than many, held planets are another model.
+  const auto named = [&](const std::string& settings) {
+    const auto found =
+        std::find_if(points.begin(), points.end(), [&](const auto& p) { return p.settings == settings; });
+    BOOST_TEST_REQUIRE((found != points.end()), settings);
+    return *found;
+  };
+  BOOST_TEST(named("8 samples per mesh cycle").error() > 5 * named("32 samples per mesh cycle").error());
+  BOOST_TEST(named("Cash-Karp 5(4), relative tolerance 1e-06").error() <= 1e-3);
+  BOOST_TEST(named("planet bearings rigid").changes_model);
+  BOOST_TEST(named("planet bearings rigid").error() > 0.05);
+  BOOST_TEST(named("64 samples per mesh cycle").error() <= 1e-3);
+
+  // Nothing is measured twice: times and all.
+  const auto again = app::measure_tradeoff(scene, options, lists);
+  BOOST_TEST(app::trade_csv(again) == app::trade_csv(trade));
+  app::write_tradeoff(trade, folder.path());
+  for (const auto* file : {"tradeoff.csv", "tradeoff.html", "tradeoff_held_mesh.svg", "tradeoff_held_dynamics.svg"})
+    BOOST_TEST(std::filesystem::exists(folder.path() / file), file);
+}
+
+BOOST_AUTO_TEST_CASE(nothing_to_trade_is_said_so) {
+  const auto given = app::parse_scene(test::quick_scene(), "scene.toml");
+  BOOST_CHECK_EXCEPTION((void)app::measure_tradeoff(given, {}), InputError, [](const InputError& e) {
+    return std::string(e.what()).find("given stiffness") != std::string::npos;
+  });
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace annulus
