@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <thread>
 
 #include "app/content_id.h"
@@ -28,7 +29,8 @@ namespace {
 enum ExitStatus { done = 0, defect = 1, wrong_input = 2, refused = 3, interrupted = 130 };
 
 struct Arguments {
-  std::string scene, out, tables, key, budget;
+  std::string scene, out, tables, key;
+  std::optional<std::string> budget;
   bool json = false, markdown = false, quiet = false, verbose = false;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
@@ -50,10 +52,9 @@ RunOptions run_options(const Arguments& arguments, const Scene& scene) {
 
 /// The scene as the file has it, or as accurate as the budget allows; what that means goes into `sentence`.
 Scene wanted_scene(const Arguments& arguments, std::string& sentence) {
-  const bool limited = !arguments.budget.empty();
-  const double budget = limited ? parse_duration(arguments.budget) : 0;  // before the file: both are arguments
+  const double budget = arguments.budget ? parse_duration(*arguments.budget) : 0;
   Scene scene = read_scene(arguments.scene);
-  if (!limited) return scene;
+  if (!arguments.budget) return scene;
   auto choice = fit_budget(scene, budget, arguments.threads, CostModel::of_this_machine());
   sentence = std::move(choice.sentence);
   return std::move(choice.scene);

@@ -48,6 +48,7 @@ void Progress::update(double fraction) {
   const auto now = std::chrono::steady_clock::now();
   if (!terminal_ || !progress_shown || now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
+  fraction = std::clamp(fraction, 0.0, 1.0);
   const double passed = std::chrono::duration<double>(now - start_).count();
   const int filled = static_cast<int>(fraction * 30);
   const double left = time_left(fraction, passed, predicted_);

@@ -76,7 +76,17 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   const auto solve_level = [&](int level) {
     auto solved =
         (resolved ? solve_resolved_level : solve_condensed_level)(problem, settings, flanks, level, [&](double f) {
-          if (settings.progress) settings.progress((level - first_level + f) / (level - first_level + 2));
+          if (!settings.progress) return;
+          // The work grows with the number of cells, and at least the first level is solved after the one before it; a
+          // further one makes the finished part smaller again.
+          constexpr double growth = level_ratio * level_ratio;
+          double before = 0, whole = 0;
+          for (int l = first_level - 1; l <= std::max(level, first_level); ++l) {
+            const double work = std::pow(growth, l);
+            before += l < level ? work : l == level ? f * work : 0;
+            whole += work;
+          }
+          settings.progress(before / whole);
         });
     mesh_seconds += solved.mesh_seconds;
     condense_seconds += solved.condense_seconds;

@@ -2,6 +2,7 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -68,18 +69,24 @@ BOOST_AUTO_TEST_CASE(durations) {
 
 BOOST_AUTO_TEST_CASE(less_time_buys_less_accuracy) {
   const auto scene = app::parse_scene(computed_scene("accuracy = 0.02\n"), "s.toml");
+  const auto predicted = [&](double accuracy) {
+    const auto with = app::with_accuracy(scene, accuracy, "");
+    return app::make_plan(with, app::make_geometry(with), 2).cost.seconds();
+  };
+  const double finest = predicted(0.001), coarsest = predicted(0.1);
+  BOOST_REQUIRE(finest > 1.1 * coarsest);
   double last_accuracy = 0;
-  int different = 0;
-  for (const double budget : {3600.0, 60.0, 30.0, 15.0, 10.0, 8.0}) {
+  for (const double budget : {3600.0, 1.01 * finest, 0.99 * finest, (finest + coarsest) / 2, 1.01 * coarsest}) {
     const auto choice = fitted(scene, budget);
     BOOST_TEST(choice.cost.seconds() <= budget);
     BOOST_TEST(choice.scene.accuracy >= last_accuracy);
     BOOST_TEST(choice.cost.expected_error() <= choice.scene.accuracy);
-    different += choice.scene.accuracy > last_accuracy;
-    last_accuracy = choice.scene.accuracy;
     BOOST_TEST(choice.sentence.find("budget") == 0U);
+    last_accuracy = choice.scene.accuracy;
   }
-  BOOST_TEST(different >= 2);  // the choice really depends on the time
+  BOOST_TEST(fitted(scene, 1.01 * finest).scene.accuracy == 0.001);
+  BOOST_TEST(fitted(scene, 0.99 * finest).scene.accuracy > 0.001);
+  BOOST_CHECK_THROW((void)fitted(scene, 0.99 * coarsest), SolverError);
   BOOST_TEST(fitted(scene, 3600).scene.accuracy == 0.001);
 }
 
@@ -167,6 +174,23 @@ BOOST_AUTO_TEST_CASE(predicted_and_actual_of_small_scenes) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(progress_of_a_solve_rises_from_nothing_to_all) {
+  const auto scene = app::parse_scene(computed_scene(), "s.toml");
+  auto model = app::sun_mesh_model(scene, app::make_geometry(scene));
+  model.settings.degree = 1;
+  model.settings.level = 1;
+  model.problem->phases = 2;
+  std::vector<double> fractions;
+  model.settings.progress = [&](double fraction) { fractions.push_back(fraction); };
+  (void)fem::solve_loaded_mesh(*model.problem, model.settings);
+  BOOST_REQUIRE(fractions.size() >= 4U);
+  BOOST_TEST(fractions.front() > 0);
+  BOOST_TEST(std::is_sorted(fractions.begin(), fractions.end()));
+  BOOST_TEST(fractions.back() == 1.0, boost::test_tools::tolerance(1e-12));
+  // Of work that grows by 2.25 from level 0 to 1, the first loads are a small part.
+  BOOST_TEST(fractions.front() < 0.31);
+}
+
 BOOST_AUTO_TEST_CASE(the_program_keeps_costs_and_budgets) {
   const test::TemporaryFolder folder("budget_program");
   write_file(folder.path() / "s.toml", computed_scene("rung = \"closed_form\"\n"));
@@ -187,6 +211,7 @@ BOOST_AUTO_TEST_CASE(the_program_keeps_costs_and_budgets) {
     BOOST_TEST(refused.status == 3);
     BOOST_TEST(refused.err.find("more than the budget of 0.01 s") != std::string::npos, refused.err);
   }
+  BOOST_TEST(program_with_cache(folder.path(), "plan c.toml --budget ''").status == 2);
   BOOST_TEST(!std::filesystem::exists(folder.path() / "out" / "c"));
   const auto plan = program_with_cache(folder.path(), "plan c.toml --json --budget 1h");
   BOOST_REQUIRE(plan.status == 0);
