@@ -51,16 +51,18 @@ BOOST_AUTO_TEST_SUITE(cost_model)
 BOOST_AUTO_TEST_CASE(the_laws_reproduce_the_kept_runs) {
   const app::CostModel model(app::kept_cost_runs());
   std::vector<double> misses;
-  double worst_memory = 1;
+  double worst_memory = 1, worst_mesh = 1;
   for (const auto& run : app::kept_cost_runs()) {
     const auto predicted = model.predict(run);
     const double miss = std::abs(std::log(predicted.seconds / run.seconds()));
-    // The same step took up to 1.7 times as long when the machine was busy, and what a response takes depends on
-    // elastic modes the law does not know: 2.5 for a single run, 1.3 for the middle one.
-    BOOST_TEST(miss < std::log(2.5), run.kind << " level " << run.level << " of " << run.unknowns
-                                              << " unknowns: " << predicted.seconds << " s predicted, " << run.seconds()
-                                              << " s measured");
+    // The same step took up to 1.7 times as long when the machine was busy: 2 for a single run. What a response takes
+    // depends on elastic modes as well, which the law does not know: 3.
+    const bool response = run.kind == "response";
+    BOOST_TEST(miss < std::log(response ? 3.0 : 2.0), run.kind << " level " << run.level << " of " << run.unknowns
+                                                               << " unknowns: " << predicted.seconds << " s predicted, "
+                                                               << run.seconds() << " s measured");
     misses.push_back(miss);
+    if (!response) worst_mesh = std::max(worst_mesh, std::exp(miss));
     if (run.peak_MB > 0) {
       const double memory = std::abs(std::log(predicted.peak_MB / run.peak_MB));
       BOOST_TEST(memory < std::log(1.6), run.kind << " " << run.unknowns << " unknowns: " << predicted.peak_MB);
@@ -70,9 +72,9 @@ BOOST_AUTO_TEST_CASE(the_laws_reproduce_the_kept_runs) {
   BOOST_REQUIRE(misses.size() > 50);
   std::ranges::sort(misses);
   BOOST_TEST(misses[misses.size() / 2] < std::log(1.3));
-  BOOST_TEST_MESSAGE("predicted against measured time: factor " << std::exp(misses[misses.size() / 2])
-                                                                << " in the middle, " << std::exp(misses.back())
-                                                                << " at worst; memory " << worst_memory);
+  BOOST_TEST_MESSAGE("predicted against measured time: factor "
+                     << std::exp(misses[misses.size() / 2]) << " in the middle, " << std::exp(misses.back())
+                     << " at worst, " << worst_mesh << " but for responses; memory " << worst_memory);
 }
 
 BOOST_AUTO_TEST_CASE(a_known_law_is_found_again) {
