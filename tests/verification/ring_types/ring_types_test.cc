@@ -13,7 +13,7 @@ struct RingTypes {
   std::filesystem::path out = std::filesystem::temp_directory_path() / "annulus_ring_types_test";
 
   int run() const {
-    const std::string command = std::string(ANNULUS_PROGRAM) + " run " + ANNULUS_SOURCE_DIR +
+    const std::string command = std::string("ANNULUS_CACHE= ") + ANNULUS_PROGRAM + " run " + ANNULUS_SOURCE_DIR +
                                 "/data/scenes/ring_types.toml --quiet --threads 2 -o " + out.string() + " > /dev/null";
     return std::system(command.c_str());
   }
