@@ -71,9 +71,10 @@ BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const Co
   known(cost);
   if (!any) {
     if (cost.seconds() > budget)
-      throw SolverError(fmt::format("the run is predicted to take {}, more than the budget of {}, and nothing in it "
-                                    "gets faster with less accuracy",
-                                    figures_text(cost), duration_text(budget)));
+      throw SolverError(
+          fmt::format("the run is predicted to take {}, more than the budget of {}, and none of its "
+                      "meshes is refined by its accuracy",
+                      figures_text(cost), duration_text(budget)));
     return {scene, cost,
             fmt::format("budget {}: predicted {}; no mesh of this scene is refined, its accuracy stays as it is",
                         duration_text(budget), figures_text(cost))};
@@ -84,8 +85,9 @@ BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const Co
                                  fmt::format("the most accurate that a budget of {} pays for", duration_text(budget)));
     cost = cost_of(fitted, threads, costs);
     if (cost.seconds() > budget) continue;
-    auto sentence = fmt::format("budget {}: buys a mesh stiffness within {:g} % (expected error {:.2g} %); predicted {}",
-                                duration_text(budget), 100 * accuracy, 100 * cost.expected_error(), figures_text(cost));
+    auto sentence =
+        fmt::format("budget {}: buys a mesh stiffness within {:g} % (expected error {:.2g} %); predicted {}",
+                    duration_text(budget), 100 * accuracy, 100 * cost.expected_error(), figures_text(cost));
     return {std::move(fitted), std::move(cost), std::move(sentence)};
   }
   throw SolverError(fmt::format(

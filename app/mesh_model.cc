@@ -41,14 +41,15 @@ fem::RingStructure structure_of(const RingInput& ring) {
 
 fem::LoadedMeshProblem problem_of(const Scene& scene, const geometry::GearPair& pair, double mean_force,
                                   const HubGearInput& planet) {
+  const auto resolution = table_resolution(scene.accuracy);
   std::vector<double> loads;
-  for (const double factor : table_load_factors) loads.push_back(factor * mean_force);
+  for (const double factor : resolution.load_factors) loads.push_back(factor * mean_force);
   return {.pair = pair,
           .material = {scene.material.youngs_modulus, scene.material.poisson_ratio, scene.material.density},
           .face_width = scene.stage.face_width,
           .planet_bore_radius = planet.bore_diameter.value_or(0) / 2,
           .loads = std::move(loads),
-          .phases = table_phases};
+          .phases = resolution.phases};
 }
 
 void use(MeshModel& model, fem::Rung rung) {
@@ -100,6 +101,7 @@ void set_rung(MeshModel& model, const Scene& scene, const std::string& why_solid
       break;
   }
   model.settings.accuracy = scene.accuracy;
+  model.resolution = table_resolution(scene.accuracy).reason;
 }
 
 std::string plane_reason(const RingInput& ring) {
@@ -207,6 +209,17 @@ void add_structure(ContentId& id, const fem::RingStructure& structure) {
 }
 
 }  // namespace
+
+TableResolution table_resolution(double accuracy) {
+  constexpr double rough = 0.03, fine = 0.003;
+  const std::vector<double> usual = {std::begin(table_load_factors), std::end(table_load_factors)};
+  if (accuracy >= rough)
+    return {
+        table_phases / 2, {0.5, 1, 1.5}, "three loads and 16 positions interpolate to 1.5 %, enough for the accuracy"};
+  if (accuracy > fine)
+    return {table_phases, usual, "five loads and 32 positions interpolate to 0.15 %, within the accuracy"};
+  return {2 * table_phases, usual, "64 positions: 32 interpolate to 0.15 % only, the accuracy asks for more"};
+}
 
 std::string MeshModel::id() const {
   ContentId id;

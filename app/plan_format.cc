@@ -33,7 +33,8 @@ std::string mesh_lines(const MeshModel& mesh) {
                       mesh.positions, mesh.positions == 1 ? "" : "s", mesh.repeats);
   std::string loads;
   for (const double load : mesh.problem->loads) loads += (loads.empty() ? "" : ", ") + to_text(load / 1e3, 5);
-  return text + "    loads " + loads + " kN\n";
+  text += "    loads " + loads + " kN\n";
+  return mesh.resolution.empty() ? text : text + "    " + mesh.resolution + "\n";
 }
 
 Json value_json(const Value& value) {
@@ -147,6 +148,7 @@ std::string to_json(const Plan& plan) {
       item["phases"] = mesh.problem->phases;
       item["ring_positions"] = mesh.positions;
       item["loads_N"] = mesh.problem->loads;
+      item["resolution"] = mesh.resolution;
       for (const auto& step : plan.cost.steps) {
         if (step.kind != CostKind::mesh || step.label != mesh.label()) continue;
         item["predicted_s"] = finite(step.predicted.seconds);

@@ -1,5 +1,7 @@
 #include "app/carried_errors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -10,6 +12,7 @@
 
 #include "app/pipeline.h"
 #include "app/report_parts.h"
+#include "app/stage_modes.h"
 #include "core/log.h"
 #include "tests/app/scenes.h"
 
@@ -75,6 +78,34 @@ std::vector<Pair> pairs(const app::StageResponse& r) {
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(carried_errors)
+
+BOOST_AUTO_TEST_CASE(frequencies_carry_the_errors_of_the_stiffness) {
+  // Against the frequencies of stages whose stiffness is larger by its error.
+  const test::TemporaryFolder folder("frequency_errors");
+  const TableScene base{.sun_error = 2e-4, .ring_error = 1e-4};
+  const auto modes_of = [&](double sun, double ring) {
+    const auto scene = app::parse_scene(
+        test::replaced(test::replaced(test::quick_scene(), "1.364e9", fmt::format("{:.17g}", TableScene::sun * sun)),
+                       "1.87e9", fmt::format("{:.17g}", TableScene::ring * ring)),
+        "scene.toml");
+    const auto geometry = app::make_geometry(scene);
+    const auto plan = app::make_plan(scene, geometry);
+    const auto mesh = [&](std::size_t i) {
+      return app::mesh_stiffness(scene, geometry, plan.meshes[i], {"held"}, {.out = folder.path()});
+    };
+    return app::stage_modes(app::make_stage(scene, geometry, 0, mesh(0), mesh(1)), {base.sun_error, base.ring_error});
+  };
+  const auto nominal = modes_of(1, 1), stiffer = modes_of(1 + base.sun_error, 1 + base.ring_error);
+  BOOST_TEST_REQUIRE(nominal.list.size() > 10U);
+  int moved = 0;
+  for (std::size_t i = 0; i < nominal.list.size(); ++i) {
+    const double error = nominal.list[i].frequency_error, shift = stiffer.list[i].frequency - nominal.list[i].frequency;
+    // The change of first order; the next one is smaller by the error itself.
+    BOOST_TEST(std::abs(shift - error) <= 1e-3 * error + 1e-9 * nominal.list[i].frequency);
+    moved += error > 1e-5 * nominal.list[i].frequency;
+  }
+  BOOST_TEST(moved >= 5);
+}
 
 BOOST_AUTO_TEST_CASE(errors_are_the_sum_of_their_parts_and_are_kept) {
   const test::TemporaryFolder folder("errors_kept");

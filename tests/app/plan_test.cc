@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
@@ -67,6 +69,26 @@ BOOST_AUTO_TEST_CASE(rungs_and_positions) {
   const double nominal = 1e3 * json["stage"]["mean_mesh_force_kN"].get<double>();
   BOOST_TEST(meshes[0]["loads_N"][app::nominal_load_index].get<double>() == nominal,
              boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(the_accuracy_decides_how_finely_tables_are_resolved) {
+  std::ifstream in(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  int phases = 0;
+  for (const auto& [accuracy, loads] : {std::pair{"0.1", 3U}, {"0.03", 3U}, {"0.01", 5U}, {"0.001", 5U}}) {
+    const auto changed = test::replaced(text, "accuracy = 0.01", std::string("accuracy = ") + accuracy);
+    const auto scene = app::parse_scene(changed, std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
+    const auto plan = app::make_plan(scene, app::make_geometry(scene));
+    for (const auto& mesh : plan.meshes) {
+      BOOST_TEST(mesh.problem->loads.size() == loads);
+      BOOST_TEST(mesh.problem->phases >= phases);
+      BOOST_TEST(mesh.problem->phases % 2 == 0);  // every second one tells the error of interpolation
+      BOOST_TEST(mesh.problem->loads[mesh.nominal_load()] == 59.46e3, boost::test_tools::tolerance(1e-3));
+    }
+    phases = plan.meshes.front().problem->phases;
+    BOOST_TEST(app::to_text(plan).find(plan.meshes.front().resolution) != std::string::npos);
+  }
+  BOOST_TEST(phases == 64);
 }
 
 BOOST_AUTO_TEST_CASE(structures_their_rung_and_why) {
