@@ -18,11 +18,11 @@ enum class CostKind { mesh, coupling, response, studies };
 /// One step of a run: what it will cost and, after it, what it did.
 struct CostStep {
   CostKind kind = CostKind::mesh;
-  std::string label;      ///< for people: "sun-planet mesh", "coupling through 'pinned'"
-  std::string ring;       ///< empty for the sun mesh and studies
-  CostRun size;           ///< as predicted; of no meaning for studies
-  PredictedCost predicted;  ///< NaN: nobody has measured such a step
-  double expected_error = 0;  ///< relative, of a mesh's stiffness; NaN: not known
+  std::string label;                ///< for people: "sun-planet mesh", "coupling through 'pinned'"
+  std::string ring;                 ///< empty for the sun mesh and studies
+  CostRun size;                     ///< as predicted; of no meaning for studies
+  PredictedCost predicted;          ///< NaN: nobody has measured such a step
+  double expected_error = 0;        ///< relative, of a mesh's stiffness; NaN: not known
   std::optional<CostRun> actual{};  ///< absent before the run and for what was reused
 };
 
