@@ -11,6 +11,8 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <iterator>
 
 #include "core/errors.h"
 
@@ -19,6 +21,14 @@ namespace annulus::app {
 namespace {
 
 constexpr char answered = 'A', failed = 'F';
+
+std::ptrdiff_t thread_count() {
+  const std::filesystem::directory_iterator threads("/proc/self/task");
+  return std::distance(begin(threads), end(threads));
+}
+
+/// OpenBLAS starts threads as it is loaded, and takes care of them where a process forks.
+const std::ptrdiff_t threads_at_start = thread_count();
 
 void write_all(int file, const std::string& text) {
   for (std::size_t done = 0; done < text.size();) {
@@ -61,7 +71,11 @@ double seconds(const timeval& time) {
 
 }  // namespace
 
+bool has_its_first_threads_alone() { return thread_count() <= threads_at_start; }
+
 MeasuredWork measured(const std::function<std::string()>& work) {
+  // Locks held by a thread that does not go over would be held for ever.
+  require(has_its_first_threads_alone(), "work is measured before any threads are started");
   int ends[2];
   if (::pipe(ends) != 0) throw SolverError(fmt::format("no pipe to a measured process: {}", std::strerror(errno)));
   std::fflush(nullptr);

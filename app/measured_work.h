@@ -17,9 +17,12 @@ struct MeasuredWork {
   std::string failure;  ///< why it did not; empty when it did
 };
 
+/// Whether this process has started no threads but those its libraries had when it began.
+[[nodiscard]] bool has_its_first_threads_alone();
+
 /// Runs `work` in a process of its own, so that its memory is its own and nothing it does or suffers (running out of
-/// memory included) touches this one. To be called while this process has no other threads: only the calling one goes
-/// over into the new process. Throws SolverError when no process can be started.
+/// memory included) touches this one. To be called before this process starts threads: only the calling one goes over
+/// into the new process. Throws SolverError when no process can be started.
 [[nodiscard]] MeasuredWork measured(const std::function<std::string()>& work);
 
 }  // namespace annulus::app

@@ -139,13 +139,6 @@ NominalFigures PairSubject::nominal(std::size_t /*variant*/) const {
           {"transmission_error_peak_to_peak_m", te.peak_to_peak}};
 }
 
-RunOptions PairSubject::options_in(const std::string& folder) const {
-  RunOptions inside = options_;
-  inside.out = options_.out / folder;
-  if (options_.tables) inside.tables = *options_.tables / folder;
-  return inside;
-}
-
 bool PairSubject::table_serves_pair(const MeshModel& changed, const PairGeometry& geometry) const {
   return table_serves(nominal_.mesh.model, changed, geometry.transverse_force);
 }

@@ -145,13 +145,6 @@ const MeshResult& PlanetarySubject::nominal_mesh(std::size_t mesh) const {
   return mesh == 0 ? nominal_.sun_mesh : nominal_.rings.at(mesh - 1).mesh;
 }
 
-RunOptions PlanetarySubject::options_in(const std::string& folder) const {
-  RunOptions inside = options_;
-  inside.out = options_.out / folder;
-  if (options_.tables) inside.tables = *options_.tables / folder;
-  return inside;
-}
-
 bool PlanetarySubject::prepare(const std::vector<Override>& overrides, const std::string& where,
                                const std::string& folder) const {
   const auto scene = with_overrides(nominal_.scene, overrides);

@@ -47,7 +47,6 @@ class PlanetarySubject final : public StudySubject {
  private:
   [[nodiscard]] ChangedStage stage(const std::vector<Override>& overrides, const std::string& where, std::size_t ring,
                                    const std::string& folder, bool with_id) const;
-  [[nodiscard]] RunOptions options_in(const std::string& folder) const;
   [[nodiscard]] const MeshResult& nominal_mesh(std::size_t mesh) const;
 
   const RunResult& nominal_;

@@ -104,18 +104,28 @@ std::vector<std::pair<std::string, const MeshResult*>> all_meshes(const RunResul
 }
 
 std::string report_page(const std::string& title, const std::string& sub, const std::string& verdict,
-                        const std::vector<Section>& sections) {
+                        const std::vector<std::vector<Section>>& groups) {
   std::string page = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title +
                      "</title><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><style>" + style +
                      "</style></head><body><main>\n";
   page += "<h1>" + title + "</h1>\n<p class=\"sub\">" + sub + "</p>\n" + verdict;
   std::string links, body;
-  for (const auto& section : sections) {
-    if (section.text.empty()) continue;
-    links += fmt::format("<a href=\"#{}\">{}</a>", section.anchor, section.name);
-    body += section.text;
+  for (const auto& sections : groups) {
+    for (const auto& section : sections) {
+      if (section.text.empty()) continue;
+      links += fmt::format("<a href=\"#{}\">{}</a>", section.anchor, section.name);
+      body += section.text;
+    }
   }
   return page + "<nav>" + links + "</nav>\n" + body + "</main></body></html>\n";
+}
+
+std::vector<Section> study_sections(const Scene& scene, const StudyResults& studies) {
+  return {{"spread", "Spread", spread_section(studies)},
+          {"sweeps", "Sweeps", sweeps_section(scene, studies)},
+          {"grids", "Grids", grids_section(scene, studies)},
+          {"sensitivity", "Sensitivity", sensitivity_section(studies)},
+          {"optimisation", "Optimisation", optimise_section(studies)}};
 }
 
 std::string report_html(const RunResult& result) {
@@ -124,24 +134,20 @@ std::string report_html(const RunResult& result) {
                                       result.scene.stage.planets, to_text(result.scene.stage.power / 1e3),
                                       to_text(result.geometry.operating_point.sun_speed / units::rpm, 6));
   return report_page(escape(result.scene.title), sub, verdict_section(result),
-                     {{"figures", "Key figures", key_figures_section(result)},
-                      {"comparison", "Comparison with the source", comparison_section(result)},
-                      {"meshes", "Meshes", meshes_section(result)},
-                      {"stiffness", "Transmission error and stiffness", stiffness_section(result)},
-                      {"supports", "Pins and splines", supports_section(result)},
-                      {"contact", "Face width, pressure, stress", contact_section(result)},
-                      {"dynamics", "Load sharing and dynamic factors", dynamics_section(result)},
-                      {"spread", "Spread", spread_section(result.studies)},
-                      {"sweeps", "Sweeps", sweeps_section(result.scene, result.studies)},
-                      {"grids", "Grids", grids_section(result.scene, result.studies)},
-                      {"sensitivity", "Sensitivity", sensitivity_section(result.studies)},
-                      {"optimisation", "Optimisation", optimise_section(result.studies)},
-                      {"coupling", "Coupling through the ring", coupling_section(result)},
-                      {"motion", "Bearings and sun orbit", motion_section(result)},
-                      {"modes", "Natural frequencies", modes_section(result)},
-                      {"model", "What was modelled", model_section(result)},
-                      {"inputs", "Inputs", inputs_section(result)},
-                      {"quality", "Checks and cost", quality_section(result)}});
+                     {{{"figures", "Key figures", key_figures_section(result)},
+                       {"comparison", "Comparison with the source", comparison_section(result)},
+                       {"meshes", "Meshes", meshes_section(result)},
+                       {"stiffness", "Transmission error and stiffness", stiffness_section(result)},
+                       {"supports", "Pins and splines", supports_section(result)},
+                       {"contact", "Face width, pressure, stress", contact_section(result)},
+                       {"dynamics", "Load sharing and dynamic factors", dynamics_section(result)}},
+                      study_sections(result.scene, result.studies),
+                      {{"coupling", "Coupling through the ring", coupling_section(result)},
+                       {"motion", "Bearings and sun orbit", motion_section(result)},
+                       {"modes", "Natural frequencies", modes_section(result)},
+                       {"model", "What was modelled", model_section(result)},
+                       {"inputs", "Inputs", inputs_section(result)},
+                       {"quality", "Checks and cost", quality_section(result)}}});
 }
 
 }  // namespace annulus::app

@@ -37,9 +37,9 @@ struct HtmlTable {
 struct Section {
   std::string anchor, name, text;
 };
-/// The whole page: title, line below it, verdict, links and sections. `title` and `sub` are HTML.
+/// The whole page: title, line below it, verdict, links and sections, group after group. `title` and `sub` are HTML.
 [[nodiscard]] std::string report_page(const std::string& title, const std::string& sub, const std::string& verdict,
-                                      const std::vector<Section>& sections);
+                                      const std::vector<std::vector<Section>>& groups);
 
 /// The rings whose dynamics were asked for.
 [[nodiscard]] std::vector<const RingResult*> rings_with_response(const RunResult& result);
@@ -77,6 +77,8 @@ inline constexpr double shown_cycles = 110;
 [[nodiscard]] std::string grids_section(const Scene& scene, const StudyResults& studies);
 [[nodiscard]] std::string sensitivity_section(const StudyResults& studies);
 [[nodiscard]] std::string optimise_section(const StudyResults& studies);
+/// All of these, in their order on the page.
+[[nodiscard]] std::vector<Section> study_sections(const Scene& scene, const StudyResults& studies);
 /// One colour per variant; empty for a kind without variants.
 [[nodiscard]] std::string variant_legend(const StudyResults& studies);
 // report_coupling.cc

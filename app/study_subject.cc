@@ -7,6 +7,13 @@
 
 namespace annulus::app {
 
+RunOptions StudySubject::options_in(const std::string& folder) const {
+  RunOptions inside = options();
+  if (inside.tables) inside.tables = *inside.tables / folder;
+  inside.out /= folder;
+  return inside;
+}
+
 std::filesystem::path StudySubject::folder(std::size_t variant) const {
   return options().out / variants().at(variant) / "dynamics";
 }

@@ -52,6 +52,8 @@ class StudySubject {
     return std::nullopt;
   }
 
+  /// The options of a run into OUT/`folder`, its earlier tables looked for alike.
+  [[nodiscard]] RunOptions options_in(const std::string& folder) const;
   /// OUT/<variant>/dynamics
   [[nodiscard]] std::filesystem::path folder(std::size_t variant) const;
 };

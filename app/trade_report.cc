@@ -254,7 +254,7 @@ std::string trade_html(const TradeOff& trade) {
       "Error against cost: " + escape(trade.scene.title),
       fmt::format("annulus {} · scene <code>{}</code> · {} for all settings, one after the other", version(),
                   escape(trade.scene.file.filename().string()), time_text(trade.total_seconds)),
-      "<div class=\"verdict\">" + verdict + "</div>\n", sections);
+      "<div class=\"verdict\">" + verdict + "</div>\n", {sections});
 }
 
 void write_tradeoff(const TradeOff& trade, const std::filesystem::path& folder) {

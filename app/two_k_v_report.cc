@@ -235,21 +235,17 @@ std::string two_k_v_report(const TwoKVResult& result) {
                   escape(scene.file.filename().string()), to_text(stage.ratio(), 6), to_text(scene.output.torque, 5),
                   to_text(scene.output.speed / units::rpm, 5));
   return report_page(escape(scene.title), subtitle, reducer_verdict(result),
-                     {{"figures", "Key figures", reducer_figures(result)},
-                      {"comparison", "Comparison with the source", reducer_comparison(result)},
-                      {"frequencies", "Natural frequencies", frequencies_section(result)},
-                      {"first-frequency", "First frequency", first_frequency_section(result)},
-                      {"torsion", "Torsional stiffness", torsion_section(result)},
-                      {"motion", "Motion under load", reducer_motion_section(result)},
-                      {"meshes", "Mesh stiffness", reducer_meshes_section(result)},
-                      {"spread", "Spread", spread_section(result.studies)},
-                      {"sweeps", "Sweeps", sweeps_section(scene, result.studies)},
-                      {"grids", "Grids", grids_section(scene, result.studies)},
-                      {"sensitivity", "Sensitivity", sensitivity_section(result.studies)},
-                      {"optimisation", "Optimisation", optimise_section(result.studies)},
-                      {"model", "What was modelled", model_section(result.plan)},
-                      {"inputs", "Inputs", inputs_section(result.plan)},
-                      {"quality", "Checks and cost", reducer_quality(result)}});
+                     {{{"figures", "Key figures", reducer_figures(result)},
+                       {"comparison", "Comparison with the source", reducer_comparison(result)},
+                       {"frequencies", "Natural frequencies", frequencies_section(result)},
+                       {"first-frequency", "First frequency", first_frequency_section(result)},
+                       {"torsion", "Torsional stiffness", torsion_section(result)},
+                       {"motion", "Motion under load", reducer_motion_section(result)},
+                       {"meshes", "Mesh stiffness", reducer_meshes_section(result)}},
+                      study_sections(scene, result.studies),
+                      {{"model", "What was modelled", model_section(result.plan)},
+                       {"inputs", "Inputs", inputs_section(result.plan)},
+                       {"quality", "Checks and cost", reducer_quality(result)}}});
 }
 
 }  // namespace annulus::app

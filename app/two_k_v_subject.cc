@@ -139,13 +139,6 @@ NominalFigures TwoKVSubject::nominal(std::size_t) const {
   return figures;
 }
 
-RunOptions TwoKVSubject::options_in(const std::string& folder) const {
-  RunOptions inside = options_;
-  inside.out = options_.out / folder;
-  if (options_.tables) inside.tables = *options_.tables / folder;
-  return inside;
-}
-
 bool TwoKVSubject::prepare(const std::vector<Override>& overrides, const std::string& where,
                            const std::string& folder) const {
   const auto scene = with_overrides(scene_, overrides);

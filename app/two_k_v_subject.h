@@ -32,8 +32,6 @@ class TwoKVSubject final : public StudySubject {
                                    std::size_t variant, const std::string& folder, bool with_id) const override;
 
  private:
-  [[nodiscard]] RunOptions options_in(const std::string& folder) const;
-
   const Scene& scene_;
   const TwoKVTables& nominal_;
   const TwoKVMotion* motion_;
