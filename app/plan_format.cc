@@ -74,11 +74,6 @@ std::string cost_lines(const Plan& plan) {
   return plan.budget.empty() ? text : text + "  " + plan.budget + "\n";
 }
 
-std::string duration(double seconds) {
-  if (seconds < 90) return fmt::format("{:.0f} s", std::max(1.0, seconds));
-  return seconds < 5400 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
-}
-
 }  // namespace
 
 std::string to_text(const Plan& plan) {
@@ -107,7 +102,7 @@ std::string to_text(const Plan& plan) {
   if (!plan.studies.empty()) text += "\nStudies\n";
   for (const auto& s : plan.studies) {
     text += fmt::format("  {}: {}; {} responses{}, about {} on one core", s.name, s.what, s.responses,
-                        plan.rings.empty() ? "" : " of all rings", duration(s.seconds));
+                        plan.rings.empty() ? "" : " of all rings", duration_text(s.seconds));
     text += s.tables ? fmt::format("; {} stiffness tables of their own\n", s.tables) : ", on the tables of the scene\n";
   }
 

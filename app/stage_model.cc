@@ -128,18 +128,22 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   return stage;
 }
 
-dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamics::PlanetaryStage& stage) {
+dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double mesh_frequency) {
   dynamics::SimulationOptions options;
+  options.integrator.relative_tolerance = input.relative_tolerance;
+  options.integrator.method = input.integrator;
+  if (input.steps_per_cycle) options.integrator.fixed_step = 1 / (mesh_frequency * *input.steps_per_cycle);
+  options.mesh_cycles = input.mesh_cycles;
+  return options;
+}
+
+dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamics::PlanetaryStage& stage) {
+  auto options = given_simulation(*scene.dynamics, stage.mesh_frequency());
   // A ring on p pins repeats only after z_r / gcd(z_r, p) teeth, and with the planets after hundreds of mesh cycles:
   // the window covers them all up to a time series of some hundred megabytes.
   constexpr int longest_window = 4000;
   const int period = stage.error_period();
   options.max_window_cycles = std::max(options.max_window_cycles, std::min(period, longest_window));
-  options.integrator.relative_tolerance = scene.dynamics->relative_tolerance;
-  options.integrator.method = scene.dynamics->integrator;
-  if (scene.dynamics->steps_per_cycle)
-    options.integrator.fixed_step = 1 / (stage.mesh_frequency() * *scene.dynamics->steps_per_cycle);
-  options.mesh_cycles = scene.dynamics->mesh_cycles;
   return options;
 }
 

@@ -42,6 +42,9 @@ void add_excitation(ContentId& id, const std::string& name, const dynamics::Mesh
 /// The stage of one ring as lumped masses: the scene, its kinematics and its mesh stiffnesses put together.
 [[nodiscard]] dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                                   const MeshResult& sun_mesh, const MeshResult& ring_mesh);
+/// What [dynamics] says of the integration, whatever the kind of stage; fixed steps are counted per cycle of this
+/// frequency (Hz).
+[[nodiscard]] dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double mesh_frequency);
 [[nodiscard]] dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamics::PlanetaryStage& stage);
 
 /// Identity of everything the response depends on.

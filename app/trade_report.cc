@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/content_id.h"
+#include "app/cost_plan.h"
 #include "app/overrides.h"
 #include "app/report_parts.h"
 #include "core/csv.h"
@@ -20,10 +21,6 @@ const char* part_name(TradePart part) { return part == TradePart::mesh ? "mesh" 
 const char* part_title(TradePart part) { return part == TradePart::mesh ? "Stiffness tables" : "Dynamics"; }
 
 std::string percent(double share) { return to_text(100 * share, 2) + " %"; }
-
-std::string time_text(double seconds) {
-  return seconds < 1 ? fmt::format("{:.0f} ms", 1e3 * seconds) : to_text(seconds, 3) + " s";
-}
 
 std::string setting_text(const TradePoint& p) { return p.rung + ", " + p.settings; }
 
@@ -43,7 +40,7 @@ std::string cheapest_text(const RingTrade& ring, TradePart part, double accuracy
   if (!p) return fmt::format("For {}: no setting but the finest.", percent(accuracy));
   const auto& worst = trade_figures()[*p->worst_figure()];
   return fmt::format("For {}: {}; {}, {:.0f} MB; errors up to {} ({}).", percent(accuracy), setting_text(*p),
-                     time_text(p->cost.wall), p->cost.peak_memory_MB, percent(p->error()), worst.title);
+                     duration_text(p->cost.wall), p->cost.peak_memory_MB, percent(p->error()), worst.title);
 }
 
 const TradePoint* finest_of(const RingTrade& ring, TradePart part) {
@@ -61,7 +58,7 @@ HtmlTable cheapest_table(const RingTrade& ring, TradePart part) {
     std::vector<std::string> row = {trade_figures()[f].title};
     for (const double accuracy : wanted_accuracies) {
       const auto* p = ring.cheapest(part, accuracy, f);
-      row.push_back(p ? escape(setting_text(*p)) + " <span class=\"muted\">" + time_text(p->cost.wall) + "</span>"
+      row.push_back(p ? escape(setting_text(*p)) + " <span class=\"muted\">" + duration_text(p->cost.wall) + "</span>"
                       : std::string("the finest alone"));
     }
     table.rows.push_back(std::move(row));
@@ -111,8 +108,8 @@ HtmlTable points_table(const RingTrade& ring, TradePart part) {
     if (p.part != part) continue;
     const bool best = std::find(front.begin(), front.end(), &p) != front.end();
     const auto bold = [&](const std::string& text) { return best ? "<b>" + text + "</b>" : text; };
-    std::vector<std::string> row = {bold(escape(p.rung)), bold(escape(p.settings)), time_text(p.cost.wall),
-                                    time_text(p.cost.processor), fmt::format("{:.0f} MB", p.cost.peak_memory_MB)};
+    std::vector<std::string> row = {bold(escape(p.rung)), bold(escape(p.settings)), duration_text(p.cost.wall),
+                                    duration_text(p.cost.processor), fmt::format("{:.0f} MB", p.cost.peak_memory_MB)};
     if (!p.failure.empty()) {
       row.insert(row.end(), {"failed", escape(p.failure)});
     } else if (p.finest) {
@@ -152,7 +149,7 @@ std::string part_section(const RingTrade& ring, TradePart part) {
   if (!finest->failure.empty())
     return text + "<p>The finest setting failed, so no errors are known: " + escape(finest->failure) + "</p>\n";
   text += fmt::format("<p>Held against: {}; {}, {:.0f} MB.</p>\n<ul>", escape(setting_text(*finest)),
-                      time_text(finest->cost.wall), finest->cost.peak_memory_MB);
+                      duration_text(finest->cost.wall), finest->cost.peak_memory_MB);
   for (const double accuracy : wanted_accuracies)
     text += "<li>" + escape(cheapest_text(ring, part, accuracy)) + "</li>";
   text += "</ul>\n" + figure({trade_picture(ring, part), fronts_picture(ring, part)}, "",
@@ -228,8 +225,8 @@ std::string trade_text(const TradeOff& trade) {
       if (!finest_of(ring, part)) continue;
       text += fmt::format("{}{}, {}\n", text.empty() ? "" : "\n", ring.ring, part_title(part));
       for (const auto* p : ring.front(part))
-        text += fmt::format("  {:>9}  {:>6.0f} MB  error {:>8}  {}\n", time_text(p->cost.wall), p->cost.peak_memory_MB,
-                            percent(p->error()), setting_text(*p));
+        text += fmt::format("  {:>9}  {:>6.0f} MB  error {:>8}  {}\n", duration_text(p->cost.wall),
+                            p->cost.peak_memory_MB, percent(p->error()), setting_text(*p));
       for (const double accuracy : wanted_accuracies) text += "  " + cheapest_text(ring, part, accuracy) + "\n";
     }
   }
@@ -253,7 +250,7 @@ std::string trade_html(const TradeOff& trade) {
   return report_page(
       "Error against cost: " + escape(trade.scene.title),
       fmt::format("annulus {} · scene <code>{}</code> · {} for all settings, one after the other", version(),
-                  escape(trade.scene.file.filename().string()), time_text(trade.total_seconds)),
+                  escape(trade.scene.file.filename().string()), duration_text(trade.total_seconds)),
       "<div class=\"verdict\">" + verdict + "</div>\n", {sections});
 }
 

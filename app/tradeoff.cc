@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/content_id.h"
-#include "app/progress.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/log.h"

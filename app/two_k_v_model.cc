@@ -174,13 +174,7 @@ dynamics::TwoKVStage make_two_k_v(const Scene& scene, const TwoKVTables& tables,
 }
 
 dynamics::SimulationOptions two_k_v_simulation(const Scene& scene, const dynamics::TwoKVStage& stage) {
-  dynamics::SimulationOptions options;
-  options.integrator.relative_tolerance = scene.dynamics->relative_tolerance;
-  options.integrator.method = scene.dynamics->integrator;
-  if (scene.dynamics->steps_per_cycle)
-    options.integrator.fixed_step = 1 / (stage.sun_mesh_frequency() * *scene.dynamics->steps_per_cycle);
-  options.mesh_cycles = scene.dynamics->mesh_cycles;
-  return options;
+  return given_simulation(*scene.dynamics, stage.sun_mesh_frequency());
 }
 
 std::string two_k_v_id(const dynamics::TwoKVStage& stage, const dynamics::SimulationOptions& options,

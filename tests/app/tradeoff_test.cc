@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(the_front_and_the_cheapest) {
   app::TradeOff trade{
       .scene = app::parse_scene(test::quick_scene(), "scene.toml"), .rings = {ring}, .total_seconds = 60};
   const auto text = app::trade_text(trade);
-  BOOST_TEST(text.find("For 1 %: plane, d; 3 s, 100 MB; errors up to 0.9 % (mean stiffness of the ring mesh).") !=
+  BOOST_TEST(text.find("For 1 %: plane, d; 3.0 s, 100 MB; errors up to 0.9 % (mean stiffness of the ring mesh).") !=
                  std::string::npos,
              text);
   BOOST_TEST(text.find("For 0.1 %: no setting but the finest.") != std::string::npos);
