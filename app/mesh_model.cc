@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "app/content_id.h"
-#include "fem/closed_form/closed_form_mesh.h"
 
 namespace annulus::app {
 

@@ -20,8 +20,4 @@ struct ClosedFormOptions {
 [[nodiscard]] LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
                                                  const ClosedFormOptions& options);
 
-/// Estimated relative error of the stiffness where it is largest (a pair that bears at its tip edge), known without
-/// solving anything.
-[[nodiscard]] double closed_form_error(const LoadedMeshProblem& problem);
-
 }  // namespace annulus::fem
