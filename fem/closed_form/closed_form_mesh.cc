@@ -11,13 +11,11 @@
 namespace annulus::fem {
 namespace {
 
-/// Relative error of the stiffness, from differences to converged plane finite elements (docs/methods.md): 3 % for
-/// teeth and foundation; 2 % more where a pair bears at its tip edge; for a ring on its own supports what an
-/// uncertainty of 0.025 root pitches in the layer that stands for the teeth makes of the bending stiffness, which goes
-/// with the cube of the thickness.
-double estimated_error(const LoadedMeshProblem& problem, bool tip_edge) {
-  double error = 0.03;
-  if (tip_edge) error += 0.02;
+/// Relative error of the stiffness, from differences to converged plane finite elements (docs/methods.md): 2.5 % for
+/// teeth, foundation and contacts; for a ring on its own supports what an uncertainty of 0.025 root pitches in the layer
+/// that stands for the teeth makes of the bending stiffness, which goes with the cube of the thickness.
+double estimated_error(const LoadedMeshProblem& problem) {
+  double error = 0.025;
   const auto& gear = problem.pair.wheel();
   if (problem.pair.internal() && on_single_supports(problem.structure))
     error += 3 * 0.025 * gear.pitch_angle() * gear.root_radius() / (problem.wheel_support_radius - gear.root_radius());
@@ -87,7 +85,6 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
   position.ring_angle = problem_.pair.internal() ? angle : -angle;  // the ring mesh is solved in a mirror image
 
   double unloaded = first.gap, moment = 0;
-  bool tip_edge = false;
   const auto pairs = static_cast<Eigen::Index>(contacts.pairs.size());
   // Deflections with the line contacts as they are, not as linearised.
   ComplementarityProblem exact = forces.problem;
@@ -95,7 +92,7 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
   for (Eigen::Index i = 0; i < pairs; ++i) {
     const auto& pair = contacts.pairs[i];
     const double force = solution.force[i];
-    exact.gap[i] = pair.gap + forces.approach[i];
+    exact.gap[i] = pair.gap + forces.lines[i].approach;
     unloaded = std::min(unloaded, pair.gap);
     position.pair_share.push_back(force / load);
     position.pair_roll.push_back(pair.roll);
@@ -104,19 +101,17 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
     moment += force * (root.z() + root.y() * centroid_radius(planet_.tooth().root_radius(),
                                                              planet_.tooth().root_half_angle(), Spread::uniform));
     if (force <= 0) continue;
-    const bool at_edge = pair.edge_distance < pair.line.half_width(force);
-    tip_edge |= at_edge;
-    const double pressure = pair.line.peak_pressure(force);
+    const double pressure = pair.line.peak_pressure(forces.lines[i], force);
     if (pressure <= position.max_pressure) continue;
     position.max_pressure = pressure;
-    position.tip_edge_contact = at_edge;
+    position.tip_edge_contact = forces.lines[i].at_tip_edge;
   }
   position.entry.lte = solution.rigid[0];
   position.entry.unloaded_te = unloaded;
   if (!(position.entry.lte > unloaded)) throw SolverError("the loaded transmission error is not positive");
   position.entry.stiffness_secant = load / (position.entry.lte - unloaded);
   position.entry.stiffness_tangent = 1 / solution.tangent(0, 0);
-  position.entry.error_relative = estimated_error(problem_, tip_edge);
+  position.entry.error_relative = estimated_error(problem_);
 
   const double torque = load * problem_.pair.planet().base_radius();
   position.force_balance_relative = std::abs(std::abs(moment) - torque) / torque;
@@ -131,10 +126,12 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
       const auto& pair = contacts.pairs[i];
       const double force = solution.force[i];
       if (force <= 0) continue;
-      const double half = pair.line.half_width(force);
-      const double half_roll = half * problem_.pair.planet().base_radius() / pair.nearest_roll;
-      position.pressure.push_back({static_cast<int>(i), 0, problem_.face_width, pair.nearest_roll - half_roll,
-                                   pair.nearest_roll + half_roll, force / (2 * half * problem_.face_width)});
+      const auto& line = forces.lines[i];
+      const double half = line.half_width, roll_by_arc = problem_.pair.planet().base_radius() / pair.nearest_roll;
+      position.pressure.push_back({static_cast<int>(i), 0, problem_.face_width,
+                                   pair.nearest_roll + (line.middle - half) * roll_by_arc,
+                                   pair.nearest_roll + (line.middle + half) * roll_by_arc,
+                                   force / (2 * half * problem_.face_width)});
     }
   add_supports(solution.force.tail(solution.force.size() - pairs), position);
   return position;
@@ -204,7 +201,7 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
   return result;
 }
 
-double closed_form_error(const LoadedMeshProblem& problem) { return estimated_error(problem, true); }
+double closed_form_error(const LoadedMeshProblem& problem) { return estimated_error(problem); }
 
 LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings) {
   return solve_closed_form(problem, settings, {});

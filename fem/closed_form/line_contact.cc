@@ -1,54 +1,101 @@
 #include "fem/closed_form/line_contact.h"
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <utility>
-
-#include "fem/contact/contact_system.h"
+#include <vector>
 
 namespace annulus::fem {
 namespace {
 
-/// The bracket of one body and its derivative by ln(b).
-std::pair<double, double> bracket(const LineContact::Body& body, double b, double poisson_ratio) {
-  const double nu = poisson_ratio, x = body.depth / b, root = std::hypot(1, x), shrink = 1 / (root + x);
-  double value = std::asinh(x) - nu / (1 - nu) * x * shrink;
-  double slope = -x / root + nu / (1 - nu) * x * shrink * (1 - x / root);
-  const double range = LineContact::edge_range * b;
-  if (body.edge < range) {
-    const double d = body.edge + b / 2, y = body.depth / (2 * d), y2 = y * y, fade = 1 - body.edge / range;
-    const double image = std::log1p(y2) / 2;
-    value += fade * image;
-    slope += body.edge / range * image - fade * y2 / (1 + y2) * b / (2 * d);
-  }
-  return {value, slope};
+double effective_modulus(const Material& m) { return m.youngs_modulus / (2 * (1 - m.poisson_ratio * m.poisson_ratio)); }
+
+/// B of a half space and its derivative by ln(a).
+std::pair<double, double> half_space(double depth, double a, double poisson_ratio) {
+  const double n = poisson_ratio / (1 - poisson_ratio), x = depth / a, r = std::hypot(1, x), s = r + x;
+  const double value = std::asinh(x) - n * x / s;
+  const double slope = -x / r + n * x / (r * s * s);
+  const double curvature =
+      x / (r * r * r) - n * x * (1 / r - x * x / (r * r * r) - 2 * x / (r * r)) / (s * s);  // -x d slope / dx
+  return {value + slope / 2, slope + curvature / 2};
+}
+
+/// What the corner of a tooth yields more than a half plane under a load normal to its flank.
+double wedge(double corner) {
+  const double alpha = corner / 2, c = std::cos(alpha), s = std::sin(alpha);
+  return M_PI / 2 * (c * c / (alpha - s * c) + s * s / (alpha + s * c)) - 1;
+}
+
+/// Part of the corner in B and its derivative by the distance d.
+std::pair<double, double> edge_part(double k, double depth, double d) {
+  const double y = LineContact::edge_reach * depth / d, y2 = y * y;
+  return {k * std::log1p(y2) / 2, -k * y2 / (1 + y2) / d};
 }
 
 }  // namespace
 
-LineContact::LineContact(double relative_curvature, const Body& planet, const Body& wheel, const Material& material,
-                         double width)
-    : curvature_(relative_curvature), width_(width), planet_(planet), wheel_(wheel), material_(material) {}
+LineContact::LineContact(const FlankGap& gap, const Body& planet, const Body& wheel, double tilt,
+                         const Material& material, double width)
+    : patch_(gap, tilt, effective_modulus(material)),
+      tilt_(tilt),
+      width_(width),
+      planet_(planet),
+      wheel_(wheel),
+      planet_wedge_(wedge(planet.corner)),
+      wheel_wedge_(wedge(wheel.corner)),
+      material_(material) {}
 
-double LineContact::half_width(double force) const { return hertz_half_width(force / width_, curvature_, material_); }
-
-double LineContact::peak_pressure(double force) const {
-  return force > 0 ? 2 * force / width_ / (M_PI * half_width(force)) : 0;
+double LineContact::peak_pressure(const State& state, double force) const {
+  return 2 * force / width_ / (M_PI * state.half_width);
 }
 
-double LineContact::approach(double force) const {
-  if (force <= 0) return 0;
-  const double nu = material_.poisson_ratio, b = half_width(force);
-  return 2 * (1 - nu * nu) * force / width_ / (M_PI * material_.youngs_modulus) *
-         (bracket(planet_, b, nu).first + bracket(wheel_, b, nu).first);
+LineContact::Increment LineContact::increment(double a, double middle, double middle_slope) const {
+  const double nu = material_.poisson_ratio;
+  const auto planet = half_space(planet_.depth, a, nu), wheel = half_space(wheel_.depth, a, nu);
+  Increment sum{planet.first + wheel.first, (planet.second + wheel.second) / a};
+  if (std::isfinite(planet_.edge)) {
+    const auto [value, slope] = edge_part(planet_wedge_, planet_.depth, planet_.edge - middle);
+    sum.value += value, sum.slope -= slope * middle_slope;
+  }
+  if (std::isfinite(wheel_.edge)) {
+    const auto [value, slope] = edge_part(wheel_wedge_, wheel_.depth, wheel_.edge + middle);
+    sum.value += value, sum.slope += slope * middle_slope;
+  }
+  return sum;
 }
 
-double LineContact::compliance(double force) const {
-  const double nu = material_.poisson_ratio, b = half_width(force);
-  const auto planet = bracket(planet_, b, nu), wheel = bracket(wheel_, b, nu);
-  // The half-width grows with the root of the force: d ln(b) / d ln(F) = 1/2.
-  return 2 * (1 - nu * nu) / width_ / (M_PI * material_.youngs_modulus) *
-         (planet.first + wheel.first + (planet.second + wheel.second) / 2);
+LineContact::State LineContact::at(double force) const {
+  const double line_load = force / width_, modulus = effective_modulus(material_), local = 1 / (M_PI * modulus);
+  const double moved = M_PI * modulus / 4 * tilt_ * tilt_;
+  const double a = patch_.half_width(line_load);
+  const auto patch = patch_.at(a);
+  State state;
+  state.half_width = a;
+  state.middle = patch.middle;
+  const double to_edge = patch.cut > 0 ? planet_.edge - patch.middle : wheel_.edge + patch.middle;
+  state.at_tip_edge = patch.cut != 0 && to_edge < a * (1 + 1e-6);
+  const double last = local * increment(a, patch.middle, 0).value + 2 * tilt_ * patch.middle - moved * a * a;
+  state.compliance = last / width_;
+
+  // By parts: int y(a) dF' = y F' - int F' y'(a) da, piece by piece.
+  const auto rest = [&](double x) {
+    const auto now = patch_.at(x);
+    constexpr double step = 1e-5;
+    const double moves = now.cut != 0 ? -now.cut
+                                      : (patch_.at(x * (1 + step)).middle - patch_.at(x * (1 - step)).middle) /
+                                            (2 * step * x);
+    return now.line_load * (local * increment(x, now.middle, moves).slope + 2 * tilt_ * moves - 2 * moved * x);
+  };
+  state.approach = last * line_load;
+  double from = 0;
+  const auto piece = [&](double to) {
+    if (to > from) state.approach -= boost::math::quadrature::gauss<double, 10>::integrate(rest, from, to);
+    from = std::max(from, to);
+  };
+  for (const double border : patch_.borders()) piece(std::min(border, a));
+  piece(a);
+  return state;
 }
 
 }  // namespace annulus::fem

@@ -1,44 +1,78 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
 
+#include "fem/closed_form/contact_patch.h"
 #include "fem/material.h"
 
 namespace annulus::fem {
 
-/// Elastic approach of two flanks in line contact: each a half space under the pressure of Hertz, its surface against
-/// the point on the contact normal at a depth h, where the tooth's centre line lies and the beam begins.
+/// Elastic approach of two flanks that touch along a line, surface against the points on the contact normal at the
+/// depths h, where the teeth's centre lines lie and the beams begin.
 ///
-///     delta = 2 (1 - nu^2) F' / (pi E) [asinh(h/b) - nu/(1-nu) (h/b) (sqrt(1 + (h/b)^2) - h/b)]     for each body
+/// Hertz's contact with the half-width a has, for each body,
 ///
-/// with the half-width b = sqrt(4 F' / (pi E* kappa)), E* = E / (2 (1 - nu^2)). It follows from the stresses on the
-/// axis below the contact (Johnson, Contact Mechanics, eq. 4.46) by integration of the strain, plane strain; deep below
-/// the contact, h >> b, it is ln(2h/b) - nu / (2 (1 - nu)), the form of Weber and Banaschek (1953) and of Johnson's
-/// eq. 5.57. The logarithm makes it grow less than in proportion to the load.
+///     delta = 2 (1 - nu^2) F' / (pi E) [asinh(h/a) - nu/(1-nu) (h/a) (sqrt(1 + (h/a)^2) - h/a)]
 ///
-/// A tip edge at the distance s along the flank makes its body softer: the image of the load beyond the edge frees the
-/// tip face of shear (not of its small normal stress, so that it is a lower bound) and adds
-/// ln(1 + (h / 2d)^2) / 2 to the bracket, d = s + b/2 being the distance of the pressure's middle from the edge. It
-/// applies within `edge_range` half-widths, fading out linearly.
+/// It follows from the stresses on the axis below the contact (Johnson, Contact Mechanics, eq. 4.46) by integration of
+/// the strain, plane strain; deep below the contact the bracket is ln(2h/a) - nu / (2 (1 - nu)), the form of Weber and
+/// Banaschek (1953) and of Johnson's eq. 5.57. Whatever the gap, an increment of the force acts on the patch as it is,
+/// like a flat punch: as in Hertz's contact of the same width, d delta = 2 (1 - nu^2) dF' / (pi E) B(a), B being
+/// (1 + 1/2 d/d ln a) of that bracket. Summed over the growth of the patch (fem/closed_form/contact_patch.h) this gives
+/// the approach.
+///
+/// Where the teeth yield more towards one side, by 2 `tilt` x, the patch moves and its increments act at its middle c:
+///
+///     d delta = (2 tilt c - pi E* a^2 / 4 tilt^2) dF'
+///
+/// the second term being the pressure that moves with the tilting flank.
+///
+/// Within some `edge_reach` h of its tip edge a tooth is no half space but a wedge with the angle 2 alpha of its
+/// corner. Loads on the corner of a wedge, across and along its axis, yield 1/(alpha - sin(2 alpha)/2) and
+/// 1/(alpha + sin(2 alpha)/2) for the 2/pi of a half plane (Michell; Timoshenko and Goodier, art. 38), a load normal to
+/// the flank
+///
+///     1 + k = pi/2 [cos^2(alpha) / (alpha - sin(2 alpha)/2) + sin^2(alpha) / (alpha + sin(2 alpha)/2)]
+///
+/// times as much. That holds between the distance d of the patch from the edge and the reach; beyond it the beam takes
+/// over: B grows by k/2 ln(1 + (edge_reach h / d)^2).
 class LineContact {
  public:
-  static constexpr double edge_range = 1.5;
+  /// Measured, not derived: plane finite elements of the ring paper's held ring.
+  static constexpr double edge_reach = 0.1;
 
   struct Body {
     double depth = 0;                                       ///< m, h
-    double edge = std::numeric_limits<double>::infinity();  ///< m, s; infinite: no tip edge on this side
+    double edge = std::numeric_limits<double>::infinity();  ///< m, from x = 0 to the tip edge; infinite: none
+    double corner = M_PI;                                   ///< rad, angle of the material there
   };
-  /// `relative_curvature` kappa in 1/m; `width` of the contact in m.
-  LineContact(double relative_curvature, const Body& planet, const Body& wheel, const Material& material, double width);
+  /// `gap` of the flanks, with the tip edge of the planet at x > 0 and that of the wheel at x < 0. `tilt`: half of how
+  /// the compliance of both teeth grows with x, rad per N/m of line load. `width` of the contact in m.
+  LineContact(const FlankGap& gap, const Body& planet, const Body& wheel, double tilt, const Material& material,
+              double width);
 
-  [[nodiscard]] double half_width(double force) const;     ///< b, m
-  [[nodiscard]] double peak_pressure(double force) const;  ///< Hertz, Pa
-  [[nodiscard]] double approach(double force) const;       ///< m, both bodies
-  [[nodiscard]] double compliance(double force) const;     ///< d approach / d force, m/N; force > 0
+  struct State {
+    double half_width = 0, middle = 0;  ///< m, of the patch
+    double approach = 0;                ///< m, both bodies
+    double compliance = 0;              ///< d approach / d force, m/N
+    bool at_tip_edge = false;           ///< a tip edge cuts the patch: singular pressure
+  };
+  [[nodiscard]] State at(double force) const;  ///< force > 0
+
+  /// As if the pressure were Hertz's over that patch, Pa.
+  [[nodiscard]] double peak_pressure(const State& state, double force) const;
 
  private:
-  double curvature_, width_;
+  struct Increment {
+    double value = 0, slope = 0;  ///< of both brackets, and by the half-width, 1/m
+  };
+  [[nodiscard]] Increment increment(double half_width, double middle, double middle_slope) const;
+
+  ContactPatch patch_;
+  double tilt_, width_;
   Body planet_, wheel_;
+  double planet_wedge_, wheel_wedge_;  // k
   Material material_;
 };
 

@@ -10,33 +10,100 @@
 namespace annulus::fem {
 namespace {
 
+/// Of flanks, in base pitches: those that overlap less have no place for a contact.
+constexpr double shortest_overlap = 1e-9;
+
 /// Root load of a unit force on the trailing flank from that on the leading one.
 Eigen::Vector3d mirrored_root(const Eigen::Vector3d& root) { return {root.x(), -root.y(), -root.z()}; }
 
+/// Place on the involute, arc length from the base circle, m.
+double arc(const geometry::ToothProfile& profile, double roll) {
+  return roll * roll / (2 * profile.gear().base_radius());
+}
+
 /// Distance along a flank from a roll length to its tip, m.
 double distance_to_tip(const geometry::ToothProfile& profile, double roll) {
-  const double tip = profile.roll_length_tip();
-  return std::abs(tip * tip - roll * roll) / (2 * profile.gear().base_radius());  // s = rho^2 / (2 r_b)
+  return std::abs(arc(profile, profile.roll_length_tip()) - arc(profile, roll));
+}
+
+/// What the modifications of a flank add to the gap, by the arc towards growing roll lengths.
+struct Modification {
+  double slope = 0, curvature = 0;  ///< of the profile crowning
+  FlankGap::Kink relief;            ///< where the tip relief starts
+};
+
+Modification modification(const geometry::ToothProfile& profile, double roll) {
+  const auto& p = profile.gear().parameters();
+  const double tip = profile.roll_length_tip(), form = profile.roll_length_form(), base = profile.gear().base_radius();
+  const double by_arc = base / roll, length = tip - form;  // d roll / d arc
+  const double slope = 4 * p.profile_crowning * (2 * (roll - form) / length - 1) / length;
+  Modification result;
+  result.slope = slope * by_arc;
+  result.curvature = 8 * p.profile_crowning / (length * length) * by_arc * by_arc - slope * by_arc * by_arc / roll;
+  if (p.tip_relief > 0) {
+    const double start = tip - std::copysign(p.tip_relief_length, length);
+    result.relief = {arc(profile, start) - arc(profile, roll), p.tip_relief / p.tip_relief_length * base / start};
+  }
+  return result;
+}
+
+/// The gap round a pair of opposite points: by how much the normals of two involutes differ tells its slope.
+FlankGap gap_around(const FlankContact& flanks, double planet_roll, double wheel_roll, double roll,
+                    const FlankContact::Interval& domain) {
+  const auto &planet = flanks.planet(), &wheel = flanks.wheel();
+  const double sense = flanks.pair().internal() ? 1 : -1;  // of the wheel's roll length along the planet's flank
+  const auto on_planet = modification(planet, planet_roll), on_wheel = modification(wheel, wheel_roll);
+  FlankGap gap;
+  gap.slope = (planet_roll - roll) / planet.gear().base_radius() -
+              (wheel_roll - flanks.pair().wheel_roll_length(roll)) / wheel.gear().base_radius() + on_planet.slope +
+              sense * on_wheel.slope;
+  gap.curvature = 1 / planet_roll - sense / wheel_roll + on_planet.curvature + on_wheel.curvature;
+  gap.low = arc(planet, domain.low) - arc(planet, planet_roll);
+  gap.high = arc(planet, domain.high) - arc(planet, planet_roll);
+  gap.kinks = {on_planet.relief, {sense * on_wheel.relief.place, on_wheel.relief.jump}};
+  gap.slope -= on_wheel.relief.jump;  // the wheel's relief is at lower x: it ends at its kink
+  return gap;
+}
+
+/// Angle of the material at the tip edge: the flank leans against the radius by the pressure angle.
+double tip_corner(const geometry::ToothProfile& profile) {
+  return M_PI / 2 + std::atan(profile.roll_length_tip() / profile.gear().base_radius());
 }
 
 ToothContact make_contact(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
                           const Material& material, double width, int index, double roll) {
   const auto& pair = flanks.pair();
   const double nearest = flanks.nearest_roll(roll);
+  const auto domain = flanks.domain(roll);
   const auto match = flanks.match(nearest, roll);
   const auto on_planet = planet.tooth().load(nearest), on_wheel = wheel.tooth().load(match.wheel_roll);
-  const double curvature = flanks.relative_curvature(std::clamp(roll, pair.roll_length_low(), pair.roll_length_high()));
+  const FlankGap gap = gap_around(flanks, nearest, match.wheel_roll, roll, domain);
   const double planet_edge = distance_to_tip(flanks.planet(), nearest);
-  const double wheel_edge = distance_to_tip(flanks.wheel(), match.wheel_roll);
+  // The patch and the edge have to agree where the wheel's tip cuts the gap.
+  const bool wheel_tip_cuts = domain.low > flanks.planet().roll_length_form();
+  const double wheel_edge = wheel_tip_cuts ? -gap.low : distance_to_tip(flanks.wheel(), match.wheel_roll);
+
+  // How the compliance of both teeth grows along the flank, the depths of the contact included.
+  const double nu = material.poisson_ratio, local = 2 * (1 - nu * nu) / (M_PI * material.youngs_modulus * width);
+  const auto compliance = [&](double x) {
+    const double at = std::sqrt(2 * flanks.planet().gear().base_radius() * (arc(flanks.planet(), nearest) + x));
+    const auto p = planet.tooth().load(at), w = wheel.tooth().load(flanks.match(at, roll).wheel_roll);
+    return p.root.dot(planet.root_compliance(0) * p.root) + w.root.dot(wheel.root_compliance(0) * w.root) +
+           (p.compliance + w.compliance) / width + local * std::log(p.depth * w.depth);
+  };
+  const double step = 0.02 * pair.planet().parameters().module;
+  const double from = std::max(gap.low, -step), to = std::min(gap.high, step);
+  // Flanks that hardly overlap have no room to tilt.
+  const double tilt = to - from > step / 2 ? (compliance(to) - compliance(from)) / (to - from) / 2 * width : 0;
   return {index,
           roll,
           nearest,
           match.gap,
-          std::min(planet_edge, wheel_edge),
           on_planet.root,
           pair.internal() ? mirrored_root(on_wheel.root) : on_wheel.root,
           (on_planet.compliance + on_wheel.compliance) / width,
-          LineContact(curvature, {on_planet.depth, planet_edge}, {on_wheel.depth, wheel_edge}, material, width)};
+          LineContact(gap, {on_planet.depth, planet_edge, tip_corner(flanks.planet())},
+                      {on_wheel.depth, wheel_edge, tip_corner(flanks.wheel())}, tilt, material, width)};
 }
 
 }  // namespace
@@ -58,7 +125,8 @@ ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& pl
   for (int k = first; k <= last; ++k) {
     const double roll = reference + k * pitch;
     if (roll <= 0) continue;
-    if (flanks.domain(roll).empty()) continue;
+    const auto domain = flanks.domain(roll);
+    if (domain.high - domain.low < shortest_overlap * pitch) continue;
     contacts.pairs.push_back(make_contact(flanks, planet, wheel, material, width, k, roll));
   }
   require(!contacts.pairs.empty(), "no tooth pair faces another");
@@ -120,9 +188,10 @@ ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothConta
   for (int step = 0; step < most; ++step) {
     for (Eigen::Index i = 0; i < pairs; ++i) {
       const auto& pair = contacts.pairs[i];
-      const double at = std::max(force[i], lightest), slope = pair.line.compliance(at);
-      problem.compliance(i, i) = contacts.compliance(i, i) + slope;
-      problem.gap[i] = pair.gap + pair.line.approach(at) - slope * at;
+      const double at = std::max(force[i], lightest);
+      const auto line = pair.line.at(at);
+      problem.compliance(i, i) = contacts.compliance(i, i) + line.compliance;
+      problem.gap[i] = pair.gap + line.approach - line.compliance * at;
     }
     result.solution = solve_complementarity(problem, active);
     active = result.solution.active;
@@ -130,8 +199,8 @@ ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothConta
     change = (next - force).cwiseAbs().maxCoeff();
     force = next;
     if (change > wanted) continue;
-    result.approach.resize(pairs);
-    for (Eigen::Index i = 0; i < pairs; ++i) result.approach[i] = contacts.pairs[i].line.approach(force[i]);
+    for (Eigen::Index i = 0; i < pairs; ++i)
+      result.lines.push_back(force[i] > 0 ? contacts.pairs[i].line.at(force[i]) : LineContact::State{});
     return result;
   }
   throw SolverError(fmt::format("mesh phase {:.4f}: the line contacts at {:.4g} N did not settle; last change {:.3g} N",

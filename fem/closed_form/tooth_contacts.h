@@ -16,7 +16,6 @@ struct ToothContact {
   int index = 0;                            ///< number of the pair, and of the planet's tooth in cycle 0
   double roll = 0;                          ///< m, planet roll length of the theoretical contact
   double nearest_roll = 0, gap = 0;         ///< m, where the flanks are nearest, modifications included
-  double edge_distance = 0;                 ///< m, along the flank from there to the nearer tip edge
   Eigen::Vector3d planet_root, wheel_root;  ///< root loads of a unit force, each in its own tooth's frame
   double cantilevers = 0;                   ///< m/N, of both teeth
   LineContact line;
@@ -43,7 +42,7 @@ struct ToothContacts {
 struct ToothContactSolution {
   ComplementarityProblem problem;    ///< line contacts linearised at the solution
   ComplementaritySolution solution;  ///< pairs first, then supports
-  Eigen::VectorXd approach;          ///< m, of the line contacts
+  std::vector<LineContact::State> lines;
 };
 
 /// Solves one position: complementarity of pairs and supports, Newton's method for the line contacts. `supports` belong
