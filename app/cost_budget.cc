@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "app/overrides.h"
-#include "app/planetary_subject.h"
+#include "app/stage_kinds.h"
 #include "core/errors.h"
 #include "fem/cost_size.h"
 
@@ -22,14 +22,9 @@ bool refines(const MeshModel& model) {
   return model.computed() && model.settings.rung != fem::Rung::closed_form && !model.settings.level;
 }
 
-PlanCost cost_of(const Scene& scene, int threads, const CostModel& costs) {
-  const auto geometry = make_geometry(scene);
-  return plan_cost(scene, geometry, mesh_models(scene, geometry), plan_studies(scene), threads, costs);
-}
-
 bool within_reach(const Scene& scene, double accuracy, const CostModel& costs) {
-  for (const auto& model : mesh_models(scene, make_geometry(scene))) {
-    if (refines(model) && costs.expected_error(model.rung, fem::last_level(model.settings.rung)) > accuracy)
+  for (const auto& model : stage_meshes(scene)) {
+    if (refines(model) && costs.expected_error(cost_kind(model), fem::last_level(model.settings.rung)) > accuracy)
       return false;
   }
   return true;
@@ -56,10 +51,8 @@ double parse_duration(const std::string& text) {
 }
 
 BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const CostModel& costs) {
-  if (scene.stage.kind != StageKind::planetary)
-    throw InputError("--budget: the cost is predicted for planetary stages only; leave it out");
   bool any = false;
-  for (const auto& model : mesh_models(scene, make_geometry(scene))) any = any || refines(model);
+  for (const auto& model : stage_meshes(scene)) any = any || refines(model);
   const auto known = [](const PlanCost& cost) {
     if (std::isfinite(cost.seconds())) return;
     for (const auto& step : cost.steps)
@@ -67,7 +60,7 @@ BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const Co
         throw SolverError(fmt::format("--budget: what the {} costs ({}) is not known; run it without a budget",
                                       step.label, step.size.kind));
   };
-  PlanCost cost = cost_of(scene, threads, costs);
+  PlanCost cost = stage_cost(scene, threads, costs);
   known(cost);
   if (!any) {
     if (cost.seconds() > budget)
@@ -83,7 +76,7 @@ BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const Co
     if (!within_reach(scene, accuracy, costs)) continue;
     Scene fitted = with_accuracy(scene, accuracy,
                                  fmt::format("the most accurate that a budget of {} pays for", duration_text(budget)));
-    cost = cost_of(fitted, threads, costs);
+    cost = stage_cost(fitted, threads, costs);
     if (cost.seconds() > budget) continue;
     auto sentence =
         fmt::format("budget {}: buys a mesh stiffness within {:g} % (expected error {:.2g} %); predicted {}",

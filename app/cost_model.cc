@@ -24,16 +24,26 @@ struct UsualLaw {
   double body, first_ms, each_ms;
 };
 
+bool is_solid(const std::string& kind) {
+  return kind == "solid" || kind == "solid_helical" || kind == "resolved_solid";
+}
+bool is_plane(const std::string& kind) { return kind == "plane" || kind == "resolved_plane"; }
+/// Every position has a mesh of its own.
+bool is_resolved(const std::string& kind) { return kind == "resolved_plane" || kind == "resolved_solid"; }
+
 UsualLaw usual_law(const std::string& kind) {
   // Nested dissection condenses a section in N^1 to N^1.5, a solid in N^1.5 to N^2; the contact reads dense
   // compliances of some sqrt(N) flank points.
-  if (kind == "solid" || kind == "resolved_solid") return {{1.5, 0.1}, {0.5, 0.1}, 1, 10, 10};
-  if (kind == "plane" || kind == "resolved_plane") return {{1.15, 0.15}, {0.5, 0.1}, 0.1, 1, 0.3};
+  // Resolved contacts condense their teeth at every position.
+  if (kind == "resolved_solid") return {{1.5, 0.1}, {1.5, 0.1}, 1, 1000, 1000};
+  if (kind == "resolved_plane") return {{1.15, 0.15}, {1.15, 0.15}, 0.1, 100, 100};
+  if (is_solid(kind)) return {{1.5, 0.1}, {0.5, 0.1}, 1, 10, 10};
+  if (is_plane(kind)) return {{1.15, 0.15}, {0.5, 0.1}, 0.1, 1, 0.3};
   return {{0.9, 0.2}, {0.5, 0.1}, 1, 0.1, 0.1};
 }
 
 /// Cells get 1.5 times smaller from level to level in the plane, and a little less than that in a solid.
-double unknowns_per_level(const std::string& kind) { return kind == "solid" || kind == "resolved_solid" ? 3.0 : 2.05; }
+double unknowns_per_level(const std::string& kind) { return is_solid(kind) ? 3.0 : 2.05; }
 
 /// sum over the levels of N^exponent.
 double sum_of_levels(const CostRun& run, double exponent) {
@@ -50,13 +60,16 @@ double speed_up(double efficiency, double threads, double tasks) {
   return 1 + efficiency * (std::max(1.0, std::min(threads, tasks)) - 1);
 }
 
-/// In the plane one body each, a solid is condensed by all threads; a response is one task.
+/// In the plane one body each, a solid is condensed by all threads; a response is one task, those of a pair are many.
 double body_tasks(const CostRun& run) {
-  if (run.kind == "solid" || run.kind == "resolved_solid" || run.kind == "coupling_solid") return 1e9;
-  return run.kind == "plane" || run.kind == "resolved_plane" ? 2 : 1;
+  if (is_resolved(run.kind)) return 1;  // the harmonics of the regular ring
+  if (is_solid(run.kind) || run.kind == "coupling_solid" || run.kind == "response_pair") return 1e9;
+  return is_plane(run.kind) ? 2 : 1;
 }
-/// A table of one mesh cycle is solved load by load, a longer one position by position.
-double contact_tasks(const CostRun& run) { return run.cycles <= 1 ? run.loads : run.first_problems(); }
+/// A table of one mesh cycle is solved load by load, a longer one and a resolved one position by position.
+double contact_tasks(const CostRun& run) {
+  return run.cycles <= 1 && !is_resolved(run.kind) ? run.loads : run.first_problems();
+}
 
 double body_seconds(const CostLaw& law, const CostRun& run) {
   return law.body * sum_of_levels(run, law.body_exponent) / speed_up(law.body_efficiency, run.threads, body_tasks(run));

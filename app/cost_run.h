@@ -8,15 +8,18 @@ namespace annulus::app {
 
 /// The size of one step of a run, and what it cost where it was measured.
 struct CostRun {
-  /// A mesh by its rung ("closed_form", "plane", "solid", "resolved_plane", "resolved_solid"), "coupling_plane",
-  /// "coupling_pins" (on pins or splines) and "coupling_solid", or the "response" of one ring, "response_given" with
-  /// stiffness that is given: no errors of tables are then carried through.
+  /// A mesh by its rung ("closed_form", "plane", "solid", "resolved_plane", "resolved_solid") or "solid_helical",
+  /// "coupling_plane", "coupling_pins" (on pins or splines) and "coupling_solid", or the "response" of one ring:
+  /// "response_coupled" where the coupling of the planets through it is looked at, and with it elastic modes,
+  /// "response_given" with stiffness that is given, where no errors of tables are carried through, "response_pair" and
+  /// "response_two_k_v" of the other stages.
   std::string kind;
   int degree = 2;
   int level = 0;                          ///< of resolution reached
   int levels = 1;                         ///< solved on the way, the reached one included
   double unknowns = 0;                    ///< of the reached level; a response: planets x mesh cycles of the
-                                          ///< period; a coupling on pins: times the ring positions
+                                          ///< period, of a pair: responses x mesh cycles; a coupling on pins: times
+                                          ///< the ring positions
   int loads = 0, phases = 0, cycles = 0;  ///< of the table: loads, phases per mesh cycle, mesh cycles
   int threads = 1;
   double error = 0;      ///< estimated relative error at the reached level; 0: not known

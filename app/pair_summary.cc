@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/content_id.h"
+#include "app/cost_actual.h"
 #include "app/pair_run.h"
 #include "app/summary_studies.h"
 #include "core/units.h"
@@ -133,6 +134,7 @@ std::string pair_summary_json(const PairRunResult& result) {
   json["inputs_id"] = inputs.id();
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
+  if (!result.cost.empty()) json["cost"] = PairJson::parse(cost_json(result.cost));
   return json.dump(2) + "\n";
 }
 
@@ -159,7 +161,9 @@ std::string pair_summary_text(const PairRunResult& result) {
   }
   text += "\ntime   ";
   for (const auto& [stage, seconds] : result.timings) text += fmt::format(" {} {:.2f} s ", stage, seconds);
-  return text + fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
+  text += fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
+  const std::string cost = cost_sentence(result.plan.cost, result.cost, result.peak_memory_MB);
+  return cost.empty() ? text : text + "cost    " + cost + "\n";
 }
 
 }  // namespace annulus::app

@@ -58,14 +58,6 @@ std::optional<CouplingEffect> effect_of_coupling(const Scene& scene, const GearG
   return effect;
 }
 
-/// Later predictions on this machine learn from it.
-void keep_costs(const PlanCost& cost) {
-  std::vector<CostRun> runs;
-  for (const auto& step : cost.steps)
-    if (step.actual && step.actual->seconds() > 0) runs.push_back(*step.actual);
-  add_user_costs(user_costs_file(), runs);
-}
-
 std::vector<std::string> ring_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const auto& ring : scene.rings) names.push_back(ring.name);

@@ -121,19 +121,6 @@ SummaryJson ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
   return json;
 }
 
-/// Of what was not reused.
-SummaryJson cost_json(const RunResult& result) {
-  SummaryJson json = {{"predicted_s", known(result.cost.seconds())},
-                      {"actual_s", known(result.cost.actual_seconds())},
-                      {"predicted_peak_MB", known(result.cost.peak_MB())}};
-  for (const auto& step : result.cost.steps)
-    json["steps"].push_back({{"step", to_text(step.kind)},
-                             {"name", step.label},
-                             {"predicted_s", known(step.predicted.seconds)},
-                             {"actual_s", step.actual->seconds()}});
-  return json;
-}
-
 }  // namespace
 
 std::string summary_json(const RunResult& result) {
@@ -156,7 +143,7 @@ std::string summary_json(const RunResult& result) {
   json["inputs_id"] = inputs.add("meshes", ids).id();
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
-  if (!result.cost.empty()) json["cost"] = cost_json(result);
+  if (!result.cost.empty()) json["cost"] = SummaryJson::parse(cost_json(result.cost));
   return json.dump(2) + "\n";
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "app/content_id.h"
+#include "app/cost_actual.h"
 #include "app/summary_studies.h"
 #include "app/two_k_v_run.h"
 
@@ -103,6 +104,7 @@ std::string two_k_v_summary(const TwoKVResult& result) {
   json["inputs_id"] = inputs.add("mesh", result.own.tables.sun.model.id()).id();
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
+  if (!result.cost.empty()) json["cost"] = ReducerJson::parse(cost_json(result.cost));
   return json.dump(2) + "\n";
 }
 
@@ -124,7 +126,9 @@ std::string two_k_v_text(const TwoKVResult& result) {
   if (result.computed) row("computed", *result.computed);
   text += "output error: peak to peak; dynamic factor: largest of all meshes\n\ntime   ";
   for (const auto& [stage, seconds] : result.timings) text += fmt::format(" {} {:.2f} s ", stage, seconds);
-  return text + fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
+  text += fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
+  const std::string cost = cost_sentence(result.plan.cost, result.cost, result.peak_memory_MB);
+  return cost.empty() ? text : text + "cost    " + cost + "\n";
 }
 
 }  // namespace annulus::app

@@ -131,9 +131,8 @@ geometry::SectorResolution resolving_section(const geometry::Gear& gear, const g
   s.flank_fractions.back() = 1;
   const double thickness = gear.tooth_thickness(gear.reference_radius()), per_layer = thickness / s.thickness_cells;
   // Not thinner than the layers of the regular section: see plane_resolution about the fillet.
-  const double layer = contact.edges.empty()
-                           ? cell
-                           : std::max(contact.at_edge, std::min(cell, regular.flank_layer * per_layer));
+  const double layer =
+      contact.edges.empty() ? cell : std::max(contact.at_edge, std::min(cell, regular.flank_layer * per_layer));
   s.flank_layer = std::clamp(layer / per_layer, geometry::min_flank_layer, 1.0);
   return s;
 }
@@ -146,6 +145,14 @@ BodyResolution solid_resolution(int level) {
       {{15, 4, 8, 1, 4, 0.8}, 12, 4},
   }};
   return levels[level];
+}
+
+BodyResolution resolved_solid_resolution(int level) {
+  const double refine = std::pow(level_ratio, level - 1);
+  BodyResolution r = solid_resolution(level);
+  r.section.thickness_cells = 2 * static_cast<int>(std::lround(5 * refine));
+  r.section.rim_cells = std::max(2, static_cast<int>(std::lround(3 * refine)));
+  return r;
 }
 
 }  // namespace annulus::fem

@@ -40,5 +40,7 @@ struct ContactCells {
                                                            const ContactCells& contact);
 /// Solid body: the flank is coarse, its near field is corrected from the plane.
 [[nodiscard]] BodyResolution solid_resolution(int level);
+/// Solid body of the resolved rung, away from its contacts.
+[[nodiscard]] BodyResolution resolved_solid_resolution(int level);
 
 }  // namespace annulus::fem

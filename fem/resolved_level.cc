@@ -30,9 +30,7 @@ PatchResolution patch_resolution(const geometry::Gear& gear, bool solid, int lev
     r.cells = 3 * refine;
     r.growth = 1 + 0.7 / refine;
     r.at_edge = 1 / 3.0;
-    r.regular = solid_resolution(level);
-    r.regular.section.thickness_cells = 2 * static_cast<int>(std::lround(5 * refine));
-    r.regular.section.rim_cells = std::max(2, static_cast<int>(std::lround(3 * refine)));
+    r.regular = resolved_solid_resolution(level);
   } else {
     r.cells = 6 * refine;
     r.growth = 1 + 0.3 / refine;
@@ -44,8 +42,8 @@ PatchResolution patch_resolution(const geometry::Gear& gear, bool solid, int lev
 
 /// Where a flank is to be resolved.
 struct PlaceOfContact {
-  double arc = 0;         ///< m, along the flank
-  double half_width = 0;  ///< m, if this contact carried the whole load
+  double arc = 0;               ///< m, along the flank
+  double half_width = 0;        ///< m, if this contact carried the whole load
   std::vector<double> edges{};  ///< m, likewise, of tip edges within reach
   double gap = 0;               ///< m, smallest before loading
   double roll = 0;              ///< m, theoretical contact on the planet

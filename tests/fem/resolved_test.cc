@@ -106,8 +106,8 @@ BOOST_AUTO_TEST_CASE(the_resolved_rung_agrees_with_the_plane_one_within_their_es
 }
 
 BOOST_AUTO_TEST_CASE(light_and_heavy_loads_all_along_the_mesh_cycle) {
-  // Every load has meshes of its own. Among the positions are contacts cut short by a tip edge at any distance: with two
-  // times the load, that of pair 1 at phase 5/8 reaches 0.16 half-widths beyond its centre.
+  // Every load has meshes of its own. Among the positions are contacts cut short by a tip edge at any distance: with
+  // two times the load, that of pair 1 at phase 5/8 reaches 0.16 half-widths beyond its centre.
   const std::vector<double> loads = {0.25 * nominal_load, 2 * nominal_load};
   for (const auto& problem : {ring_mesh(annulus::fem::OutsideHeld{}, 8, loads), sun_mesh(3, loads)}) {
     const auto plane = solve_plane(problem, 3);
