@@ -191,14 +191,17 @@ PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<Plann
 PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::vector<MeshModel>& meshes,
                    const std::vector<StudyPlan>& studies, int threads, const CostModel& costs) {
   CostSteps steps(threads, costs);
-  std::vector<std::string> coupled;
+  std::vector<std::string> elastic;
   bool computed = false;
   for (const auto& model : meshes) {
     if (!model.computed()) continue;
     computed = true;
     steps.add_mesh(model);
     if (!may_be_coupled(scene, model)) continue;
-    coupled.push_back(model.ring);
+    // A ring held all around its outside has no modes as low as the stage's.
+    if (scene.dynamics->rim_coupling != RimCoupling::statical &&
+        !std::holds_alternative<fem::OutsideHeld>(model.problem->structure))
+      elastic.push_back(model.ring);
     steps.add(CostKind::coupling, fmt::format("coupling through '{}'", model.ring), model.ring,
               coupling_size(model, threads));
   }
@@ -208,8 +211,8 @@ PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::
   for (std::size_t i = 0; i < scene.rings.size(); ++i) {
     const auto& name = scene.rings[i].name;
     CostRun size;
-    const bool elastic = std::find(coupled.begin(), coupled.end(), name) != coupled.end();
-    size.kind = elastic ? "response_coupled" : computed ? "response" : "response_given";
+    const bool modes = std::find(elastic.begin(), elastic.end(), name) != elastic.end();
+    size.kind = modes ? "response_elastic" : computed ? "response" : "response_given";
     size.unknowns = static_cast<double>(scene.stage.planets) * scene.dynamics->mesh_cycles.value_or(periods[i]);
     responses.push_back({fmt::format("dynamics of '{}'", name), name, size});
   }

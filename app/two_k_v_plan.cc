@@ -95,9 +95,11 @@ std::vector<MeshModel> two_k_v_meshes(const Scene& scene) {
 std::vector<PlannedResponse> two_k_v_responses(const Scene& scene) {
   if (!scene.dynamics) return {};
   CostRun size;
-  size.kind = "response_two_k_v";
   size.unknowns = scene.dynamics->mesh_cycles.value_or(scene.planet.teeth);  // one turn of the crank
+  const bool given = !is_computed(scene.sun_planet) && !is_computed(scene.arc_pins);
+  size.kind = given ? "response_two_k_v_given" : "response_two_k_v";
   std::vector<PlannedResponse> list = {{"dynamics", "", size}};
+  size.kind = "response_two_k_v";
   if (compared_scene(scene)) list.push_back({"dynamics with computed stiffness", "computed", size});
   return list;
 }
