@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,6 +29,8 @@ struct RunOptions {
   std::optional<std::filesystem::path> tables{};  ///< where to look for earlier tables; absent: `out`
   int threads = 1;
   bool with_dynamics = true;  ///< false: meshes, transmission error and stiffness only
+  /// Changes how a mesh is solved from what was planned (measurements); absent: as planned.
+  std::function<MeshModel(const MeshModel& planned)> remodel{};
 };
 
 struct RingResult {

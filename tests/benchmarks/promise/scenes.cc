@@ -48,6 +48,7 @@ mass_kg = 14
 inertia_kg_m2 = 0.35
 [errors]
 planet_installation_um = [10, 0, 0, 0]
+planet_installation_phase_deg = [90, 0, 0, 0]
 [supports]
 sun_N_per_m = 1e8
 planet_N_per_m = 1e9
@@ -91,8 +92,7 @@ std::vector<PromiseScene> promise_scenes() {
       {"out_of_phase", "held outside, planets out of phase: sun 25, ring 71 teeth, 23 on each planet",
        with(with(with(with(base, "teeth = 24", "teeth = 25"), "teeth = 24", "teeth = 23"), "teeth = 72", "teeth = 71"),
             "tip_diameter_mm = 282", "tip_diameter_mm = 278.5")},
-      {"pins_24", "24 pins, rim 4 modules",
-       with_supports(16, "pinned", "pins = 24\npin_diameter_mm = 10")},
+      {"pins_24", "24 pins, rim 4 modules", with_supports(16, "pinned", "pins = 24\npin_diameter_mm = 10")},
       {"pins_6", "6 pins, rim 3 modules, light load",
        with_power(with_supports(12, "pinned", "pins = 6\npin_diameter_mm = 12"), 40)},
       {"pins_36", "36 pins, rim 2 modules, heavy load",
