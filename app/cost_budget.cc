@@ -22,9 +22,10 @@ bool refines(const MeshModel& model) {
   return model.computed() && model.settings.rung != fem::Rung::closed_form && !model.settings.level;
 }
 
-bool within_reach(const Scene& scene, double accuracy, const CostModel& costs) {
+/// Whether the scene's meshes are expected to reach its accuracy.
+bool within_reach(const Scene& scene, const CostModel& costs) {
   for (const auto& model : stage_meshes(scene)) {
-    if (refines(model) && costs.expected_error(cost_kind(model), fem::last_level(model.settings.rung)) > accuracy)
+    if (refines(model) && costs.expected_error(cost_kind(model), fem::last_level(model.settings.rung)) > scene.accuracy)
       return false;
   }
   return true;
@@ -52,7 +53,8 @@ double parse_duration(const std::string& text) {
 
 BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const CostModel& costs) {
   bool any = false;
-  for (const auto& model : stage_meshes(scene)) any = any || refines(model);
+  // Formulas that do for the scene's own accuracy may not for a finer one.
+  for (const auto& model : stage_meshes(with_accuracy(scene, accuracy_ladder[0], ""))) any = any || refines(model);
   const auto known = [](const PlanCost& cost) {
     if (std::isfinite(cost.seconds())) return;
     for (const auto& step : cost.steps)
@@ -76,10 +78,11 @@ BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const Co
   PlanCost cheapest;
   double cheapest_accuracy = 0;
   for (const double accuracy : accuracy_ladder) {
-    if (!within_reach(scene, accuracy, costs)) continue;
     Scene fitted = with_accuracy(scene, accuracy,
                                  fmt::format("the most accurate that a budget of {} pays for", duration_text(budget)));
+    if (!within_reach(fitted, costs)) continue;
     cost = stage_cost(fitted, threads, costs);
+    known(cost);
     if (cost.seconds() > budget) {
       if (cheapest.empty() || cost.seconds() <= cheapest.seconds()) cheapest = cost, cheapest_accuracy = accuracy;
       continue;

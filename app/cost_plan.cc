@@ -66,7 +66,10 @@ struct CostSteps {
   }
   void add_mesh(const MeshModel& model) {
     const auto size = mesh_size(model, cost.threads, costs);
-    add(CostKind::mesh, model.label(), model.ring, size, costs.expected_error(size.kind, size.level));
+    const bool formulas = model.settings.rung == fem::Rung::closed_form;
+    const double error =
+        formulas ? fem::closed_form_error(*model.problem) : costs.expected_error(size.kind, size.level);
+    add(CostKind::mesh, model.label(), model.ring, size, error);
     longest_table = std::max(longest_table, cost.steps.back().predicted.seconds);
   }
   void add_responses(const std::vector<PlannedResponse>& responses) {

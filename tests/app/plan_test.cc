@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_how_finely_tables_are_resolved) {
       BOOST_TEST(mesh.problem->loads[mesh.nominal_load()] == 59.46e3, boost::test_tools::tolerance(1e-3));
     }
     phases = plan.meshes.front().problem->phases;
-    BOOST_TEST(app::to_text(plan).find(plan.meshes.front().resolution) != std::string::npos);
+    BOOST_TEST(app::to_text(plan).find(plan.meshes.front().phases) != std::string::npos);
   }
   BOOST_TEST(phases == 64);
 }
