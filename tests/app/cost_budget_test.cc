@@ -100,8 +100,9 @@ BOOST_AUTO_TEST_CASE(a_budget_too_small_is_refused_with_the_figures) {
     return text.find("within 10 %") != std::string::npos && text.find(" MB") != std::string::npos &&
            text.find("budget of 0.1 s") != std::string::npos;
   });
-  BOOST_CHECK_EXCEPTION((void)app::fit_budget(scene, 1e6, 2, app::CostModel({})), SolverError,
-                        [](const SolverError& e) { return std::string(e.what()).find("not known") != std::string::npos; });
+  BOOST_CHECK_EXCEPTION(
+      (void)app::fit_budget(scene, 1e6, 2, app::CostModel({})), SolverError,
+      [](const SolverError& e) { return std::string(e.what()).find("not known") != std::string::npos; });
   // Nothing to refine: the scene stays as it is, or is refused.
   const auto given = app::parse_scene(test::quick_scene(), "s.toml");
   BOOST_TEST(fitted(given, 1e4).scene.accuracy == given.accuracy);
@@ -118,7 +119,8 @@ BOOST_AUTO_TEST_CASE(every_kind_and_rung_has_a_budget) {
     BOOST_TEST(choice.cost.seconds() > 0);
     BOOST_TEST(choice.sentence.find("budget") == 0U);
     const bool given = scene.stage.kind == app::StageKind::two_k_v;
-    BOOST_TEST((choice.sentence.find("no mesh of this scene is refined") != std::string::npos) == given, choice.sentence);
+    BOOST_TEST((choice.sentence.find("no mesh of this scene is refined") != std::string::npos) == given,
+               choice.sentence);
     BOOST_TEST((choice.scene.accuracy == scene.accuracy) == given);
     BOOST_CHECK_THROW((void)fitted(scene, 0.001), SolverError);
   }

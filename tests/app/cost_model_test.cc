@@ -58,8 +58,8 @@ BOOST_AUTO_TEST_CASE(the_laws_reproduce_the_kept_runs) {
     const auto predicted = model.predict(run);
     const double miss = std::abs(std::log(predicted.seconds / run.seconds()));
     // The same step took up to 1.7 times as long when the machine was busy: 2 for a single run.
-    BOOST_TEST(miss < std::log(2.0), run.kind << " level " << run.level << " of " << run.unknowns << " unknowns: "
-                                              << predicted.seconds << " s predicted, " << run.seconds()
+    BOOST_TEST(miss < std::log(2.0), run.kind << " level " << run.level << " of " << run.unknowns
+                                              << " unknowns: " << predicted.seconds << " s predicted, " << run.seconds()
                                               << " s measured");
     misses.push_back(miss);
     auto& worst_of_kind = worst_kind.try_emplace(run.kind, 1.0).first->second;
@@ -73,9 +73,9 @@ BOOST_AUTO_TEST_CASE(the_laws_reproduce_the_kept_runs) {
   BOOST_REQUIRE(misses.size() > 50);
   std::ranges::sort(misses);
   BOOST_TEST(misses[misses.size() / 2] < std::log(1.3));
-  BOOST_TEST_MESSAGE("predicted against measured time: factor "
-                     << std::exp(misses[misses.size() / 2]) << " in the middle, " << std::exp(misses.back())
-                     << " at worst; memory " << worst_memory);
+  BOOST_TEST_MESSAGE("predicted against measured time: factor " << std::exp(misses[misses.size() / 2])
+                                                                << " in the middle, " << std::exp(misses.back())
+                                                                << " at worst; memory " << worst_memory);
   for (const auto& [kind, factor] : worst_kind) BOOST_TEST_MESSAGE("  " << kind << " " << factor << " at worst");
 }
 
