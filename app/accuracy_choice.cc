@@ -20,7 +20,8 @@ TableResolution table_resolution(double accuracy) {
     choice.phases_reason = "between 32 positions dynamic factors are missed by 2 %, by 6 % under light loads";
   } else {
     choice.phases = 2 * table_phases;
-    choice.phases_reason = "between 64 positions dynamic factors are missed by 0.1 %; between 32 by 2 %, 6 % under light loads";
+    choice.phases_reason =
+        "between 64 positions dynamic factors are missed by 0.1 %; between 32 by 2 %, 6 % under light loads";
   }
   if (accuracy >= rough) {
     choice.load_factors = {0.5, 1, 1.5};

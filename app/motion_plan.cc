@@ -47,10 +47,10 @@ void add_integrator(std::vector<Decision>& list, const DynamicsInput& input, con
   if (input.steps_per_cycle)
     list.push_back({"steps per mesh cycle", std::to_string(*input.steps_per_cycle), asked});
   else
-    list.push_back(input.relative_tolerance
-                       ? Decision{"tolerance", fmt::format("{:.0e}", *input.relative_tolerance), asked}
-                       : Decision{"tolerance", fmt::format("{:.0e}", choice.relative_tolerance),
-                                  choice.tolerance_reason});
+    list.push_back(
+        input.relative_tolerance
+            ? Decision{"tolerance", fmt::format("{:.0e}", *input.relative_tolerance), asked}
+            : Decision{"tolerance", fmt::format("{:.0e}", choice.relative_tolerance), choice.tolerance_reason});
 }
 
 Decision coupling_decision(const Scene& scene, const std::vector<MeshModel>& meshes) {
