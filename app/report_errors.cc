@@ -29,17 +29,18 @@ void add_mesh(HtmlTable& table, const std::string& name, const MeshResult& mesh)
 }  // namespace
 
 std::string stiffness_error_section(const RunResult& result) {
-  HtmlTable table{.head = {"", "error", "discretisation", "local contact", "condensation", "table interpolation",
-                           "model choice"},
-                  .rows = {},
-                  .css_class = "numbers"};
+  HtmlTable table{
+      .head = {"", "error", "discretisation", "local contact", "condensation", "table interpolation", "model choice"},
+      .rows = {},
+      .css_class = "numbers"};
   add_mesh(table, "sun mesh", result.sun_mesh);
   for (const auto& ring : result.rings) add_mesh(table, "ring mesh of " + escape(ring.name), ring.mesh);
   if (table.rows.empty()) return "";
   return "<h3 id=\"stiffness-errors\">What the errors of the stiffness are made of</h3>\n" + html(table) +
          "<p>Discretisation: the difference of two levels of cells. Local contact: the pressure on the flanks, against "
          "twice as many pieces. Condensation: asymmetry of the compliance between tooth pairs. Model choice: plane "
-         "strain for a face of finite width, formulas for teeth; the wanted accuracy does not count plane strain, which "
+         "strain for a face of finite width, formulas for teeth; the wanted accuracy does not count plane strain, "
+         "which "
          "solid elements (rung = \"solid\") do without.</p>\n";
 }
 
