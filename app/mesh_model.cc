@@ -254,9 +254,11 @@ std::vector<Decision> decisions(const MeshModel& model) {
   }
   list.push_back({"ring positions", std::to_string(model.positions), model.repeats});
   list.push_back({"positions per mesh cycle", std::to_string(problem.phases), model.phases});
-  std::string loads;
-  for (const double load : problem.loads) loads += (loads.empty() ? "" : ", ") + to_text(load / 1e3, 5);
-  list.push_back({"loads", loads + " kN", model.loads});
+  std::string loads = to_text(problem.loads.front() / 1e3, 4) + " kN";
+  if (problem.loads.size() > 1)
+    loads = fmt::format("{}, {} to {} kN", problem.loads.size(), to_text(problem.loads.front() / 1e3, 4),
+                        to_text(problem.loads.back() / 1e3, 4));
+  list.push_back({"loads", loads, model.loads});
   return list;
 }
 
