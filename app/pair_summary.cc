@@ -5,6 +5,7 @@
 
 #include "app/content_id.h"
 #include "app/cost_actual.h"
+#include "app/error_parts_json.h"
 #include "app/pair_run.h"
 #include "app/summary_studies.h"
 #include "core/units.h"
@@ -96,13 +97,16 @@ std::string pair_summary_json(const PairRunResult& result) {
     json["mean_stiffness_N_per_m"][s.source] = {
         {"value", pair_number(s.value)}, {"error_relative", pair_number(s.error_relative)}, {"taken", s.taken}};
   if (const auto& computed = result.mesh.computed) {
-    auto& mesh = json["pinion_wheel"] = {{"rung", computed->model.rung},
-                                         {"contact_ratio", computed->contact_ratio},
-                                         {"transverse_mean_stiffness_N_per_m", computed->mean_stiffness().value},
-                                         {"lte_mean_m", computed->lte_mean().value},
-                                         {"lte_peak_to_peak_m", computed->lte_peak_to_peak().value},
-                                         {"reused", computed->reused},
-                                         {"inputs_id", computed->model.id()}};
+    auto& mesh = json["pinion_wheel"] = {
+        {"rung", computed->model.rung},
+        {"contact_ratio", computed->contact_ratio},
+        {"transverse_mean_stiffness_N_per_m", computed->mean_stiffness().value},
+        {"lte_mean_m", computed->lte_mean().value},
+        {"lte_peak_to_peak_m", computed->lte_peak_to_peak().value},
+        {"stiffness_error_parts_relative", error_parts_json(computed->mean_stiffness().parts)},
+        {"lte_peak_to_peak_error_parts_relative", error_parts_json(computed->lte_peak_to_peak().parts)},
+        {"reused", computed->reused},
+        {"inputs_id", computed->model.id()}};
     for (const auto& [name, value] : computed->facts) mesh[name] = pair_number(value);
   }
   json["mesh_error_m"] = result.errors.amplitude;

@@ -245,8 +245,7 @@ class RingMeasurement {
       const auto errors = carried_errors(response, simulation, {make, sun, wheel});
       set_errors(errors, response);
       Figures found;
-      add_response(found, stage, response,
-                   MeshStiffnessErrors{sun.mean_stiffness().error_relative, wheel.mean_stiffness().error_relative});
+      add_response(found, stage, response, stiffness_errors(sun, wheel));
       return figures_text(found);
     });
     point.response = done.cost;

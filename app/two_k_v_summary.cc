@@ -7,6 +7,7 @@
 
 #include "app/content_id.h"
 #include "app/cost_actual.h"
+#include "app/error_parts_json.h"
 #include "app/summary_studies.h"
 #include "app/two_k_v_run.h"
 
@@ -21,11 +22,13 @@ ReducerJson finite(const std::optional<double>& x) { return x ? finite(*x) : Red
 
 ReducerJson mesh_json_of(const MeshResult& mesh) {
   const auto k = mesh.mean_stiffness();
-  ReducerJson json = {
-      {"rung", mesh.model.rung},
-      {"mean_stiffness_N_per_m", {{"value", finite(k.value)}, {"error_relative", finite(k.error_relative)}}},
-      {"nominal_load_N", mesh.table.loads()[mesh.nominal]},
-      {"reused", mesh.reused}};
+  ReducerJson json = {{"rung", mesh.model.rung},
+                      {"mean_stiffness_N_per_m",
+                       {{"value", finite(k.value)},
+                        {"error_relative", finite(k.error_relative)},
+                        {"error_parts_relative", error_parts_json(k.parts)}}},
+                      {"nominal_load_N", mesh.table.loads()[mesh.nominal]},
+                      {"reused", mesh.reused}};
   for (const auto& [name, value] : mesh.facts) json[name] = finite(value);
   return json;
 }

@@ -102,11 +102,12 @@ struct LoadedMeshResult {
   double reciprocity_relative = 0;        ///< largest over the positions
   geometry::Mesh planet_sector{}, wheel_sector{};  ///< as solved
   int level = 1;                                   ///< level of resolution reached
-  double worst_error_relative = 0;                 ///< largest estimated error at the middle load
-  long unknowns = 0;                               ///< freedoms of the two sectors
-  double pin_stiffness = 0;                        ///< N/m per pin or spline flank as used; 0 without
-  std::vector<double> pin_angles{};                ///< rad, from the centre of tooth 0; empty without pins
-  std::vector<double> slice_edges{};               ///< m, z of the slices of the face width
+  /// Largest estimated error at the middle load, plane strain not counted: what the accuracy is about.
+  double worst_error_relative = 0;
+  long unknowns = 0;                  ///< freedoms of the two sectors
+  double pin_stiffness = 0;           ///< N/m per pin or spline flank as used; 0 without
+  std::vector<double> pin_angles{};   ///< rad, from the centre of tooth 0; empty without pins
+  std::vector<double> slice_edges{};  ///< m, z of the slices of the face width
   std::vector<StressCurve> stress_curves{};
   double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0;
 };

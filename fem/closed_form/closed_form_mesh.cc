@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "fem/closed_form/tooth_contacts.h"
+#include "fem/error_estimate.h"
 #include "fem/problem_check.h"
 
 namespace annulus::fem {
@@ -116,7 +117,8 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
   if (!(position.entry.lte > unloaded)) throw SolverError("the loaded transmission error is not positive");
   position.entry.stiffness_secant = load / (position.entry.lte - unloaded);
   position.entry.stiffness_tangent = 1 / solution.tangent(0, 0);
-  position.entry.error_relative = estimated_error(problem_, tip_edge);
+  position.entry.error_parts.model = estimated_error(problem_, tip_edge) + plane_strain_error(problem_);
+  position.entry.error_relative = position.entry.error_parts.total();
 
   const double torque = load * problem_.pair.planet().base_radius();
   position.force_balance_relative = std::abs(std::abs(moment) - torque) / torque;
@@ -188,7 +190,8 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
     const auto& p = result.positions[i];
     result.reciprocity_relative = std::max(result.reciprocity_relative, p.reciprocity_relative);
     if (i % loads == static_cast<std::size_t>(loads) / 2)
-      result.worst_error_relative = std::max(result.worst_error_relative, p.entry.error_relative);
+      result.worst_error_relative =
+          std::max(result.worst_error_relative, p.entry.error_relative - plane_strain_error(problem));
   }
   for (int l = 0; l < loads; ++l)
     result.closure_relative =
