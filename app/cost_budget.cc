@@ -25,7 +25,8 @@ bool refines(const MeshModel& model) {
 /// Whether the scene's meshes are expected to reach its accuracy.
 bool within_reach(const Scene& scene, const CostModel& costs) {
   for (const auto& model : stage_meshes(scene)) {
-    if (refines(model) && costs.expected_error(cost_kind(model), fem::last_level(model.settings.rung)) > scene.accuracy)
+    if (refines(model) && costs.expected_error(cost_kind(model), model.settings.degree,
+                                               fem::last_level(model.settings.rung)) > scene.accuracy)
       return false;
   }
   return true;

@@ -188,17 +188,17 @@ void fit_memory(CostLaw& law, const Runs& runs) {
   law.per_unknown_MB = l.per_unknown_MB;
 }
 
-void fit_error(CostLaw& law, const Runs& runs) {
+void fit_error(CostLaw& law, const Runs& runs, int degree) {
   // The estimate is the difference of two levels, and falls with the cell size or a little faster.
   LogFit fit{.usual = {{std::log(0.003), free_factor}, {std::log(0.6), 0.1}}, .measured = {}, .predicted = {}};
   Runs used;
   for (const auto* run : runs)
-    if (run->error > 0 && run->degree == 2 && run->level > 0) used.push_back(run), fit.measured.push_back(run->error);
+    if (run->error > 0 && run->degree == degree && run->level > 0)
+      used.push_back(run), fit.measured.push_back(run->error);
   if (used.empty()) return;
   fit.predicted = [&](const Eigen::VectorXd& x, std::size_t i) { return std::exp(x[0] + x[1] * (used[i]->level - 1)); };
   const auto x = fit.solve();
-  law.error_1 = std::exp(x[0]);
-  law.error_ratio = std::exp(x[1]);
+  law.error[degree] = {std::exp(x[0]), std::exp(x[1])};
 }
 
 double median(std::vector<double> values) {
@@ -219,7 +219,7 @@ CostModel::CostModel(const std::vector<CostRun>& kept, const std::vector<CostRun
     fit_body(law, usual, runs);
     fit_contact(law, usual, runs);
     fit_memory(law, runs);
-    fit_error(law, runs);
+    for (const int degree : {1, 2, 3}) fit_error(law, runs, degree);
   }
   // Logarithms: half the time and twice the time are equally wrong.
   std::map<std::string, std::vector<double>> ratios;
@@ -246,15 +246,19 @@ PredictedCost CostModel::predict(const CostRun& size) const {
   return {scale(size.kind) * (body_seconds(l, size) + contact_seconds(l, size)), peak_memory(l, size)};
 }
 
-double CostModel::expected_error(const std::string& kind, int level) const {
-  const auto found = laws_.find(kind);
-  if (found == laws_.end() || !(found->second.error_1 > 0)) return std::numeric_limits<double>::quiet_NaN();
-  return found->second.error_1 * std::pow(found->second.error_ratio, level - 1);
+double CostModel::expected_error(const std::string& kind, int degree, int level) const {
+  const auto law = laws_.find(kind);
+  if (law == laws_.end()) return std::numeric_limits<double>::quiet_NaN();
+  const auto& errors = law->second.error;
+  auto error = errors.find(degree);
+  if (error == errors.end()) error = errors.find(2);
+  if (error == errors.end()) return std::numeric_limits<double>::quiet_NaN();
+  return error->second.first * std::pow(error->second.ratio, level - 1);
 }
 
-int CostModel::expected_level(const std::string& kind, double accuracy, int last_level) const {
+int CostModel::expected_level(const std::string& kind, int degree, double accuracy, int last_level) const {
   int level = std::min(1, last_level);
-  while (level < last_level && expected_error(kind, level) > accuracy) ++level;
+  while (level < last_level && expected_error(kind, degree, level) > accuracy) ++level;
   return level;
 }
 

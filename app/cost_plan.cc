@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "app/accuracy_choice.h"
 #include "app/planetary_subject.h"
 #include "app/rim_coupling.h"
 #include "app/stage_response.h"
@@ -68,7 +69,7 @@ struct CostSteps {
     const auto size = mesh_size(model, cost.threads, costs);
     const bool formulas = model.settings.rung == fem::Rung::closed_form;
     const double error =
-        formulas ? fem::closed_form_error(*model.problem) : costs.expected_error(size.kind, size.level);
+        formulas ? fem::closed_form_error(*model.problem) : costs.expected_error(size.kind, size.degree, size.level);
     add(CostKind::mesh, model.label(), model.ring, size, error);
     longest_table = std::max(longest_table, cost.steps.back().predicted.seconds);
   }
@@ -149,7 +150,8 @@ CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs) {
   CostRun size;
   size.kind = cost_kind(model);
   size.degree = settings.degree;
-  size.level = std::clamp(settings.level.value_or(costs.expected_level(size.kind, settings.accuracy, last)), 0, last);
+  size.level = std::clamp(
+      settings.level.value_or(costs.expected_level(size.kind, size.degree, settings.accuracy, last)), 0, last);
   // A level that is forced is solved with the one before it; refining starts at level 0 and passes them all.
   size.levels = last == 0 ? 1 : settings.level ? 2 : size.level + 1;
   size.unknowns = fem::estimated_unknowns(*model.problem, settings, size.level);
@@ -215,7 +217,8 @@ PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::
     const auto& name = scene.rings[i].name;
     CostRun size;
     const bool modes = std::find(elastic.begin(), elastic.end(), name) != elastic.end();
-    size.kind = modes ? "response_elastic" : computed ? "response" : "response_given";
+    const bool marched = motion_choice(scene.accuracy).confirm || scene.dynamics->mesh_cycles;
+    size.kind = modes ? "response_elastic" : !computed ? "response_given" : marched ? "response" : "response_direct";
     size.unknowns = static_cast<double>(scene.stage.planets) * scene.dynamics->mesh_cycles.value_or(periods[i]);
     responses.push_back({fmt::format("dynamics of '{}'", name), name, size});
   }

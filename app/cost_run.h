@@ -11,8 +11,8 @@ struct CostRun {
   /// A mesh by its rung ("closed_form", "plane", "solid", "resolved_plane", "resolved_solid") or "solid_helical",
   /// "coupling_plane", "coupling_pins" (on pins or splines) and "coupling_solid", or the "response" of one ring:
   /// "response_elastic" where its elastic modes may take part, "response_given" with stiffness that is given, where no
-  /// errors of tables are carried through, "response_pair", "response_two_k_v" and "response_two_k_v_given" of the
-  /// other stages.
+  /// errors of tables are carried through, "response_direct" where nothing is marched, "response_pair",
+  /// "response_two_k_v" and "response_two_k_v_given" of the other stages.
   std::string kind;
   int degree = 2;
   int level = 0;                          ///< of resolution reached

@@ -108,11 +108,11 @@ BOOST_AUTO_TEST_CASE(a_known_law_is_found_again) {
   BOOST_TEST(model.predict(size).seconds == expected, boost::test_tools::tolerance(0.03));
   BOOST_TEST(model.predict(size).peak_MB == 150 + 40 * 12.3456, boost::test_tools::tolerance(0.03));
   BOOST_TEST(model.law("plane").body_exponent == 1.3, boost::test_tools::tolerance(0.03));
-  BOOST_TEST(model.expected_error("plane", 2) == 0.002, boost::test_tools::tolerance(0.03));
-  BOOST_TEST(model.expected_level("plane", 0.1, 6) == 1);
-  BOOST_TEST(model.expected_level("plane", 0.003, 6) == 2);
-  BOOST_TEST(model.expected_level("plane", 0.0013, 6) == 3);
-  BOOST_TEST(model.expected_level("plane", 1e-9, 6) == 6);  // no further than there are levels
+  BOOST_TEST(model.expected_error("plane", 2, 2) == 0.002, boost::test_tools::tolerance(0.03));
+  BOOST_TEST(model.expected_level("plane", 2, 0.1, 6) == 1);
+  BOOST_TEST(model.expected_level("plane", 2, 0.003, 6) == 2);
+  BOOST_TEST(model.expected_level("plane", 2, 0.0013, 6) == 3);
+  BOOST_TEST(model.expected_level("plane", 2, 1e-9, 6) == 6);  // no further than there are levels
 }
 
 BOOST_AUTO_TEST_CASE(predictions_grow_with_the_work) {
