@@ -66,6 +66,7 @@ struct PairRunResult {
   StudyResults studies{};
   std::vector<std::pair<std::string, double>> timings{};
   double peak_memory_MB = 0;
+  std::shared_ptr<const Reuse> reuse{};
 };
 
 /// Everything the scene asks for, into options.out. Throws what the steps throw.

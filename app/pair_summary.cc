@@ -133,6 +133,7 @@ std::string pair_summary_json(const PairRunResult& result) {
   json["inputs_id"] = inputs.id();
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
+  json["reuse"] = PairJson::parse(result.reuse->json());
   return json.dump(2) + "\n";
 }
 
@@ -159,7 +160,7 @@ std::string pair_summary_text(const PairRunResult& result) {
   }
   text += "\ntime   ";
   for (const auto& [stage, seconds] : result.timings) text += fmt::format(" {} {:.2f} s ", stage, seconds);
-  return text + fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
+  return text + fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB) + result.reuse->text();
 }
 
 }  // namespace annulus::app

@@ -33,6 +33,7 @@ struct TwoKVResult {
   StudyResults studies{};
   std::vector<std::pair<std::string, double>> timings{};
   double peak_memory_MB = 0;
+  std::shared_ptr<const Reuse> reuse{};
 
   [[nodiscard]] const Scene& scene() const { return own.scene; }
 };

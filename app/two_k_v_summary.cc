@@ -103,6 +103,7 @@ std::string two_k_v_summary(const TwoKVResult& result) {
   json["inputs_id"] = inputs.add("mesh", result.own.tables.sun.model.id()).id();
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
+  json["reuse"] = ReducerJson::parse(result.reuse->json());
   return json.dump(2) + "\n";
 }
 
@@ -124,7 +125,7 @@ std::string two_k_v_text(const TwoKVResult& result) {
   if (result.computed) row("computed", *result.computed);
   text += "output error: peak to peak; dynamic factor: largest of all meshes\n\ntime   ";
   for (const auto& [stage, seconds] : result.timings) text += fmt::format(" {} {:.2f} s ", stage, seconds);
-  return text + fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
+  return text + fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB) + result.reuse->text();
 }
 
 }  // namespace annulus::app
