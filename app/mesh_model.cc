@@ -54,23 +54,7 @@ fem::LoadedMeshProblem problem_of(const Scene& scene, const geometry::GearPair& 
 
 void use(MeshModel& model, fem::Rung rung) {
   model.settings.rung = rung;
-  switch (rung) {
-    case fem::Rung::closed_form:
-      model.rung = "closed_form";
-      return;
-    case fem::Rung::plane:
-      model.rung = "plane";
-      return;
-    case fem::Rung::solid:
-      model.rung = "solid";
-      return;
-    case fem::Rung::resolved_plane:
-      model.rung = "resolved_plane";
-      return;
-    case fem::Rung::resolved_solid:
-      model.rung = "resolved_solid";
-      return;
-  }
+  model.rung = rung_name(rung);
 }
 
 /// The cheapest rung whose error is controlled, unless the scene asks for another.
@@ -209,6 +193,22 @@ void add_structure(ContentId& id, const fem::RingStructure& structure) {
 }
 
 }  // namespace
+
+const char* rung_name(fem::Rung rung) {
+  switch (rung) {
+    case fem::Rung::closed_form:
+      return "closed_form";
+    case fem::Rung::plane:
+      return "plane";
+    case fem::Rung::solid:
+      return "solid";
+    case fem::Rung::resolved_plane:
+      return "resolved_plane";
+    case fem::Rung::resolved_solid:
+      break;
+  }
+  return "resolved_solid";
+}
 
 TableResolution table_resolution(double accuracy) {
   constexpr double rough = 0.03, fine = 0.003;

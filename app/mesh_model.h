@@ -15,6 +15,9 @@ inline constexpr const char* ring_planet = "ring_planet";
 inline constexpr const char* pinion_wheel = "pinion_wheel";
 inline constexpr const char* arc_pins = "arc_pins";
 
+/// "plane", "resolved_solid" ...
+[[nodiscard]] const char* rung_name(fem::Rung rung);
+
 /// How the stiffness of one mesh is found, and why so: the decision of the planner, carried out by the pipeline.
 struct MeshModel {
   std::string mesh{};  ///< "sun_planet", "ring_planet", "pinion_wheel" or "arc_pins"

@@ -77,6 +77,12 @@ Estimate MeshResult::mean_stiffness() const {
   return {sum / (table.positions() * table.phases()), error / sum};
 }
 
+double MeshResult::worst_stiffness_error() const {
+  double worst = 0;
+  at_load(table, nominal, [&](const StiffnessEntry& e) { worst = std::max(worst, e.error_relative); });
+  return worst;
+}
+
 Estimate MeshResult::lte_mean() const {
   double sum = 0, error = 0;
   at_load(table, nominal, [&](const StiffnessEntry& e) {

@@ -53,6 +53,7 @@ struct MeshResult {
   bool reused = false;
 
   [[nodiscard]] Estimate mean_stiffness() const;  ///< N/m, secant, at the nominal load
+  [[nodiscard]] double worst_stiffness_error() const;  ///< relative, of any position at the nominal load
   [[nodiscard]] Estimate lte_mean() const;        ///< m, at the nominal load
   /// m, at the nominal load, over all ring positions; its error contains what lies between the positions.
   [[nodiscard]] Estimate lte_peak_to_peak() const;

@@ -10,22 +10,6 @@ namespace annulus::app {
 
 namespace {
 
-const char* rung_name(fem::Rung rung) {
-  switch (rung) {
-    case fem::Rung::closed_form:
-      return "closed_form";
-    case fem::Rung::plane:
-      return "plane";
-    case fem::Rung::solid:
-      return "solid";
-    case fem::Rung::resolved_plane:
-      return "resolved_plane";
-    case fem::Rung::resolved_solid:
-      break;
-  }
-  return "resolved_solid";
-}
-
 /// Multiples of the nominal load; the middle one is 1.
 std::vector<double> load_factors(int loads) {
   switch (loads) {
@@ -60,11 +44,12 @@ std::string MeshSetting::folder() const {
   return fmt::format("{}_d{}_l{}_p{}_n{}", rung_name(rung), degree, level, phases, loads);
 }
 
-MeshModel MeshSetting::applied(const MeshModel& planned) const {
+MeshModel MeshSetting::applied(const MeshModel& planned, bool needs_solid) const {
   MeshModel model = planned;
+  const auto used = rung == fem::Rung::solid && !needs_solid ? fem::Rung::plane : rung;
   const double nominal = planned.problem->loads[planned.nominal_load()];
-  model.rung = rung_name(rung);
-  model.settings.rung = rung;
+  model.rung = rung_name(used);
+  model.settings.rung = used;
   model.settings.degree = degree;
   model.settings.level = level;
   model.problem->phases = phases;

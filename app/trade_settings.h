@@ -23,7 +23,8 @@ struct MeshSetting {
 
   [[nodiscard]] std::string text() const;    ///< "degree 2, level 1, 32 phases, 5 loads"
   [[nodiscard]] std::string folder() const;  ///< "plane_d2_l1_p32_n5"
-  [[nodiscard]] MeshModel applied(const MeshModel& planned) const;
+  /// A solid setting is solved in the plane, alike otherwise, where nothing changes along the face width.
+  [[nodiscard]] MeshModel applied(const MeshModel& planned, bool needs_solid) const;
 };
 
 /// All that can represent a mesh: rungs, degrees and levels with the usual table, tables of other resolution, and last

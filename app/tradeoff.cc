@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/content_id.h"
+#include "app/overrides.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/log.h"
@@ -66,6 +67,34 @@ void add_response(Figures& figures, const dynamics::PlanetaryStage& stage, const
   figures.insert(figures.end(), frequencies.begin(), frequencies.end());
 }
 
+// Places in trade_figures().
+constexpr std::size_t sun_entries = 2, ring_entries = 3;
+
+/// The mean, with the largest error of any position: what the wanted accuracy is about.
+Estimate stiffness_anywhere(const MeshResult& mesh) {
+  return {mesh.mean_stiffness().value, mesh.worst_stiffness_error()};
+}
+
+StiffnessCycle stiffness_cycle(const MeshResult& mesh) {
+  const auto& table = mesh.table;
+  StiffnessCycle cycle{.entries = {},
+                       .curve = curves_at_load(table, table.loads()[mesh.nominal]).stiffness_secant,
+                       .phases = table.phases()};
+  for (int position = 0; position < table.positions(); ++position) {
+    for (int phase = 0; phase < table.phases(); ++phase)
+      cycle.entries.push_back(table.at(position, phase, static_cast<int>(mesh.nominal)).stiffness_secant);
+  }
+  return cycle;
+}
+
+/// Of any entry to the curve held against.
+double largest_difference(const StiffnessCycle& cycle, const StiffnessCycle& truth) {
+  double largest = 0;
+  for (std::size_t i = 0; i < cycle.entries.size(); ++i)
+    largest = std::max(largest, std::abs(cycle.entries[i] / truth.curve(static_cast<double>(i) / cycle.phases) - 1));
+  return largest;
+}
+
 /// Measured work whose answer is kept in a file, with the identity of what it depends on.
 MeasuredWork kept_work(const std::filesystem::path& file, const std::string& id,
                        const std::function<std::string()>& work) {
@@ -101,13 +130,18 @@ class RingMeasurement {
         options_(options),
         sun_(plan.meshes.front()),
         wheel_(plan.meshes.at(ring + 1)),
-        needs_solid_(!solid_reason(scene, scene.rings.at(ring)).empty() || !solid_reason(scene).empty()) {}
+        sun_needs_solid_(!solid_reason(scene).empty()),
+        wheel_needs_solid_(!solid_reason(scene, scene.rings.at(ring)).empty()) {}
 
   RingTrade run() {
     RingTrade trade{.ring = scene_.rings.at(ring_).name, .points = {}};
-    for (const auto& setting : lists_.mesh(wheel_, needs_solid_)) {
-      log::info(fmt::format("tradeoff of '{}': {}, {}", trade.ring, setting.applied(wheel_).rung, setting.text()));
+    for (const auto& setting : lists_.mesh(wheel_, sun_needs_solid_ || wheel_needs_solid_)) {
+      log::info(fmt::format("tradeoff of '{}': {}, {}", trade.ring, rung_name(setting.rung), setting.text()));
       trade.points.push_back(mesh_point(setting));
+    }
+    for (const double accuracy : lists_.accuracies) {
+      log::info(fmt::format("tradeoff of '{}': as planned for {:g} %", trade.ring, 100 * accuracy));
+      trade.points.push_back(planned_point(accuracy));
     }
     compare(trade.points, TradePart::mesh);
     if (!scene_.dynamics || !finest_sun_ || !finest_wheel_) return trade;
@@ -150,34 +184,53 @@ class RingMeasurement {
   }
 
   TradePoint mesh_point(const MeshSetting& setting) {
-    const auto wheel_model = setting.applied(wheel_), sun_model = setting.applied(sun_);
-    TradePoint point{.rung = wheel_model.rung, .settings = setting.text(), .finest = setting.finest};
+    TradePoint point{.rung = rung_name(setting.rung), .settings = setting.text(), .finest = setting.finest};
+    measure(setting.applied(sun_, sun_needs_solid_), setting.applied(wheel_, wheel_needs_solid_), setting.folder(),
+            point);
+    return point;
+  }
+
+  /// As a run with this wanted accuracy solves it.
+  TradePoint planned_point(double accuracy) {
+    TradePoint point{.rung = "planned", .settings = fmt::format("for {:g} %", 100 * accuracy), .planned_for = accuracy};
+    try {
+      const Scene scene = with_accuracy(scene_, accuracy, "asked of the planner");
+      measure(sun_mesh_model(scene, geometry_), ring_mesh_model(scene, geometry_, ring_),
+              fmt::format("planned_{:g}", accuracy), point);
+    } catch (const InputError& error) {
+      point.failure = error.what();
+    }
+    return point;
+  }
+
+  /// Solves both meshes and fills the point.
+  void measure(const MeshModel& sun_model, const MeshModel& wheel_model, const std::string& name, TradePoint& point) {
     const auto root = options_.out / "tradeoff";
-    const auto name = setting.folder();
     auto sun = table(sun_model, root / "sun_planet" / name, point);
     auto wheel = table(wheel_model, root / scene_.rings[ring_].name / name, point);
-    if (!sun || !wheel) return point;
-    Figures figures = {sun->mean_stiffness(), wheel->mean_stiffness(), sun->lte_peak_to_peak(),
-                       wheel->lte_peak_to_peak()};
+    if (!sun || !wheel) return;
+    Figures figures = {sun->mean_stiffness(),   wheel->mean_stiffness(),   stiffness_anywhere(*sun),
+                       stiffness_anywhere(*wheel), sun->lte_peak_to_peak(), wheel->lte_peak_to_peak()};
     if (scene_.dynamics) {
       try {
-        add_stage_figures(figures, *sun, *wheel, name);
+        add_stage_figures(figures, *sun, *wheel, name, point);
       } catch (const Error& error) {
         point.failure = error.what();
       }
     }
     figures.resize(trade_figures().size(), {unknown, unknown});
     set_values(point, figures);
-    if (setting.finest) {
+    point.sun_cycle = stiffness_cycle(*sun);
+    point.ring_cycle = stiffness_cycle(*wheel);
+    if (point.finest) {
       finest_sun_ = std::move(sun);
       finest_wheel_ = std::move(wheel);
     }
-    return point;
   }
 
   /// What these tables make of the stage, with the errors of the tables carried through.
-  void add_stage_figures(Figures& figures, const MeshResult& sun, const MeshResult& wheel,
-                         const std::string& name) const {
+  void add_stage_figures(Figures& figures, const MeshResult& sun, const MeshResult& wheel, const std::string& name,
+                         TradePoint& point) const {
     const auto stage = make_stage(scene_, geometry_, ring_, sun, wheel);
     auto simulation = simulation_options(scene_, stage);
     simulation.keep_series = false;
@@ -195,6 +248,7 @@ class RingMeasurement {
                    MeshStiffnessErrors{sun.mean_stiffness().error_relative, wheel.mean_stiffness().error_relative});
       return figures_text(found);
     });
+    point.response = done.cost;
     if (!done.failure.empty()) throw SolverError(done.failure);
     const auto found = parse_figures(done.answer);
     figures.insert(figures.end(), found.begin(), found.end());
@@ -239,7 +293,7 @@ class RingMeasurement {
     const auto done = kept_work(file, id, [&] {
       const auto response = dynamics::simulate(stage, simulation);
       if (!response.steady) throw SolverError("the motion does not become periodic");
-      Figures figures(4, {unknown, unknown});
+      Figures figures(6, {unknown, unknown});
       add_response(figures, stage, response, std::nullopt);
       return figures_text(figures);
     });
@@ -263,6 +317,10 @@ class RingMeasurement {
         auto& value = point.values[i];
         value.error = std::abs(value.value / finest->values[i].value - 1);
       }
+      if (part == TradePart::mesh && !point.values.empty()) {
+        point.values[sun_entries].error = largest_difference(point.sun_cycle, finest->sun_cycle);
+        point.values[ring_entries].error = largest_difference(point.ring_cycle, finest->ring_cycle);
+      }
     }
   }
 
@@ -272,7 +330,7 @@ class RingMeasurement {
   std::size_t ring_;
   const RunOptions& options_;
   MeshModel sun_, wheel_;
-  bool needs_solid_;
+  bool sun_needs_solid_, wheel_needs_solid_;
   std::optional<MeshResult> finest_sun_, finest_wheel_;
   std::shared_ptr<const RingCoupling> static_coupling_, elastic_coupling_;
 };
@@ -283,8 +341,10 @@ const std::vector<TradeFigure>& trade_figures() {
   static const std::vector<TradeFigure> figures = {
       {"sun_planet_mean_stiffness_N_per_m", "mean stiffness of the sun mesh"},
       {"ring_planet_mean_stiffness_N_per_m", "mean stiffness of the ring mesh"},
-      {"sun_planet_lte_peak_to_peak_m", "transmission error of the sun mesh, peak to peak"},
-      {"ring_planet_lte_peak_to_peak_m", "transmission error of the ring mesh, peak to peak"},
+      {"sun_planet_stiffness_entries_N_per_m", "stiffness of the sun mesh, every entry of its table"},
+      {"ring_planet_stiffness_entries_N_per_m", "stiffness of the ring mesh, every entry of its table"},
+      {"sun_planet_lte_peak_to_peak_m", "transmission error of the sun mesh, peak to peak", false},
+      {"ring_planet_lte_peak_to_peak_m", "transmission error of the ring mesh, peak to peak", false},
       {"sun_planet_load_sharing_averaged", "load sharing, averaged over a mesh cycle"},
       {"sun_planet_load_sharing_instantaneous", "load sharing, instantaneous"},
       {"sun_planet_dynamic_factor", "dynamic factor of the sun meshes"},
@@ -308,10 +368,24 @@ double TradePoint::error(std::optional<std::size_t> figure) const {
   return failure.empty() && figure && *figure < values.size() ? values[*figure].error : unknown;
 }
 
+double TradePoint::promised_error() const {
+  double largest = failure.empty() && !values.empty() ? 0 : unknown;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (trade_figures()[i].promised && std::isfinite(values[i].error)) largest = std::max(largest, values[i].error);
+  }
+  return largest;
+}
+
+const TradePoint* RingTrade::planned(double accuracy) const {
+  for (const auto& p : points)
+    if (p.planned_for == accuracy) return &p;
+  return nullptr;
+}
+
 const TradePoint* RingTrade::cheapest(TradePart part, double accuracy, std::optional<std::size_t> figure) const {
   const TradePoint* best = nullptr;
   for (const auto& p : points) {
-    if (p.part != part || p.finest || !(p.error(figure) <= accuracy)) continue;
+    if (p.part != part || p.finest || p.planned_for || !(p.error(figure) <= accuracy)) continue;
     if (!best || p.cost.wall < best->cost.wall) best = &p;
   }
   return best;
@@ -320,7 +394,7 @@ const TradePoint* RingTrade::cheapest(TradePart part, double accuracy, std::opti
 std::vector<const TradePoint*> RingTrade::front(TradePart part, std::optional<std::size_t> figure) const {
   std::vector<const TradePoint*> list;
   for (const auto& p : points) {
-    if (p.part == part && !p.finest && std::isfinite(p.error(figure))) list.push_back(&p);
+    if (p.part == part && !p.finest && !p.planned_for && std::isfinite(p.error(figure))) list.push_back(&p);
   }
   std::stable_sort(list.begin(), list.end(), [](const auto* a, const auto* b) { return a->cost.wall < b->cost.wall; });
   double best = std::numeric_limits<double>::infinity();

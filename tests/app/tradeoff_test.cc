@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(settings_keep_the_problem_but_for_what_they_set) {
   int finest = 0;
   std::vector<std::string> folders;
   for (const auto& setting : app::mesh_settings(planned, false)) {
-    const auto model = setting.applied(planned);
+    const auto model = setting.applied(planned, false);
     finest += setting.finest;
     folders.push_back(setting.folder());
     BOOST_TEST(model.problem->loads[model.nominal_load()] == nominal);
