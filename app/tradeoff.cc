@@ -209,7 +209,7 @@ class RingMeasurement {
     auto sun = table(sun_model, root / "sun_planet" / name, point);
     auto wheel = table(wheel_model, root / scene_.rings[ring_].name / name, point);
     if (!sun || !wheel) return;
-    Figures figures = {sun->mean_stiffness(),   wheel->mean_stiffness(),   stiffness_anywhere(*sun),
+    Figures figures = {sun->mean_stiffness(),      wheel->mean_stiffness(), stiffness_anywhere(*sun),
                        stiffness_anywhere(*wheel), sun->lte_peak_to_peak(), wheel->lte_peak_to_peak()};
     if (scene_.dynamics) {
       try {

@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "core/log.h"
+#include "fem/byte_stream.h"
+#include "fem/contact/support_row.h"
+#include "fem/gear_body.h"
 #include "fem/ring_coupling.h"
 #include "ring_paper_problems.h"
 
@@ -43,10 +46,8 @@ struct Folder {
   std::filesystem::path path;
 };
 
-LoadedMeshResult solve(const LoadedMeshProblem& problem, std::shared_ptr<CondensedStore> store,
-                       annulus::fem::Rung rung = annulus::fem::Rung::plane) {
+LoadedMeshResult solve(const LoadedMeshProblem& problem, std::shared_ptr<CondensedStore> store) {
   LoadedMeshSettings settings;
-  settings.rung = rung;
   settings.level = 1;
   settings.threads = 2;
   settings.store = std::move(store);
@@ -71,7 +72,7 @@ void check_the_same(const LoadedMeshResult& a, const LoadedMeshResult& b) {
 
 BOOST_AUTO_TEST_CASE(a_kept_tooth_changes_not_a_single_bit) {
   const Folder folder("bits");
-  for (const auto& problem : {ring_mesh(OutsideHeld{}, 2), ring_mesh(paper_pins(81, 0.01), 2), sun_mesh(2)}) {
+  for (const auto& problem : {ring_mesh(OutsideHeld{}, 2), ring_mesh(paper_pins(81, 0.01), 2)}) {
     const auto without = solve(problem, nullptr);
     BOOST_TEST(without.condensed_teeth == 4);  // two bodies, two levels
     BOOST_TEST(without.reused_teeth == 0);
@@ -107,7 +108,7 @@ BOOST_AUTO_TEST_CASE(other_supports_condense_nothing) {
   auto bolted = paper_pins(81, 0.003);
   bolted.unilateral = false;
   bolted.pin_diameter *= 0.8;
-  auto housed = paper_pins(54, 0);
+  auto housed = paper_pins(81, 0);
   housed.housing_clearance = 10e-6;
   annulus::fem::SplineHeld spline;
   spline.teeth = 81;
@@ -158,53 +159,105 @@ BOOST_AUTO_TEST_CASE(what_a_tooth_depends_on_condenses_it_again) {
   cubic.degree = 3;
   cubic.store = folder.store();
   BOOST_TEST(solve_loaded_mesh(problem, cubic).condensed_teeth == 4);
-  BOOST_TEST(solve(problem, folder.store("2")).condensed_teeth == 4);  // another version of the program
 }
 
 BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
   const Folder folder("solid");
   const auto store = folder.store();
-  using annulus::fem::Rung;
-  // Level 1 and the level before; two bodies and the four plane sections of their near fields.
-  BOOST_TEST(solve(ring_mesh(paper_pins(162, 0), 2), store, Rung::solid).condensed_teeth == 12);
-  const auto problem = ring_mesh(paper_pins(81, 0.002), 2);
-  const auto reused = solve(problem, store, Rung::solid);
-  BOOST_TEST(reused.condensed_teeth == 0);
-  BOOST_TEST(reused.reused_teeth == 12);
-  check_the_same(solve(problem, nullptr, Rung::solid), reused);
+  const auto problem = ring_mesh(OutsideHeld{}, 2);
+  const annulus::geometry::ToothProfile profile(problem.pair.wheel());
+  annulus::geometry::SectorResolution coarse;
+  coarse.flank_cells = 3;
+  coarse.fillet_cells = 2;
+  coarse.thickness_cells = 4;
+  coarse.root_cells = 1;
+  coarse.rim_cells = 2;
+  const double width = problem.face_width;
+  const auto mesh = annulus::geometry::extrude(
+      annulus::geometry::make_sector_mesh(profile.gear(), {ring_outside, {}}, coarse), {{0, width, 2}});
+  annulus::fem::GearBodyOptions options;
+  options.sector.held = annulus::fem::HeldBoundary::none;
+  options.sector.flank = annulus::geometry::Boundary::trailing_flank;
+  options.sector.want_outside = options.sector.want_stress = true;
+  bool first = true;
+  for (const auto& [pins, slices] : {std::pair{81, 2}, {54, 2}, {24, 2}, {24, 1}}) {
+    std::vector<double> edges = {0, width};
+    if (slices == 2) edges.insert(edges.begin() + 1, width / 2);
+    const auto sites = pin_sites(paper_pins(pins, 0.01), {162, ring_outside, width, problem.material});
+    options.arcs = annulus::fem::SupportPlan(sites, 162, edges).arcs();
+    options.store = store.get();
+    const auto kept = condense_tooth(mesh, profile, ring_outside, problem.material, options);
+    options.store = nullptr;
+    const auto fresh = condense_tooth(mesh, profile, ring_outside, problem.material, options);
+    BOOST_TEST(kept.reused == (!first && slices == 2));  // other slices are other unit loads
+    first = false;
+    BOOST_TEST(kept.body.arc_wrenches.size() == options.arcs.size());
+    BOOST_TEST((kept.sector.cut_stiffness == fresh.sector.cut_stiffness));
+    BOOST_TEST((kept.sector.cut_load == fresh.sector.cut_load));
+    BOOST_TEST((kept.sector.compliance == fresh.sector.compliance));
+    BOOST_TEST(kept.body.rim.first_load == fresh.body.rim.first_load);
+    BOOST_TEST(kept.sector.compliance.rows() == fresh.body.rim.first_load + fresh.body.rim.loads());
+    for (std::size_t arc = 0; arc < options.arcs.size(); ++arc)
+      BOOST_TEST((kept.body.arc_wrenches[arc] == fresh.body.arc_wrenches[arc]));
+  }
+}
+
+/// A small thing kept in a store; true when it was read.
+bool keep(CondensedStore& store, const std::string& key, std::vector<double>& values) {
+  const std::vector<double> made = {1.5, -2e300, 0.1};
+  values.clear();
+  const bool read = store.read_or_make(
+      key, [&](annulus::fem::ByteReader& in) { in.get(values); }, [&] { values = made; },
+      [&](annulus::fem::ByteWriter& out) { out.add(values); });
+  BOOST_TEST(values == made);
+  return read;
 }
 
 BOOST_AUTO_TEST_CASE(damaged_files_are_made_again) {
   const Folder folder("damaged");
-  const auto problem = ring_mesh(paper_pins(81, 0.01), 2);
-  const auto first = solve(problem, folder.store());
-  const auto damage = [&](const auto& how, int condensed) {
-    for (const auto& file : folder.files()) how(file);
-    const auto again = solve(problem, folder.store());
-    BOOST_TEST(again.condensed_teeth == condensed);
-    check_the_same(first, again);
-    BOOST_TEST(solve(problem, folder.store()).reused_teeth == 4);
+  const auto store = folder.store();
+  const std::string key = store->key("inputs");
+  BOOST_TEST(key != folder.store("2")->key("inputs"));
+  BOOST_TEST(key != store->key("other inputs"));
+  std::vector<double> values;
+  BOOST_TEST(!keep(*store, key, values));
+  BOOST_TEST(keep(*store, key, values));
+  const auto file = folder.files().front();
+  const auto size = std::filesystem::file_size(file);
+  const auto made_again = [&] {
+    BOOST_TEST(!keep(*store, key, values));
+    BOOST_TEST(keep(*store, key, values));
   };
-  damage([](const auto& file) { std::filesystem::resize_file(file, std::filesystem::file_size(file) * 2 / 3); }, 4);
-  damage([](const auto& file) { std::filesystem::resize_file(file, 0); }, 4);
-  damage([](const auto& file) { std::ofstream(file) << "something else"; }, 4);
-  // One bit anywhere: in the name, in a size, among the numbers, in the checksum.
-  for (const double part : {0.0001, 0.001, 0.01, 0.3, 0.7, 0.99999})
-    damage(
-        [part](const auto& file) {
-          std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
-          const auto at = static_cast<std::streamoff>(part * static_cast<double>(std::filesystem::file_size(file)));
-          stream.seekg(at);
-          const char byte = static_cast<char>(stream.get() ^ 4);
-          stream.seekp(at);
-          stream.put(byte);
-        },
-        4);
-  // A tooth under the name of another.
-  const auto files = folder.files();
-  std::filesystem::copy_file(files[0], files[1], std::filesystem::copy_options::overwrite_existing);
+  // Any bit, be it in the name, in a size, among the numbers or in the checksum; cut off anywhere.
+  for (std::uintmax_t at = 0; at < size; ++at) {
+    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekg(static_cast<std::streamoff>(at));
+    const char byte = static_cast<char>(stream.get() ^ (1 << at % 8));
+    stream.seekp(static_cast<std::streamoff>(at));
+    stream.put(byte);
+    stream.close();
+    made_again();
+    std::filesystem::resize_file(file, at);
+    made_again();
+  }
+  std::ofstream(file) << "something else";
+  made_again();
+  // A thing under the name of another.
+  const std::string other = store->key("other inputs");
+  std::filesystem::copy_file(file, folder.path / (other + ".tooth"));
+  BOOST_TEST(!keep(*store, other, values));
+  BOOST_TEST(folder.files().size() == 2U);  // nothing unfinished is left
+}
+
+BOOST_AUTO_TEST_CASE(a_damaged_tooth_is_condensed_again) {
+  const Folder folder("tooth");
+  const auto problem = ring_mesh(OutsideHeld{}, 2);
+  const auto first = solve(problem, folder.store());
+  const auto damaged = folder.files().front();
+  std::filesystem::resize_file(damaged, std::filesystem::file_size(damaged) * 2 / 3);
   const auto again = solve(problem, folder.store());
   BOOST_TEST(again.condensed_teeth == 1);
+  BOOST_TEST(again.reused_teeth == 3);
   check_the_same(first, again);
 }
 
