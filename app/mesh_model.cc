@@ -39,17 +39,11 @@ fem::RingStructure structure_of(const RingInput& ring) {
       .unilateral = ring.structure == Structure::pinned};
 }
 
-fem::LoadedMeshProblem problem_of(const Scene& scene, const geometry::GearPair& pair, double mean_force,
-                                  const HubGearInput& planet) {
-  const auto resolution = table_resolution(scene.accuracy);
-  std::vector<double> loads;
-  for (const double factor : resolution.load_factors) loads.push_back(factor * mean_force);
+fem::LoadedMeshProblem problem_of(const Scene& scene, const geometry::GearPair& pair, const HubGearInput& planet) {
   return {.pair = pair,
           .material = {scene.material.youngs_modulus, scene.material.poisson_ratio, scene.material.density},
           .face_width = scene.stage.face_width,
-          .planet_bore_radius = planet.bore_diameter.value_or(0) / 2,
-          .loads = std::move(loads),
-          .phases = resolution.phases};
+          .planet_bore_radius = planet.bore_diameter.value_or(0) / 2};
 }
 
 void use(MeshModel& model, fem::Rung rung) {
@@ -57,7 +51,7 @@ void use(MeshModel& model, fem::Rung rung) {
   model.rung = rung_name(rung);
 }
 
-/// The cheapest rung whose error is controlled, unless the scene asks for another.
+/// The cheapest rung the mesh permits, unless the scene asks for another.
 void set_rung(MeshModel& model, const Scene& scene, const std::string& why_solid, const std::string& why_plane) {
   const bool needs_solid = !why_solid.empty();
   const std::string& why = needs_solid ? why_solid : why_plane;
@@ -84,8 +78,34 @@ void set_rung(MeshModel& model, const Scene& scene, const std::string& why_solid
       model.reason = std::string(asked) + "; " + why;
       break;
   }
+}
+
+/// Formulas do where their error, known beforehand, is within the accuracy. Rings on single supports are left to
+/// elements, which also tell how their meshes act on each other through the ring.
+bool formulas_do(const MeshModel& model, const Scene& scene, double error) {
+  return scene.rung == Rung::automatic && model.settings.rung == fem::Rung::plane && error <= scene.accuracy &&
+         !(model.problem->pair.internal() && fem::on_single_supports(model.problem->structure));
+}
+
+/// What the wanted accuracy asks of a mesh whose problem is complete but for phases and loads.
+void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
   model.settings.accuracy = scene.accuracy;
-  model.resolution = table_resolution(scene.accuracy).reason;
+  auto table = table_resolution(scene.accuracy);
+  model.problem->phases = table.phases;
+  for (const double factor : table.load_factors) model.problem->loads.push_back(factor * mean_force);
+  model.phases = std::move(table.phases_reason);
+  model.loads = std::move(table.loads_reason);
+  if (model.settings.rung == fem::Rung::plane) {
+    const double error = fem::closed_form_error(*model.problem);
+    if (formulas_do(model, scene, error)) {
+      use(model, fem::Rung::closed_form);
+      model.reason += fmt::format("; formulas are within {:.1g} %", 100 * error);
+    }
+  }
+  if (model.settings.rung == fem::Rung::closed_form) return;
+  auto elements = element_choice(model.settings.rung, scene.accuracy);
+  model.settings.degree = elements.degree;
+  model.elements = std::move(elements.reason);
 }
 
 std::string plane_reason(const RingInput& ring) {
@@ -210,15 +230,36 @@ const char* rung_name(fem::Rung rung) {
   return "resolved_solid";
 }
 
-TableResolution table_resolution(double accuracy) {
-  constexpr double rough = 0.03, fine = 0.003;
-  const std::vector<double> usual = {std::begin(table_load_factors), std::end(table_load_factors)};
-  if (accuracy >= rough)
-    return {
-        table_phases / 2, {0.5, 1, 1.5}, "three loads and 16 positions interpolate to 1.5 %, enough for the accuracy"};
-  if (accuracy > fine)
-    return {table_phases, usual, "five loads and 32 positions interpolate to 0.15 %, within the accuracy"};
-  return {2 * table_phases, usual, "64 positions: 32 interpolate to 0.15 % only, the accuracy asks for more"};
+std::vector<Decision> decisions(const MeshModel& model) {
+  std::vector<Decision> list = {{"rung", model.rung, model.reason}};
+  if (!model.computed()) return list;
+  const auto& settings = model.settings;
+  const auto& problem = *model.problem;
+  const bool elements = settings.rung != fem::Rung::closed_form;
+  const bool solid = settings.rung == fem::Rung::solid || settings.rung == fem::Rung::resolved_solid;
+  list.push_back({"dimension", solid ? "3D" : "2D, plane strain",
+                  solid ? "the face width is meshed" : "one section stands for the whole face width"});
+  if (elements) {
+    constexpr const char* names[] = {"linear", "quadratic", "cubic"};
+    list.push_back({"elements", names[settings.degree - 1], model.elements});
+    list.push_back(
+        settings.level
+            ? Decision{"refinement", fmt::format("level {}", *settings.level), "asked for"}
+            : Decision{"refinement", fmt::format("until {:g} %", 100 * settings.accuracy),
+                       "cells 1.5 times smaller from level to level until two levels agree at every position"});
+    list.push_back(
+        {"sectors",
+         fmt::format("1 of {} and 1 of {} teeth", problem.pair.planet().teeth(), problem.pair.wheel().teeth()),
+         "equal teeth are condensed once and the gears composed of them"});
+  }
+  list.push_back({"ring positions", std::to_string(model.positions), model.repeats});
+  list.push_back({"positions per mesh cycle", std::to_string(problem.phases), model.phases});
+  std::string loads = to_text(problem.loads.front() / 1e3, 4) + " kN";
+  if (problem.loads.size() > 1)
+    loads = fmt::format("{}, {} to {} kN", problem.loads.size(), to_text(problem.loads.front() / 1e3, 4),
+                        to_text(problem.loads.back() / 1e3, 4));
+  list.push_back({"loads", loads, model.loads});
+  return list;
 }
 
 std::string MeshModel::id() const {
@@ -275,9 +316,10 @@ MeshModel external_mesh_model(const Scene& scene, const ExternalMesh& mesh) {
   set_rung(model, scene, solid_reason(scene, mesh),
            "spur gears without lead modifications on hubs over the full width: nothing changes along the face width");
   model.repeats = "equal teeth on concentric hubs: one mesh cycle tells all";
-  model.problem = problem_of(scene, mesh.pair, mesh.mean_force, mesh.planet);
+  model.problem = problem_of(scene, mesh.pair, mesh.planet);
   model.problem->wheel_support_radius = mesh.wheel.bore_diameter.value_or(0) / 2;
   model.problem->misalignment = mesh.misalignment;
+  set_resolution(model, scene, mesh.mean_force);
   return model;
 }
 
@@ -307,11 +349,11 @@ MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std:
   model.repeats = input.has_pins() || input.structure == Structure::splined
                       ? repeats_text(input, model.positions)
                       : "the support is the same behind every tooth: one mesh cycle tells all";
-  model.problem =
-      problem_of(scene, ring_geometry.set.ring_mesh(), geometry.operating_point.mean_mesh_force, scene.planet);
+  model.problem = problem_of(scene, ring_geometry.set.ring_mesh(), scene.planet);
   model.problem->wheel_support_radius = ring_geometry.outside_radius;
   model.problem->structure = structure;
   model.problem->misalignment = scene.errors.ring_planet_misalignment;
+  set_resolution(model, scene, geometry.operating_point.mean_mesh_force);
   return model;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/accuracy_choice.h"
 #include "app/gear_geometry.h"
 #include "app/scene.h"
 #include "fem/loaded_mesh.h"
@@ -14,6 +15,16 @@ inline constexpr const char* sun_planet = "sun_planet";
 inline constexpr const char* ring_planet = "ring_planet";
 inline constexpr const char* pinion_wheel = "pinion_wheel";
 inline constexpr const char* arc_pins = "arc_pins";
+
+/// Something decided before computing, and why.
+struct Decision {
+  std::string what;    ///< "elements"
+  std::string choice;  ///< "quadratic"
+  std::string reason;
+};
+/// All that is decided about a mesh.
+struct MeshModel;
+[[nodiscard]] std::vector<Decision> decisions(const MeshModel& model);
 
 /// "plane", "resolved_solid" ...
 [[nodiscard]] const char* rung_name(fem::Rung rung);
@@ -26,7 +37,9 @@ struct MeshModel {
   std::string reason{};                             ///< why this rung
   int positions = 1;                                ///< ring positions after which the mesh repeats
   std::string repeats{};                            ///< why so many
-  std::string resolution{};                         ///< why so many phases and loads
+  std::string elements{};                           ///< why elements of this degree
+  std::string phases{};                             ///< why so many positions per mesh cycle
+  std::string loads{};                              ///< why so many loads
   std::optional<fem::LoadedMeshProblem> problem{};  ///< absent when the stiffness is given
   fem::LoadedMeshSettings settings{};
 
@@ -38,24 +51,6 @@ struct MeshModel {
   /// For messages: "sun-planet mesh", "planet mesh of ring 'pinned'".
   [[nodiscard]] std::string label() const;
 };
-
-/// Loads of every table, as multiples of the nominal mean mesh force: around it, so that the table can be interpolated,
-/// and down to a quarter, where the load no longer spreads over all teeth.
-inline constexpr double table_load_factors[] = {0.25, 0.5, 1, 1.5, 2};
-inline constexpr std::size_t nominal_load_index = 2;
-/// Positions per mesh cycle.
-inline constexpr int table_phases = 32;
-
-/// How finely a table is resolved, and why.
-struct TableResolution {
-  int phases = table_phases;
-  std::vector<double> load_factors{};  ///< of the nominal load; the middle one is 1
-  std::string reason{};
-};
-/// What an accuracy wanted of the stiffness leaves to the table. `annulus tradeoff` on the ring paper's traditional
-/// ring: against 64 positions and nine loads the instantaneous load sharing is off by 1.5, 0.14 and 0.06 % with 16, 32
-/// and 64 positions and five loads, and no more with three loads; with one load 1.2 %.
-[[nodiscard]] TableResolution table_resolution(double accuracy);
 
 /// Why a mesh needs a solid model: what changes along its face width. Empty when nothing does.
 [[nodiscard]] std::string solid_reason(const Scene& scene, const RingInput& ring);  ///< ring-planet mesh

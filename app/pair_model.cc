@@ -121,7 +121,8 @@ dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry
 
 dynamics::SimulationOptions pair_simulation(const Scene& scene) {
   dynamics::SimulationOptions options;
-  options.integrator.relative_tolerance = scene.dynamics->relative_tolerance;
+  options.integrator.relative_tolerance =
+      scene.dynamics->relative_tolerance.value_or(options.integrator.relative_tolerance);
   options.integrator.method = scene.dynamics->integrator;
   if (scene.dynamics->steps_per_cycle) {
     const double mesh_frequency = scene.pinion.teeth * scene.stage.pinion_speed / (2 * std::numbers::pi);

@@ -209,6 +209,7 @@ RunResult run(const Scene& scene, const RunOptions& given) {
   GearGeometry geometry = make_geometry(scene);
   if (options.with_dynamics) check_studies(scene);  // before anything expensive
   Plan plan = make_plan(scene, geometry, options.threads);
+  if (options.remodel) std::transform(plan.meshes.begin(), plan.meshes.end(), plan.meshes.begin(), options.remodel);
   auto sun_mesh = mesh_stiffness(scene, geometry, plan.meshes.front(), ring_names(scene), options);
   RunResult result{
       .scene = scene, .geometry = std::move(geometry), .plan = std::move(plan), .sun_mesh = std::move(sun_mesh)};

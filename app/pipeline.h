@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +35,8 @@ struct RunOptions {
   std::shared_ptr<Reuse> reuse{};
   std::shared_ptr<fem::CondensedStore> store{};
   bool for_study = false;  ///< what is computed belongs to a changed scene
+  /// Changes how a mesh is solved from what was planned (measurements); absent: as planned.
+  std::function<MeshModel(const MeshModel& planned)> remodel{};
 };
 
 struct RingResult {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/motion_plan.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -209,7 +210,10 @@ Plan make_plan(const Scene& scene, const GearGeometry& geometry, int threads) {
     plan.rings.emplace_back(geometry.rings[i].name, ring_quantities(geometry.rings[i]));
     plan.meshes.push_back(ring_mesh_model(scene, geometry, i));
   }
-  if (scene.dynamics) plan.freedoms = freedoms(scene.supports, scene.stage.planets);
+  if (scene.dynamics) {
+    plan.freedoms = freedoms(scene.supports, scene.stage.planets);
+    plan.motion = motion_decisions(scene, plan.meshes);
+  }
   plan.studies = plan_studies(scene);
   plan.remarks = remarks(scene, geometry, plan.meshes);
   plan.cost = plan_cost(scene, geometry, plan.meshes, plan.studies, threads, CostModel::of_this_machine());

@@ -34,6 +34,7 @@ struct Plan {
   std::vector<std::pair<std::string, std::vector<Quantity>>> rings;  ///< per ring
   std::vector<MeshModel> meshes;                                     ///< sun mesh first, then one per ring
   std::vector<FreedomPlan> freedoms;
+  std::vector<Decision> motion;      ///< how the motion is found in time
   std::vector<StudyPlan> studies;    ///< sweeps, samples, sensitivity
   std::vector<std::string> remarks;  ///< simplifications and warnings
   PlanCost cost{};                   ///< predicted; empty for stages other than planetary

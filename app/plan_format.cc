@@ -26,15 +26,19 @@ std::string quantity_lines(const std::vector<Quantity>& quantities) {
   return text;
 }
 
-std::string mesh_lines(const MeshModel& mesh) {
-  std::string text = fmt::format("  {}: {}\n    {}\n", mesh.label(), mesh.rung, mesh.reason);
-  if (!mesh.computed()) return text;
-  text += fmt::format("    {} positions per mesh cycle x {} ring position{} ({})\n", mesh.problem->phases,
-                      mesh.positions, mesh.positions == 1 ? "" : "s", mesh.repeats);
-  std::string loads;
-  for (const double load : mesh.problem->loads) loads += (loads.empty() ? "" : ", ") + to_text(load / 1e3, 5);
-  text += "    loads " + loads + " kN\n";
-  return mesh.resolution.empty() ? text : text + "    " + mesh.resolution + "\n";
+std::string decision_lines(const std::vector<Decision>& list) {
+  std::size_t longest = 0;
+  for (const auto& d : list) longest = std::max(longest, d.choice.size());
+  std::string text;
+  for (const auto& d : list)
+    text += "    " + pad(d.what, 26) + pad(d.choice, std::min<std::size_t>(longest, 30) + 2) + d.reason + "\n";
+  return text;
+}
+
+Json decisions_json(const std::vector<Decision>& list) {
+  Json json = Json::array();
+  for (const auto& d : list) json.push_back({{"what", d.what}, {"choice", d.choice}, {"reason", d.reason}});
+  return json;
 }
 
 Json value_json(const Value& value) {
@@ -91,11 +95,11 @@ std::string to_text(const Plan& plan) {
   for (const auto& [name, quantities] : plan.rings) text += "  ring '" + name + "'\n" + quantity_lines(quantities);
 
   text += "\nMeshes and bodies\n";
-  for (const auto& mesh : plan.meshes) text += mesh_lines(mesh);
+  for (const auto& mesh : plan.meshes) text += "  " + mesh.label() + "\n" + decision_lines(decisions(mesh));
   text += fmt::format("  {} contact problems per level of resolution\n", plan.contact_problems());
   text += cost_lines(plan);
 
-  if (!plan.freedoms.empty()) text += "\nLumped model\n";
+  if (!plan.freedoms.empty()) text += "\nLumped model\n" + decision_lines(plan.motion);
   for (const auto& f : plan.freedoms)
     text += fmt::format("  {} {} {}\n", f.kept ? "kept   " : "dropped", pad(f.name, 18), f.reason);
 
@@ -139,11 +143,12 @@ std::string to_json(const Plan& plan) {
   for (const auto& mesh : plan.meshes) {
     Json item = {{"mesh", mesh.mesh}, {"rung", mesh.rung}, {"reason", mesh.reason}};
     if (!mesh.ring.empty()) item["ring"] = mesh.ring;
+    item["decisions"] = decisions_json(decisions(mesh));
     if (mesh.computed()) {
       item["phases"] = mesh.problem->phases;
       item["ring_positions"] = mesh.positions;
       item["loads_N"] = mesh.problem->loads;
-      item["resolution"] = mesh.resolution;
+      if (mesh.settings.rung != fem::Rung::closed_form) item["degree"] = mesh.settings.degree;
       for (const auto& step : plan.cost.steps) {
         if (step.kind != CostKind::mesh || step.label != mesh.label()) continue;
         item["predicted_s"] = finite(step.predicted.seconds);
@@ -152,6 +157,7 @@ std::string to_json(const Plan& plan) {
     }
     json["meshes"].push_back(std::move(item));
   }
+  json["motion"] = decisions_json(plan.motion);
   json["freedoms"] = Json::array();
   for (const auto& f : plan.freedoms)
     json["freedoms"].push_back({{"name", f.name}, {"kept", f.kept}, {"reason", f.reason}});

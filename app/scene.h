@@ -171,7 +171,7 @@ struct DynamicsInput {
   dynamics::Integrator integrator = dynamics::Integrator::automatic;
   std::optional<int> steps_per_cycle;  ///< runge_kutta_4 only
   std::optional<int> mesh_cycles;
-  double relative_tolerance = 0;
+  std::optional<double> relative_tolerance;  ///< of the time integration; absent: what the accuracy asks for
 };
 
 /// One input run through a row of values. Values of studies are in the unit of their input, as in the file.

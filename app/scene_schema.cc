@@ -462,8 +462,8 @@ std::vector<Table> declare_tables() {
       .from(1, 1e6)
       .absent("until the periodic steady state is reached, then one error period");
   lumped.key("relative_tolerance", &DynamicsInput::relative_tolerance, "Relative tolerance of the time integration.")
-      .fallback(1e-6, "far below the accuracy of the stiffness")
-      .from(1e-12, 1e-2);
+      .from(1e-12, 1e-2)
+      .absent("planetary stages: a ten-thousandth of the wanted accuracy, 1e-8 to 1e-5; else 1e-6");
   tables.push_back(lumped.done());
   declare_studies(tables);
   return tables;

@@ -1,6 +1,7 @@
 
 #include <algorithm>
 
+#include "app/accuracy_choice.h"
 #include "app/content_id.h"
 #include "app/stage_response.h"
 #include "core/errors.h"
@@ -130,7 +131,7 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
 
 dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double mesh_frequency) {
   dynamics::SimulationOptions options;
-  options.integrator.relative_tolerance = input.relative_tolerance;
+  options.integrator.relative_tolerance = input.relative_tolerance.value_or(options.integrator.relative_tolerance);
   options.integrator.method = input.integrator;
   if (input.steps_per_cycle) options.integrator.fixed_step = 1 / (mesh_frequency * *input.steps_per_cycle);
   options.mesh_cycles = input.mesh_cycles;
@@ -139,6 +140,11 @@ dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double 
 
 dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamics::PlanetaryStage& stage) {
   auto options = given_simulation(*scene.dynamics, stage.mesh_frequency());
+  const auto choice = motion_choice(scene.accuracy);
+  options.samples_per_cycle = choice.samples_per_cycle;
+  options.confirm = choice.confirm;
+  options.confirm_where_teeth_part = true;
+  if (!scene.dynamics->relative_tolerance) options.integrator.relative_tolerance = choice.relative_tolerance;
   // A ring on p pins repeats only after z_r / gcd(z_r, p) teeth, and with the planets after hundreds of mesh cycles:
   // the window covers them all up to a time series of some hundred megabytes.
   constexpr int longest_window = 4000;
@@ -181,6 +187,7 @@ std::string response_id(const dynamics::PlanetaryStage& stage, const dynamics::S
   id.add("method", static_cast<int>(options.integrator.method)).add("tolerance", options.integrator.relative_tolerance);
   id.add("cycles", options.mesh_cycles.value_or(0)).add("steady", options.steady_tolerance);
   id.add("samples", options.samples_per_cycle).add("windows", options.max_windows);
+  id.add("confirm", options.confirm ? 1 : 0).add("where_parting", options.confirm_where_teeth_part ? 1 : 0);
   id.add("max_window", options.max_window_cycles);
   return id.id();
 }

@@ -43,6 +43,18 @@ std::string cheapest_text(const RingTrade& ring, TradePart part, double accuracy
                      duration_text(p->cost.wall), p->cost.peak_memory_MB, percent(p->error()), worst.title);
 }
 
+/// "The planner, asked for 1 %: 3.1 s, 400 MB; errors up to 0.2 % (...)".
+std::string planned_text(const TradePoint& p) {
+  const std::string text = fmt::format("The planner, asked for {}: ", percent(*p.planned_for));
+  if (!p.failure.empty()) return text + p.failure;
+  std::optional<std::size_t> worst;
+  for (std::size_t i = 0; i < p.values.size(); ++i)
+    if (trade_figures()[i].promised && p.values[i].error == p.promised_error()) worst = i;
+  return text + fmt::format("{}, {:.0f} MB; errors up to {}{}.", duration_text(p.cost.wall), p.cost.peak_memory_MB,
+                            percent(p.promised_error()),
+                            worst ? std::string(" (") + trade_figures()[*worst].title + ")" : "");
+}
+
 const TradePoint* finest_of(const RingTrade& ring, TradePart part) {
   const auto found = std::find_if(ring.points.begin(), ring.points.end(),
                                   [part](const TradePoint& p) { return p.part == part && p.finest; });
@@ -152,6 +164,8 @@ std::string part_section(const RingTrade& ring, TradePart part) {
                       duration_text(finest->cost.wall), finest->cost.peak_memory_MB);
   for (const double accuracy : wanted_accuracies)
     text += "<li>" + escape(cheapest_text(ring, part, accuracy)) + "</li>";
+  for (const auto& p : ring.points)
+    if (p.part == part && p.planned_for) text += "<li>" + escape(planned_text(p)) + "</li>";
   text += "</ul>\n" + figure({trade_picture(ring, part), fronts_picture(ring, part)}, "",
                              "Largest error over all figures against wall time. The line joins the settings that no "
                              "other beats in both; what leaves parts of the model out is marked apart.");
@@ -228,6 +242,8 @@ std::string trade_text(const TradeOff& trade) {
         text += fmt::format("  {:>9}  {:>6.0f} MB  error {:>8}  {}\n", duration_text(p->cost.wall),
                             p->cost.peak_memory_MB, percent(p->error()), setting_text(*p));
       for (const double accuracy : wanted_accuracies) text += "  " + cheapest_text(ring, part, accuracy) + "\n";
+      for (const auto& p : ring.points)
+        if (p.part == part && p.planned_for) text += "  " + planned_text(p) + "\n";
     }
   }
   return text;

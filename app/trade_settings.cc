@@ -27,11 +27,6 @@ std::vector<double> load_factors(int loads) {
   throw InternalError("internal error: no such number of loads");
 }
 
-bool has_pins(const fem::LoadedMeshProblem& problem) {
-  return std::holds_alternative<fem::PinHeld>(problem.structure) ||
-         std::holds_alternative<fem::SplineHeld>(problem.structure);
-}
-
 }  // namespace
 
 std::string MeshSetting::text() const {
@@ -81,7 +76,7 @@ std::vector<MeshSetting> mesh_settings(const MeshModel& planned, bool needs_soli
   for (const int phases : {8, 16, 64}) list.push_back({.rung = Rung::plane, .level = 2, .phases = phases});
   for (const int loads : {1, 3, 9}) list.push_back({.rung = Rung::plane, .level = 2, .loads = loads});
   // The resolved rung knows no pins, and every position of it has a mesh of its own.
-  if (!has_pins(*planned.problem))
+  if (!fem::on_single_supports(planned.problem->structure))
     list.push_back({.rung = Rung::resolved_plane, .degree = 2, .level = 1, .phases = 16, .loads = 1});
   list.push_back({.rung = Rung::plane, .degree = 3, .level = 3, .phases = 64, .loads = 9, .finest = true});
   return list;

@@ -184,7 +184,8 @@ class RingMeasurement {
   }
 
   TradePoint mesh_point(const MeshSetting& setting) {
-    TradePoint point{.rung = rung_name(setting.rung), .settings = setting.text(), .finest = setting.finest};
+    TradePoint point{
+        .rung = rung_name(setting.rung), .settings = setting.text(), .finest = setting.finest, .mesh = setting};
     measure(setting.applied(sun_, sun_needs_solid_), setting.applied(wheel_, wheel_needs_solid_), setting.folder(),
             point);
     return point;

@@ -44,6 +44,7 @@ struct TradePoint {
   std::string settings;  ///< "degree 2, level 1, 32 phases, 5 loads"
   bool finest = false;   ///< the others are held against it
   bool changes_model = false;
+  std::optional<MeshSetting> mesh{};    ///< of a fixed setting of the meshes
   std::optional<double> planned_for{};  ///< the wanted accuracy for which the planner chose it; absent: a fixed setting
   Cost cost{};            ///< meshes: of both tables, the memory of the larger one; dynamics: of the response
   Cost response{};        ///< meshes: of the response on these tables and its errors

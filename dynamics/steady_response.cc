@@ -216,7 +216,8 @@ SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& 
   std::optional<DirectWindows> direct;
   if (options.steady_state == SteadyState::direct && !options.mesh_cycles && whole)
     direct = solve_directly(system, problem, cycles, options, response.direct);
-  if (direct && !options.confirm) {
+  const bool parting = direct && direct->fine.open.size() > 0 && direct->fine.open.maxCoeff() > 0;
+  if (direct && !options.confirm && !(options.confirm_where_teeth_part && parting)) {
     response.steady = true;
     response.begin = response.end = {0, direct->fine.displacement.col(0), direct->fine.velocity.col(0)};
     response.best = std::move(direct->fine);

@@ -28,6 +28,8 @@ struct SimulationOptions {
   /// (sweeps, Monte Carlo); the errors then compare with half the samples, and there is no energy balance. Marching
   /// gives up where windows come closer so slowly (chaos: not at all) that `max_windows` will not do.
   bool confirm = true;
+  /// Without `confirm`: confirmed nevertheless where a mesh loses contact, beside which other motions may exist.
+  bool confirm_where_teeth_part = false;
   bool keep_series = true;   ///< false: figures only
   PeriodicOptions periodic;  ///< samples_per_cycle and motion are set from what stands here
   IntegratorOptions integrator;

@@ -123,4 +123,8 @@ struct LoadedMeshResult {
 /// the finest level does not reach the accuracy.
 [[nodiscard]] LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings);
 
+/// Estimated relative error of the closed form's stiffness where it is largest (a pair that bears at its tip edge),
+/// known without solving anything.
+[[nodiscard]] double closed_form_error(const LoadedMeshProblem& problem);
+
 }  // namespace annulus::fem

@@ -26,6 +26,10 @@ std::vector<double> equal_angles(int count, double first) {
   return angles;
 }
 
+bool on_single_supports(const RingStructure& structure) {
+  return std::holds_alternative<PinHeld>(structure) || std::holds_alternative<SplineHeld>(structure);
+}
+
 int repeating_teeth(const RingStructure& structure, int teeth) {
   if (const auto* spline = std::get_if<SplineHeld>(&structure)) return teeth / std::gcd(teeth, spline->teeth);
   const auto* pinned = std::get_if<PinHeld>(&structure);

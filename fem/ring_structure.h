@@ -57,6 +57,9 @@ using RingStructure = std::variant<OutsideHeld, EndFaceHeld, PinHeld, FlangeHeld
 /// `count` equally spaced angles, rad.
 [[nodiscard]] std::vector<double> equal_angles(int count, double first);
 
+/// Whether the ring rests on single supports (pins, bolts, splines) instead of being held by a surface.
+[[nodiscard]] bool on_single_supports(const RingStructure& structure);
+
 /// The smallest number of teeth by which a ring of `teeth` teeth can be turned so that its structure looks the same:
 /// its contact repeats after so many mesh cycles.
 [[nodiscard]] int repeating_teeth(const RingStructure& structure, int teeth);

@@ -34,7 +34,7 @@ RootLoads root_loads(Circle circle, double radius, double half_angle, int harmon
 void add_between_roots(std::vector<Eigen::Matrix3d>& result, const RingSeries& ring, const RootLoads& loads,
                        double pitch_angle, const Eigen::Matrix3d& left, const Eigen::Matrix3d& right) {
   const int neighbours = static_cast<int>(result.size()) / 2;
-  std::array<std::array<RingCoupling, 3>, 3> couplings;
+  std::array<std::array<HarmonicCoupling, 3>, 3> couplings;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) couplings[i][j] = ring.coupling(loads[i], loads[j]);
   for (int offset = -neighbours; offset <= neighbours; ++offset) {
@@ -113,11 +113,11 @@ void ClosedFormBody::let_yield(const PlainRing& rim, double width, RimTheory the
   for (std::size_t source_arc = 0; source_arc < arcs.size(); ++source_arc)
     for (const int b : {0, 1}) {
       const RingHarmonics& source_load = loads[source_arc][b];
-      std::vector<std::array<RingCoupling, 2>> to_support;
+      std::vector<std::array<HarmonicCoupling, 2>> to_support;
       to_support.reserve(loads.size());
       for (const Pair& load : loads)
         to_support.push_back({ring.coupling(load[0], source_load), ring.coupling(load[1], source_load)});
-      std::array<RingCoupling, 3> to_root;
+      std::array<HarmonicCoupling, 3> to_root;
       for (int i = 0; i < 3; ++i) to_root[i] = ring.coupling(roots[i], source_load);
       for (Eigen::Index j = 0; j < count; ++j) {
         const double f = component(supports[j], b) / width;

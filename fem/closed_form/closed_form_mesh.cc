@@ -14,17 +14,13 @@ namespace {
 /// Relative error of the stiffness, from differences to converged plane finite elements (docs/methods.md): 3 % for
 /// teeth and foundation; 2 % more where a pair bears at its tip edge; for a ring on its own supports what an
 /// uncertainty of 0.025 root pitches in the layer that stands for the teeth makes of the bending stiffness, which goes
-/// with the cube of the thickness; plane stress instead of plane strain when the face is narrower than five tooth
-/// thicknesses (Cornell 1981).
-double estimated_error(const LoadedMeshProblem& problem, const ClosedFormBody& wheel, bool tip_edge) {
+/// with the cube of the thickness.
+double estimated_error(const LoadedMeshProblem& problem, bool tip_edge) {
   double error = 0.03;
   if (tip_edge) error += 0.02;
   const auto& gear = problem.pair.wheel();
-  if (wheel.floating())
+  if (problem.pair.internal() && on_single_supports(problem.structure))
     error += 3 * 0.025 * gear.pitch_angle() * gear.root_radius() / (problem.wheel_support_radius - gear.root_radius());
-  const double root_thickness = 2 * wheel.tooth().root_radius() * wheel.tooth().root_half_angle();
-  const double nu = problem.material.poisson_ratio;
-  if (problem.face_width < 5 * root_thickness) error += 1 / (1 - nu * nu) - 1;
   return error;
 }
 
@@ -120,7 +116,7 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
   if (!(position.entry.lte > unloaded)) throw SolverError("the loaded transmission error is not positive");
   position.entry.stiffness_secant = load / (position.entry.lte - unloaded);
   position.entry.stiffness_tangent = 1 / solution.tangent(0, 0);
-  position.entry.error_relative = estimated_error(problem_, wheel_, tip_edge);
+  position.entry.error_relative = estimated_error(problem_, tip_edge);
 
   const double torque = load * problem_.pair.planet().base_radius();
   position.force_balance_relative = std::abs(std::abs(moment) - torque) / torque;
@@ -207,6 +203,8 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
   result.contact_seconds = since() - condensed;
   return result;
 }
+
+double closed_form_error(const LoadedMeshProblem& problem) { return estimated_error(problem, true); }
 
 LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings) {
   return solve_closed_form(problem, settings, {});

@@ -56,8 +56,8 @@ RingSeries::RingSeries(const Compliance& compliance, int harmonics) {
   for (int n = 0; n <= harmonics; ++n) compliance_.push_back(compliance(n) * (n == 0 ? 2 * M_PI : M_PI));
 }
 
-RingCoupling RingSeries::coupling(const RingHarmonics& load, const RingHarmonics& source) const {
-  RingCoupling result;
+HarmonicCoupling RingSeries::coupling(const RingHarmonics& load, const RingHarmonics& source) const {
+  HarmonicCoupling result;
   // Products of unlike parity vary with the sine of the distance.
   result.sine_ = load.odd != source.odd;
   const double sign = result.sine_ && load.odd ? -1 : 1;
@@ -74,7 +74,7 @@ RingCoupling RingSeries::coupling(const RingHarmonics& load, const RingHarmonics
   return result;
 }
 
-double RingCoupling::operator()(double angle) const {
+double HarmonicCoupling::operator()(double angle) const {
   // Sines and cosines by recurrence, restarted so that round-off does not grow.
   constexpr std::size_t restart = 64;
   const double step_c = std::cos(angle), step_s = std::sin(angle);

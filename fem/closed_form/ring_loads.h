@@ -33,7 +33,7 @@ struct RingHarmonics {
 [[nodiscard]] double centroid_radius(double radius, double half_angle, Spread spread);
 
 /// Compliance between two loads on one ring as a function of the angle between them.
-class RingCoupling {
+class HarmonicCoupling {
  public:
   /// Displacement in the sense of the first load, placed at `angle` (rad), under the second one at angle zero, m/(N/m).
   [[nodiscard]] double operator()(double angle) const;
@@ -52,7 +52,7 @@ class RingSeries {
 
   /// Displacement in the sense of `load` under `source`. Terms beyond the shortest of the series are left out, and
   /// those that have died away to round-off.
-  [[nodiscard]] RingCoupling coupling(const RingHarmonics& load, const RingHarmonics& source) const;
+  [[nodiscard]] HarmonicCoupling coupling(const RingHarmonics& load, const RingHarmonics& source) const;
 
  private:
   std::vector<HarmonicCompliance> compliance_;

@@ -4,8 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <exception>
 
+#include "app/measured_work.h"
+#include "app/overrides.h"
 #include "app/scene.h"
 #include "app/trade_report.h"
 #include "app/tradeoff.h"
@@ -47,13 +50,68 @@ std::vector<MeshSetting> settings(const app::MeshModel&, bool needs_solid) {
   return list;
 }
 
+/// One scene at one wanted accuracy.
+struct Row {
+  std::string scene;
+  double accuracy = 0;
+  const app::TradePoint* planned = nullptr;
+  const app::TradePoint* cheapest = nullptr;  ///< fixed setting by the time of its tables; nullptr: none meets it
+  double planned_run = 0, cheapest_run = 0;   ///< s of processor time of a whole run
+
+  [[nodiscard]] bool refused() const { return !planned->failure.empty(); }
+  [[nodiscard]] bool kept() const { return planned->promised_error() <= accuracy; }
+};
+
 const app::TradePoint* cheapest(const app::RingTrade& ring, double accuracy) {
   const app::TradePoint* best = nullptr;
   for (const auto& p : ring.points) {
-    if (p.part != app::TradePart::mesh || p.finest || p.planned_for || !(p.promised_error() <= accuracy)) continue;
+    if (!p.mesh || p.finest || !(p.promised_error() <= accuracy)) continue;
     if (!best || p.cost.processor < best->cost.processor) best = &p;
   }
   return best;
+}
+
+/// Processor time of `annulus run` from scratch, as planned or with a fixed setting of the meshes.
+double run_time(const app::Scene& scene, const std::filesystem::path& folder, const app::MeshSetting* setting) {
+  app::RunOptions options{.out = folder, .threads = 1};
+  if (setting)
+    options.remodel = [&](const app::MeshModel& planned) {
+      const bool solid =
+          planned.ring.empty() ? !solid_reason(scene).empty() : !solid_reason(scene, scene.rings.front()).empty();
+      return setting->applied(planned, solid);
+    };
+  std::filesystem::remove_all(folder);
+  const auto done = app::measured([&] {
+    (void)app::run(scene, options);
+    return std::string("done");
+  });
+  std::filesystem::remove_all(folder);
+  return done.failure.empty() ? done.cost.processor : std::nan("");
+}
+
+void print_points(const std::string& scene, const app::RingTrade& ring) {
+  for (const auto& p : ring.points) {
+    if (p.part != app::TradePart::mesh) continue;
+    fmt::print("{:12} {:12} {:40} {:7.2f} s {:.5f} |", scene, p.rung, p.settings, p.cost.processor, p.promised_error());
+    for (const auto& v : p.values) fmt::print(" {:.1e} ({:.1e})", v.error, v.error_estimate);
+    fmt::print(" {}\n", p.failure);
+  }
+}
+
+void print_row(const Row& row) {
+  std::string text = fmt::format("{:12} {:>5} %", row.scene, fmt::format("{:g}", 100 * row.accuracy));
+  if (row.refused()) {
+    fmt::print("{}  refused: {}\n", text, row.planned->failure);
+    return;
+  }
+  text += fmt::format("  {:>8.3f} %  {}", 100 * row.planned->promised_error(), row.kept() ? "kept  " : "MISSED");
+  if (row.planned_run > 0)
+    text += fmt::format("  tables {:6.2f} s  run {:6.2f} s", row.planned->cost.processor, row.planned_run);
+  if (row.cheapest)
+    text += fmt::format("  cheapest {:6.2f} s {:6.2f} s ({}, {})  ratio {:5.2f} {:5.2f}", row.cheapest->cost.processor,
+                        row.cheapest_run, row.cheapest->rung, row.cheapest->settings,
+                        row.planned->cost.processor / row.cheapest->cost.processor, row.planned_run / row.cheapest_run);
+  fmt::print("{}\n", text);
 }
 
 }  // namespace
@@ -64,41 +122,59 @@ int main(int argc, char** argv) {
   CLI::App cli("The wanted accuracy against the true error, and its cost against the cheapest setting that meets it");
   std::vector<std::string> names;
   std::filesystem::path out = "promise";
+  bool errors_only = false, verbose = false;
   cli.add_option("--scenes", names, "Names of scenes; all without");
   cli.add_option("-o,--out", out, "Where measurements are kept");
+  cli.add_flag("--errors-only", errors_only, "Not the cost: no fixed settings");
+  cli.add_flag("--verbose", verbose, "Every setting and figure: error (estimate)");
   CLI11_PARSE(cli, argc, argv);
   try {
     log::set_level(log::Level::quiet);
+    ::setenv("ANNULUS_CACHE", "", 1);  // predictions are not to depend on earlier runs, nor to learn from these
     app::TradeLists lists;
     lists.accuracies.assign(std::begin(benchmark::accuracies), std::end(benchmark::accuracies));
-    lists.mesh = benchmark::settings;
+    lists.mesh = [errors_only](const app::MeshModel& ring, bool needs_solid) {
+      auto list = benchmark::settings(ring, needs_solid);
+      if (errors_only) list.erase(list.begin(), list.end() - 1);
+      return list;
+    };
     lists.dynamics = [](const auto&, const auto&) { return std::vector<app::DynamicsSetting>(); };
+    int cases = 0, kept = 0, refused = 0, priced = 0, cheap = 0;
+    fmt::print(
+        "wanted and true error (largest of stiffness entries, mean stiffness, load sharing, dynamic factors and\n"
+        "natural frequencies), processor time, and the cheapest fixed setting that meets the accuracy\n");
     for (const auto& s : benchmark::promise_scenes()) {
       if (!names.empty() && std::find(names.begin(), names.end(), s.name) == names.end()) continue;
       const auto scene = app::parse_scene(s.text, s.name + ".toml");
       const auto trade = app::measure_tradeoff(scene, {.out = out / s.name, .threads = 1}, lists);
       app::write_tradeoff(trade, out / s.name);
       const auto& ring = trade.rings.front();
-      for (const auto& p : ring.points) {
-        if (p.part != app::TradePart::mesh) continue;
-        fmt::print("{:12} {:12} {:40} {:7.2f} s {:7.2f} s {:.4f} |", s.name, p.rung, p.settings, p.cost.processor,
-                   p.response.processor, p.promised_error());
-        for (const auto& v : p.values) fmt::print(" {:.1e}({:.1e})", v.error, v.error_estimate);
-        fmt::print(" {}\n", p.failure);
-      }
+      if (verbose) benchmark::print_points(s.name, ring);
       for (const double accuracy : benchmark::accuracies) {
-        const auto* planned = ring.planned(accuracy);
-        const auto* best = benchmark::cheapest(ring, accuracy);
-        fmt::print("{:12} {:6} error {:.5f} cost {:.2f} cheapest {:.2f} {} {} ratio {:.2f}\n", s.name, accuracy,
-                   planned->promised_error(), planned->cost.processor, best ? best->cost.processor : 0,
-                   best ? best->rung : "", best ? best->settings : "",
-                   best ? planned->cost.processor / best->cost.processor : 0);
+        benchmark::Row row{.scene = s.name, .accuracy = accuracy, .planned = ring.planned(accuracy)};
+        ++cases;
+        refused += row.refused();
+        kept += !row.refused() && row.kept();
+        if (!errors_only && !row.refused()) {
+          const auto wanted = app::with_accuracy(scene, accuracy, "asked of the planner");
+          row.cheapest = benchmark::cheapest(ring, accuracy);
+          row.planned_run = benchmark::run_time(wanted, out / "run", nullptr);
+          if (row.cheapest) {
+            row.cheapest_run = benchmark::run_time(wanted, out / "run", &*row.cheapest->mesh);
+            ++priced;
+            cheap += row.planned_run <= 3 * row.cheapest_run;
+          }
+        }
+        benchmark::print_row(row);
+        std::fflush(stdout);
       }
-      std::fflush(stdout);
     }
+    fmt::print("{} cases: {} kept, {} missed, {} refused", cases, kept, cases - kept - refused, refused);
+    if (priced > 0) fmt::print("; {} of {} runs cost at most three times the cheapest", cheap, priced);
+    fmt::print("\n");
+    return kept >= 0.95 * (cases - refused) ? 0 : 1;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 1;
   }
-  return 0;
 }

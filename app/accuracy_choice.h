@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "fem/loaded_mesh.h"
+
+/// What a wanted accuracy asks for, beside the rung: the measured trade (docs/tradeoff.md) turned into rules. They are
+/// tried on other scenes than those they come from (tests/benchmarks, `promise`).
+namespace annulus::app {
+
+/// Loads of a table, as multiples of the nominal mean mesh force: around it, so that the table can be interpolated, and
+/// down to a quarter, where the load no longer spreads over all teeth.
+inline constexpr double table_load_factors[] = {0.25, 0.5, 1, 1.5, 2};
+inline constexpr std::size_t nominal_load_index = 2;  ///< of table_load_factors
+/// Positions per mesh cycle of a rough table.
+inline constexpr int table_phases = 32;
+
+/// How finely a table is resolved, and why.
+struct TableResolution {
+  int phases = table_phases;
+  std::vector<double> load_factors{};  ///< of the nominal load; the middle one is 1
+  std::string phases_reason{}, loads_reason{};
+};
+[[nodiscard]] TableResolution table_resolution(double accuracy);
+
+/// Polynomial degree of the elements, and why. Levels follow from the error estimate.
+struct ElementChoice {
+  int degree = 2;
+  std::string reason{};
+};
+[[nodiscard]] ElementChoice element_choice(fem::Rung rung, double accuracy);
+
+/// How the motion is found in time.
+struct MotionChoice {
+  int samples_per_cycle = 64;
+  double relative_tolerance = 1e-6;  ///< of the time integration
+  bool confirm = true;               ///< the direct solution by marching, though no contact is lost
+  std::string samples_reason{}, tolerance_reason{}, confirm_reason{};
+};
+[[nodiscard]] MotionChoice motion_choice(double accuracy);
+
+}  // namespace annulus::app
