@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "app/report_parts.h"
@@ -23,6 +24,7 @@ std::optional<CostRun> actual_mesh(CostRun size, const MeshResult& mesh) {
   size.error = fact("worst_error_relative");
   size.body_s = fact("mesh_seconds") + fact("condense_seconds");
   size.contact_s = fact("contact_seconds");
+  size.saved_s = fact("saved_seconds");
   return size;
 }
 
@@ -47,7 +49,11 @@ PlanCost actual_costs(const RunResult& result) {
       if (step.kind == CostKind::mesh && step.label == ring.mesh.model.label())
         return actual_mesh(step.size, ring.mesh);
       if (step.kind == CostKind::coupling && step.ring == ring.name && coupling && !coupling->reused)
-        return actual_time(step.size, coupling->seconds);
+      {
+        auto time = actual_time(step.size, coupling->seconds);
+        if (coupling->reused_teeth > 0) time.saved_s = std::numeric_limits<double>::quiet_NaN();
+        return time;
+      }
       if (step.kind == CostKind::response && step.ring == ring.name && ring.response && !ring.response->reused)
         return actual_time(step.size, ring.response_seconds);
     }
@@ -58,7 +64,11 @@ PlanCost actual_costs(const RunResult& result) {
 void keep_costs(const PlanCost& done) {
   std::vector<CostRun> runs;
   for (const auto& step : done.steps)
-    if (step.actual && step.actual->seconds() > 0) runs.push_back(*step.actual);
+    if (step.actual && step.actual->seconds() > 0 && std::isfinite(step.actual->saved_s)) {
+      // What it would have cost without teeth of others.
+      runs.push_back(*step.actual);
+      runs.back().body_s += step.actual->saved_s;
+    }
   add_user_costs(user_costs_file(), runs);
 }
 

@@ -26,6 +26,7 @@ struct CostRun {
   double body_s = 0;     ///< s, meshing and condensing; all there is of a coupling or a response
   double contact_s = 0;  ///< s
   double peak_MB = 0;    ///< of the process; 0: not measured
+  double saved_s = 0;    ///< s, what teeth condensed before have saved of body_s; NaN: not known. Not kept.
 
   [[nodiscard]] double seconds() const { return body_s + contact_s; }
   /// Contact problems of one mesh cycle, and of all, closure included, per level.

@@ -203,8 +203,9 @@ double pair_seconds(const Scene& scene) {
   return turns ? 0.5 : 0.02;
 }
 
-PairRunResult run_pair(const Scene& scene, const RunOptions& options) {
+PairRunResult run_pair(const Scene& scene, const RunOptions& given) {
   StageTimers timers;
+  const RunOptions options = with_reuse(given);
   auto geometry = make_pair_geometry(scene);
   if (options.with_dynamics) check_studies(scene);  // before anything expensive
   Plan plan = make_pair_plan(scene, geometry, options.threads);
@@ -260,6 +261,7 @@ PairRunResult run_pair(const Scene& scene, const RunOptions& options) {
     const auto timer = timers.measure("studies");
     result.studies = run_studies(PairSubject(result, options));
   }
+  result.reuse = options.reuse;
   result.timings = pair_timings(timers);
   result.peak_memory_MB = peak_memory_MB();
   result.cost = actual_costs(result.plan.cost, [&](const CostStep& step) -> std::optional<CostRun> {

@@ -67,6 +67,7 @@ struct PairRunResult {
   std::vector<std::pair<std::string, double>> timings{};
   double peak_memory_MB = 0;
   PlanCost cost{};  ///< predicted and actual, of the steps that were not reused
+  std::shared_ptr<const Reuse> reuse{};
 };
 
 /// Everything the scene asks for, into options.out. Throws what the steps throw.

@@ -139,6 +139,7 @@ std::string pair_summary_json(const PairRunResult& result) {
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
   if (!result.cost.empty()) json["cost"] = PairJson::parse(cost_json(result.cost));
+  json["reuse"] = PairJson::parse(result.reuse->json());
   return json.dump(2) + "\n";
 }
 
@@ -167,7 +168,8 @@ std::string pair_summary_text(const PairRunResult& result) {
   for (const auto& [stage, seconds] : result.timings) text += fmt::format(" {} {:.2f} s ", stage, seconds);
   text += fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
   const std::string cost = cost_sentence(result.plan.cost, result.cost, result.peak_memory_MB);
-  return cost.empty() ? text : text + "cost    " + cost + "\n";
+  if (!cost.empty()) text += "cost    " + cost + "\n";
+  return text + result.reuse->text();
 }
 
 }  // namespace annulus::app

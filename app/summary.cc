@@ -145,6 +145,7 @@ std::string summary_json(const RunResult& result) {
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
   if (!result.cost.empty()) json["cost"] = SummaryJson::parse(cost_json(result.cost));
+  if (result.reuse) json["reuse"] = SummaryJson::parse(result.reuse->json());
   return json.dump(2) + "\n";
 }
 
@@ -170,8 +171,8 @@ std::string summary_text(const RunResult& result) {
   text += "load sharing: sun meshes, averaged over a mesh cycle; dynamic factor: largest of all sun meshes\n\ntime   ";
   for (const auto& [stage, seconds] : result.timings) text += fmt::format(" {} {:.2f} s ", stage, seconds);
   text += fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
-  const std::string cost = cost_sentence(result);
-  return cost.empty() ? text : text + "cost    " + cost + "\n";
+  if (const std::string cost = cost_sentence(result); !cost.empty()) text += "cost    " + cost + "\n";
+  return result.reuse ? text + result.reuse->text() : text;
 }
 
 }  // namespace annulus::app

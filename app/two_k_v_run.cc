@@ -58,7 +58,9 @@ TwoKVMotion motion_in(const TwoKVCase& c, const RunOptions& options, const std::
   const auto simulation = two_k_v_simulation(c.scene, stage);
   const auto id = two_k_v_id(stage, simulation, c.tables);
   const std::string name = folder.empty() ? "dynamics" : "dynamics with computed stiffness";
-  if (auto kept = load_two_k_v(id, out)) {
+  auto kept = load_two_k_v(id, out);
+  note_reuse(options, name, kept.has_value());
+  if (kept) {
     log::info(name + ": unchanged, reused");
     return std::move(*kept);
   }
@@ -96,8 +98,9 @@ std::vector<std::pair<std::string, double>> two_k_v_timings(const TwoKVResult& r
 
 }  // namespace
 
-TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options) {
+TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& given) {
   StageTimers timers;
+  const RunOptions options = with_reuse(given);
   std::optional<Reference> reference;
   if (scene.reference) reference = read_reference(scene.file.parent_path() / *scene.reference);
   if (options.with_dynamics) check_studies(scene);  // before anything expensive
@@ -135,6 +138,7 @@ TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options) {
     const auto& c = result.own;
     result.studies = run_studies(TwoKVSubject(c.scene, c.tables, c.motion ? &*c.motion : nullptr, options));
   }
+  result.reuse = options.reuse;
   result.timings = two_k_v_timings(result, timers);
   result.peak_memory_MB = peak_memory_MB();
   result.cost = actual_costs(result.plan.cost, [&](const CostStep& step) -> std::optional<CostRun> {

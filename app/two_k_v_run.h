@@ -35,6 +35,7 @@ struct TwoKVResult {
   std::vector<std::pair<std::string, double>> timings{};
   double peak_memory_MB = 0;
   PlanCost cost{};  ///< predicted and actual, of the steps that were not reused
+  std::shared_ptr<const Reuse> reuse{};
 
   [[nodiscard]] const Scene& scene() const { return own.scene; }
 };

@@ -108,6 +108,7 @@ std::string two_k_v_summary(const TwoKVResult& result) {
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
   if (!result.cost.empty()) json["cost"] = ReducerJson::parse(cost_json(result.cost));
+  json["reuse"] = ReducerJson::parse(result.reuse->json());
   return json.dump(2) + "\n";
 }
 
@@ -131,7 +132,8 @@ std::string two_k_v_text(const TwoKVResult& result) {
   for (const auto& [stage, seconds] : result.timings) text += fmt::format(" {} {:.2f} s ", stage, seconds);
   text += fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
   const std::string cost = cost_sentence(result.plan.cost, result.cost, result.peak_memory_MB);
-  return cost.empty() ? text : text + "cost    " + cost + "\n";
+  if (!cost.empty()) text += "cost    " + cost + "\n";
+  return text + result.reuse->text();
 }
 
 }  // namespace annulus::app

@@ -22,7 +22,8 @@ struct SolvedLevel {
   double contact_error = 0;
   double pin_stiffness = 0;
   std::vector<double> pin_angles, slice_edges;
-  double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0;
+  double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0, saved_seconds = 0;
+  int condensed_teeth = 0, reused_teeth = 0;
 };
 
 using ProgressFunction = std::function<void(double fraction)>;

@@ -44,7 +44,8 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   if (first_level < 1 || first_level > last_level)
     throw InputError(fmt::format("level {} is not available: 1 to {} are", first_level, last_level));
 
-  double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0, worst = 0;
+  double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0, saved_seconds = 0, worst = 0;
+  int condensed_teeth = 0, reused_teeth = 0;
   const auto solve_level = [&](int level) {
     auto solved =
         (resolved ? solve_resolved_level : solve_condensed_level)(problem, settings, flanks, level, [&](double f) {
@@ -63,6 +64,9 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
     mesh_seconds += solved.mesh_seconds;
     condense_seconds += solved.condense_seconds;
     contact_seconds += solved.contact_seconds;
+    condensed_teeth += solved.condensed_teeth;
+    reused_teeth += solved.reused_teeth;
+    saved_seconds += solved.saved_seconds;
     return solved;
   };
 
@@ -113,6 +117,9 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   result.mesh_seconds = mesh_seconds;
   result.condense_seconds = condense_seconds;
   result.contact_seconds = contact_seconds;
+  result.condensed_teeth = condensed_teeth;
+  result.reused_teeth = reused_teeth;
+  result.saved_seconds = saved_seconds;
   return result;
 }
 
