@@ -48,8 +48,7 @@ PlanCost actual_costs(const RunResult& result) {
       const auto& coupling = ring.mesh.coupling;
       if (step.kind == CostKind::mesh && step.label == ring.mesh.model.label())
         return actual_mesh(step.size, ring.mesh);
-      if (step.kind == CostKind::coupling && step.ring == ring.name && coupling && !coupling->reused)
-      {
+      if (step.kind == CostKind::coupling && step.ring == ring.name && coupling && !coupling->reused) {
         auto time = actual_time(step.size, coupling->seconds);
         if (coupling->reused_teeth > 0) time.saved_s = std::numeric_limits<double>::quiet_NaN();
         return time;
