@@ -87,7 +87,7 @@ class Comparison {
   [[nodiscard]] std::size_t figures() const { return figures_; }
 
   /// |difference| of every figure to the unchanged tables.
-  std::vector<double> differences(TableChange sun, TableChange ring, const char* what) {
+  std::vector<double> differences(TableChange sun, TableChange ring, const std::string& what) {
     std::vector<double> result(figures_, std::numeric_limits<double>::quiet_NaN());
     try {
       if (!base_) base_ = solve(unchanged, unchanged);
@@ -119,19 +119,28 @@ class Comparison {
 /// The larger one; NaN when one is.
 double worse_of(double a, double b) { return std::isnan(a + b) ? a + b : std::max(a, b); }
 
-/// One number per figure, zero at first.
-std::vector<double> stiffness_part(Comparison& comparison, bool sun, bool ring) {
-  std::vector<double> part(comparison.figures(), 0.0);
-  const auto add = [&](const std::vector<double>& mean, const std::vector<double>& ripple) {
-    for (std::size_t i = 0; i < part.size(); ++i) part[i] += worse_of(mean[i], ripple[i]);
+/// What the error estimate of one mesh's stiffness does to every figure.
+std::vector<double> stiffness_part(Comparison& comparison, bool of_sun) {
+  const auto changes = [&](TableChange change, const char* what) {
+    const std::string text = fmt::format("{} in the {} mesh", what, of_sun ? "sun" : "ring");
+    return of_sun ? comparison.differences(change, unchanged, text) : comparison.differences(unchanged, change, text);
   };
-  if (sun)
-    add(comparison.differences(stiffer, unchanged, "a stiffer sun mesh"),
-        comparison.differences(more_rippled, unchanged, "more ripple in the sun mesh"));
-  if (ring)
-    add(comparison.differences(unchanged, stiffer, "a stiffer ring mesh"),
-        comparison.differences(unchanged, more_rippled, "more ripple in the ring mesh"));
+  auto part = changes(stiffer, "more stiffness");
+  const auto ripple = changes(more_rippled, "more ripple");
+  for (std::size_t i = 0; i < part.size(); ++i) part[i] = worse_of(part[i], ripple[i]);
   return part;
+}
+
+/// Adds the error a figure has by a mesh's stiffness, in the proportions of that stiffness' own error.
+void add_stiffness_error(double error, const ErrorParts& of_stiffness, ErrorParts& parts) {
+  double whole = 0;
+  for (const auto& [name, part] : stiffness_error_part_names) whole += of_stiffness.*part;
+  if (whole <= 0) {
+    parts.discretisation += error;
+    return;
+  }
+  for (const auto& [name, part] : stiffness_error_part_names)
+    if (of_stiffness.*part > 0) parts.*part += error * (of_stiffness.*part / whole);
 }
 
 std::vector<double> interpolation_part(Comparison& comparison, const StiffnessTable* sun, const StiffnessTable* ring) {
@@ -157,15 +166,22 @@ ResponseErrors carried_errors(const DynamicResponse& nominal, const dynamics::Si
   const bool sun = from_table(stage.sun_mesh), ring = from_table(stage.ring_mesh);
   const auto &sun_table = tables.sun_mesh.table, &ring_table = tables.ring_mesh.table;
   Comparison comparison(nominal, options, tables);
-  const auto stiffness = stiffness_part(comparison, sun && any_error(sun_table), ring && any_error(ring_table));
+  const bool sun_errs = sun && any_error(sun_table), ring_errs = ring && any_error(ring_table);
+  const auto by_sun = sun_errs ? stiffness_part(comparison, true) : std::vector<double>(comparison.figures(), 0.0);
+  const auto by_ring = ring_errs ? stiffness_part(comparison, false) : std::vector<double>(comparison.figures(), 0.0);
   const auto interpolation = interpolation_part(comparison, sun ? &sun_table : nullptr, ring ? &ring_table : nullptr);
+  const auto of_sun = tables.sun_mesh.mean_stiffness().parts, of_ring = tables.ring_mesh.mean_stiffness().parts;
 
   ResponseErrors errors;
   std::size_t i = 0;
   const auto put = [&](const MeshKindResult& kind, MeshKindErrors& into) {
     into.dynamic_factor_max.resize(kind.branches.size());
-    for_each_figure(kind, into, [&](const dynamics::Figure& f, FigureErrors& e) {
-      e = {f.error, stiffness[i], interpolation[i]};
+    for_each_figure(kind, into, [&](const dynamics::Figure& f, ErrorParts& e) {
+      e = {};
+      e.integration = f.error;
+      e.interpolation = interpolation[i];
+      if (sun_errs) add_stiffness_error(by_sun[i], of_sun, e);
+      if (ring_errs) add_stiffness_error(by_ring[i], of_ring, e);
       ++i;
     });
   };
@@ -175,7 +191,7 @@ ResponseErrors carried_errors(const DynamicResponse& nominal, const dynamics::Si
 }
 
 void set_errors(const ResponseErrors& errors, DynamicResponse& response) {
-  const auto set = [](dynamics::Figure& f, const FigureErrors& e) { f.error = e.total(); };
+  const auto set = [](dynamics::Figure& f, const ErrorParts& e) { f.error = e.total(); };
   for_each_figure(response.sun_planet, errors.sun_planet, set);
   for_each_figure(response.ring_planet, errors.ring_planet, set);
 }

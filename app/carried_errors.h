@@ -8,18 +8,10 @@
 
 namespace annulus::app {
 
-/// What the error of a dynamic figure is made of; all absolute, NaN where not known.
-struct FigureErrors {
-  double solution = 0;       ///< of the solution in time (dynamics::Figure as simulated)
-  double stiffness = 0;      ///< what the error estimates of the stiffness tables do to the figure
-  double interpolation = 0;  ///< what the tables' finite number of phases does
-  /// The causes are independent and may add up. NaN when a part is not known.
-  [[nodiscard]] double total() const { return solution + stiffness + interpolation; }
-};
-
+/// Absolute errors of the figures of one kind of mesh, NaN where not known.
 struct MeshKindErrors {
-  FigureErrors instantaneous, averaged, quasi_static;  ///< load sharing
-  std::vector<FigureErrors> dynamic_factor_max;        ///< one per planet
+  ErrorParts instantaneous, averaged, quasi_static;  ///< load sharing
+  std::vector<ErrorParts> dynamic_factor_max;        ///< one per planet
 };
 
 struct ResponseErrors {
@@ -39,10 +31,12 @@ struct StageTables {
 /// solved again on changed tables (core/table_variants.h), without time integration where the nominal response agreed
 /// with the harmonic balance (marched for 330 mesh cycles where it has no periodic steady state within the longest
 /// window), and compared with the unchanged tables solved the very same way:
-/// - stiffness: largest |difference| with the stiffness or its ripple raised by its error estimate, sun mesh plus ring
-///   mesh;
-/// - interpolation: |difference| with every second phase only, both meshes, / 3: the curves between the phases are of
-///   second order. Not known for an odd number of phases.
+/// - discretisation, contact, condensation, model: largest |difference| with the stiffness or its ripple raised by its
+///   error estimate, divided in the proportions of the stiffness' own parts (all discretisation where a table does not
+///   tell them), sun mesh plus ring mesh;
+/// - interpolation: |difference| with every second phase only, both meshes, / 2: the curves between the phases are of
+///   an order between one (where slopes jump) and two. Not known for an odd number of phases;
+/// - integration: as simulated.
 /// Stiffness given as a wave is exact. A part is not known where a changed stage has no steady state but the nominal
 /// one has, or cannot be solved.
 [[nodiscard]] ResponseErrors carried_errors(const dynamics::DynamicResponse& nominal,

@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
 
 #include "app/report_parts.h"
 #include "app/svg_plot.h"
 
 namespace annulus::app {
-
-namespace {
 
 std::optional<CostRun> actual_mesh(CostRun size, const MeshResult& mesh) {
   if (mesh.reused || !mesh.model.computed()) return std::nullopt;
@@ -23,59 +24,97 @@ std::optional<CostRun> actual_mesh(CostRun size, const MeshResult& mesh) {
   size.error = fact("worst_error_relative");
   size.body_s = fact("mesh_seconds") + fact("condense_seconds");
   size.contact_s = fact("contact_seconds");
+  size.saved_s = fact("saved_seconds");
   return size;
 }
 
-std::optional<CostRun> timed(CostRun size, double seconds) {
+CostRun actual_time(CostRun size, double seconds) {
   size.body_s = seconds;
   return size;
 }
 
-}  // namespace
-
-PlanCost actual_costs(const RunResult& result) {
-  PlanCost cost = result.plan.cost;
-  for (auto& step : cost.steps) {
-    if (step.kind == CostKind::mesh && step.label == result.sun_mesh.model.label())
-      step.actual = actual_mesh(step.size, result.sun_mesh);
-    for (std::size_t i = 0; i < result.rings.size(); ++i) {
-      const auto& ring = result.rings[i];
-      const auto& coupling = ring.mesh.coupling;
-      if (step.kind == CostKind::mesh && step.label == ring.mesh.model.label())
-        step.actual = actual_mesh(step.size, ring.mesh);
-      else if (step.kind == CostKind::coupling && step.ring == ring.name && coupling && !coupling->reused)
-        step.actual = timed(step.size, coupling->seconds);
-      else if (step.kind == CostKind::response && step.ring == ring.name && ring.response && !ring.response->reused)
-        step.actual = timed(step.size, ring.response_seconds);
-    }
-  }
+PlanCost actual_costs(const PlanCost& planned, const std::function<std::optional<CostRun>(const CostStep&)>& actual) {
+  PlanCost cost = planned;
+  for (auto& step : cost.steps)
+    if (step.kind != CostKind::studies) step.actual = actual(step);
   return cost.done();
 }
 
+PlanCost actual_costs(const RunResult& result) {
+  return actual_costs(result.plan.cost, [&](const CostStep& step) -> std::optional<CostRun> {
+    if (step.kind == CostKind::mesh && step.label == result.sun_mesh.model.label())
+      return actual_mesh(step.size, result.sun_mesh);
+    for (const auto& ring : result.rings) {
+      const auto& coupling = ring.mesh.coupling;
+      if (step.kind == CostKind::mesh && step.label == ring.mesh.model.label())
+        return actual_mesh(step.size, ring.mesh);
+      if (step.kind == CostKind::coupling && step.ring == ring.name && coupling && !coupling->reused) {
+        auto time = actual_time(step.size, coupling->seconds);
+        if (coupling->reused_teeth > 0) time.saved_s = std::numeric_limits<double>::quiet_NaN();
+        return time;
+      }
+      if (step.kind == CostKind::response && step.ring == ring.name && ring.response && !ring.response->reused)
+        return actual_time(step.size, ring.response_seconds);
+    }
+    return std::nullopt;
+  });
+}
+
+void keep_costs(const PlanCost& done) {
+  std::vector<CostRun> runs;
+  for (const auto& step : done.steps)
+    if (step.actual && step.actual->seconds() > 0 && std::isfinite(step.actual->saved_s)) {
+      // What it would have cost without teeth of others.
+      runs.push_back(*step.actual);
+      runs.back().body_s += step.actual->saved_s;
+    }
+  add_user_costs(user_costs_file(), runs);
+}
+
+std::string cost_sentence(const PlanCost& planned, const PlanCost& done, double peak_memory_MB) {
+  if (done.empty()) return "";
+  const auto meshes = [](const PlanCost& cost) {
+    return std::count_if(cost.steps.begin(), cost.steps.end(),
+                         [](const CostStep& step) { return step.kind == CostKind::mesh; });
+  };
+  if (meshes(done) < meshes(planned))
+    return fmt::format("predicted {}, actual {} for what was not reused", duration_text(done.seconds()),
+                       duration_text(done.actual_seconds()));
+  return fmt::format("predicted {} and {}, actual {} and {}", duration_text(done.seconds()),
+                     memory_text(done.peak_MB()), duration_text(done.actual_seconds()), memory_text(peak_memory_MB));
+}
+
 std::string cost_sentence(const RunResult& result) {
-  const auto& cost = result.cost;
-  if (cost.empty()) return "";
-  std::size_t meshes = 0, planned = 0;
-  for (const auto& step : cost.steps) meshes += step.kind == CostKind::mesh;
-  for (const auto& step : result.plan.cost.steps) planned += step.kind == CostKind::mesh;
-  if (meshes < planned)
-    return fmt::format("predicted {}, actual {} for what was not reused", duration_text(cost.seconds()),
-                       duration_text(cost.actual_seconds()));
-  return fmt::format("predicted {} and {}, actual {} and {}", duration_text(cost.seconds()),
-                     memory_text(cost.peak_MB()), duration_text(cost.actual_seconds()),
-                     memory_text(result.peak_memory_MB));
+  return cost_sentence(result.plan.cost, result.cost, result.peak_memory_MB);
+}
+
+std::string cost_json(const PlanCost& done) {
+  const auto known = [](double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr); };
+  nlohmann::ordered_json json = {{"predicted_s", known(done.seconds())},
+                                 {"actual_s", known(done.actual_seconds())},
+                                 {"predicted_peak_MB", known(done.peak_MB())}};
+  for (const auto& step : done.steps)
+    json["steps"].push_back({{"step", to_text(step.kind)},
+                             {"name", step.label},
+                             {"predicted_s", known(step.predicted.seconds)},
+                             {"actual_s", step.actual->seconds()}});
+  return json.dump();
 }
 
 std::string predicted_and_actual_html(const RunResult& result) {
-  if (result.cost.empty()) return "";
+  return predicted_and_actual_html(result.plan.cost, result.cost, result.peak_memory_MB);
+}
+
+std::string predicted_and_actual_html(const PlanCost& planned, const PlanCost& done, double peak_memory_MB) {
+  if (done.empty()) return "";
   HtmlTable table{
       .head = {"step", "predicted time", "actual time", "predicted peak memory"}, .rows = {}, .css_class = "numbers"};
-  for (const auto& step : result.cost.steps)
+  for (const auto& step : done.steps)
     table.rows.push_back({escape(step.label), duration_text(step.predicted.seconds),
                           duration_text(step.actual->seconds()),
                           step.kind == CostKind::coupling ? "–" : memory_text(step.predicted.peak_MB)});
   return "<p>Cost of the steps that were not reused, as predicted before the run and as measured: " +
-         escape(cost_sentence(result)) + ".</p>\n" + html(table);
+         escape(cost_sentence(planned, done, peak_memory_MB)) + ".</p>\n" + html(table);
 }
 
 }  // namespace annulus::app

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "app/overrides.h"
-#include "app/planetary_subject.h"
+#include "app/stage_kinds.h"
 #include "core/errors.h"
 #include "fem/cost_size.h"
 
@@ -22,14 +22,11 @@ bool refines(const MeshModel& model) {
   return model.computed() && model.settings.rung != fem::Rung::closed_form && !model.settings.level;
 }
 
-PlanCost cost_of(const Scene& scene, int threads, const CostModel& costs) {
-  const auto geometry = make_geometry(scene);
-  return plan_cost(scene, geometry, mesh_models(scene, geometry), plan_studies(scene), threads, costs);
-}
-
-bool within_reach(const Scene& scene, double accuracy, const CostModel& costs) {
-  for (const auto& model : mesh_models(scene, make_geometry(scene))) {
-    if (refines(model) && costs.expected_error(model.rung, fem::last_level(model.settings.rung)) > accuracy)
+/// Whether the scene's meshes are expected to reach its accuracy.
+bool within_reach(const Scene& scene, const CostModel& costs) {
+  for (const auto& model : stage_meshes(scene)) {
+    if (refines(model) && costs.expected_error(cost_kind(model), model.settings.degree,
+                                               fem::last_level(model.settings.rung)) > scene.accuracy)
       return false;
   }
   return true;
@@ -56,10 +53,9 @@ double parse_duration(const std::string& text) {
 }
 
 BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const CostModel& costs) {
-  if (scene.stage.kind != StageKind::planetary)
-    throw InputError("--budget: the cost is predicted for planetary stages only; leave it out");
   bool any = false;
-  for (const auto& model : mesh_models(scene, make_geometry(scene))) any = any || refines(model);
+  // Formulas that do for the scene's own accuracy may not for a finer one.
+  for (const auto& model : stage_meshes(with_accuracy(scene, accuracy_ladder[0], ""))) any = any || refines(model);
   const auto known = [](const PlanCost& cost) {
     if (std::isfinite(cost.seconds())) return;
     for (const auto& step : cost.steps)
@@ -67,7 +63,7 @@ BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const Co
         throw SolverError(fmt::format("--budget: what the {} costs ({}) is not known; run it without a budget",
                                       step.label, step.size.kind));
   };
-  PlanCost cost = cost_of(scene, threads, costs);
+  PlanCost cost = stage_cost(scene, threads, costs);
   known(cost);
   if (!any) {
     if (cost.seconds() > budget)
@@ -79,20 +75,28 @@ BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const Co
             fmt::format("budget {}: predicted {}; no mesh of this scene is refined, its accuracy stays as it is",
                         duration_text(budget), figures_text(cost))};
   }
+  // Not always the coarsest: with fewer loads in its tables a study may need more of them.
+  PlanCost cheapest;
+  double cheapest_accuracy = 0;
   for (const double accuracy : accuracy_ladder) {
-    if (!within_reach(scene, accuracy, costs)) continue;
     Scene fitted = with_accuracy(scene, accuracy,
                                  fmt::format("the most accurate that a budget of {} pays for", duration_text(budget)));
-    cost = cost_of(fitted, threads, costs);
-    if (cost.seconds() > budget) continue;
+    if (!within_reach(fitted, costs)) continue;
+    cost = stage_cost(fitted, threads, costs);
+    known(cost);
+    if (cost.seconds() > budget) {
+      if (cheapest.empty() || cost.seconds() <= cheapest.seconds()) cheapest = cost, cheapest_accuracy = accuracy;
+      continue;
+    }
     auto sentence =
         fmt::format("budget {}: buys a mesh stiffness within {:g} % (expected error {:.2g} %); predicted {}",
                     duration_text(budget), 100 * accuracy, 100 * cost.expected_error(), figures_text(cost));
     return {std::move(fitted), std::move(cost), std::move(sentence)};
   }
+  require(!cheapest.empty(), "no accuracy is within reach of the finest level");
   throw SolverError(fmt::format(
-      "the coarsest plan, a mesh stiffness within {:g} %, is predicted to take {}: more than the budget of {}",
-      100 * std::end(accuracy_ladder)[-1], figures_text(cost), duration_text(budget)));
+      "the cheapest plan, a mesh stiffness within {:g} %, is predicted to take {}: more than the budget of {}",
+      100 * cheapest_accuracy, figures_text(cheapest), duration_text(budget)));
 }
 
 }  // namespace annulus::app

@@ -19,8 +19,8 @@ struct BudgetChoice {
 
 /// The smallest wanted accuracy of 0.001, 0.003, 0.01, 0.03 and 0.1 whose predicted time is within the budget (s) and
 /// which the finest level is expected to reach. A scene none of whose meshes refines keeps its accuracy. Throws
-/// SolverError with the predicted figures when not even the coarsest plan fits, and when the cost of a step is not
-/// known; InputError for a stage that is not planetary.
+/// SolverError with the predicted figures when not even the cheapest plan fits, and when the cost of a step is not
+/// known.
 [[nodiscard]] BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const CostModel& costs);
 
 }  // namespace annulus::app

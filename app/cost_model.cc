@@ -24,16 +24,28 @@ struct UsualLaw {
   double body, first_ms, each_ms;
 };
 
+bool is_solid(const std::string& kind) {
+  return kind == "solid" || kind == "solid_helical" || kind == "resolved_solid";
+}
+bool is_plane(const std::string& kind) { return kind == "plane" || kind == "resolved_plane"; }
+/// Every position has a mesh of its own.
+bool is_resolved(const std::string& kind) { return kind == "resolved_plane" || kind == "resolved_solid"; }
+
 UsualLaw usual_law(const std::string& kind) {
   // Nested dissection condenses a section in N^1 to N^1.5, a solid in N^1.5 to N^2; the contact reads dense
   // compliances of some sqrt(N) flank points.
-  if (kind == "solid" || kind == "resolved_solid") return {{1.5, 0.1}, {0.5, 0.1}, 1, 10, 10};
-  if (kind == "plane" || kind == "resolved_plane") return {{1.15, 0.15}, {0.5, 0.1}, 0.1, 1, 0.3};
+  // Resolved contacts condense their teeth at every position.
+  if (kind == "resolved_solid") return {{1.5, 0.1}, {1.5, 0.1}, 1, 1000, 1000};
+  if (kind == "resolved_plane") return {{1.15, 0.15}, {1.15, 0.15}, 0.1, 100, 100};
+  if (is_solid(kind)) return {{1.5, 0.1}, {0.5, 0.1}, 1, 10, 10};
+  if (is_plane(kind)) return {{1.15, 0.15}, {0.5, 0.1}, 0.1, 1, 0.3};
+  // The comparison of couplings takes as many cycles for any period.
+  if (kind == "response_elastic") return {{0.5, 0.3}, {0.5, 0.1}, 1, 0.1, 0.1};
   return {{0.9, 0.2}, {0.5, 0.1}, 1, 0.1, 0.1};
 }
 
 /// Cells get 1.5 times smaller from level to level in the plane, and a little less than that in a solid.
-double unknowns_per_level(const std::string& kind) { return kind == "solid" || kind == "resolved_solid" ? 3.0 : 2.05; }
+double unknowns_per_level(const std::string& kind) { return is_solid(kind) ? 3.0 : 2.05; }
 
 /// sum over the levels of N^exponent.
 double sum_of_levels(const CostRun& run, double exponent) {
@@ -50,13 +62,16 @@ double speed_up(double efficiency, double threads, double tasks) {
   return 1 + efficiency * (std::max(1.0, std::min(threads, tasks)) - 1);
 }
 
-/// In the plane one body each, a solid is condensed by all threads; a response is one task.
+/// In the plane one body each, a solid is condensed by all threads; a response is one task, those of a pair are many.
 double body_tasks(const CostRun& run) {
-  if (run.kind == "solid" || run.kind == "resolved_solid" || run.kind == "coupling_solid") return 1e9;
-  return run.kind == "plane" || run.kind == "resolved_plane" ? 2 : 1;
+  if (is_resolved(run.kind)) return 1;  // the harmonics of the regular ring
+  if (is_solid(run.kind) || run.kind == "coupling_solid" || run.kind == "response_pair") return 1e9;
+  return is_plane(run.kind) ? 2 : 1;
 }
-/// A table of one mesh cycle is solved load by load, a longer one position by position.
-double contact_tasks(const CostRun& run) { return run.cycles <= 1 ? run.loads : run.first_problems(); }
+/// A table of one mesh cycle is solved load by load, a longer one and a resolved one position by position.
+double contact_tasks(const CostRun& run) {
+  return run.cycles <= 1 && !is_resolved(run.kind) ? run.loads : run.first_problems();
+}
 
 double body_seconds(const CostLaw& law, const CostRun& run) {
   return law.body * sum_of_levels(run, law.body_exponent) / speed_up(law.body_efficiency, run.threads, body_tasks(run));
@@ -173,17 +188,17 @@ void fit_memory(CostLaw& law, const Runs& runs) {
   law.per_unknown_MB = l.per_unknown_MB;
 }
 
-void fit_error(CostLaw& law, const Runs& runs) {
+void fit_error(CostLaw& law, const Runs& runs, int degree) {
   // The estimate is the difference of two levels, and falls with the cell size or a little faster.
   LogFit fit{.usual = {{std::log(0.003), free_factor}, {std::log(0.6), 0.1}}, .measured = {}, .predicted = {}};
   Runs used;
   for (const auto* run : runs)
-    if (run->error > 0 && run->degree == 2 && run->level > 0) used.push_back(run), fit.measured.push_back(run->error);
+    if (run->error > 0 && run->degree == degree && run->level > 0)
+      used.push_back(run), fit.measured.push_back(run->error);
   if (used.empty()) return;
   fit.predicted = [&](const Eigen::VectorXd& x, std::size_t i) { return std::exp(x[0] + x[1] * (used[i]->level - 1)); };
   const auto x = fit.solve();
-  law.error_1 = std::exp(x[0]);
-  law.error_ratio = std::exp(x[1]);
+  law.error[degree] = {std::exp(x[0]), std::exp(x[1])};
 }
 
 double median(std::vector<double> values) {
@@ -204,7 +219,7 @@ CostModel::CostModel(const std::vector<CostRun>& kept, const std::vector<CostRun
     fit_body(law, usual, runs);
     fit_contact(law, usual, runs);
     fit_memory(law, runs);
-    fit_error(law, runs);
+    for (const int degree : {1, 2, 3}) fit_error(law, runs, degree);
   }
   // Logarithms: half the time and twice the time are equally wrong.
   std::map<std::string, std::vector<double>> ratios;
@@ -231,15 +246,19 @@ PredictedCost CostModel::predict(const CostRun& size) const {
   return {scale(size.kind) * (body_seconds(l, size) + contact_seconds(l, size)), peak_memory(l, size)};
 }
 
-double CostModel::expected_error(const std::string& kind, int level) const {
-  const auto found = laws_.find(kind);
-  if (found == laws_.end() || !(found->second.error_1 > 0)) return std::numeric_limits<double>::quiet_NaN();
-  return found->second.error_1 * std::pow(found->second.error_ratio, level - 1);
+double CostModel::expected_error(const std::string& kind, int degree, int level) const {
+  const auto law = laws_.find(kind);
+  if (law == laws_.end()) return std::numeric_limits<double>::quiet_NaN();
+  const auto& errors = law->second.error;
+  auto error = errors.find(degree);
+  if (error == errors.end()) error = errors.find(2);
+  if (error == errors.end()) return std::numeric_limits<double>::quiet_NaN();
+  return error->second.first * std::pow(error->second.ratio, level - 1);
 }
 
-int CostModel::expected_level(const std::string& kind, double accuracy, int last_level) const {
+int CostModel::expected_level(const std::string& kind, int degree, double accuracy, int last_level) const {
   int level = std::min(1, last_level);
-  while (level < last_level && expected_error(kind, level) > accuracy) ++level;
+  while (level < last_level && expected_error(kind, degree, level) > accuracy) ++level;
   return level;
 }
 

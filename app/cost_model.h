@@ -20,14 +20,17 @@ struct PredictedCost {
 ///     bodies    a sum_levels N^b / speed-up                               s
 ///     contact   sum_levels N^c (first_ms first + each_ms all) / speed-up  ms, `first` and `all` being contact problems
 ///     peak      base_MB + per_unknown_MB N                                MB, N of the last level
-///     error     error_1 error_ratio^(level - 1)
+///     error     first ratio^(level - 1)                           by degree of the elements
 ///
 /// A speed-up on t threads is 1 + efficiency (t - 1), at most as many threads as there are tasks.
 struct CostLaw {
   double body = 0, body_exponent = 1, body_efficiency = 0;
   double first_ms = 0, each_ms = 0, contact_exponent = 0, contact_efficiency = 0;
   double base_MB = 0, per_unknown_MB = 0;
-  double error_1 = 0, error_ratio = 1;
+  struct Error {
+    double first = 0, ratio = 1;
+  };
+  std::map<int, Error> error{};  ///< estimated, by degree
 };
 
 /// Time and memory of the steps of a run, from measured ones. The laws are fitted to their logarithms by least squares;
@@ -41,10 +44,11 @@ class CostModel {
   [[nodiscard]] static CostModel of_this_machine();
 
   [[nodiscard]] PredictedCost predict(const CostRun& size) const;
-  /// Estimated relative error of a rung's table at a level with elements of second degree; NaN where nothing is known.
-  [[nodiscard]] double expected_error(const std::string& kind, int level) const;
+  /// Estimated relative error of a rung's table at a level with elements of a degree (that of quadratic ones where
+  /// nothing is known of the degree); NaN where nothing is known.
+  [[nodiscard]] double expected_error(const std::string& kind, int degree, int level) const;
   /// Level at which refining until `accuracy` is met will end.
-  [[nodiscard]] int expected_level(const std::string& kind, double accuracy, int last_level) const;
+  [[nodiscard]] int expected_level(const std::string& kind, int degree, double accuracy, int last_level) const;
   /// Of a kind by the user's own runs; 1 without.
   [[nodiscard]] double scale(const std::string& kind) const;
   [[nodiscard]] const CostLaw& law(const std::string& kind) const;

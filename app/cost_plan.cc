@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "app/accuracy_choice.h"
 #include "app/planetary_subject.h"
 #include "app/rim_coupling.h"
 #include "app/stage_response.h"
@@ -50,6 +51,41 @@ CostRun coupling_size(const MeshModel& model, int threads) {
   size.unknowns = fem::estimated_unknowns(*model.problem, settings, 1) * (supported ? model.positions : 1);
   return size;
 }
+
+constexpr double unknown_cost = std::numeric_limits<double>::quiet_NaN();
+
+/// The steps of a run in their order.
+struct CostSteps {
+  PlanCost cost;
+  const CostModel& costs;
+  double longest_table = 0;  // s
+
+  CostSteps(int threads, const CostModel& model) : cost{.steps = {}, .threads = threads}, costs(model) {}
+  void add(CostKind kind, std::string label, std::string ring, CostRun size, double error = unknown_cost) {
+    const auto predicted = costs.predict(size);
+    cost.steps.push_back({kind, std::move(label), std::move(ring), std::move(size), predicted, error});
+  }
+  void add_mesh(const MeshModel& model) {
+    const auto size = mesh_size(model, cost.threads, costs);
+    const bool formulas = model.settings.rung == fem::Rung::closed_form;
+    const double error =
+        formulas ? fem::closed_form_error(*model.problem) : costs.expected_error(size.kind, size.degree, size.level);
+    add(CostKind::mesh, model.label(), model.ring, size, error);
+    longest_table = std::max(longest_table, cost.steps.back().predicted.seconds);
+  }
+  void add_responses(const std::vector<PlannedResponse>& responses) {
+    for (const auto& response : responses) add(CostKind::response, response.label, response.ring, response.size);
+  }
+  void add_studies(const std::vector<StudyPlan>& studies) {
+    for (const auto& study : studies)
+      cost.steps.push_back({CostKind::studies,
+                            study.name,
+                            "",
+                            {},
+                            {study.seconds / cost.threads + study.tables * longest_table, unknown_cost},
+                            unknown_cost});
+  }
+};
 
 }  // namespace
 
@@ -102,13 +138,20 @@ double PlanCost::actual_seconds() const {
   return wall_time(steps, threads, [](const CostStep& s) { return s.actual ? s.actual->seconds() : 0.0; });
 }
 
+std::string cost_kind(const MeshModel& model) {
+  // The contact of helical teeth moves along the face width: every slice has elements of its own.
+  const bool helical = model.computed() && model.problem->pair.planet().helix_angle() != 0;
+  return helical && model.rung == "solid" ? "solid_helical" : model.rung;
+}
+
 CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs) {
   const auto& settings = model.settings;
   const int last = fem::last_level(settings.rung);
   CostRun size;
-  size.kind = model.rung;
+  size.kind = cost_kind(model);
   size.degree = settings.degree;
-  size.level = std::clamp(settings.level.value_or(costs.expected_level(model.rung, settings.accuracy, last)), 0, last);
+  size.level = std::clamp(
+      settings.level.value_or(costs.expected_level(size.kind, size.degree, settings.accuracy, last)), 0, last);
   // A level that is forced is solved with the one before it; refining starts at level 0 and passes them all.
   size.levels = last == 0 ? 1 : settings.level ? 2 : size.level + 1;
   size.unknowns = fem::estimated_unknowns(*model.problem, settings, size.level);
@@ -140,42 +183,48 @@ std::vector<int> period_cycles(const Scene& scene, const GearGeometry& geometry)
   return periods;
 }
 
+PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<PlannedResponse>& responses,
+                   const std::vector<StudyPlan>& studies, int threads, const CostModel& costs) {
+  CostSteps steps(threads, costs);
+  for (const auto& model : meshes)
+    if (model.computed()) steps.add_mesh(model);
+  steps.add_responses(responses);
+  steps.add_studies(studies);
+  return steps.cost;
+}
+
 PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::vector<MeshModel>& meshes,
                    const std::vector<StudyPlan>& studies, int threads, const CostModel& costs) {
-  PlanCost cost{.steps = {}, .threads = threads};
-  const auto add = [&](CostKind kind, std::string label, std::string ring, CostRun size, double error) {
-    const auto predicted = costs.predict(size);
-    cost.steps.push_back({kind, std::move(label), std::move(ring), std::move(size), predicted, error});
-  };
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double longest_table = 0;
+  CostSteps steps(threads, costs);
+  std::vector<std::string> elastic;
   bool computed = false;
   for (const auto& model : meshes) {
     if (!model.computed()) continue;
     computed = true;
-    const auto size = mesh_size(model, threads, costs);
-    add(CostKind::mesh, model.label(), model.ring, size, costs.expected_error(size.kind, size.level));
-    longest_table = std::max(longest_table, cost.steps.back().predicted.seconds);
-    if (may_be_coupled(scene, model))
-      add(CostKind::coupling, fmt::format("coupling through '{}'", model.ring), model.ring,
-          coupling_size(model, threads), unknown);
+    steps.add_mesh(model);
+    if (!may_be_coupled(scene, model)) continue;
+    // A ring held all around its outside has no modes as low as the stage's.
+    if (scene.dynamics->rim_coupling != RimCoupling::statical &&
+        !std::holds_alternative<fem::OutsideHeld>(model.problem->structure))
+      elastic.push_back(model.ring);
+    steps.add(CostKind::coupling, fmt::format("coupling through '{}'", model.ring), model.ring,
+              coupling_size(model, threads));
   }
-  if (!scene.dynamics) return cost;
+  if (!scene.dynamics) return steps.cost;
   const auto periods = period_cycles(scene, geometry);
+  std::vector<PlannedResponse> responses;
   for (std::size_t i = 0; i < scene.rings.size(); ++i) {
+    const auto& name = scene.rings[i].name;
     CostRun size;
-    size.kind = computed ? "response" : "response_given";
+    const bool modes = std::find(elastic.begin(), elastic.end(), name) != elastic.end();
+    const bool marched = motion_choice(scene.accuracy).confirm || scene.dynamics->mesh_cycles;
+    size.kind = modes ? "response_elastic" : !computed ? "response_given" : marched ? "response" : "response_direct";
     size.unknowns = static_cast<double>(scene.stage.planets) * scene.dynamics->mesh_cycles.value_or(periods[i]);
-    add(CostKind::response, fmt::format("dynamics of '{}'", scene.rings[i].name), scene.rings[i].name, size, unknown);
+    responses.push_back({fmt::format("dynamics of '{}'", name), name, size});
   }
-  for (const auto& study : studies)
-    cost.steps.push_back({CostKind::studies,
-                          study.name,
-                          "",
-                          {},
-                          {study.seconds / threads + study.tables * longest_table, unknown},
-                          unknown});
-  return cost;
+  steps.add_responses(responses);
+  steps.add_studies(studies);
+  return steps.cost;
 }
 
 std::string duration_text(double seconds) {

@@ -41,6 +41,9 @@ struct PlanCost {
   [[nodiscard]] double actual_seconds() const;
 };
 
+/// Kind of cost of a computed mesh (CostRun::kind).
+[[nodiscard]] std::string cost_kind(const MeshModel& model);
+
 /// The size of solving one computed mesh, its level as the model expects it. `threads` of the whole run.
 [[nodiscard]] CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs);
 
@@ -48,6 +51,14 @@ struct PlanCost {
 /// integrated.
 [[nodiscard]] std::vector<int> period_cycles(const Scene& scene, const GearGeometry& geometry);
 
+/// A response of the lumped model, as wide as `size` tells.
+struct PlannedResponse {
+  std::string label, ring;
+  CostRun size;
+};
+/// Of a stage whose meshes do not act on each other through elastic rings.
+[[nodiscard]] PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<PlannedResponse>& responses,
+                                 const std::vector<StudyPlan>& studies, int threads, const CostModel& costs);
 /// Of a planetary scene. `meshes`: the sun mesh, then one per ring.
 [[nodiscard]] PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::vector<MeshModel>& meshes,
                                  const std::vector<StudyPlan>& studies, int threads, const CostModel& costs);

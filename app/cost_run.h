@@ -8,21 +8,25 @@ namespace annulus::app {
 
 /// The size of one step of a run, and what it cost where it was measured.
 struct CostRun {
-  /// A mesh by its rung ("closed_form", "plane", "solid", "resolved_plane", "resolved_solid"), "coupling_plane",
-  /// "coupling_pins" (on pins or splines) and "coupling_solid", or the "response" of one ring, "response_given" with
-  /// stiffness that is given: no errors of tables are then carried through.
+  /// A mesh by its rung ("closed_form", "plane", "solid", "resolved_plane", "resolved_solid") or "solid_helical",
+  /// "coupling_plane", "coupling_pins" (on pins or splines) and "coupling_solid", or the "response" of one ring:
+  /// "response_elastic" where its elastic modes may take part, "response_given" with stiffness that is given, where no
+  /// errors of tables are carried through, "response_direct" where nothing is marched, "response_pair",
+  /// "response_two_k_v" and "response_two_k_v_given" of the other stages.
   std::string kind;
   int degree = 2;
   int level = 0;                          ///< of resolution reached
   int levels = 1;                         ///< solved on the way, the reached one included
   double unknowns = 0;                    ///< of the reached level; a response: planets x mesh cycles of the
-                                          ///< period; a coupling on pins: times the ring positions
+                                          ///< period, of a pair: responses x mesh cycles; a coupling on pins: times
+                                          ///< the ring positions
   int loads = 0, phases = 0, cycles = 0;  ///< of the table: loads, phases per mesh cycle, mesh cycles
   int threads = 1;
   double error = 0;      ///< estimated relative error at the reached level; 0: not known
   double body_s = 0;     ///< s, meshing and condensing; all there is of a coupling or a response
   double contact_s = 0;  ///< s
   double peak_MB = 0;    ///< of the process; 0: not measured
+  double saved_s = 0;    ///< s, what teeth condensed before have saved of body_s; NaN: not known. Not kept.
 
   [[nodiscard]] double seconds() const { return body_s + contact_s; }
   /// Contact problems of one mesh cycle, and of all, closure included, per level.

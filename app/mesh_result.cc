@@ -27,7 +27,10 @@ std::map<std::string, double> facts_of(const fem::LoadedMeshResult& solved) {
                                          {"unknowns", static_cast<double>(solved.unknowns)},
                                          {"mesh_seconds", solved.mesh_seconds},
                                          {"condense_seconds", solved.condense_seconds},
-                                         {"contact_seconds", solved.contact_seconds}};
+                                         {"contact_seconds", solved.contact_seconds},
+                                         {"condensed_teeth", solved.condensed_teeth},
+                                         {"reused_teeth", solved.reused_teeth},
+                                         {"saved_seconds", solved.saved_seconds}};
   auto& force = facts["force_balance_relative"];
   auto& energy = facts["energy_balance_relative"];
   auto& penetration = facts["max_penetration_m"];
@@ -67,11 +70,13 @@ void at_load(const StiffnessTable& table, std::size_t load, Visit visit) {
 
 Estimate MeshResult::mean_stiffness() const {
   double sum = 0, error = 0;
+  ErrorParts parts;
   at_load(table, nominal, [&](const StiffnessEntry& e) {
     sum += e.stiffness_secant;
     error += e.error_relative * e.stiffness_secant;
+    parts += e.stiffness_secant * e.error_parts;
   });
-  return {sum / (table.positions() * table.phases()), error / sum};
+  return {sum / (table.positions() * table.phases()), error / sum, (1 / sum) * parts};
 }
 
 double MeshResult::worst_stiffness_error() const {
@@ -82,11 +87,14 @@ double MeshResult::worst_stiffness_error() const {
 
 Estimate MeshResult::lte_mean() const {
   double sum = 0, error = 0;
+  ErrorParts parts;
   at_load(table, nominal, [&](const StiffnessEntry& e) {
+    const double deflection = std::abs(e.lte - e.unloaded_te);
     sum += e.lte;
-    error += std::abs(e.error_relative * (e.lte - e.unloaded_te));
+    error += e.error_relative * deflection;
+    parts += deflection * e.error_parts;
   });
-  return {sum / (table.positions() * table.phases()), error / std::abs(sum)};
+  return {sum / (table.positions() * table.phases()), error / std::abs(sum), (1 / std::abs(sum)) * parts};
 }
 
 namespace {
@@ -129,7 +137,12 @@ Estimate MeshResult::lte_peak_to_peak() const {
     down.push_back(-e.lte);
   });
   const double missed = beyond_the_highest(up) + beyond_the_highest(down);
-  return {range, std::max(difference / range, lte_mean().error_relative) + missed / range};
+  const auto mean = lte_mean();
+  const double of_stiffness = std::max(difference / range, mean.error_relative);
+  ErrorParts parts;
+  if (mean.error_relative > 0) parts = (of_stiffness / mean.error_relative) * mean.parts;
+  parts.interpolation = missed / range;
+  return {range, of_stiffness + missed / range, parts};
 }
 
 double MeshResult::fact(const std::string& name) const {

@@ -18,6 +18,7 @@ namespace annulus::app {
 struct Estimate {
   double value = 0;
   double error_relative = 0;
+  ErrorParts parts{};  ///< of error_relative, where it is known what it is made of; else zero
 };
 
 /// Where in the mesh cycles something happens.
@@ -52,9 +53,10 @@ struct MeshResult {
   std::size_t nominal = 0;  ///< index of the nominal load in the table
   bool reused = false;
 
-  [[nodiscard]] Estimate mean_stiffness() const;       ///< N/m, secant, at the nominal load
-  [[nodiscard]] double worst_stiffness_error() const;  ///< relative, of any position at the nominal load
-  [[nodiscard]] Estimate lte_mean() const;             ///< m, at the nominal load
+  [[nodiscard]] Estimate mean_stiffness() const;  ///< N/m, secant, at the nominal load
+  /// Relative, of any position at the nominal load.
+  [[nodiscard]] double worst_stiffness_error() const;
+  [[nodiscard]] Estimate lte_mean() const;  ///< m, at the nominal load
   /// m, at the nominal load, over all ring positions; its error contains what lies between the positions.
   [[nodiscard]] Estimate lte_peak_to_peak() const;
   [[nodiscard]] double fact(const std::string& name) const;  ///< NaN when not known

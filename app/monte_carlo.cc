@@ -44,6 +44,8 @@ class SampleStore {
     const auto file = folder_ / fmt::format("samples_{:07}.csv", first);
     Csv csv = kept(file);
     const auto before = csv.rows.size(), wanted = static_cast<std::size_t>(last - first);
+    const auto reused = std::min(before, wanted);
+    count_reuse(subject_.options(), study_responses, static_cast<long>(reused), static_cast<long>(wanted - reused));
     for (int sample = first + static_cast<int>(before); sample < last; ++sample) add(csv, sample);
     if (csv.rows.size() > before) csv.write(file);
     csv.rows.resize(wanted);  // an earlier run may have kept more

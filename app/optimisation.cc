@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "app/content_id.h"
+#include "app/design_store.h"
 #include "app/evaluation_store.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
@@ -99,7 +100,28 @@ class DesignObjective {
     }
   }
 
+  /// Kept, or found and kept. One that fails is found anew.
   [[nodiscard]] Design design(const std::vector<double>& x) const {
+    const auto changed = study_case(x);
+    std::optional<DesignStore> store;
+    try {
+      subject_.prepare(changed.overrides, changed.where, changed.folder);
+      const auto model = subject_.model(changed.overrides, changed.where, variant_, changed.folder, true);
+      ContentId id;
+      id.add("design", model.id).add("quick", quick_ ? 1 : 0).add("starts", settings_.starts);
+      store.emplace(subject_.folder(variant_) / "optimise" / "designs", id.add("seed", settings_.seed).id(), figures_);
+    } catch (const Error&) {
+      return found_design(x);  // fails the same way, and tells why
+    }
+    auto kept = store->find(x);
+    count_reuse(subject_.options(), study_responses, kept ? 1 : 0, kept ? 0 : 1);
+    Design d = kept ? std::move(*kept) : found_design(x);
+    d.objective = value(d.point);
+    if (!kept && d.point.failure.empty()) store->save(d);
+    return d;
+  }
+
+  [[nodiscard]] Design found_design(const std::vector<double>& x) const {
     Design d{.x = x, .objective = 0, .point = evaluate(x, false), .starts = std::nullopt};
     if (quick_ && d.point.failure.empty()) {
       // The same numbers as the search saw: the motion is sampled otherwise.
@@ -195,6 +217,8 @@ OptimiseRun search(const StudySubject& subject, const DesignObjective& objective
   const auto options = search_options(*scene.optimise, optimiser, repeat);
   run.search = dynamics::optimise(search_variables(scene), answer, options, [&](const auto&) { progress.done(); });
   store.save();
+  count_reuse(subject.options(), search_evaluations, run.kept,
+              static_cast<long>(run.search.evaluations.size()) - run.kept);
   return run;
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/content_id.h"
 #include "app/gear_geometry.h"
+#include "app/stage_response.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -120,16 +121,8 @@ dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry
 }
 
 dynamics::SimulationOptions pair_simulation(const Scene& scene) {
-  dynamics::SimulationOptions options;
-  options.integrator.relative_tolerance =
-      scene.dynamics->relative_tolerance.value_or(options.integrator.relative_tolerance);
-  options.integrator.method = scene.dynamics->integrator;
-  if (scene.dynamics->steps_per_cycle) {
-    const double mesh_frequency = scene.pinion.teeth * scene.stage.pinion_speed / (2 * std::numbers::pi);
-    options.integrator.fixed_step = 1 / (mesh_frequency * *scene.dynamics->steps_per_cycle);
-  }
-  options.mesh_cycles = scene.dynamics->mesh_cycles;
-  return options;
+  const double mesh_frequency = scene.pinion.teeth * scene.stage.pinion_speed / (2 * std::numbers::pi);
+  return given_simulation(*scene.dynamics, mesh_frequency);
 }
 
 std::string pair_id(const dynamics::HelicalPair& pair, const dynamics::SimulationOptions& options,

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "app/pair_run.h"
 #include "core/units.h"
@@ -110,7 +111,25 @@ std::vector<Input> pair_inputs(const Scene& scene, const PairGeometry& geometry)
 
 }  // namespace
 
-Plan make_pair_plan(const Scene& scene, const PairGeometry& geometry) {
+std::vector<PlannedResponse> pair_responses(const Scene& scene, int threads) {
+  if (!scene.dynamics) return {};
+  CostRun size;
+  size.kind = "response_pair";
+  size.threads = threads;
+  // Four motions tell the shares at one torque, three the causes at one speed.
+  double responses = 1;
+  if (scene.transmission_error)
+    responses += 4.0 * static_cast<double>(scene.transmission_error->pinion_torques.size()) +
+                 3.0 * static_cast<double>(scene.transmission_error->pinion_speeds.size());
+  // An error of the pinion or the wheel passes once a turn.
+  const bool turns = scene.errors.pinion_error != 0 || scene.errors.wheel_error != 0;
+  const double cycles =
+      scene.dynamics->mesh_cycles.value_or(turns ? std::lcm(scene.pinion.teeth, scene.wheel.teeth) : 1);
+  size.unknowns = responses * cycles;
+  return {{"dynamics of the pair", "", size}};
+}
+
+Plan make_pair_plan(const Scene& scene, const PairGeometry& geometry, int threads) {
   Plan plan;
   plan.title = scene.title;
   plan.inputs = pair_inputs(scene, geometry);
@@ -118,6 +137,8 @@ Plan make_pair_plan(const Scene& scene, const PairGeometry& geometry) {
   plan.meshes.push_back(pair_mesh_model(scene, geometry));
   if (scene.dynamics) plan.freedoms = pair_freedoms(scene);
   plan.studies = plan_studies(scene);
+  plan.cost =
+      plan_cost(plan.meshes, pair_responses(scene, threads), plan.studies, threads, CostModel::of_this_machine());
   plan.remarks = pair_remarks(scene, geometry, plan.meshes.front());
   return plan;
 }

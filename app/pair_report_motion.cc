@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "app/content_id.h"
+#include "app/cost_actual.h"
 #include "app/pair_report_parts.h"
 #include "core/units.h"
 
@@ -152,7 +153,8 @@ std::string pair_modes_section(const PairRunResult& result) {
 }
 
 std::string pair_quality_section(const PairRunResult& result) {
-  std::string text = "<h2 id=\"quality\">Checks and cost</h2>\n";
+  std::string text = "<h2 id=\"quality\">Checks and cost</h2>\n" +
+                     predicted_and_actual_html(result.plan.cost, result.cost, result.peak_memory_MB);
   if (result.response) {
     const auto& f = result.response->figures;
     std::string how = "marched";

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/content_id.h"
+#include "app/cost_actual.h"
 #include "app/pair_subject.h"
 #include "app/pair_table_errors.h"
 #include "app/progress.h"
@@ -202,11 +203,12 @@ double pair_seconds(const Scene& scene) {
   return turns ? 0.5 : 0.02;
 }
 
-PairRunResult run_pair(const Scene& scene, const RunOptions& options) {
+PairRunResult run_pair(const Scene& scene, const RunOptions& given) {
   StageTimers timers;
+  const RunOptions options = with_reuse(given);
   auto geometry = make_pair_geometry(scene);
   if (options.with_dynamics) check_studies(scene);  // before anything expensive
-  Plan plan = make_pair_plan(scene, geometry);
+  Plan plan = make_pair_plan(scene, geometry, options.threads);
   PairRunResult result{.scene = scene, .geometry = std::move(geometry), .plan = std::move(plan)};
   std::filesystem::create_directories(options.out);
   {
@@ -259,8 +261,16 @@ PairRunResult run_pair(const Scene& scene, const RunOptions& options) {
     const auto timer = timers.measure("studies");
     result.studies = run_studies(PairSubject(result, options));
   }
+  result.reuse = options.reuse;
   result.timings = pair_timings(timers);
   result.peak_memory_MB = peak_memory_MB();
+  result.cost = actual_costs(result.plan.cost, [&](const CostStep& step) -> std::optional<CostRun> {
+    if (step.kind == CostKind::mesh)
+      return result.mesh.computed ? actual_mesh(step.size, *result.mesh.computed) : std::nullopt;
+    if (!result.response) return std::nullopt;
+    return actual_time(step.size, timers.seconds("dynamics") + timers.seconds("shares"));
+  });
+  keep_costs(result.cost);
   write_file(options.out / "summary.json", pair_summary_json(result));
   write_file(options.out / "report.html", pair_report_html(result));
   return result;

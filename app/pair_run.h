@@ -66,6 +66,8 @@ struct PairRunResult {
   StudyResults studies{};
   std::vector<std::pair<std::string, double>> timings{};
   double peak_memory_MB = 0;
+  PlanCost cost{};  ///< predicted and actual, of the steps that were not reused
+  std::shared_ptr<const Reuse> reuse{};
 };
 
 /// Everything the scene asks for, into options.out. Throws what the steps throw.
@@ -75,7 +77,9 @@ PairRunResult run_pair(const Scene& scene, const RunOptions& options);
 [[nodiscard]] double pair_seconds(const Scene& scene);
 
 /// What will be modelled and why (pair_plan.cc).
-[[nodiscard]] Plan make_pair_plan(const Scene& scene, const PairGeometry& geometry);
+[[nodiscard]] Plan make_pair_plan(const Scene& scene, const PairGeometry& geometry, int threads = 1);
+/// The responses of a run, as one step: the scene's own, and those that part the transmission error by its causes.
+[[nodiscard]] std::vector<PlannedResponse> pair_responses(const Scene& scene, int threads);
 
 [[nodiscard]] std::string pair_summary_json(const PairRunResult& result);  ///< pair_summary.cc
 [[nodiscard]] std::string pair_summary_text(const PairRunResult& result);

@@ -150,7 +150,10 @@ bool PairSubject::prepare(const std::vector<Override>& overrides, const std::str
   const auto model = pair_mesh_model(changed, geometry);
   if (table_serves_pair(model, geometry)) return false;
   const auto inside = options_in(folder);
-  if (load(model, inside.out)) return true;
+  if (load(model, inside.out)) {
+    count_reuse(inside, study_meshes, 1, 0);
+    return true;
+  }
   log::info(where + ":");
   (void)computed_stiffness(model, {""}, inside);
   return true;

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/content_id.h"
+#include "app/cost_actual.h"
+#include "app/error_parts_json.h"
 #include "app/pair_run.h"
 #include "app/summary_studies.h"
 #include "core/units.h"
@@ -95,13 +97,16 @@ std::string pair_summary_json(const PairRunResult& result) {
     json["mean_stiffness_N_per_m"][s.source] = {
         {"value", pair_number(s.value)}, {"error_relative", pair_number(s.error_relative)}, {"taken", s.taken}};
   if (const auto& computed = result.mesh.computed) {
-    auto& mesh = json["pinion_wheel"] = {{"rung", computed->model.rung},
-                                         {"contact_ratio", computed->contact_ratio},
-                                         {"transverse_mean_stiffness_N_per_m", computed->mean_stiffness().value},
-                                         {"lte_mean_m", computed->lte_mean().value},
-                                         {"lte_peak_to_peak_m", computed->lte_peak_to_peak().value},
-                                         {"reused", computed->reused},
-                                         {"inputs_id", computed->model.id()}};
+    auto& mesh = json["pinion_wheel"] = {
+        {"rung", computed->model.rung},
+        {"contact_ratio", computed->contact_ratio},
+        {"transverse_mean_stiffness_N_per_m", computed->mean_stiffness().value},
+        {"lte_mean_m", computed->lte_mean().value},
+        {"lte_peak_to_peak_m", computed->lte_peak_to_peak().value},
+        {"stiffness_error_parts_relative", error_parts_json(computed->mean_stiffness().parts)},
+        {"lte_peak_to_peak_error_parts_relative", error_parts_json(computed->lte_peak_to_peak().parts)},
+        {"reused", computed->reused},
+        {"inputs_id", computed->model.id()}};
     for (const auto& [name, value] : computed->facts) mesh[name] = pair_number(value);
   }
   json["mesh_error_m"] = result.errors.amplitude;
@@ -133,6 +138,8 @@ std::string pair_summary_json(const PairRunResult& result) {
   json["inputs_id"] = inputs.id();
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
+  if (!result.cost.empty()) json["cost"] = PairJson::parse(cost_json(result.cost));
+  json["reuse"] = PairJson::parse(result.reuse->json());
   return json.dump(2) + "\n";
 }
 
@@ -159,7 +166,10 @@ std::string pair_summary_text(const PairRunResult& result) {
   }
   text += "\ntime   ";
   for (const auto& [stage, seconds] : result.timings) text += fmt::format(" {} {:.2f} s ", stage, seconds);
-  return text + fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
+  text += fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
+  const std::string cost = cost_sentence(result.plan.cost, result.cost, result.peak_memory_MB);
+  if (!cost.empty()) text += "cost    " + cost + "\n";
+  return text + result.reuse->text();
 }
 
 }  // namespace annulus::app

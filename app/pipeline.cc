@@ -51,19 +51,13 @@ std::optional<CouplingEffect> effect_of_coupling(const Scene& scene, const GearG
   stage.ring_coupling = taken_coupling(*ring_mesh.coupling, RimCoupling::elastic);
   const auto simulation = simulation_options(scene, stage);
   const auto id = response_id(stage, simulation, sun_mesh, ring_mesh);
-  if (auto kept = load_effect(id, folder)) return kept;
+  auto kept = load_effect(id, folder);
+  note_reuse(options, fmt::format("effect of the coupling of ring '{}'", scene.rings.at(ring).name), kept.has_value());
+  if (kept) return kept;
   stage.ring_coupling = nullptr;
   auto effect = coupling_effect(stage, *ring_mesh.coupling, simulation);
   save(effect, id, folder);
   return effect;
-}
-
-/// Later predictions on this machine learn from it.
-void keep_costs(const PlanCost& cost) {
-  std::vector<CostRun> runs;
-  for (const auto& step : cost.steps)
-    if (step.actual && step.actual->seconds() > 0) runs.push_back(*step.actual);
-  add_user_costs(user_costs_file(), runs);
 }
 
 std::vector<std::string> ring_names(const Scene& scene) {
@@ -95,17 +89,24 @@ std::vector<std::pair<std::string, double>> timings_of(const RunResult& result, 
 
 }  // namespace
 
-fem::LoadedMeshResult solve_contact(const MeshModel& model, int threads) {
+fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& options) {
+  const int threads = options.threads;
   const auto costs = CostModel::of_this_machine();
   Progress progress(model.label(), costs.predict(mesh_size(model, threads, costs)).seconds);
   fem::LoadedMeshSettings settings = model.settings;
   settings.threads = threads;
+  settings.store = options.store;
   settings.progress = [&](double fraction) { progress.update(fraction); };
   progress.update(0);
   auto solved = fem::solve_loaded_mesh(*model.problem, settings);
-  progress.finish(fmt::format(
-      "{} positions, {} unknowns per pair of sectors; mesh {:.2f} s, condense {:.2f} s, contact {:.2f} s",
-      solved.positions.size(), solved.unknowns, solved.mesh_seconds, solved.condense_seconds, solved.contact_seconds));
+  std::string teeth;
+  if (solved.reused_teeth > 0)
+    teeth = fmt::format(" ({} of {} teeth reused)", solved.reused_teeth, solved.reused_teeth + solved.condensed_teeth);
+  progress.finish(
+      fmt::format("{} positions, {} unknowns per pair of sectors; mesh {:.2f} s, condense {:.2f} s{}, contact {:.2f} s",
+                  solved.positions.size(), solved.unknowns, solved.mesh_seconds, solved.condense_seconds, teeth,
+                  solved.contact_seconds));
+  count_reuse(options, condensed_teeth, solved.reused_teeth, solved.condensed_teeth);
   return solved;
 }
 
@@ -120,11 +121,13 @@ MeshResult computed_stiffness(const MeshModel& model, const std::vector<std::str
       source = root / folder;
     }
   }
+  note_reuse(options, model.label(), result.has_value());
+  if (options.for_study) count_reuse(options, study_meshes, result ? 1 : 0, result ? 0 : 1);
   if (result) {
     log::info(fmt::format("{}: unchanged, reused", model.label()));
     for (const auto& folder : folders) copy_meshes(model, source / "mesh", options.out / folder / "mesh");
   } else {
-    const auto solved = solve_contact(model, options.threads);
+    const auto solved = solve_contact(model, options);
     result = pack(model, solved);
     for (const auto& folder : folders) write_meshes(model, solved, options.out / folder / "mesh");
   }
@@ -141,9 +144,11 @@ MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, cons
                            geometry.operating_point.mean_mesh_force);
   }
   auto result = computed_stiffness(model, rings, options);
-  if (options.with_dynamics && may_be_coupled(scene, model))
+  if (options.with_dynamics && may_be_coupled(scene, model)) {
     result.coupling = std::make_shared<SolvedCoupling>(solve_coupling(
-        scene, geometry, model, 1 / result.mean_stiffness().value, options.threads, options.out / rings.front()));
+        scene, geometry, model, 1 / result.mean_stiffness().value, options, options.out / rings.front()));
+    note_reuse(options, fmt::format("coupling of ring '{}'", model.ring), result.coupling->reused);
+  }
   return result;
 }
 
@@ -154,7 +159,9 @@ StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry,
   const auto stage = make_stage(scene, geometry, ring, sun_mesh, ring_mesh);
   const auto simulation = simulation_options(scene, stage);
   const auto id = response_id(stage, simulation, sun_mesh, ring_mesh);
-  if (auto kept = load_response(id, folder)) {
+  auto kept = load_response(id, folder);
+  note_reuse(options, fmt::format("dynamics of '{}'", name), kept.has_value());
+  if (kept) {
     log::info(fmt::format("dynamics of '{}': unchanged, reused", name));
     return std::move(*kept);
   }
@@ -173,8 +180,9 @@ StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry,
   return response;
 }
 
-RunResult run(const Scene& scene, const RunOptions& options) {
+RunResult run(const Scene& scene, const RunOptions& given) {
   StageTimers timers;
+  const RunOptions options = with_reuse(given);
   std::optional<Reference> reference;
   if (scene.reference) reference = read_reference(scene.file.parent_path() / *scene.reference);
   GearGeometry geometry = make_geometry(scene);
@@ -206,6 +214,7 @@ RunResult run(const Scene& scene, const RunOptions& options) {
     const auto timer = timers.measure("studies");
     result.studies = run_studies(PlanetarySubject(result, options));
   }
+  result.reuse = options.reuse;
   result.timings = timings_of(result, timers);
   result.peak_memory_MB = peak_memory_MB();
   result.cost = actual_costs(result);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "app/mesh_result.h"
 #include "app/plan.h"
 #include "app/reference.h"
+#include "app/reuse.h"
 #include "app/scene.h"
 #include "app/stage_response.h"
 #include "app/study_result.h"
@@ -29,6 +31,10 @@ struct RunOptions {
   std::optional<std::filesystem::path> tables{};  ///< where to look for earlier tables; absent: `out`
   int threads = 1;
   bool with_dynamics = true;  ///< false: meshes, transmission error and stiffness only
+  // Set by the run itself (with_reuse); without them nothing is noted and every tooth is condensed.
+  std::shared_ptr<Reuse> reuse{};
+  std::shared_ptr<fem::CondensedStore> store{};
+  bool for_study = false;  ///< what is computed belongs to a changed scene
   /// Changes how a mesh is solved from what was planned (measurements); absent: as planned.
   std::function<MeshModel(const MeshModel& planned)> remodel{};
 };
@@ -53,6 +59,7 @@ struct RunResult {
   std::vector<std::pair<std::string, double>> timings{};  ///< wall seconds by stage, then "other" and "total"
   double peak_memory_MB = 0;
   PlanCost cost{};  ///< predicted and actual, of the steps that were not reused
+  std::shared_ptr<const Reuse> reuse{};
 };
 
 // 1. Scene: what the user wants, checked, SI (scene.h):
@@ -62,7 +69,7 @@ struct RunResult {
 
 // 3. Contact: gmsh meshes, elastic bodies, contact of one gear mesh at every position and load. Writes meshes to
 //    `folders` (OUT/<ring>/mesh; the sun mesh goes to every ring's folder).
-[[nodiscard]] fem::LoadedMeshResult solve_contact(const MeshModel& model, int threads);
+[[nodiscard]] fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& options);
 
 // 4. Stiffness table with pictures, shares and invariants: read back if unchanged, else solved, packed and saved.
 [[nodiscard]] MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,

@@ -37,7 +37,7 @@ struct Plan {
   std::vector<Decision> motion;      ///< how the motion is found in time
   std::vector<StudyPlan> studies;    ///< sweeps, samples, sensitivity
   std::vector<std::string> remarks;  ///< simplifications and warnings
-  PlanCost cost{};                   ///< predicted; empty for stages other than planetary
+  PlanCost cost{};                   ///< predicted; empty when there is nothing to compute
   std::string budget{};              ///< what a budget bought; empty without
 
   /// Contact problems per level of resolution: positions x phases x loads, closure included, over all computed meshes.

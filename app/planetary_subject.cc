@@ -160,8 +160,10 @@ bool PlanetarySubject::prepare(const std::vector<Override>& overrides, const std
     const bool coupled = may_be_coupled(scene, models[i]);
     if (const auto kept = load(models[i], inside.out / ring);
         kept &&
-        (!coupled || load_coupling(scene, geometry, models[i], 1 / kept->mean_stiffness().value, inside.out / ring)))
+        (!coupled || load_coupling(scene, geometry, models[i], 1 / kept->mean_stiffness().value, inside.out / ring))) {
+      count_reuse(inside, study_meshes, 1, 0);
       continue;
+    }
     log::info(where + ":");
     (void)mesh_stiffness(scene, geometry, models[i], {ring}, inside);
   }

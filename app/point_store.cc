@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/content_id.h"
+#include "app/pipeline.h"
 
 namespace annulus::app {
 
@@ -24,6 +25,8 @@ double point_number(const PointJson& json) {
   if (json.is_string()) return (json == "-inf" ? -1 : 1) * std::numeric_limits<double>::infinity();
   return json.get<double>();
 }
+
+}  // namespace
 
 std::string point_text(const StudyPoint& point, const std::vector<StudyFigure>& figures, const std::string& id) {
   PointJson json = {{"inputs_id", id}, {"failure", point.failure}};
@@ -54,14 +57,14 @@ std::optional<StudyPoint> read_point(const std::filesystem::path& file, const st
   }
 }
 
-}  // namespace
-
 StudyPoint PointStore::point(const std::vector<Override>& overrides, const std::string& where, std::size_t variant,
                              const std::string& folder) const {
   const auto changed = subject_.model(overrides, where, variant, folder, true);
   const auto points = subject_.folder(variant) / "points";
   const auto file = points / (changed.id + ".json");
-  if (auto kept = read_point(file, figures_, changed.id)) return std::move(*kept);
+  auto kept = read_point(file, figures_, changed.id);
+  count_reuse(subject_.options(), study_responses, kept ? 1 : 0, kept ? 0 : 1);
+  if (kept) return std::move(*kept);
   const auto found = evaluate(changed, false);
   std::filesystem::create_directories(points);
   write_file(file, point_text(found, figures_, changed.id));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,5 +23,12 @@ class PointStore {
   const StudySubject& subject_;
   std::vector<StudyFigure> figures_;
 };
+
+/// A point as a file of this identity, and read back from one: nothing when there is none, or another, or a damaged
+/// one.
+[[nodiscard]] std::string point_text(const StudyPoint& point, const std::vector<StudyFigure>& figures,
+                                     const std::string& id);
+[[nodiscard]] std::optional<StudyPoint> read_point(const std::filesystem::path& file,
+                                                   const std::vector<StudyFigure>& figures, const std::string& id);
 
 }  // namespace annulus::app

@@ -142,7 +142,7 @@ std::string part_text(double part) { return std::isfinite(part) ? fmt::format("{
 struct NamedFigure {
   const char* name;
   const dynamics::Figure& figure;
-  const FigureErrors& errors;
+  const ErrorParts& errors;
 };
 
 std::vector<NamedFigure> explained_figures(const StageResponse& response) {
@@ -162,22 +162,23 @@ std::vector<NamedFigure> explained_figures(const StageResponse& response) {
 }
 
 std::string error_bars(const RunResult& result) {
-  HtmlTable table{.head = {"sun meshes", "value ± error", "solution in time", "stiffness", "interpolation"},
+  HtmlTable table{.head = {"sun meshes", "value ± error", "discretisation", "local contact", "condensation",
+                           "table interpolation", "time integration", "model choice"},
                   .rows = {},
                   .css_class = "numbers"};
   for (const auto* ring : rings_with_response(result)) {
     table.rows.push_back({escape(ring->name)});
     for (const auto& [name, f, e] : explained_figures(*ring->response))
-      table.rows.push_back({name, measured(f.value, f.error), part_text(e.solution), part_text(e.stiffness),
-                            part_text(e.interpolation)});
+      table.rows.push_back({name, measured(f.value, f.error), part_text(e.discretisation), part_text(e.contact),
+                            part_text(e.condensation), part_text(e.interpolation), part_text(e.integration),
+                            part_text(e.model)});
   }
   return "<h3 id=\"error-bars\">What the error bars contain</h3>\n" + html(table) +
-         "<p>Solution in time: sampling, steady state and integration. Stiffness: the larger change when all "
-         "stiffnesses "
-         "of a mesh, or their ripple, are raised by their error estimate; sun mesh plus ring mesh. Interpolation: a "
-         "third "
-         "of the change with every second position of the tables. The error is their sum, and not known when a part is "
-         "not; stiffness given as a wave counts as exact.</p>\n";
+         "<p>Discretisation, local contact, condensation and model choice: the larger change when all stiffnesses of a "
+         "mesh, or their ripple, are raised by their error estimate, divided as that estimate is; sun mesh plus ring "
+         "mesh. Table interpolation: half of the change with every second position of the tables. Time integration: "
+         "sampling, steady state and integrator. The error is their sum, and not known when a part is not; stiffness "
+         "given as a wave counts as exact.</p>\n";
 }
 
 }  // namespace

@@ -63,7 +63,8 @@ inline constexpr double shown_cycles = 110;
 [[nodiscard]] std::string quality_section(const RunResult& result);  ///< invariants, timings, versions
 // report_stiffness.cc
 [[nodiscard]] std::string meshes_section(const RunResult& result);
-[[nodiscard]] std::string stiffness_section(const RunResult& result);  ///< transmission error, stiffness, shares
+[[nodiscard]] std::string stiffness_section(const RunResult& result);        ///< transmission error, stiffness, shares
+[[nodiscard]] std::string stiffness_error_section(const RunResult& result);  ///< their errors by cause
 // report_supports.cc
 [[nodiscard]] std::string supports_section(const RunResult& result);  ///< pins, bolts and splines; empty without
 // report_contact.cc

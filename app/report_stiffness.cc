@@ -218,7 +218,7 @@ std::string stiffness_section(const RunResult& result) {
       "mesh</h3>\n";
   text += per_ring(result, "transmission error, µm", lte_um, false,
                    "At the nominal mean mesh force, along the line of action, one scale for all. The band is the "
-                   "estimated numerical error.");
+                   "estimated error.");
   text += per_ring(result, "transmission error – mean, µm", lte_um, true,
                    "The same about its mean: what excites vibration.");
   text += "<h3>Mesh stiffness</h3>\n" + overlay(result);
@@ -229,7 +229,7 @@ std::string stiffness_section(const RunResult& result) {
       .title = "Sun mesh stiffness (secant)", .x_label = "mesh cycle", .y_label = "N/µm", .width = 900, .height = 300};
   add_curve(plot, "sun mesh", sun, result.rings.size(), result.sun_mesh.model.computed());
   text += figure({to_svg(plot)}, "", "The same for all rings.");
-  return text + over_load(result) + shares(result);
+  return text + stiffness_error_section(result) + over_load(result) + shares(result);
 }
 
 }  // namespace annulus::app

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/content_id.h"
+#include "app/error_parts_json.h"
 
 namespace annulus::app {
 
@@ -19,13 +20,8 @@ double number(const ResponseJson& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
-ResponseJson to_json_value(const dynamics::Figure& f, const FigureErrors& parts) {
-  return {{"value", number(f.value)},
-          {"error", number(f.error)},
-          {"error_parts",
-           {{"solution", number(parts.solution)},
-            {"stiffness", number(parts.stiffness)},
-            {"interpolation", number(parts.interpolation)}}}};
+ResponseJson to_json_value(const dynamics::Figure& f, const ErrorParts& parts) {
+  return {{"value", number(f.value)}, {"error", number(f.error)}, {"error_parts", error_parts_json(parts)}};
 }
 dynamics::Figure figure(const ResponseJson& json) { return {number(json.at("value")), number(json.at("error"))}; }
 
@@ -57,10 +53,7 @@ dynamics::MeshKindResult kind_result(const ResponseJson& json) {
   return kind;
 }
 
-FigureErrors errors_of(const ResponseJson& figure) {
-  const auto& parts = figure.at("error_parts");
-  return {number(parts.at("solution")), number(parts.at("stiffness")), number(parts.at("interpolation"))};
-}
+ErrorParts errors_of(const ResponseJson& figure) { return error_parts_of(figure.at("error_parts")); }
 
 MeshKindErrors kind_errors(const ResponseJson& json) {
   const auto& sharing = json.at("load_sharing");
@@ -77,6 +70,7 @@ ResponseJson modes_json(const StageModes& modes) {
   for (const auto& m : modes.list) {
     json["list"].push_back({{"frequency_Hz", m.frequency},
                             {"frequency_error_Hz", m.frequency_error},
+                            {"error_parts_Hz", error_parts_json(m.error_parts)},
                             {"kind", m.kind},
                             {"damped_frequency_Hz", m.damped_frequency},
                             {"damping_ratio", m.damping_ratio},
@@ -91,9 +85,9 @@ StageModes modes_of(const ResponseJson& json) {
   modes.groups = json.at("groups").get<std::vector<std::string>>();
   modes.bodies = json.at("bodies").get<std::vector<std::string>>();
   for (const auto& m : json.at("list")) {
-    modes.list.push_back({number(m.at("frequency_Hz")), number(m.at("frequency_error_Hz")), m.at("kind"),
-                          number(m.at("damped_frequency_Hz")), number(m.at("damping_ratio")),
-                          m.at("strain_energy").get<std::vector<double>>(),
+    modes.list.push_back({number(m.at("frequency_Hz")), number(m.at("frequency_error_Hz")),
+                          error_parts_of(m.at("error_parts_Hz")), m.at("kind"), number(m.at("damped_frequency_Hz")),
+                          number(m.at("damping_ratio")), m.at("strain_energy").get<std::vector<double>>(),
                           m.at("kinetic_energy").get<std::vector<double>>()});
   }
   return modes;

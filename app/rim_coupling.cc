@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "app/content_id.h"
+#include "app/pipeline.h"
 #include "core/log.h"
 #include "fem/ring_coupling.h"
 
@@ -119,12 +120,13 @@ std::optional<SolvedCoupling> load_coupling(const Scene& scene, const GearGeomet
 }
 
 SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
-                              double mesh_compliance, int threads, const std::filesystem::path& folder) {
+                              double mesh_compliance, const RunOptions& options, const std::filesystem::path& folder) {
   if (auto kept = load_coupling(scene, geometry, model, mesh_compliance, folder)) return std::move(*kept);
   const auto& ring = ring_of(scene, model);
   fem::RingCouplingSettings settings;
   settings.level = coupling_level;
-  settings.threads = threads;
+  settings.threads = options.threads;
+  settings.store = options.store;
   settings.modes.highest_frequency = highest_frequency(geometry, ring);
   StageTimers timers;
   fem::SolvedRingCoupling solved;
@@ -139,7 +141,9 @@ SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, 
                         .compliance_error = solved.compliance_error,
                         .frequency_error_relative = solved.frequency_error_relative,
                         .highest_frequency = settings.modes.highest_frequency,
-                        .seconds = timers.seconds("coupling")};
+                        .seconds = timers.seconds("coupling"),
+                        .reused_teeth = solved.reused_teeth};
+  count_reuse(options, condensed_teeth, solved.reused_teeth, solved.condensed_teeth);
   result.coupling.provenance = {{"annulus_version", version()},
                                 {id_key, coupling_id(scene, geometry, model, ring)},
                                 {error_key, fmt::format("{:.17g}", result.compliance_error)},

@@ -12,6 +12,8 @@
 
 namespace annulus::app {
 
+struct RunOptions;
+
 /// How the meshes of one ring act on each other through it, solved, with what is needed to judge it.
 struct SolvedCoupling {
   RingCoupling coupling;
@@ -23,6 +25,7 @@ struct SolvedCoupling {
   double highest_frequency = 0;         ///< Hz, up to which modes were looked for
   double seconds = 0;
   bool reused = false;
+  int reused_teeth = 0;  ///< condensed sectors that were read back
 
   [[nodiscard]] double largest() const;  ///< m/N, largest entry of the coupling by magnitude
 };
@@ -42,7 +45,8 @@ struct CouplingChoice {
 /// Read back from `folder` (OUT/<ring>) if unchanged, else solved and saved there as ring_coupling.csv and
 /// ring_modes.csv. `mesh_compliance` (m/N) is that of the mesh by its table.
 [[nodiscard]] SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
-                                            double mesh_compliance, int threads, const std::filesystem::path& folder);
+                                            double mesh_compliance, const RunOptions& options,
+                                            const std::filesystem::path& folder);
 /// Only read back; nothing when it is not there or belongs to other inputs.
 [[nodiscard]] std::optional<SolvedCoupling> load_coupling(const Scene& scene, const GearGeometry& geometry,
                                                           const MeshModel& model, double mesh_compliance,

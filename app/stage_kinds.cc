@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "app/cost_plan.h"
 #include "app/pair_run.h"
 #include "app/pair_subject.h"
 #include "app/plan.h"
@@ -103,6 +102,32 @@ double response_seconds(const Scene& scene) {
   no_such_kind();
 }
 
+std::vector<MeshModel> stage_meshes(const Scene& scene) {
+  switch (scene.stage.kind) {
+    case StageKind::planetary:
+      return mesh_models(scene, make_geometry(scene));
+    case StageKind::helical_pair:
+      return {pair_mesh_model(scene, make_pair_geometry(scene))};
+    case StageKind::two_k_v:
+      return two_k_v_meshes(scene);
+  }
+  no_such_kind();
+}
+
+PlanCost stage_cost(const Scene& scene, int threads, const CostModel& costs) {
+  const auto meshes = stage_meshes(scene);
+  const auto studies = plan_studies(scene);
+  switch (scene.stage.kind) {
+    case StageKind::planetary:
+      return plan_cost(scene, make_geometry(scene), meshes, studies, threads, costs);
+    case StageKind::helical_pair:
+      return plan_cost(meshes, pair_responses(scene, threads), studies, threads, costs);
+    case StageKind::two_k_v:
+      return plan_cost(meshes, two_k_v_responses(scene), studies, threads, costs);
+  }
+  no_such_kind();
+}
+
 std::string run_scene(const Scene& scene, const RunOptions& options) {
   switch (scene.stage.kind) {
     case StageKind::planetary:
@@ -123,11 +148,13 @@ std::string plan_scene(const Scene& scene, bool json, int threads, const std::st
       return json ? to_json(plan) : to_text(plan);
     }
     case StageKind::helical_pair: {
-      const Plan plan = make_pair_plan(scene, make_pair_geometry(scene));
+      Plan plan = make_pair_plan(scene, make_pair_geometry(scene), threads);
+      plan.budget = budget;
       return json ? to_json(plan) : to_text(plan);
     }
     case StageKind::two_k_v: {
-      const Plan plan = make_two_k_v_plan(scene);
+      Plan plan = make_two_k_v_plan(scene, threads);
+      plan.budget = budget;
       return json ? to_json(plan) : to_text(plan);
     }
   }

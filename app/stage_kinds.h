@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "app/cost_plan.h"
+#include "app/mesh_model.h"
 #include "app/scene.h"
 #include "app/study_result.h"
 
@@ -26,6 +28,11 @@ void check_stage(const Scene& scene);
 
 /// Rough wall time of the responses of all variants on one core.
 [[nodiscard]] double response_seconds(const Scene& scene);
+
+/// The meshes that a run solves, and those whose stiffness is given.
+[[nodiscard]] std::vector<MeshModel> stage_meshes(const Scene& scene);
+/// Predicted time and memory of a run.
+[[nodiscard]] PlanCost stage_cost(const Scene& scene, int threads, const CostModel& costs);
 
 /// Everything the scene asks for, into options.out; the summary for the standard output.
 std::string run_scene(const Scene& scene, const RunOptions& options);

@@ -81,13 +81,19 @@ void add_campbell(StageModes& result, const dynamics::PlanetaryStage& stage) {
 
 }  // namespace
 
+MeshStiffnessErrors stiffness_errors(const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
+  const auto sun = sun_mesh.mean_stiffness(), ring = ring_mesh.mean_stiffness();
+  return {sun.error_relative, ring.error_relative, sun.parts, ring.parts};
+}
+
 StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnessErrors& errors) {
   const auto modes = dynamics::modes(stage);
   StageModes result;
   result.shapes.columns = {"mode", "frequency_Hz"};
   result.shapes.columns.insert(result.shapes.columns.end(), modes.freedoms.begin(), modes.freedoms.end());
   for (const auto& mode : modes.modes) {
-    result.list.push_back({mode.frequency, 0, dynamics::to_string(mode.kind), 0, 0, {}, {}});
+    result.list.push_back(
+        {.frequency = mode.frequency, .kind = dynamics::to_string(mode.kind), .strain = {}, .kinetic = {}});
     auto& row = result.shapes.rows.emplace_back(std::vector{static_cast<double>(result.list.size()), mode.frequency});
     // The largest amplitude is 1: only the shape means something.
     Eigen::Index top = 0;
@@ -96,9 +102,12 @@ StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnes
   }
   if (modes.modes.empty()) return result;
   add_energies(result, stage, modes);
-  for (auto& mode : result.list)  // the first two groups are the meshes
-    mode.frequency_error =
-        mode.frequency / 2 * (mode.strain[0] * errors.sun_planet + mode.strain[1] * errors.ring_planet);
+  for (auto& mode : result.list) {  // the first two groups are the meshes
+    const double of_sun = mode.frequency / 2 * mode.strain[0], of_ring = mode.frequency / 2 * mode.strain[1];
+    mode.frequency_error = of_sun * errors.sun_planet + of_ring * errors.ring_planet;
+    mode.error_parts = of_sun * errors.sun_parts;
+    mode.error_parts += of_ring * errors.ring_parts;
+  }
   add_operating_speed(result, stage);
   if (stage.carrier_speed > 0) add_campbell(result, stage);
   return result;
@@ -108,14 +117,18 @@ std::string modes_csv(const StageModes& modes) {
   std::string text = "index,frequency_Hz,kind,damped_frequency_Hz,damping_ratio";
   for (const auto& group : modes.groups) text += ",strain_" + group;
   for (const auto& body : modes.bodies) text += ",kinetic_" + body;
-  text += ",frequency_error_Hz\n";
+  text += ",frequency_error_Hz";
+  for (const auto& [name, part] : stiffness_error_part_names) text += fmt::format(",error_{}_Hz", name);
+  text += "\n";
   for (std::size_t i = 0; i < modes.list.size(); ++i) {
     const auto& m = modes.list[i];
     text +=
         fmt::format("{},{:.17g},{},{:.17g},{:.17g}", i + 1, m.frequency, m.kind, m.damped_frequency, m.damping_ratio);
     for (const double share : m.strain) text += fmt::format(",{:.17g}", share);
     for (const double share : m.kinetic) text += fmt::format(",{:.17g}", share);
-    text += fmt::format(",{:.17g}\n", m.frequency_error);
+    text += fmt::format(",{:.17g}", m.frequency_error);
+    for (const auto& [name, part] : stiffness_error_part_names) text += fmt::format(",{:.17g}", m.error_parts.*part);
+    text += "\n";
   }
   return text;
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "app/mesh_result.h"
 #include "core/csv.h"
 #include "dynamics/planetary_stage.h"
 
@@ -13,6 +14,7 @@ struct StageModes {
   struct Mode {
     double frequency = 0;        ///< Hz, undamped, at rest
     double frequency_error = 0;  ///< Hz, what the errors of the mesh stiffnesses do to it
+    ErrorParts error_parts{};    ///< Hz, of frequency_error
     std::string kind;
     double damped_frequency = 0;  ///< Hz, in the carrier frame at the operating speed
     double damping_ratio = 0;     ///< there
@@ -30,7 +32,9 @@ struct StageModes {
 /// Relative errors of the mean mesh stiffnesses; 0 for given ones, which count as exact.
 struct MeshStiffnessErrors {
   double sun_planet = 0, ring_planet = 0;
+  ErrorParts sun_parts{}, ring_parts{};  ///< of them, where known
 };
+[[nodiscard]] MeshStiffnessErrors stiffness_errors(const MeshResult& sun_mesh, const MeshResult& ring_mesh);
 
 /// The error of a frequency is that of the stiffnesses times half their shares of the strain energy of the mode, all
 /// taken to err the same way.

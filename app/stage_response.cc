@@ -133,8 +133,7 @@ StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage, const dyn
                                 const StageTables& tables, const std::string& id, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   StageResponse result;
-  result.modes = stage_modes(
-      stage, {tables.sun_mesh.mean_stiffness().error_relative, tables.ring_mesh.mean_stiffness().error_relative});
+  result.modes = stage_modes(stage, stiffness_errors(tables.sun_mesh, tables.ring_mesh));
   auto response = dynamics::simulate(stage, options);
   tabulate(result, response, stage.planets());
   result.motion = stage_motion(stage, response);

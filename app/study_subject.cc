@@ -11,6 +11,7 @@ RunOptions StudySubject::options_in(const std::string& folder) const {
   RunOptions inside = options();
   if (inside.tables) inside.tables = *inside.tables / folder;
   inside.out /= folder;
+  inside.for_study = true;
   return inside;
 }
 

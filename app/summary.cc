@@ -8,6 +8,7 @@
 
 #include "app/content_id.h"
 #include "app/cost_actual.h"
+#include "app/error_parts_json.h"
 #include "app/summary_studies.h"
 
 namespace annulus::app {
@@ -19,14 +20,12 @@ using SummaryJson = nlohmann::ordered_json;
 SummaryJson known(double x) { return std::isfinite(x) ? SummaryJson(x) : SummaryJson(nullptr); }
 
 SummaryJson estimate_json(const Estimate& e) {
-  return {{"value", known(e.value)}, {"error_relative", known(e.error_relative)}};
+  return {{"value", known(e.value)},
+          {"error_relative", known(e.error_relative)},
+          {"error_parts_relative", error_parts_json(e.parts)}};
 }
-SummaryJson parts_json(const FigureErrors& e) {
-  return {
-      {"solution", known(e.solution)}, {"stiffness", known(e.stiffness)}, {"interpolation", known(e.interpolation)}};
-}
-SummaryJson figure_json(const dynamics::Figure& f, const FigureErrors& e) {
-  return {{"value", known(f.value)}, {"error", known(f.error)}, {"error_parts", parts_json(e)}};
+SummaryJson figure_json(const dynamics::Figure& f, const ErrorParts& e) {
+  return {{"value", known(f.value)}, {"error", known(f.error)}, {"error_parts", error_parts_json(e)}};
 }
 
 SummaryJson peak_json(const Peak& peak, double unit) {
@@ -67,7 +66,7 @@ void add_branches(SummaryJson& ring, const std::string& mesh, const dynamics::Me
     error.push_back(known(b.dynamic_factor_max.error));
     loss.push_back(known(b.contact_loss));
   }
-  for (const auto& e : errors.dynamic_factor_max) parts.push_back(parts_json(e));
+  for (const auto& e : errors.dynamic_factor_max) parts.push_back(error_parts_json(e));
   ring["dynamic_factor"][mesh] = std::move(factor);
   ring["dynamic_factor_error"][mesh] = std::move(error);
   ring["dynamic_factor_error_parts"][mesh] = std::move(parts);
@@ -97,8 +96,10 @@ SummaryJson ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
   add_branches(json, ring_planet, f.ring_planet, errors.ring_planet);
   json["natural_frequencies_Hz"] = SummaryJson::array();
   for (const auto& mode : ring.response->modes.list)
-    json["natural_frequencies_Hz"].push_back(
-        {{"value", mode.frequency}, {"error", known(mode.frequency_error)}, {"kind", mode.kind}});
+    json["natural_frequencies_Hz"].push_back({{"value", mode.frequency},
+                                              {"error", known(mode.frequency_error)},
+                                              {"error_parts", error_parts_json(mode.error_parts)},
+                                              {"kind", mode.kind}});
   const auto& m = ring.response->motion;
   json["bearing_forces"] = {{"planet_max_N", m.pin_force_max},
                             {"planet_mean_tangential_N", m.pin_force_mean_tangential},
@@ -118,19 +119,6 @@ SummaryJson ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
                       {"energy_balance_relative", known(f.energy.relative)},
                       {"force_balance_relative", known(f.force_balance_relative)},
                       {"reused", ring.response->reused}};
-  return json;
-}
-
-/// Of what was not reused.
-SummaryJson cost_json(const RunResult& result) {
-  SummaryJson json = {{"predicted_s", known(result.cost.seconds())},
-                      {"actual_s", known(result.cost.actual_seconds())},
-                      {"predicted_peak_MB", known(result.cost.peak_MB())}};
-  for (const auto& step : result.cost.steps)
-    json["steps"].push_back({{"step", to_text(step.kind)},
-                             {"name", step.label},
-                             {"predicted_s", known(step.predicted.seconds)},
-                             {"actual_s", step.actual->seconds()}});
   return json;
 }
 
@@ -156,7 +144,8 @@ std::string summary_json(const RunResult& result) {
   json["inputs_id"] = inputs.add("meshes", ids).id();
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
-  if (!result.cost.empty()) json["cost"] = cost_json(result);
+  if (!result.cost.empty()) json["cost"] = SummaryJson::parse(cost_json(result.cost));
+  if (result.reuse) json["reuse"] = SummaryJson::parse(result.reuse->json());
   return json.dump(2) + "\n";
 }
 
@@ -182,8 +171,8 @@ std::string summary_text(const RunResult& result) {
   text += "load sharing: sun meshes, averaged over a mesh cycle; dynamic factor: largest of all sun meshes\n\ntime   ";
   for (const auto& [stage, seconds] : result.timings) text += fmt::format(" {} {:.2f} s ", stage, seconds);
   text += fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
-  const std::string cost = cost_sentence(result);
-  return cost.empty() ? text : text + "cost    " + cost + "\n";
+  if (const std::string cost = cost_sentence(result); !cost.empty()) text += "cost    " + cost + "\n";
+  return result.reuse ? text + result.reuse->text() : text;
 }
 
 }  // namespace annulus::app

@@ -59,6 +59,7 @@ std::vector<double> nice_ticks(double low, double high, int count) {
 
 std::vector<double> log_ticks(double low, double high) {
   std::vector<double> ticks;
+  if (!(low > 0)) return {low, high};  // nothing to show
   const bool many = high / low > 1e3;
   for (int power = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, power) <= high * (1 + 1e-9); ++power) {
     for (const double factor : {1.0, 2.0, 5.0}) {

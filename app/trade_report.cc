@@ -276,7 +276,7 @@ void write_tradeoff(const TradeOff& trade, const std::filesystem::path& folder) 
   write_file(folder / "tradeoff.html", trade_html(trade));
   for (const auto& ring : trade.rings) {
     for (const auto part : {TradePart::mesh, TradePart::dynamics}) {
-      if (finest_of(ring, part))
+      if (!ring.front(part).empty())
         write_file(folder / fmt::format("tradeoff_{}_{}.svg", file_name(ring.ring), part_name(part)),
                    trade_picture(ring, part));
     }

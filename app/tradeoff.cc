@@ -245,8 +245,7 @@ class RingMeasurement {
       const auto errors = carried_errors(response, simulation, {make, sun, wheel});
       set_errors(errors, response);
       Figures found;
-      add_response(found, stage, response,
-                   MeshStiffnessErrors{sun.mean_stiffness().error_relative, wheel.mean_stiffness().error_relative});
+      add_response(found, stage, response, stiffness_errors(sun, wheel));
       return figures_text(found);
     });
     point.response = done.cost;
@@ -261,7 +260,7 @@ class RingMeasurement {
     const auto folder = options_.out / "tradeoff" / scene_.rings[ring_].name / "coupling";
     const double compliance = 1 / finest_wheel_->mean_stiffness().value;
     const auto done = measured([&] {
-      (void)solve_coupling(scene_, geometry_, finest_wheel_->model, compliance, options_.threads, folder);
+      (void)solve_coupling(scene_, geometry_, finest_wheel_->model, compliance, options_, folder);
       return std::string("solved");
     });
     if (!done.failure.empty()) return log::warn("the coupling of the planets is left out: " + done.failure);

@@ -86,18 +86,35 @@ std::vector<std::string> two_k_v_remarks(const Scene& scene, const std::vector<M
 
 }  // namespace
 
-Plan make_two_k_v_plan(const Scene& scene) {
+std::vector<MeshModel> two_k_v_meshes(const Scene& scene) {
+  const auto other = compared_scene(scene);
+  const Scene& shown = other ? *other : scene;
+  return {two_k_v_sun_model(shown), arc_pins_model(shown)};
+}
+
+std::vector<PlannedResponse> two_k_v_responses(const Scene& scene) {
+  if (!scene.dynamics) return {};
+  CostRun size;
+  size.unknowns = scene.dynamics->mesh_cycles.value_or(scene.planet.teeth);  // one turn of the crank
+  const bool given = !is_computed(scene.sun_planet) && !is_computed(scene.arc_pins);
+  size.kind = given ? "response_two_k_v_given" : "response_two_k_v";
+  std::vector<PlannedResponse> list = {{"dynamics", "", size}};
+  size.kind = "response_two_k_v";
+  if (compared_scene(scene)) list.push_back({"dynamics with computed stiffness", "computed", size});
+  return list;
+}
+
+Plan make_two_k_v_plan(const Scene& scene, int threads) {
   const auto pair = sun_planet_pair(scene);
   Plan plan;
   plan.title = scene.title;
   for (const auto& input : scene.inputs)
     if (!std::holds_alternative<std::monostate>(input.value)) plan.inputs.push_back(input);
   plan.quantities = two_k_v_quantities(scene, pair);
-  const auto other = compared_scene(scene);
-  const Scene& shown = other ? *other : scene;
-  plan.meshes = {two_k_v_sun_model(shown), arc_pins_model(shown)};
+  plan.meshes = two_k_v_meshes(scene);
   if (scene.dynamics) plan.freedoms = two_k_v_freedoms(scene);
   plan.studies = plan_studies(scene);
+  plan.cost = plan_cost(plan.meshes, two_k_v_responses(scene), plan.studies, threads, CostModel::of_this_machine());
   plan.remarks = two_k_v_remarks(scene, plan.meshes);
   return plan;
 }

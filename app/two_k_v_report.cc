@@ -7,6 +7,7 @@
 #include <map>
 
 #include "app/content_id.h"
+#include "app/cost_actual.h"
 #include "app/report_parts.h"
 #include "core/units.h"
 
@@ -202,6 +203,7 @@ std::string reducer_quality(const TwoKVResult& result) {
     if (shown.result->tables.sun.model.computed())
       checks.rows.push_back(mesh_check_row("sun mesh, " + shown.name, shown.result->tables.sun));
   if (!checks.rows.empty()) text += html(checks);
+  text += predicted_and_actual_html(result.plan.cost, result.cost, result.peak_memory_MB);
   return text + cost_html(result.timings, result.peak_memory_MB);
 }
 

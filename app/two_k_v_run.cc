@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
+#include "app/cost_actual.h"
 #include "app/planetary_subject.h"
 #include "app/studies.h"
 #include "app/tasks.h"
@@ -17,6 +19,10 @@ namespace annulus::app {
 namespace {
 
 constexpr const char* compared_folder = "computed";
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 MeshResult sun_result(const Scene& scene, const std::string& folder, const RunOptions& options) {
   const auto model = two_k_v_sun_model(scene);
@@ -38,9 +44,11 @@ TwoKVCase make_case(Scene scene, MeshResult sun, const std::vector<double>& publ
   TwoKVCase c{.scene = std::move(scene), .tables = {std::move(sun), std::move(arc)}};
   write_arc_table(c.scene, c.tables.arc, options.out / folder);
   if (!options.with_dynamics || !c.scene.dynamics) return c;
+  const auto start = std::chrono::steady_clock::now();
   c.stage = make_two_k_v(c.scene, c.tables, dynamics::LoadDependence::nominal);
   c.vibration = vibration_of(*c.stage, c.scene.arc_gear.clearance, published);
   write_vibration(*c.vibration, options.out / folder / "dynamics");
+  c.response_seconds = seconds_since(start);
   return c;
 }
 
@@ -50,7 +58,9 @@ TwoKVMotion motion_in(const TwoKVCase& c, const RunOptions& options, const std::
   const auto simulation = two_k_v_simulation(c.scene, stage);
   const auto id = two_k_v_id(stage, simulation, c.tables);
   const std::string name = folder.empty() ? "dynamics" : "dynamics with computed stiffness";
-  if (auto kept = load_two_k_v(id, out)) {
+  auto kept = load_two_k_v(id, out);
+  note_reuse(options, name, kept.has_value());
+  if (kept) {
     log::info(name + ": unchanged, reused");
     return std::move(*kept);
   }
@@ -88,12 +98,13 @@ std::vector<std::pair<std::string, double>> two_k_v_timings(const TwoKVResult& r
 
 }  // namespace
 
-TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options) {
+TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& given) {
   StageTimers timers;
+  const RunOptions options = with_reuse(given);
   std::optional<Reference> reference;
   if (scene.reference) reference = read_reference(scene.file.parent_path() / *scene.reference);
   if (options.with_dynamics) check_studies(scene);  // before anything expensive
-  Plan plan = make_two_k_v_plan(scene);
+  Plan plan = make_two_k_v_plan(scene, options.threads);
   auto other = compared_scene(scene);
   auto sun = sun_result(scene, "", options);
   std::optional<MeshResult> other_sun;
@@ -117,7 +128,9 @@ TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options) {
     const auto timer = timers.measure("dynamics");
     for_each_task(result.computed ? 2 : 1, options.threads, [&](std::size_t i) {
       auto& c = i == 0 ? result.own : *result.computed;
+      const auto start = std::chrono::steady_clock::now();
       c.motion = motion_in(c, options, i == 0 ? "" : compared_folder);
+      c.response_seconds += seconds_since(start);
     });
   }
   if (options.with_dynamics) {
@@ -125,8 +138,17 @@ TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options) {
     const auto& c = result.own;
     result.studies = run_studies(TwoKVSubject(c.scene, c.tables, c.motion ? &*c.motion : nullptr, options));
   }
+  result.reuse = options.reuse;
   result.timings = two_k_v_timings(result, timers);
   result.peak_memory_MB = peak_memory_MB();
+  result.cost = actual_costs(result.plan.cost, [&](const CostStep& step) -> std::optional<CostRun> {
+    const auto& other_case = result.computed ? *result.computed : result.own;
+    if (step.kind == CostKind::mesh) return actual_mesh(step.size, other_case.tables.sun);
+    const auto& c = step.ring.empty() ? result.own : other_case;
+    if (!c.motion || c.motion->reused) return std::nullopt;
+    return actual_time(step.size, c.response_seconds);
+  });
+  keep_costs(result.cost);
   std::filesystem::create_directories(options.out);
   write_file(options.out / "summary.json", two_k_v_summary(result));
   write_file(options.out / "report.html", two_k_v_report(result));

@@ -21,6 +21,7 @@ struct TwoKVCase {
   std::optional<dynamics::TwoKVStage> stage{};  ///< tables at the nominal load
   std::optional<TwoKVVibration> vibration{};
   std::optional<TwoKVMotion> motion{};
+  double response_seconds = 0;  ///< wall, vibration and motion
 };
 
 /// Everything a report needs.
@@ -33,11 +34,17 @@ struct TwoKVResult {
   StudyResults studies{};
   std::vector<std::pair<std::string, double>> timings{};
   double peak_memory_MB = 0;
+  PlanCost cost{};  ///< predicted and actual, of the steps that were not reused
+  std::shared_ptr<const Reuse> reuse{};
 
   [[nodiscard]] const Scene& scene() const { return own.scene; }
 };
 
-[[nodiscard]] Plan make_two_k_v_plan(const Scene& scene);
+[[nodiscard]] Plan make_two_k_v_plan(const Scene& scene, int threads = 1);
+/// The meshes that are solved or given: where the scene compares, those of the comparison.
+[[nodiscard]] std::vector<MeshModel> two_k_v_meshes(const Scene& scene);
+/// One for the scene, one for a comparison if it asks for it.
+[[nodiscard]] std::vector<PlannedResponse> two_k_v_responses(const Scene& scene);
 
 /// Writes stiffness tables, dynamics/*.csv, figures, summary.json and report.html to options.out; those of the compared
 /// case to options.out/computed. Throws what the stages throw; what is finished by then is reused.

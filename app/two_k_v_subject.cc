@@ -145,7 +145,10 @@ bool TwoKVSubject::prepare(const std::vector<Override>& overrides, const std::st
   const auto model = two_k_v_sun_model(scene);
   if (table_serves(nominal_.sun.model, model, two_k_v_kinematics(scene).mean_sun_mesh_force())) return false;
   const auto inside = options_in(folder);
-  if (load(model, inside.out)) return true;
+  if (load(model, inside.out)) {
+    count_reuse(inside, study_meshes, 1, 0);
+    return true;
+  }
   log::info(where + ":");
   (void)computed_stiffness(model, {""}, inside);
   return true;

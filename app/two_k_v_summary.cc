@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "app/content_id.h"
+#include "app/cost_actual.h"
+#include "app/error_parts_json.h"
 #include "app/summary_studies.h"
 #include "app/two_k_v_run.h"
 
@@ -20,11 +22,13 @@ ReducerJson finite(const std::optional<double>& x) { return x ? finite(*x) : Red
 
 ReducerJson mesh_json_of(const MeshResult& mesh) {
   const auto k = mesh.mean_stiffness();
-  ReducerJson json = {
-      {"rung", mesh.model.rung},
-      {"mean_stiffness_N_per_m", {{"value", finite(k.value)}, {"error_relative", finite(k.error_relative)}}},
-      {"nominal_load_N", mesh.table.loads()[mesh.nominal]},
-      {"reused", mesh.reused}};
+  ReducerJson json = {{"rung", mesh.model.rung},
+                      {"mean_stiffness_N_per_m",
+                       {{"value", finite(k.value)},
+                        {"error_relative", finite(k.error_relative)},
+                        {"error_parts_relative", error_parts_json(k.parts)}}},
+                      {"nominal_load_N", mesh.table.loads()[mesh.nominal]},
+                      {"reused", mesh.reused}};
   for (const auto& [name, value] : mesh.facts) json[name] = finite(value);
   return json;
 }
@@ -103,6 +107,8 @@ std::string two_k_v_summary(const TwoKVResult& result) {
   json["inputs_id"] = inputs.add("mesh", result.own.tables.sun.model.id()).id();
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
+  if (!result.cost.empty()) json["cost"] = ReducerJson::parse(cost_json(result.cost));
+  json["reuse"] = ReducerJson::parse(result.reuse->json());
   return json.dump(2) + "\n";
 }
 
@@ -124,7 +130,10 @@ std::string two_k_v_text(const TwoKVResult& result) {
   if (result.computed) row("computed", *result.computed);
   text += "output error: peak to peak; dynamic factor: largest of all meshes\n\ntime   ";
   for (const auto& [stage, seconds] : result.timings) text += fmt::format(" {} {:.2f} s ", stage, seconds);
-  return text + fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
+  text += fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
+  const std::string cost = cost_sentence(result.plan.cost, result.cost, result.peak_memory_MB);
+  if (!cost.empty()) text += "cost    " + cost + "\n";
+  return text + result.reuse->text();
 }
 
 }  // namespace annulus::app

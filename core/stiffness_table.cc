@@ -24,12 +24,17 @@ const std::vector<std::string> table_columns = {"mesh_phase",
                                                 "stiffness_tangent_N_per_m",
                                                 "error_relative"};
 
+/// Of an entry: "error_discretisation_relative". Tables from elsewhere may go without.
+std::string part_column(const char* part) { return fmt::format("error_{}_relative", part); }
+
 /// What is wrong with an entry, empty if nothing is.
 std::string complaint(const StiffnessEntry& e, double load) {
   for (const double value : {e.unloaded_te, e.lte, e.stiffness_secant, e.stiffness_tangent, e.error_relative})
     if (!std::isfinite(value)) return "a value is not finite";
   if (e.stiffness_secant <= 0 || e.stiffness_tangent <= 0) return "a stiffness is not positive";
   if (e.error_relative < 0) return "error_relative is negative";
+  for (const auto& [name, part] : stiffness_error_part_names)
+    if (!(e.error_parts.*part >= 0)) return part_column(name) + " is not a number from zero on";
   // Catches exchanged columns and wrong units; loose enough for a table rounded to a few digits by hand.
   const double force = e.stiffness_secant * (e.lte - e.unloaded_te);
   if (std::abs(force - load) > 1e-3 * load)
@@ -81,12 +86,14 @@ void StiffnessTable::write_csv(const std::filesystem::path& file) const {
   csv.header.emplace_back("mesh", mesh_);
   csv.header.insert(csv.header.end(), provenance.begin(), provenance.end());
   csv.columns = table_columns;
+  for (const auto& [name, part] : stiffness_error_part_names) csv.columns.push_back(part_column(name));
   for (int position = 0; position < positions(); ++position)
     for (int phase = 0; phase < phases_; ++phase)
       for (std::size_t load = 0; load < loads_.size(); ++load) {
         const auto& e = at(position, phase, static_cast<int>(load));
         csv.rows.push_back({static_cast<double>(phase) / phases_, ring_angles_[position] / units::deg, loads_[load],
                             e.unloaded_te, e.lte, e.stiffness_secant, e.stiffness_tangent, e.error_relative});
+        for (const auto& [name, part] : stiffness_error_part_names) csv.rows.back().push_back(e.error_parts.*part);
       }
   csv.write(file);
 }
@@ -100,6 +107,11 @@ StiffnessTable StiffnessTable::read_csv(const std::filesystem::path& file) {
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}:{}: {}", file.string(), csv.header.size() + 1, error.what()));
     }
+  }
+  std::vector<std::pair<std::size_t, double ErrorParts::*>> part_columns;
+  for (const auto& [name, part] : stiffness_error_part_names) {
+    const auto found = std::find(csv.columns.begin(), csv.columns.end(), part_column(name));
+    if (found != csv.columns.end()) part_columns.emplace_back(found - csv.columns.begin(), part);
   }
   const auto cell = [&](std::size_t row, int c) { return csv.rows[row][column[c]]; };
   // Csv::read accepts no blank line in between, so the line of a row is known.
@@ -139,6 +151,7 @@ StiffnessTable StiffnessTable::read_csv(const std::filesystem::path& file) {
     if (cell(row, 2) != load_values[load])
       refuse(row, fmt::format("load_N {} where the first rows have {}", cell(row, 2), load_values[load]));
     entries.push_back({cell(row, 3), cell(row, 4), cell(row, 5), cell(row, 6), cell(row, 7)});
+    for (const auto& [at, part] : part_columns) entries.back().error_parts.*part = csv.rows[row][at];
     const auto what = complaint(entries.back(), load_values[load]);
     if (!what.empty()) refuse(row, what);
   }

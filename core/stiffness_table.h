@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/error_parts.h"
+
 namespace annulus {
 
 /// One entry of a stiffness table: a mesh at one phase, one ring position, one load.
@@ -15,6 +17,7 @@ struct StiffnessEntry {
   double stiffness_secant = 0;   ///< F / (lte - unloaded_te), N/m
   double stiffness_tangent = 0;  ///< dF / d lte, N/m
   double error_relative = 0;     ///< estimated relative error of the stiffness
+  ErrorParts error_parts{};      ///< of error_relative, where it is known what it is made of; else zero
 };
 
 /// Mesh stiffness over mesh phase x ring position x load: the contract between the finite-element and the lumped side.

@@ -58,6 +58,26 @@ std::vector<StressCurve> worst_curves(const LoadedMeshProblem& problem, const Me
   return result;
 }
 
+/// What the discretised pressure leaves of the stiffness at the middle load: against twice as many elements, at some
+/// positions of the first cycle. Halving constant pieces leaves a quarter of their error.
+double contact_error(const LoadedMeshProblem& problem, const FlankContact& flanks, const MeshBodies& bodies,
+                     ContactOptions options, const std::vector<LoadedPosition>& positions) {
+  constexpr int places = 4;
+  options.elements *= 2;
+  const ContactSystem finer(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.material,
+                            bodies.slice_edges, options);
+  const std::size_t loads = problem.loads.size();
+  double largest = 0;
+  for (int i = 0; i < std::min(places, problem.phases); ++i) {
+    const auto& position = positions[static_cast<std::size_t>(i * problem.phases / places) * loads + loads / 2];
+    ContactSystem::PairsCache cache;
+    ContactSystem::WarmStart warm;
+    const auto fine = finer.solve(position.ring_tooth, position.mesh_phase, position.load, cache, warm, nullptr);
+    largest = std::max(largest, std::abs(position.entry.stiffness_secant / fine.entry.stiffness_secant - 1));
+  }
+  return largest * 4 / 3;
+}
+
 }  // namespace
 
 SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
@@ -84,6 +104,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   SolvedLevel result;
   const bool one_cycle = repeating_teeth(problem.structure, problem.pair.wheel().teeth()) == 1;
   result.positions = solve_positions(problem, settings, one_cycle, solve, progress);
+  result.contact_error = contact_error(problem, flanks, bodies, options, result.positions);
   result.stress_curves = worst_curves(problem, bodies, system, result.positions);
   result.planet_sector = std::move(bodies.planet_sector);
   result.wheel_sector = std::move(bodies.wheel_sector);
@@ -97,6 +118,9 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   result.slice_edges = bodies.slice_edges;
   result.mesh_seconds = bodies.mesh_seconds;
   result.condense_seconds = bodies.condense_seconds;
+  result.saved_seconds = bodies.saved_seconds;
+  result.condensed_teeth = bodies.condensed_teeth;
+  result.reused_teeth = bodies.reused_teeth;
   result.contact_seconds = watch.seconds();
   return result;
 }

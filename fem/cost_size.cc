@@ -82,7 +82,8 @@ double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSett
   double unknowns = 0;
   for (const bool wheel : {false, true}) {
     const auto& gear = wheel ? problem.pair.wheel() : problem.pair.planet();
-    unknowns += solid ? solid_unknowns(problem, solid_resolution(level), gear, wheel, settings.degree)
+    const auto of_solid = settings.rung == Rung::resolved_solid ? resolved_solid_resolution : solid_resolution;
+    unknowns += solid ? solid_unknowns(problem, of_solid(level), gear, wheel, settings.degree)
                       : 2 * nodes_of_section(section_counts(plane_resolution(gear, level).section), settings.degree);
   }
   return unknowns;

@@ -9,8 +9,8 @@ namespace annulus::fem {
 [[nodiscard]] int last_level(Rung rung);
 
 /// Freedoms of the two sectors at a level (LoadedMeshResult::unknowns): exact to a per cent in the plane, an estimate
-/// for solid bodies, whose sleeves, hoops and flanges are counted by their share of the section. The resolved rungs are
-/// counted like the unresolved ones: their patches come on top. 0 for the closed form.
+/// for solid bodies, whose sleeves, hoops and flanges are counted by their share of the section. Of the
+/// resolved rungs the regular teeth, which their patches are about as large as. 0 for the closed form.
 [[nodiscard]] double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
                                         int level);
 

@@ -1,9 +1,12 @@
 #include "fem/gear_body.h"
 
 #include <Eigen/Geometry>
+#include <chrono>
 #include <cmath>
+#include <sstream>
 
 #include "core/errors.h"
+#include "fem/sector_bytes.h"
 
 namespace annulus::fem {
 namespace {
@@ -87,11 +90,21 @@ std::vector<Port> flank_forces(const SectorModel& model, const geometry::ToothPr
   return ports;
 }
 
-CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
+namespace {
+
+/// A tooth condensed for the unit loads of its outside, before arcs are put together: what the store keeps. The body's
+/// arc loads are these unit loads.
+struct UnitTooth {
+  CondensedTooth tooth;
+  OutsideLoads outside;
+};
+
+UnitTooth condense_unit_tooth(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
                               double support_radius, const Material& material, const GearBodyOptions& options) {
   const SectorModel model = make_sector_model(sector_mesh, profile, support_radius, material, options.sector);
 
-  CondensedTooth tooth;
+  UnitTooth unit;
+  CondensedTooth& tooth = unit.tooth;
   GearBody& body = tooth.body;
   body.teeth = profile.gear().teeth();
   body.pitch_angle = profile.gear().pitch_angle();
@@ -102,9 +115,10 @@ CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry:
   SectorLoads loads;
   loads.ports = flank_forces(model, profile, options.sector.flank);
   for (const auto& port : loads.ports) body.port_points.push_back(model.nodes[port.node]);
-  for (const auto& arc : options.arcs) {
-    loads.acting.push_back(on_outside(arc, model.outside));
-    body.arc_wrenches.push_back(resultant(loads.acting.back(), model.nodes));
+  if (!options.arcs.empty()) {
+    unit.outside = OutsideLoads::of(options.arcs, model.outside);
+    loads.acting = unit.outside.unit_loads(model.outside);
+    for (const auto& load : loads.acting) body.arc_wrenches.push_back(resultant(load, model.nodes));
   }
 
   constexpr int root_points = 60, rim_points = 24;
@@ -114,15 +128,114 @@ CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry:
 
   tooth.sector = condense(model, loads, options.sector.held == HeldBoundary::none);
   body.ports = std::move(loads.ports);
+  return unit;
+}
+
+/// The arcs put together from the unit loads of the outside.
+CondensedTooth with_arcs(UnitTooth unit, const std::vector<ArcLoad>& arcs) {
+  CondensedTooth tooth = std::move(unit.tooth);
+  if (arcs.empty()) return tooth;
+  GearBody& body = tooth.body;
+  const Eigen::MatrixXd weights = unit.outside.weights(arcs);
+  tooth.sector = combine_loads(std::move(tooth.sector), body.first_arc(), weights);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> units(6, weights.rows());
+  for (Eigen::Index i = 0; i < weights.rows(); ++i) units.col(i) = body.arc_wrenches[i];
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> wrenches = units * weights;
+  body.arc_wrenches.clear();
+  for (Eigen::Index i = 0; i < wrenches.cols(); ++i) body.arc_wrenches.emplace_back(wrenches.col(i));
+  for (auto* line : {&body.root_low, &body.root_high, &body.rim})
+    if (line->points() > 0) line->first_load += static_cast<int>(weights.cols() - weights.rows());
   return tooth;
+}
+
+void write_line(ByteWriter& out, const StressLine& line) {
+  out.add(line.first_load).add(line.components).add(line.axial_stations).add(line.angle).add(line.arc);
+}
+void read_line(ByteReader& in, StressLine& line) {
+  in.get(line.first_load);
+  in.get(line.components);
+  in.get(line.axial_stations);
+  in.get(line.angle);
+  in.get(line.arc);
+}
+
+void write_tooth(ByteWriter& out, const UnitTooth& unit) {
+  const GearBody& body = unit.tooth.body;
+  out.add(unit.tooth.seconds).add(body.teeth).add(body.pitch_angle).add(body.unknowns);
+  for (const auto* trace : {&body.flank, &body.axial}) out.add(trace->degree()).add(trace->stations());
+  out.add(static_cast<std::uint64_t>(body.ports.size()));
+  for (const auto& port : body.ports) out.add(port.node).add(port.direction);
+  out.add(body.port_points).add(body.arc_wrenches);
+  for (const auto* line : {&body.root_low, &body.root_high, &body.rim}) write_line(out, *line);
+  write(out, unit.outside);
+  write(out, unit.tooth.sector);
+}
+
+UnitTooth read_tooth(ByteReader& in) {
+  UnitTooth unit;
+  GearBody& body = unit.tooth.body;
+  in.get(unit.tooth.seconds);
+  in.get(body.teeth);
+  in.get(body.pitch_angle);
+  in.get(body.unknowns);
+  for (auto* trace : {&body.flank, &body.axial}) {
+    const int degree = in.get<int>();
+    std::vector<double> stations;
+    in.get(stations);
+    if (!stations.empty()) *trace = TraceBasis(stations, degree);
+  }
+  const auto ports = in.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < ports; ++i) {
+    Port port;
+    in.get(port.node);
+    in.get(port.direction);
+    body.ports.push_back(port);
+  }
+  in.get(body.port_points);
+  in.get(body.arc_wrenches);
+  for (auto* line : {&body.root_low, &body.root_high, &body.rim}) read_line(in, *line);
+  unit.outside = read_outside(in);
+  unit.tooth.sector = read_sector(in);
+  return unit;
+}
+
+}  // namespace
+
+CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
+                              double support_radius, const Material& material, const GearBodyOptions& options) {
+  UnitTooth unit;
+  const auto make = [&] {
+    const auto start = std::chrono::steady_clock::now();
+    unit = condense_unit_tooth(sector_mesh, profile, support_radius, material, options);
+    unit.tooth.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  bool reused = false;
+  if (options.store != nullptr) {
+    std::ostringstream text;
+    ByteWriter inputs(text);
+    inputs.add(std::string("tooth"));
+    add_sector_inputs(inputs, sector_mesh, profile, support_radius, material, options.sector);
+    add_slices(inputs, options.arcs);
+    reused = options.store->read_or_make(
+        options.store->key(text.str()), [&](ByteReader& in) { unit = read_tooth(in); }, make,
+        [&](ByteWriter& out) { write_tooth(out, unit); });
+  } else {
+    make();
+  }
+  CondensedTooth tooth = with_arcs(std::move(unit), options.arcs);
+  tooth.reused = reused;
+  return tooth;
+}
+
+GearBody compose_body(CondensedTooth tooth, const GearBodyOptions& options) {
+  tooth.body.compliance = compose_ring(tooth.sector, tooth.body.teeth, options.extent,
+                                       options.sector.held == HeldBoundary::none, options.threads);
+  return std::move(tooth.body);
 }
 
 GearBody make_gear_body(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile, double support_radius,
                         const Material& material, const GearBodyOptions& options) {
-  CondensedTooth tooth = condense_tooth(sector_mesh, profile, support_radius, material, options);
-  tooth.body.compliance = compose_ring(tooth.sector, tooth.body.teeth, options.extent,
-                                       options.sector.held == HeldBoundary::none, options.threads);
-  return std::move(tooth.body);
+  return compose_body(condense_tooth(sector_mesh, profile, support_radius, material, options), options);
 }
 
 }  // namespace annulus::fem

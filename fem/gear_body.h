@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fem/condensation/cyclic_body.h"
+#include "fem/condensed_store.h"
 #include "fem/contact/arc_load.h"
 #include "fem/contact/trace_basis.h"
 #include "fem/elasticity/sector_model.h"
@@ -63,17 +64,24 @@ struct GearBodyOptions {
   RingExtent extent;
   std::vector<ArcLoad> arcs;  ///< loads on a free outside
   int threads = 1;
+  CondensedStore* store = nullptr;  ///< where condensed teeth are looked for and kept; may be null
 };
 
 /// One tooth by itself: the body without its compliance, and the condensed sector.
 struct CondensedTooth {
   GearBody body;
   CondensedSector sector;
+  bool reused = false;  ///< read from the store
+  double seconds = 0;   ///< wall, that condensing it took, now or when it was kept
 };
 
+/// Meshed and condensed without regard to where arcs lie, so that one tooth serves all supports (see OutsideLoads).
 [[nodiscard]] CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
                                             double support_radius, const Material& material,
                                             const GearBodyOptions& options);
+
+/// The body of a tooth, `options` being those that it was condensed with.
+[[nodiscard]] GearBody compose_body(CondensedTooth tooth, const GearBodyOptions& options);
 
 [[nodiscard]] GearBody make_gear_body(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
                                       double support_radius, const Material& material, const GearBodyOptions& options);

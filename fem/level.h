@@ -18,9 +18,12 @@ struct SolvedLevel {
   std::vector<StressCurve> stress_curves;
   geometry::Mesh planet_sector, wheel_sector;
   long unknowns = 0;
+  /// Relative, of the stiffness, by the discretised pressure alone; 0 where the pressure is refined with the cells.
+  double contact_error = 0;
   double pin_stiffness = 0;
   std::vector<double> pin_angles, slice_edges;
-  double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0;
+  double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0, saved_seconds = 0;
+  int condensed_teeth = 0, reused_teeth = 0;
 };
 
 using ProgressFunction = std::function<void(double fraction)>;

@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "fem/closed_form/closed_form_mesh.h"
+#include "fem/error_estimate.h"
 #include "fem/level.h"
 #include "fem/problem_check.h"
 #include "fem/resolution.h"
@@ -30,39 +31,6 @@ geometry::GearPair solved_pair(const geometry::GearPair& pair) {
   return {mirrored(pair.planet()), mirrored(pair.wheel()), pair.centre_distance()};
 }
 
-/// Fills the error of every entry from the positions of the level before; returns the largest at the middle load.
-///
-/// The error falls at least with the square of the cell size where the contact dominates, so that the difference of two
-/// levels overestimates that of the finer one; near singular edges of a support it falls more slowly and the difference
-/// is about the error itself.
-///
-/// Linear elements approach their limit with the first power of the cell size: what is left of them at a ratio of 1.5
-/// is twice the difference.
-double estimate_errors(const LoadedMeshProblem& problem, int degree, const std::vector<LoadedPosition>& coarser,
-                       std::vector<LoadedPosition>& positions) {
-  const std::size_t loads = problem.loads.size();
-  const double left = degree == 1 ? 1 / (level_ratio - 1) : 1;
-  std::vector<double> difference(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    difference[i] = left * std::abs(coarser[i].entry.stiffness_secant / positions[i].entry.stiffness_secant - 1);
-  // Along the mesh cycle the difference changes its sign here and there, where it says nothing about the error: the
-  // largest of a sixteenth of a cycle to either side counts.
-  const auto along = static_cast<std::ptrdiff_t>(positions.size() / loads);
-  const std::ptrdiff_t reach = (problem.phases + 15) / 16;
-  double worst = 0;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    auto& entry = positions[i].entry;
-    const auto at = static_cast<std::ptrdiff_t>(i / loads);
-    for (std::ptrdiff_t k = at - reach; k <= at + reach; ++k) {
-      // The last position is the first of the next cycle; a table that repeats closes on itself.
-      const std::ptrdiff_t wrapped = (k + along - 1) % (along - 1);
-      entry.error_relative = std::max(entry.error_relative, difference[wrapped * loads + i % loads]);
-    }
-    if (i % loads == loads / 2) worst = std::max(worst, entry.error_relative);
-  }
-  return worst;
-}
-
 }  // namespace
 
 LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings) {
@@ -76,7 +44,8 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   if (first_level < 1 || first_level > last_level)
     throw InputError(fmt::format("level {} is not available: 1 to {} are", first_level, last_level));
 
-  double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0, worst = 0;
+  double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0, saved_seconds = 0, worst = 0;
+  int condensed_teeth = 0, reused_teeth = 0;
   const auto solve_level = [&](int level) {
     auto solved =
         (resolved ? solve_resolved_level : solve_condensed_level)(problem, settings, flanks, level, [&](double f) {
@@ -95,6 +64,9 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
     mesh_seconds += solved.mesh_seconds;
     condense_seconds += solved.condense_seconds;
     contact_seconds += solved.contact_seconds;
+    condensed_teeth += solved.condensed_teeth;
+    reused_teeth += solved.reused_teeth;
+    saved_seconds += solved.saved_seconds;
     return solved;
   };
 
@@ -102,7 +74,7 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   int level = first_level;
   for (;; ++level) {
     solved = solve_level(level);
-    worst = estimate_errors(problem, settings.degree, coarser.positions, solved.positions);
+    worst = estimate_errors(problem, settings, solved.contact_error, coarser.positions, solved.positions);
     if (settings.level || worst <= settings.accuracy) break;
     if (level == last_level)
       throw SolverError(
@@ -145,6 +117,9 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   result.mesh_seconds = mesh_seconds;
   result.condense_seconds = condense_seconds;
   result.contact_seconds = contact_seconds;
+  result.condensed_teeth = condensed_teeth;
+  result.reused_teeth = reused_teeth;
+  result.saved_seconds = saved_seconds;
   return result;
 }
 

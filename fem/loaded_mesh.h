@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "geometry/mesh.h"
 
 namespace annulus::fem {
+
+class CondensedStore;
 
 /// A gear mesh to be solved: sun-planet or planet-ring, with the bodies' supports.
 struct LoadedMeshProblem {
@@ -38,6 +41,9 @@ struct LoadedMeshSettings {
   std::optional<int> level{};
   int threads = 1;                                  ///< changes the time, never the result
   std::function<void(double fraction)> progress{};  ///< called now and then with the finished fraction
+  /// Where condensed teeth are looked for and kept; may be null. They depend neither on loads and phases nor on the
+  /// places, the number and the stiffness of supports, nor on modifications of the flanks.
+  std::shared_ptr<CondensedStore> store{};
 };
 
 /// State of one pin (or spline tooth) at one position.
@@ -102,13 +108,16 @@ struct LoadedMeshResult {
   double reciprocity_relative = 0;        ///< largest over the positions
   geometry::Mesh planet_sector{}, wheel_sector{};  ///< as solved
   int level = 1;                                   ///< level of resolution reached
-  double worst_error_relative = 0;                 ///< largest estimated error at the middle load
-  long unknowns = 0;                               ///< freedoms of the two sectors
-  double pin_stiffness = 0;                        ///< N/m per pin or spline flank as used; 0 without
-  std::vector<double> pin_angles{};                ///< rad, from the centre of tooth 0; empty without pins
-  std::vector<double> slice_edges{};               ///< m, z of the slices of the face width
+  /// Largest estimated error at the middle load, plane strain not counted: what the accuracy is about.
+  double worst_error_relative = 0;
+  long unknowns = 0;                  ///< freedoms of the two sectors
+  double pin_stiffness = 0;           ///< N/m per pin or spline flank as used; 0 without
+  std::vector<double> pin_angles{};   ///< rad, from the centre of tooth 0; empty without pins
+  std::vector<double> slice_edges{};  ///< m, z of the slices of the face width
   std::vector<StressCurve> stress_curves{};
   double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0;
+  int condensed_teeth = 0, reused_teeth = 0;  ///< made, and read from the store, on all levels; none by resolved rungs
+  double saved_seconds = 0;                   ///< that condense_seconds would be longer without the store
 };
 
 /// Solves every position. Throws SolverError naming position, load and residual when one does not converge, and when

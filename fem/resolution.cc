@@ -40,6 +40,29 @@ std::vector<double> graded_fractions(double length, double cell, double ratio, d
   return fractions;
 }
 
+/// Fractions of a length, from 0 to 1, in cells whose lengths follow `size`.
+template <class Size>
+std::vector<double> sized_fractions(double length, const Size& size) {
+  // Number of cells up to a place: the integral of 1 / size.
+  std::vector<double> places = {0}, counts = {0};
+  while (places.back() < length) {
+    const double step = std::min(size(places.back()) / 16, length - places.back());
+    counts.push_back(counts.back() + step / size(places.back() + step / 2));
+    places.push_back(places.back() + step);
+    if (step < 1e-12 * length) break;
+  }
+  const auto cells = std::max<std::ptrdiff_t>(1, std::lround(counts.back()));
+  std::vector<double> fractions = {0};
+  for (std::ptrdiff_t i = 1; i < cells; ++i) {
+    const double count = counts.back() * static_cast<double>(i) / static_cast<double>(cells);
+    const auto above = std::upper_bound(counts.begin(), counts.end(), count) - counts.begin();
+    const double t = (count - counts[above - 1]) / (counts[above] - counts[above - 1]);
+    fractions.push_back(((1 - t) * places[above - 1] + t * places[above]) / length);
+  }
+  fractions.push_back(1);
+  return fractions;
+}
+
 }  // namespace
 
 BodyResolution plane_resolution(const geometry::Gear& gear, int level) {
@@ -70,43 +93,47 @@ BodyResolution plane_resolution(const geometry::Gear& gear, int level) {
 }
 
 geometry::SectorResolution resolving_section(const geometry::Gear& gear, const geometry::SectorResolution& regular,
-                                             double centre, double reach, double cell, double growth) {
+                                             const ContactCells& contact) {
   const geometry::ToothProfile profile(gear);
   const auto arc = [&](double roll) { return roll * roll / (2 * gear.base_radius()); };
   const double form = arc(profile.roll_length_form()), tip = arc(profile.roll_length_tip());
   const double length = std::abs(tip - form);
-  double place = std::clamp(std::abs(centre - form), 0.0, length);
-  // A centre next to an end of the flank is that end.
-  if (place < cell / 4) place = 0;
-  if (length - place < cell / 4) place = length;
+  const auto from_form = [&](double place) { return std::clamp(std::abs(place - form), 0.0, length); };
   double largest = 1.0 / regular.flank_cells;
   if (const auto& f = regular.flank_fractions; !f.empty()) {
     largest = 0;
     for (std::size_t i = 1; i < f.size(); ++i) largest = std::max(largest, f[i] - f[i - 1]);
   }
-  // Cells from the centre towards one end, stretched to end there.
-  const auto outwards = [&](double room) {
-    std::vector<double> edges;
-    double at = 0, size = cell;
-    while (at < room) {
-      if (at > reach) size = std::min(size * growth, std::max(cell, largest * length));
-      edges.push_back(at += size);
-    }
-    if (edges.size() > 1 && edges.back() - room > size / 2) edges.pop_back();
-    if (!edges.empty())
-      for (double& edge : edges) edge *= room / edges.back();
-    return edges;
+  const double cell = contact.cell, centre = from_form(contact.centre), slope = std::log(contact.growth);
+  std::vector<double> breaks = {0};
+  for (const double edge : contact.edges) breaks.push_back(from_form(edge));
+  const auto size = [&, edges = std::vector<double>(breaks.begin() + 1, breaks.end())](double x) {
+    double h = cell + slope * std::max(0.0, std::abs(x - centre) - contact.reach);
+    h = std::min(h, std::max(cell, largest * length));
+    for (const double edge : edges) h = std::min(h, contact.at_edge + slope * std::abs(x - edge));
+    return h;
   };
+  breaks.push_back(length);
+  std::sort(breaks.begin(), breaks.end());
+
   geometry::SectorResolution s = regular;
-  s.flank_fractions.clear();
-  auto down = outwards(place);
-  for (auto edge = down.rbegin(); edge != down.rend(); ++edge) s.flank_fractions.push_back((place - *edge) / length);
-  s.flank_fractions.push_back(place / length);
-  for (const double edge : outwards(length - place)) s.flank_fractions.push_back((place + edge) / length);
-  s.flank_fractions.front() = 0;
+  s.flank_fractions = {0};
+  for (std::size_t i = 1; i < breaks.size(); ++i) {
+    const double low = breaks[i - 1], high = breaks[i];
+    if (high - low < size(high) / 4) {  // an edge next to an end of the flank is that end
+      if (i + 1 == breaks.size()) s.flank_fractions.back() = 1;
+      continue;
+    }
+    const auto fractions = sized_fractions(high - low, [&](double x) { return size(low + x); });
+    for (std::size_t k = 1; k < fractions.size(); ++k)
+      s.flank_fractions.push_back((low + (high - low) * fractions[k]) / length);
+  }
   s.flank_fractions.back() = 1;
-  const double thickness = gear.tooth_thickness(gear.reference_radius());
-  s.flank_layer = std::clamp(cell * s.thickness_cells / thickness, geometry::min_flank_layer, 1.0);
+  const double thickness = gear.tooth_thickness(gear.reference_radius()), per_layer = thickness / s.thickness_cells;
+  // Not thinner than the layers of the regular section: see plane_resolution about the fillet.
+  const double layer =
+      contact.edges.empty() ? cell : std::max(contact.at_edge, std::min(cell, regular.flank_layer * per_layer));
+  s.flank_layer = std::clamp(layer / per_layer, geometry::min_flank_layer, 1.0);
   return s;
 }
 
@@ -118,6 +145,14 @@ BodyResolution solid_resolution(int level) {
       {{15, 4, 8, 1, 4, 0.8}, 12, 4},
   }};
   return levels[level];
+}
+
+BodyResolution resolved_solid_resolution(int level) {
+  const double refine = std::pow(level_ratio, level - 1);
+  BodyResolution r = solid_resolution(level);
+  r.section.thickness_cells = 2 * static_cast<int>(std::lround(5 * refine));
+  r.section.rim_cells = std::max(2, static_cast<int>(std::lround(3 * refine)));
+  return r;
 }
 
 }  // namespace annulus::fem

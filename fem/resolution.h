@@ -23,13 +23,24 @@ inline constexpr int last_solid_level = 2;
 /// half-plane (see ContactBody). That needs smaller cells only near the ends of the flank, where the half-plane is no
 /// model: they shrink in proportion to the distance from the end, down to a thirtieth at the tip.
 [[nodiscard]] BodyResolution plane_resolution(const geometry::Gear& gear, int level);
-/// Section whose flank is meshed for one contact: cells of `cell` (m) within `reach` of a place of the flank (`centre`:
-/// arc length from the involute's start on the base circle, s = rho^2 / (2 r_b)), as thin under the flank, growing by
-/// `growth` beyond. Counts that radial cuts depend on are those of `regular`.
+/// Where and how finely a flank is meshed for one contact, arc lengths from the involute's start on the base circle,
+/// s = rho^2 / (2 r_b).
+struct ContactCells {
+  double centre = 0;          ///< m
+  double reach = 0;           ///< m, to either side of the centre: cells of `cell`
+  double cell = 0;            ///< m
+  double growth = 1;          ///< from cell to cell, away from there
+  std::vector<double> edges;  ///< m: places under which a tip edge of either tooth presses, with infinite pressure
+  double at_edge = 0;         ///< m, length of the cells there
+};
+/// Section whose flank is meshed for one contact, as thin under the flank as along it. Counts that radial cuts depend
+/// on are those of `regular`.
 [[nodiscard]] geometry::SectorResolution resolving_section(const geometry::Gear& gear,
-                                                           const geometry::SectorResolution& regular, double centre,
-                                                           double reach, double cell, double growth);
+                                                           const geometry::SectorResolution& regular,
+                                                           const ContactCells& contact);
 /// Solid body: the flank is coarse, its near field is corrected from the plane.
 [[nodiscard]] BodyResolution solid_resolution(int level);
+/// Solid body of the resolved rung, away from its contacts.
+[[nodiscard]] BodyResolution resolved_solid_resolution(int level);
 
 }  // namespace annulus::fem

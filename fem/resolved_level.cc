@@ -17,8 +17,9 @@ constexpr double patch_window = 1.4;  // half-length of the pressure elements' w
 
 /// Numbers of a level: nested by the ratio of all levels.
 struct PatchResolution {
-  double cells = 0;   ///< in a half-width
-  double growth = 0;  ///< of the cells beyond the patch
+  double cells = 0;    ///< in a half-width
+  double growth = 0;   ///< of the cells beyond the patch
+  double at_edge = 0;  ///< length of the cells under a tip edge relative to those of the patch
   BodyResolution regular;
 };
 
@@ -28,16 +29,26 @@ PatchResolution patch_resolution(const geometry::Gear& gear, bool solid, int lev
   if (solid) {
     r.cells = 3 * refine;
     r.growth = 1 + 0.7 / refine;
-    r.regular = solid_resolution(level);
-    r.regular.section.thickness_cells = 2 * static_cast<int>(std::lround(5 * refine));
-    r.regular.section.rim_cells = std::max(2, static_cast<int>(std::lround(3 * refine)));
+    r.at_edge = 1 / 3.0;
+    r.regular = resolved_solid_resolution(level);
   } else {
     r.cells = 6 * refine;
     r.growth = 1 + 0.3 / refine;
+    r.at_edge = 1 / 8.0;
     r.regular = plane_resolution(gear, level);
   }
   return r;
 }
+
+/// Where a flank is to be resolved.
+struct PlaceOfContact {
+  double arc = 0;               ///< m, along the flank
+  double half_width = 0;        ///< m, if this contact carried the whole load
+  std::vector<double> edges{};  ///< m, likewise, of tip edges within reach
+  double gap = 0;               ///< m, smallest before loading
+  double roll = 0;              ///< m, theoretical contact on the planet
+  bool resolved = true;         ///< else the tooth keeps its regular mesh
+};
 
 /// A gear whose teeth can be exchanged.
 struct Exchangeable {
@@ -59,15 +70,21 @@ struct Exchangeable {
         regular(condense(plan, material, regular_mesh)),
         ring(regular.sector, plan.profile().gear().teeth(), most_pairs, threads) {}
 
-  /// `centres`: arc lengths of the contacts on neighbouring teeth from `first_tooth` counter-clockwise.
-  [[nodiscard]] ResolvedBody body(const std::vector<double>& centres, int first_tooth, double half_width,
+  /// `contacts`: on neighbouring teeth from `first_tooth` counter-clockwise.
+  [[nodiscard]] ResolvedBody body(const std::vector<PlaceOfContact>& contacts, int first_tooth,
                                   const Material& material, const std::vector<double>& slice_edges) const {
     const auto& gear = plan.profile().gear();
     std::vector<CondensedTooth> teeth;
-    for (const double centre : centres) {
+    for (const auto& contact : contacts) {
+      if (!contact.resolved) {
+        teeth.push_back(regular);
+        continue;
+      }
+      const double cell = contact.half_width / resolution.cells;
       BodyResolution patch = resolution.regular;
-      patch.section = resolving_section(gear, resolution.regular.section, centre, patch_reach * half_width,
-                                        half_width / resolution.cells, resolution.growth);
+      patch.section = resolving_section(gear, resolution.regular.section,
+                                        {contact.arc, patch_reach * contact.half_width, cell, resolution.growth,
+                                         contact.edges, resolution.at_edge * cell});
       teeth.push_back(condense(plan, material, plan.sector(patch)));
     }
     std::vector<const CondensedSector*> sectors;
@@ -108,37 +125,75 @@ struct ResolvedMesh {
   }
 
   [[nodiscard]] LoadedPosition solve(double phase, double load) const;
+
+ private:
+  /// Contacts of all pairs in their order, on the planet and on the wheel.
+  struct Places {
+    std::vector<PlaceOfContact> planet, wheel;
+  };
+  [[nodiscard]] Places places(const std::vector<std::pair<int, double>>& pairs, double load) const;
 };
+
+ResolvedMesh::Places ResolvedMesh::places(const std::vector<std::pair<int, double>>& pairs, double load) const {
+  const auto planet_arc = [&](double roll) { return roll * roll / (2 * problem.pair.planet().base_radius()); };
+  const auto wheel_arc = [&](double roll) { return roll * roll / (2 * problem.pair.wheel().base_radius()); };
+  Places result;
+  for (const auto& [index, roll] : pairs) {
+    PlaceOfContact planet_place;
+    planet_place.half_width = ContactSystem::half_width(flanks, roll, load / problem.face_width, problem.material);
+    planet_place.roll = roll;
+    const double centre = flanks.nearest_roll(roll);
+    const auto opposite = flanks.match(centre, roll);
+    planet_place.gap = opposite.gap;
+    planet_place.arc = planet_arc(centre);
+    auto wheel_place = planet_place;
+    wheel_place.arc = wheel_arc(opposite.wheel_roll);
+    const auto domain = flanks.domain(roll);
+    for (const double end : {domain.low, domain.high}) {
+      if (std::abs(planet_arc(end) - planet_place.arc) > patch_reach * planet_place.half_width) continue;
+      planet_place.edges.push_back(planet_arc(end));
+      wheel_place.edges.push_back(wheel_arc(flanks.match(end, roll).wheel_roll));
+    }
+    result.planet.push_back(std::move(planet_place));
+    result.wheel.push_back(std::move(wheel_place));
+  }
+  return result;
+}
 
 LoadedPosition ResolvedMesh::solve(double phase, double load) const {
   const auto pairs = ContactSystem::possible_pairs(flanks, phase);
   require(static_cast<int>(pairs.size()) <= most_pairs, "more tooth pairs than the resolved rung exchanges");
-  const auto& pair = problem.pair;
-  const double half_width = hertz_half_width(load / problem.face_width,
-                                             flanks.relative_curvature(pair.roll_length_pitch()), problem.material);
-  std::vector<double> on_planet, on_wheel;
-  for (const auto& [index, roll] : pairs) {
-    const double centre = flanks.nearest_roll(roll), opposite = flanks.match(centre, roll).wheel_roll;
-    on_planet.push_back(centre * centre / (2 * pair.planet().base_radius()));
-    on_wheel.push_back(opposite * opposite / (2 * pair.wheel().base_radius()));
-  }
   const int first = ContactSystem::wheel_tooth(flanks, pairs.front().first, 0);
   const int last = ContactSystem::wheel_tooth(flanks, pairs.back().first, 0);
-  if (last < first) std::reverse(on_wheel.begin(), on_wheel.end());
-  const ResolvedBody planet_body =
-      planet.body(on_planet, pairs.front().first, half_width, problem.material, slice_edges);
-  const ResolvedBody wheel_body =
-      wheel.body(on_wheel, std::min(first, last), half_width, problem.material, slice_edges);
-
   ContactOptions options;
   options.misalignment = problem.misalignment;
   options.window = patch_window;
-  options.first = 1;  // elements as long as the cells
-  options.elements = static_cast<int>(std::lround(patch_window * planet.resolution.cells / 1.1));
-  const ContactSystem system(flanks, planet_body, wheel_body, nullptr, problem.material, slice_edges, options);
-  ContactSystem::PairsCache cache;
-  ContactSystem::WarmStart warm;
-  return system.solve(0, phase, load, cache, warm, nullptr);
+  Places contacts = places(pairs, load);
+  double least_gap = contacts.planet.front().gap;
+  for (const auto& place : contacts.planet) least_gap = std::min(least_gap, place.gap);
+  // A pair further apart than such a softly estimated mesh gives way will not touch: no mesh of its own, which is most
+  // of the work. Where it touches nevertheless, all pairs get theirs.
+  constexpr double soft_mesh = 8e9;  // N/m per m of face width
+  const double reach = load / (soft_mesh * problem.face_width);
+  for (auto* list : {&contacts.planet, &contacts.wheel})
+    for (auto& place : *list) place.resolved = place.gap - least_gap < reach;
+  for (;;) {
+    auto on_wheel = contacts.wheel;
+    if (last < first) std::reverse(on_wheel.begin(), on_wheel.end());
+    const ResolvedBody planet_body = planet.body(contacts.planet, pairs.front().first, problem.material, slice_edges);
+    const ResolvedBody wheel_body = wheel.body(on_wheel, std::min(first, last), problem.material, slice_edges);
+    const ContactSystem system(flanks, planet_body, wheel_body, nullptr, problem.material, slice_edges, options);
+    ContactSystem::PairsCache cache;
+    ContactSystem::WarmStart warm;
+    auto position = system.solve(0, phase, load, cache, warm, nullptr);
+    bool all_resolved = true;
+    for (std::size_t i = 0; i < position.pair_share.size(); ++i)
+      for (const auto& place : contacts.planet)
+        if (place.roll == position.pair_roll[i] && position.pair_share[i] > 0) all_resolved &= place.resolved;
+    if (all_resolved) return position;
+    for (auto* list : {&contacts.planet, &contacts.wheel})
+      for (auto& place : *list) place.resolved = true;
+  }
 }
 
 }  // namespace

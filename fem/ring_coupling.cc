@@ -23,6 +23,7 @@ struct Level {
   double own = 0;
   long unknowns = 0;
   double mass = 0, rotational_mass = 0;
+  bool reused = false;  // the condensed sector
 };
 
 bool needs_solid(const LoadedMeshProblem& problem) {
@@ -81,12 +82,14 @@ Level solve_level(const LoadedMeshProblem& problem, int planets, double load, co
   options.solid = solid;
   options.motions = settings.motions;
   options.threads = settings.threads;
+  options.store = settings.store.get();
   if (plan) options.arcs = plan->arcs();
   const RingFlexibility ring = make_ring_flexibility(
       body, solid ? solid_resolution(level) : plane_resolution(profile.gear(), level), problem.material, options);
 
   Level result;
   result.unknowns = ring.unknowns;
+  result.reused = ring.reused;
   std::optional<RingOnSupports> supported;
   if (plan) supported.emplace(ring, *plan);
   const Eigen::VectorXd loads = Eigen::VectorXd::Constant(planets, load);
@@ -175,6 +178,8 @@ SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, int pla
         std::max(result.frequency_error_relative, std::abs(coarser.modes[k].frequency / level.modes[k].frequency - 1));
   result.own_compliance = level.own;
   result.unknowns = level.unknowns;
+  result.reused_teeth = (coarser.reused ? 1 : 0) + (level.reused ? 1 : 0);
+  result.condensed_teeth = 2 - result.reused_teeth;
   auto& coupling = result.coupling;
   coupling.planets = planets;
   coupling.ring_teeth = problem.pair.wheel().teeth();

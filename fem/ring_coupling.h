@@ -14,8 +14,9 @@ struct RingCouplingSettings {
   int degree = 2;     ///< polynomial degree of the elements
   int per_cycle = 1;  ///< ring positions per mesh cycle
   ModeLimits modes;
-  MotionOrder motions;  ///< of a sector's inertia, their section order at least 1
-  int threads = 1;      ///< changes the time, never the result
+  MotionOrder motions;                      ///< of a sector's inertia, their section order at least 1
+  int threads = 1;                          ///< changes the time, never the result
+  std::shared_ptr<CondensedStore> store{};  ///< where condensed teeth are looked for and kept; may be null
 };
 
 struct SolvedRingCoupling {
@@ -26,6 +27,7 @@ struct SolvedRingCoupling {
   double compliance_error = 0;          ///< m/N, estimated, largest of all entries
   double frequency_error_relative = 0;  ///< estimated, largest of the modes kept
   long unknowns = 0;                    ///< freedoms of the sector
+  int condensed_teeth = 0, reused_teeth = 0;
 };
 
 /// Compliance between the ring meshes of `planets` equally spaced planets, and the modes of the ring.

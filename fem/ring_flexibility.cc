@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "fem/condensation/lapack.h"
 #include "fem/gear_body.h"
+#include "fem/sector_bytes.h"
 
 namespace annulus::fem {
 namespace {
@@ -58,35 +60,122 @@ SectorLoads ring_loads(const SectorModel& model, const geometry::ToothProfile& p
   return loads;
 }
 
-RingFlexibility compose_flexibility(const SectorModel& model, const SectorLoads& loads, const geometry::Gear& gear,
-                                    bool floating, const RingFlexibilityOptions& options) {
+namespace {
+
+FlexibleSector condense_flexible(const SectorModel& model, const SectorLoads& loads, bool floating) {
+  FlexibleSector result;
+  result.unknowns = model.stiffness.rows();
+  result.resultants.resize(3, static_cast<Eigen::Index>(loads.acting.size()));
+  for (std::size_t i = 0; i < loads.acting.size(); ++i) {
+    const Wrench wrench = resultant(loads.acting[i], model.nodes);
+    result.resultants.col(static_cast<Eigen::Index>(i)) << wrench[0], wrench[1], wrench[5];
+  }
+  result.sector = condense(model, loads, floating);
+  return result;
+}
+
+/// A sector condensed for the unit loads of its outside instead of arcs: what the store keeps.
+struct UnitFlexibleSector {
+  FlexibleSector sector;
+  OutsideLoads outside;
+};
+
+UnitFlexibleSector condense_unit_flexible(const BodyPlan& plan, const geometry::Mesh& mesh,
+                                          const SectorModelOptions& wanted, const Material& material,
+                                          const RingFlexibilityOptions& options) {
+  const auto& profile = plan.profile();
+  const SectorModel model = make_sector_model(mesh, profile, plan.support_radius(), material, wanted);
+  RingFlexibilityOptions without_arcs = options;
+  without_arcs.arcs.clear();
+  SectorLoads loads = ring_loads(model, profile, wanted.flank, without_arcs);
+  UnitFlexibleSector unit;
+  if (!options.arcs.empty()) {
+    unit.outside = OutsideLoads::of(options.arcs, model.outside);
+    for (auto& load : unit.outside.unit_loads(model.outside)) loads.acting.push_back(std::move(load));
+  }
+  unit.sector = condense_flexible(model, loads, plan.floating());
+  return unit;
+}
+
+FlexibleSector with_arcs(UnitFlexibleSector unit, const std::vector<ArcLoad>& arcs) {
+  FlexibleSector result = std::move(unit.sector);
+  if (arcs.empty()) return result;
+  const Eigen::MatrixXd weights = unit.outside.weights(arcs);
+  const Eigen::Index others = result.resultants.cols() - weights.rows();
+  Eigen::Matrix3Xd resultants(3, others + weights.cols());
+  resultants << result.resultants.leftCols(others), result.resultants.rightCols(weights.rows()) * weights;
+  result.resultants = resultants;
+  result.sector = combine_loads(std::move(result.sector), static_cast<int>(others), weights);
+  return result;
+}
+
+std::string flexible_inputs(const BodyPlan& plan, const geometry::Mesh& mesh, const SectorModelOptions& wanted,
+                            const Material& material, const RingFlexibilityOptions& options) {
+  std::ostringstream text;
+  ByteWriter inputs(text);
+  inputs.add(std::string("flexibility"));
+  add_sector_inputs(inputs, mesh, plan.profile(), plan.support_radius(), material, wanted);
+  add_slices(inputs, options.arcs);
+  inputs.add(options.roll).add(options.face_width).add(options.solid);
+  inputs.add(options.motions.section).add(options.motions.axial);
+  return text.str();
+}
+
+void write(ByteWriter& out, const UnitFlexibleSector& unit) {
+  out.add(unit.sector.resultants).add(unit.sector.unknowns);
+  write(out, unit.outside);
+  write(out, unit.sector.sector);
+}
+
+UnitFlexibleSector read_flexible(ByteReader& in) {
+  UnitFlexibleSector unit;
+  in.get(unit.sector.resultants);
+  in.get(unit.sector.unknowns);
+  unit.outside = read_outside(in);
+  unit.sector.sector = read_sector(in);
+  return unit;
+}
+
+}  // namespace
+
+RingFlexibility compose_flexibility(const FlexibleSector& sector, const geometry::Gear& gear, bool floating,
+                                    const RingFlexibilityOptions& options) {
   RingFlexibility ring;
   ring.teeth = gear.teeth();
   ring.pitch_angle = gear.pitch_angle();
   ring.base_radius = gear.base_radius();
   ring.arcs = static_cast<int>(options.arcs.size());
-  ring.motions = static_cast<int>(loads.acting.size()) - 1 - ring.arcs;
-  ring.unknowns = model.stiffness.rows();
-  ring.resultants.resize(3, static_cast<Eigen::Index>(loads.acting.size()));
-  for (std::size_t i = 0; i < loads.acting.size(); ++i) {
-    const Wrench wrench = resultant(loads.acting[i], model.nodes);
-    ring.resultants.col(static_cast<Eigen::Index>(i)) << wrench[0], wrench[1], wrench[5];
-  }
-  ring.compliance =
-      compose_loads(condense(model, loads, floating), ring.teeth, floating, 1 / known_width(options), options.threads);
+  ring.motions = static_cast<int>(sector.resultants.cols()) - 1 - ring.arcs;
+  ring.unknowns = sector.unknowns;
+  ring.resultants = sector.resultants;
+  ring.compliance = compose_loads(sector.sector, ring.teeth, floating, 1 / known_width(options), options.threads);
   return ring;
+}
+
+RingFlexibility compose_flexibility(const SectorModel& model, const SectorLoads& loads, const geometry::Gear& gear,
+                                    bool floating, const RingFlexibilityOptions& options) {
+  return compose_flexibility(condense_flexible(model, loads, floating), gear, floating, options);
 }
 
 RingFlexibility make_ring_flexibility(const BodyPlan& plan, const BodyResolution& resolution, const Material& material,
                                       const RingFlexibilityOptions& options) {
   lapack::use_one_thread();
-  const auto& profile = plan.profile();
   SectorModelOptions wanted = plan.model();
   wanted.want_mass = true;
-  const SectorModel model =
-      make_sector_model(plan.sector(resolution), profile, plan.support_radius(), material, wanted);
-  return compose_flexibility(model, ring_loads(model, profile, wanted.flank, options), profile.gear(), plan.floating(),
-                             options);
+  const geometry::Mesh mesh = plan.sector(resolution);
+  UnitFlexibleSector unit;
+  const auto make = [&] { unit = condense_unit_flexible(plan, mesh, wanted, material, options); };
+  bool reused = false;
+  if (options.store != nullptr)
+    reused = options.store->read_or_make(
+        options.store->key(flexible_inputs(plan, mesh, wanted, material, options)),
+        [&](ByteReader& in) { unit = read_flexible(in); }, make, [&](ByteWriter& out) { write(out, unit); });
+  else
+    make();
+  RingFlexibility ring =
+      compose_flexibility(with_arcs(std::move(unit), options.arcs), plan.profile().gear(), plan.floating(), options);
+  ring.reused = reused;
+  return ring;
 }
 
 }  // namespace annulus::fem

@@ -5,6 +5,7 @@
 
 #include "fem/body_plan.h"
 #include "fem/condensation/cyclic_flexibility.h"
+#include "fem/condensed_store.h"
 #include "fem/contact/arc_load.h"
 #include "fem/elasticity/inertia_loads.h"
 
@@ -26,6 +27,7 @@ struct RingFlexibility {
   /// are at the same time their work on unit rigid motions (x, y, rotation).
   Eigen::Matrix3Xd resultants;
   long unknowns = 0;
+  bool reused = false;  ///< the sector was read from the store
 
   [[nodiscard]] int first_motion() const { return 1; }
   [[nodiscard]] int first_arc() const { return 1 + motions; }
@@ -40,17 +42,27 @@ struct RingFlexibilityOptions {
   MotionOrder motions;
   std::vector<ArcLoad> arcs;
   int threads = 1;
+  CondensedStore* store = nullptr;  ///< where condensed teeth are looked for and kept; may be null
 };
 
 [[nodiscard]] RingFlexibility make_ring_flexibility(const BodyPlan& plan, const BodyResolution& resolution,
                                                     const Material& material, const RingFlexibilityOptions& options);
 
-/// Its two steps: the loads of a sector that has its nodal mass (and its outside, for arcs), and their compliance in
+/// A sector condensed for the loads of a flexibility.
+struct FlexibleSector {
+  CondensedSector sector;
+  Eigen::Matrix3Xd resultants;  ///< of its acting loads
+  long unknowns = 0;
+};
+
+/// Its steps: the loads of a sector that has its nodal mass (and its outside, for arcs), and their compliance in
 /// the ring. `floating`: nothing holds the sector.
 [[nodiscard]] SectorLoads ring_loads(const SectorModel& model, const geometry::ToothProfile& profile,
                                      geometry::Boundary flank, const RingFlexibilityOptions& options);
 [[nodiscard]] RingFlexibility compose_flexibility(const SectorModel& model, const SectorLoads& loads,
                                                   const geometry::Gear& gear, bool floating,
                                                   const RingFlexibilityOptions& options);
+[[nodiscard]] RingFlexibility compose_flexibility(const FlexibleSector& sector, const geometry::Gear& gear,
+                                                  bool floating, const RingFlexibilityOptions& options);
 
 }  // namespace annulus::fem

@@ -65,6 +65,7 @@ ClosedFormBody::ClosedFormBody(const geometry::ToothProfile& profile, double sup
   root_.assign(2 * neighbours + 1, Eigen::Matrix3d::Zero());
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
   add_between_roots(root_, foundation, roots, pitch_angle_, identity / width, identity);
+  foundation_ = root_[neighbours];
   if (floats)
     let_yield({root_radius - tooth_band * pitch_angle_ * root_radius, support_radius, moduli}, width, theory, supports,
               terms);

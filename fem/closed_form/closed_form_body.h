@@ -34,6 +34,8 @@ class ClosedFormBody {
   /// Displacement of the root of tooth `offset` (axial, transverse, rotation) under unit root loads on tooth 0, each in
   /// its own tooth's frame, m/N.
   [[nodiscard]] Eigen::Matrix3d root_compliance(int offset) const;
+  /// The part of `root_compliance(0)` with the support circle held: without motions of a ring on its supports.
+  [[nodiscard]] const Eigen::Matrix3d& foundation_compliance() const { return foundation_; }
   /// Displacement of the root of a tooth under unit forces of every support, m/N: 3 x supports.
   [[nodiscard]] Eigen::MatrixXd root_from_supports(int tooth) const;
   /// Between the supports, their own springs included, m/N.
@@ -51,6 +53,7 @@ class ClosedFormBody {
   ToothCantilever tooth_;
   double pitch_angle_;
   int teeth_;
+  Eigen::Matrix3d foundation_;
   std::vector<Eigen::Matrix3d> root_;           // offsets -neighbours ... neighbours
   std::vector<Eigen::MatrixXd> from_supports_;  // per tooth
   Eigen::MatrixXd support_compliance_, support_resultants_;

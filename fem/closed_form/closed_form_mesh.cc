@@ -6,14 +6,15 @@
 
 #include "core/errors.h"
 #include "fem/closed_form/tooth_contacts.h"
+#include "fem/error_estimate.h"
 #include "fem/problem_check.h"
 
 namespace annulus::fem {
 namespace {
 
 /// Relative error of the stiffness, from differences to converged plane finite elements (docs/methods.md): 2.5 % for
-/// teeth, foundation and contacts; for a ring on its own supports what an uncertainty of 0.025 root pitches in the layer
-/// that stands for the teeth makes of the bending stiffness, which goes with the cube of the thickness.
+/// teeth, foundation and contacts; for a ring on its own supports what an uncertainty of 0.025 root pitches in the
+/// layer that stands for the teeth makes of the bending stiffness, which goes with the cube of the thickness.
 double estimated_error(const LoadedMeshProblem& problem) {
   double error = 0.025;
   const auto& gear = problem.pair.wheel();
@@ -111,7 +112,8 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
   if (!(position.entry.lte > unloaded)) throw SolverError("the loaded transmission error is not positive");
   position.entry.stiffness_secant = load / (position.entry.lte - unloaded);
   position.entry.stiffness_tangent = 1 / solution.tangent(0, 0);
-  position.entry.error_relative = estimated_error(problem_);
+  position.entry.error_parts.model = estimated_error(problem_) + plane_strain_error(problem_);
+  position.entry.error_relative = position.entry.error_parts.total();
 
   const double torque = load * problem_.pair.planet().base_radius();
   position.force_balance_relative = std::abs(std::abs(moment) - torque) / torque;
@@ -128,10 +130,9 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
       if (force <= 0) continue;
       const auto& line = forces.lines[i];
       const double half = line.half_width, roll_by_arc = problem_.pair.planet().base_radius() / pair.nearest_roll;
-      position.pressure.push_back({static_cast<int>(i), 0, problem_.face_width,
-                                   pair.nearest_roll + (line.middle - half) * roll_by_arc,
-                                   pair.nearest_roll + (line.middle + half) * roll_by_arc,
-                                   force / (2 * half * problem_.face_width)});
+      position.pressure.push_back(
+          {static_cast<int>(i), 0, problem_.face_width, pair.nearest_roll + (line.middle - half) * roll_by_arc,
+           pair.nearest_roll + (line.middle + half) * roll_by_arc, force / (2 * half * problem_.face_width)});
     }
   add_supports(solution.force.tail(solution.force.size() - pairs), position);
   return position;
@@ -185,7 +186,8 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
     const auto& p = result.positions[i];
     result.reciprocity_relative = std::max(result.reciprocity_relative, p.reciprocity_relative);
     if (i % loads == static_cast<std::size_t>(loads) / 2)
-      result.worst_error_relative = std::max(result.worst_error_relative, p.entry.error_relative);
+      result.worst_error_relative =
+          std::max(result.worst_error_relative, p.entry.error_relative - plane_strain_error(problem));
   }
   for (int l = 0; l < loads; ++l)
     result.closure_relative =

@@ -10,6 +10,10 @@
 namespace annulus::fem {
 namespace {
 
+/// Flanks that tilt towards an end of the gap press the patch against it the more, the more it carries: the force grows
+/// without limit at a certain width, here up to the inverse of this.
+constexpr double stiffest = 1e-3;
+
 /// Where a rising function crosses zero between `low` (negative) and `high` (positive), to rounding.
 template <typename Function>
 double crossing(const Function& f, double low, double high) {
@@ -80,12 +84,12 @@ ContactPatch::State ContactPatch::at(double a) const {
   const auto slope = [&](double c) { return mean_slope(a, c) + tilt_ * stiffness_ * moment(a, c); };
   const auto cut = [&](double c, int side) {
     const double m = moment(a, c), s = -side * mean_slope(a, c);
-    return State{c, stiffness_ * (m + a * s) / (1 + side * stiffness_ * a * tilt_), side};
+    return State{c, stiffness_ * (m + a * s) / std::max(1 + side * stiffness_ * a * tilt_, stiffest), side};
   };
   if (slope(lowest) >= 0) return cut(lowest, -1);
   if (slope(highest) <= 0) return cut(highest, 1);
-  const double c = kinked_ ? crossing(slope, lowest, highest)
-                           : -(gap_.slope + tilt_ * stiffness_ * moment(a, 0)) / gap_.curvature;
+  const double c =
+      kinked_ ? crossing(slope, lowest, highest) : -(gap_.slope + tilt_ * stiffness_ * moment(a, 0)) / gap_.curvature;
   return {c, stiffness_ * moment(a, c), 0};
 }
 

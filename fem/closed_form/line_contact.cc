@@ -82,9 +82,9 @@ LineContact::State LineContact::at(double force) const {
   const auto rest = [&](double x) {
     const auto now = patch_.at(x);
     constexpr double step = 1e-5;
-    const double moves = now.cut != 0 ? -now.cut
-                                      : (patch_.at(x * (1 + step)).middle - patch_.at(x * (1 - step)).middle) /
-                                            (2 * step * x);
+    const double moves = now.cut != 0
+                             ? -now.cut
+                             : (patch_.at(x * (1 + step)).middle - patch_.at(x * (1 - step)).middle) / (2 * step * x);
     return now.line_load * (local * increment(x, now.middle, moves).slope + 2 * tilt_ * moves - 2 * moved * x);
   };
   state.approach = last * line_load;

@@ -81,14 +81,16 @@ ToothContact make_contact(const FlankContact& flanks, const ClosedFormBody& plan
   const double planet_edge = distance_to_tip(flanks.planet(), nearest);
   // The patch and the edge have to agree where the wheel's tip cuts the gap.
   const bool wheel_tip_cuts = domain.low > flanks.planet().roll_length_form();
-  const double wheel_edge = wheel_tip_cuts ? -gap.low : distance_to_tip(flanks.wheel(), match.wheel_roll);
+  const double wheel_edge =
+      wheel_tip_cuts ? -gap.low : std::max(-gap.low, distance_to_tip(flanks.wheel(), match.wheel_roll));
 
-  // How the compliance of both teeth grows along the flank, the depths of the contact included.
+  // How the compliance of both teeth grows along the flank, the depths of the contact included; a ring's own motions
+  // turn all its flanks alike and are no part of it.
   const double nu = material.poisson_ratio, local = 2 * (1 - nu * nu) / (M_PI * material.youngs_modulus * width);
   const auto compliance = [&](double x) {
     const double at = std::sqrt(2 * flanks.planet().gear().base_radius() * (arc(flanks.planet(), nearest) + x));
     const auto p = planet.tooth().load(at), w = wheel.tooth().load(flanks.match(at, roll).wheel_roll);
-    return p.root.dot(planet.root_compliance(0) * p.root) + w.root.dot(wheel.root_compliance(0) * w.root) +
+    return p.root.dot(planet.foundation_compliance() * p.root) + w.root.dot(wheel.foundation_compliance() * w.root) +
            (p.compliance + w.compliance) / width + local * std::log(p.depth * w.depth);
   };
   const double step = 0.02 * pair.planet().parameters().module;

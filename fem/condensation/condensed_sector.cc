@@ -81,4 +81,21 @@ CondensedSector condense(const SectorModel& model, const SectorLoads& loads, boo
   return sector;
 }
 
+CondensedSector combine_loads(CondensedSector sector, int first, const Eigen::MatrixXd& weights) {
+  const auto old = weights.rows(), combined = weights.cols();
+  require(first + old <= sector.compliance.cols(), "a combination of more loads than act on the sector");
+  const auto in_columns = [&](const Eigen::MatrixXd& matrix) {
+    const auto after = matrix.cols() - first - old;
+    Eigen::MatrixXd result(matrix.rows(), matrix.cols() - old + combined);
+    result.leftCols(first) = matrix.leftCols(first);
+    result.middleCols(first, combined) = lapack::product(matrix.middleCols(first, old), weights);
+    result.rightCols(after) = matrix.rightCols(after);
+    return result;
+  };
+  sector.cut_load = in_columns(sector.cut_load);
+  const Eigen::MatrixXd transposed = in_columns(sector.compliance).transpose();
+  sector.compliance = in_columns(transposed).transpose();
+  return sector;
+}
+
 }  // namespace annulus::fem

@@ -35,6 +35,10 @@ struct CondensedSector {
   int ports = 0;
 };
 
+/// The sector with some of its acting loads, first ... first + weights.rows() - 1, replaced by combinations of them,
+/// one per column of `weights`.
+[[nodiscard]] CondensedSector combine_loads(CondensedSector sector, int first, const Eigen::MatrixXd& weights);
+
 /// `floating`: no boundary of the sector is held.
 [[nodiscard]] CondensedSector condense(const SectorModel& model, const SectorLoads& loads, bool floating);
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <vector>
+
 #include "fem/elasticity/nodal_load.h"
 #include "fem/elasticity/sector_model.h"
 
@@ -16,5 +19,23 @@ struct ArcLoad {
 
 /// The part of the load that lies on the sector's own outside.
 [[nodiscard]] NodalLoad on_outside(const ArcLoad& arc, const TraceGrid& outside);
+
+/// The loads that arcs are put together from, wherever they lie: at every station of the outside and in every slice of
+/// the width a unit force along x and one along y. A sector condensed for them serves all supports with these slices,
+/// exactly.
+struct OutsideLoads {
+  int degree = 2;
+  std::vector<double> stations;           ///< rad, ascending
+  std::vector<double> z_low{}, z_high{};  ///< m, of the slices, ascending
+
+  /// The slices are those of the arcs.
+  [[nodiscard]] static OutsideLoads of(const std::vector<ArcLoad>& arcs, const TraceGrid& outside);
+
+  [[nodiscard]] int size() const { return 2 * static_cast<int>(stations.size() * z_low.size()); }
+  /// [station][slice][x, y]
+  [[nodiscard]] std::vector<NodalLoad> unit_loads(const TraceGrid& outside) const;
+  /// How arcs are put together: size() x arcs.
+  [[nodiscard]] Eigen::MatrixXd weights(const std::vector<ArcLoad>& arcs) const;
+};
 
 }  // namespace annulus::fem

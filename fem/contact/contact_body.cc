@@ -117,38 +117,41 @@ Eigen::MatrixXd ContactBody::port_weights(const FlankPatch& patch) const {
   return result;
 }
 
+FlankCells::FlankCells(const TraceBasis& flank, double base_radius) {
+  const auto& rolls = flank.stations();
+  for (int e = 0; e < flank.elements(); ++e) {
+    const double low = rolls[e * flank.degree()], high = rolls[(e + 1) * flank.degree()];
+    centres_.push_back((low * low + high * high) / (4 * base_radius));
+    lengths_.push_back((high * high - low * low) / (2 * base_radius));
+  }
+}
+
+double FlankCells::length(double arc) const {
+  const auto above = std::upper_bound(centres_.begin(), centres_.end(), arc);
+  if (above == centres_.begin()) return lengths_.front();
+  if (above == centres_.end()) return lengths_.back();
+  const auto i = above - centres_.begin();
+  const double t = (arc - centres_[i - 1]) / (centres_[i] - centres_[i - 1]);
+  return (1 - t) * lengths_[i - 1] + t * lengths_[i];
+}
+
 CondensedBody::CondensedBody(GearBody body, double base_radius, const Material& material,
                              const std::vector<double>& slice_edges, std::optional<NearField> near_field,
                              double contact_slant)
     : ContactBody(base_radius, body.axial, slice_edges),
       body_(std::move(body)),
       half_plane_(material),
-      near_field_(std::move(near_field)) {
+      near_field_(std::move(near_field)),
+      cells_(near_field_ ? near_field_->fine : body_.flank, base_radius) {
   for (int s = 0; s < slices(); ++s) slice_length_.push_back((slice_edges[s + 1] - slice_edges[s]) * contact_slant);
   for (int d = 0; d <= body_.compliance.max_offset(); ++d) compressed_.push_back(compress(body_.compliance.block(d)));
-  const TraceBasis& resolving = near_field_ ? near_field_->fine : body_.flank;
-  const auto& rolls = resolving.stations();
-  for (int e = 0; e < resolving.elements(); ++e) {
-    const double low = rolls[e * resolving.degree()], high = rolls[(e + 1) * resolving.degree()];
-    cell_centres_.push_back((low * low + high * high) / (4 * base_radius));
-    cell_lengths_.push_back((high * high - low * low) / (2 * base_radius));
-  }
-}
-
-double CondensedBody::cell_length(double arc) const {
-  const auto above = std::upper_bound(cell_centres_.begin(), cell_centres_.end(), arc);
-  if (above == cell_centres_.begin()) return cell_lengths_.front();
-  if (above == cell_centres_.end()) return cell_lengths_.back();
-  const auto i = above - cell_centres_.begin();
-  const double t = (arc - cell_centres_[i - 1]) / (cell_centres_[i] - cell_centres_[i - 1]);
-  return (1 - t) * cell_lengths_[i - 1] + t * cell_lengths_[i];
 }
 
 FlankLoad CondensedBody::make_load(int, double arc, double half_length) const {
   // Cells to either side of the centre: quadratic cells then resolve the load to some tenths of a per cent of the near
   // field.
   constexpr double cells_in_half_width = 2.5;
-  const double resolved = std::max(own_spread(half_length), cells_in_half_width * cell_length(arc));
+  const double resolved = std::max(own_spread(half_length), cells_in_half_width * cells_.length(arc));
   return {arc, half_length, std::min(resolved, distance_to_end(body_.flank, arc))};
 }
 
@@ -198,6 +201,7 @@ ResolvedBody::ResolvedBody(std::vector<GearBody> teeth, int first_tooth, const E
     : ContactBody(base_radius, teeth.front().axial, slice_edges), teeth_(std::move(teeth)), first_tooth_(first_tooth) {
   Eigen::Index row = 0;
   for (const auto& a : teeth_) {
+    cells_.emplace_back(a.flank, base_radius);
     compressed_.emplace_back();
     Eigen::Index column = 0;
     for (const auto& b : teeth_) {
@@ -210,6 +214,11 @@ ResolvedBody::ResolvedBody(std::vector<GearBody> teeth, int first_tooth, const E
 
 FlankLoad ResolvedBody::make_load(int tooth, double arc, double half_length) const {
   return {arc, half_length, std::min(own_spread(half_length), distance_to_end(ports_of(tooth).first.flank, arc))};
+}
+
+double ResolvedBody::shortest_element(int tooth, double arc) const {
+  (void)ports_of(tooth);
+  return 1.1 * cells_[tooth - first_tooth_].length(arc);
 }
 
 Eigen::MatrixXd ResolvedBody::near_field(const FlankPatch& patch) const {

@@ -22,6 +22,8 @@ class ContactBody {
 
   /// The load that stands for an element on the mesh of a tooth.
   [[nodiscard]] virtual FlankLoad make_load(int tooth, double arc, double half_length) const = 0;
+  /// Length of the shortest element that the compliance tells from its neighbours at a place of a tooth's flank, m.
+  [[nodiscard]] virtual double shortest_element(int tooth, double arc) const = 0;
   /// Fills the weights of a patch whose loads are given.
   void find_weights(FlankPatch& patch, int tooth) const;
 
@@ -63,6 +65,17 @@ class ContactBody {
   double per_width_ = 1;   // plane compliances are per unit of width
 };
 
+/// Cells of a flank's mesh along its arc length.
+class FlankCells {
+ public:
+  FlankCells(const TraceBasis& flank, double base_radius);
+  /// Length of the cells at a place, m, continuous along the flank.
+  [[nodiscard]] double length(double arc) const;
+
+ private:
+  std::vector<double> centres_, lengths_;  // m
+};
+
 /// What a fine plane mesh adds to the near field of a solid body's coarse flank, applied slice by slice: the compliance
 /// of the fine plane tooth less that of a plane tooth as coarse as the solid, m per N/m.
 struct NearField {
@@ -80,6 +93,8 @@ class CondensedBody : public ContactBody {
 
   [[nodiscard]] const GearBody& body() const { return body_; }
   [[nodiscard]] FlankLoad make_load(int tooth, double arc, double half_length) const override;
+  /// 0: the half-plane carries what the mesh cannot.
+  [[nodiscard]] double shortest_element(int, double) const override { return 0; }
   [[nodiscard]] Eigen::MatrixXd near_field(const FlankPatch& patch) const override;
 
  protected:
@@ -87,15 +102,12 @@ class CondensedBody : public ContactBody {
   [[nodiscard]] std::pair<const GearBody&, int> ports_of(int tooth) const override { return {body_, tooth}; }
 
  private:
-  /// Length of the mesh's cells at a place of the flank, m, continuous along it.
-  [[nodiscard]] double cell_length(double arc) const;
-
   GearBody body_;
   HalfPlane half_plane_;
   std::vector<double> slice_length_;         // of the contact line, m
   std::vector<Eigen::MatrixXd> compressed_;  // per offset: (station, slice) x (station, slice)
   std::optional<NearField> near_field_;
-  std::vector<double> cell_centres_, cell_lengths_;
+  FlankCells cells_;
 };
 
 /// A body some neighbouring teeth of which have meshes of their own that resolve their contact.
@@ -107,6 +119,8 @@ class ResolvedBody : public ContactBody {
                const std::vector<double>& slice_edges);
 
   [[nodiscard]] FlankLoad make_load(int tooth, double arc, double half_length) const override;
+  /// A little longer than the cells: nothing but the mesh carries it.
+  [[nodiscard]] double shortest_element(int tooth, double arc) const override;
   [[nodiscard]] Eigen::MatrixXd near_field(const FlankPatch& patch) const override;
 
  protected:
@@ -115,6 +129,7 @@ class ResolvedBody : public ContactBody {
 
  private:
   std::vector<GearBody> teeth_;
+  std::vector<FlankCells> cells_;
   int first_tooth_;
   std::vector<std::vector<Eigen::MatrixXd>> compressed_;  // [tooth][tooth]
 };

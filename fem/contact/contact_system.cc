@@ -69,6 +69,46 @@ ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& plan
   }
 }
 
+double ContactSystem::half_width(const FlankContact& flanks, double roll, double line_load, const Material& material) {
+  const double within = std::clamp(roll, flanks.pair().roll_length_low(), flanks.pair().roll_length_high());
+  const double normal_factor = std::cos(flanks.pair().planet().base_helix_angle());
+  return hertz_half_width(line_load, normal_factor * flanks.relative_curvature(within), material);
+}
+
+double ContactSystem::shortest_element(const Pair& pair, double arc) const {
+  const double planet = planet_.shortest_element(pair.index, arc);
+  if (planet == 0) return 0;
+  const double roll = std::sqrt(2 * flanks_.pair().planet().base_radius() * std::max(arc, 0.0));
+  const double opposite = flanks_.match(roll, pair.roll).wheel_roll;
+  const double wheel_arc = opposite * opposite / (2 * flanks_.pair().wheel().base_radius());
+  return std::max(planet, wheel_.shortest_element(wheel_tooth(pair.index, 0), wheel_arc));
+}
+
+std::vector<double> ContactSystem::element_edges(const Pair& pair, double centre, double direction, double half,
+                                                 int per_side) const {
+  std::vector<double> edges = {0};
+  if (shortest_element(pair, centre) == 0) {
+    // Shortest at the centre, where pairs that carry little have all their contact.
+    for (int i = 1; i <= per_side; ++i) {
+      const double t = static_cast<double>(i) / per_side;
+      edges.push_back(half * t * (options_.first + (1 - options_.first) * t));
+    }
+    return edges;
+  }
+  // Elements shorter than cells would make the compliance singular: a window that a tip edge cuts short has fewer of
+  // them, and beyond the finely meshed part they grow with the cells.
+  while (edges.back() < half) {
+    const double first_guess = shortest_element(pair, centre + direction * edges.back());
+    const double middle = std::min(half, edges.back() + first_guess / 2);
+    edges.push_back(edges.back() + shortest_element(pair, centre + direction * middle));
+  }
+  // The last one ends at the end: by stretching or by squeezing all a little.
+  if (edges.size() > 2 && edges.back() - half > half - edges[edges.size() - 2]) edges.pop_back();
+  const double stretch = half / edges.back();
+  for (double& edge : edges) edge *= stretch;
+  return edges;
+}
+
 void ContactSystem::add_elements(Pair& pair, double roll, const std::vector<int>& slices, double load,
                                  double window) const {
   const auto domain = flanks_.domain(roll);
@@ -76,11 +116,7 @@ void ContactSystem::add_elements(Pair& pair, double roll, const std::vector<int>
   const double width = slice_edges_.back() - slice_edges_.front();
   const double base = flanks_.pair().planet().base_radius(), wheel_base = flanks_.pair().wheel().base_radius();
   const double centre_roll = flanks_.nearest_roll(roll);
-  const double half_width =
-      hertz_half_width(load / width,
-                       normal_factor_ * flanks_.relative_curvature(std::clamp(roll, flanks_.pair().roll_length_low(),
-                                                                              flanks_.pair().roll_length_high())),
-                       material_);
+  const double half_width = ContactSystem::half_width(flanks_, roll, load / width, material_);
   const auto arc_of = [&](double planet_roll) { return planet_roll * planet_roll / (2 * base); };
   const auto roll_of = [&](double arc) {
     return std::clamp(std::sqrt(2 * base * std::max(arc, 0.0)), domain.low, domain.high);
@@ -90,21 +126,21 @@ void ContactSystem::add_elements(Pair& pair, double roll, const std::vector<int>
   // change their lengths continuously, and so does the result.
   const int per_side = static_cast<int>(std::ceil(options_.elements * std::max(1.0, window / options_.window)));
   const double low_room = centre - arc_of(domain.low), high_room = arc_of(domain.high) - centre;
-  constexpr double negligible = 0.02;  // of a half-width: no place for elements
-  const double low_half = low_room < negligible * half_width ? 0 : std::min(half, low_room);
-  const double high_half = high_room < negligible * half_width ? 0 : std::min(half, high_room);
+  // Of a half-width, and of an element: no place for elements.
+  const double negligible = std::max(0.02 * half_width, 0.5 * shortest_element(pair, centre));
+  const double low_half = low_room < negligible ? 0 : std::min(half, low_room);
+  const double high_half = high_room < negligible ? 0 : std::min(half, high_room);
   if (low_half == 0 && high_half == 0) return;  // two tips that barely reach each other
   std::vector<double> edges;
-  // Shortest at the centre, where pairs that carry little have all their contact.
-  const auto at = [&](int i) {
-    const double t = static_cast<double>(i) / per_side;
-    return t * (options_.first + (1 - options_.first) * t);
-  };
-  if (low_half > 0)
-    for (int i = per_side; i > 0; --i) edges.push_back(centre - low_half * at(i));
+  if (low_half > 0) {
+    const auto down = element_edges(pair, centre, -1, low_half, per_side);
+    for (auto edge = down.rbegin(); edge + 1 != down.rend(); ++edge) edges.push_back(centre - *edge);
+  }
   edges.push_back(low_half > 0 ? (high_half > 0 ? centre : arc_of(domain.high)) : arc_of(domain.low));
-  if (high_half > 0)
-    for (int i = 1; i <= per_side; ++i) edges.push_back(centre + high_half * at(i));
+  if (high_half > 0) {
+    const auto up = element_edges(pair, centre, 1, high_half, per_side);
+    for (auto edge = up.begin() + 1; edge != up.end(); ++edge) edges.push_back(centre + *edge);
+  }
 
   const int first_load = static_cast<int>(pair.planet.loads.size());
   for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
@@ -304,7 +340,13 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double load, PairsC
         guess[setup.start[i] + e] =
             reuse ? known->second[e] : p.smallest_gap < 1e-9 && std::abs(p.elements[e].distance) < reach;
     }
-    const auto solution = solve_complementarity(problem, std::move(guess));
+    const auto solution = [&] {
+      try {
+        return solve_complementarity(problem, std::move(guess));
+      } catch (const SolverError& error) {
+        throw SolverError(fmt::format("mesh phase {:.4f}, {:.4g} N: {}", phase, load, error.what()));
+      }
+    }();
     warm.clear();
     bool window_too_small = false;
     for (std::size_t i = 0; i < setup.pairs.size(); ++i) {

@@ -20,7 +20,8 @@ namespace annulus::fem {
 
 struct ContactOptions {
   /// Pressure elements to either side of the centre of a pair, over a half-window of `window`: independent of the mesh,
-  /// fine at the centre, so that a pair that carries little has its share of them too.
+  /// fine at the centre, so that a pair that carries little has its share of them too. Bodies whose mesh alone carries
+  /// the elements have elements as short as it allows instead.
   int elements = 10;
   double first = 0.35;      ///< length of the elements at the centre relative to a uniform split
   double window = 1.25;     ///< half-length of a pair's contact window in Hertz half-widths of the whole load
@@ -48,6 +49,9 @@ class ContactSystem {
 
   /// Tooth pairs that may touch at a position: number, and planet roll length of their theoretical contact.
   [[nodiscard]] static std::vector<std::pair<int, double>> possible_pairs(const FlankContact& flanks, double phase);
+  /// Hertz half-width (m) if a pair that touches at planet roll `roll` carried a whole line load (N/m).
+  [[nodiscard]] static double half_width(const FlankContact& flanks, double roll, double line_load,
+                                         const Material& material);
   /// Number of the wheel's tooth in pair `index` during mesh cycle `cycle`.
   [[nodiscard]] static int wheel_tooth(const FlankContact& flanks, int index, int cycle);
 
@@ -56,6 +60,12 @@ class ContactSystem {
   [[nodiscard]] std::vector<Pair> find_pairs(double phase, double load, double window) const;
   /// Elements of the given slices, in which the theoretical contact stands at planet roll `roll`.
   void add_elements(Pair& pair, double roll, const std::vector<int>& slices, double load, double window) const;
+  /// Distances of the elements' edges from the centre of a window towards one of its ends, `half` away, from 0 on. Arc
+  /// lengths on the planet: `centre`, and `direction` 1 or -1.
+  [[nodiscard]] std::vector<double> element_edges(const Pair& pair, double centre, double direction, double half,
+                                                  int per_side) const;
+  /// Length of the shortest element both flanks carry at a planet arc length, m.
+  [[nodiscard]] double shortest_element(const Pair& pair, double arc) const;
   /// Change of the planet's roll at the contact along the face width: tan(base helix angle), signed.
   [[nodiscard]] static double roll_per_z(const FlankContact& flanks);
   [[nodiscard]] double slice_roll(int slice) const;

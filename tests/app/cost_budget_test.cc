@@ -12,8 +12,11 @@
 
 #include "app/cost_actual.h"
 #include "app/plan.h"
+#include "app/stage_kinds.h"
 #include "core/csv.h"
+#include "tests/app/pair_scenes.h"
 #include "tests/app/scenes.h"
+#include "tests/app/two_k_v_scenes.h"
 
 namespace annulus {
 
@@ -97,14 +100,36 @@ BOOST_AUTO_TEST_CASE(a_budget_too_small_is_refused_with_the_figures) {
     return text.find("within 10 %") != std::string::npos && text.find(" MB") != std::string::npos &&
            text.find("budget of 0.1 s") != std::string::npos;
   });
-  const auto resolved = app::parse_scene(computed_scene("rung = \"resolved\"\n"), "s.toml");
-  BOOST_CHECK_EXCEPTION((void)fitted(resolved, 1e6), SolverError, [](const SolverError& e) {
-    return std::string(e.what()).find("not known") != std::string::npos;
-  });
+  BOOST_CHECK_EXCEPTION(
+      (void)app::fit_budget(scene, 1e6, 2, app::CostModel({})), SolverError,
+      [](const SolverError& e) { return std::string(e.what()).find("not known") != std::string::npos; });
   // Nothing to refine: the scene stays as it is, or is refused.
   const auto given = app::parse_scene(test::quick_scene(), "s.toml");
   BOOST_TEST(fitted(given, 1e4).scene.accuracy == given.accuracy);
   BOOST_CHECK_THROW((void)fitted(given, 0.01), SolverError);
+}
+
+BOOST_AUTO_TEST_CASE(every_kind_and_rung_has_a_budget) {
+  for (const auto& text : {computed_scene("rung = \"resolved\"\n"), test::solved_pair(), test::reducer_scene()}) {
+    const auto scene = app::parse_scene(text, "s.toml");
+    const auto cost = app::stage_cost(scene, 2, app::CostModel(app::kept_cost_runs()));
+    BOOST_TEST(cost.seconds() > 0);
+    BOOST_TEST(cost.peak_MB() > 100);
+    const auto choice = fitted(scene, 1e6);
+    BOOST_TEST(choice.cost.seconds() > 0);
+    BOOST_TEST(choice.sentence.find("budget") == 0U);
+    const bool given = scene.stage.kind == app::StageKind::two_k_v;
+    BOOST_TEST((choice.sentence.find("no mesh of this scene is refined") != std::string::npos) == given,
+               choice.sentence);
+    BOOST_TEST((choice.scene.accuracy == scene.accuracy) == given);
+    BOOST_CHECK_THROW((void)fitted(scene, 0.001), SolverError);
+  }
+  // The same accuracy costs many times as much where every contact has a mesh of its own.
+  const auto seconds = [](const std::string& top) {
+    const auto scene = app::parse_scene(computed_scene(top), "s.toml");
+    return app::stage_cost(scene, 2, app::CostModel(app::kept_cost_runs())).seconds();
+  };
+  BOOST_TEST(seconds("rung = \"resolved\"\naccuracy = 0.01\n") > 10 * seconds("rung = \"plane\"\naccuracy = 0.01\n"));
 }
 
 BOOST_AUTO_TEST_CASE(the_rest_of_the_scene_stays) {
@@ -145,9 +170,34 @@ BOOST_AUTO_TEST_CASE(the_plan_tells_time_and_memory) {
   BOOST_TEST(text.find("not predicted") == std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(plans_of_all_kinds_tell_time_and_memory) {
+  for (const auto* name : {"helical_pair", "helical_pair_solid", "arc_tooth_2kv", "helical_set", "misaligned_set"}) {
+    const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/" + name + ".toml");
+    const auto json = nlohmann::json::parse(app::plan_scene(scene, true, 2));
+    BOOST_TEST(json["predicted_s"].is_number(), name);
+    BOOST_TEST(json["predicted_peak_MB"].is_number(), name);
+    BOOST_TEST(app::plan_scene(scene, false, 2).find("not known") == std::string::npos, name);
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 BOOST_AUTO_TEST_SUITE(cost_of_a_run)
+
+BOOST_AUTO_TEST_CASE(predicted_and_actual_of_other_kinds) {
+  const test::TemporaryFolder folder("cost_of_other_kinds");
+  for (const auto& text : {test::quick_pair(), test::solved_pair(), test::reducer_scene()}) {
+    const auto scene = app::parse_scene(text, folder.path() / "s.toml");
+    const app::RunOptions options{.out = folder.path() / std::to_string(text.size()), .threads = 2};
+    const std::string told = app::run_scene(scene, options);
+    BOOST_TEST(told.find("cost    predicted ") != std::string::npos, told);
+    const auto json = nlohmann::json::parse(content(options.out / "summary.json"));
+    BOOST_TEST(json["cost"]["predicted_s"].get<double>() > 0);
+    BOOST_TEST(json["cost"]["actual_s"].get<double>() > 0);
+    BOOST_TEST(json["cost"]["steps"].size() == (text == test::solved_pair() ? 2U : 1U));
+    BOOST_TEST(content(options.out / "report.html").find("as predicted before the run") != std::string::npos);
+  }
+}
 
 BOOST_AUTO_TEST_CASE(predicted_and_actual_of_small_scenes) {
   const test::TemporaryFolder folder("cost_of_a_run");

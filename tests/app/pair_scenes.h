@@ -50,7 +50,7 @@ support_damping_ratio = 0.05
 /// Spur gears whose plane finite elements take a second or two.
 inline std::string solved_pair() {
   return R"(title = "Solved pair"
-accuracy = 0.05
+accuracy = 0.03
 [stage]
 kind = "helical_pair"
 module_mm = 4

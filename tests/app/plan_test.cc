@@ -86,9 +86,58 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_how_finely_tables_are_resolved) {
       BOOST_TEST(mesh.problem->loads[mesh.nominal_load()] == 59.46e3, boost::test_tools::tolerance(1e-3));
     }
     phases = plan.meshes.front().problem->phases;
-    BOOST_TEST(app::to_text(plan).find(plan.meshes.front().resolution) != std::string::npos);
+    BOOST_TEST(app::to_text(plan).find(plan.meshes.front().phases) != std::string::npos);
   }
   BOOST_TEST(phases == 64);
+}
+
+BOOST_AUTO_TEST_CASE(the_accuracy_decides_rung_elements_and_motion) {
+  std::ifstream in(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const auto planned = [&](const std::string& top) {
+    const auto scene = app::parse_scene(test::replaced(text, "accuracy = 0.01", top),
+                                        std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
+    return app::make_plan(scene, app::make_geometry(scene));
+  };
+  const auto decided = [](const std::vector<app::Decision>& list, const std::string& what) {
+    for (const auto& d : list) {
+      BOOST_TEST(!d.reason.empty(), d.what);
+      if (d.what == what) return d.choice;
+    }
+    return std::string("nothing");
+  };
+  // Formulas where their error is within the accuracy and the ring is held all around; the thin-walled ring needs a
+  // solid, the pinned one tells how its planets act on each other by elements alone.
+  const auto rough = planned("accuracy = 0.1");
+  BOOST_TEST(rough.meshes[0].rung == "closed_form");
+  BOOST_TEST(rough.meshes[1].rung == "closed_form");
+  BOOST_TEST(rough.meshes[2].rung == "solid");
+  BOOST_TEST(rough.meshes[3].rung == "plane");
+  BOOST_TEST(fem::closed_form_error(*rough.meshes[1].problem) <= 0.1);
+  BOOST_TEST(decided(app::decisions(rough.meshes[0]), "elements") == "nothing");
+  BOOST_TEST(decided(app::decisions(rough.meshes[3]), "elements") == "linear");
+  BOOST_TEST(decided(rough.motion, "confirmation") == "where teeth part");
+  BOOST_TEST(decided(rough.motion, "tolerance") == "1e-05");
+  // No rung but the one the scene asks for.
+  BOOST_TEST(planned("accuracy = 0.1\nrung = \"plane\"").meshes[0].rung == "plane");
+  const auto usual = planned("accuracy = 0.01");
+  for (const auto& mesh : usual.meshes) {
+    BOOST_TEST(mesh.rung != "closed_form");
+    BOOST_TEST(decided(app::decisions(mesh), "elements") == "quadratic");
+    BOOST_TEST(decided(app::decisions(mesh), "refinement") == "until 1 %");
+    BOOST_TEST(decided(app::decisions(mesh), "positions per mesh cycle") == "64");
+  }
+  BOOST_TEST(decided(usual.motion, "confirmation") == "by marching");
+  BOOST_TEST(decided(usual.motion, "tolerance") == "1e-06");
+  // The same in the text and in JSON.
+  const auto json = nlohmann::json::parse(app::to_json(usual));
+  const auto shown = app::to_text(usual);
+  for (const auto& mesh : json["meshes"]) {
+    BOOST_TEST(mesh["decisions"].size() >= 8U);
+    for (const auto& d : mesh["decisions"])
+      BOOST_TEST(shown.find(d["reason"].get<std::string>()) != std::string::npos, d["reason"]);
+  }
+  BOOST_TEST(json["motion"].size() == usual.motion.size());
 }
 
 BOOST_AUTO_TEST_CASE(structures_their_rung_and_why) {

@@ -136,6 +136,23 @@ BOOST_AUTO_TEST_CASE(the_front_and_the_cheapest) {
   BOOST_TEST(page.find("<svg") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(a_ring_on_which_everything_fails_is_reported) {
+  app::RingTrade ring{.ring = "held", .points = {}};
+  for (const char* name : {"a", "finest"}) {
+    app::TradePoint p{.rung = "solid", .settings = name, .finest = std::string(name) == "finest"};
+    p.failure = "the rim is too thin";
+    ring.points.push_back(p);
+  }
+  ring.points.push_back({.rung = "planned", .settings = "for 1 %", .planned_for = 0.01, .failure = "refused"});
+  const app::TradeOff trade{
+      .scene = app::parse_scene(test::quick_scene(), "scene.toml"), .rings = {ring}, .total_seconds = 1};
+  BOOST_TEST(app::trade_text(trade).find("refused") != std::string::npos);
+  BOOST_TEST(app::trade_csv(trade).find("the rim is too thin") != std::string::npos);
+  BOOST_TEST(app::trade_html(trade).find("The finest setting failed") != std::string::npos);
+  const test::TemporaryFolder folder("tradeoff_failed");
+  BOOST_CHECK_NO_THROW(app::write_tradeoff(trade, folder.path()));
+}
+
 BOOST_AUTO_TEST_CASE(settings_keep_the_problem_but_for_what_they_set) {
   const auto scene = app::parse_scene(computed_scene(), "scene.toml");
   const auto planned = app::ring_mesh_model(scene, app::make_geometry(scene), 0);

@@ -31,14 +31,14 @@ std::vector<MeshSetting> settings(const app::MeshModel&, bool needs_solid) {
       list.push_back({.rung = rung, .degree = degree, .level = level, .phases = phases, .loads = count});
   };
   if (needs_solid) {
-    for (const int phases : {16, 32, 64}) {
+    for (const int phases : {32, 64}) {
       add(Rung::solid, 1, 1, phases, {1, 3});
       add(Rung::solid, 2, 1, phases, {1, 3});
     }
     list.push_back({.rung = Rung::solid, .degree = 2, .level = 2, .phases = 64, .loads = 3, .finest = true});
     return list;
   }
-  for (const int phases : {16, 32, 64, 128}) {
+  for (const int phases : {16, 32, 64}) {
     add(Rung::closed_form, 2, 1, phases, {1, 3});
     add(Rung::plane, 1, 1, phases, {1, 3});
     if (phases == 16) continue;
@@ -46,7 +46,7 @@ std::vector<MeshSetting> settings(const app::MeshModel&, bool needs_solid) {
     add(Rung::plane, 2, 1, phases, {3});
     if (phases > 32) add(Rung::plane, 2, 2, phases, {3});
   }
-  list.push_back({.rung = Rung::plane, .degree = 3, .level = 3, .phases = 256, .loads = 5, .finest = true});
+  list.push_back({.rung = Rung::plane, .degree = 3, .level = 3, .phases = 128, .loads = 5, .finest = true});
   return list;
 }
 

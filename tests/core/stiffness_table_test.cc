@@ -19,7 +19,10 @@ using annulus::StiffnessTable;
 
 /// An entry that keeps the definition of the secant stiffness exactly up to rounding.
 StiffnessEntry entry(double load, double secant, double unloaded) {
-  return {unloaded, unloaded + load / secant, secant, 1.1 * secant, 0.01};
+  annulus::ErrorParts parts;
+  parts.discretisation = 0.006, parts.contact = 1e-3 * load / (load + 1e4), parts.condensation = 1e-15;
+  parts.model = 0.01 - parts.discretisation - parts.contact - parts.condensation;
+  return {unloaded, unloaded + load / secant, secant, 1.1 * secant, 0.01, parts};
 }
 
 StiffnessTable sample(int phases, int positions, std::vector<double> loads) {
@@ -75,9 +78,24 @@ BOOST_AUTO_TEST_CASE(round_trip_for_every_shape_of_table) {
           BOOST_TEST(read.at(i, p, l).stiffness_secant == table.at(i, p, l).stiffness_secant);
           BOOST_TEST(read.at(i, p, l).stiffness_tangent == table.at(i, p, l).stiffness_tangent);
           BOOST_TEST(read.at(i, p, l).error_relative == table.at(i, p, l).error_relative);
+          for (const auto& [name, part] : annulus::stiffness_error_part_names)
+            BOOST_TEST(read.at(i, p, l).error_parts.*part == table.at(i, p, l).error_parts.*part, name);
         }
     }
   }
+  std::filesystem::remove(file);
+}
+
+BOOST_AUTO_TEST_CASE(a_table_from_elsewhere_may_go_without_the_parts_of_its_error) {
+  annulus::write_file(
+      file,
+      "# mesh: sun_planet\nmesh_phase,ring_angle_deg,load_N,unloaded_te_m,lte_m,stiffness_secant_N_per_m,"
+      "stiffness_tangent_N_per_m,error_relative\n0,0,1000,0,1e-6,1e9,1e9,0.02\n");
+  const auto table = StiffnessTable::read_csv(file);
+  BOOST_TEST(table.at(0, 0, 0).error_relative == 0.02);
+  BOOST_TEST(table.at(0, 0, 0).error_parts.total() == 0);
+  BOOST_TEST(message_after_editing(sample(4, 1, {1e4}), "0.006", "-0.006").find("error_discretisation_relative") !=
+             std::string::npos);
   std::filesystem::remove(file);
 }
 

@@ -7,7 +7,9 @@
 #include "core/errors.h"
 #include "fem/closed_form/closed_form_mesh.h"
 #include "fem/closed_form/line_contact.h"
+#include "fem/contact/complementarity.h"
 #include "fem/contact/contact_system.h"
+#include "fem/error_estimate.h"
 #include "ring_paper.h"
 #include "ring_paper_problems.h"
 
@@ -66,41 +68,136 @@ BOOST_AUTO_TEST_CASE(every_force_passes_the_root_with_the_lever_arm_of_the_base_
   }
 }
 
+/// Flanks that go on far beyond the contact.
+FlankGap wide_gap(double slope, double curvature) { return {slope, curvature, -10, 10, {}}; }
+
 BOOST_AUTO_TEST_CASE(line_contact_is_that_of_hertz_and_johnson) {
   const double width = 2, curvature = 0.5, depth = 3;
-  const LineContact contact(curvature, {depth}, {2 * depth}, unit_material, width);
+  const LineContact contact(wide_gap(0, curvature), {depth}, {2 * depth}, 0, unit_material, width);
   for (const double force : {1e-9, 1e-6, 1e-3}) {
     const double line_load = force / width, b = hertz_half_width(line_load, curvature, unit_material);
-    BOOST_TEST(contact.half_width(force) == b);
-    BOOST_TEST(contact.peak_pressure(force) * M_PI * b / 2 == line_load, boost::test_tools::tolerance(round_off));
+    const auto state = contact.at(force);
+    BOOST_TEST(state.half_width == b, boost::test_tools::tolerance(round_off));
+    BOOST_TEST(contact.peak_pressure(state, force) * M_PI * b / 2 == line_load,
+               boost::test_tools::tolerance(round_off));
     // Far below the contact: Johnson, Contact Mechanics, eq. 5.57, each body.
     const double nu = 0.3;
     const double johnson = (1 - nu * nu) / M_PI * line_load *
                            (2 * std::log(2 * depth / b) + 2 * std::log(4 * depth / b) - 2 * nu / (1 - nu));
-    BOOST_TEST(contact.approach(force) == johnson, boost::test_tools::tolerance(b * b / depth / depth));
+    BOOST_TEST(state.approach == johnson, boost::test_tools::tolerance(b * b / depth / depth));
     const double step = 1e-4 * force;
-    const double slope = (contact.approach(force + step) - contact.approach(force - step)) / (2 * step);
-    BOOST_TEST(contact.compliance(force) == slope, boost::test_tools::tolerance(1e-7));  // step^2 and 1e-16 / step
+    const double slope = (contact.at(force + step).approach - contact.at(force - step).approach) / (2 * step);
+    BOOST_TEST(state.compliance == slope, boost::test_tools::tolerance(1e-7));  // step^2 and 1e-16 / step
   }
-  BOOST_TEST(contact.approach(0) == 0.0);
 }
 
-BOOST_AUTO_TEST_CASE(a_tip_edge_softens_the_contact_within_its_range) {
+BOOST_AUTO_TEST_CASE(patches_of_parabola_wedge_and_edge) {
+  const double modulus = 3, curvature = 0.5, slope = 0.02;
+  const double tolerance = 1e-12;
+  for (const double a : {0.01, 0.3}) {
+    // Johnson, Contact Mechanics, eq. 4.43, and where a tilted parabola touches.
+    const auto hertz = ContactPatch(wide_gap(slope, curvature), 0, modulus).at(a);
+    BOOST_TEST(hertz.line_load == M_PI * modulus * curvature * a * a / 4, boost::test_tools::tolerance(tolerance));
+    BOOST_TEST(hertz.middle == -slope / curvature, boost::test_tools::tolerance(tolerance));
+    // A wedge, eq. 5.43: slopes of +-0.02 and hardly any curvature.
+    FlankGap wedge = wide_gap(-slope, 1e-9);
+    wedge.kinks[0] = {0.0, 2 * slope};
+    BOOST_TEST(ContactPatch(wedge, 0, modulus).at(a).line_load == modulus * slope * a,
+               boost::test_tools::tolerance(1e-7));
+    // The end of the gap presses: p = E*/2 sqrt((2a - x)/x) (slope + curvature (x + a)), x from the end.
+    FlankGap cut = wide_gap(slope, curvature);
+    for (const double side : {1.0, -1.0}) {
+      (side > 0 ? cut.low : cut.high) = 0;
+      cut.slope = side * slope;
+      const ContactPatch patch(cut, 0, modulus);
+      const double load = M_PI * modulus / 2 * a * (slope + curvature * 1.5 * a);
+      BOOST_TEST(patch.at(a).line_load == load, boost::test_tools::tolerance(tolerance));
+      BOOST_TEST(patch.half_width(load) == a, boost::test_tools::tolerance(tolerance));
+      BOOST_TEST(patch.at(a).middle == side * a);
+      BOOST_TEST(patch.at(a).cut == -side);
+      cut = wide_gap(slope, curvature);
+    }
+  }
+}
+
+/// Approach of the same gap by boundary elements: constant pressures on a half plane, unilateral. Its constant is that
+/// of a contact whose displacement is -2 ln|x| / (pi E*) under unit line load.
+double boundary_element_approach(const FlankGap& gap, double tilt, double modulus, double line_load, double from,
+                                 double to) {
+  constexpr int count = 400;
+  const double half = (to - from) / count / 2;
+  const auto place = [&](int i) { return from + (2 * i + 1) * half; };
+  ComplementarityProblem problem;
+  problem.compliance.resize(count, count);
+  problem.rigid = Eigen::MatrixXd::Ones(count, 1);
+  problem.load = Eigen::VectorXd::Constant(1, line_load);
+  problem.gap.resize(count);
+  problem.unilateral.assign(count, true);
+  const auto primitive = [](double x) { return x == 0 ? 0.0 : x * std::log(std::abs(x)) - x; };
+  for (int i = 0; i < count; ++i) {
+    const double x = place(i);
+    problem.gap[i] = gap.slope * x + gap.curvature * x * x / 2;
+    for (const auto& kink : gap.kinks) problem.gap[i] += kink.jump * std::max(0.0, x - kink.place);
+    for (int j = 0; j < count; ++j)
+      problem.compliance(i, j) =
+          -2 / (M_PI * modulus) * (primitive(x - place(j) + half) - primitive(x - place(j) - half)) / (2 * half) +
+          tilt * (x + place(j));
+  }
+  std::vector<bool> start;
+  return solve_complementarity(problem, start).rigid[0];
+}
+
+BOOST_AUTO_TEST_CASE(cut_kinked_and_tilting_patches_agree_with_boundary_elements) {
+  const double nu = unit_material.poisson_ratio, modulus = 1 / (2 * (1 - nu * nu)), depth = 100, curvature = 0.5;
+  struct Setting {
+    double slope, low, high, kink, jump, tilt;
+  };
+  // Free at the edge's side, cut at once, cut as it grows, a kink; tilting flanks move the patch, also off an edge.
+  for (const auto& s : {Setting{0, -1, 1, 0, 0, 0.5},
+                        {0.02, 0, 1, 0, 0, 0},
+                        {0, -0.05, 1, 0, 0, 0},
+                        {-0.01, -1, 1, 0, 0.03, 0},
+                        {0, -0.05, 1, 0.1, 0.02, -0.5},
+                        {0.02, 0, 1, 0, 0, -1}}) {
+    FlankGap gap{s.slope, curvature, s.low, s.high, {}};
+    gap.kinks[1] = {s.kink, s.jump};
+    const LineContact contact(gap, {depth}, {depth}, s.tilt, unit_material, 1);
+    for (const double line_load : {2e-3, 1e-2}) {
+      const auto state = contact.at(line_load);
+      const double from = std::max(s.low, state.middle - 1.3 * state.half_width);
+      const double to = std::min(s.high, state.middle + 1.3 * state.half_width);
+      const double elements = boundary_element_approach(gap, s.tilt, modulus, line_load, from, to);
+      const double constant = line_load / (M_PI * modulus) * (2 * std::log(depth) - nu / (1 - nu) - 1);
+      const double local = state.approach - constant;
+      BOOST_TEST_MESSAGE("slope " << s.slope << ", low " << s.low << ", jump " << s.jump << ", tilt " << s.tilt
+                                  << ": half-width " << state.half_width << ", middle " << state.middle << ", approach "
+                                  << local << ", elements " << local / elements - 1);
+      BOOST_TEST(local == elements, boost::test_tools::tolerance(2e-3));  // singular ends: first order, 400 elements
+      const double step = 1e-4 * line_load;
+      const double slope = (contact.at(line_load + step).approach - contact.at(line_load - step).approach) / (2 * step);
+      BOOST_TEST(state.compliance == slope, boost::test_tools::tolerance(1e-5));  // kinks under the quadrature
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_corner_softens_the_contact_near_it) {
   const double force = 1e-3, depth = 3;
-  const double b = LineContact(0.5, {depth}, {depth}, unit_material, 1).half_width(force);
-  double last = LineContact(0.5, {depth}, {depth}, unit_material, 1).approach(force);
-  for (const double edge : {3.0, 1.5, 1.0, 0.5, 0.0}) {
-    const LineContact contact(0.5, {depth, edge * b}, {depth}, unit_material, 1);
-    if (edge >= LineContact::edge_range)
-      BOOST_TEST(contact.approach(force) == last);
-    else
-      BOOST_TEST(contact.approach(force) > last);
-    last = contact.approach(force);
-    const double step = 1e-4 * force;
-    if (edge != LineContact::edge_range)  // kink
-      BOOST_TEST(
-          contact.compliance(force) == (contact.approach(force + step) - contact.approach(force - step)) / (2 * step),
-          boost::test_tools::tolerance(1e-6));
+  const auto approach = [&](double edge, double corner) {
+    FlankGap gap = wide_gap(0, 0.5);
+    gap.high = edge;
+    return LineContact(gap, {depth, edge, corner}, {depth}, 0, unit_material, 1).at(force);
+  };
+  const double b = approach(10, M_PI).half_width;
+  // Far away nothing; a half plane has no corner; sharper is softer, and so is nearer.
+  BOOST_TEST(approach(9, M_PI / 2).approach == approach(9, M_PI).approach, boost::test_tools::tolerance(1e-3));
+  double last = 0;
+  for (const double edge : {9.0, 3 * b, 0.9 * b, 0.3 * b, 0.0}) {
+    const auto obtuse = approach(edge, 2), square = approach(edge, M_PI / 2);
+    BOOST_TEST(obtuse.approach > approach(edge, M_PI).approach);
+    BOOST_TEST(square.approach > obtuse.approach);
+    BOOST_TEST(square.approach > last);
+    BOOST_TEST(square.at_tip_edge == (edge < b));
+    last = square.approach;
   }
 }
 
@@ -117,6 +214,11 @@ LoadedMeshProblem ring_with_rim(double rim, const RingStructure& structure) {
   auto problem = ring_mesh(structure, 2);
   problem.wheel_support_radius = problem.pair.wheel().root_radius() + rim;
   return problem;
+}
+
+/// Estimated error of the formulas alone: the plane finite elements share the plane strain.
+double formula_error(const LoadedMeshProblem& problem, const annulus::StiffnessEntry& entry) {
+  return entry.error_relative - plane_strain_error(problem);
 }
 
 /// Mean secant stiffness over the table at its first load, N/m.
@@ -171,7 +273,7 @@ BOOST_AUTO_TEST_CASE(tip_relief_takes_load_from_entering_pairs) {
     // Less material is softer; but the one point where a pair touches moves away from the relieved tip, where the tooth
     // is stiffer, which this model cannot weigh against each other to better than its error.
     BOOST_TEST(relieved.positions[i].entry.lte >
-               plain.positions[i].entry.lte * (1 - plain.positions[i].entry.error_relative));
+               plain.positions[i].entry.lte * (1 - formula_error(problem, plain.positions[i].entry)));
     later += relieved.positions[i].pair_share.back() < plain.positions[i].pair_share.back();
   }
   BOOST_TEST(later > 0);
@@ -186,7 +288,8 @@ void check_estimate(const std::string& name, const LoadedMeshProblem& problem, i
     const auto &e = exact.positions[i].entry, &c = closed.positions[i].entry;
     const double error = c.stiffness_secant / e.stiffness_secant - 1;
     least = std::min(least, error), most = std::max(most, error);
-    effectivity = std::max(effectivity, std::abs(error) / (c.error_relative + e.error_relative));
+    effectivity =
+        std::max(effectivity, std::abs(error) / (formula_error(problem, c) + e.error_relative - e.error_parts.model));
     BOOST_TEST(exact.positions[i].pair_share.size() == closed.positions[i].pair_share.size());
     BOOST_TEST(std::abs(exact.positions[i].ring_angle - closed.positions[i].ring_angle) < 1e-12);
   }
@@ -208,6 +311,62 @@ BOOST_AUTO_TEST_CASE(the_estimate_covers_the_difference_to_plane_finite_elements
   bolts.unilateral = false;
   check_estimate("24 bolts", ring_mesh(bolts, 2), 1);
   check_estimate("6 pins", ring_mesh(paper_pins(6, first_pin), 2), 1);
+}
+
+/// Every position within 3 %, at a tenth, one and three times a usual load: the reach of a tip edge was measured on the
+/// ring paper's held ring alone.
+BOOST_AUTO_TEST_CASE(tip_edges_of_other_gears_and_with_tip_relief) {
+  using annulus::geometry::Gear;
+  using annulus::geometry::GearKind;
+  const auto loads = [](double usual) { return std::vector<double>{usual / 10, usual, 3 * usual}; };
+  check_estimate("held ring, a tenth to three times", ring_mesh(OutsideHeld{}, 16, loads(nominal_load)), 1);
+  check_estimate("sun, a tenth to three times", sun_mesh(16, loads(nominal_load)), 1);
+  auto relieved = ring_mesh(OutsideHeld{}, 16, loads(nominal_load));
+  auto planet = relieved.pair.planet().parameters();
+  planet.tip_relief = 20e-6;
+  planet.tip_relief_length = 3e-3;
+  relieved.pair = {Gear(planet), relieved.pair.wheel(), 0.201};
+  check_estimate("held ring, tip relief", relieved, 1);
+
+  struct Set {
+    int planet, wheel;
+    bool internal;
+    double module, pressure_angle, planet_shift, wheel_shift, centre_distance, ring_tip, bore, support, load;
+    double planet_crowning = 0;
+  };
+  // The last two were the worst of some sixty drawn at random.
+  for (const Set& set :
+       {Set{24, 24, false, 4e-3, 20, 0, 0, 96e-3, 0, 25e-3, 25e-3, 10e3},
+        Set{24, 72, true, 4e-3, 20, 0, 0, 96e-3, 281e-3, 25e-3, 165e-3, 10e3},
+        Set{70, 40, false, 1.5e-3, 20, 0, 0, 82.5e-3, 0, 35e-3, 18e-3, 6e3},
+        Set{70, 180, true, 1.5e-3, 20, 0, 0, 82.5e-3, 267.4e-3, 35e-3, 150e-3, 6e3},
+        Set{38, 20, false, 5e-3, 25, 0.2, 0.3, 147.6e-3, 0, 60e-3, 25e-3, 60e3},
+        Set{38, 96, true, 5e-3, 25, 0.2, 0.2, 145e-3, 0, 60e-3, 270e-3, 60e3},
+        Set{25, 103, true, 8e-3, 27.5, 0.0795, 0.6583, 316.43772e-3, 820.93e-3, 45.4e-3, 464.6e-3, 25e3},
+        Set{23, 79, true, 5e-3, 20, 0.2686, 1.138, 143.91816e-3, 397.88e-3, 32.7e-3, 224.7e-3, 30e3, 10.4e-6}}) {
+    const auto gear = [&](GearKind kind, int teeth, double shift, double crowning = 0) {
+      annulus::geometry::GearParameters p;
+      p.kind = kind;
+      p.teeth = teeth;
+      p.module = set.module;
+      p.pressure_angle = set.pressure_angle * M_PI / 180;
+      p.profile_shift = shift;
+      p.face_width = 40e-3;
+      p.profile_crowning = crowning;
+      if (kind == GearKind::internal && set.ring_tip > 0) p.tip_diameter = set.ring_tip;
+      return Gear(p);
+    };
+    LoadedMeshProblem problem{
+        {gear(GearKind::external, set.planet, set.planet_shift, set.planet_crowning),
+         gear(set.internal ? GearKind::internal : GearKind::external, set.wheel, set.wheel_shift), set.centre_distance},
+        {},
+        40e-3,
+        set.bore,
+        set.support};
+    problem.loads = loads(set.load);
+    problem.phases = 16;
+    check_estimate(std::to_string(set.planet) + " and " + std::to_string(set.wheel) + " teeth", problem, 1);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(other_gears_than_those_the_layer_of_teeth_was_measured_on) {
@@ -255,7 +414,8 @@ BOOST_AUTO_TEST_CASE(elastic_ring_and_curved_beam_over_the_thickness_of_the_rim)
     double effectivity = 0;
     for (std::size_t i = 0; i < exact.positions.size(); ++i) {
       const auto &e = exact.positions[i].entry, &c = elastic.positions[i].entry;
-      effectivity = std::max(effectivity, std::abs(c.stiffness_secant / e.stiffness_secant - 1) / c.error_relative);
+      effectivity =
+          std::max(effectivity, std::abs(c.stiffness_secant / e.stiffness_secant - 1) / formula_error(problem, c));
     }
     BOOST_TEST(effectivity < 1);
     BOOST_TEST(std::abs(elastic_difference) <

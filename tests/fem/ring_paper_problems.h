@@ -31,4 +31,7 @@ void check_identical(const fem::LoadedMeshResult& a, const fem::LoadedMeshResult
 /// Largest relative difference of the transmission errors of two results at the same positions.
 double largest_lte_difference(const fem::LoadedMeshResult& a, const fem::LoadedMeshResult& b);
 
+/// Estimated relative error without what the rung leaves out: of two solutions of the same model.
+inline double numeric_error(const StiffnessEntry& entry) { return entry.error_relative - entry.error_parts.model; }
+
 }  // namespace annulus::tests

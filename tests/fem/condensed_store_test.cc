@@ -1,0 +1,309 @@
+#include "fem/condensed_store.h"
+
+#include <boost/test/unit_test.hpp>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/log.h"
+#include "fem/byte_stream.h"
+#include "fem/contact/support_row.h"
+#include "fem/gear_body.h"
+#include "fem/ring_coupling.h"
+#include "ring_paper_problems.h"
+
+BOOST_AUTO_TEST_SUITE(condensed_store)
+
+using namespace annulus::tests;
+using annulus::fem::CondensedStore;
+using annulus::fem::LoadedMeshProblem;
+using annulus::fem::LoadedMeshResult;
+using annulus::fem::LoadedMeshSettings;
+using annulus::fem::OutsideHeld;
+
+/// A folder of its own for each case, removed at the end.
+struct Folder {
+  explicit Folder(const std::string& name)
+      : path(std::filesystem::temp_directory_path() / ("annulus_test_store_" + name)) {
+    annulus::log::set_level(annulus::log::Level::quiet);
+    std::filesystem::remove_all(path);
+  }
+  ~Folder() { std::filesystem::remove_all(path); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  [[nodiscard]] std::shared_ptr<CondensedStore> store(const std::string& version = "1") const {
+    return std::make_shared<CondensedStore>(path, version);
+  }
+  [[nodiscard]] std::vector<std::filesystem::path> files() const {
+    std::vector<std::filesystem::path> result;
+    for (const auto& entry : std::filesystem::directory_iterator(path)) result.push_back(entry.path());
+    return result;
+  }
+
+  std::filesystem::path path;
+};
+
+LoadedMeshResult solve(const LoadedMeshProblem& problem, std::shared_ptr<CondensedStore> store) {
+  LoadedMeshSettings settings;
+  settings.level = 1;
+  settings.threads = 2;
+  settings.store = std::move(store);
+  return solve_loaded_mesh(problem, settings);
+}
+
+/// Stresses and supports too, which take other ways than the flanks.
+void check_the_same(const LoadedMeshResult& a, const LoadedMeshResult& b) {
+  check_identical(a, b);
+  int different = 0;
+  for (std::size_t i = 0; i < a.positions.size(); ++i) {
+    const auto &p = a.positions[i], &q = b.positions[i];
+    different += p.wheel_stress->root_von_mises != q.wheel_stress->root_von_mises ||
+                 p.wheel_stress->rim_von_mises != q.wheel_stress->rim_von_mises ||
+                 p.planet_stress->root_von_mises != q.planet_stress->root_von_mises || p.pins.size() != q.pins.size();
+    for (std::size_t pin = 0; pin < p.pins.size(); ++pin)
+      different += p.pins[pin].radial_force != q.pins[pin].radial_force ||
+                   p.pins[pin].tangential_force != q.pins[pin].tangential_force;
+  }
+  BOOST_TEST(different == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_kept_tooth_changes_not_a_single_bit) {
+  const Folder folder("bits");
+  for (const auto& problem : {ring_mesh(OutsideHeld{}, 2), ring_mesh(paper_pins(81, 0.01), 2)}) {
+    const auto without = solve(problem, nullptr);
+    BOOST_TEST(without.condensed_teeth == 4);  // two bodies, two levels
+    BOOST_TEST(without.reused_teeth == 0);
+    const auto making = solve(problem, folder.store());
+    const auto reading = solve(problem, folder.store());
+    BOOST_TEST(making.condensed_teeth + making.reused_teeth == 4);
+    BOOST_TEST(reading.condensed_teeth == 0);
+    BOOST_TEST(reading.reused_teeth == 4);
+    check_the_same(without, making);
+    check_the_same(without, reading);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_planet_of_all_meshes_is_one_tooth) {
+  const Folder folder("planet");
+  const auto store = folder.store();
+  BOOST_TEST(solve(sun_mesh(2), store).condensed_teeth == 4);
+  const auto held = solve(ring_mesh(OutsideHeld{}, 2), store);
+  BOOST_TEST(held.condensed_teeth == 2);  // the ring
+  BOOST_TEST(held.reused_teeth == 2);     // the planet
+  const auto pinned = solve(ring_mesh(paper_pins(81, 0), 2), store);
+  BOOST_TEST(pinned.condensed_teeth == 2);  // a ring that floats is another body
+  BOOST_TEST(folder.files().size() == 8U);
+}
+
+BOOST_AUTO_TEST_CASE(other_supports_condense_nothing) {
+  const Folder folder("pins");
+  const auto store = folder.store();
+  (void)solve(ring_mesh(paper_pins(81, 0), 2), store);
+  auto stiffer = paper_pins(54, 0.013);
+  stiffer.radial_stiffness = 5e9;
+  stiffer.clearance = 5e-6;
+  auto bolted = paper_pins(81, 0.003);
+  bolted.unilateral = false;
+  bolted.pin_diameter *= 0.8;
+  auto housed = paper_pins(81, 0);
+  housed.housing_clearance = 10e-6;
+  annulus::fem::SplineHeld spline;
+  spline.teeth = 81;
+  spline.flank_angle = 0.5;
+  for (const annulus::fem::RingStructure& structure :
+       std::vector<annulus::fem::RingStructure>{stiffer, bolted, housed, spline}) {
+    const auto problem = ring_mesh(structure, 2);
+    const auto reused = solve(problem, store);
+    BOOST_TEST(reused.condensed_teeth == 0);
+    BOOST_TEST(reused.reused_teeth == 4);
+    check_the_same(solve(problem, nullptr), reused);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(loads_positions_and_modifications_condense_nothing) {
+  const Folder folder("loads");
+  const auto store = folder.store();
+  (void)solve(ring_mesh(OutsideHeld{}, 2), store);
+  auto problem = ring_mesh(OutsideHeld{}, 3, {nominal_load / 2, nominal_load});
+  BOOST_TEST(solve(problem, store).condensed_teeth == 0);
+  const auto relieved = [](const annulus::geometry::Gear& gear) {
+    auto parameters = gear.parameters();
+    parameters.tip_relief = 20e-6;
+    parameters.tip_relief_length = 3e-3;
+    return annulus::geometry::Gear(parameters);
+  };
+  problem.pair = {relieved(problem.pair.planet()), problem.pair.wheel(), problem.pair.centre_distance()};
+  const auto reused = solve(problem, store);
+  BOOST_TEST(reused.condensed_teeth == 0);
+  check_the_same(solve(problem, nullptr), reused);
+}
+
+BOOST_AUTO_TEST_CASE(what_a_tooth_depends_on_condenses_it_again) {
+  const Folder folder("depends");
+  const auto problem = ring_mesh(OutsideHeld{}, 2);
+  (void)solve(problem, folder.store());
+  auto changed = problem;
+  changed.material.youngs_modulus *= 1.01;
+  BOOST_TEST(solve(changed, folder.store()).condensed_teeth == 4);
+  changed = problem;
+  changed.wheel_support_radius += 1e-3;
+  BOOST_TEST(solve(changed, folder.store()).condensed_teeth == 2);
+  changed = problem;
+  changed.planet_bore_radius -= 1e-3;
+  BOOST_TEST(solve(changed, folder.store()).condensed_teeth == 2);
+  LoadedMeshSettings cubic;
+  cubic.level = 1;
+  cubic.degree = 3;
+  cubic.store = folder.store();
+  BOOST_TEST(solve_loaded_mesh(problem, cubic).condensed_teeth == 4);
+}
+
+BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
+  const Folder folder("solid");
+  const auto store = folder.store();
+  const auto problem = ring_mesh(OutsideHeld{}, 2);
+  const annulus::geometry::ToothProfile profile(problem.pair.wheel());
+  annulus::geometry::SectorResolution coarse;
+  coarse.flank_cells = 3;
+  coarse.fillet_cells = 2;
+  coarse.thickness_cells = 4;
+  coarse.root_cells = 1;
+  coarse.rim_cells = 2;
+  const double width = problem.face_width;
+  const auto mesh = annulus::geometry::extrude(
+      annulus::geometry::make_sector_mesh(profile.gear(), {ring_outside, {}}, coarse), {{0, width, 2}});
+  annulus::fem::GearBodyOptions options;
+  options.sector.held = annulus::fem::HeldBoundary::none;
+  options.sector.flank = annulus::geometry::Boundary::trailing_flank;
+  options.sector.want_outside = options.sector.want_stress = true;
+  bool first = true;
+  for (const auto& [pins, slices] : {std::pair{81, 2}, {54, 2}, {24, 2}, {24, 1}}) {
+    std::vector<double> edges = {0, width};
+    if (slices == 2) edges.insert(edges.begin() + 1, width / 2);
+    const auto sites = pin_sites(paper_pins(pins, 0.01), {162, ring_outside, width, problem.material});
+    options.arcs = annulus::fem::SupportPlan(sites, 162, edges).arcs();
+    options.store = store.get();
+    const auto kept = condense_tooth(mesh, profile, ring_outside, problem.material, options);
+    options.store = nullptr;
+    const auto fresh = condense_tooth(mesh, profile, ring_outside, problem.material, options);
+    BOOST_TEST(kept.reused == (!first && slices == 2));  // other slices are other unit loads
+    first = false;
+    BOOST_TEST(kept.body.arc_wrenches.size() == options.arcs.size());
+    BOOST_TEST((kept.sector.cut_stiffness == fresh.sector.cut_stiffness));
+    BOOST_TEST((kept.sector.cut_load == fresh.sector.cut_load));
+    BOOST_TEST((kept.sector.compliance == fresh.sector.compliance));
+    BOOST_TEST(kept.body.rim.first_load == fresh.body.rim.first_load);
+    BOOST_TEST(kept.sector.compliance.rows() == fresh.body.rim.first_load + fresh.body.rim.loads());
+    for (std::size_t arc = 0; arc < options.arcs.size(); ++arc)
+      BOOST_TEST((kept.body.arc_wrenches[arc] == fresh.body.arc_wrenches[arc]));
+  }
+}
+
+/// A small thing kept in a store; true when it was read.
+bool keep(CondensedStore& store, const std::string& key, std::vector<double>& values) {
+  const std::vector<double> made = {1.5, -2e300, 0.1};
+  values.clear();
+  const bool read = store.read_or_make(
+      key, [&](annulus::fem::ByteReader& in) { in.get(values); }, [&] { values = made; },
+      [&](annulus::fem::ByteWriter& out) { out.add(values); });
+  BOOST_TEST(values == made);
+  return read;
+}
+
+BOOST_AUTO_TEST_CASE(damaged_files_are_made_again) {
+  const Folder folder("damaged");
+  const auto store = folder.store();
+  const std::string key = store->key("inputs");
+  BOOST_TEST(key != folder.store("2")->key("inputs"));
+  BOOST_TEST(key != store->key("other inputs"));
+  std::vector<double> values;
+  BOOST_TEST(!keep(*store, key, values));
+  BOOST_TEST(keep(*store, key, values));
+  const auto file = folder.files().front();
+  const auto size = std::filesystem::file_size(file);
+  const auto made_again = [&] {
+    BOOST_TEST(!keep(*store, key, values));
+    BOOST_TEST(keep(*store, key, values));
+  };
+  // Any bit, be it in the name, in a size, among the numbers or in the checksum; cut off anywhere.
+  for (std::uintmax_t at = 0; at < size; ++at) {
+    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekg(static_cast<std::streamoff>(at));
+    const char byte = static_cast<char>(stream.get() ^ (1 << at % 8));
+    stream.seekp(static_cast<std::streamoff>(at));
+    stream.put(byte);
+    stream.close();
+    made_again();
+    std::filesystem::resize_file(file, at);
+    made_again();
+  }
+  std::ofstream(file) << "something else";
+  made_again();
+  // A thing under the name of another.
+  const std::string other = store->key("other inputs");
+  std::filesystem::copy_file(file, folder.path / (other + ".tooth"));
+  BOOST_TEST(!keep(*store, other, values));
+  BOOST_TEST(folder.files().size() == 2U);  // nothing unfinished is left
+}
+
+BOOST_AUTO_TEST_CASE(a_damaged_tooth_is_condensed_again) {
+  const Folder folder("tooth");
+  const auto problem = ring_mesh(OutsideHeld{}, 2);
+  const auto first = solve(problem, folder.store());
+  const auto damaged = folder.files().front();
+  std::filesystem::resize_file(damaged, std::filesystem::file_size(damaged) * 2 / 3);
+  const auto again = solve(problem, folder.store());
+  BOOST_TEST(again.condensed_teeth == 1);
+  BOOST_TEST(again.reused_teeth == 3);
+  check_the_same(first, again);
+}
+
+BOOST_AUTO_TEST_CASE(the_folder_keeps_to_its_size) {
+  const Folder folder("size");
+  const auto bytes = [&] {
+    std::uintmax_t sum = 0;
+    for (const auto& file : folder.files()) sum += std::filesystem::file_size(file);
+    return sum;
+  };
+  const auto problem = ring_mesh(OutsideHeld{}, 2);
+  (void)solve(problem, folder.store());
+  const auto all = bytes();
+  // Another material would need as much again.
+  auto changed = problem;
+  changed.material.poisson_ratio = 0.28;
+  const auto tight = std::make_shared<CondensedStore>(folder.path, "1", all);
+  BOOST_TEST(solve(changed, tight).condensed_teeth == 4);
+  BOOST_TEST(bytes() <= all);
+  BOOST_TEST(solve(changed, tight).condensed_teeth == 0);  // what was used last stays
+  // No room at all, or no folder: nothing is kept, and nothing fails.
+  BOOST_TEST(solve(problem, std::make_shared<CondensedStore>(folder.path, "1", 10)).condensed_teeth == 4);
+  BOOST_TEST(folder.files().empty());
+  std::ofstream(folder.path / "file") << "no folder";
+  const auto nowhere = std::make_shared<CondensedStore>(folder.path / "file", "1");
+  check_the_same(solve(problem, nowhere), solve(problem, nullptr));
+}
+
+BOOST_AUTO_TEST_CASE(the_coupling_of_a_ring_on_other_pins_condenses_nothing) {
+  const Folder folder("coupling");
+  annulus::fem::RingCouplingSettings settings;
+  settings.store = folder.store();
+  const auto first = solve_ring_coupling(ring_mesh(paper_pins(81, 0), 2), 5, nominal_load, settings);
+  BOOST_TEST(first.condensed_teeth == 2);
+  const auto problem = ring_mesh(paper_pins(54, 0.01), 2);
+  const auto reused = solve_ring_coupling(problem, 5, nominal_load, settings);
+  BOOST_TEST(reused.condensed_teeth == 0);
+  BOOST_TEST(reused.reused_teeth == 2);
+  settings.store = nullptr;
+  const auto without = solve_ring_coupling(problem, 5, nominal_load, settings);
+  BOOST_TEST_REQUIRE(reused.coupling.compliance.size() == without.coupling.compliance.size());
+  for (std::size_t i = 0; i < without.coupling.compliance.size(); ++i)
+    BOOST_TEST((reused.coupling.compliance[i] == without.coupling.compliance[i]));
+  BOOST_TEST_REQUIRE(reused.coupling.modes.size() == without.coupling.modes.size());
+  for (std::size_t i = 0; i < without.coupling.modes.size(); ++i)
+    BOOST_TEST(reused.coupling.modes[i].frequency == without.coupling.modes[i].frequency);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
