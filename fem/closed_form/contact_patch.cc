@@ -50,13 +50,16 @@ void ContactPatch::find_borders() {
   for (int i = 1; i <= samples; ++i) {
     const double next = largest_ * std::pow(finest, 1 - static_cast<double>(i) / samples);
     const int next_code = touched(next);
-    if (next_code != code) {
+    // Several borders may lie between two samples; a kink at an end of the gap is in and out by rounding.
+    constexpr int most = 6;
+    for (int found = 0; code != next_code && found < most; ++found) {
       double low = last, high = next;
       while (high - low > 1e-12 * high) {
         const double middle = (low + high) / 2;
         (touched(middle) == code ? low : high) = middle;
       }
       borders_.push_back(high);
+      last = high, code = touched(high);
     }
     last = next, code = next_code;
   }
