@@ -8,7 +8,6 @@
 #include "fem/closed_form/closed_form_mesh.h"
 #include "fem/closed_form/line_contact.h"
 #include "fem/contact/contact_system.h"
-#include "fem/error_estimate.h"
 #include "ring_paper.h"
 #include "ring_paper_problems.h"
 
@@ -176,11 +175,6 @@ BOOST_AUTO_TEST_CASE(tip_relief_takes_load_from_entering_pairs) {
     later += relieved.positions[i].pair_share.back() < plain.positions[i].pair_share.back();
   }
   BOOST_TEST(later > 0);
-}
-
-/// Estimated error of the formulas alone: the plane finite elements share the plane strain.
-double formula_error(const LoadedMeshProblem& problem, const annulus::StiffnessEntry& entry) {
-  return entry.error_relative - plane_strain_error(problem);
 }
 
 /// The stiffness against the plane finite elements, position by position: the estimate has to cover the difference.
