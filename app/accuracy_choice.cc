@@ -6,16 +6,9 @@
 
 namespace annulus::app {
 
-namespace {
-
-// Wanted accuracies from which on less will do.
-constexpr double very_rough = 0.1, rough = 0.03;
-
-}  // namespace
-
 TableResolution table_resolution(double accuracy) {
   TableResolution choice;
-  if (accuracy >= very_rough) {
+  if (accuracy >= very_rough_accuracy) {
     choice.phases = table_phases;
     choice.phases_reason = "between 32 positions dynamic factors are missed by 2 %, by 6 % under light loads";
   } else {
@@ -23,7 +16,7 @@ TableResolution table_resolution(double accuracy) {
     choice.phases_reason =
         "between 64 positions dynamic factors are missed by 0.1 %; between 32 by 2 %, 6 % under light loads";
   }
-  if (accuracy >= rough) {
+  if (accuracy >= rough_accuracy) {
     choice.load_factors = {0.5, 1, 1.5};
     choice.loads_reason = "three loads tell how the stiffness follows the load; a single one would miss 1 to 2 %";
   } else {
@@ -34,14 +27,14 @@ TableResolution table_resolution(double accuracy) {
 }
 
 ElementChoice element_choice(fem::Rung rung, double accuracy) {
-  if (rung == fem::Rung::plane && accuracy >= rough)
+  if (rung == fem::Rung::plane && accuracy >= rough_accuracy)
     return {1, "linear elements are within 0.7 % at once, at half the cost of quadratic ones"};
   return {2, "quadratic elements are within 0.3 % at once, and their stresses can be used"};
 }
 
 MotionChoice motion_choice(double accuracy) {
   MotionChoice choice;
-  if (accuracy >= rough) {
+  if (accuracy >= rough_accuracy) {
     choice.samples_per_cycle = 32;
     choice.samples_reason = "32 samples per mesh cycle, their peaks refined, are within 1 % of any number";
     choice.confirm = false;

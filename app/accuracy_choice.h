@@ -17,6 +17,9 @@ inline constexpr std::size_t nominal_load_index = 2;  ///< of table_load_factors
 /// Positions per mesh cycle of a rough table.
 inline constexpr int table_phases = 32;
 
+/// Wanted accuracies from which on less will do.
+inline constexpr double very_rough_accuracy = 0.1, rough_accuracy = 0.03;
+
 /// How finely a table is resolved, and why.
 struct TableResolution {
   int phases = table_phases;

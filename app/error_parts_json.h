@@ -1,27 +1,14 @@
 #pragma once
 
-#include <cmath>
-#include <limits>
-#include <nlohmann/json.hpp>
+#include <string>
 
 #include "core/error_parts.h"
 
 namespace annulus::app {
 
-/// All six parts by their names in files; null where not known.
-inline nlohmann::ordered_json error_parts_json(const ErrorParts& parts) {
-  nlohmann::ordered_json json;
-  for (const auto& [name, part] : error_part_names)
-    json[name] = std::isfinite(parts.*part) ? nlohmann::ordered_json(parts.*part) : nlohmann::ordered_json(nullptr);
-  return json;
-}
-inline ErrorParts error_parts_of(const nlohmann::ordered_json& json) {
-  ErrorParts parts;
-  for (const auto& [name, part] : error_part_names) {
-    const auto& value = json.at(name);
-    parts.*part = value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
-  }
-  return parts;
-}
+/// All six parts by their names in files, as a JSON object; null where not known.
+[[nodiscard]] std::string error_parts_json(const ErrorParts& parts);
+/// Throws what the JSON library throws for anything else.
+[[nodiscard]] ErrorParts parse_error_parts(const std::string& json);
 
 }  // namespace annulus::app

@@ -81,10 +81,11 @@ void set_rung(MeshModel& model, const Scene& scene, const std::string& why_solid
 }
 
 /// Formulas do where their error, known beforehand, is within the accuracy. Rings on single supports are left to
-/// elements, which also tell how their meshes act on each other through the ring.
+/// elements unless the accuracy is very rough: these also tell how their meshes act on each other through the ring.
 bool formulas_do(const MeshModel& model, const Scene& scene, double error) {
   return scene.rung == Rung::automatic && model.settings.rung == fem::Rung::plane && error <= scene.accuracy &&
-         !(model.problem->pair.internal() && fem::on_single_supports(model.problem->structure));
+         (scene.accuracy >= very_rough_accuracy || !model.problem->pair.internal() ||
+          !fem::on_single_supports(model.problem->structure));
 }
 
 /// What the wanted accuracy asks of a mesh whose problem is complete but for phases and loads.

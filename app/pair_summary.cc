@@ -103,8 +103,9 @@ std::string pair_summary_json(const PairRunResult& result) {
         {"transverse_mean_stiffness_N_per_m", computed->mean_stiffness().value},
         {"lte_mean_m", computed->lte_mean().value},
         {"lte_peak_to_peak_m", computed->lte_peak_to_peak().value},
-        {"stiffness_error_parts_relative", error_parts_json(computed->mean_stiffness().parts)},
-        {"lte_peak_to_peak_error_parts_relative", error_parts_json(computed->lte_peak_to_peak().parts)},
+        {"stiffness_error_parts_relative", PairJson::parse(error_parts_json(computed->mean_stiffness().parts))},
+        {"lte_peak_to_peak_error_parts_relative",
+         PairJson::parse(error_parts_json(computed->lte_peak_to_peak().parts))},
         {"reused", computed->reused},
         {"inputs_id", computed->model.id()}};
     for (const auto& [name, value] : computed->facts) mesh[name] = pair_number(value);

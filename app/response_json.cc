@@ -21,7 +21,9 @@ double number(const ResponseJson& json) {
 }
 
 ResponseJson to_json_value(const dynamics::Figure& f, const ErrorParts& parts) {
-  return {{"value", number(f.value)}, {"error", number(f.error)}, {"error_parts", error_parts_json(parts)}};
+  return {{"value", number(f.value)},
+          {"error", number(f.error)},
+          {"error_parts", ResponseJson::parse(error_parts_json(parts))}};
 }
 dynamics::Figure figure(const ResponseJson& json) { return {number(json.at("value")), number(json.at("error"))}; }
 
@@ -53,7 +55,7 @@ dynamics::MeshKindResult kind_result(const ResponseJson& json) {
   return kind;
 }
 
-ErrorParts errors_of(const ResponseJson& figure) { return error_parts_of(figure.at("error_parts")); }
+ErrorParts errors_of(const ResponseJson& figure) { return parse_error_parts(figure.at("error_parts").dump()); }
 
 MeshKindErrors kind_errors(const ResponseJson& json) {
   const auto& sharing = json.at("load_sharing");
@@ -70,7 +72,7 @@ ResponseJson modes_json(const StageModes& modes) {
   for (const auto& m : modes.list) {
     json["list"].push_back({{"frequency_Hz", m.frequency},
                             {"frequency_error_Hz", m.frequency_error},
-                            {"error_parts_Hz", error_parts_json(m.error_parts)},
+                            {"error_parts_Hz", ResponseJson::parse(error_parts_json(m.error_parts))},
                             {"kind", m.kind},
                             {"damped_frequency_Hz", m.damped_frequency},
                             {"damping_ratio", m.damping_ratio},
@@ -86,8 +88,9 @@ StageModes modes_of(const ResponseJson& json) {
   modes.bodies = json.at("bodies").get<std::vector<std::string>>();
   for (const auto& m : json.at("list")) {
     modes.list.push_back({number(m.at("frequency_Hz")), number(m.at("frequency_error_Hz")),
-                          error_parts_of(m.at("error_parts_Hz")), m.at("kind"), number(m.at("damped_frequency_Hz")),
-                          number(m.at("damping_ratio")), m.at("strain_energy").get<std::vector<double>>(),
+                          parse_error_parts(m.at("error_parts_Hz").dump()), m.at("kind"),
+                          number(m.at("damped_frequency_Hz")), number(m.at("damping_ratio")),
+                          m.at("strain_energy").get<std::vector<double>>(),
                           m.at("kinetic_energy").get<std::vector<double>>()});
   }
   return modes;

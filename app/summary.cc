@@ -22,10 +22,11 @@ SummaryJson known(double x) { return std::isfinite(x) ? SummaryJson(x) : Summary
 SummaryJson estimate_json(const Estimate& e) {
   return {{"value", known(e.value)},
           {"error_relative", known(e.error_relative)},
-          {"error_parts_relative", error_parts_json(e.parts)}};
+          {"error_parts_relative", SummaryJson::parse(error_parts_json(e.parts))}};
 }
 SummaryJson figure_json(const dynamics::Figure& f, const ErrorParts& e) {
-  return {{"value", known(f.value)}, {"error", known(f.error)}, {"error_parts", error_parts_json(e)}};
+  return {
+      {"value", known(f.value)}, {"error", known(f.error)}, {"error_parts", SummaryJson::parse(error_parts_json(e))}};
 }
 
 SummaryJson peak_json(const Peak& peak, double unit) {
@@ -66,7 +67,7 @@ void add_branches(SummaryJson& ring, const std::string& mesh, const dynamics::Me
     error.push_back(known(b.dynamic_factor_max.error));
     loss.push_back(known(b.contact_loss));
   }
-  for (const auto& e : errors.dynamic_factor_max) parts.push_back(error_parts_json(e));
+  for (const auto& e : errors.dynamic_factor_max) parts.push_back(SummaryJson::parse(error_parts_json(e)));
   ring["dynamic_factor"][mesh] = std::move(factor);
   ring["dynamic_factor_error"][mesh] = std::move(error);
   ring["dynamic_factor_error_parts"][mesh] = std::move(parts);
@@ -98,7 +99,7 @@ SummaryJson ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
   for (const auto& mode : ring.response->modes.list)
     json["natural_frequencies_Hz"].push_back({{"value", mode.frequency},
                                               {"error", known(mode.frequency_error)},
-                                              {"error_parts", error_parts_json(mode.error_parts)},
+                                              {"error_parts", SummaryJson::parse(error_parts_json(mode.error_parts))},
                                               {"kind", mode.kind}});
   const auto& m = ring.response->motion;
   json["bearing_forces"] = {{"planet_max_N", m.pin_force_max},

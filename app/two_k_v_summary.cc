@@ -26,7 +26,7 @@ ReducerJson mesh_json_of(const MeshResult& mesh) {
                       {"mean_stiffness_N_per_m",
                        {{"value", finite(k.value)},
                         {"error_relative", finite(k.error_relative)},
-                        {"error_parts_relative", error_parts_json(k.parts)}}},
+                        {"error_parts_relative", ReducerJson::parse(error_parts_json(k.parts))}}},
                       {"nominal_load_N", mesh.table.loads()[mesh.nominal]},
                       {"reused", mesh.reused}};
   for (const auto& [name, value] : mesh.facts) json[name] = finite(value);

@@ -129,7 +129,8 @@ BOOST_AUTO_TEST_CASE(errors_are_the_sum_of_their_parts_and_are_kept) {
   BOOST_TEST_REQUIRE(kept.size() == parts.size());
   for (std::size_t i = 0; i < kept.size(); ++i) {
     BOOST_TEST(kept[i].figure.error == parts[i].figure.error);
-    for (const auto& [name, part] : error_part_names) BOOST_TEST(kept[i].errors.*part == parts[i].errors.*part, name);
+    for (const auto& [name, part] : error_part_names)
+      BOOST_TEST((kept[i].errors.*part) == (parts[i].errors.*part), name);
   }
   std::ifstream in(folder.path() / "out/summary.json");
   const auto ring = nlohmann::json::parse(in)["rings"]["held"];

@@ -20,7 +20,7 @@ namespace {
 std::string pinned_scene() {
   auto text = test::replaced(test::quick_scene(), "structure = \"traditional\"\n",
                              "structure = \"pinned\"\npins = 81\npin_diameter_mm = 15.5\n");
-  text = test::replaced(text, "title = \"Quick\"\n", "title = \"Quick\"\naccuracy = 0.1\n");
+  text = test::replaced(text, "title = \"Quick\"\n", "title = \"Quick\"\naccuracy = 0.05\n");
   text = test::replaced(text, "[sun]\n", "[sun]\nbore_diameter_mm = 130\n");
   text = test::replaced(text, "[planet]\n", "[planet]\nbore_diameter_mm = 172\n");
   text = test::replaced(text, "planet_N_per_m = 1e9\n", "planet_N_per_m = 1e9\nring_N_per_m = 1e9\n");

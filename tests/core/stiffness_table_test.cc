@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(round_trip_for_every_shape_of_table) {
           BOOST_TEST(read.at(i, p, l).stiffness_tangent == table.at(i, p, l).stiffness_tangent);
           BOOST_TEST(read.at(i, p, l).error_relative == table.at(i, p, l).error_relative);
           for (const auto& [name, part] : annulus::stiffness_error_part_names)
-            BOOST_TEST(read.at(i, p, l).error_parts.*part == table.at(i, p, l).error_parts.*part, name);
+            BOOST_TEST((read.at(i, p, l).error_parts.*part) == (table.at(i, p, l).error_parts.*part), name);
         }
     }
   }

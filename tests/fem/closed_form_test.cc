@@ -9,7 +9,6 @@
 #include "fem/closed_form/line_contact.h"
 #include "fem/contact/complementarity.h"
 #include "fem/contact/contact_system.h"
-#include "fem/error_estimate.h"
 #include "ring_paper.h"
 #include "ring_paper_problems.h"
 

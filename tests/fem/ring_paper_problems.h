@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "fem/error_estimate.h"
 #include "fem/loaded_mesh.h"
 
 namespace annulus::tests {
@@ -33,5 +34,9 @@ double largest_lte_difference(const fem::LoadedMeshResult& a, const fem::LoadedM
 
 /// Estimated relative error without what the rung leaves out: of two solutions of the same model.
 inline double numeric_error(const StiffnessEntry& entry) { return entry.error_relative - entry.error_parts.model; }
+/// Estimated error of the closed form alone: the plane finite elements share the plane strain.
+inline double formula_error(const fem::LoadedMeshProblem& problem, const StiffnessEntry& entry) {
+  return entry.error_relative - fem::plane_strain_error(problem);
+}
 
 }  // namespace annulus::tests
