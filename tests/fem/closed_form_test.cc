@@ -215,11 +215,6 @@ LoadedMeshProblem ring_with_rim(double rim, const RingStructure& structure) {
   return problem;
 }
 
-/// Estimated error of the formulas alone: the plane finite elements share the plane strain.
-double formula_error(const LoadedMeshProblem& problem, const annulus::StiffnessEntry& entry) {
-  return entry.error_relative - plane_strain_error(problem);
-}
-
 /// Mean secant stiffness over the table at its first load, N/m.
 double mean_stiffness(const LoadedMeshResult& result) {
   double sum = 0;
