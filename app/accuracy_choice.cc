@@ -29,6 +29,8 @@ TableResolution table_resolution(double accuracy) {
 ElementChoice element_choice(fem::Rung rung, double accuracy) {
   if (rung == fem::Rung::plane && accuracy >= rough_accuracy)
     return {1, "linear elements are within 0.7 % at once, at half the cost of quadratic ones"};
+  if (rung == fem::Rung::solid && accuracy >= rough_accuracy)
+    return {1, "linear elements are within 2.5 % at once, at a third of the cost of quadratic ones"};
   return {2, "quadratic elements are within 0.3 % at once, and their stresses can be used"};
 }
 

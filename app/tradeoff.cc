@@ -49,7 +49,8 @@ dynamics::Figure largest_factor(const dynamics::MeshKindResult& kind) {
   return largest;
 }
 
-/// `errors` of the tables, where frequencies are to carry them.
+/// The figures of the motion, and after them the contact loss. `errors` of the tables, where frequencies are to carry
+/// them.
 void add_response(Figures& figures, const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response,
                   const std::optional<MeshStiffnessErrors>& errors) {
   figures.push_back(relative(response.sun_planet.load_sharing.averaged));
@@ -65,6 +66,10 @@ void add_response(Figures& figures, const dynamics::PlanetaryStage& stage, const
   }
   frequencies.resize(wanted, {unknown, unknown});
   figures.insert(figures.end(), frequencies.begin(), frequencies.end());
+  double loss = 0;
+  for (const auto* kind : {&response.sun_planet, &response.ring_planet})
+    for (const auto& branch : kind->branches) loss = std::max(loss, branch.contact_loss);
+  figures.push_back({loss, unknown});
 }
 
 // Places in trade_figures().
@@ -219,7 +224,7 @@ class RingMeasurement {
         point.failure = error.what();
       }
     }
-    figures.resize(trade_figures().size(), {unknown, unknown});
+    figures.resize(trade_figures().size() + 1, {unknown, unknown});
     set_values(point, figures);
     point.sun_cycle = stiffness_cycle(*sun);
     point.ring_cycle = stiffness_cycle(*wheel);
@@ -304,7 +309,10 @@ class RingMeasurement {
   }
 
   static void set_values(TradePoint& point, const Figures& figures) {
-    for (const auto& f : figures) point.values.push_back({f.value, unknown, f.error_relative});
+    const std::size_t count = trade_figures().size();
+    for (std::size_t i = 0; i < count; ++i)
+      point.values.push_back({figures[i].value, unknown, figures[i].error_relative});
+    if (std::isfinite(figures[count].value)) point.contact_loss = figures[count].value;
   }
 
   static void compare(std::vector<TradePoint>& points, TradePart part) {
@@ -346,9 +354,9 @@ const std::vector<TradeFigure>& trade_figures() {
       {"sun_planet_lte_peak_to_peak_m", "transmission error of the sun mesh, peak to peak", false},
       {"ring_planet_lte_peak_to_peak_m", "transmission error of the ring mesh, peak to peak", false},
       {"sun_planet_load_sharing_averaged", "load sharing, averaged over a mesh cycle"},
-      {"sun_planet_load_sharing_instantaneous", "load sharing, instantaneous"},
-      {"sun_planet_dynamic_factor", "dynamic factor of the sun meshes"},
-      {"ring_planet_dynamic_factor", "dynamic factor of the ring meshes"},
+      {"sun_planet_load_sharing_instantaneous", "load sharing, instantaneous", true, true},
+      {"sun_planet_dynamic_factor", "dynamic factor of the sun meshes", true, true},
+      {"ring_planet_dynamic_factor", "dynamic factor of the ring meshes", true, true},
       {"frequency_1_Hz", "first natural frequency"},
       {"frequency_2_Hz", "second natural frequency"},
       {"frequency_3_Hz", "third natural frequency"}};
@@ -371,7 +379,9 @@ double TradePoint::error(std::optional<std::size_t> figure) const {
 double TradePoint::promised_error() const {
   double largest = failure.empty() && !values.empty() ? 0 : unknown;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (trade_figures()[i].promised && std::isfinite(values[i].error)) largest = std::max(largest, values[i].error);
+    const auto& figure = trade_figures()[i];
+    if (!figure.promised || (figure.while_teeth_touch && contact_loss > 0)) continue;
+    if (std::isfinite(values[i].error)) largest = std::max(largest, values[i].error);
   }
   return largest;
 }

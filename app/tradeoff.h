@@ -20,6 +20,9 @@ struct TradeFigure {
   /// Whether the wanted accuracy of a scene covers it. It is one of the stiffness; a range of the transmission error is
   /// a small difference of large values and carries a bar of its own.
   bool promised = true;
+  /// Covered only while the teeth stay in contact: where they part and meet again, the motion follows small changes of
+  /// the stiffness by more than they are.
+  bool while_teeth_touch = false;
 };
 [[nodiscard]] const std::vector<TradeFigure>& trade_figures();
 
@@ -50,6 +53,7 @@ struct TradePoint {
   Cost response{};        ///< meshes: of the response on these tables and its errors
   std::string failure{};  ///< why there are no figures
   std::vector<TradeValue> values{};  ///< in the order of trade_figures()
+  double contact_loss = 0;           ///< largest fraction of the time that a mesh spends without contact
   /// Secant stiffness at the nominal load of the sun mesh and of the ring mesh; empty for the dynamics.
   StiffnessCycle sun_cycle{}, ring_cycle{};
 

@@ -128,6 +128,12 @@ BOOST_AUTO_TEST_CASE(the_front_and_the_cheapest) {
       text);
   BOOST_TEST(ring.planned(0.01)->promised_error() == 0.007);
   BOOST_TEST(!ring.planned(0.02));
+  // Where teeth part, dynamic factors are no promise either.
+  auto parting = *ring.planned(0.01);
+  parting.values[8] = {1.2, 0.3, 0.4};
+  BOOST_TEST(parting.promised_error() == 0.3);
+  parting.contact_loss = 0.1;
+  BOOST_TEST(parting.promised_error() == 0.007);
   const auto csv = app::trade_csv(trade);
   BOOST_TEST(csv.find("held,mesh,plane,a,0,sun_planet_mean_stiffness_N_per_m,1000000000,") != std::string::npos, csv);
   BOOST_TEST(csv.find("\"no convergence, \"\"alas\"\"\"") != std::string::npos);

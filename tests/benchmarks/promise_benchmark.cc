@@ -141,8 +141,11 @@ int main(int argc, char** argv) {
     lists.dynamics = [](const auto&, const auto&) { return std::vector<app::DynamicsSetting>(); };
     int cases = 0, kept = 0, refused = 0, priced = 0, cheap = 0;
     fmt::print(
-        "wanted and true error (largest of stiffness entries, mean stiffness, load sharing, dynamic factors and\n"
-        "natural frequencies), processor time, and the cheapest fixed setting that meets the accuracy\n");
+        "wanted and true error (largest of stiffness entries, mean stiffness, load sharing and natural frequencies, "
+        "and\n"
+        "while all teeth stay in contact of dynamic factors), processor time, and the cheapest fixed setting that "
+        "meets\n"
+        "the accuracy\n");
     for (const auto& s : benchmark::promise_scenes()) {
       if (!names.empty() && std::find(names.begin(), names.end(), s.name) == names.end()) continue;
       const auto scene = app::parse_scene(s.text, s.name + ".toml");
