@@ -62,6 +62,8 @@ struct TradePoint {
   [[nodiscard]] std::optional<std::size_t> worst_figure() const;
   /// The largest error of the figures that the wanted accuracy covers. NaN for a failure.
   [[nodiscard]] double promised_error() const;
+  /// What the program says of the stiffness: the larger estimate of the tables' entries. NaN for a failure.
+  [[nodiscard]] double stiffness_estimate() const;
 };
 
 struct RingTrade {

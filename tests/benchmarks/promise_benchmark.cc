@@ -56,16 +56,18 @@ struct Row {
   double accuracy = 0;
   const app::TradePoint* planned = nullptr;
   const app::TradePoint* cheapest = nullptr;  ///< fixed setting by the time of its tables; nullptr: none meets it
-  double planned_run = 0, cheapest_run = 0;   ///< s of processor time of a whole run
+  const app::TradePoint* known = nullptr;     ///< the cheapest that meets it and says so: the planner knows no luck
+  double planned_run = 0, cheapest_run = 0, known_run = 0;  ///< s of processor time of a whole run
 
   [[nodiscard]] bool refused() const { return !planned->failure.empty(); }
   [[nodiscard]] bool kept() const { return planned->promised_error() <= accuracy; }
 };
 
-const app::TradePoint* cheapest(const app::RingTrade& ring, double accuracy) {
+const app::TradePoint* cheapest(const app::RingTrade& ring, double accuracy, bool known) {
   const app::TradePoint* best = nullptr;
   for (const auto& p : ring.points) {
     if (!p.mesh || p.finest || !(p.promised_error() <= accuracy)) continue;
+    if (known && !(p.stiffness_estimate() <= accuracy)) continue;
     if (!best || p.cost.processor < best->cost.processor) best = &p;
   }
   return best;
@@ -111,6 +113,10 @@ void print_row(const Row& row) {
     text += fmt::format("  cheapest {:6.2f} s {:6.2f} s ({}, {})  ratio {:5.2f} {:5.2f}", row.cheapest->cost.processor,
                         row.cheapest_run, row.cheapest->rung, row.cheapest->settings,
                         row.planned->cost.processor / row.cheapest->cost.processor, row.planned_run / row.cheapest_run);
+  if (row.known && row.known != row.cheapest)
+    text += fmt::format("; that says so {:6.2f} s {:6.2f} s ({}, {})  ratio {:5.2f} {:5.2f}", row.known->cost.processor,
+                        row.known_run, row.known->rung, row.known->settings,
+                        row.planned->cost.processor / row.known->cost.processor, row.planned_run / row.known_run);
   fmt::print("{}\n", text);
 }
 
@@ -139,7 +145,7 @@ int main(int argc, char** argv) {
       return list;
     };
     lists.dynamics = [](const auto&, const auto&) { return std::vector<app::DynamicsSetting>(); };
-    int cases = 0, kept = 0, refused = 0, priced = 0, cheap = 0;
+    int cases = 0, kept = 0, refused = 0, priced = 0, cheap = 0, known = 0, known_cheap = 0;
     fmt::print(
         "wanted and true error (largest of stiffness entries, mean stiffness, load sharing and natural frequencies, "
         "and\n"
@@ -160,12 +166,19 @@ int main(int argc, char** argv) {
         kept += !row.refused() && row.kept();
         if (!errors_only && !row.refused()) {
           const auto wanted = app::with_accuracy(scene, accuracy, "asked of the planner");
-          row.cheapest = benchmark::cheapest(ring, accuracy);
+          row.cheapest = benchmark::cheapest(ring, accuracy, false);
+          row.known = benchmark::cheapest(ring, accuracy, true);
           row.planned_run = benchmark::run_time(wanted, out / "run", nullptr);
           if (row.cheapest) {
             row.cheapest_run = benchmark::run_time(wanted, out / "run", &*row.cheapest->mesh);
             ++priced;
             cheap += row.planned_run <= 3 * row.cheapest_run;
+          }
+          if (row.known) {
+            row.known_run = row.known == row.cheapest ? row.cheapest_run
+                                                      : benchmark::run_time(wanted, out / "run", &*row.known->mesh);
+            ++known;
+            known_cheap += row.planned_run <= 3 * row.known_run;
           }
         }
         benchmark::print_row(row);
@@ -173,7 +186,9 @@ int main(int argc, char** argv) {
       }
     }
     fmt::print("{} cases: {} kept, {} missed, {} refused", cases, kept, cases - kept - refused, refused);
-    if (priced > 0) fmt::print("; {} of {} runs cost at most three times the cheapest", cheap, priced);
+    if (priced > 0)
+      fmt::print("; {} of {} runs cost at most three times the cheapest, {} of {} the cheapest that says so", cheap,
+                 priced, known_cheap, known);
     fmt::print("\n");
     return kept >= 0.95 * (cases - refused) ? 0 : 1;
   } catch (const std::exception& error) {
