@@ -3,10 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace annulus::app {
 
-TableResolution table_resolution(double accuracy) {
+double load_uptake(double force, double face_width, double module) {
+  constexpr double stiffness_per_width = 14e9;  // N/m^2
+  return std::sqrt(force / face_width / stiffness_per_width / module);
+}
+
+TableResolution table_resolution(double accuracy, double uptake) {
   TableResolution choice;
   if (accuracy >= very_rough_accuracy) {
     choice.phases = table_phases;
@@ -15,6 +21,12 @@ TableResolution table_resolution(double accuracy) {
     choice.phases = 2 * table_phases;
     choice.phases_reason =
         "between 64 positions dynamic factors are missed by 0.1 %; between 32 by 2 %, 6 % under light loads";
+    constexpr int most = 8 * table_phases;
+    if (choice.phases * uptake < 1) {
+      while (choice.phases < most && choice.phases * uptake < 1) choice.phases *= 2;
+      choice.phases_reason =
+          fmt::format("the load is so light that a pair takes it up within {:.1g} of a mesh cycle", uptake);
+    }
   }
   if (accuracy >= rough_accuracy) {
     choice.load_factors = {0.5, 1, 1.5};

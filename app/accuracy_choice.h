@@ -26,7 +26,12 @@ struct TableResolution {
   std::vector<double> load_factors{};  ///< of the nominal load; the middle one is 1
   std::string phases_reason{}, loads_reason{};
 };
-[[nodiscard]] TableResolution table_resolution(double accuracy);
+/// `uptake`: share of a mesh cycle within which a pair takes up its load, which positions must not step over.
+[[nodiscard]] TableResolution table_resolution(double accuracy, double uptake);
+/// From the deflection under the nominal force (N) on a face (m) and the module (m): beyond its path of contact the gap
+/// of a pair opens with the square of the way, so that the way it is closed over goes with the root of the deflection.
+/// The stiffness is that of ISO 6336-1, about 14 N/(mm um), whatever the rim: a soft one only makes it longer.
+[[nodiscard]] double load_uptake(double force, double face_width, double module);
 
 /// Polynomial degree of the elements, and why. Levels follow from the error estimate.
 struct ElementChoice {

@@ -91,7 +91,8 @@ bool formulas_do(const MeshModel& model, const Scene& scene, double error) {
 /// What the wanted accuracy asks of a mesh whose problem is complete but for phases and loads.
 void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
   model.settings.accuracy = scene.accuracy;
-  auto table = table_resolution(scene.accuracy);
+  auto table = table_resolution(scene.accuracy, load_uptake(mean_force, model.problem->face_width,
+                                                            model.problem->pair.planet().parameters().module));
   model.problem->phases = table.phases;
   for (const double factor : table.load_factors) model.problem->loads.push_back(factor * mean_force);
   model.phases = std::move(table.phases_reason);

@@ -24,7 +24,7 @@ using fem::Rung;
 constexpr double accuracies[] = {0.1, 0.03, 0.01, 0.003};
 
 /// The fixed settings among which the cheapest is looked for, and the truth.
-std::vector<MeshSetting> settings(const app::MeshModel&, bool needs_solid) {
+std::vector<MeshSetting> settings(const app::MeshModel& planned, bool needs_solid) {
   std::vector<MeshSetting> list;
   const auto add = [&](Rung rung, int degree, int level, int phases, std::vector<int> loads) {
     for (const int count : loads)
@@ -46,7 +46,12 @@ std::vector<MeshSetting> settings(const app::MeshModel&, bool needs_solid) {
     add(Rung::plane, 2, 1, phases, {3});
     if (phases > 32) add(Rung::plane, 2, 2, phases, {3});
   }
-  list.push_back({.rung = Rung::plane, .degree = 3, .level = 3, .phases = 128, .loads = 5, .finest = true});
+  list.push_back({.rung = Rung::plane,
+                  .degree = 3,
+                  .level = 3,
+                  .phases = std::max(128, 2 * planned.problem->phases),
+                  .loads = 5,
+                  .finest = true});
   return list;
 }
 
