@@ -133,14 +133,16 @@ int main(int argc, char** argv) {
   CLI::App cli("The wanted accuracy against the true error, and its cost against the cheapest setting that meets it");
   std::vector<std::string> names;
   std::filesystem::path out = "promise";
-  bool errors_only = false, verbose = false;
+  bool errors_only = false, verbose = false, fresh = false;
   cli.add_option("--scenes", names, "Names of scenes; all without");
   cli.add_option("-o,--out", out, "Where measurements are kept");
   cli.add_flag("--errors-only", errors_only, "Not the cost: no fixed settings");
+  cli.add_flag("--fresh", fresh, "Forget what was measured before");
   cli.add_flag("--verbose", verbose, "Every setting and figure: error (estimate)");
   CLI11_PARSE(cli, argc, argv);
   try {
     log::set_level(log::Level::quiet);
+    if (fresh) std::filesystem::remove_all(out);
     ::setenv("ANNULUS_CACHE", "", 1);  // predictions are not to depend on earlier runs, nor to learn from these
     app::TradeLists lists;
     lists.accuracies.assign(std::begin(benchmark::accuracies), std::end(benchmark::accuracies));
