@@ -6,8 +6,8 @@
 
 #include "fem/loaded_mesh.h"
 
-/// What a wanted accuracy asks for, beside the rung: the measured trade (docs/tradeoff.md) turned into rules. They are
-/// tried on other scenes than those they come from (tests/benchmarks, `promise`).
+/// What a wanted accuracy asks for, beside the rung: the measured trade turned into rules (docs/tradeoff.md, which also
+/// tells how well they keep what they promise).
 namespace annulus::app {
 
 /// Loads of a table, as multiples of the nominal mean mesh force: around it, so that the table can be interpolated, and

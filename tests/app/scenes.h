@@ -1,8 +1,9 @@
 #pragma once
 
-#include <filesystem>
 #include <stdexcept>
 #include <string>
+
+#include "tests/temporary_folder.h"
 
 namespace annulus::test {
 
@@ -68,25 +69,5 @@ inline std::string replaced(std::string text, const std::string& what, const std
   if (at == std::string::npos) throw std::logic_error("test scene has no '" + what + "'");
   return text.replace(at, what.size(), by);
 }
-
-/// An empty folder of its own for each test, removed at the end.
-class TemporaryFolder {
- public:
-  explicit TemporaryFolder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / ("annulus_test_" + name)) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace annulus::test

@@ -13,6 +13,7 @@
 #include "fem/gear_body.h"
 #include "fem/ring_coupling.h"
 #include "ring_paper_problems.h"
+#include "tests/temporary_folder.h"
 
 BOOST_AUTO_TEST_SUITE(condensed_store)
 
@@ -23,27 +24,20 @@ using annulus::fem::LoadedMeshResult;
 using annulus::fem::LoadedMeshSettings;
 using annulus::fem::OutsideHeld;
 
-/// A folder of its own for each case, removed at the end.
-struct Folder {
-  explicit Folder(const std::string& name)
-      : path(std::filesystem::temp_directory_path() / ("annulus_test_store_" + name)) {
+/// Kept teeth in a folder of their own for each case.
+struct Folder : annulus::test::TemporaryFolder {
+  explicit Folder(const std::string& name) : TemporaryFolder("store_" + name) {
     annulus::log::set_level(annulus::log::Level::quiet);
-    std::filesystem::remove_all(path);
   }
-  ~Folder() { std::filesystem::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
 
   [[nodiscard]] std::shared_ptr<CondensedStore> store(const std::string& version = "1") const {
-    return std::make_shared<CondensedStore>(path, version);
+    return std::make_shared<CondensedStore>(path(), version);
   }
   [[nodiscard]] std::vector<std::filesystem::path> files() const {
     std::vector<std::filesystem::path> result;
-    for (const auto& entry : std::filesystem::directory_iterator(path)) result.push_back(entry.path());
+    for (const auto& entry : std::filesystem::directory_iterator(path())) result.push_back(entry.path());
     return result;
   }
-
-  std::filesystem::path path;
 };
 
 LoadedMeshResult solve(const LoadedMeshProblem& problem, std::shared_ptr<CondensedStore> store) {
@@ -244,7 +238,7 @@ BOOST_AUTO_TEST_CASE(damaged_files_are_made_again) {
   made_again();
   // A thing under the name of another.
   const std::string other = store->key("other inputs");
-  std::filesystem::copy_file(file, folder.path / (other + ".tooth"));
+  std::filesystem::copy_file(file, folder.path() / (other + ".tooth"));
   BOOST_TEST(!keep(*store, other, values));
   BOOST_TEST(folder.files().size() == 2U);  // nothing unfinished is left
 }
@@ -274,15 +268,15 @@ BOOST_AUTO_TEST_CASE(the_folder_keeps_to_its_size) {
   // Another material would need as much again.
   auto changed = problem;
   changed.material.poisson_ratio = 0.28;
-  const auto tight = std::make_shared<CondensedStore>(folder.path, "1", all);
+  const auto tight = std::make_shared<CondensedStore>(folder.path(), "1", all);
   BOOST_TEST(solve(changed, tight).condensed_teeth == 4);
   BOOST_TEST(bytes() <= all);
   BOOST_TEST(solve(changed, tight).condensed_teeth == 0);  // what was used last stays
   // No room at all, or no folder: nothing is kept, and nothing fails.
-  BOOST_TEST(solve(problem, std::make_shared<CondensedStore>(folder.path, "1", 10)).condensed_teeth == 4);
+  BOOST_TEST(solve(problem, std::make_shared<CondensedStore>(folder.path(), "1", 10)).condensed_teeth == 4);
   BOOST_TEST(folder.files().empty());
-  std::ofstream(folder.path / "file") << "no folder";
-  const auto nowhere = std::make_shared<CondensedStore>(folder.path / "file", "1");
+  std::ofstream(folder.path() / "file") << "no folder";
+  const auto nowhere = std::make_shared<CondensedStore>(folder.path() / "file", "1");
   check_the_same(solve(problem, nowhere), solve(problem, nullptr));
 }
 

@@ -84,15 +84,19 @@ BOOST_AUTO_TEST_CASE(a_tooth_replaced_by_its_like_changes_nothing) {
   BOOST_TEST((two.bottomLeftCorner(ports, ports) - composed.block(1)).norm() < 1e-11 * composed.block(0).norm());
 }
 
+annulus::fem::LoadedMeshResult solve_resolved_plane(const annulus::fem::LoadedMeshProblem& problem) {
+  annulus::fem::LoadedMeshSettings settings;
+  settings.rung = annulus::fem::Rung::resolved_plane;
+  settings.level = 1;
+  settings.threads = 2;
+  return solve_loaded_mesh(problem, settings);
+}
+
 BOOST_AUTO_TEST_CASE(the_resolved_rung_agrees_with_the_plane_one_within_their_estimates) {
   // Nominal load: positions with two pairs in contact, and one where a pair bears at a tip edge.
   for (const auto& problem : {ring_mesh(annulus::fem::OutsideHeld{}, 2), sun_mesh(2)}) {
     const auto plane = solve_plane(problem, 2);
-    annulus::fem::LoadedMeshSettings settings;
-    settings.rung = annulus::fem::Rung::resolved_plane;
-    settings.level = 1;
-    settings.threads = 2;
-    const auto truth = solve_loaded_mesh(problem, settings);
+    const auto truth = solve_resolved_plane(problem);
     for (int phase = 0; phase < 2; ++phase) {
       const auto &a = plane.table.at(0, phase, 0), &b = truth.table.at(0, phase, 0);
       const double difference = std::abs(a.stiffness_secant / b.stiffness_secant - 1);
@@ -111,11 +115,7 @@ BOOST_AUTO_TEST_CASE(light_and_heavy_loads_all_along_the_mesh_cycle) {
   const std::vector<double> loads = {0.25 * nominal_load, 2 * nominal_load};
   for (const auto& problem : {ring_mesh(annulus::fem::OutsideHeld{}, 8, loads), sun_mesh(3, loads)}) {
     const auto plane = solve_plane(problem, 3);
-    annulus::fem::LoadedMeshSettings settings;
-    settings.rung = annulus::fem::Rung::resolved_plane;
-    settings.level = 1;
-    settings.threads = 2;
-    const auto truth = solve_loaded_mesh(problem, settings);
+    const auto truth = solve_resolved_plane(problem);
     check_invariants(truth);
     double worst = 0, shares = 0;
     bool edge = false;

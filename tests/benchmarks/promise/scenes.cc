@@ -108,9 +108,8 @@ std::vector<PromiseScene> promise_scenes() {
                      "free_length_mm = 25\nsleeve_thickness_mm = 6\nhoop_width_mm = 12\nhoop_thickness_mm = 10")},
       {"crowned", "held outside, lead crowned by 8 µm", with_teeth(base, "lead_crowning_um = 8\n")},
       {"helical", "held outside, helix angle 12°",
-       with(with(with(base, "module_mm = 4", "module_mm = 3.9125904\nhelix_angle_deg = 12"), "tip_diameter_mm = 282",
-                 "tip_diameter_mm = 282.2"),
-            "pressure_angle_deg = 20", "pressure_angle_deg = 20")},
+       with(with(base, "module_mm = 4", "module_mm = 3.9125904\nhelix_angle_deg = 12"), "tip_diameter_mm = 282",
+            "tip_diameter_mm = 282.2")},
   };
 }
 
