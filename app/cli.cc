@@ -21,6 +21,7 @@
 #include "app/studies.h"
 #include "app/trade_report.h"
 #include "core/errors.h"
+#include "core/files.h"
 #include "core/log.h"
 
 namespace annulus::app {
@@ -71,6 +72,7 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
   if (const auto earlier = finished_run(options.out, id)) {
     fmt::print("{}reused   everything: nothing has changed since the run above\n", *earlier);
   } else {
+    remove_unfinished_files(options.out);
     const auto text = run_scene(scene, options);
     fmt::print("{}", text);
     keep_finished_run(options.out, id, text);
@@ -102,6 +104,7 @@ void check_command(const Arguments& arguments) {
 void tradeoff_command(const Arguments& arguments) {
   const Scene scene = read_scene(arguments.scene);
   const auto options = run_options(arguments, scene);
+  remove_unfinished_files(options.out);
   const auto trade = measure_tradeoff(scene, options);
   write_tradeoff(trade, options.out);
   fmt::print("{}\ntable   {}\nreport  {}\n", trade_text(trade), (options.out / "tradeoff.csv").string(),

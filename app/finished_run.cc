@@ -9,7 +9,7 @@
 
 #include "app/content_id.h"
 #include "app/pipeline.h"
-#include "core/csv.h"
+#include "core/files.h"
 
 namespace annulus::app {
 
@@ -29,7 +29,7 @@ std::string stamp(const std::filesystem::path& file) {
 
 /// Condensed teeth are dropped when they become too many, and temporary files belong to whoever writes them.
 bool belongs_to_run(const std::filesystem::path& relative) {
-  return *relative.begin() != "condensed" && relative != note_name && relative.extension() != ".tmp";
+  return *relative.begin() != "condensed" && relative != note_name && relative.extension() != ".unfinished";
 }
 
 std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& out) {

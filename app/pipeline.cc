@@ -11,7 +11,7 @@
 #include "app/studies.h"
 #include "app/summary.h"
 #include "app/tasks.h"
-#include "core/csv.h"
+#include "core/files.h"
 #include "core/log.h"
 
 namespace annulus::app {

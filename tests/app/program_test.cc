@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/csv.h"
+#include "core/files.h"
 #include "core/stiffness_table.h"
 #include "tests/app/scenes.h"
 
@@ -180,7 +181,7 @@ BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
                         1) <= 1e-9);
   // No temporary file is left behind.
   for (const auto& file : std::filesystem::recursive_directory_iterator(folder.path() / "out"))
-    BOOST_TEST(file.path().extension() != ".tmp");
+    BOOST_TEST(file.path().extension() != ".unfinished");
 }
 
 BOOST_AUTO_TEST_CASE(report_is_self_contained) {
