@@ -47,6 +47,7 @@ CostRun coupling_size(const MeshModel& model, int threads) {
   size.threads = threads;
   auto settings = model.settings;
   settings.degree = 2;
+  settings.symmetry = false;  // a ring's modes need not be symmetric
   // On single supports every ring position is a system of its own.
   size.unknowns = fem::estimated_unknowns(*model.problem, settings, 1) * (supported ? model.positions : 1);
   return size;
