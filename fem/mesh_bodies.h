@@ -19,7 +19,7 @@ struct MeshBodies {
   std::unique_ptr<SupportRow> supports;  ///< of a floating ring
   std::unique_ptr<StressRecovery> planet_stress, wheel_stress;
   SolvedFace face;
-  std::vector<double> slice_edges;              ///< m, of the solved part of the face
+  std::vector<double> slice_edges;             ///< m, of the solved part of the face
   geometry::Mesh planet_sector, wheel_sector;  ///< over the whole face
   long unknowns = 0;
   double mesh_seconds = 0, condense_seconds = 0;
