@@ -13,6 +13,7 @@
 
 #include "app/content_id.h"
 #include "app/cost_budget.h"
+#include "app/finished_run.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/scene_schema.h"
@@ -66,7 +67,14 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
   if (!budget.empty()) log::info(budget);
   auto options = run_options(arguments, scene);
   options.with_dynamics = with_dynamics;
-  fmt::print("{}", run_scene(scene, options));
+  const auto id = run_id(scene, options);
+  if (const auto earlier = finished_run(options.out, id)) {
+    fmt::print("{}reused   everything: nothing has changed since the run above\n", *earlier);
+  } else {
+    const auto text = run_scene(scene, options);
+    fmt::print("{}", text);
+    keep_finished_run(options.out, id, text);
+  }
   if (!budget.empty()) fmt::print("{}\n", budget);
   fmt::print("report  {}\n", (options.out / "report.html").string());
 }
