@@ -5,6 +5,8 @@
 
 #include "contact_bench.h"
 #include "fem/body_plan.h"
+#include "fem/condensation/altered_ring.h"
+#include "fem/condensation/cyclic_body.h"
 #include "fem/condensed_store.h"
 #include "fem/cost_size.h"
 #include "fem/solved_face.h"
@@ -149,7 +151,7 @@ BOOST_AUTO_TEST_CASE(half_of_a_crowned_ring_held_outside_is_its_whole) {
 }
 
 BOOST_AUTO_TEST_CASE(half_of_a_crowned_sun_mesh_is_its_whole) {
-  check_half_is_whole("sun mesh", with_planet(sun_mesh(2), crowning, 0), 2);
+  check_half_is_whole("sun mesh", with_planet(sun_mesh(2), crowning, 0), 1);
 }
 
 BOOST_AUTO_TEST_CASE(half_of_a_ring_on_pins_is_its_whole) {
@@ -187,9 +189,9 @@ BOOST_AUTO_TEST_CASE(a_result_on_half_of_the_face_is_one_of_the_whole) {
   BOOST_TEST(!whole.half_face);
   BOOST_TEST(static_cast<double>(half.unknowns) < 0.55 * static_cast<double>(whole.unknowns));
   settings.symmetry = true;
-  // Held nodes are counted by the estimate.
+  // Held nodes are counted by the estimate: an eighth of all with linear elements.
   BOOST_TEST(annulus::fem::estimated_unknowns(problem, settings, 2) == static_cast<double>(half.unknowns),
-             boost::test_tools::tolerance(0.1));
+             boost::test_tools::tolerance(0.15));
   BOOST_TEST_REQUIRE(half.positions.size() == whole.positions.size());
   double worst = 0;
   for (std::size_t i = 0; i < half.positions.size(); ++i) {
@@ -208,26 +210,6 @@ BOOST_AUTO_TEST_CASE(a_result_on_half_of_the_face_is_one_of_the_whole) {
   BOOST_TEST(half.stress_curves.size() == whole.stress_curves.size());
   for (std::size_t i = 0; i < half.stress_curves.size(); ++i)
     BOOST_TEST(difference(half.stress_curves[i].von_mises, whole.stress_curves[i].von_mises) < round_off);
-}
-
-BOOST_AUTO_TEST_CASE(resolved_teeth_too) {
-  LoadedMeshSettings settings;
-  settings.rung = Rung::resolved_solid;
-  settings.degree = 1;
-  settings.level = 2;
-  settings.threads = 2;
-  const auto problem = with_planet(sun_mesh(2), crowning, 0);
-  const auto half = solve_loaded_mesh(problem, settings);
-  settings.symmetry = false;
-  const auto whole = solve_loaded_mesh(problem, settings);
-  BOOST_TEST(half.half_face);
-  double worst = 0;
-  for (std::size_t i = 0; i < half.positions.size(); ++i)
-    worst = std::max(worst, largest_difference(half.positions[i], whole.positions[i]));
-  BOOST_TEST_MESSAGE("resolved: " << worst);
-  BOOST_TEST(worst < round_off);
-  BOOST_TEST(half.wheel_sector.area_or_volume() == whole.wheel_sector.area_or_volume(),
-             boost::test_tools::tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(an_odd_number_of_cells_is_as_good_halved) {
@@ -285,21 +267,47 @@ BOOST_AUTO_TEST_CASE(what_differs_along_the_face_is_solved_whole) {
   BOOST_TEST(!half(plain));
 }
 
+/// A coarse sector of a ring, half of its face.
+struct HalfSector {
+  LoadedMeshProblem problem = ring_mesh(annulus::fem::OutsideHeld{}, 2);
+  annulus::geometry::ToothProfile profile{problem.pair.wheel()};
+  annulus::fem::BodyPlan plan{
+      problem, profile, true, annulus::geometry::Boundary::trailing_flank, 1, true, {problem.face_width, true}};
+  annulus::geometry::Mesh mesh = plan.sector({{4, 2, 2, 1, 1, 1.0}, 2, 1});
+
+  [[nodiscard]] annulus::fem::CondensedTooth condense(const annulus::fem::GearBodyOptions& options) const {
+    return condense_tooth(mesh, profile, plan.support_radius(), problem.material, options);
+  }
+};
+
+BOOST_AUTO_TEST_CASE(halves_of_teeth_can_be_exchanged) {
+  // As the resolved rung does: a tooth in the place of its like changes nothing.
+  const HalfSector half;
+  annulus::fem::GearBodyOptions options;
+  options.sector = half.plan.model();
+  const auto sector = half.condense(options).sector;
+  BOOST_TEST(sector.symmetric());
+  const int teeth = half.problem.pair.wheel().teeth();
+  const annulus::fem::AlteredRing altered(sector, teeth, 3, 1);
+  const Eigen::MatrixXd exchanged = altered.compliance({&sector, &sector});
+  const auto regular = annulus::fem::compose_ring(sector, teeth, {3, false}, false, 1);
+  const Eigen::Index ports = sector.ports;
+  const double largest = regular.block(0).cwiseAbs().maxCoeff();
+  BOOST_TEST((exchanged.topLeftCorner(ports, ports) - regular.block(0)).cwiseAbs().maxCoeff() < round_off * largest);
+  BOOST_TEST((exchanged.bottomLeftCorner(ports, ports) - regular.block(1)).cwiseAbs().maxCoeff() < round_off * largest);
+}
+
 BOOST_AUTO_TEST_CASE(a_half_is_not_kept_as_a_whole) {
   const annulus::test::TemporaryFolder folder("symmetric_face");
   annulus::fem::CondensedStore store(folder.path(), "test");
-  const auto problem = ring_mesh(annulus::fem::OutsideHeld{}, 2);
-  const annulus::geometry::ToothProfile profile(problem.pair.wheel());
-  const annulus::fem::BodyPlan plan(problem, profile, true, annulus::geometry::Boundary::trailing_flank, 1, true,
-                                    {problem.face_width, true});
-  annulus::fem::BodyResolution resolution{{4, 2, 2, 1, 1, 1.0}, 2, 1};
+  const HalfSector half;
   const auto reused = [&](bool symmetric) {
     annulus::fem::GearBodyOptions options;
-    options.sector = plan.model();
+    options.sector = half.plan.model();
     BOOST_TEST(options.sector.symmetric_end);
     options.sector.symmetric_end = symmetric;
     options.store = &store;
-    return condense_tooth(plan.sector(resolution), profile, plan.support_radius(), problem.material, options).reused;
+    return half.condense(options).reused;
   };
   BOOST_TEST(!reused(true));
   BOOST_TEST(!reused(false));  // the same mesh
