@@ -51,8 +51,8 @@ std::string run_id(const Scene& scene, const RunOptions& options) {
   id.add("scene", scene.text).add("dynamics", options.with_dynamics).add("accuracy", scene.accuracy);
   id.add("tables", options.tables ? std::filesystem::absolute(*options.tables).string() : "");
   for (const auto& input : scene.inputs)
-    id.add(input.ring + input.key, fmt::format("{} {} {} {}", to_text(input.value), to_text(input.origin), input.note,
-                                               input.assumed));
+    id.add(input.ring + input.key,
+           fmt::format("{} {} {} {}", to_text(input.value), to_text(input.origin), input.note, input.assumed));
   const auto add_file = [&](const std::optional<std::string>& name) {
     if (name) id.add(*name, stamp(scene.file.parent_path() / *name));
   };

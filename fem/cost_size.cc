@@ -46,6 +46,8 @@ double solid_unknowns(const LoadedMeshProblem& problem, const BodyResolution& r,
                       int degree, const SolvedFace& face) {
   const auto c = section_counts(r.section);
   double nodes = nodes_of_section(c, degree) * (degree * face.solved(r.face_cells) + 1);
+  // The nodes of a plane of symmetry stay in it.
+  if (face.half) return 3 * nodes - nodes_of_section(c, degree);
   if (!wheel) return 3 * nodes;
   const double rim = std::abs(problem.wheel_support_radius - gear.root_radius());
   if (const auto* held = std::get_if<EndFaceHeld>(&problem.structure)) {
