@@ -18,7 +18,7 @@ namespace {
 
 const std::string tooth_file_kind = "annulus condensed tooth";
 /// To be raised with every change of what is written, or of how it is computed.
-constexpr std::uint32_t tooth_file_format = 1;
+constexpr std::uint32_t tooth_file_format = 2;
 
 }  // namespace
 

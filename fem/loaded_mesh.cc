@@ -112,6 +112,7 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   result.wheel_sector = std::move(solved.wheel_sector);
   result.level = level;
   result.worst_error_relative = worst;
+  result.half_face = solved.half_face;
   result.unknowns = solved.unknowns;
   result.pin_stiffness = solved.pin_stiffness;
   result.pin_angles = std::move(solved.pin_angles);
