@@ -1,19 +1,19 @@
 #include "app/cli.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <thread>
 
 #include "app/content_id.h"
 #include "app/cost_budget.h"
 #include "app/finished_run.h"
+#include "app/interruption.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/scene_schema.h"
@@ -36,13 +36,6 @@ struct Arguments {
   bool json = false, markdown = false, quiet = false, verbose = false;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
-
-// Every file is written under another name and renamed, so nothing needs cleaning up: finished results are reused.
-void on_interrupt(int) {
-  constexpr char text[] = "\ninterrupted; finished results are kept and reused by the next run\n";
-  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, sizeof text - 1);
-  std::_Exit(interrupted);
-}
 
 RunOptions run_options(const Arguments& arguments, const Scene& scene) {
   RunOptions options{.threads = arguments.threads};
@@ -164,8 +157,7 @@ std::string unknown_command(const CLI::App& app) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  watch_for_interruption(interrupted);
 
   Arguments arguments;
   CLI::App app("What the structure of a ring gear does to load sharing and vibration of a planetary gear set.",
@@ -233,6 +225,9 @@ int run_command_line(int argc, char** argv) {
     return fail(error, refused);
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(error, wrong_input);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "out of memory: ask for less accuracy or fewer threads; finished results are kept\n");
+    return refused;
   } catch (const std::exception& error) {
     fmt::print(stderr, "defect in annulus, please report it: ");
     return fail(error, defect);

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "app/interruption.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -71,7 +72,7 @@ double seconds(const timeval& time) {
 
 }  // namespace
 
-bool has_its_first_threads_alone() { return thread_count() <= threads_at_start; }
+bool has_its_first_threads_alone() { return thread_count() <= threads_at_start + interruption_watchers(); }
 
 MeasuredWork measured(const std::function<std::string()>& work) {
   // Locks held by a thread that does not go over would be held for ever.

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 /// Elements, supports that open, a sweep, random draws and a search: every kind of result that is kept.
 std::string whole_scene() {
   return R"(title = "Interrupted"
-accuracy = 0.03
+accuracy = 0.1
 rung = "plane"
 [stage]
 kind = "planetary"
