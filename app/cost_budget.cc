@@ -39,8 +39,8 @@ std::string figures_text(const PlanCost& cost) {
 }  // namespace
 
 double parse_duration(const std::string& text, const char* option) {
-  static constexpr std::pair<const char*, double> time_units[] = {
-      {"", 1}, {"s", 1}, {"ms", 1e-3}, {"min", 60}, {"h", 3600}, {"d", 86400}};
+  static constexpr std::pair<const char*, double> time_units[] = {{"", 1},     {"s", 1},    {"ms", 1e-3},
+                                                                  {"min", 60}, {"h", 3600}, {"d", 86400}};
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc{} && std::isfinite(value) && value > 0) {

@@ -23,13 +23,15 @@ const Input* first(const Scene& scene, Is is) {
 
 /// Whether the text starts with the word as a whole.
 bool starts_with_word(const std::string& text, const std::string& word) {
-  return text.starts_with(word) && (text.size() == word.size() || std::string(" :,").find(text[word.size()]) != std::string::npos);
+  return text.starts_with(word) &&
+         (text.size() == word.size() || std::string(" :,").find(text[word.size()]) != std::string::npos);
 }
 
 const Input* talked_about(const Scene& scene, const std::string& message) {
   if (const auto* key = first(scene, [&](const Input& i) { return i.line > 0 && starts_with_word(message, i.key); }))
     return key;
-  if (const auto* ring = first(scene, [&](const Input& i) { return i.key == "ring.name" && message.starts_with("ring '" + i.ring + "'"); }))
+  if (const auto* ring = first(
+          scene, [&](const Input& i) { return i.key == "ring.name" && message.starts_with("ring '" + i.ring + "'"); }))
     return ring;
   if (const auto* table = first(scene, [&](const Input& i) {
         return i.line > 0 && starts_with_word(message, i.key.substr(0, i.key.find('.')));

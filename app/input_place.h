@@ -6,8 +6,8 @@
 
 namespace annulus::app {
 
-/// "scene.toml:12:1: sun: ..." for what is wrong with a scene as a whole: the place of the key, ring or table with whose
-/// name the message starts, else that of the stage.
+/// "scene.toml:12:1: sun: ..." for what is wrong with a scene as a whole: the place of the key, ring or table with
+/// whose name the message starts, else that of the stage.
 [[nodiscard]] std::string with_place(const Scene& scene, const std::string& message);
 
 /// The place of one input: "scene.toml:12:1"; without line when the scene does not give it.

@@ -32,12 +32,16 @@ class ReferenceReader {
     const auto* node = table.get(key);
     if (!node && !required) return "";
     const auto value = node ? node->value_exact<std::string>() : std::nullopt;
-    if (!value) throw refusal(node ? *node : table, fmt::format("'{}' {}", key, node ? "must be a text in quotes" : "is missing"));
-    if (has_controls(*value)) throw refusal(*node, fmt::format("'{}' must be one line without control characters", key));
+    if (!value)
+      throw refusal(node ? *node : table,
+                    fmt::format("'{}' {}", key, node ? "must be a text in quotes" : "is missing"));
+    if (has_controls(*value))
+      throw refusal(*node, fmt::format("'{}' must be one line without control characters", key));
     return *value;
   }
 
-  [[nodiscard]] double number(const toml::table& table, const char* key, double low, std::optional<double> absent) const {
+  [[nodiscard]] double number(const toml::table& table, const char* key, double low,
+                              std::optional<double> absent) const {
     const auto* node = table.get(key);
     if (!node && absent) return *absent;
     if (!node) throw refusal(table, fmt::format("a [[value]] needs the published number, {} = ...", key));
@@ -117,8 +121,8 @@ Reference read_reference(const std::filesystem::path& file) {
   reference.note = reader.text(root, "note", false);
   for (const auto* table : reader.tables(root, "order")) reference.orders.push_back(reader.order(*table));
   for (const auto* table : reader.tables(root, "at_pin"))
-    reference.at_pins.push_back(
-        {reader.text(*table, "ring", true), reader.text(*table, "statement", true), reader.text(*table, "where", false)});
+    reference.at_pins.push_back({reader.text(*table, "ring", true), reader.text(*table, "statement", true),
+                                 reader.text(*table, "where", false)});
   for (const auto* table : reader.tables(root, "value"))
     reference.values.push_back({reader.text(*table, "quantity", true),
                                 reader.number(*table, "value", -HUGE_VAL, std::nullopt),

@@ -33,8 +33,7 @@ void check_bore(const Scene& scene, const char* table, const HubGearInput& input
 
 void check_ring(const Scene& scene, const RingInput& input, const RingGeometry& ring) {
   const auto refuse = [&](const char* key, double value, const std::string& rule) {
-    throw GeometryError(
-        fmt::format("ring '{}': {} = {}: {}", input.name, key, to_text(value / units::mm), rule));
+    throw GeometryError(fmt::format("ring '{}': {} = {}: {}", input.name, key, to_text(value / units::mm), rule));
   };
   const double root = ring.set.ring().root_radius(), rim = ring.outside_radius - root, least = least_rim(scene);
   if (rim < least * (1 - rounding)) {
@@ -44,10 +43,11 @@ void check_ring(const Scene& scene, const RingInput& input, const RingGeometry& 
            fmt::format("must be at least {}; {}", mm(2 * (root + least)), why(scene)));
   }
   if (input.sleeve_thickness && *input.sleeve_thickness > (rim - least) * (1 + rounding))
-    refuse("sleeve_thickness_mm", *input.sleeve_thickness,
-           fmt::format("must be in range: 0 < value <= {}: the sleeve lies in the rim, which is {} thick, and keeps {} = "
-                       "{} modules from the root",
-                       mm(rim - least), mm(rim), mm(least), geometry::min_circle_distance));
+    refuse(
+        "sleeve_thickness_mm", *input.sleeve_thickness,
+        fmt::format("must be in range: 0 < value <= {}: the sleeve lies in the rim, which is {} thick, and keeps {} = "
+                    "{} modules from the root",
+                    mm(rim - least), mm(rim), mm(least), geometry::min_circle_distance));
 }
 
 }  // namespace

@@ -29,8 +29,9 @@ double group_memory_MB() {
   return least;
 }
 
-/// Of all points of a study, which are kept until its report is written; MB.
+/// Of all points of a study, which are kept until its report is written; MB. A search keeps its best ones only.
 double study_MB(const Scene& scene, const StudyPlan& study) {
+  if (study.name == "[optimise]") return 0;
   constexpr double of_a_point = 200;  // bytes besides its figures: vectors, a text
   const auto figures = static_cast<double>(stage_figures(scene.stage.kind).size());
   return static_cast<double>(study.responses) * (of_a_point + figures * sizeof(double)) / bytes_per_MB;
@@ -44,9 +45,10 @@ struct Need {
 };
 
 std::string mesh_cure(const CostStep& step) {
-  return fmt::format("its size follows from `accuracy` and `rung` (here {}, {:.3g} unknowns per pair of sectors, {} ring "
-                     "positions)",
-                     step.size.kind, step.size.unknowns, step.size.cycles);
+  return fmt::format(
+      "its size follows from `accuracy` and `rung` (here {}, {:.3g} unknowns per pair of sectors, {} ring "
+      "positions)",
+      step.size.kind, step.size.unknowns, step.size.cycles);
 }
 
 std::vector<Need> needs_of(const Scene& scene, int threads, const CostModel& costs, bool with_dynamics) {
@@ -55,7 +57,7 @@ std::vector<Need> needs_of(const Scene& scene, int threads, const CostModel& cos
     const bool solved = step.kind == CostKind::mesh || step.kind == CostKind::coupling;
     if (step.kind == CostKind::studies || (!solved && !with_dynamics)) continue;
     needs.push_back({step.label, step.predicted.seconds, step.predicted.peak_MB,
-                     solved                                ? mesh_cure(step)
+                     solved                        ? mesh_cure(step)
                      : scene.dynamics->mesh_cycles ? "it follows from dynamics.mesh_cycles"
                                                    : "it follows from the period of the errors; dynamics.mesh_cycles "
                                                      "sets how long is integrated"});
@@ -91,7 +93,8 @@ double parse_memory(const std::string& text) {
     for (const auto& [name, MB] : memory_units)
       if (unit == name) return value * MB;
   }
-  throw InputError(fmt::format("--max-memory {}: is not an amount of memory above zero; write 800MB, 16GB or 1TB", text));
+  throw InputError(
+      fmt::format("--max-memory {}: is not an amount of memory above zero; write 800MB, 16GB or 1TB", text));
 }
 
 void check_limits(const Scene& scene, const RunLimits& limits, int threads, const CostModel& costs,
@@ -107,15 +110,17 @@ void check_limits(const Scene& scene, const RunLimits& limits, int threads, cons
     if (std::isfinite(need.memory_MB) && (!largest || need.memory_MB > largest->memory_MB)) largest = &need;
   }
   if (largest && largest->memory_MB > limits.memory_MB)
-    throw SolverError(fmt::format("{}: refused: predicted to need {} of memory, the limit is {} (--max-memory); most goes "
-                                  "into the {}: {}",
-                                  scene.file.string(), gigabytes(largest->memory_MB), gigabytes(limits.memory_MB),
-                                  largest->label, largest->cure));
+    throw SolverError(
+        fmt::format("{}: refused: predicted to need {} of memory, the limit is {} (--max-memory); most goes "
+                    "into the {}: {}",
+                    scene.file.string(), gigabytes(largest->memory_MB), gigabytes(limits.memory_MB), largest->label,
+                    largest->cure));
   if (longest && seconds > limits.seconds)
-    throw SolverError(fmt::format("{}: refused: predicted to take {}, the limit is {} (--max-time); {} of it go into the "
-                                  "{}: {}",
-                                  scene.file.string(), duration_text(seconds), duration_text(limits.seconds),
-                                  duration_text(longest->seconds), longest->label, longest->cure));
+    throw SolverError(
+        fmt::format("{}: refused: predicted to take {}, the limit is {} (--max-time); {} of it go into the "
+                    "{}: {}",
+                    scene.file.string(), duration_text(seconds), duration_text(limits.seconds),
+                    duration_text(longest->seconds), longest->label, longest->cure));
 }
 
 }  // namespace annulus::app

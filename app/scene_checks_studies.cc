@@ -88,7 +88,9 @@ class StudyChecker {
     const std::string prefix = table.substr(table.find('.') + 1);  // of the keys: "", "x_"
     const bool steps = s.from || s.to || s.count;
     if (given(table + "values", i)) {
-      if (steps) return problem(table + "values", i, fmt::format("give either {0}values or {0}from, {0}to and {0}count", prefix));
+      if (steps)
+        return problem(table + "values", i,
+                       fmt::format("give either {0}values or {0}from, {0}to and {0}count", prefix));
       if (s.values.empty()) return problem(table + "values", i, "needs at least one value");
       const std::set<double> distinct(s.values.begin(), s.values.end());
       if (distinct.size() != s.values.size()) return problem(table + "values", i, "the same value stands there twice");
@@ -102,8 +104,10 @@ class StudyChecker {
     for (const double x : points) {
       if (parameter.in_range(x)) continue;
       const bool listed = given(table + "values", i);
-      return problem(table + (listed ? "values" : x == *s.from ? "from" : "to"), i,
-                     fmt::format("{} = {} must be in range: {}", s.input, to_text(x), parameter.range_text()));
+      return problem(table + (listed         ? "values"
+                              : x == *s.from ? "from"
+                                             : "to"),
+                     i, fmt::format("{} = {} must be in range: {}", s.input, to_text(x), parameter.range_text()));
     }
     if (s.scale == SweepScale::logarithmic && *std::min_element(points.begin(), points.end()) <= 0)
       problem(table + "scale", i, "needs values above zero");
@@ -119,7 +123,8 @@ class StudyChecker {
     };
     if (count(g.x) * count(g.y) > most_points)
       problem("grid.x_input", i,
-              fmt::format("has {} x {} points, at most {} are possible; take fewer values", count(g.x), count(g.y), most_points));
+              fmt::format("has {} x {} points, at most {} are possible; take fewer values", count(g.x), count(g.y),
+                          most_points));
   }
 
   void random(const RandomInput& r, std::size_t i) {

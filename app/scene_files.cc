@@ -17,7 +17,8 @@ namespace {
 constexpr std::uintmax_t largest_file = 100'000'000;  // bytes; a table of 1000 positions, 64 phases, 9 loads has 60 MB
 
 InputError refusal(const Scene& scene, const std::string& key, const std::string& name, const std::string& why) {
-  return InputError(fmt::format("{}: {} = \"{}\": {}", place_text(scene, key), key, shown(name), without_controls(why)));
+  return InputError(
+      fmt::format("{}: {} = \"{}\": {}", place_text(scene, key), key, shown(name), without_controls(why)));
 }
 
 /// Does `use` with the file; what is wrong with its content is told with the key that names it.
@@ -40,9 +41,11 @@ std::filesystem::path file_of_scene(const Scene& scene, const std::string& key, 
   std::error_code error;
   const auto folder = scene.file.parent_path();
   const auto file = folder / name;
-  const auto root = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
-  const auto target = error ? fs::path() : fs::weakly_canonical(file, error);
-  const bool below = !error && std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first == root.end();
+  // Made absolute first: of a file that is not there, a relative path would stay one.
+  const auto root = fs::weakly_canonical(fs::absolute(folder.empty() ? fs::path(".") : folder), error);
+  const auto target = error ? fs::path() : fs::weakly_canonical(fs::absolute(file), error);
+  const bool below =
+      !error && std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first == root.end();
   if (!below) throw refusal(scene, key, name, fmt::format("leads out of the scene's folder; must be {}", where));
   const auto status = fs::status(file, error);
   if (!fs::exists(status)) throw refusal(scene, key, name, "there is no such file; is the path right?");

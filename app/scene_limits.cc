@@ -81,11 +81,14 @@ std::string escaped(const std::string& text, bool keep_lines) {
 void check_scene_text(const std::string& text, const std::string& file) {
   if (text.size() > largest_scene)
     throw SceneError(
-        file, {{0, 0, fmt::format("is larger than {} bytes, the most a scene may have; is it the right file?", largest_scene)}});
+        file,
+        {{0, 0,
+          fmt::format("is larger than {} bytes, the most a scene may have; is it the right file?", largest_scene)}});
   if (const int line = KeyDepth(text).find(); line > 0)
-    throw SceneError(file, {{line, 1,
-                             fmt::format("a key of more than {} parts; tables lie no deeper than two, as mesh.sun_planet",
-                                         deepest_key)}});
+    throw SceneError(
+        file,
+        {{line, 1,
+          fmt::format("a key of more than {} parts; tables lie no deeper than two, as mesh.sun_planet", deepest_key)}});
 }
 
 std::string shown(const std::string& text, std::size_t longest) {

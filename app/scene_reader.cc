@@ -87,8 +87,8 @@ class Reader {
         return problem(place_of(node->source()), fmt::format("{}: write each one as {}", table.path, table.header()));
       }
       if (array->size() > most_tables)
-        return problem(place_of(node->source()), fmt::format("{}: there are {}, at most {} are possible", table.header(),
-                                                             array->size(), most_tables));
+        return problem(place_of(node->source()), fmt::format("{}: there are {}, at most {} are possible",
+                                                             table.header(), array->size(), most_tables));
       table.resize(scene_, array->size());
       for (std::size_t i = 0; i < array->size(); ++i) {
         const auto& entry = *array->get(i)->as_table();
@@ -163,7 +163,8 @@ class Reader {
   /// What is wrong with a text, empty if nothing is. Texts go into reports, tables and messages.
   static std::string text_rule(const std::string& text) {
     if (has_controls(text)) return "must be one line without control characters";
-    if (text.size() > longest_text) return fmt::format("has {} bytes, at most {} are possible", text.size(), longest_text);
+    if (text.size() > longest_text)
+      return fmt::format("has {} bytes, at most {} are possible", text.size(), longest_text);
     return "";
   }
 

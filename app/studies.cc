@@ -30,9 +30,7 @@ void check_random_input(const Scene& scene, const RandomVariable& variable) {
   const std::string where = "[[monte_carlo.input]] " + variable.input;
   const auto target = find_input(scene, variable.input);
   const auto place = place_of(scene, variable);
-  const auto refuse = [&](const std::string& why) {
-    throw InputError(fmt::format("{}: {}: {}", place, where, why));
-  };
+  const auto refuse = [&](const std::string& why) { throw InputError(fmt::format("{}: {}: {}", place, where, why)); };
   if (target.parameter->kind == Parameter::Kind::integer) refuse("is a whole number; a [[sweep]] suits it");
   try {
     variable.distribution.check();
@@ -45,7 +43,8 @@ void check_random_input(const Scene& scene, const RandomVariable& variable) {
       refuse(fmt::format("sample {} draws {}, which must be in range: {}; truncate the distribution with low and high",
                          sample + 1, to_text(x, 6), target.parameter->range_text()));
   }
-  const auto changed = change_scene(scene, {{{variable.input, draw(variable, scene.monte_carlo->seed, 0)}}, where, "", place});
+  const auto changed =
+      change_scene(scene, {{{variable.input, draw(variable, scene.monte_carlo->seed, 0)}}, where, "", place});
   const auto tables = tables_to_solve(scene, changed);
   if (!tables.empty())
     refuse(

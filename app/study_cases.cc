@@ -70,7 +70,8 @@ std::vector<StudyCase> sweep_cases(const Scene& scene, std::size_t sweep) {
     cases.push_back({{{s.input, values[i]}},
                      fmt::format("[[sweep]] {}, value {} of {} ({} = {})", sweep + 1, i + 1, values.size(), s.input,
                                  to_text(values[i])),
-                     "sweep/" + file_name(s.input) + "/" + text, place});
+                     "sweep/" + file_name(s.input) + "/" + text,
+                     place});
   }
   return cases;
 }
@@ -103,12 +104,12 @@ std::vector<StudyCase> grid_cases(const Scene& scene, std::size_t grid) {
   std::vector<StudyCase> cases;
   for (const double y : ys) {
     for (const double x : xs)
-      cases.push_back({{{g.x.input, x}, {g.y.input, y}},
-                       fmt::format("[[grid]] {}, point {} of {} ({} = {}, {} = {})", grid + 1, cases.size() + 1,
-                                   xs.size() * ys.size(), g.x.input, to_text(x), g.y.input, to_text(y)),
-                       fmt::format("grid/{}_{}_{}_{}", file_name(g.x.input), to_text(x, 15), file_name(g.y.input),
-                                   to_text(y, 15)),
-                       place});
+      cases.push_back(
+          {{{g.x.input, x}, {g.y.input, y}},
+           fmt::format("[[grid]] {}, point {} of {} ({} = {}, {} = {})", grid + 1, cases.size() + 1,
+                       xs.size() * ys.size(), g.x.input, to_text(x), g.y.input, to_text(y)),
+           fmt::format("grid/{}_{}_{}_{}", file_name(g.x.input), to_text(x, 15), file_name(g.y.input), to_text(y, 15)),
+           place});
   }
   return cases;
 }
@@ -160,7 +161,8 @@ std::vector<StudyCase> sensitivity_cases(const Scene& scene) {
       const std::string text = (multiplied ? "times_" : "over_") + to_text(factor, 15);
       cases.push_back({{{input, multiplied ? factor : 1 / factor, true}},
                        fmt::format("[sensitivity] {} {} {}", input, multiplied ? "×" : "/", to_text(factor)),
-                       "sensitivity/" + file_name(input) + "/" + text, place});
+                       "sensitivity/" + file_name(input) + "/" + text,
+                       place});
     }
   }
   return cases;

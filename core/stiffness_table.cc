@@ -108,7 +108,8 @@ StiffnessTable StiffnessTable::read_csv(const std::filesystem::path& file) {
     try {
       column.push_back(csv.column(name));
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}:{}: is no stiffness table: {}", file.string(), csv.header.size() + 1, error.what()));
+      throw InputError(
+          fmt::format("{}:{}: is no stiffness table: {}", file.string(), csv.header.size() + 1, error.what()));
     }
   }
   std::vector<std::pair<std::size_t, double ErrorParts::*>> part_columns;

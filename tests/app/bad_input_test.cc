@@ -141,11 +141,27 @@ class Corruptions {
       case Parameter::Kind::choice:
         return {text, empty, truth, table, date, whole, real, {"\"Computed\""}, {"[\"computed\"]", "[ 'computed' ]"}};
       case Parameter::Kind::reals:
-        return {text, truth, table, date, whole, real, {"[\"x\"]", "[ 'x' ]"}, {"[[1.5]]", "[ [ 1.5 ] ]"}, {"[1, true]", "[ 1, true ]"}};
+        return {text,
+                truth,
+                table,
+                date,
+                whole,
+                real,
+                {"[\"x\"]", "[ 'x' ]"},
+                {"[[1.5]]", "[ [ 1.5 ] ]"},
+                {"[1, true]", "[ 1, true ]"}};
       case Parameter::Kind::texts:
         break;
     }
-    return {text, truth, table, date, whole, real, {"[1]", "[ 1 ]"}, {"[[\"x\"]]", "[ [ 'x' ] ]"}, {"[\"x\", 1]", "[ 'x', 1 ]"}};
+    return {text,
+            truth,
+            table,
+            date,
+            whole,
+            real,
+            {"[1]", "[ 1 ]"},
+            {"[[\"x\"]]", "[ [ 'x' ] ]"},
+            {"[\"x\", 1]", "[ 'x', 1 ]"}};
   }
 
   void numbers(const app::Table& table, const Parameter& p) {
@@ -157,7 +173,9 @@ class Corruptions {
         number("out of range", table, p, x, fmt::format("{:.0f}", x));
       for (const auto* huge : {"9223372036854775807", "-9223372036854775808", "4294967296"})
         number("huge", table, p, std::stod(huge), huge);
-      for (const auto* beyond : {"9223372036854775808", "1" "0000000000000000000000000000000"})
+      for (const auto* beyond : {"9223372036854775808",
+                                 "1"
+                                 "0000000000000000000000000000000"})
         must_refuse("huge", table, p, {beyond, ""}, "not valid TOML", "");
       for (const auto* none : {"nan", "inf", "-inf"}) must_refuse(none, table, p, {none}, p.type_text());
       return;
@@ -170,7 +188,8 @@ class Corruptions {
     };
     const auto write = [&](const std::string& x) { return list ? "[" + x + "]" : x; };
     const double step = std::max(1e-9, 1e-9 * std::max(std::abs(p.low), std::abs(p.high)));
-    for (const double x : {p.low, p.low - step, p.low + step, p.high, p.high - step, p.high + step, -1.0, 0.0, -0.0, 1.0, 1e-300, 5e-324})
+    for (const double x : {p.low, p.low - step, p.low + step, p.high, p.high - step, p.high + step, -1.0, 0.0, -0.0,
+                           1.0, 1e-300, 5e-324})
       number("out of range", table, p, x, write(digits(x)));
     for (const double x : {1e300, -1e300, 1.7e308, 1e15, -1e15}) number("huge", table, p, x, write(digits(x)));
     number("nan", table, p, std::nan(""), write("nan"));
@@ -298,12 +317,14 @@ BOOST_AUTO_TEST_CASE(every_key_and_every_kind_of_bad_value) {
   for (const auto& good : test::good_scenes()) Corruptions(good, counts).all();
   Count all;
   for (const auto& [what, c] : counts) {
-    BOOST_TEST_MESSAGE(fmt::format("{:24} {:6} tried {:6} refused {:6} accepted", what, c.tried, c.refused, c.accepted));
+    BOOST_TEST_MESSAGE(
+        fmt::format("{:24} {:6} tried {:6} refused {:6} accepted", what, c.tried, c.refused, c.accepted));
     all.tried += c.tried;
     all.refused += c.refused;
     all.accepted += c.accepted;
   }
-  BOOST_TEST_MESSAGE(fmt::format("{:24} {:6} tried {:6} refused {:6} accepted", "all", all.tried, all.refused, all.accepted));
+  BOOST_TEST_MESSAGE(
+      fmt::format("{:24} {:6} tried {:6} refused {:6} accepted", "all", all.tried, all.refused, all.accepted));
   BOOST_TEST(all.tried > 5000);
 }
 

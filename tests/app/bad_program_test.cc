@@ -17,7 +17,8 @@ std::set<std::string> content_of(const std::filesystem::path& folder) {
   return names;
 }
 
-/// Refused with this status, a message that holds `word`, nothing said as if it had worked, and no file more than before.
+/// Refused with this status, a message that holds `word`, nothing said as if it had worked, and no file more than
+/// before.
 void check_refused(const std::filesystem::path& folder, const std::string& arguments, const std::string& word,
                    int status = 2) {
   const auto before = content_of(folder);
@@ -65,10 +66,11 @@ BOOST_AUTO_TEST_CASE(bad_scenes_of_every_class) {
   refuse(with("power_kW = 2958.8", "power_kW = nan"), "scene.toml:9:1: stage.power_kW = nan");
   refuse(with("[15, 36, 17, 38, 19]", "[15, 36]"), "2 values for 5 planets");
   refuse(with("sun_speed_rpm = 1128", "sun_speed_rpm = 1\ncarrier_speed_rpm = 1"), "give either");
-  refuse(with("teeth = 48", "teeth = 47"), "scene.toml:");                 // cannot be assembled
+  refuse(with("teeth = 48", "teeth = 47"), "scene.toml:");  // cannot be assembled
   refuse(with("name = \"held\"", "name = \"../held\""), "ring.name = ../held");
   refuse(with("name = \"held\"", "name = \"/tmp/held\""), "ring.name = /tmp/held");
-  refuse(with("stiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294", "stiffness = \"table\"\nfile = \"no.csv\""),
+  refuse(with("stiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294",
+              "stiffness = \"table\"\nfile = \"no.csv\""),
          "no such file");
   refuse("reference = \"../x.toml\"\n" + test::quick_scene(), "out of the scene's folder");
   refuse(test::quick_scene() + "# " + std::string(10'000'000, 'x'), "1000000 bytes");
@@ -101,16 +103,19 @@ BOOST_AUTO_TEST_CASE(what_is_no_scene_file) {
 
 BOOST_AUTO_TEST_CASE(too_much_is_refused_with_the_figures) {
   const test::TemporaryFolder folder("too_much");
-  const auto refuse = [&](const std::string& text, const std::string& arguments, const std::vector<std::string>& words) {
+  const auto refuse = [&](const std::string& text, const std::string& arguments,
+                          const std::vector<std::string>& words) {
     write_file(folder.path() / "scene.toml", text);
     for (const auto& word : words) check_refused(folder.path(), "run scene.toml -o out" + arguments, word, 3);
     check_refused(folder.path(), "plan scene.toml" + arguments, words.front(), 3);
   };
-  // 330 years of integration, at 9 ms each.
-  const auto samples = test::quick_scene() + "[monte_carlo]\nsamples = 10000000\n";
-  refuse(test::replaced(samples, "mesh_cycles = 110", "mesh_cycles = 1000000"), "",
-         {"the limit is 7 days (--max-time)", "[monte_carlo]: it asks for 10000000 responses"});
-  refuse(samples, " --max-memory 1GB", {"of memory, the limit is 1 GB (--max-memory)"});
+  // Searches of ten thousand million points, tens of milliseconds each.
+  refuse(test::quick_scene() +
+             "[optimise]\nobjective = [\"sun_planet_load_sharing_instantaneous\"]\ngenerations = 100000\npopulation = "
+             "100000\n[[optimise.variable]]\ninput = \"dynamics.mesh_damping_ratio\"\nlow = 0.05\nhigh = 0.06\n",
+         "", {"the limit is 7 days (--max-time)", "into the [optimise]: it asks for 20000200000 responses"});
+  refuse(test::quick_scene() + "[monte_carlo]\nsamples = 1000000\n", " --max-memory 200MB",
+         {"of memory, the limit is 200 MB (--max-memory)", "[monte_carlo]: it asks for 1000000 responses"});
   // A mesh: the keys that make it so large.
   const auto finest = test::replaced(test::computed_set(), "title = \"Quick\"", "accuracy = 0.00001");
   refuse(finest, " --max-memory 100MB", {"of memory, the limit is 100 MB", "follows from `accuracy` and `rung`"});
@@ -121,7 +126,8 @@ BOOST_AUTO_TEST_CASE(texts_stay_texts) {
   const std::string evil = "<script>alert(1)</script> \\\"'&amp;<img src=x onerror=alert(1)> ]]> {{x}} ../../../x %s";
   const std::string shown = "<script>alert(1)</script> \"'&amp;<img src=x onerror=alert(1)> ]]> {{x}} ../../../x %s";
   const auto evil_of = [&](const std::string& scene, const std::string& title) {
-    return "reference = \"ref.toml\"\n" + test::replaced(scene, "title = \"" + title + "\"", "title = \"" + evil + "\"") +
+    return "reference = \"ref.toml\"\n" +
+           test::replaced(scene, "title = \"" + title + "\"", "title = \"" + evil + "\"") +
            "[assumed]\n\"dynamics.mesh_damping_ratio\" = \"" + evil + "\"\n";
   };
   for (const auto& [name, scene, quantity] :

@@ -21,7 +21,8 @@ inline std::string studies_of(const std::string& input, const std::string& other
   return "[[sweep]]\ninput = \"" + input + "\"\nvalues = [0.05, 0.06]\n[[grid]]\nx_input = \"" + input +
          "\"\nx_values = [0.05, 0.06]\ny_input = \"" + other +
          "\"\ny_values = [0.03, 0.04]\n[monte_carlo]\nsamples = 2\n[[monte_carlo.input]]\ninput = \"" + input +
-         "\"\ndistribution = \"uniform\"\nlow = 0.05\nhigh = 0.06\n[sensitivity]\nfactor = 1.1\n[optimise]\nobjective = "
+         "\"\ndistribution = \"uniform\"\nlow = 0.05\nhigh = 0.06\n[sensitivity]\nfactor = 1.1\n[optimise]\nobjective "
+         "= "
          "[\"" +
          figure + "\"]\n[[optimise.variable]]\ninput = \"" + input + "\"\nlow = 0.05\nhigh = 0.06\n";
 }
@@ -36,8 +37,9 @@ inline std::string computed_set() {
   const std::string ring =
       "teeth = 162\nprofile_shift = 0.1516\nrim_thickness_mm = 20\nmass_kg = 31.25\ninertia_kg_m2 = 2.9606\n";
   const auto add = [&](const std::string& name, const std::string& structure, const std::string& keys) {
-    text = replaced(text, "[errors]",
-                    "[[ring]]\nname = \"" + name + "\"\nstructure = \"" + structure + "\"\n" + ring + keys + "[errors]");
+    text =
+        replaced(text, "[errors]",
+                 "[[ring]]\nname = \"" + name + "\"\nstructure = \"" + structure + "\"\n" + ring + keys + "[errors]");
   };
   add("flange", "traditional", "flange_width_mm = 20\nflange_diameter_mm = 720\n");
   add("sleeve", "thin_walled",

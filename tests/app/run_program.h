@@ -24,7 +24,8 @@ inline std::string text_of(const std::filesystem::path& file) {
 inline ProgramOutcome run_program(const std::filesystem::path& folder, const std::string& arguments) {
   const auto out = folder.string() + ".stdout", err = folder.string() + ".stderr";
   const int raw = std::system(
-      ("cd '" + folder.string() + "' && '" ANNULUS_PROGRAM "' " + arguments + " >'" + out + "' 2>'" + err + "'").c_str());
+      ("cd '" + folder.string() + "' && '" ANNULUS_PROGRAM "' " + arguments + " >'" + out + "' 2>'" + err + "'")
+          .c_str());
   const ProgramOutcome outcome{WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, text_of(out), text_of(err)};
   std::filesystem::remove(out);
   std::filesystem::remove(err);

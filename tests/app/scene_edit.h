@@ -30,7 +30,8 @@ class SceneEdit {
     std::string header;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       if (lines_[i].starts_with('[')) header = lines_[i].substr(0, lines_[i].rfind(']') + 1);
-      if (header == (table.path.empty() ? "" : table.header()) && names(lines_[i], name)) return static_cast<int>(i) + 1;
+      if (header == (table.path.empty() ? "" : table.header()) && names(lines_[i], name))
+        return static_cast<int>(i) + 1;
     }
     return 0;
   }

@@ -20,9 +20,9 @@ using Random = std::minstd_rand;
 
 std::size_t below(Random& random, std::size_t n) { return n ? random() % n : 0; }
 
-const char* const values[] = {"nan",    "inf",     "-inf",  "-1",         "0",          "1",      "1e-300", "1e300",
-                              "-1e300", "5e-324",  "3",     "2147483648", "0.5",        "1e9",    "[]",     "[1]",
-                              "[1, 2]", "[[[]]]",  "[nan]", "[1e300]",    "\"\"",       "\"x\"",  "true",   "{}",
+const char* const values[] = {"nan",    "inf",      "-inf",  "-1",         "0",          "1",       "1e-300", "1e300",
+                              "-1e300", "5e-324",   "3",     "2147483648", "0.5",        "1e9",     "[]",     "[1]",
+                              "[1, 2]", "[[[]]]",   "[nan]", "[1e300]",    "\"\"",       "\"x\"",   "true",   "{}",
                               "{a=1}",  "\"../x\"", "\"/\"", "1979-05-27", "[\"a\", 1]", "\"inf\"", "0x7f",   "20"};
 
 std::vector<std::string> lines_of(const std::string& text) {
