@@ -25,7 +25,7 @@ for target in "${targets[@]}"; do
   settings=(-max_len=8192 -timeout=30 -rss_limit_mb=4096 -print_funcs=0 "-dict=tests/fuzz/$target.dict" "-artifact_prefix=build/fuzz/found/$target-")
   read -r -a seeds <<<"$(seeds "$target" | tr '\n' ' ')"
   if [ "$seconds" = keep ]; then
-    "$program" "${settings[@]}" -merge=1 "tests/fuzz/corpus/$target" "build/fuzz/corpus/$target"
+    "$program" "${settings[@]}" -use_counters=0 -set_cover_merge=1 "tests/fuzz/corpus/$target" "build/fuzz/corpus/$target"
   else
     "$program" "${settings[@]}" "-max_total_time=$seconds" -print_final_stats=1 "build/fuzz/corpus/$target" "${seeds[@]}" \
       2>&1 | grep -E -v '^#[0-9]+\s+(REDUCE|NEW)'

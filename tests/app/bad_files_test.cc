@@ -7,11 +7,13 @@
 
 #include "app/scene_files.h"
 #include "app/scene_limits.h"
+#include "app/scene_schema.h"
 #include "app/stage_kinds.h"
 #include "app/studies.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "tests/app/bad_scenes.h"
+#include "tests/app/run_program.h"
 
 /// Scenes that are no text or no end of text, keys that contradict each other, and the files a scene names.
 namespace annulus {
@@ -299,6 +301,12 @@ BOOST_AUTO_TEST_CASE(references_that_are_none) {
     write_file(file, bad);
     check_refused(text, {scene.string() + ":1:1: reference = \"ref.toml\": " + file.string() + ":"}, scene);
   }
+}
+
+BOOST_AUTO_TEST_CASE(the_dictionary_of_the_fuzz_target_knows_every_key) {
+  const auto words = test::text_of(std::string(ANNULUS_SOURCE_DIR) + "/tests/fuzz/scene.dict");
+  for (const auto& table : app::schema())
+    for (const auto& p : table.parameters) BOOST_TEST(words.find('"' + p.name + " = \"") != std::string::npos, p.key());
 }
 
 BOOST_AUTO_TEST_SUITE_END()
