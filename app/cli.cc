@@ -14,6 +14,7 @@
 
 #include "app/content_id.h"
 #include "app/cost_budget.h"
+#include "app/finished_run.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/run_limits.h"
@@ -23,6 +24,7 @@
 #include "app/studies.h"
 #include "app/trade_report.h"
 #include "core/errors.h"
+#include "core/files.h"
 #include "core/log.h"
 
 namespace annulus::app {
@@ -72,12 +74,11 @@ void check_out(const std::filesystem::path& out) {
     throw InputError(fmt::format("--out {}: cannot write in {}", out.string(), there.string()));
 }
 
-/// All that can be known to be wrong before anything is computed.
+/// What can be known to be wrong before anything is computed; the run itself checks its studies first.
 void check_scene(const Scene& scene, const Arguments& arguments, bool with_dynamics = true) {
   check_stage(scene);
   check_files(scene);
   check_limits(scene, limits_of(arguments), arguments.threads, CostModel::of_this_machine(), with_dynamics);
-  if (with_dynamics) check_studies(scene);
 }
 
 /// The scene as the file has it, or as accurate as the budget allows; what that means goes into `sentence`.
@@ -98,8 +99,16 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
   auto options = run_options(arguments, scene);
   options.with_dynamics = with_dynamics;
   check_out(options.out);
-  check_scene(scene, arguments, with_dynamics);
-  fmt::print("{}", run_scene(scene, options));
+  const auto id = run_id(scene, options);
+  if (const auto earlier = finished_run(options.out, id)) {
+    fmt::print("{}reused   everything: nothing has changed since the run above\n", *earlier);
+  } else {
+    check_scene(scene, arguments, with_dynamics);
+    remove_unfinished_files(options.out);
+    const auto text = run_scene(scene, options);
+    fmt::print("{}", text);
+    keep_finished_run(options.out, id, text);
+  }
   if (!budget.empty()) fmt::print("{}\n", budget);
   fmt::print("report  {}\n", (options.out / "report.html").string());
 }
@@ -135,6 +144,7 @@ void tradeoff_command(const Arguments& arguments) {
   const auto options = run_options(arguments, scene);
   check_out(options.out);
   check_scene(scene, arguments, false);
+  remove_unfinished_files(options.out);
   const auto trade = measure_tradeoff(scene, options);
   write_tradeoff(trade, options.out);
   fmt::print("{}\ntable   {}\nreport  {}\n", trade_text(trade), (options.out / "tradeoff.csv").string(),

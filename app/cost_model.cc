@@ -25,7 +25,7 @@ struct UsualLaw {
 };
 
 bool is_solid(const std::string& kind) {
-  return kind == "solid" || kind == "solid_helical" || kind == "resolved_solid";
+  return kind == "solid" || kind == "solid_half" || kind == "solid_helical" || kind == "resolved_solid";
 }
 bool is_plane(const std::string& kind) { return kind == "plane" || kind == "resolved_plane"; }
 /// Every position has a mesh of its own.

@@ -13,6 +13,7 @@
 #include "app/stage_response.h"
 #include "dynamics/study_point.h"
 #include "fem/cost_size.h"
+#include "fem/solved_face.h"
 
 namespace annulus::app {
 
@@ -47,6 +48,7 @@ CostRun coupling_size(const MeshModel& model, int threads) {
   size.threads = threads;
   auto settings = model.settings;
   settings.degree = 2;
+  settings.symmetry = false;  // a ring's modes need not be symmetric
   // On single supports every ring position is a system of its own.
   size.unknowns = fem::estimated_unknowns(*model.problem, settings, 1) * (supported ? model.positions : 1);
   return size;
@@ -139,9 +141,11 @@ double PlanCost::actual_seconds() const {
 }
 
 std::string cost_kind(const MeshModel& model) {
+  if (!model.computed() || model.settings.rung != fem::Rung::solid) return model.rung;
   // The contact of helical teeth moves along the face width: every slice has elements of its own.
-  const bool helical = model.computed() && model.problem->pair.planet().helix_angle() != 0;
-  return helical && model.rung == "solid" ? "solid_helical" : model.rung;
+  if (model.problem->pair.planet().helix_angle() != 0) return "solid_helical";
+  // Fewer slices with the same section: the contact falls with them faster than with a coarser section.
+  return fem::solved_face(*model.problem, model.settings).half ? "solid_half" : model.rung;
 }
 
 CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs) {

@@ -9,8 +9,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "core/csv.h"
 #include "core/errors.h"
+#include "core/files.h"
 #include "core/log.h"
 #include "cost_runs_data.h"
 

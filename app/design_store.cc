@@ -3,6 +3,7 @@
 #include "app/content_id.h"
 #include "app/point_store.h"
 #include "core/csv.h"
+#include "core/files.h"
 
 namespace annulus::app {
 

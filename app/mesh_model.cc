@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/content_id.h"
+#include "fem/solved_face.h"
 
 namespace annulus::app {
 
@@ -214,6 +215,12 @@ void add_structure(ContentId& id, const fem::RingStructure& structure) {
   }
 }
 
+Decision symmetry_decision(const fem::LoadedMeshProblem& problem, const fem::LoadedMeshSettings& settings) {
+  if (fem::solved_face(problem, settings).half)
+    return {"symmetry", "half of the face", "the mesh is its own mirror image about the middle of the face"};
+  return {"symmetry", "whole face", settings.symmetry ? fem::asymmetry_of_face(problem) : "asked for"};
+}
+
 }  // namespace
 
 const char* rung_name(fem::Rung rung) {
@@ -241,6 +248,7 @@ std::vector<Decision> decisions(const MeshModel& model) {
   const bool solid = settings.rung == fem::Rung::solid || settings.rung == fem::Rung::resolved_solid;
   list.push_back({"dimension", solid ? "3D" : "2D, plane strain",
                   solid ? "the face width is meshed" : "one section stands for the whole face width"});
+  if (solid) list.push_back(symmetry_decision(problem, settings));
   if (elements) {
     constexpr const char* names[] = {"linear", "quadratic", "cubic"};
     list.push_back({"elements", names[settings.degree - 1], model.elements});

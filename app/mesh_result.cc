@@ -9,6 +9,7 @@
 #include "app/content_id.h"
 #include "app/mesh_tables.h"
 #include "app/svg_mesh.h"
+#include "core/files.h"
 
 namespace annulus::app {
 

@@ -16,6 +16,7 @@
 #include "app/study_cases.h"
 #include "app/tasks.h"
 #include "core/errors.h"
+#include "core/files.h"
 
 namespace annulus::app {
 

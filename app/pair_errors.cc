@@ -6,6 +6,7 @@
 
 #include "app/content_id.h"
 #include "core/csv.h"
+#include "core/files.h"
 
 namespace annulus::app {
 

@@ -13,6 +13,7 @@
 #include "app/studies.h"
 #include "app/tasks.h"
 #include "core/errors.h"
+#include "core/files.h"
 #include "core/log.h"
 #include "core/units.h"
 

@@ -12,7 +12,7 @@
 #include "app/studies.h"
 #include "app/summary.h"
 #include "app/tasks.h"
-#include "core/csv.h"
+#include "core/files.h"
 #include "core/log.h"
 
 namespace annulus::app {
@@ -170,14 +170,17 @@ StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry,
     return make_stage(scene, geometry, ring, sun, wheel);
   };
   auto response = simulate_and_save(stage, simulation, {make, sun_mesh, ring_mesh}, id, folder);
-  log::info(fmt::format("dynamics of '{}': {} mesh cycles, {} steps, {}", name, response.figures.total_cycles,
-                        response.figures.statistics.steps,
-                        response.figures.steady ? "periodic steady state" : "no periodic steady state"));
-  if (const auto& direct = response.figures.direct; direct && !response.figures.confirmed)
+  const auto& f = response.figures;
+  if (f.total_cycles == 0)
+    log::info(fmt::format("dynamics of '{}': periodic steady state, solved directly", name));
+  else
+    log::info(fmt::format("dynamics of '{}': {} mesh cycles, {} steps, {}", name, f.total_cycles, f.statistics.steps,
+                          f.steady ? "periodic steady state" : "no periodic steady state"));
+  if (f.direct && !f.confirmed && f.total_cycles > 0)
     log::info(fmt::format("dynamics of '{}': found by marching; {}", name,
-                          direct->converged ? fmt::format("the direct solution differs (half its samples by {:.1e})",
-                                                          direct->sampling_difference)
-                                            : "the direct solution failed: " + direct->trouble));
+                          f.direct->converged ? fmt::format("the direct solution differs (half its samples by {:.1e})",
+                                                            f.direct->sampling_difference)
+                                              : "the direct solution failed: " + f.direct->trouble));
   return response;
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/content_id.h"
 #include "app/pipeline.h"
+#include "core/files.h"
 
 namespace annulus::app {
 

@@ -8,6 +8,7 @@
 #include "app/pipeline.h"
 #include "app/studies.h"
 #include "app/study_runner.h"
+#include "core/files.h"
 
 namespace annulus::app {
 

@@ -9,7 +9,7 @@
 #include "app/cost_plan.h"
 #include "app/overrides.h"
 #include "app/report_parts.h"
-#include "core/csv.h"
+#include "core/files.h"
 
 namespace annulus::app {
 

@@ -10,8 +10,8 @@
 
 #include "app/content_id.h"
 #include "app/overrides.h"
-#include "core/csv.h"
 #include "core/errors.h"
+#include "core/files.h"
 #include "core/log.h"
 #include "fem/error_estimate.h"
 

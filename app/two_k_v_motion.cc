@@ -7,6 +7,7 @@
 
 #include "app/content_id.h"
 #include "core/errors.h"
+#include "core/files.h"
 
 namespace annulus::app {
 

@@ -12,7 +12,7 @@
 #include "app/studies.h"
 #include "app/tasks.h"
 #include "app/two_k_v_subject.h"
-#include "core/csv.h"
+#include "core/files.h"
 #include "core/log.h"
 
 namespace annulus::app {

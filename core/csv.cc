@@ -1,17 +1,15 @@
 #include "core/csv.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <charconv>
 #include <fstream>
 #include <sstream>
 #include <string_view>
-#include <system_error>
 
 #include "core/errors.h"
+#include "core/files.h"
 
 namespace annulus {
 
@@ -58,31 +56,6 @@ double to_number(std::string_view cell, const std::filesystem::path& file, int l
 bool single_line(const std::string& text) { return text.find_first_of("\r\n") == std::string::npos; }
 
 }  // namespace
-
-void write_file(const std::filesystem::path& file, const std::string& text) {
-  // Process and counter make the name unique: two writers of one file never share a temporary.
-  static std::atomic<unsigned> counter{0};
-  auto temporary = file;
-  temporary += fmt::format(".{}.{}.tmp", ::getpid(), counter++);
-  {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) {
-      std::error_code ignored;
-      std::filesystem::remove(temporary, ignored);
-      throw InputError(
-          fmt::format("cannot write {}: check that its folder exists, is writable and not full", file.string()));
-    }
-  }
-  std::error_code error;
-  std::filesystem::rename(temporary, file, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw InputError(fmt::format("cannot write {}: {}", file.string(), error.message()));
-  }
-}
 
 void Csv::write(const std::filesystem::path& file) const {
   fmt::memory_buffer out;

@@ -8,9 +8,6 @@
 
 namespace annulus {
 
-/// Writes `text` under a temporary name beside `file` and renames it: a reader never sees half a file.
-void write_file(const std::filesystem::path& file, const std::string& text);
-
 /// A table of numbers with named columns, preceded by `# key: value` lines. The units are in the column names.
 struct Csv {
   std::vector<std::pair<std::string, std::string>> header;

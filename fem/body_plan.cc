@@ -7,13 +7,14 @@
 namespace annulus::fem {
 
 BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfile& profile, bool wheel,
-                   geometry::Boundary flank, int degree, bool solid)
-    : profile_(profile), face_width_(problem.face_width), solid_(solid) {
+                   geometry::Boundary flank, int degree, bool solid, const SolvedFace& face)
+    : profile_(profile), face_(face), solid_(solid) {
   if (wheel) structure_ = problem.structure;
   const double outside = problem.wheel_support_radius;
   rim_.support_radius = wheel ? outside : problem.planet_bore_radius;
   model_.degree = degree;
   model_.flank = flank;
+  model_.symmetric_end = face.half;
   const bool helical = profile.gear().helix_angle() != 0;
   if (const auto* cantilever = std::get_if<EndFaceHeld>(&structure_)) {
     if (!solid) throw InputError("a ring held at its end face is a solid problem: the plane rung cannot model it");
@@ -42,6 +43,7 @@ SectorModelOptions BodyPlan::near_field_model() const {
   SectorModelOptions model = model_;
   model.held = HeldBoundary::support;
   model.want_outside = false;
+  model.symmetric_end = false;
   return model;
 }
 
@@ -49,16 +51,17 @@ geometry::Mesh BodyPlan::section(const geometry::SectorResolution& resolution) c
   return geometry::make_sector_mesh(profile_.gear(), rim_, resolution);
 }
 
-geometry::Mesh BodyPlan::sector(const BodyResolution& resolution) const {
+geometry::Mesh BodyPlan::sector(const BodyResolution& resolution, const SolvedFace& face) const {
   geometry::Mesh plane = section(resolution.section);
   if (!solid_) return plane;
   std::vector<geometry::Layers> stacks;
   geometry::ExtrudeOptions options;
   options.twist = profile_.twist();
+  const double face_width = face.width;
   const auto cells = [&](double length) {
-    return std::max(1, static_cast<int>(std::lround(resolution.face_cells * length / face_width_)));
+    return std::max(1, static_cast<int>(std::lround(resolution.face_cells * length / face_width)));
   };
-  geometry::Layers teeth{0, face_width_, resolution.face_cells};
+  geometry::Layers teeth{0, face_width, resolution.face_cells};
   if (const auto* cantilever = std::get_if<EndFaceHeld>(&structure_)) {
     geometry::Layers sleeve{-cantilever->free_length, 0, resolution.sleeve_cells};
     sleeve.region = geometry::Mesh::Region::sleeve;
@@ -69,27 +72,33 @@ geometry::Mesh BodyPlan::sector(const BodyResolution& resolution) const {
       teeth.radius_high = sleeve.radius_high = options.outside_radius;
     }
     stacks.push_back(sleeve);
-    if (cantilever->hoop && cantilever->hoop->width < face_width_) {
-      teeth.z_high = face_width_ - cantilever->hoop->width;
+    if (cantilever->hoop && cantilever->hoop->width < face_width) {
+      teeth.z_high = face_width - cantilever->hoop->width;
       teeth.cells = cells(teeth.z_high);
       stacks.push_back(teeth);
-      teeth = {teeth.z_high, face_width_, cells(cantilever->hoop->width)};
+      teeth = {teeth.z_high, face_width, cells(cantilever->hoop->width)};
     } else if (cantilever->hoop) {
       teeth.radius_high = geometry::Layers{}.radius_high;
     }
   } else if (const auto* flange = std::get_if<FlangeHeld>(&structure_)) {
     options.outside_radius = rim_.circles.front();
-    geometry::Layers low{0, std::min(flange->width, face_width_), cells(flange->width)};
+    geometry::Layers low{0, std::min(flange->width, face_width), cells(flange->width)};
     low.band = geometry::Mesh::Region::flange;
-    if (flange->width < face_width_) {
+    if (flange->width < face_width) {
       stacks.push_back(low);
-      teeth = {flange->width, face_width_, cells(face_width_ - flange->width)};
+      teeth = {flange->width, face_width, cells(face_width - flange->width)};
       teeth.radius_high = options.outside_radius;
     } else {
       teeth.band = geometry::Mesh::Region::flange;
     }
   }
-  stacks.push_back(teeth);
+  if (face.half) {
+    require(stacks.empty() && teeth.z_high == face_width, "half of a face that is not symmetric");
+    const auto edges = face.edges(resolution.face_cells);
+    for (std::size_t i = 0; i + 1 < edges.size(); ++i) stacks.push_back({edges[i], edges[i + 1], 1});
+  } else {
+    stacks.push_back(teeth);
+  }
   return geometry::extrude(plane, stacks, options);
 }
 

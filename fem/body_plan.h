@@ -3,6 +3,7 @@
 #include "fem/elasticity/sector_model.h"
 #include "fem/loaded_mesh.h"
 #include "fem/resolution.h"
+#include "fem/solved_face.h"
 #include "geometry/mesh.h"
 
 namespace annulus::fem {
@@ -14,12 +15,16 @@ class BodyPlan {
   /// `wheel`: the pair's wheel with its structure, else the planet. The profile is referred to. Throws InputError when
   /// the structure needs a solid body and `solid` is false.
   BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfile& profile, bool wheel,
-           geometry::Boundary flank, int degree, bool solid);
+           geometry::Boundary flank, int degree, bool solid, const SolvedFace& face);
 
   /// Plane section alone, whatever the body.
   [[nodiscard]] geometry::Mesh section(const geometry::SectorResolution& resolution) const;
-  /// Sector of the body: the section, or solid.
-  [[nodiscard]] geometry::Mesh sector(const BodyResolution& resolution) const;
+  /// Sector of the body as it is solved: the section, or solid.
+  [[nodiscard]] geometry::Mesh sector(const BodyResolution& resolution) const { return sector(resolution, face_); }
+  /// The same over the whole face width.
+  [[nodiscard]] geometry::Mesh whole_sector(const BodyResolution& resolution) const {
+    return sector(resolution, {face_.width, false});
+  }
 
   [[nodiscard]] const geometry::ToothProfile& profile() const { return profile_; }
   [[nodiscard]] double support_radius() const { return rim_.support_radius; }
@@ -29,8 +34,10 @@ class BodyPlan {
   [[nodiscard]] bool floating() const { return model_.held == HeldBoundary::none; }
 
  private:
+  [[nodiscard]] geometry::Mesh sector(const BodyResolution& resolution, const SolvedFace& face) const;
+
   const geometry::ToothProfile& profile_;
-  double face_width_;
+  SolvedFace face_;
   bool solid_;
   RingStructure structure_ = OutsideHeld{};
   geometry::Rim rim_;

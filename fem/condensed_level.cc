@@ -88,6 +88,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   ContactOptions options;
   options.elements = static_cast<int>(std::lround(elements * std::pow(1.25, level - 1)));
   options.misalignment = problem.misalignment;
+  options.half_face = bodies.face.half;
   const ContactSystem system(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.material,
                              bodies.slice_edges, options);
   const auto solve = [&](int cycle, int phase, int load, ContactSystem::PairsCache& cache,
@@ -108,6 +109,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   result.stress_curves = worst_curves(problem, bodies, system, result.positions);
   result.planet_sector = std::move(bodies.planet_sector);
   result.wheel_sector = std::move(bodies.wheel_sector);
+  result.half_face = bodies.face.half;
   result.unknowns = bodies.unknowns;
   if (bodies.supports) {
     const auto& sites = bodies.supports->plan().sites();
@@ -115,7 +117,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
     // The frame of the solve is the mirror image of the real ring.
     for (int pin = 0; pin < sites.pins; ++pin) result.pin_angles.push_back(-sites.sites[pin].angle);
   }
-  result.slice_edges = bodies.slice_edges;
+  result.slice_edges = result.half_face ? mirrored_edges(bodies.slice_edges) : bodies.slice_edges;
   result.mesh_seconds = bodies.mesh_seconds;
   result.condense_seconds = bodies.condense_seconds;
   result.saved_seconds = bodies.saved_seconds;

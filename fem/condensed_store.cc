@@ -1,7 +1,5 @@
 #include "fem/condensed_store.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <boost/uuid/name_generator_sha1.hpp>
 #include <boost/uuid/uuid_io.hpp>
@@ -10,6 +8,8 @@
 #include <tuple>
 #include <vector>
 
+#include "core/errors.h"
+#include "core/files.h"
 #include "core/log.h"
 #include "fem/byte_stream.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 const std::string tooth_file_kind = "annulus condensed tooth";
 /// To be raised with every change of what is written, or of how it is computed.
-constexpr std::uint32_t tooth_file_format = 1;
+constexpr std::uint32_t tooth_file_format = 2;
 
 }  // namespace
 
@@ -70,23 +70,20 @@ bool CondensedStore::read(const std::string& key, const std::function<void(ByteR
 }
 
 void CondensedStore::write(const std::string& key, const std::function<void(ByteWriter&)>& write_one) const {
-  std::error_code error;
-  std::filesystem::create_directories(folder_, error);
-  const auto temporary = folder_ / (key + "." + std::to_string(getpid()) + ".unfinished");
-  bool written = false;
-  {
-    std::ofstream out(temporary, std::ios::binary);
+  std::error_code ignored;
+  std::filesystem::create_directories(folder_, ignored);
+  try {
+    UnfinishedFile unfinished(file(key));
+    std::ofstream out(unfinished.temporary(), std::ios::binary);
     ByteWriter writer(out);
     writer.add(tooth_file_kind).add(tooth_file_format).add(key);
     write_one(writer);
     writer.add(writer.checksum());
     out.close();
-    written = static_cast<bool>(out);
-  }
-  if (written) std::filesystem::rename(temporary, file(key), error);
-  if (!written || error) {
-    log::warn(file(key).string() + ": cannot be written, this tooth is not kept");
-    std::filesystem::remove(temporary, error);
+    if (!out) throw InputError("cannot write " + file(key).string());
+    unfinished.finish();
+  } catch (const InputError& error) {
+    log::warn(std::string(error.what()) + ": this tooth is not kept");
     return;
   }
   remove_oldest(file(key));

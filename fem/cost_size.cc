@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fem/resolution.h"
+#include "fem/solved_face.h"
 
 namespace annulus::fem {
 namespace {
@@ -42,9 +43,11 @@ double nodes_of_rim(const SectionCounts& c, double rows, int degree) {
 }
 
 double solid_unknowns(const LoadedMeshProblem& problem, const BodyResolution& r, const geometry::Gear& gear, bool wheel,
-                      int degree) {
+                      int degree, const SolvedFace& face) {
   const auto c = section_counts(r.section);
-  double nodes = nodes_of_section(c, degree) * (degree * r.face_cells + 1);
+  double nodes = nodes_of_section(c, degree) * (degree * face.solved(r.face_cells) + 1);
+  // The nodes of a plane of symmetry stay in it.
+  if (face.half) return 3 * nodes - nodes_of_section(c, degree);
   if (!wheel) return 3 * nodes;
   const double rim = std::abs(problem.wheel_support_radius - gear.root_radius());
   if (const auto* held = std::get_if<EndFaceHeld>(&problem.structure)) {
@@ -79,11 +82,12 @@ int last_level(Rung rung) {
 double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
   if (settings.rung == Rung::closed_form) return 0;
   const bool solid = settings.rung == Rung::solid || settings.rung == Rung::resolved_solid;
+  const SolvedFace face = solved_face(problem, settings);
   double unknowns = 0;
   for (const bool wheel : {false, true}) {
     const auto& gear = wheel ? problem.pair.wheel() : problem.pair.planet();
     const auto of_solid = settings.rung == Rung::resolved_solid ? resolved_solid_resolution : solid_resolution;
-    unknowns += solid ? solid_unknowns(problem, of_solid(level), gear, wheel, settings.degree)
+    unknowns += solid ? solid_unknowns(problem, of_solid(level), gear, wheel, settings.degree, face)
                       : 2 * nodes_of_section(section_counts(plane_resolution(gear, level).section), settings.degree);
   }
   return unknowns;

@@ -13,24 +13,43 @@ double plane_strain_error(const LoadedMeshProblem& problem) {
   return 0.65 * nu * nu / (1 - nu * nu) / (1 + width / 10);
 }
 
-double estimate_errors(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, double contact,
-                       const std::vector<LoadedPosition>& coarser, std::vector<LoadedPosition>& positions) {
+namespace {
+
+/// The error of the finer of two levels over their difference.
+double left_over(int degree, double difference, std::optional<double> before) {
+  // Linear elements approach their limit with the first power of the cell size: what is left of them at a ratio of 1.5
+  // is twice the difference.
+  if (degree == 1) return 1 / (level_ratio - 1);
+  // Near singular edges of a support the error falls little faster than that, and the difference is about the error
+  // itself; where the contact dominates it falls at least with the square. Two differences tell: the next ones are
+  // taken to shrink as these did, and no faster than with the cube.
+  constexpr double most = 1;
+  if (!before) return most;
+  const double least = 1 / (std::pow(level_ratio, 3) - 1);
+  const double ratio = difference / *before;
+  return ratio < 0.5 ? std::max(least, ratio / (1 - ratio)) : most;
+}
+
+}  // namespace
+
+LevelErrors estimate_errors(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, double contact,
+                            const std::vector<LoadedPosition>& coarser, std::vector<LoadedPosition>& positions,
+                            std::optional<double> before) {
   const std::size_t loads = problem.loads.size();
-  // The error falls at least with the square of the cell size where the contact dominates, so that the difference of
-  // two levels overestimates that of the finer one; near singular edges of a support it falls more slowly and the
-  // difference is about the error itself. Linear elements approach their limit with the first power of the cell size:
-  // what is left of them at a ratio of 1.5 is twice the difference.
-  const double left = settings.degree == 1 ? 1 / (level_ratio - 1) : 1;
+  LevelErrors result;
   std::vector<double> difference(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    difference[i] = left * std::abs(coarser[i].entry.stiffness_secant / positions[i].entry.stiffness_secant - 1);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    difference[i] = std::abs(coarser[i].entry.stiffness_secant / positions[i].entry.stiffness_secant - 1);
+    if (i % loads == loads / 2) result.difference = std::max(result.difference, difference[i]);
+  }
+  const double left = left_over(settings.degree, result.difference, before);
+  for (double& d : difference) d *= left;
   const bool plane = settings.rung == Rung::plane || settings.rung == Rung::resolved_plane;
   const double model = plane ? plane_strain_error(problem) : 0;
   // Along the mesh cycle the difference changes its sign here and there, where it says nothing about the error: the
   // largest of a sixteenth of a cycle to either side counts.
   const auto along = static_cast<std::ptrdiff_t>(positions.size() / loads);
   const std::ptrdiff_t reach = (problem.phases + 15) / 16;
-  double worst = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     auto& entry = positions[i].entry;
     ErrorParts& parts = entry.error_parts;
@@ -44,9 +63,9 @@ double estimate_errors(const LoadedMeshProblem& problem, const LoadedMeshSetting
       parts.discretisation = std::max(parts.discretisation, difference[wrapped * loads + i % loads]);
     }
     entry.error_relative = parts.total();
-    if (i % loads == loads / 2) worst = std::max(worst, entry.error_relative - model);
+    if (i % loads == loads / 2) result.worst = std::max(result.worst, entry.error_relative - model);
   }
-  return worst;
+  return result;
 }
 
 }  // namespace annulus::fem

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "fem/loaded_mesh.h"
@@ -12,10 +13,17 @@ namespace annulus::fem {
 /// by nu^2 / (1 - nu^2) = 9.9 %. 0.65 of that, falling with the width in units of ten modules, lies above.
 [[nodiscard]] double plane_strain_error(const LoadedMeshProblem& problem);
 
+/// What two successive levels tell; relative to the stiffness, the largest of all positions at the middle load.
+struct LevelErrors {
+  double worst = 0;       ///< estimated error, without what the rung leaves out: what the wanted accuracy is about
+  double difference = 0;  ///< between the levels
+};
+
 /// Fills the errors of all positions of a level from those of the level before; `contact` is the relative error of the
-/// stiffness by the discretised pressure (SolvedLevel::contact_error). Returns the largest at the middle load, without
-/// what the rung leaves out: what the wanted accuracy is about.
-double estimate_errors(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, double contact,
-                       const std::vector<LoadedPosition>& coarser, std::vector<LoadedPosition>& positions);
+/// stiffness by the discretised pressure (SolvedLevel::contact_error). `before`: the difference that the coarser level
+/// had to the one before it, where there was one.
+LevelErrors estimate_errors(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, double contact,
+                            const std::vector<LoadedPosition>& coarser, std::vector<LoadedPosition>& positions,
+                            std::optional<double> before = {});
 
 }  // namespace annulus::fem

@@ -17,6 +17,7 @@ struct SolvedLevel {
   std::vector<LoadedPosition> positions;
   std::vector<StressCurve> stress_curves;
   geometry::Mesh planet_sector, wheel_sector;
+  bool half_face = false;
   long unknowns = 0;
   /// Relative, of the stiffness, by the discretised pressure alone; 0 where the pressure is refined with the cells.
   double contact_error = 0;

@@ -72,9 +72,12 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
 
   SolvedLevel coarser = solve_level(first_level - 1), solved;
   int level = first_level;
+  std::optional<double> difference;  // of the last two levels
   for (;; ++level) {
     solved = solve_level(level);
-    worst = estimate_errors(problem, settings, solved.contact_error, coarser.positions, solved.positions);
+    const auto errors =
+        estimate_errors(problem, settings, solved.contact_error, coarser.positions, solved.positions, difference);
+    worst = errors.worst, difference = errors.difference;
     if (settings.level || worst <= settings.accuracy) break;
     if (level == last_level)
       throw SolverError(
@@ -109,6 +112,7 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   result.wheel_sector = std::move(solved.wheel_sector);
   result.level = level;
   result.worst_error_relative = worst;
+  result.half_face = solved.half_face;
   result.unknowns = solved.unknowns;
   result.pin_stiffness = solved.pin_stiffness;
   result.pin_angles = std::move(solved.pin_angles);

@@ -39,6 +39,9 @@ struct LoadedMeshSettings {
   int degree = 2;  ///< polynomial degree of the elements
   /// Forces one level of resolution (1, 2, ...; its error estimated from the level before) instead of refining.
   std::optional<int> level{};
+  /// Solid rungs solve half of the face width where the problem is its own mirror image about the middle: the same
+  /// results in a fraction of the time.
+  bool symmetry = true;
   int threads = 1;                                  ///< changes the time, never the result
   std::function<void(double fraction)> progress{};  ///< called now and then with the finished fraction
   /// Where condensed teeth are looked for and kept; may be null. They depend neither on loads and phases nor on the
@@ -110,6 +113,7 @@ struct LoadedMeshResult {
   int level = 1;                                   ///< level of resolution reached
   /// Largest estimated error at the middle load, plane strain not counted: what the accuracy is about.
   double worst_error_relative = 0;
+  bool half_face = false;             ///< solved on half of the face width; all figures are those of the whole
   long unknowns = 0;                  ///< freedoms of the two sectors
   double pin_stiffness = 0;           ///< N/m per pin or spline flank as used; 0 without
   std::vector<double> pin_angles{};   ///< rad, from the centre of tooth 0; empty without pins

@@ -66,12 +66,6 @@ double saved_seconds(const std::vector<Task>& tasks, int threads) {
   return without - with;
 }
 
-std::vector<double> uniform_edges(double width, int cells) {
-  std::vector<double> edges;
-  for (int i = 0; i <= cells; ++i) edges.push_back(width * i / cells);
-  return edges;
-}
-
 /// The supports of a floating ring; none when the structure holds the ring.
 std::optional<SupportSites> support_sites(const LoadedMeshProblem& problem) {
   const SupportedRing ring{problem.pair.wheel().teeth(), problem.wheel_support_radius, problem.face_width,
@@ -88,14 +82,15 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   const auto start = std::chrono::steady_clock::now();
   const auto& pair = problem.pair;
   const bool solid = settings.rung == Rung::solid;
-  const BodyPlan planet(problem, flanks.planet(), false, geometry::Boundary::leading_flank, settings.degree, solid);
-  const BodyPlan wheel(problem, flanks.wheel(), true, flanks.wheel_flank(), settings.degree, solid);
+  const SolvedFace face = solved_face(problem, settings);
+  const BodyPlan planet(problem, flanks.planet(), false, geometry::Boundary::leading_flank, settings.degree, solid,
+                        face);
+  const BodyPlan wheel(problem, flanks.wheel(), true, flanks.wheel_flank(), settings.degree, solid, face);
   const BodyResolution solid_counts = solid ? solid_resolution(level) : BodyResolution{};
   std::optional<SupportPlan> supports;
   if (const auto sites = support_sites(problem))
     // A slice per layer of elements: unilateral on its own.
-    supports.emplace(*sites, pair.wheel().teeth(),
-                     uniform_edges(problem.face_width, std::max(1, solid_counts.face_cells)));
+    supports.emplace(*sites, pair.wheel().teeth(), face.edges(std::max(1, solid_counts.face_cells)), face.half);
 
   std::vector<Task> tasks;
   const auto add_body = [&](const BodyPlan& plan) {
@@ -132,8 +127,8 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   condense_all(tasks, problem.material, settings.threads);
   for (const auto& task : tasks) ++(task.reused ? bodies.reused_teeth : bodies.condensed_teeth);
   bodies.saved_seconds = saved_seconds(tasks, settings.threads);
-  bodies.slice_edges =
-      solid ? uniform_edges(problem.face_width, 2 * solid_counts.face_cells) : uniform_edges(problem.face_width, 1);
+  bodies.face = face;
+  bodies.slice_edges = face.edges(solid ? 2 * solid_counts.face_cells : 1);
   const auto near_field = [&](std::size_t fine, std::size_t coarse) {
     const auto compliance = [&](std::size_t index) -> Eigen::MatrixXd {
       const GearBody& body = tasks[index].body;
@@ -142,8 +137,8 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     return NearField{tasks[fine].body.flank, tasks[coarse].body.flank, compliance(fine), compliance(coarse)};
   };
   bodies.unknowns = tasks[0].body.unknowns + tasks[1].body.unknowns;
-  bodies.planet_sector = std::move(tasks[0].mesh);
-  bodies.wheel_sector = std::move(tasks[1].mesh);
+  bodies.planet_sector = face.half ? planet.whole_sector(solid_counts) : std::move(tasks[0].mesh);
+  bodies.wheel_sector = face.half ? wheel.whole_sector(solid_counts) : std::move(tasks[1].mesh);
   std::optional<NearField> planet_near_field, wheel_near_field;
   if (solid) {
     planet_near_field = near_field(2, 3);

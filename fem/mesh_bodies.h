@@ -8,6 +8,7 @@
 #include "fem/contact/support_row.h"
 #include "fem/loaded_mesh.h"
 #include "fem/resolution.h"
+#include "fem/solved_face.h"
 #include "fem/stress_recovery.h"
 
 namespace annulus::fem {
@@ -17,8 +18,9 @@ struct MeshBodies {
   std::unique_ptr<CondensedBody> planet, wheel;
   std::unique_ptr<SupportRow> supports;  ///< of a floating ring
   std::unique_ptr<StressRecovery> planet_stress, wheel_stress;
-  std::vector<double> slice_edges;
-  geometry::Mesh planet_sector, wheel_sector;
+  SolvedFace face;
+  std::vector<double> slice_edges;             ///< m, of the solved part of the face
+  geometry::Mesh planet_sector, wheel_sector;  ///< over the whole face
   long unknowns = 0;
   double mesh_seconds = 0, condense_seconds = 0;
   int condensed_teeth = 0, reused_teeth = 0;

@@ -109,6 +109,7 @@ struct ResolvedMesh {
   const LoadedMeshProblem& problem;
   const FlankContact& flanks;
   bool solid;
+  SolvedFace face;
   Exchangeable planet, wheel;
   std::vector<double> slice_edges;
 
@@ -116,13 +117,12 @@ struct ResolvedMesh {
       : problem(p),
         flanks(f),
         solid(settings.rung == Rung::resolved_solid),
-        planet({p, f.planet(), false, geometry::Boundary::leading_flank, settings.degree, solid}, p.material, solid,
-               level, settings.threads),
-        wheel({p, f.wheel(), true, f.wheel_flank(), settings.degree, solid}, p.material, solid, level,
-              settings.threads) {
-    const int slices = solid ? 2 * planet.resolution.regular.face_cells : 1;
-    for (int i = 0; i <= slices; ++i) slice_edges.push_back(p.face_width * i / slices);
-  }
+        face(solved_face(p, settings)),
+        planet({p, f.planet(), false, geometry::Boundary::leading_flank, settings.degree, solid, face}, p.material,
+               solid, level, settings.threads),
+        wheel({p, f.wheel(), true, f.wheel_flank(), settings.degree, solid, face}, p.material, solid, level,
+              settings.threads),
+        slice_edges(face.edges(solid ? 2 * planet.resolution.regular.face_cells : 1)) {}
 
   [[nodiscard]] LoadedPosition solve(double phase, double load) const;
 
@@ -167,6 +167,7 @@ LoadedPosition ResolvedMesh::solve(double phase, double load) const {
   const int last = ContactSystem::wheel_tooth(flanks, pairs.back().first, 0);
   ContactOptions options;
   options.misalignment = problem.misalignment;
+  options.half_face = face.half;
   options.window = patch_window;
   Places contacts = places(pairs, load);
   double least_gap = contacts.planet.front().gap;
@@ -213,9 +214,13 @@ SolvedLevel solve_resolved_level(const LoadedMeshProblem& problem, const LoadedM
   result.positions = solve_positions(problem, settings, false, solve, progress);
   result.contact_seconds = solving.seconds();
   result.unknowns = mesh.planet.regular.body.unknowns + mesh.wheel.regular.body.unknowns;
-  result.slice_edges = mesh.slice_edges;
-  result.planet_sector = mesh.planet.regular_mesh;
-  result.wheel_sector = mesh.wheel.regular_mesh;
+  result.half_face = mesh.face.half;
+  result.slice_edges = result.half_face ? mirrored_edges(mesh.slice_edges) : mesh.slice_edges;
+  const auto whole = [&](const Exchangeable& gear) {
+    return result.half_face ? gear.plan.whole_sector(gear.resolution.regular) : gear.regular_mesh;
+  };
+  result.planet_sector = whole(mesh.planet);
+  result.wheel_sector = whole(mesh.wheel);
   return result;
 }
 

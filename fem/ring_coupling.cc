@@ -74,7 +74,8 @@ Level solve_level(const LoadedMeshProblem& problem, int planets, double load, co
                   int level) {
   const bool solid = needs_solid(problem);
   const geometry::ToothProfile profile(mirrored(problem.pair.wheel()));
-  const BodyPlan body(problem, profile, true, geometry::Boundary::trailing_flank, settings.degree, solid);
+  const BodyPlan body(problem, profile, true, geometry::Boundary::trailing_flank, settings.degree, solid,
+                      {problem.face_width, false});
   const auto plan = support_plan(problem);
   RingFlexibilityOptions options;
   options.roll = problem.pair.wheel_roll_length(problem.pair.roll_length_pitch());

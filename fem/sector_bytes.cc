@@ -7,6 +7,7 @@ namespace annulus::fem {
 
 void write(ByteWriter& out, const CondensedSector& sector) {
   out.add(sector.dimension).add(sector.pitch_angle).add(sector.ports).add(sector.cut_points);
+  out.add(sector.cut_freedoms);
   out.add(sector.cut_stiffness).add(sector.cut_load).add(sector.compliance);
 }
 
@@ -16,6 +17,7 @@ CondensedSector read_sector(ByteReader& in) {
   in.get(sector.pitch_angle);
   in.get(sector.ports);
   in.get(sector.cut_points);
+  in.get(sector.cut_freedoms);
   in.get(sector.cut_stiffness);
   in.get(sector.cut_load);
   in.get(sector.compliance);
@@ -54,6 +56,7 @@ void add_sector_inputs(ByteWriter& inputs, const geometry::Mesh& mesh, const geo
   inputs.add(support_radius).add(material.youngs_modulus).add(material.poisson_ratio);
   if (options.want_mass) inputs.add(material.density);
   inputs.add(options.degree).add(options.refinements).add(options.held).add(options.flank).add(options.want_outside);
+  inputs.add(options.symmetric_end);
   inputs.add(options.outside_radius).add(options.want_stress).add(options.want_mass);
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/csv.h"
 #include "core/errors.h"
+#include "core/files.h"
 #include "geometry/gmsh_session.h"
 #include "geometry/mesh.h"
 

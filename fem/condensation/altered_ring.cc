@@ -1,6 +1,5 @@
 #include "fem/condensation/altered_ring.h"
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "core/errors.h"
@@ -12,10 +11,9 @@ namespace {
 
 /// Rows of the high cut turned into the frame of the next sector.
 void turn_high_rows(const CondensedSector& sector, Eigen::MatrixXd& matrix) {
-  const int dim = sector.dimension;
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(sector.pitch_angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  for (Eigen::Index n = matrix.rows() / 2; n < matrix.rows(); n += dim)
-    matrix.middleRows(n, dim) = (turn.topLeftCorner(dim, dim).transpose() * matrix.middleRows(n, dim)).eval();
+  Eigen::MatrixXd columns = matrix.transpose();
+  sector.turn_columns(columns, columns.cols() / 2);
+  matrix = columns.transpose();
 }
 
 Eigen::MatrixXd turned_stiffness(const CondensedSector& sector) {

@@ -1,6 +1,9 @@
 #include "fem/condensation/condensed_sector.h"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "core/errors.h"
 #include "fem/condensation/lapack.h"
@@ -29,6 +32,18 @@ Eigen::SparseMatrix<double> load_columns(const SectorModel& model, const SectorL
 
 }  // namespace
 
+bool CondensedSector::symmetric() const {
+  return std::any_of(cut_freedoms.begin(), cut_freedoms.end(), [this](int free) { return free < dimension; });
+}
+
+void CondensedSector::turn_columns(Eigen::MatrixXd& matrix, Eigen::Index first) const {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(pitch_angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  for (const int free : cut_freedoms) {
+    matrix.middleCols(first, free) = (matrix.middleCols(first, free) * turn.topLeftCorner(free, free)).eval();
+    first += free;
+  }
+}
+
 CondensedSector condense(const SectorModel& model, const SectorLoads& loads, bool floating) {
   const int dim = model.dimension;
   CondensedSector sector;
@@ -45,9 +60,20 @@ CondensedSector condense(const SectorModel& model, const SectorLoads& loads, boo
   for (const auto* side : {&model.low_nodes, &model.high_nodes})
     for (const int node : *side)
       for (int c = 0; c < dim; ++c) keep(model.freedom[node * dim + c]);
-  for (const int node : model.low_nodes) sector.cut_points.push_back(model.nodes[node]);
   const int cuts = static_cast<int>(retained.size());
-  require(cuts == 2 * dim * static_cast<int>(model.low_nodes.size()), "the radial cuts have unequal freedoms");
+  const auto free_components = [&](int node) {
+    int count = 0;
+    while (count < dim && model.freedom[node * dim + count] >= 0) ++count;
+    return count;
+  };
+  for (const int node : model.low_nodes) {
+    sector.cut_points.push_back(model.nodes[node]);
+    sector.cut_freedoms.push_back(free_components(node));
+  }
+  bool matching = cuts == 2 * std::accumulate(sector.cut_freedoms.begin(), sector.cut_freedoms.end(), 0);
+  for (std::size_t i = 0; i < model.high_nodes.size(); ++i)
+    matching &= sector.cut_freedoms[i] >= 2 && free_components(model.high_nodes[i]) == sector.cut_freedoms[i];
+  require(matching, "the radial cuts have unequal freedoms");
   for (const auto& port : loads.ports)
     for (int c = 0; c < dim; ++c)
       if (port.direction[c] != 0) keep(model.freedom[port.node * dim + c]);

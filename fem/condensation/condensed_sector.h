@@ -29,10 +29,17 @@ struct CondensedSector {
   int dimension = 2;
   double pitch_angle = 0;
   std::vector<Eigen::Vector3d> cut_points;  ///< of the low cut
+  std::vector<int> cut_freedoms;            ///< of every cut point: its first displacements, x and y, mostly z; sum m
   Eigen::MatrixXd cut_stiffness;            ///< 2m x 2m, low freedoms then high ones
   Eigen::MatrixXd cut_load;                 ///< 2m x loads: load on the cuts equivalent to a unit load
   Eigen::MatrixXd compliance;               ///< loads x (ports and acting), with both cuts held
   int ports = 0;
+
+  /// Whether some points stay in a plane of symmetry: the ring can then neither tilt nor move along its axis.
+  [[nodiscard]] bool symmetric() const;
+  /// The columns of displacements of a cut, from `first` on, turned from the frame of its own sector into that of the
+  /// sector before: times the rotation by the pitch.
+  void turn_columns(Eigen::MatrixXd& matrix, Eigen::Index first) const;
 };
 
 /// The sector with some of its acting loads, first ... first + weights.rows() - 1, replaced by combinations of them,

@@ -17,13 +17,14 @@ namespace {
 /// Rigid motions of the whole ring that have circumferential harmonic `h`, seen at the low cut in the sector's frame:
 /// axial translation and rotation about the axis for h = 0; translation and tilt, as x + i y, for h = 1.
 std::vector<Eigen::VectorXcd> harmonic_rigid_motions(const CondensedSector& sector, int harmonic) {
-  const int dim = sector.dimension;
+  const bool out_of_plane = sector.dimension == 3 && !sector.symmetric();
   std::vector<Eigen::VectorXcd> motions;
   const auto add = [&](const auto& displacement) {
-    Eigen::VectorXcd motion(static_cast<Eigen::Index>(sector.cut_points.size()) * dim);
+    Eigen::VectorXcd motion(sector.cut_stiffness.rows() / 2);
+    Eigen::Index row = 0;
     for (std::size_t n = 0; n < sector.cut_points.size(); ++n) {
       const Eigen::Vector3cd u = displacement(sector.cut_points[n]);
-      for (int c = 0; c < dim; ++c) motion[static_cast<Eigen::Index>(n) * dim + c] = u[c];
+      for (int c = 0; c < sector.cut_freedoms[n]; ++c) motion[row++] = u[c];
     }
     motions.push_back(motion);
   };
@@ -33,10 +34,10 @@ std::vector<Eigen::VectorXcd> harmonic_rigid_motions(const CondensedSector& sect
   };
   if (harmonic == 0) {
     add([&](const Eigen::Vector3d& p) { return cross(Eigen::Vector3cd(0, 0, 1), p); });
-    if (dim == 3) add([](const Eigen::Vector3d&) { return Eigen::Vector3cd(0, 0, 1); });
+    if (out_of_plane) add([](const Eigen::Vector3d&) { return Eigen::Vector3cd(0, 0, 1); });
   } else if (harmonic == 1) {
     add([&](const Eigen::Vector3d&) -> const Eigen::Vector3cd& { return axis; });
-    if (dim == 3) add([&](const Eigen::Vector3d& p) { return cross(axis, p); });
+    if (out_of_plane) add([&](const Eigen::Vector3d& p) { return cross(axis, p); });
   }
   // Orthonormal, so that one stiffness serves all.
   for (std::size_t i = 0; i < motions.size(); ++i) {
@@ -50,12 +51,9 @@ std::vector<Eigen::VectorXcd> harmonic_rigid_motions(const CondensedSector& sect
 
 HarmonicMatrix::HarmonicMatrix(const CondensedSector& sector, bool floating) : sector_(sector), floating_(floating) {
   const auto m = sector.cut_stiffness.rows() / 2;
-  const int dim = sector.dimension;
   // Columns of the turned basis: u_high = Q v_next.
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(sector.pitch_angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const auto turn_columns = [&](Eigen::MatrixXd matrix) {
-    for (Eigen::Index n = 0; n < m; n += dim)
-      matrix.middleCols(n, dim) = (matrix.middleCols(n, dim) * turn.topLeftCorner(dim, dim)).eval();
+    sector.turn_columns(matrix, 0);
     return matrix;
   };
   const Eigen::MatrixXd half = turn_columns(sector.cut_stiffness.bottomRightCorner(m, m));

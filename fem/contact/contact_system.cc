@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "core/errors.h"
+#include "fem/solved_face.h"
 
 namespace annulus::fem {
 
@@ -323,8 +324,9 @@ Eigen::MatrixXd ContactSystem::wheel_resultants(const Pair& pair, int tooth) con
   return all;
 }
 
-LoadedPosition ContactSystem::solve(int cycle, double phase, double load, PairsCache& cache, WarmStart& warm,
+LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, PairsCache& cache, WarmStart& warm,
                                     ContactForces* forces) const {
+  const double load = options_.half_face ? whole_load / 2 : whole_load;
   if (!cache || cache->phase != phase || cache->load != load) cache = prepare(phase, load, options_.window);
   constexpr double largest_window = 12;  // in Hertz half-widths: longer than any flank at a sensible load
   for (;;) {
@@ -344,7 +346,7 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double load, PairsC
       try {
         return solve_complementarity(problem, std::move(guess));
       } catch (const SolverError& error) {
-        throw SolverError(fmt::format("mesh phase {:.4f}, {:.4g} N: {}", phase, load, error.what()));
+        throw SolverError(fmt::format("mesh phase {:.4f}, {:.4g} N: {}", phase, whole_load, error.what()));
       }
     }();
     warm.clear();
@@ -358,7 +360,7 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double load, PairsC
     if (window_too_small) {
       if (setup.window > largest_window)
         throw SolverError(
-            fmt::format("mesh phase {:.4f}: the contact at {:.4g} N does not fit its window", phase, load));
+            fmt::format("mesh phase {:.4f}: the contact at {:.4g} N does not fit its window", phase, whole_load));
       cache = prepare(phase, load, 1.5 * setup.window);
       continue;
     }
@@ -372,6 +374,7 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double load, PairsC
     const double tooth = wheel_tooth(reference.index, cycle) * flanks_.pair().wheel().pitch_angle();
     const double angle = flanks_.wheel_tooth_angle(reference.roll) - tooth;
     position.ring_angle = flanks_.pair().internal() ? angle : -angle;
+    if (options_.half_face) unfold(position, 2 * slice_edges_.back());
     return position;
   }
 }

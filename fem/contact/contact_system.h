@@ -26,6 +26,9 @@ struct ContactOptions {
   double first = 0.35;      ///< length of the elements at the centre relative to a uniform split
   double window = 1.25;     ///< half-length of a pair's contact window in Hertz half-widths of the whole load
   double misalignment = 0;  ///< m, as in LoadedMeshProblem
+  /// Bodies and slices are the lower half of a symmetric face (see SolvedFace); loads and results are those of the
+  /// whole.
+  bool half_face = false;
 };
 
 /// All tooth pairs (and supports) of one gear mesh as one complementarity problem per position.

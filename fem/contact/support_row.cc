@@ -8,8 +8,8 @@
 
 namespace annulus::fem {
 
-SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges)
-    : sites_(std::move(sites)), slice_edges_(std::move(slice_edges)) {
+SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges, bool half_face)
+    : sites_(std::move(sites)), slice_edges_(std::move(slice_edges)), half_face_(half_face) {
   const double pitch = 2 * M_PI / teeth;
   const int slices = static_cast<int>(slice_edges_.size()) - 1;
   constexpr double same = 1e-10;  // rad: round-off of angles of a few turns
@@ -51,7 +51,7 @@ SupportPlan::SupportPlan(SupportSites sites, int teeth, std::vector<double> slic
 Eigen::MatrixXd SupportPlan::own_compliance() const {
   const auto n = static_cast<Eigen::Index>(forces_.size());
   const auto& edges = slice_edges_;
-  const double width = edges.back() - edges.front();
+  const double width = (half_face_ ? 2 : 1) * (edges.back() - edges.front());
   Eigen::MatrixXd compliance = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto& force = forces_[i];
@@ -60,11 +60,13 @@ Eigen::MatrixXd SupportPlan::own_compliance() const {
       return ((edges[slice] + edges[slice + 1]) / 2 - edges.front()) / width;
     };
     compliance(i, i) += width / (edges[force.slice + 1] - edges[force.slice]) / own.stiffness;
-    // The pin stays straight between its ends: a force at z divides between them by the lever rule.
+    // The pin stays straight between its ends: a force at z divides between them by the lever rule. A force and its
+    // mirror image load both ends alike, wherever they act.
     const Eigen::Index first = i - force.slice;
     for (Eigen::Index j = first; j < first + static_cast<Eigen::Index>(edges.size()) - 1; ++j) {
       const double a = middle(force.slice), b = middle(j - first);
-      compliance(i, j) += ((1 - a) * (1 - b) + a * b) * 2 / own.end_stiffness;
+      const double share = half_face_ ? 1 : (1 - a) * (1 - b) + a * b;
+      compliance(i, j) += share * 2 / own.end_stiffness;
     }
   }
   return compliance;
@@ -72,13 +74,13 @@ Eigen::MatrixXd SupportPlan::own_compliance() const {
 
 SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
     : plan_(std::move(plan)), ring_(ring), on_sector_(ring.teeth), cuts_(std::make_unique<Cut[]>(ring.teeth)) {
-  const bool solid = ring.axial_stations() > 1;
+  const bool solid = ring.axial_stations() > 1, tilts = solid && !plan_.half_face();
   const auto& edges = plan_.slice_edges();
   const double width = edges.back() - edges.front();
   require(solid || edges.size() == 2, "a plane body has one slice");
   if (!solid) per_width_ = 1 / width;
   const int n = size(), arcs = static_cast<int>(plan_.arcs().size());
-  resultants_ = Eigen::MatrixXd::Zero(n, solid ? 5 : 3);
+  resultants_ = Eigen::MatrixXd::Zero(n, tilts ? 5 : 3);
   gap_.resize(n);
   for (int i = 0; i < n; ++i) {
     const auto& force = plan_.forces()[i];
@@ -90,7 +92,7 @@ SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
     }
     require(std::abs(wrench.head<3>().norm() - 1) < 1e-9, "a support is not wholly on the rim");
     resultants_.row(i).head<3>() << wrench[0], wrench[1], wrench[5];
-    if (solid) resultants_.row(i).tail<2>() << wrench[3], wrench[4];
+    if (tilts) resultants_.row(i).tail<2>() << wrench[3], wrench[4];
     gap_[i] = plan_.direction(force).clearance;
     unilateral_.push_back(plan_.direction(force).unilateral);
   }

@@ -16,8 +16,9 @@ namespace annulus::fem {
 /// which of them make up each support force. Equal supports on N teeth share p / gcd(p, N) places.
 class SupportPlan {
  public:
-  /// `slice_edges`: z of the slices of the face width, each with its own forces; in the plane one slice.
-  SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges);
+  /// `slice_edges`: z of the slices of the face width, each with its own forces; in the plane one slice. `half_face`:
+  /// they are the lower half of a symmetric face (see SolvedFace).
+  SupportPlan(SupportSites sites, int teeth, std::vector<double> slice_edges, bool half_face = false);
 
   struct Force {
     int site = 0, direction = 0, slice = 0;
@@ -25,6 +26,7 @@ class SupportPlan {
   };
   [[nodiscard]] const SupportSites& sites() const { return sites_; }
   [[nodiscard]] const std::vector<double>& slice_edges() const { return slice_edges_; }
+  [[nodiscard]] bool half_face() const { return half_face_; }
   /// [site][direction][slice]
   [[nodiscard]] const std::vector<Force>& forces() const { return forces_; }
   [[nodiscard]] const std::vector<ArcLoad>& arcs() const { return arcs_; }
@@ -37,6 +39,7 @@ class SupportPlan {
  private:
   SupportSites sites_;
   std::vector<double> slice_edges_;
+  bool half_face_;
   std::vector<Force> forces_;
   std::vector<ArcLoad> arcs_;
 };
@@ -49,7 +52,7 @@ class SupportRow {
 
   [[nodiscard]] int size() const { return static_cast<int>(plan_.forces().size()); }  ///< number of forces
   [[nodiscard]] const SupportPlan& plan() const { return plan_; }
-  /// Rigid motions of the ring: x, y, rotation about z; of a solid one also about x and y. Axial motion is not
+  /// Rigid motions of the ring: x, y, rotation about z; of a whole solid one also about x and y. Axial motion is not
   /// resisted, and not loaded.
   [[nodiscard]] int rigid_motions() const { return static_cast<int>(resultants_.cols()); }
   /// forces x rigid motions: resultants of unit forces (N, N m)

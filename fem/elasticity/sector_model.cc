@@ -110,12 +110,16 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
 
   std::vector<bool> held(model.nodes.size(), false);
   for (const int n : problem.boundary_nodes(boundary_of(options.held))) held[n] = true;
+  require(dim == 3 || !options.symmetric_end, "a plane sector has no end");
+  std::vector<bool> in_symmetry(model.nodes.size(), false);
+  if (options.symmetric_end)
+    for (const int n : problem.boundary_nodes(geometry::Boundary::end_high)) in_symmetry[n] = true;
   std::vector<int> row_of_freedom(problem.freedoms(), -1);
   model.freedom.assign(model.nodes.size() * dim, -1);
   int rows = 0;
   for (std::size_t n = 0; n < model.nodes.size(); ++n)
     for (int c = 0; c < dim; ++c)
-      if (!held[n]) {
+      if (!held[n] && !(in_symmetry[n] && c == 2)) {
         row_of_freedom[problem.node_freedoms()[n][c]] = rows;
         model.freedom[n * dim + c] = rows++;
       }
@@ -157,7 +161,11 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
   if (options.want_mass) model.nodal_mass = problem.nodal_mass();
   if (options.want_stress) {
     const auto surface = [&](const std::vector<Boundary>& boundaries, double low, double high) {
-      return make_stress_surface(problem.surface_stress(boundaries), model.nodes, options.degree, twist, low, high);
+      auto stress = problem.surface_stress(boundaries);
+      // The other half has the opposite shear there: their mean is none.
+      for (auto& s : stress)
+        if (in_symmetry[s.node]) s.shear.clear();
+      return make_stress_surface(stress, model.nodes, options.degree, twist, low, high);
     };
     const std::vector<Boundary> root = {Boundary::trailing_fillet, Boundary::leading_fillet, Boundary::root};
     model.root_low = surface(root, -M_PI, 0);

@@ -39,7 +39,7 @@ struct SectorModel {
   Eigen::SparseMatrix<double> stiffness;
   std::vector<Eigen::Vector3d> nodes;
   std::vector<int> freedom;                ///< [node * dimension + component] -> row of `stiffness`, or -1 when held
-  std::vector<int> low_nodes, high_nodes;  ///< matched pairs on the two radial cuts, held nodes left out
+  std::vector<int> low_nodes, high_nodes;  ///< matched pairs on the two radial cuts, wholly held nodes left out
   TraceGrid flank;                         ///< of the contact flank
   TraceGrid outside;                       ///< of the support circle (empty when held)
   StressSurface root_low, root_high;       ///< root land and fillet of the trailing (y < 0) and of the leading side
@@ -52,6 +52,8 @@ struct SectorModelOptions {
   int degree = 2;
   int refinements = 0;
   HeldBoundary held = HeldBoundary::support;
+  /// The upper end of a solid is a plane of symmetry: its nodes stay in it. The sector is then half of a body.
+  bool symmetric_end = false;
   geometry::Boundary flank = geometry::Boundary::leading_flank;
   bool want_outside = false;
   /// Of a ring whose hoop or flange goes beyond it, m (see geometry::ExtrudeOptions).

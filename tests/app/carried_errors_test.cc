@@ -13,6 +13,7 @@
 #include "app/pipeline.h"
 #include "app/report_parts.h"
 #include "app/stage_modes.h"
+#include "core/files.h"
 #include "core/log.h"
 #include "tests/app/scenes.h"
 

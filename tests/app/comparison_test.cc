@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "core/files.h"
 #include "tests/app/scenes.h"
 
 namespace annulus {

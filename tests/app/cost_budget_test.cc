@@ -13,7 +13,7 @@
 #include "app/cost_actual.h"
 #include "app/plan.h"
 #include "app/stage_kinds.h"
-#include "core/csv.h"
+#include "core/files.h"
 #include "tests/app/pair_scenes.h"
 #include "tests/app/scenes.h"
 #include "tests/app/two_k_v_scenes.h"

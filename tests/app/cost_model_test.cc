@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(a_known_law_is_found_again) {
 
 BOOST_AUTO_TEST_CASE(predictions_grow_with_the_work) {
   const app::CostModel model(app::kept_cost_runs());
-  for (const auto* kind : {"plane", "solid", "solid_helical", "resolved_plane", "resolved_solid"}) {
+  for (const auto* kind : {"plane", "solid", "solid_half", "solid_helical", "resolved_plane", "resolved_solid"}) {
     auto size = plane_size();
     size.kind = kind;
     const auto base = model.predict(size);
@@ -166,7 +166,19 @@ BOOST_AUTO_TEST_CASE(unknowns_are_counted_without_meshing) {
   resolved.settings.rung = fem::Rung::resolved_plane;
   BOOST_TEST(counted(resolved, 2, 2) == 73200.0, plane);
   resolved.settings.rung = fem::Rung::resolved_solid;
+  resolved.settings.symmetry = false;
   BOOST_TEST(counted(resolved, 2, 1) == 64872.0, solid);
+  // Half of the face.
+  auto half_sun = sun, half_pins = pins;
+  half_sun.settings.rung = half_pins.settings.rung = fem::Rung::solid;
+  BOOST_TEST(app::cost_kind(half_sun) == "solid_half");
+  BOOST_TEST(counted(half_sun, 2, 1) == 21424.0, solid);
+  BOOST_TEST(counted(half_sun, 2, 2) == 61560.0, solid);
+  BOOST_TEST(counted(half_pins, 2, 1) == 21970.0, solid);
+  half_sun.settings.symmetry = false;
+  half_sun.rung = "solid";
+  BOOST_TEST(app::cost_kind(half_sun) == "solid");
+  BOOST_TEST(counted(half_sun, 2, 1) == 42024.0, solid);
 }
 
 BOOST_AUTO_TEST_CASE(own_measurements_scale_the_predictions) {

@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "core/files.h"
 #include "tests/app/made_up_solution.h"
 #include "tests/app/scenes.h"
 

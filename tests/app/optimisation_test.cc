@@ -7,6 +7,7 @@
 
 #include "app/pipeline.h"
 #include "app/scene_value.h"
+#include "core/files.h"
 #include "core/log.h"
 #include "tests/app/background_run.h"
 #include "tests/app/scenes.h"

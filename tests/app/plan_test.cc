@@ -7,6 +7,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "app/cost_model.h"
+#include "app/cost_plan.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
 
@@ -95,6 +97,47 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_how_finely_tables_are_resolved) {
   BOOST_TEST(app::table_resolution(0.01, 1.0 / 64).phases == 64);
   BOOST_TEST(app::table_resolution(0.01, 1.0 / 65).phases == 128);
   BOOST_TEST(app::table_resolution(0.01, 1e-9).phases == 256);
+}
+
+BOOST_AUTO_TEST_CASE(solid_meshes_tell_what_of_the_face_they_solve) {
+  const std::string file = std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml";
+  std::ifstream in(file);
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const auto planned = [&](const std::string& more, const std::string& error = "") {
+    auto changed = test::replaced(text, "accuracy = 0.01", "accuracy = 0.01\n" + more);
+    changed = test::replaced(changed, "[errors]", "[errors]\n" + error);
+    const auto scene = app::parse_scene(changed, file);
+    return app::make_plan(scene, app::make_geometry(scene));
+  };
+  const auto symmetry = [](const app::MeshModel& mesh) -> app::Decision {
+    for (const auto& d : app::decisions(mesh))
+      if (d.what == "symmetry") return d;
+    return {"", "nothing", ""};
+  };
+  const auto usual = planned("");
+  BOOST_TEST(symmetry(usual.meshes[0]).choice == "nothing");  // a plane has no face
+  BOOST_TEST(symmetry(usual.meshes[2]).choice == "whole face");
+  BOOST_TEST(symmetry(usual.meshes[2]).reason == "held at one end face");
+  const auto solid = planned("rung = \"solid\"");
+  for (const std::size_t mesh : {0U, 1U, 3U}) {  // sun, traditional, pinned
+    BOOST_TEST(symmetry(solid.meshes[mesh]).choice == "half of the face");
+    BOOST_TEST(symmetry(solid.meshes[mesh]).reason.find("mirror image") != std::string::npos);
+  }
+  BOOST_TEST(app::to_text(solid).find("half of the face") != std::string::npos);
+  BOOST_TEST(app::to_json(solid).find("\"half of the face\"") != std::string::npos);
+  const auto misaligned = planned("rung = \"solid\"", "sun_planet_misalignment_um = 5");
+  BOOST_TEST(symmetry(misaligned.meshes[0]).reason == "misaligned flanks");
+  BOOST_TEST(symmetry(misaligned.meshes[1]).choice == "half of the face");
+
+  // The cost counts what is solved.
+  auto whole = solid.meshes[1];
+  whole.settings.symmetry = false;
+  BOOST_TEST(symmetry(whole).choice == "whole face");
+  const app::CostModel costs(app::kept_cost_runs());
+  const auto half_size = app::mesh_size(solid.meshes[1], 1, costs), whole_size = app::mesh_size(whole, 1, costs);
+  // Of 8 quadratic cells: 9 of 17 layers of nodes, the last one without axial freedoms.
+  BOOST_TEST(half_size.unknowns / whole_size.unknowns == 26.0 / 51, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(costs.predict(half_size).seconds < costs.predict(whole_size).seconds);
 }
 
 BOOST_AUTO_TEST_CASE(the_accuracy_decides_rung_elements_and_motion) {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/csv.h"
+#include "core/files.h"
 #include "core/stiffness_table.h"
 #include "tests/app/scenes.h"
 
@@ -180,7 +181,7 @@ BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
                         1) <= 1e-9);
   // No temporary file is left behind.
   for (const auto& file : std::filesystem::recursive_directory_iterator(folder.path() / "out"))
-    BOOST_TEST(file.path().extension() != ".tmp");
+    BOOST_TEST(file.path().extension() != ".unfinished");
 }
 
 BOOST_AUTO_TEST_CASE(report_is_self_contained) {
@@ -206,6 +207,7 @@ BOOST_AUTO_TEST_CASE(unchanged_results_are_reused_and_changed_ones_are_not) {
   BOOST_TEST_REQUIRE(annulus_program(folder.path(), "run scene.toml -o out").status == 0);
   const auto before = text_of(folder.path() / "out/held/dynamics/figures.json");
   const auto page = text_of(folder.path() / "out/report.html");
+  std::filesystem::remove(folder.path() / "out/run.json");  // forget that the whole run is done
   const auto again = annulus_program(folder.path(), "run scene.toml -o out");
   BOOST_TEST(again.err.find("dynamics of 'held': unchanged, reused") != std::string::npos, again.err);
   BOOST_TEST(text_of(folder.path() / "out/held/dynamics/figures.json") == before);
@@ -220,6 +222,38 @@ BOOST_AUTO_TEST_CASE(unchanged_results_are_reused_and_changed_ones_are_not) {
   BOOST_TEST(changed.status == 0);
   BOOST_TEST(changed.err.empty());
   BOOST_TEST(text_of(folder.path() / "out/held/dynamics/figures.json") != before);
+}
+
+BOOST_AUTO_TEST_CASE(an_identical_run_does_nothing_and_what_is_missing_is_made_again) {
+  const test::TemporaryFolder folder("identical");
+  put_scene(folder.path(), test::quick_scene());
+  const auto out = folder.path() / "out";
+  const auto run = [&](const std::string& more = "") {
+    const auto done = annulus_program(folder.path(), "run scene.toml -o out" + more);
+    BOOST_TEST(done.status == 0, done.err);
+    return done.out.find("nothing has changed") != std::string::npos;
+  };
+  BOOST_TEST(!run());
+  const auto report = out / "report.html", figures = out / "held/dynamics/figures.json";
+  const auto written = std::filesystem::last_write_time(report);
+  BOOST_TEST(run());
+  BOOST_TEST((std::filesystem::last_write_time(report) == written));
+  // Threads change no result.
+  BOOST_TEST(run(" --threads 1"));
+  const auto text = text_of(figures);
+  std::filesystem::remove(figures);
+  BOOST_TEST(!run());
+  BOOST_TEST(text_of(figures) == text);
+  BOOST_TEST(run());
+  std::ofstream(report, std::ios::app) << "changed by hand";
+  BOOST_TEST(!run());
+  BOOST_TEST(text_of(report).find("changed by hand") == std::string::npos);
+  std::ofstream(out / "run.json") << "{\"inputs_id\": 1";
+  BOOST_TEST(!run());
+  BOOST_TEST(run());
+  // Another command on the same folder leaves something else behind.
+  BOOST_TEST(annulus_program(folder.path(), "solve scene.toml -o out").status == 0);
+  BOOST_TEST(!run());
 }
 
 BOOST_AUTO_TEST_CASE(dynamics_needs_its_table_and_solve_needs_none) {

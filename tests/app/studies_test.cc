@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "core/files.h"
 #include "core/log.h"
 #include "core/units.h"
 #include "tests/app/background_run.h"

@@ -27,7 +27,7 @@ struct Case {
   fem::RingStructure structure;
   fem::Rung rung = fem::Rung::plane;
   int phases = 16;
-  std::vector<int> levels;
+  std::vector<int> levels;  ///< 0: as many as 0.15 % takes, which then measure how fast their differences shrink
   int reference_level = 0, reference_degree = 2;
 };
 
@@ -44,7 +44,8 @@ fem::LoadedMeshResult solve(const Case& c, int level, int degree) {
   problem.phases = c.phases;
   fem::LoadedMeshSettings settings;
   settings.rung = c.rung;
-  settings.level = level;
+  if (level > 0) settings.level = level;
+  settings.accuracy = 1.5e-3;
   settings.degree = degree;
   settings.threads = 2;
   return solve_loaded_mesh(problem, settings);
@@ -81,8 +82,9 @@ bool measure(const Case& c) {
         std::min(effectivity, at_worst) >= least_effectivity && std::max(effectivity, at_worst) <= largest_effectivity;
     good = good && within;
     fmt::print(
-        "  level {}: worst error {:.2e}, worst estimate {:.2e}, effectivity {:.2f}, at the worst error {:.2f}{}; ",
-        level, worst_error, worst_estimate, effectivity, at_worst, within ? "" : " OUT OF BOUNDS");
+        "  {}level {}: worst error {:.2e}, worst estimate {:.2e}, effectivity {:.2f}, at the worst error {:.2f}{}; ",
+        level == 0 ? "as planned, " : "", result.level, worst_error, worst_estimate, effectivity, at_worst,
+        within ? "" : " OUT OF BOUNDS");
     if (ratios.empty())
       fmt::print("no error above {:.0e}\n", smallest_error);
     else
@@ -101,8 +103,8 @@ int main(int argc, char** argv) {
   app.add_flag("--finer", finer, "finer references and more positions: a quarter of an hour");
   CLI11_PARSE(app, argc, argv);
   // The levels the program uses.
-  const Case traditional{"traditional, plane", fem::OutsideHeld{}, fem::Rung::plane, 16, {1, 2}, finer ? 6 : 4, 2};
-  const Case pinned{"24 pins, plane", pins(24), fem::Rung::plane, finer ? 16 : 4, {1, 2}, finer ? 5 : 4, 2};
+  const Case traditional{"traditional, plane", fem::OutsideHeld{}, fem::Rung::plane, 16, {1, 2, 0}, finer ? 6 : 4, 2};
+  const Case pinned{"24 pins, plane", pins(24), fem::Rung::plane, finer ? 16 : 4, {1, 2, 0}, finer ? 5 : 4, 2};
   const Case thin_walled{
       "thin-walled, solid", fem::EndFaceHeld{18e-3, 10.6e-3}, fem::Rung::solid, 4, {1}, finer ? 2 : 1, 3};
   bool good = true;

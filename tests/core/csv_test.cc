@@ -2,10 +2,10 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include "core/errors.h"
+#include "core/files.h"
 
 BOOST_AUTO_TEST_SUITE(csv)
 
@@ -43,21 +43,8 @@ BOOST_AUTO_TEST_CASE(every_double_survives_the_round_trip) {
   BOOST_TEST(read.column("b_N") == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(a_replaced_file_leaves_nothing_behind) {
-  const Folder folder;
-  annulus::write_file(folder.path / "f", "old and longer");
-  annulus::write_file(folder.path / "f", "new");
-  std::ifstream stream(folder.path / "f");
-  std::string text;
-  std::getline(stream, text);
-  BOOST_TEST(text == "new");
-  const auto files = std::distance(std::filesystem::directory_iterator(folder.path), {});
-  BOOST_TEST(files == 1);
-}
-
 BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_an_input_error) {
   const Folder folder;
-  BOOST_CHECK_THROW(annulus::write_file(folder.path / "missing" / "f", "x"), annulus::InputError);
   annulus::Csv csv;
   csv.columns = {"a,b"};
   BOOST_CHECK_THROW(csv.write(folder.path / "f"), annulus::InputError);

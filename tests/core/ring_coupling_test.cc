@@ -6,8 +6,8 @@
 #include <limits>
 #include <sstream>
 
-#include "core/csv.h"
 #include "core/errors.h"
+#include "core/files.h"
 
 BOOST_AUTO_TEST_SUITE(ring_coupling_file)
 

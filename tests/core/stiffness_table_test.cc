@@ -7,8 +7,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "core/csv.h"
 #include "core/errors.h"
+#include "core/files.h"
 #include "core/units.h"
 
 BOOST_AUTO_TEST_SUITE(stiffness_table)

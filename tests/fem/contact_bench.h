@@ -8,7 +8,9 @@ namespace annulus::tests {
 /// A gear mesh solved position by position at one level of resolution, without the coarser level that estimates errors.
 class ContactBench {
  public:
-  ContactBench(const fem::LoadedMeshProblem& problem, int level, fem::Rung rung = fem::Rung::plane);
+  /// `symmetry` as in LoadedMeshSettings: off, so that bodies serve misalignments too.
+  ContactBench(const fem::LoadedMeshProblem& problem, int level, fem::Rung rung = fem::Rung::plane,
+               bool symmetry = false);
   ContactBench(const ContactBench&) = delete;
   ContactBench& operator=(const ContactBench&) = delete;
 

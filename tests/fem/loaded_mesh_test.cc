@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "core/errors.h"
+#include "fem/error_estimate.h"
 #include "ring_paper_problems.h"
 
 BOOST_AUTO_TEST_SUITE(loaded_mesh)
@@ -88,6 +90,35 @@ BOOST_AUTO_TEST_CASE(the_estimate_is_of_the_size_of_the_error) {
     BOOST_TEST(effectivity > 0.3);
     BOOST_TEST(effectivity < 5);
   }
+}
+
+BOOST_AUTO_TEST_CASE(three_levels_tell_how_much_is_left_of_a_series) {
+  // Stiffnesses 1 + q^level, of which the limit is known.
+  const auto problem = ring_mesh(OutsideHeld{}, 4);
+  const auto series = [](double q, int level) {
+    std::vector<annulus::fem::LoadedPosition> positions(5);
+    for (auto& p : positions) p.entry.stiffness_secant = 1 + 0.01 * std::pow(q, level);
+    return positions;
+  };
+  const auto estimate = [&](double q, int degree, bool third) {
+    annulus::fem::LoadedMeshSettings settings;
+    settings.degree = degree;
+    const auto first = series(q, 0);
+    auto second = series(q, 1), last = series(q, 2);
+    const auto before = estimate_errors(problem, settings, 0, first, second);
+    const auto errors =
+        estimate_errors(problem, settings, 0, second, last, third ? std::optional(before.difference) : std::nullopt);
+    const double error = 1 - 1 / last.front().entry.stiffness_secant;
+    return errors.worst / error;
+  };
+  constexpr double rounding = 0.03;  // of differences relative to stiffnesses that differ by 1 %
+  for (const double q : {0.32, 0.4, 0.49}) BOOST_TEST(std::abs(estimate(q, 2, true) - 1) < rounding, q);
+  // Faster than with the cube of the cell size is not believed, slower than with its first power not looked for.
+  BOOST_TEST(estimate(0.1, 2, true) > 2);
+  BOOST_TEST(std::abs(estimate(0.6, 2, true) - (1 / 0.6 - 1)) < rounding);
+  for (const double q : {0.1, 0.4, 0.6})  // two levels: their difference
+    BOOST_TEST(std::abs(estimate(q, 2, false) / (1 / q - 1) - 1) < rounding, q);
+  BOOST_TEST(std::abs(estimate(1 / 1.5, 1, false) - 1) < rounding);  // linear elements
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -49,7 +49,8 @@ struct PinnedRing {
   static annulus::fem::RingFlexibility flexibility_of(const LoadedMeshProblem& problem,
                                                       const annulus::fem::SupportPlan& plan) {
     const annulus::geometry::ToothProfile profile(problem.pair.wheel());
-    const annulus::fem::BodyPlan body(problem, profile, true, annulus::geometry::Boundary::trailing_flank, 2, false);
+    const annulus::fem::BodyPlan body(problem, profile, true, annulus::geometry::Boundary::trailing_flank, 2, false,
+                                      {problem.face_width, false});
     annulus::fem::RingFlexibilityOptions options;
     options.roll = problem.pair.wheel_roll_length(problem.pair.roll_length_pitch());
     options.face_width = problem.face_width;

@@ -1,0 +1,85 @@
+#include "app/finished_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/content_id.h"
+#include "app/pipeline.h"
+#include "core/files.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr const char* note_name = "run.json";
+
+/// Size and time; "missing" where there is no such file.
+std::string stamp(const std::filesystem::path& file) {
+  std::error_code none;
+  const auto bytes = std::filesystem::file_size(file, none);
+  if (none) return "missing";
+  const auto time = std::filesystem::last_write_time(file, none);
+  if (none) return "missing";
+  return fmt::format("{} bytes, {}", bytes, time.time_since_epoch().count());
+}
+
+/// Condensed teeth are dropped when they become too many, and temporary files belong to whoever writes them.
+bool belongs_to_run(const std::filesystem::path& relative) {
+  return *relative.begin() != "condensed" && relative != note_name && relative.extension() != ".unfinished";
+}
+
+std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& out) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {
+    if (!entry.is_regular_file()) continue;
+    const auto relative = entry.path().lexically_relative(out);
+    if (belongs_to_run(relative)) files.push_back(relative);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+std::string run_id(const Scene& scene, const RunOptions& options) {
+  ContentId id;
+  id.add("program", stamp("/proc/self/exe"));
+  id.add("scene", scene.text).add("dynamics", options.with_dynamics).add("accuracy", scene.accuracy);
+  id.add("tables", options.tables ? std::filesystem::absolute(*options.tables).string() : "");
+  for (const auto& input : scene.inputs)
+    id.add(input.ring + input.key,
+           fmt::format("{} {} {} {}", to_text(input.value), to_text(input.origin), input.note, input.assumed));
+  const auto add_file = [&](const std::optional<std::string>& name) {
+    if (name) id.add(*name, stamp(scene.file.parent_path() / *name));
+  };
+  add_file(scene.reference);
+  for (const auto* mesh : {&scene.sun_planet, &scene.ring_planet, &scene.pinion_wheel, &scene.arc_pins})
+    add_file(mesh->file);
+  return id.id();
+}
+
+void keep_finished_run(const std::filesystem::path& out, const std::string& id, const std::string& text) {
+  nlohmann::json note = {{"annulus_version", version()}, {"inputs_id", id}, {"text", text}};
+  for (const auto& file : files_of_run(out)) note["files"][file.generic_string()] = stamp(out / file);
+  write_file(out / note_name, note.dump(1) + "\n");
+}
+
+std::optional<std::string> finished_run(const std::filesystem::path& out, const std::string& id) {
+  std::ifstream stream(out / note_name);
+  if (!stream) return std::nullopt;
+  const auto note = nlohmann::json::parse(stream, nullptr, false);
+  try {
+    if (note.is_discarded() || note.at("inputs_id") != id) return std::nullopt;
+    for (const auto& [name, kept] : note.at("files").items())
+      if (stamp(out / name) != kept) return std::nullopt;
+    return note.at("text").get<std::string>();
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;  // not a note of ours
+  }
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,78 @@
+#include "core/files.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <fstream>
+#include <system_error>
+#include <vector>
+
+#include "core/errors.h"
+
+namespace annulus {
+
+namespace {
+
+constexpr const char* suffix = ".unfinished";
+
+/// The process in "<file>.<process>.<counter>.unfinished"; 0 for any other name.
+int writer_of(const std::filesystem::path& path) {
+  if (path.extension() != suffix) return 0;
+  const auto process = path.stem().stem().extension().string();
+  int id = 0;
+  if (process.size() > 1) std::from_chars(process.data() + 1, process.data() + process.size(), id);
+  return id;
+}
+
+bool runs(int process) { return ::kill(process, 0) == 0 || errno != ESRCH; }
+
+}  // namespace
+
+UnfinishedFile::UnfinishedFile(std::filesystem::path file) : file_(std::move(file)), temporary_(file_) {
+  static std::atomic<unsigned> counter{0};
+  temporary_ += fmt::format(".{}.{}{}", ::getpid(), counter++, suffix);
+}
+
+UnfinishedFile::~UnfinishedFile() {
+  std::error_code ignored;
+  std::filesystem::remove(temporary_, ignored);
+}
+
+void UnfinishedFile::finish() {
+  std::error_code error;
+  std::filesystem::rename(temporary_, file_, error);
+  if (error) throw InputError(fmt::format("cannot write {}: {}", file_.string(), error.message()));
+}
+
+void write_file(const std::filesystem::path& file, const std::string& text) {
+  UnfinishedFile unfinished(file);
+  std::ofstream stream(unfinished.temporary(), std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream)
+    throw InputError(
+        fmt::format("cannot write {}: check that its folder exists, is writable and not full", file.string()));
+  unfinished.finish();
+}
+
+void remove_unfinished_files(const std::filesystem::path& folder) {
+  constexpr std::chrono::minutes untouched(10);
+  const auto now = std::filesystem::file_time_type::clock::now();
+  std::vector<std::filesystem::path> left;
+  std::error_code ignored;
+  for (std::filesystem::recursive_directory_iterator at(folder, ignored), end; at != end; at.increment(ignored)) {
+    const int process = writer_of(at->path());
+    if (process == 0 || runs(process)) continue;
+    std::error_code gone;
+    const auto written = at->last_write_time(gone);
+    if (!gone && now - written > untouched) left.push_back(at->path());
+  }
+  for (const auto& file : left) std::filesystem::remove(file, ignored);
+}
+
+}  // namespace annulus

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace annulus {
+
+/// A file that appears when it is complete, and not at all otherwise: written under another name in the same folder
+/// and renamed. Any number of threads and processes may write the same file; the last one wins.
+class UnfinishedFile {
+ public:
+  explicit UnfinishedFile(std::filesystem::path file);
+  ~UnfinishedFile();  ///< leaves nothing behind
+  UnfinishedFile(const UnfinishedFile&) = delete;
+  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+
+  /// Where to write.
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+  /// Call when everything is written. Throws InputError naming the file.
+  void finish();
+
+ private:
+  std::filesystem::path file_, temporary_;
+};
+
+/// Writes `text` as a whole or not at all. Throws InputError naming the file when that is not possible.
+void write_file(const std::filesystem::path& file, const std::string& text);
+
+/// Removes what killed processes left unfinished in `folder` and below: files of none that still runs here, untouched
+/// for ten minutes (another machine may be at work in the same folder).
+void remove_unfinished_files(const std::filesystem::path& folder);
+
+}  // namespace annulus

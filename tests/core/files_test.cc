@@ -1,0 +1,115 @@
+#include "core/files.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/errors.h"
+#include "tests/temporary_folder.h"
+
+BOOST_AUTO_TEST_SUITE(files)
+
+namespace {
+
+using annulus::UnfinishedFile;
+using annulus::write_file;
+using annulus::test::TemporaryFolder;
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::ptrdiff_t count(const std::filesystem::path& folder) {
+  return std::distance(std::filesystem::directory_iterator(folder), {});
+}
+
+/// Of a process that has ended.
+int ended_process() {
+  const int child = ::fork();
+  if (child == 0) ::_exit(0);
+  ::waitpid(child, nullptr, 0);
+  return child;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_replaced_file_leaves_nothing_behind) {
+  const TemporaryFolder folder("files");
+  write_file(folder.path() / "f", "old and longer");
+  write_file(folder.path() / "f", "new");
+  BOOST_TEST(text_of(folder.path() / "f") == "new");
+  BOOST_TEST(count(folder.path()) == 1);
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_seen_of_a_file_that_is_not_finished) {
+  const TemporaryFolder folder("unfinished");
+  const auto file = folder.path() / "f";
+  write_file(file, "whole");
+  {
+    const UnfinishedFile given_up(file);
+    std::ofstream(given_up.temporary()) << "half of";
+    BOOST_TEST(text_of(file) == "whole");
+  }
+  BOOST_TEST(text_of(file) == "whole");
+  BOOST_TEST(count(folder.path()) == 1);
+}
+
+BOOST_AUTO_TEST_CASE(many_writers_of_one_file_leave_one_of_theirs_whole) {
+  const TemporaryFolder folder("writers");
+  const auto file = folder.path() / "f";
+  std::vector<std::thread> writers;
+  for (char letter = 'a'; letter < 'e'; ++letter)
+    writers.emplace_back([&file, letter] {
+      for (int i = 0; i < 50; ++i) write_file(file, std::string(100'000, letter));
+    });
+  for (auto& w : writers) w.join();
+  const auto text = text_of(file);
+  BOOST_TEST(text.size() == 100'000U);
+  BOOST_TEST(text.find_first_not_of(text.front()) == std::string::npos);
+  BOOST_TEST(count(folder.path()) == 1);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_an_input_error) {
+  const TemporaryFolder folder("unwritable");
+  BOOST_CHECK_THROW(write_file(folder.path() / "missing" / "f", "x"), annulus::InputError);
+  std::filesystem::create_directory(folder.path() / "taken");
+  write_file(folder.path() / "taken" / "inside", "x");
+  BOOST_CHECK_THROW(write_file(folder.path() / "taken", "x"), annulus::InputError);
+  BOOST_TEST(count(folder.path()) == 1);
+}
+
+BOOST_AUTO_TEST_CASE(old_files_of_dead_processes_are_removed_and_no_others) {
+  const TemporaryFolder folder("leftovers");
+  std::filesystem::create_directory(folder.path() / "inside");
+  const auto dead = std::to_string(ended_process());
+  const auto put = [&](const std::string& name, int minutes_ago) {
+    write_file(folder.path() / name, "x");
+    std::filesystem::last_write_time(
+        folder.path() / name, std::filesystem::file_time_type::clock::now() - std::chrono::minutes(minutes_ago));
+  };
+  put("inside/a.csv." + dead + ".0.unfinished", 20);
+  put("b.csv." + dead + ".1.unfinished", 20);
+  put("young.csv." + dead + ".2.unfinished", 1);
+  put("alive.csv." + std::to_string(::getpid()) + ".3.unfinished", 20);
+  put("mine.unfinished", 20);
+  put("c.csv", 20);
+  annulus::remove_unfinished_files(folder.path());
+  BOOST_TEST(count(folder.path() / "inside") == 0);
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    left.push_back(entry.path().filename().string().substr(0, 4));
+  std::sort(left.begin(), left.end());
+  BOOST_TEST(left == (std::vector<std::string>{"aliv", "c.cs", "insi", "mine", "youn"}), boost::test_tools::per_element());
+  annulus::remove_unfinished_files(folder.path() / "missing");  // nothing to do
+}
+
+BOOST_AUTO_TEST_SUITE_END()
