@@ -10,7 +10,7 @@
 #include "app/scene_schema.h"
 #include "app/stage_kinds.h"
 #include "app/studies.h"
-#include "core/csv.h"
+#include "core/files.h"
 #include "core/errors.h"
 #include "tests/app/bad_scenes.h"
 #include "tests/app/run_program.h"

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/csv.h"
+#include "core/files.h"
 #include "tests/app/bad_scenes.h"
 #include "tests/app/run_program.h"
 
