@@ -10,8 +10,8 @@
 #include "app/scene_schema.h"
 #include "app/stage_kinds.h"
 #include "app/studies.h"
-#include "core/files.h"
 #include "core/errors.h"
+#include "core/files.h"
 #include "tests/app/bad_scenes.h"
 #include "tests/app/run_program.h"
 

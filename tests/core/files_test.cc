@@ -93,8 +93,8 @@ BOOST_AUTO_TEST_CASE(old_files_of_dead_processes_are_removed_and_no_others) {
   const auto dead = std::to_string(ended_process());
   const auto put = [&](const std::string& name, int minutes_ago) {
     write_file(folder.path() / name, "x");
-    std::filesystem::last_write_time(
-        folder.path() / name, std::filesystem::file_time_type::clock::now() - std::chrono::minutes(minutes_ago));
+    std::filesystem::last_write_time(folder.path() / name,
+                                     std::filesystem::file_time_type::clock::now() - std::chrono::minutes(minutes_ago));
   };
   put("inside/a.csv." + dead + ".0.unfinished", 20);
   put("b.csv." + dead + ".1.unfinished", 20);
@@ -108,7 +108,8 @@ BOOST_AUTO_TEST_CASE(old_files_of_dead_processes_are_removed_and_no_others) {
   for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
     left.push_back(entry.path().filename().string().substr(0, 4));
   std::sort(left.begin(), left.end());
-  BOOST_TEST(left == (std::vector<std::string>{"aliv", "c.cs", "insi", "mine", "youn"}), boost::test_tools::per_element());
+  BOOST_TEST(left == (std::vector<std::string>{"aliv", "c.cs", "insi", "mine", "youn"}),
+             boost::test_tools::per_element());
   annulus::remove_unfinished_files(folder.path() / "missing");  // nothing to do
 }
 
