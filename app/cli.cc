@@ -16,6 +16,8 @@
 #include "app/interruption.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
+#include "app/run_limits.h"
+#include "app/scene_files.h"
 #include "app/scene_schema.h"
 #include "app/stage_kinds.h"
 #include "app/studies.h"
@@ -32,7 +34,7 @@ enum ExitStatus { done = 0, defect = 1, wrong_input = 2, refused = 3, interrupte
 
 struct Arguments {
   std::string scene, out, tables, key;
-  std::optional<std::string> budget;
+  std::optional<std::string> budget, max_memory, max_time;
   bool json = false, markdown = false, quiet = false, verbose = false;
   int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 };
@@ -45,11 +47,38 @@ RunOptions run_options(const Arguments& arguments, const Scene& scene) {
   return options;
 }
 
+RunLimits limits_of(const Arguments& arguments) {
+  auto limits = RunLimits::of_this_machine();
+  if (arguments.max_memory) limits.memory_MB = parse_memory(*arguments.max_memory);
+  if (arguments.max_time) limits.seconds = parse_duration(*arguments.max_time, "--max-time");
+  return limits;
+}
+
+/// Whether results can be written there, told before anything is computed; makes nothing.
+void check_out(const std::filesystem::path& out) {
+  namespace fs = std::filesystem;
+  fs::path there = fs::absolute(out).lexically_normal();
+  std::error_code error;
+  while (!fs::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+  if (!fs::is_directory(there, error))
+    throw InputError(fmt::format("--out {}: {} is not a folder", out.string(), there.string()));
+  if (::access(there.c_str(), W_OK | X_OK) != 0)
+    throw InputError(fmt::format("--out {}: cannot write in {}", out.string(), there.string()));
+}
+
+/// What can be known to be wrong before anything is computed; the run itself checks its studies first.
+void check_scene(const Scene& scene, const Arguments& arguments, bool with_dynamics = true) {
+  check_stage(scene);
+  check_files(scene);
+  check_limits(scene, limits_of(arguments), arguments.threads, CostModel::of_this_machine(), with_dynamics);
+}
+
 /// The scene as the file has it, or as accurate as the budget allows; what that means goes into `sentence`.
 Scene wanted_scene(const Arguments& arguments, std::string& sentence) {
   const double budget = arguments.budget ? parse_duration(*arguments.budget) : 0;
   Scene scene = read_scene(arguments.scene);
   if (!arguments.budget) return scene;
+  check_stage(scene);
   auto choice = fit_budget(scene, budget, arguments.threads, CostModel::of_this_machine());
   sentence = std::move(choice.sentence);
   return std::move(choice.scene);
@@ -61,10 +90,12 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
   if (!budget.empty()) log::info(budget);
   auto options = run_options(arguments, scene);
   options.with_dynamics = with_dynamics;
+  check_out(options.out);
   const auto id = run_id(scene, options);
   if (const auto earlier = finished_run(options.out, id)) {
     fmt::print("{}reused   everything: nothing has changed since the run above\n", *earlier);
   } else {
+    check_scene(scene, arguments, with_dynamics);
     remove_unfinished_files(options.out);
     const auto text = run_scene(scene, options);
     fmt::print("{}", text);
@@ -83,13 +114,19 @@ void dynamics_command(const Arguments& arguments) {
 void plan_command(const Arguments& arguments) {
   std::string budget;
   const Scene scene = wanted_scene(arguments, budget);
+  check_stage(scene);
+  check_files(scene);
   check_studies(scene);
   fmt::print("{}", plan_scene(scene, arguments.json, arguments.threads, budget));
+  // The plan itself shows what is too much.
+  std::fflush(stdout);
+  check_limits(scene, limits_of(arguments), arguments.threads, CostModel::of_this_machine());
 }
 
 void check_command(const Arguments& arguments) {
   const Scene scene = read_scene(arguments.scene);
   check_stage(scene);
+  check_files(scene);
   check_studies(scene);
   fmt::print("{}: good ({})\n", arguments.scene, stage_text(scene));
 }
@@ -97,6 +134,8 @@ void check_command(const Arguments& arguments) {
 void tradeoff_command(const Arguments& arguments) {
   const Scene scene = read_scene(arguments.scene);
   const auto options = run_options(arguments, scene);
+  check_out(options.out);
+  check_scene(scene, arguments, false);
   remove_unfinished_files(options.out);
   const auto trade = measure_tradeoff(scene, options);
   write_tradeoff(trade, options.out);
@@ -175,16 +214,23 @@ int run_command_line(int argc, char** argv) {
                         "The most accurate plan predicted to fit this time: 30s, 2min, 500ms, 1h");
     return command;
   };
-  budget(out(add_command(app, arguments, "run", "Everything the scene asks for, and the report")));
-  out(add_command(app, arguments, "solve", "Meshes, loaded transmission error, stiffness tables"));
+  const auto limits = [&](CLI::App* command) {
+    command->add_option("--max-memory", arguments.max_memory,
+                        "Refuse what is predicted to need more: 16GB, 800MB; default the memory of the machine");
+    command->add_option("--max-time", arguments.max_time,
+                        "Refuse what is predicted to take longer: 2h, 3d; default a week");
+    return command;
+  };
+  limits(budget(out(add_command(app, arguments, "run", "Everything the scene asks for, and the report"))));
+  limits(out(add_command(app, arguments, "solve", "Meshes, loaded transmission error, stiffness tables")));
   auto* dynamics =
-      out(add_command(app, arguments, "dynamics", "The lumped model from tables, solved first if missing"));
+      limits(out(add_command(app, arguments, "dynamics", "The lumped model from tables, solved first if missing")));
   dynamics->add_option("--tables", arguments.tables,
                        "Folder of an earlier run whose tables are used if they still fit");
-  out(add_command(app, arguments, "tradeoff",
-                  "Every way to compute the stage measured: error against time and memory"));
-  auto* plan = budget(add_command(app, arguments, "plan",
-                                  "What will be modelled and why, predicted time and memory; computes nothing"));
+  limits(out(add_command(app, arguments, "tradeoff",
+                         "Every way to compute the stage measured: error against time and memory")));
+  auto* plan = limits(budget(add_command(
+      app, arguments, "plan", "What will be modelled and why, predicted time and memory; computes nothing")));
   plan->add_flag("--json", arguments.json, "As JSON");
   add_command(app, arguments, "check", "Check the scene only");
   auto* explain_key = app.add_subcommand("explain", "The keys of a scene file");
@@ -226,7 +272,9 @@ int run_command_line(int argc, char** argv) {
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(error, wrong_input);
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "out of memory: ask for less accuracy or fewer threads; finished results are kept\n");
+    fmt::print(stderr,
+               "out of memory: ask for less accuracy or fewer threads; finished results are kept and reused by the "
+               "next run\n");
     return refused;
   } catch (const std::exception& error) {
     fmt::print(stderr, "defect in annulus, please report it: ");

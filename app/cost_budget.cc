@@ -38,9 +38,9 @@ std::string figures_text(const PlanCost& cost) {
 
 }  // namespace
 
-double parse_duration(const std::string& text) {
-  static constexpr std::pair<const char*, double> time_units[] = {
-      {"", 1}, {"s", 1}, {"ms", 1e-3}, {"min", 60}, {"h", 3600}};
+double parse_duration(const std::string& text, const char* option) {
+  static constexpr std::pair<const char*, double> time_units[] = {{"", 1},     {"s", 1},    {"ms", 1e-3},
+                                                                  {"min", 60}, {"h", 3600}, {"d", 86400}};
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc{} && std::isfinite(value) && value > 0) {
@@ -49,7 +49,7 @@ double parse_duration(const std::string& text) {
     for (const auto& [name, seconds] : time_units)
       if (unit == name) return value * seconds;
   }
-  throw InputError(fmt::format("--budget {}: is not a time above zero; write 30s, 2min, 500ms or 1h", text));
+  throw InputError(fmt::format("{} {}: is not a time above zero; write 30s, 2min, 500ms, 1h or 2d", option, text));
 }
 
 BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const CostModel& costs) {

@@ -7,8 +7,8 @@
 
 namespace annulus::app {
 
-/// Seconds of "30s", "2min", "500ms", "1h" or "30". Throws InputError for anything else.
-[[nodiscard]] double parse_duration(const std::string& text);
+/// Seconds of "30s", "2min", "500ms", "1h", "2d" or "30". Throws InputError, naming the option, for anything else.
+[[nodiscard]] double parse_duration(const std::string& text, const char* option = "--budget");
 
 /// The best plan for a given time.
 struct BudgetChoice {

@@ -235,7 +235,9 @@ std::string duration_text(double seconds) {
   if (!std::isfinite(seconds)) return "not known";
   if (seconds < 0.95) return fmt::format("{:.2g} s", std::max(0.01, seconds));
   if (seconds < 90) return fmt::format("{:.{}f} s", seconds, seconds < 9.5 ? 1 : 0);
-  return seconds < 5400 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
+  return seconds < 5400     ? fmt::format("{:.0f} min", seconds / 60)
+         : seconds < 172800 ? fmt::format("{:.1f} h", seconds / 3600)
+                            : fmt::format("{:.0f} days", seconds / 86400);
 }
 
 std::string memory_text(double MB) { return std::isfinite(MB) ? fmt::format("{:.0f} MB", MB) : "not known"; }

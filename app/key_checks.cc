@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "app/scene_limits.h"
+
 namespace annulus::app {
 
 const Input* KeyChecks::find(const std::string& key, const std::string& ring) const {
@@ -24,8 +26,8 @@ bool KeyChecks::usable(const std::string& key, const std::string& ring) const {
 void KeyChecks::problem(const std::string& key, const std::string& ring, const std::string& rule) {
   const Input* input = find(key, ring);
   std::string head = key;
-  if (input && input->origin == Origin::scene) head += " = " + to_text(input->value);
-  if (!ring.empty()) head += " (ring '" + ring + "')";
+  if (input && input->origin == Origin::scene) head += " = " + shown(to_text(input->value));
+  if (!ring.empty()) head += " (ring '" + shown(ring) + "')";
   problems_.push_back({input ? input->line : 0, input ? input->column : 0, head + ": " + rule});
 }
 

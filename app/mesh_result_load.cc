@@ -5,6 +5,7 @@
 
 #include "app/content_id.h"
 #include "app/mesh_result.h"
+#include "app/scene_files.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -79,11 +80,7 @@ StiffnessTable sampled(const std::string& mesh, const MeshInput& input, double l
 MeshResult given_stiffness(const MeshModel& model, const MeshInput& input, const Scene& scene, double contact_ratio,
                            double nominal_load) {
   if (input.stiffness == StiffnessShape::table) {
-    auto table = StiffnessTable::read_csv(scene.file.parent_path() / *input.file);
-    if (table.mesh() != model.mesh) {
-      throw InputError("mesh." + model.mesh + ".file = " + *input.file + ": is the table of a " + table.mesh() +
-                       " mesh");
-    }
+    auto table = given_table(scene, model.mesh, input);
     const auto nominal = nearest_load(table, nominal_load);
     return {.model = model, .contact_ratio = contact_ratio, .table = std::move(table), .nominal = nominal};
   }

@@ -8,6 +8,7 @@
 #include "app/planetary_subject.h"
 #include "app/progress.h"
 #include "app/report.h"
+#include "app/scene_files.h"
 #include "app/studies.h"
 #include "app/summary.h"
 #include "app/tasks.h"
@@ -187,7 +188,7 @@ RunResult run(const Scene& scene, const RunOptions& given) {
   StageTimers timers;
   const RunOptions options = with_reuse(given);
   std::optional<Reference> reference;
-  if (scene.reference) reference = read_reference(scene.file.parent_path() / *scene.reference);
+  if (scene.reference) reference = read_reference(file_of_scene(scene, "reference", *scene.reference));
   GearGeometry geometry = make_geometry(scene);
   if (options.with_dynamics) check_studies(scene);  // before anything expensive
   Plan plan = make_plan(scene, geometry, options.threads);

@@ -6,7 +6,7 @@
 
 namespace annulus::app {
 
-/// Published statements about a scene, read from a file with their source (data/reference).
+/// Published statements about a scene, read from a file with their source (data/scenes/reference).
 struct Reference {
   /// "The first ring has the largest value, the last the smallest."
   struct Order {

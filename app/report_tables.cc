@@ -122,7 +122,8 @@ void add_mesh_rows(HtmlTable& table, const RunResult& result, bool sun) {
           [&](const auto& r) { return estimate_text(mesh(r).lte_mean(), 1e6); });
   add_row(table, "transmission error, peak to peak, µm", result,
           [&](const auto& r) { return estimate_text(mesh(r).lte_peak_to_peak(), 1e6); });
-  for (const auto& [label, column] : peak_rows(sun)) {
+  for (const auto& [label, column_of_row] : peak_rows(sun)) {
+    const auto& column = column_of_row;  // bindings cannot be captured everywhere
     const auto there = [&](const RingResult& r) { return mesh(r).peak(column).has_value(); };
     if (std::none_of(result.rings.begin(), result.rings.end(), there)) continue;
     add_row(table, label, result, [&](const auto& r) {

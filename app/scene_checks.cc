@@ -12,6 +12,7 @@
 #include "app/key_checks.h"
 #include "app/mesh_model.h"
 #include "app/pair_checks.h"
+#include "app/scene_limits.h"
 #include "app/scene_schema.h"
 #include "core/errors.h"
 #include "core/units.h"
@@ -280,7 +281,7 @@ class Checker : KeyChecks {
       if (input.key != "ring.name" || seen.insert(input.ring).second) continue;
       problems_.push_back(
           {input.line, input.column,
-           fmt::format("ring.name = {}: is the name of more than one ring; each needs its own", input.ring)});
+           fmt::format("ring.name = {}: is the name of more than one ring; each needs its own", shown(input.ring))});
     }
   }
 

@@ -7,6 +7,7 @@
 #include "app/optimisation.h"
 #include "app/overrides.h"
 #include "app/scene_checks.h"
+#include "app/scene_limits.h"
 #include "app/stage_kinds.h"
 
 namespace annulus::app {
@@ -63,7 +64,7 @@ class StudyChecker {
   void problem(const std::string& key, std::size_t entry, const std::string& rule) {
     const Input* input = find(key, entry);
     std::string head = key;
-    if (input && input->origin == Origin::scene) head += " = " + to_text(input->value);
+    if (input && input->origin == Origin::scene) head += " = " + shown(to_text(input->value));
     problems_.push_back({input ? input->line : 0, input ? input->column : 0, head + ": " + rule});
   }
 
@@ -83,19 +84,31 @@ class StudyChecker {
 
   /// `table` with the prefix of its keys: "sweep.", "grid.x_".
   void row(const std::string& table, const SweepInput& s, std::size_t i) {
-    input(table + "input", i, s.input);
+    if (!input(table + "input", i, s.input)) return;
+    const std::string prefix = table.substr(table.find('.') + 1);  // of the keys: "", "x_"
     const bool steps = s.from || s.to || s.count;
     if (given(table + "values", i)) {
-      if (steps) return problem(table + "values", i, "give either values or from, to and count");
+      if (steps)
+        return problem(table + "values", i,
+                       fmt::format("give either {0}values or {0}from, {0}to and {0}count", prefix));
       if (s.values.empty()) return problem(table + "values", i, "needs at least one value");
       const std::set<double> distinct(s.values.begin(), s.values.end());
       if (distinct.size() != s.values.size()) return problem(table + "values", i, "the same value stands there twice");
     } else if (!s.from || !s.to || !s.count) {
-      return problem(table + "input", i, "needs from, to and count, or values");
+      return problem(table + "input", i, fmt::format("needs {0}from, {0}to and {0}count, or {0}values", prefix));
     } else if (*s.from == *s.to) {
       return problem(table + "to", i, "must differ from `from`");
     }
     const auto points = s.points();
+    const auto& parameter = *find_input(scene_, s.input).parameter;
+    for (const double x : points) {
+      if (parameter.in_range(x)) continue;
+      const bool listed = given(table + "values", i);
+      return problem(table + (listed         ? "values"
+                              : x == *s.from ? "from"
+                                             : "to"),
+                     i, fmt::format("{} = {} must be in range: {}", s.input, to_text(x), parameter.range_text()));
+    }
     if (s.scale == SweepScale::logarithmic && *std::min_element(points.begin(), points.end()) <= 0)
       problem(table + "scale", i, "needs values above zero");
   }
@@ -104,6 +117,14 @@ class StudyChecker {
     row("grid.x_", g.x, i);
     row("grid.y_", g.y, i);
     if (g.x.input == g.y.input) problem("grid.y_input", i, "must differ from x_input");
+    constexpr std::size_t most_points = 100'000;
+    const auto count = [](const SweepInput& s) {
+      return s.values.empty() ? static_cast<std::size_t>(s.count.value_or(0)) : s.values.size();
+    };
+    if (count(g.x) * count(g.y) > most_points)
+      problem("grid.x_input", i,
+              fmt::format("has {} x {} points, at most {} are possible; take fewer values", count(g.x), count(g.y),
+                          most_points));
   }
 
   void random(const RandomInput& r, std::size_t i) {

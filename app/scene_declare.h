@@ -48,6 +48,8 @@ class Declared {
   Declared& absent(const char* what_then) { return p_.note = what_then, *this; }
   Declared& from(double low, double high) { return p_.low = low, p_.high = high, *this; }
   Declared& above(double low, double high) { return p_.low_included = false, from(low, high); }
+  /// Most values of a list.
+  Declared& longest(std::size_t values) { return p_.longest = values, *this; }
   Declared& infinite() { return p_.may_be_infinite = true, *this; }
 
  private:

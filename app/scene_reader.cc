@@ -9,6 +9,7 @@
 
 #include "app/overrides.h"
 #include "app/scene_checks.h"
+#include "app/scene_limits.h"
 #include "app/scene_schema.h"
 
 namespace annulus::app {
@@ -25,7 +26,7 @@ Place place_of(const toml::source_region& source) {
 
 std::string node_text(const toml::node& node) {
   if (node.is_table() || node.is_array_of_tables()) return "{...}";
-  if (const auto* text = node.as_string()) return '"' + **text + '"';
+  if (const auto* text = node.as_string()) return '"' + shown(**text) + '"';
   if (const auto* number = node.as_floating_point()) {
     // A whole-valued float must look like one, or "5 must be a whole number" would puzzle.
     if (std::isnan(**number)) return "nan";
@@ -34,7 +35,7 @@ std::string node_text(const toml::node& node) {
   }
   std::ostringstream out;
   node.visit([&](const auto& n) { out << n; });
-  return out.str();
+  return shown(out.str());
 }
 
 /// Reads the tables of one file against the schema and collects every problem.
@@ -59,8 +60,8 @@ class Reader {
                                                       table.header(), kind_name(kind_), kinds_text(table.kinds)));
       }
     }
-    read_assumed();
-    complete_and_check(scene_, problems_);
+    if (!hopeless()) read_assumed();
+    if (!hopeless()) complete_and_check(scene_, problems_);
     std::stable_sort(problems_.begin(), problems_.end(),
                      [](const Problem& a, const Problem& b) { return a.line < b.line; });
     if (!problems_.empty()) throw SceneError(scene_.file.string(), problems_);
@@ -69,6 +70,8 @@ class Reader {
 
  private:
   void problem(Place at, std::string message) { problems_.push_back({at.line, at.column, std::move(message)}); }
+  /// A file that is no scene has something wrong in every line.
+  [[nodiscard]] bool hopeless() const { return problems_.size() > most_problems; }
 
   void read_table(const Table& table) {
     const toml::node* node = table.path.empty() ? &root_ : root_.at_path(table.path).node();
@@ -83,6 +86,9 @@ class Reader {
       if (!array || array->empty() || !array->is_homogeneous(toml::node_type::table)) {
         return problem(place_of(node->source()), fmt::format("{}: write each one as {}", table.path, table.header()));
       }
+      if (array->size() > most_tables)
+        return problem(place_of(node->source()), fmt::format("{}: there are {}, at most {} are possible",
+                                                             table.header(), array->size(), most_tables));
       table.resize(scene_, array->size());
       for (std::size_t i = 0; i < array->size(); ++i) {
         const auto& entry = *array->get(i)->as_table();
@@ -111,6 +117,7 @@ class Reader {
   void read_keys(const Table& table, const toml::table& entry, std::size_t index, const std::string& ring) {
     if (!table.path.empty()) check_keys(table, entry);
     for (const auto& p : table.parameters) {
+      if (hopeless()) return;
       Input input{.key = p.key(), .ring = ring, .unit = p.unit, .meaning = p.meaning, .entry = index};
       const auto found = entry.find(p.name);
       if (!p.applies_to(kind_)) {
@@ -124,7 +131,7 @@ class Reader {
         const Place at = place_of(entry.source());
         if (p.required(kind_)) {
           problem(at, fmt::format("{}: is missing{}; must be {}. {}", p.key(),
-                                  ring.empty() ? "" : " for ring '" + ring + "'", expected(p), p.meaning));
+                                  ring.empty() ? "" : " for ring '" + shown(ring) + "'", expected(p), p.meaning));
           continue;
         }
         input.origin = Origin::default_value;
@@ -149,6 +156,18 @@ class Reader {
     return p.type_text() + (range.empty() ? "" : ", " + range);
   }
 
+  static std::string too_long(const Parameter& p, std::size_t size) {
+    return fmt::format("has {} values, at most {} are possible", size, p.longest);
+  }
+
+  /// What is wrong with a text, empty if nothing is. Texts go into reports, tables and messages.
+  static std::string text_rule(const std::string& text) {
+    if (has_controls(text)) return "must be one line without control characters";
+    if (text.size() > longest_text)
+      return fmt::format("has {} bytes, at most {} are possible", text.size(), longest_text);
+    return "";
+  }
+
   bool convert(const Parameter& p, const toml::node& node, Place at, Value& value) {
     const std::string head = fmt::format("{} = {}", p.key(), node_text(node));
     const auto refuse = [&](const std::string& rule) {
@@ -169,6 +188,7 @@ class Reader {
         break;
       case Parameter::Kind::reals: {
         const auto* array = node.as_array();
+        if (array && array->size() > p.longest) return refuse(too_long(p, array->size()));
         std::vector<double> list;
         for (std::size_t i = 0; array && i < array->size(); ++i) {
           const auto* item = array->get(i);
@@ -183,10 +203,12 @@ class Reader {
       }
       case Parameter::Kind::texts: {
         const auto* array = node.as_array();
+        if (array && array->size() > p.longest) return refuse(too_long(p, array->size()));
         std::vector<std::string> list;
         for (std::size_t i = 0; array && i < array->size(); ++i) {
           const auto* item = array->get(i)->as_string();
           if (!item) return refuse("must be " + expected(p));
+          if (const auto rule = text_rule(**item); !rule.empty()) return refuse(rule);
           list.push_back(**item);
         }
         if (!array) return refuse("must be " + expected(p));
@@ -195,6 +217,7 @@ class Reader {
       }
       case Parameter::Kind::text:
         if (!node.is_string()) return refuse("must be " + expected(p));
+        if (const auto rule = text_rule(**node.as_string()); !rule.empty()) return refuse(rule);
         value = **node.as_string();
         break;
       case Parameter::Kind::choice: {
@@ -220,7 +243,8 @@ class Reader {
     for (const auto& [key, node] : entry) {
       const std::string name(key.str());
       if (std::find(names.begin(), names.end(), name) != names.end() || is_table(name)) continue;
-      problem(place_of(key.source()), fmt::format("{}.{} = {}: unknown key{}", table.path, name, node_text(node),
+      if (hopeless()) return;
+      problem(place_of(key.source()), fmt::format("{}.{} = {}: unknown key{}", table.path, shown(name), node_text(node),
                                                   suggestion(table.path, name, names)));
     }
   }
@@ -250,8 +274,9 @@ class Reader {
     for (const auto& [key, node] : root_) {
       const std::string name(key.str());
       if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+      if (hopeless()) return;
       std::string what =
-          fmt::format("{}: unknown {}", name, node.is_table() || node.is_array_of_tables() ? "table" : "key");
+          fmt::format("{}: unknown {}", shown(name), node.is_table() || node.is_array_of_tables() ? "table" : "key");
       const auto& later = unavailable_tables();
       const auto match = std::find_if(later.begin(), later.end(), [&](const auto& t) { return t.first == name; });
       if (match != later.end()) {
@@ -265,8 +290,10 @@ class Reader {
   }
 
   void check_mesh_names() {
-    const auto* mesh = root_["mesh"].as_table();
-    if (!mesh) return;
+    const auto* node = root_.get("mesh");
+    if (!node) return;
+    const auto* mesh = node->as_table();
+    if (!mesh) return problem(place_of(node->source()), "mesh: must be a table of meshes, as [mesh.sun_planet]");
     std::vector<std::string> all, of_kind;
     for (const auto& table : schema()) {
       if (!table.path.starts_with("mesh.")) continue;
@@ -276,10 +303,11 @@ class Reader {
     for (const auto& [key, node] : *mesh) {
       const std::string name = "mesh." + std::string(key.str());
       if (std::find(all.begin(), all.end(), name) != all.end()) continue;
+      if (hopeless()) return;
       const std::string near = nearest(name, of_kind);
       std::string list;
       for (const auto& path : of_kind) list += (list.empty() ? "" : ", ") + path;
-      problem(place_of(key.source()), fmt::format("{}: unknown table; {}", name,
+      problem(place_of(key.source()), fmt::format("{}: unknown table; {}", shown(name),
                                                   near.empty() ? "there are " + list : "did you mean " + near + "?"));
     }
   }
@@ -295,6 +323,7 @@ class Reader {
   // The keys contain dots: quoted or not, they arrive here as the same path.
   void read_assumed(const toml::table& table, const std::string& prefix) {
     for (const auto& [key, node] : table) {
+      if (hopeless()) return;
       const std::string path = prefix + std::string(key.str());
       if (const auto* inner = node.as_table()) {
         read_assumed(*inner, path + ".");
@@ -303,10 +332,12 @@ class Reader {
       const Place at = place_of(key.source());
       const auto reason = node.value<std::string>();
       if (!reason || reason->empty()) {
-        problem(at, fmt::format("assumed.{}: must be the reason, a text in quotes", path));
+        problem(at, fmt::format("assumed.{}: must be the reason, a text in quotes", shown(path)));
+      } else if (const auto rule = text_rule(*reason); !rule.empty()) {
+        problem(at, fmt::format("assumed.{}: {}", shown(path), rule));
       } else if (!find_parameter(path)) {
         const std::string near = nearest(path, all_keys());
-        problem(at, fmt::format("assumed.{}: there is no such key{}", path,
+        problem(at, fmt::format("assumed.{}: there is no such key{}", shown(path),
                                 near.empty() ? "" : "; did you mean " + near + "?"));
       } else {
         bool has_value = false;
@@ -317,7 +348,7 @@ class Reader {
         }
         scene_.assumed[path] = *reason;
         // A key that was refused is not set either, and its problem is told already.
-        if (!has_value && !refused_) problem(at, fmt::format("assumed.{}: this scene does not set it", path));
+        if (!has_value && !refused_) problem(at, fmt::format("assumed.{}: this scene does not set it", shown(path)));
       }
     }
   }
@@ -362,6 +393,7 @@ void set_number(toml::table& root, const InputEdit& edit) {
 }  // namespace
 
 Scene parse_scene(const std::string& text, const std::filesystem::path& name) {
+  check_scene_text(text, name.string());
   toml::table root;
   try {
     root = toml::parse(text, name.string());
@@ -422,10 +454,12 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
 }
 
 Scene read_scene(const std::filesystem::path& file) {
-  std::ifstream in(file);
+  std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file))
     throw InputError(file.string() + ": cannot be read; is the path right?");
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  std::string text(largest_scene + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
   return parse_scene(text, file);
 }
 

@@ -267,6 +267,7 @@ std::vector<Table> declare_tables() {
   ring.key("pin_angles_deg", &RingInput::pin_angles,
            "pinned, bolted: place of every pin, counter-clockwise from the centre of tooth 0; give this or pins.")
       .from(-360, 360)
+      .longest(2000)
       .absent("equally spaced");
   ring.key("first_pin_angle_deg", &RingInput::first_pin_angle,
            "pinned, bolted: first of equally spaced pins, from the centre of tooth 0.")

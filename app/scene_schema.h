@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/scene.h"
+#include "app/scene_limits.h"
 
 namespace annulus::app {
 
@@ -27,6 +28,7 @@ struct Parameter {
   double low = -rigid, high = rigid;
   bool low_included = true;
   bool may_be_infinite = false;
+  std::size_t longest = longest_list;  ///< values of a list
   std::vector<std::string> choices{};
   std::string meaning{};
   /// Stores a checked value (in file units) into the scene; the index counts the tables of an array ([[ring]]).

@@ -10,6 +10,9 @@ constexpr const char* path_meaning =
     "is that of every ring that has it, \"ring.NAME.pins\" that of one; \"errors.planet_eccentricity_um[2]\" is the "
     "value of planet 2, counted from 1.";
 
+/// Values of studies are bounded as the widest key is; the key that is varied has bounds of its own.
+constexpr int most_study_values = 10000;
+
 const std::vector<StageKind> planetary_kind = {StageKind::planetary};
 
 /// Keys of one input and its values, their names behind a prefix.
@@ -21,16 +24,21 @@ Table row_of_values(const char* path, const char* meaning, const std::string& pr
   row.key(name("input").c_str(), &SweepInput::input, (std::string("What is varied: ") + path_meaning).c_str())
       .required();
   row.key(name("from").c_str(), &SweepInput::from, "First value, in the unit of the input.")
+      .from(-1e14, 1e14)
       .absent("give values instead");
-  row.key(name("to").c_str(), &SweepInput::to, "Last value, in the unit of the input.").absent("give values instead");
+  row.key(name("to").c_str(), &SweepInput::to, "Last value, in the unit of the input.")
+      .from(-1e14, 1e14)
+      .absent("give values instead");
   row.key(name("count").c_str(), &SweepInput::count, "Number of values between these two, both included.")
-      .from(2, 1e5)
+      .from(2, most_study_values)
       .absent("give values instead");
   row.choice(name("scale").c_str(), &SweepInput::scale,
              {{"linear", SweepScale::linear}, {"logarithmic", SweepScale::logarithmic}},
              "Spacing of the values, and the axis of the plots.")
       .fallback(std::string("linear"), "equal steps");
   row.key(name("values").c_str(), &SweepInput::values, "The values themselves, in the unit of the input.")
+      .from(-1e14, 1e14)
+      .longest(most_study_values)
       .absent("give from, to and count instead");
   Table table = row.done();
   table.repeated = true;
@@ -64,7 +72,7 @@ void declare_studies(std::vector<Table>& tables) {
         return *s.monte_carlo;
       });
   monte_carlo.on_request();
-  monte_carlo.key("samples", &MonteCarloInput::samples, "Number of samples.").required().from(2, 1e7);
+  monte_carlo.key("samples", &MonteCarloInput::samples, "Number of samples.").required().from(2, 1e6);
   monte_carlo.key("seed", &MonteCarloInput::seed, "Other seeds give other draws.")
       .fallback(1L, "any number will do")
       .from(0, 2147483647);
@@ -89,12 +97,16 @@ void declare_studies(std::vector<Table>& tables) {
               "truncated to low and high where given.")
       .required();
   random.key("low", &RandomInput::low, "Lower end, in the unit of the input.")
+      .from(-1e14, 1e14)
       .absent("not truncated; uniform needs it");
   random.key("high", &RandomInput::high, "Upper end, in the unit of the input.")
+      .from(-1e14, 1e14)
       .absent("not truncated; uniform needs it");
-  random.key("mean", &RandomInput::mean, "Mean before truncation.").absent("needed by normal and lognormal");
+  random.key("mean", &RandomInput::mean, "Mean before truncation.")
+      .from(-1e14, 1e14)
+      .absent("needed by normal and lognormal");
   random.key("deviation", &RandomInput::deviation, "Standard deviation before truncation.")
-      .above(0, 1e300)
+      .above(0, 1e14)
       .absent("needed by normal and lognormal");
   tables.push_back(random.done());
 
@@ -130,7 +142,7 @@ void declare_studies(std::vector<Table>& tables) {
       .required();
   optimise.key("weights", &OptimiseInput::weights, "One weight per figure.")
       .fallback(std::vector<double>{}, "equal weights: the mean")
-      .from(-1e12, 1e12);
+      .from(-1e14, 1e14);
   optimise
       .choice("goal", &OptimiseInput::goal, {{"smallest", Goal::smallest}, {"largest", Goal::largest}},
               "Which value is best.")
@@ -173,8 +185,8 @@ void declare_studies(std::vector<Table>& tables) {
                                        [](Scene& s, std::size_t i) -> VariableInput& { return s.variables.at(i); });
   variable.repeated([](Scene& s, std::size_t n) { s.variables.resize(n); }).on_request();
   variable.key("input", &VariableInput::input, (std::string("What is searched: ") + path_meaning).c_str()).required();
-  variable.key("low", &VariableInput::low, "Smallest value, in the unit of the input.").required().from(-1e12, 1e12);
-  variable.key("high", &VariableInput::high, "Largest value, in the unit of the input.").required().from(-1e12, 1e12);
+  variable.key("low", &VariableInput::low, "Smallest value, in the unit of the input.").required().from(-1e14, 1e14);
+  variable.key("high", &VariableInput::high, "Largest value, in the unit of the input.").required().from(-1e14, 1e14);
   variable
       .choice("scale", &VariableInput::scale,
               {{"linear", SweepScale::linear}, {"logarithmic", SweepScale::logarithmic}},

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "app/scene_limits.h"
+
 namespace annulus::app {
 
 std::string to_text(double value, int digits) {
@@ -63,13 +65,16 @@ namespace {
 
 std::string format_problems(const std::string& file, const std::vector<Problem>& problems) {
   std::string text;
-  for (const auto& p : problems) {
+  const std::size_t told = std::min(problems.size(), most_problems);
+  for (std::size_t i = 0; i < told; ++i) {
+    const auto& p = problems[i];
     if (!text.empty()) text += '\n';
     text += file;
     if (p.line > 0) text += fmt::format(":{}:{}", p.line, p.column);
     text += ": " + p.message;
   }
-  return text;
+  if (told < problems.size()) text += "\n" + file + ": there are more problems";
+  return without_controls(text);
 }
 
 // Optimal string alignment distance: insertions, deletions, substitutions and swaps of neighbours count one each.
@@ -94,6 +99,8 @@ SceneError::SceneError(const std::string& file, std::vector<Problem> problems)
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
   std::string best;
+  constexpr std::size_t longest_word = 100;  // no slip of the pen makes a key so long
+  if (word.size() > longest_word) return best;
   // Half the letters wrong is no longer a slip of the pen; a forgotten unit suffix still is.
   int best_distance = std::max<int>(2, static_cast<int>(word.size()) / 2) + 1;
   for (const auto& candidate : candidates) {

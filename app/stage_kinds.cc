@@ -4,10 +4,12 @@
 
 #include <algorithm>
 
+#include "app/input_place.h"
 #include "app/pair_run.h"
 #include "app/pair_subject.h"
 #include "app/plan.h"
 #include "app/planetary_subject.h"
+#include "app/rim_checks.h"
 #include "app/summary.h"
 #include "app/two_k_v_run.h"
 #include "app/two_k_v_subject.h"
@@ -48,16 +50,23 @@ double planetary_seconds(const Scene& scene) {
 }  // namespace
 
 void check_stage(const Scene& scene) {
-  switch (scene.stage.kind) {
-    case StageKind::planetary:
-      (void)make_geometry(scene);
-      return;
-    case StageKind::helical_pair:
-      (void)make_pair_geometry(scene);
-      return;
-    case StageKind::two_k_v:
-      check_two_k_v(scene);
-      return;
+  try {
+    switch (scene.stage.kind) {
+      case StageKind::planetary:
+        check_rims(scene, make_geometry(scene));
+        return;
+      case StageKind::helical_pair:
+        check_rims(scene, make_pair_geometry(scene));
+        return;
+      case StageKind::two_k_v:
+        check_two_k_v(scene);
+        check_rims(scene, sun_planet_pair(scene));
+        return;
+    }
+  } catch (const GeometryError& error) {
+    throw GeometryError(with_place(scene, without_place(scene, error.what())));
+  } catch (const InputError& error) {
+    throw InputError(with_place(scene, without_place(scene, error.what())));
   }
   no_such_kind();
 }

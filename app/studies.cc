@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "app/input_place.h"
 #include "app/pipeline.h"
 #include "app/point_store.h"
 #include "app/progress.h"
@@ -14,12 +17,20 @@ namespace annulus::app {
 
 namespace {
 
+std::string place_of(const Scene& scene, const RandomVariable& variable) {
+  for (std::size_t i = 0; i < scene.random_inputs.size(); ++i) {
+    const auto paths = expand_planets(scene, scene.random_inputs[i].input);
+    if (std::find(paths.begin(), paths.end(), variable.input) != paths.end())
+      return place_text(scene, "monte_carlo.input.input", i);
+  }
+  return scene.file.string();
+}
+
 void check_random_input(const Scene& scene, const RandomVariable& variable) {
   const std::string where = "[[monte_carlo.input]] " + variable.input;
   const auto target = find_input(scene, variable.input);
-  const auto refuse = [&](const std::string& why) {
-    throw InputError(fmt::format("{}: {}: {}", scene.file.string(), where, why));
-  };
+  const auto place = place_of(scene, variable);
+  const auto refuse = [&](const std::string& why) { throw InputError(fmt::format("{}: {}: {}", place, where, why)); };
   if (target.parameter->kind == Parameter::Kind::integer) refuse("is a whole number; a [[sweep]] suits it");
   try {
     variable.distribution.check();
@@ -32,7 +43,8 @@ void check_random_input(const Scene& scene, const RandomVariable& variable) {
       refuse(fmt::format("sample {} draws {}, which must be in range: {}; truncate the distribution with low and high",
                          sample + 1, to_text(x, 6), target.parameter->range_text()));
   }
-  const auto changed = change_scene(scene, {{{variable.input, draw(variable, scene.monte_carlo->seed, 0)}}, where, ""});
+  const auto changed =
+      change_scene(scene, {{{variable.input, draw(variable, scene.monte_carlo->seed, 0)}}, where, "", place});
   const auto tables = tables_to_solve(scene, changed);
   if (!tables.empty())
     refuse(
@@ -55,7 +67,7 @@ void check_studies(const Scene& scene) {
   if (!scene.monte_carlo) return;
   const auto variables = random_variables(scene);
   if (variables.empty())
-    throw InputError(scene.file.string() +
+    throw InputError(place_text(scene, "monte_carlo.samples") +
                      ": [monte_carlo]: nothing is uncertain: there are no errors of unknown phase and no "
                      "[[monte_carlo.input]]");
   for (const auto& variable : variables) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/input_place.h"
 #include "app/stage_kinds.h"
 #include "core/errors.h"
 
@@ -62,24 +63,27 @@ dynamics::Distribution distribution_of(const RandomInput& r) {
 std::vector<StudyCase> sweep_cases(const Scene& scene, std::size_t sweep) {
   const auto& s = scene.sweeps.at(sweep);
   const auto values = s.points();
+  const auto place = place_text(scene, "sweep.input", sweep);
   std::vector<StudyCase> cases;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::string text = to_text(values[i], 15);
     cases.push_back({{{s.input, values[i]}},
                      fmt::format("[[sweep]] {}, value {} of {} ({} = {})", sweep + 1, i + 1, values.size(), s.input,
                                  to_text(values[i])),
-                     "sweep/" + file_name(s.input) + "/" + text});
+                     "sweep/" + file_name(s.input) + "/" + text,
+                     place});
   }
   return cases;
 }
 
-void rethrow_at(const Scene& scene, const std::string& where) {
+void rethrow_at(const Scene& scene, const std::string& where, const std::string& place) {
+  const std::string head = (place.empty() ? scene.file.string() : place) + ": " + where + ": ";
   try {
     throw;
   } catch (const SceneError& error) {
-    throw InputError(scene.file.string() + ": " + where + ": " + error.problems().front().message);
+    throw InputError(head + error.problems().front().message);
   } catch (const InputError& error) {
-    throw InputError(scene.file.string() + ": " + where + ": " + error.what());
+    throw InputError(head + without_place(scene, error.what()));
   }
 }
 
@@ -89,21 +93,23 @@ Scene change_scene(const Scene& scene, const StudyCase& study_case) {
     check_stage(changed);
     return changed;
   } catch (const InputError&) {
-    rethrow_at(scene, study_case.where);
+    rethrow_at(scene, study_case.where, study_case.place);
   }
 }
 
 std::vector<StudyCase> grid_cases(const Scene& scene, std::size_t grid) {
   const auto& g = scene.grids.at(grid);
   const auto xs = g.x.points(), ys = g.y.points();
+  const auto place = place_text(scene, "grid.x_input", grid);
   std::vector<StudyCase> cases;
   for (const double y : ys) {
     for (const double x : xs)
-      cases.push_back({{{g.x.input, x}, {g.y.input, y}},
-                       fmt::format("[[grid]] {}, point {} of {} ({} = {}, {} = {})", grid + 1, cases.size() + 1,
-                                   xs.size() * ys.size(), g.x.input, to_text(x), g.y.input, to_text(y)),
-                       fmt::format("grid/{}_{}_{}_{}", file_name(g.x.input), to_text(x, 15), file_name(g.y.input),
-                                   to_text(y, 15))});
+      cases.push_back(
+          {{{g.x.input, x}, {g.y.input, y}},
+           fmt::format("[[grid]] {}, point {} of {} ({} = {}, {} = {})", grid + 1, cases.size() + 1,
+                       xs.size() * ys.size(), g.x.input, to_text(x), g.y.input, to_text(y)),
+           fmt::format("grid/{}_{}_{}_{}", file_name(g.x.input), to_text(x, 15), file_name(g.y.input), to_text(y, 15)),
+           place});
   }
   return cases;
 }
@@ -148,13 +154,15 @@ std::vector<std::string> sensitivity_inputs(const Scene& scene) {
 
 std::vector<StudyCase> sensitivity_cases(const Scene& scene) {
   std::vector<StudyCase> cases;
+  const auto place = place_text(scene, "sensitivity.factor");
   for (const auto& input : sensitivity_inputs(scene)) {
     const double factor = scene.sensitivity->factor;
     for (const bool multiplied : {false, true}) {
       const std::string text = (multiplied ? "times_" : "over_") + to_text(factor, 15);
       cases.push_back({{{input, multiplied ? factor : 1 / factor, true}},
                        fmt::format("[sensitivity] {} {} {}", input, multiplied ? "×" : "/", to_text(factor)),
-                       "sensitivity/" + file_name(input) + "/" + text});
+                       "sensitivity/" + file_name(input) + "/" + text,
+                       place});
     }
   }
   return cases;

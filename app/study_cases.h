@@ -12,15 +12,17 @@ namespace annulus::app {
 /// One changed scene.
 struct StudyCase {
   std::vector<Override> overrides;
-  std::string where;   ///< for messages: "[[sweep]] 1, value 7 of 20 (stage.power_kW = 900)"
-  std::string folder;  ///< of tables of its own, below OUT
+  std::string where;    ///< for messages: "[[sweep]] 1, value 7 of 20 (stage.power_kW = 900)"
+  std::string folder;   ///< of tables of its own, below OUT
+  std::string place{};  ///< of the study's input in the scene: "scene.toml:40:1"; empty: not known
 };
 
 /// One per value.
 [[nodiscard]] std::vector<StudyCase> sweep_cases(const Scene& scene, std::size_t sweep);
 
-/// Throws the error again as InputError "file: where: what" when it is one of the input; others unchanged.
-[[noreturn]] void rethrow_at(const Scene& scene, const std::string& where);
+/// Throws the error again as InputError "place: where: what", or "file: where: what", when it is one of the input;
+/// others unchanged.
+[[noreturn]] void rethrow_at(const Scene& scene, const std::string& where, const std::string& place = "");
 
 /// The changed scene. Throws InputError naming the study and the value where it is not a good one.
 [[nodiscard]] Scene change_scene(const Scene& scene, const StudyCase& study_case);

@@ -96,7 +96,8 @@ std::vector<PlannedResponse> two_k_v_responses(const Scene& scene) {
   if (!scene.dynamics) return {};
   CostRun size;
   size.unknowns = scene.dynamics->mesh_cycles.value_or(scene.planet.teeth);  // one turn of the crank
-  const bool given = !is_computed(scene.sun_planet) && !is_computed(scene.arc_pins);
+  const auto given_alone = [](const MeshInput& m) { return m.stiffness != StiffnessShape::computed; };
+  const bool given = given_alone(scene.sun_planet) && given_alone(scene.arc_pins);
   size.kind = given ? "response_two_k_v_given" : "response_two_k_v";
   std::vector<PlannedResponse> list = {{"dynamics", "", size}};
   size.kind = "response_two_k_v";

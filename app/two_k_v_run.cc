@@ -8,6 +8,7 @@
 
 #include "app/cost_actual.h"
 #include "app/planetary_subject.h"
+#include "app/scene_files.h"
 #include "app/studies.h"
 #include "app/tasks.h"
 #include "app/two_k_v_subject.h"
@@ -102,7 +103,7 @@ TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& given) {
   StageTimers timers;
   const RunOptions options = with_reuse(given);
   std::optional<Reference> reference;
-  if (scene.reference) reference = read_reference(scene.file.parent_path() / *scene.reference);
+  if (scene.reference) reference = read_reference(file_of_scene(scene, "reference", *scene.reference));
   if (options.with_dynamics) check_studies(scene);  // before anything expensive
   Plan plan = make_two_k_v_plan(scene, options.threads);
   auto other = compared_scene(scene);

@@ -1,7 +1,7 @@
 # One library per layer: annulus_add_layer(core [SHARED] SOURCES a.cc b.cc PUBLIC ... PRIVATE ...)
 function(annulus_add_layer name)
   cmake_parse_arguments(ARG "SHARED" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  if(ARG_SHARED)
+  if(ARG_SHARED AND NOT ANNULUS_FUZZ)
     add_library(annulus_${name} SHARED ${ARG_SOURCES})
   else()
     add_library(annulus_${name} STATIC ${ARG_SOURCES})
@@ -9,7 +9,13 @@ function(annulus_add_layer name)
   target_include_directories(annulus_${name} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(annulus_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   annulus_set_warnings(annulus_${name})
+  if(ANNULUS_FUZZ AND name MATCHES "^(core|geometry|app)$")
+    target_compile_options(annulus_${name} PRIVATE ${annulus_fuzz_checks} -fsanitize=fuzzer-no-link)
+  endif()
 endfunction()
+
+# What fuzzed code is watched with. The layers that no scene reaches before a solve (fem, dynamics) go without.
+set(annulus_fuzz_checks -fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all)
 
 function(annulus_set_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor

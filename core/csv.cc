@@ -36,11 +36,20 @@ InputError at_line(const std::filesystem::path& file, int line, const std::strin
   return InputError(fmt::format("{}:{}: {}", file.string(), line, what));
 }
 
+/// For messages: whatever stands in a file that is no table.
+std::string shown(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::string result(text.substr(0, longest));
+  for (char& c : result)
+    if (c < ' ' || c > '~') c = '?';
+  return result + (text.size() > longest ? "..." : "");
+}
+
 double to_number(std::string_view cell, const std::filesystem::path& file, int line, const std::string& column) {
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error != std::errc{} || end != cell.data() + cell.size())
-    throw at_line(file, line, fmt::format("'{}' in column {} is not a number", cell, column));
+    throw at_line(file, line, fmt::format("'{}' in column {} is not a number", shown(cell), shown(column)));
   return value;
 }
 
@@ -74,13 +83,16 @@ void Csv::write(const std::filesystem::path& file) const {
 
 Csv Csv::read(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("cannot read {}: no such file, or not readable", file.string()));
+  if (!stream || std::filesystem::is_directory(file))
+    throw InputError(fmt::format("cannot read {}: no such file, or not readable", file.string()));
   Csv csv;
   std::string text;
   int line = 0;
   bool ended = false;
   while (std::getline(stream, text)) {
     ++line;
+    // A line is written whole or not at all: without its end, its last number may have lost digits.
+    if (stream.eof()) throw at_line(file, line, "the last line has no end; is the file whole?");
     const auto content = trimmed(text);
     if (content.empty()) {
       ended = true;  // blank lines are fine at the end, a hole in the data is not
@@ -110,8 +122,12 @@ Csv Csv::read(const std::filesystem::path& file) {
 
 std::size_t Csv::column(const std::string& name) const {
   const auto found = std::find(columns.begin(), columns.end(), name);
-  if (found == columns.end())
-    throw InputError(fmt::format("no column '{}'; there are: {}", name, fmt::join(columns, ", ")));
+  if (found == columns.end()) {
+    constexpr std::size_t most = 40;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(columns.size(), most); ++i) names += (i ? ", " : "") + shown(columns[i]);
+    throw InputError(fmt::format("no column '{}'; there are: {}", name, names));
+  }
   return static_cast<std::size_t>(found - columns.begin());
 }
 

@@ -29,8 +29,10 @@ std::string part_column(const char* part) { return fmt::format("error_{}_relativ
 
 /// What is wrong with an entry, empty if nothing is.
 std::string complaint(const StiffnessEntry& e, double load) {
+  // Far from what overflows in the arithmetic of curves.
+  constexpr double largest = 1e30;
   for (const double value : {e.unloaded_te, e.lte, e.stiffness_secant, e.stiffness_tangent, e.error_relative})
-    if (!std::isfinite(value)) return "a value is not finite";
+    if (!(std::abs(value) <= largest)) return "a value is not finite, or beyond any unit";
   if (e.stiffness_secant <= 0 || e.stiffness_tangent <= 0) return "a stiffness is not positive";
   if (e.error_relative < 0) return "error_relative is negative";
   for (const auto& [name, part] : stiffness_error_part_names)
@@ -66,7 +68,7 @@ StiffnessTable::StiffnessTable(std::string mesh, int phases, std::vector<double>
   for (const double angle : ring_angles_)
     if (!std::isfinite(angle)) refuse("a ring angle is not finite");
   for (std::size_t i = 0; i < loads_.size(); ++i)
-    if (!std::isfinite(loads_[i]) || loads_[i] <= (i ? loads_[i - 1] : 0.0))
+    if (!(loads_[i] <= 1e30) || loads_[i] <= (i ? loads_[i - 1] : 0.0))
       refuse("loads must be positive and strictly increasing");
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const auto what = complaint(entries_[i], loads_[i % loads_.size()]);
@@ -84,6 +86,7 @@ const StiffnessEntry& StiffnessTable::at(int position, int phase, int load) cons
 void StiffnessTable::write_csv(const std::filesystem::path& file) const {
   Csv csv;
   csv.header.emplace_back("mesh", mesh_);
+  csv.header.emplace_back("rows", std::to_string(entries_.size()));
   csv.header.insert(csv.header.end(), provenance.begin(), provenance.end());
   csv.columns = table_columns;
   for (const auto& [name, part] : stiffness_error_part_names) csv.columns.push_back(part_column(name));
@@ -105,7 +108,8 @@ StiffnessTable StiffnessTable::read_csv(const std::filesystem::path& file) {
     try {
       column.push_back(csv.column(name));
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}:{}: {}", file.string(), csv.header.size() + 1, error.what()));
+      throw InputError(
+          fmt::format("{}:{}: is no stiffness table: {}", file.string(), csv.header.size() + 1, error.what()));
     }
   }
   std::vector<std::pair<std::size_t, double ErrorParts::*>> part_columns;
@@ -122,6 +126,11 @@ StiffnessTable StiffnessTable::read_csv(const std::filesystem::path& file) {
   if (mesh == csv.header.end())
     throw InputError(file.string() + ":1: no line '# mesh: sun_planet' or '# mesh: ring_planet'");
   if (csv.rows.empty()) refuse(0, "no data");
+  // A table that was cut short between its lines would be another one.
+  const auto count = std::find_if(csv.header.begin(), csv.header.end(), [](auto& h) { return h.first == "rows"; });
+  if (count != csv.header.end() && count->second != std::to_string(csv.rows.size()))
+    refuse(csv.rows.size() - 1, fmt::format("{} rows where {} are said to be; is the file whole?", csv.rows.size(),
+                                            count->second.substr(0, 20)));
 
   // The axes as the file shows them: loads run fastest, then phases, then positions.
   const std::size_t rows = csv.rows.size();
@@ -158,7 +167,7 @@ StiffnessTable StiffnessTable::read_csv(const std::filesystem::path& file) {
   StiffnessTable table(mesh->second, static_cast<int>(phases), std::move(angles), std::move(load_values),
                        std::move(entries));
   for (const auto& line : csv.header)
-    if (line.first != "mesh") table.provenance.push_back(line);
+    if (line.first != "mesh" && line.first != "rows") table.provenance.push_back(line);
   return table;
 }
 

@@ -79,7 +79,8 @@ BOOST_AUTO_TEST_CASE(parts_of_the_path_add_up) {
 }
 
 BOOST_AUTO_TEST_CASE(shipped_reference_reads) {
-  const auto reference = app::read_reference(std::string(ANNULUS_SOURCE_DIR) + "/data/reference/ring_types.toml");
+  const auto reference =
+      app::read_reference(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/reference/ring_types.toml");
   BOOST_TEST(!reference.source.empty());
   BOOST_TEST(reference.orders.size() > 2U);
   BOOST_TEST(reference.at_pins.size() == 1U);

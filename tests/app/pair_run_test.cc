@@ -213,10 +213,10 @@ BOOST_AUTO_TEST_CASE(finite_elements_of_a_pair_are_solved_compared_and_reused) {
   BOOST_TEST(carried < lte.value * lte.error_relative +
                            0.01 * result.response->figures.quasi_static.transmission_error.largest.value);
   // The table is one that a scene can give.
-  const auto given = run_pair_text(test::replaced(test::solved_pair(), "stiffness = \"computed\"",
-                                                  "stiffness = \"table\"\nfile = \"" +
-                                                      (folder.path() / "stiffness_pinion_wheel.csv").string() + "\""),
-                                   folder.path() / "given");
+  const auto with_table = test::replaced(test::solved_pair(), "stiffness = \"computed\"",
+                                         "stiffness = \"table\"\nfile = \"stiffness_pinion_wheel.csv\"");
+  const auto given = app::run_pair(app::parse_scene(with_table, folder.path() / "pair.toml"),
+                                   {.out = folder.path() / "given", .threads = 2});
   BOOST_TEST(given.response->figures.force_max.value == result.response->figures.force_max.value,
              boost::test_tools::tolerance(1e-12));
   const auto again = run_pair_text(text, folder.path());

@@ -100,17 +100,17 @@ BOOST_AUTO_TEST_CASE(a_table_from_elsewhere_may_go_without_the_parts_of_its_erro
 }
 
 BOOST_AUTO_TEST_CASE(a_damaged_file_is_refused_with_its_line) {
-  const auto table = sample(2, 2, {1000, 2000});  // line 1 mesh, line 2 columns, rows from line 3 on
+  const auto table = sample(2, 2, {1000, 2000});  // line 1 mesh, 2 rows, 3 columns, rows from line 4 on
   const auto starts = [](const std::string& message, int line) {
     return message.starts_with(file.string() + ":" + std::to_string(line) + ":");
   };
-  BOOST_TEST(starts(message_after_editing(table, "\n0.5,0,1000", "\n0.4,0,1000"), 5));  // phase off the grid
-  BOOST_TEST(starts(message_after_editing(table, "\n0.5,0,2000", "\n0.5,0,2500"), 6));  // load off the grid
-  BOOST_TEST(starts(message_after_editing(table, "\n0,0,2000", "\n0,0,900"), 4));       // loads fall
-  BOOST_TEST(starts(message_after_editing(table, ",1000,0,", ",1000,0.1,"), 3));        // secant contradicts lte
-  BOOST_TEST(starts(message_after_editing(table, "lte_m", "lte_um"), 2));               // a column is missing
+  BOOST_TEST(starts(message_after_editing(table, "\n0.5,0,1000", "\n0.4,0,1000"), 6));  // phase off the grid
+  BOOST_TEST(starts(message_after_editing(table, "\n0.5,0,2000", "\n0.5,0,2500"), 7));  // load off the grid
+  BOOST_TEST(starts(message_after_editing(table, "\n0,0,2000", "\n0,0,900"), 5));       // loads fall
+  BOOST_TEST(starts(message_after_editing(table, ",1000,0,", ",1000,0.1,"), 4));        // secant contradicts lte
+  BOOST_TEST(starts(message_after_editing(table, "lte_m", "lte_um"), 3));               // a column is missing
   BOOST_TEST(starts(message_after_editing(table, "# mesh", "# gear"), 1));
-  BOOST_TEST(starts(message_after_editing(table, "\n0.5,0,2000", "\n0.5,nan,2000"), 10));  // block broken: last row
+  BOOST_TEST(starts(message_after_editing(table, "\n0.5,0,2000", "\n0.5,nan,2000"), 11));  // block broken: last row
   const auto wrong_mesh = message_after_editing(table, "ring_planet", "ring_sun");
   BOOST_TEST(wrong_mesh.find("sun_planet, ring_planet, pinion_wheel or arc_pins") != std::string::npos);
   std::filesystem::remove(file);
