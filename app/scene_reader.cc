@@ -290,10 +290,10 @@ class Reader {
   }
 
   void check_mesh_names() {
-    const auto* node = root_.get("mesh");
-    if (!node) return;
-    const auto* mesh = node->as_table();
-    if (!mesh) return problem(place_of(node->source()), "mesh: must be a table of meshes, as [mesh.sun_planet]");
+    const auto* meshes = root_.get("mesh");
+    if (!meshes) return;
+    const auto* mesh = meshes->as_table();
+    if (!mesh) return problem(place_of(meshes->source()), "mesh: must be a table of meshes, as [mesh.sun_planet]");
     std::vector<std::string> all, of_kind;
     for (const auto& table : schema()) {
       if (!table.path.starts_with("mesh.")) continue;
