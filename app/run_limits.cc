@@ -1,6 +1,7 @@
 #include "app/run_limits.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -27,6 +28,16 @@ double group_memory_MB() {
     if (std::ifstream(file) >> bytes && bytes > 0) least = std::min(least, bytes / bytes_per_MB);
   }
   return least;
+}
+
+/// What a limit of the address space (ulimit -v) leaves; MB. Libraries and the buffers of OpenBLAS, which waits for
+/// ever where it does not get them, are mapped but hardly used.
+double address_space_MB() {
+  constexpr double mapped = 800;
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    return std::numeric_limits<double>::infinity();
+  return std::max(0.0, static_cast<double>(limit.rlim_cur) / bytes_per_MB - mapped);
 }
 
 /// Of all points of a study, which are kept until its report is written; MB. A search keeps its best ones only.
@@ -80,7 +91,7 @@ std::string gigabytes(double MB) { return MB < 1e3 ? memory_text(MB) : fmt::form
 RunLimits RunLimits::of_this_machine() {
   const double physical =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / bytes_per_MB;
-  return {std::min(physical, group_memory_MB()), week};
+  return {std::min({physical, group_memory_MB(), address_space_MB()}), week};
 }
 
 double parse_memory(const std::string& text) {

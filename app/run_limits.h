@@ -12,7 +12,7 @@ struct RunLimits {
   double memory_MB = 0;  ///< of the whole process
   double seconds = 0;    ///< wall
 
-  /// The memory of this machine, or of the control group the program runs in, and a week.
+  /// The memory of this machine, or what its control group or a limit of the address space leaves; and a week.
   [[nodiscard]] static RunLimits of_this_machine();
 };
 

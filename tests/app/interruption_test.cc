@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -242,6 +243,46 @@ BOOST_AUTO_TEST_CASE(killed_at_any_moment_the_next_run_goes_on_and_ends_with_the
     fs::remove_all(out);
   }
   BOOST_TEST_MESSAGE(kills << " kills in " << finished << " runs, all ended with the same results");
+}
+
+BOOST_AUTO_TEST_CASE(on_a_full_disk_the_earlier_results_stay_and_the_next_run_goes_on) {
+  ::setenv("ANNULUS_CACHE", "", 1);
+  const test::TemporaryFolder folder("full_disk");
+  write_file(folder.path() / "scene.toml", whole_scene());
+  // No file may grow beyond so many blocks of 512 bytes: writing fails as it does on a full disk.
+  const auto run = [&](const std::string& limit) {
+    const auto command = "cd '" + folder.path().string() + "' && " + limit +
+                         "'" ANNULUS_PROGRAM "' run scene.toml -o out >stdout.txt 2>stderr.txt";
+    const int raw = std::system(command.c_str());
+    return WIFEXITED(raw) ? WEXITSTATUS(raw) : -1;
+  };
+  std::map<std::string, std::string> before;
+  for (const int blocks : {8, 40, 120, 400, 1200}) {
+    const int status = run("trap '' XFSZ && ulimit -f " + std::to_string(blocks) + " && ");
+    const auto message = text_of(folder.path() / "stderr.txt");
+    BOOST_TEST(status == 2, blocks << " blocks: " << message);
+    BOOST_TEST(message.find("cannot write") != std::string::npos, message);
+    BOOST_TEST(message.find("not full") != std::string::npos, message);
+    const auto after = results_in(folder.path() / "out");
+    for (const auto& [place, text] : before) BOOST_TEST((after.at(place) == text), place);
+    before = after;
+  }
+  BOOST_TEST(!before.empty());
+  BOOST_TEST(run("") == 0);
+  BOOST_REQUIRE(RunningProgram(folder.path(), "alone").wait() == 0);
+  check_same(results_in(folder.path() / "alone"), results_in(folder.path() / "out"));
+}
+
+BOOST_AUTO_TEST_CASE(without_room_for_its_libraries_a_run_is_refused) {
+  const test::TemporaryFolder folder("address_space");
+  write_file(folder.path() / "scene.toml", whole_scene());
+  const auto command = "cd '" + folder.path().string() +
+                       "' && ulimit -v 800000 && '" ANNULUS_PROGRAM "' run scene.toml -o out >/dev/null 2>stderr.txt";
+  const int raw = std::system(command.c_str());
+  BOOST_TEST(WEXITSTATUS(raw) == 3);
+  const auto message = text_of(folder.path() / "stderr.txt");
+  BOOST_TEST(message.find("refused: predicted to need") != std::string::npos, message);
+  BOOST_TEST(!fs::exists(folder.path() / "out"));
 }
 
 BOOST_AUTO_TEST_CASE(two_runs_into_one_folder_do_not_disturb_each_other) {
