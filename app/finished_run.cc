@@ -29,7 +29,7 @@ std::string stamp(const std::filesystem::path& file) {
 
 /// Condensed teeth are dropped when they become too many, and temporary files belong to whoever writes them.
 bool belongs_to_run(const std::filesystem::path& relative) {
-  return *relative.begin() != "condensed" && relative != note_name && relative.extension() != ".unfinished";
+  return *relative.begin() != "condensed" && relative != note_name && !is_unfinished(relative);
 }
 
 std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& out) {

@@ -18,12 +18,14 @@ namespace annulus {
 
 namespace {
 
-constexpr const char* suffix = ".unfinished";
+constexpr const char* mark = ".unfinished";
 
-/// The process in "<file>.<process>.<counter>.unfinished"; 0 for any other name.
+/// The process in "<file>.<process>.<counter>.unfinished<ending>"; 0 for any other name.
 int writer_of(const std::filesystem::path& path) {
-  if (path.extension() != suffix) return 0;
-  const auto process = path.stem().stem().extension().string();
+  const auto name = path.filename().string();
+  const auto end = name.rfind(mark);
+  if (end == std::string::npos) return 0;
+  const auto process = std::filesystem::path(name.substr(0, end)).stem().extension().string();
   int id = 0;
   if (process.size() > 1) std::from_chars(process.data() + 1, process.data() + process.size(), id);
   return id;
@@ -33,9 +35,10 @@ bool runs(int process) { return ::kill(process, 0) == 0 || errno != ESRCH; }
 
 }  // namespace
 
-UnfinishedFile::UnfinishedFile(std::filesystem::path file) : file_(std::move(file)), temporary_(file_) {
+UnfinishedFile::UnfinishedFile(std::filesystem::path file, const std::string& ending)
+    : file_(std::move(file)), temporary_(file_) {
   static std::atomic<unsigned> counter{0};
-  temporary_ += fmt::format(".{}.{}{}", ::getpid(), counter++, suffix);
+  temporary_ += fmt::format(".{}.{}{}{}", ::getpid(), counter++, mark, ending);
 }
 
 UnfinishedFile::~UnfinishedFile() {
@@ -48,6 +51,8 @@ void UnfinishedFile::finish() {
   std::filesystem::rename(temporary_, file_, error);
   if (error) throw InputError(fmt::format("cannot write {}: {}", file_.string(), error.message()));
 }
+
+bool is_unfinished(const std::filesystem::path& file) { return writer_of(file) != 0; }
 
 void write_file(const std::filesystem::path& file, const std::string& text) {
   UnfinishedFile unfinished(file);

@@ -9,7 +9,8 @@ namespace annulus {
 /// and renamed. Any number of threads and processes may write the same file; the last one wins.
 class UnfinishedFile {
  public:
-  explicit UnfinishedFile(std::filesystem::path file);
+  /// `ending`: of the temporary name, for writers that choose a format by it.
+  explicit UnfinishedFile(std::filesystem::path file, const std::string& ending = {});
   ~UnfinishedFile();  ///< leaves nothing behind
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
@@ -22,6 +23,9 @@ class UnfinishedFile {
  private:
   std::filesystem::path file_, temporary_;
 };
+
+/// Whether this is the temporary name of such a file.
+[[nodiscard]] bool is_unfinished(const std::filesystem::path& file);
 
 /// Writes `text` as a whole or not at all. Throws InputError naming the file when that is not possible.
 void write_file(const std::filesystem::path& file, const std::string& text);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
+#include <fstream>
 #include <iterator>
 #include <map>
 #include <string>
@@ -52,6 +53,14 @@ void add_vertices(const Mesh& mesh, int dimension, int entity) {
   gmsh::model::mesh::addNodes(dimension, entity, tags, coordinates);
 }
 
+/// gmsh does not tell when a disk is full.
+bool ends_as_mesh(const std::filesystem::path& file) {
+  const std::string last = "$EndElements\n";
+  std::ifstream in(file, std::ios::binary);
+  in.seekg(-static_cast<std::streamoff>(last.size()), std::ios::end);
+  return std::string(std::istreambuf_iterator<char>(in), {}) == last;
+}
+
 }  // namespace
 
 void write_msh(const Mesh& mesh, const std::filesystem::path& file) {
@@ -66,9 +75,7 @@ void write_msh(const Mesh& mesh, const std::filesystem::path& file) {
     auto& nodes = faces[static_cast<int>(face.boundary)];
     for (int i = 0; i < (solid ? 4 : 2); ++i) nodes.push_back(face.vertices[i] + 1);
   }
-  // gmsh chooses the format by the ending, so the temporary name keeps it.
-  auto temporary = file;
-  temporary.replace_filename("." + file.filename().string() + ".tmp.msh");
+  UnfinishedFile unfinished(file, ".msh");  // gmsh chooses the format by the ending
   try {
     const GmshModel model("annulus mesh");
     // Nodes first: elements refer to them. gmsh accepts all of them on one entity.
@@ -79,13 +86,16 @@ void write_msh(const Mesh& mesh, const std::filesystem::path& file) {
     add_groups(mesh.dimension - 1, solid ? msh_quadrilateral : msh_line, faces,
                [](int boundary) { return boundary_names.at(static_cast<std::size_t>(boundary)); });
     gmsh::model::mesh::reclassifyNodes();
-    gmsh::write(temporary.string());
-    std::filesystem::rename(temporary, file);
+    gmsh::write(unfinished.temporary().string());
   } catch (const std::exception& e) {
-    throw Error(fmt::format("cannot write the mesh {}: {}", file.string(), e.what()));
+    throw InputError(fmt::format("cannot write the mesh {}: {}", file.string(), e.what()));
   } catch (...) {  // gmsh throws plain strings and integers
-    throw Error(fmt::format("cannot write the mesh {}: gmsh refused; is the folder writable?", file.string()));
+    throw InputError(fmt::format("cannot write the mesh {}: gmsh refused; is the folder writable?", file.string()));
   }
+  if (!ends_as_mesh(unfinished.temporary()))
+    throw InputError(
+        fmt::format("cannot write {}: check that its folder exists, is writable and not full", file.string()));
+  unfinished.finish();
 }
 
 void write_vtu(const Mesh& mesh, const std::filesystem::path& file) {

@@ -113,19 +113,24 @@ scale = "logarithmic"
 /// `annulus run scene.toml -o <out>` in a folder.
 class RunningProgram {
  public:
-  RunningProgram(const fs::path& folder, const std::string& out, int threads = 2) {
+  RunningProgram(const fs::path& folder, const std::string& out, int threads = 2)
+      : messages_(folder / (out + "." + std::to_string(threads) + ".err")) {
     const auto scene = (folder / "scene.toml").string(), results = (folder / out).string();
     const auto threads_text = std::to_string(threads);
-    const auto messages = (folder / (out + ".err")).string();
     std::vector<const char*> words = {ANNULUS_PROGRAM, "run",       scene.c_str(),        "-o",
                                       results.c_str(), "--threads", threads_text.c_str(), nullptr};
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, 2, messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    posix_spawn_file_actions_addopen(&actions, 2, messages_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     BOOST_REQUIRE(::posix_spawn(&id_, words.front(), &actions, nullptr, const_cast<char**>(words.data()), environ) ==
                   0);
     posix_spawn_file_actions_destroy(&actions);
+  }
+  /// What it said so far.
+  [[nodiscard]] std::string messages() const {
+    std::ifstream in(messages_);
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   }
   void send(int signal) const { ::kill(id_, signal); }
   /// Exit status; minus the signal that ended it.
@@ -136,6 +141,7 @@ class RunningProgram {
   }
 
  private:
+  fs::path messages_;
   pid_t id_ = 0;
 };
 
@@ -163,7 +169,7 @@ std::map<std::string, std::string> results_in(const fs::path& out) {
   for (const auto& entry : fs::recursive_directory_iterator(out)) {
     const auto place = entry.path().lexically_relative(out);
     if (!entry.is_regular_file() || *place.begin() == "condensed" || place == "run.json" || place == "report.html" ||
-        place.extension() == ".unfinished")
+        is_unfinished(place))
       continue;
     auto text = text_of(entry.path());
     if (place.extension() == ".csv") text = std::regex_replace(text, times, "");
@@ -225,8 +231,7 @@ BOOST_AUTO_TEST_CASE(killed_at_any_moment_the_next_run_goes_on_and_ends_with_the
       const int status = run.wait();
       // Before main() has begun a signal does what it does to every program.
       const bool told = status == -signal || (signal != SIGKILL && status == 130);
-      BOOST_TEST((told || status == 0),
-                 "status " << status << " after signal " << signal << ": " << text_of(folder.path() / (name + ".err")));
+      BOOST_TEST((told || status == 0), "status " << status << " after signal " << signal << ": " << run.messages());
       done = status == 0;
       kills += !done;
       finished += done;
@@ -291,8 +296,8 @@ BOOST_AUTO_TEST_CASE(two_runs_into_one_folder_do_not_disturb_each_other) {
   write_file(folder.path() / "scene.toml", whole_scene());
   BOOST_REQUIRE(RunningProgram(folder.path(), "alone").wait() == 0);
   const RunningProgram one(folder.path(), "shared"), two(folder.path(), "shared", 1);
-  BOOST_TEST(one.wait() == 0);
-  BOOST_TEST(two.wait() == 0);
+  BOOST_TEST(one.wait() == 0, one.messages());
+  BOOST_TEST(two.wait() == 0, two.messages());
   check_same(results_in(folder.path() / "alone"), results_in(folder.path() / "shared"));
   BOOST_TEST(RunningProgram(folder.path(), "shared").wait() == 0);
 }

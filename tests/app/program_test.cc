@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
                         1) <= 1e-9);
   // No temporary file is left behind.
   for (const auto& file : std::filesystem::recursive_directory_iterator(folder.path() / "out"))
-    BOOST_TEST(file.path().extension() != ".unfinished");
+    BOOST_TEST(!is_unfinished(file.path()));
 }
 
 BOOST_AUTO_TEST_CASE(report_is_self_contained) {

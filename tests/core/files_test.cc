@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(old_files_of_dead_processes_are_removed_and_no_others) {
                                      std::filesystem::file_time_type::clock::now() - std::chrono::minutes(minutes_ago));
   };
   put("inside/a.csv." + dead + ".0.unfinished", 20);
-  put("b.csv." + dead + ".1.unfinished", 20);
+  put("b.msh." + dead + ".1.unfinished.msh", 20);
   put("young.csv." + dead + ".2.unfinished", 1);
   put("alive.csv." + std::to_string(::getpid()) + ".3.unfinished", 20);
   put("mine.unfinished", 20);
