@@ -7,8 +7,9 @@
 
 namespace annulus::app {
 
-double load_uptake(double force, double face_width, double module) {
-  constexpr double stiffness_per_width = 14e9;  // N/m^2
+double load_uptake(double force, double face_width, double module, double youngs_modulus) {
+  constexpr double steel = 206e9;                                      // Pa
+  const double stiffness_per_width = 14e9 * (youngs_modulus / steel);  // N/m^2
   return std::sqrt(force / face_width / stiffness_per_width / module);
 }
 
@@ -38,7 +39,8 @@ TableResolution table_resolution(double accuracy, double uptake) {
   return choice;
 }
 
-ElementChoice element_choice(fem::Rung rung, double accuracy) {
+ElementChoice element_choice(fem::Rung rung, double accuracy, const std::string& unfit_for_linear) {
+  if (!unfit_for_linear.empty()) return {2, "quadratic elements: " + unfit_for_linear};
   if (rung == fem::Rung::plane && accuracy >= rough_accuracy)
     return {1, "linear elements are within 1 % at once, at half the cost of quadratic ones"};
   // Linear solids converge too slowly beside hoops and sleeves to be refined until they reach 3 %.

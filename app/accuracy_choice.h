@@ -30,15 +30,17 @@ struct TableResolution {
 [[nodiscard]] TableResolution table_resolution(double accuracy, double uptake);
 /// From the deflection under the nominal force (N) on a face (m) and the module (m): beyond its path of contact the gap
 /// of a pair opens with the square of the way, so that the way it is closed over goes with the root of the deflection.
-/// The stiffness is that of ISO 6336-1, about 14 N/(mm um), whatever the rim: a soft one only makes it longer.
-[[nodiscard]] double load_uptake(double force, double face_width, double module);
+/// The stiffness is that of ISO 6336-1, about 14 N/(mm um) for steel, whatever the rim: a soft one only makes it
+/// longer.
+[[nodiscard]] double load_uptake(double force, double face_width, double module, double youngs_modulus);
 
 /// Polynomial degree of the elements, and why. Levels follow from the error estimate.
 struct ElementChoice {
   int degree = 2;
   std::string reason{};
 };
-[[nodiscard]] ElementChoice element_choice(fem::Rung rung, double accuracy);
+/// `unfit_for_linear`: why elements of the first degree would be too stiff for the body, empty where they are not.
+[[nodiscard]] ElementChoice element_choice(fem::Rung rung, double accuracy, const std::string& unfit_for_linear = "");
 
 /// How the motion is found in time.
 struct MotionChoice {

@@ -11,6 +11,7 @@
 #include "app/planetary_subject.h"
 #include "app/rim_coupling.h"
 #include "app/stage_response.h"
+#include "dynamics/marching_cost.h"
 #include "dynamics/study_point.h"
 #include "fem/cost_size.h"
 #include "fem/solved_face.h"
@@ -63,9 +64,11 @@ struct CostSteps {
   double longest_table = 0;  // s
 
   CostSteps(int threads, const CostModel& model) : cost{.steps = {}, .threads = threads}, costs(model) {}
-  void add(CostKind kind, std::string label, std::string ring, CostRun size, double error = unknown_cost) {
-    const auto predicted = costs.predict(size);
-    cost.steps.push_back({kind, std::move(label), std::move(ring), std::move(size), predicted, error});
+  void add(CostKind kind, std::string label, std::string ring, CostRun size, double error = unknown_cost,
+           double marching_s = 0) {
+    auto predicted = costs.predict(size);
+    predicted.seconds += marching_s;
+    cost.steps.push_back({kind, std::move(label), std::move(ring), std::move(size), predicted, marching_s, error});
   }
   void add_mesh(const MeshModel& model) {
     const auto size = mesh_size(model, cost.threads, costs);
@@ -76,7 +79,8 @@ struct CostSteps {
     longest_table = std::max(longest_table, cost.steps.back().predicted.seconds);
   }
   void add_responses(const std::vector<PlannedResponse>& responses) {
-    for (const auto& response : responses) add(CostKind::response, response.label, response.ring, response.size);
+    for (const auto& response : responses)
+      add(CostKind::response, response.label, response.ring, response.size, unknown_cost, response.marching_s);
   }
   void add_studies(const std::vector<StudyPlan>& studies) {
     for (const auto& study : studies)
@@ -85,6 +89,7 @@ struct CostSteps {
                             "",
                             {},
                             {study.seconds / cost.threads + study.tables * longest_table, unknown_cost},
+                            0,
                             unknown_cost});
   }
 };
@@ -166,21 +171,57 @@ CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs) {
   return size;
 }
 
-std::vector<int> period_cycles(const Scene& scene, const GearGeometry& geometry) {
-  // The period follows from errors and tables, not from stiffness.
+namespace {
+
+/// The stages with rough stiffness: what periods, steps and freedoms follow from before anything is solved.
+std::vector<dynamics::PlanetaryStage> rough_stages(const Scene& scene, const GearGeometry& geometry) {
   Scene rough = scene;
-  rough.sun_planet = {};
-  rough.sun_planet.stiffness = StiffnessShape::constant;
-  rough.sun_planet.mean = 1e9;
-  rough.ring_planet = rough.sun_planet;
-  const auto models = mesh_models(scene, geometry);
-  // A constant stiffness reads no table: any will do.
+  for (auto* mesh : {&rough.sun_planet, &rough.ring_planet}) {
+    const double mean = rough_stiffness(scene, *mesh);
+    const bool jumps = mesh->stiffness == StiffnessShape::rectangular;
+    if (jumps) continue;
+    *mesh = {};
+    mesh->stiffness = StiffnessShape::constant;
+    mesh->mean = mean;
+  }
+  // A given stiffness reads no table: any will do.
   const MeshResult none{
       .model = {},
       .table = StiffnessTable("sun_planet", 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
+  std::vector<dynamics::PlanetaryStage> stages;
+  for (std::size_t i = 0; i < scene.rings.size(); ++i) stages.push_back(make_stage(rough, geometry, i, none, none));
+  return stages;
+}
+
+}  // namespace
+
+double rough_stiffness(const Scene& scene, const MeshInput& mesh) {
+  constexpr double per_width = 18e9;  // N/m^2, mean of one and two pairs of steel teeth
+  constexpr double steel = 206e9;
+  return mesh.mean.value_or(per_width * scene.stage.face_width * scene.material.youngs_modulus / steel);
+}
+
+std::vector<double> marching_seconds(const Scene& scene, const GearGeometry& geometry) {
+  const auto periods = period_cycles(scene, geometry);
+  std::vector<double> seconds;
+  for (const auto& stage : rough_stages(scene, geometry)) {
+    const auto options = simulation_options(scene, stage);
+    // Without damping no motion is found directly: it is followed through all windows.
+    const bool undamped = scene.dynamics->mesh_damping_ratio == 0;
+    const int searched = undamped ? options.max_window_cycles : options.confirm ? periods[seconds.size()] : 0;
+    const double cycles = scene.dynamics->mesh_cycles.value_or(searched);
+    seconds.push_back(dynamics::marching_seconds(assemble(stage), stage.mesh_frequency(), cycles, options.integrator));
+  }
+  return seconds;
+}
+
+std::vector<int> period_cycles(const Scene& scene, const GearGeometry& geometry) {
+  // The period follows from errors and tables, not from stiffness.
+  const auto models = mesh_models(scene, geometry);
+  const auto stages = rough_stages(scene, geometry);
   std::vector<int> periods;
   for (std::size_t i = 0; i < scene.rings.size(); ++i) {
-    const auto stage = make_stage(rough, geometry, i, none, none);
+    const auto& stage = stages[i];
     const int period = std::lcm(stage.error_period(), models[i + 1].positions);
     periods.push_back(std::min(period, std::max(simulation_options(scene, stage).max_window_cycles, 4000)));
   }
@@ -216,6 +257,9 @@ PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::
   }
   if (!scene.dynamics) return steps.cost;
   const auto periods = period_cycles(scene, geometry);
+  const auto marching = marching_seconds(scene, geometry);
+  // With tables their errors are carried through: a base, both meshes stiffer and more rippled, half the phases.
+  const double marches = computed && scene.dynamics->mesh_cycles ? 7 : 1;
   std::vector<PlannedResponse> responses;
   for (std::size_t i = 0; i < scene.rings.size(); ++i) {
     const auto& name = scene.rings[i].name;
@@ -223,8 +267,10 @@ PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::
     const bool modes = std::find(elastic.begin(), elastic.end(), name) != elastic.end();
     const bool marched = motion_choice(scene.accuracy).confirm || scene.dynamics->mesh_cycles;
     size.kind = modes ? "response_elastic" : !computed ? "response_given" : marched ? "response" : "response_direct";
-    size.unknowns = static_cast<double>(scene.stage.planets) * scene.dynamics->mesh_cycles.value_or(periods[i]);
-    responses.push_back({fmt::format("dynamics of '{}'", name), name, size});
+    // A window is kept and evaluated, however many cycles lead to it.
+    size.unknowns = static_cast<double>(scene.stage.planets) *
+                    std::min(periods[i], scene.dynamics->mesh_cycles.value_or(periods[i]));
+    responses.push_back({fmt::format("dynamics of '{}'", name), name, size, marches * marching[i]});
   }
   steps.add_responses(responses);
   steps.add_studies(studies);

@@ -22,6 +22,7 @@ struct CostStep {
   std::string ring;                 ///< empty for the sun mesh and studies
   CostRun size;                     ///< as predicted; of no meaning for studies
   PredictedCost predicted;          ///< NaN: nobody has measured such a step
+  double marching_s = 0;            ///< s of `predicted`: time integration, beyond what laws of measured runs know
   double expected_error = 0;        ///< relative, of a mesh's stiffness; NaN: not known
   std::optional<CostRun> actual{};  ///< absent before the run and for what was reused
 };
@@ -55,7 +56,13 @@ struct PlanCost {
 struct PlannedResponse {
   std::string label, ring;
   CostRun size;
+  double marching_s = 0;  ///< s, of all mesh cycles that are marched through
 };
+/// Rough stiffness of a mesh before it is solved, N/m: the given mean, else that of steel teeth of the face width.
+[[nodiscard]] double rough_stiffness(const Scene& scene, const MeshInput& mesh);
+/// Time integration of the response of each ring, s: of `mesh_cycles`, else of one error period that confirms.
+[[nodiscard]] std::vector<double> marching_seconds(const Scene& scene, const GearGeometry& geometry);
+
 /// Of a stage whose meshes do not act on each other through elastic rings.
 [[nodiscard]] PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<PlannedResponse>& responses,
                                  const std::vector<StudyPlan>& studies, int threads, const CostModel& costs);

@@ -89,11 +89,28 @@ bool formulas_do(const MeshModel& model, const Scene& scene, double error) {
           !fem::on_single_supports(model.problem->structure));
 }
 
+/// Why linear elements would be too stiff, by more than their error estimate tells: they lock where the volume hardly
+/// changes, and where thin parts bend.
+std::string unfit_for_linear(const fem::LoadedMeshProblem& problem) {
+  constexpr double nearly_incompressible = 0.4, thin_rim = 2, slender_sleeve = 0.1;
+  if (problem.material.poisson_ratio > nearly_incompressible)
+    return fmt::format("linear ones are too stiff where Poisson's ratio exceeds {}", nearly_incompressible);
+  const auto* sleeve = std::get_if<fem::EndFaceHeld>(&problem.structure);
+  if (sleeve == nullptr) return "";
+  const auto& gear = problem.pair.wheel();
+  if (problem.wheel_support_radius - gear.root_radius() < thin_rim * gear.parameters().module ||
+      sleeve->sleeve_thickness < slender_sleeve * sleeve->free_length)
+    return "linear ones are too stiff where a thin rim or a slender sleeve bends";
+  return "";
+}
+
 /// What the wanted accuracy asks of a mesh whose problem is complete but for phases and loads.
 void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
   model.settings.accuracy = scene.accuracy;
+  model.settings.largest_deflection = 0.25;  // small displacements; what is known beforehand: displacement_checks.h
   auto table = table_resolution(scene.accuracy, load_uptake(mean_force, model.problem->face_width,
-                                                            model.problem->pair.planet().parameters().module));
+                                                            model.problem->pair.planet().parameters().module,
+                                                            model.problem->material.youngs_modulus));
   model.problem->phases = table.phases;
   for (const double factor : table.load_factors) model.problem->loads.push_back(factor * mean_force);
   model.phases = std::move(table.phases_reason);
@@ -106,7 +123,7 @@ void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
     }
   }
   if (model.settings.rung == fem::Rung::closed_form) return;
-  auto elements = element_choice(model.settings.rung, scene.accuracy);
+  auto elements = element_choice(model.settings.rung, scene.accuracy, unfit_for_linear(*model.problem));
   model.settings.degree = elements.degree;
   model.elements = std::move(elements.reason);
 }

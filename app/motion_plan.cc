@@ -16,13 +16,15 @@ constexpr const char* asked = "the scene asks for it";
 const char* integrator_name(dynamics::Integrator method) {
   switch (method) {
     case dynamics::Integrator::automatic:
-      return "Cash-Karp 5(4) or BDF";
+      return "Cash-Karp 5(4), BDF or ESDIRK 5(4)";
     case dynamics::Integrator::arkode_explicit:
       return "Cash-Karp 5(4)";
     case dynamics::Integrator::cvode_adams:
       return "Adams";
     case dynamics::Integrator::cvode_bdf:
       return "BDF";
+    case dynamics::Integrator::arkode_implicit:
+      return "ESDIRK 5(4)";
     case dynamics::Integrator::runge_kutta_4:
       break;
   }

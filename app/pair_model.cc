@@ -6,6 +6,7 @@
 #include "app/content_id.h"
 #include "app/gear_geometry.h"
 #include "app/stage_response.h"
+#include "app/stiff_supports.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -107,6 +108,10 @@ dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry
   dynamics::HelicalPair pair;
   pair.pinion = lumped_gear(scene, scene.pinion, geometry.pinion(), e.pinion_error, e.pinion_error_phase);
   pair.wheel = lumped_gear(scene, scene.wheel, geometry.wheel(), e.wheel_error, e.wheel_error_phase);
+  const double stiffness = dynamics::mean_stiffness(mesh);
+  for (auto* gear : {&pair.pinion, &pair.wheel})
+    for (auto* bearing : {&gear->bearing_transverse, &gear->bearing_axial})
+      *bearing = rigid_if_stiff(*bearing, stiffness, scene.accuracy);
   // The other hand turns only the sign of the axial motions.
   pair.base_helix_angle = std::copysign(geometry.base_helix_angle, scene.stage.helix_angle);
   pair.mesh = mesh;

@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "app/cost_plan.h"
 #include "app/pair_run.h"
+#include "app/stiff_supports.h"
 #include "core/units.h"
+#include "dynamics/marching_cost.h"
 
 namespace annulus::app {
 
@@ -42,9 +46,12 @@ std::vector<FreedomPlan> pair_freedoms(const Scene& scene) {
   for (const auto& [name, gear] : {std::pair{"pinion", &scene.pinion}, {"wheel", &scene.wheel}}) {
     const std::string of = name;
     const auto bearing = [&](const char* axis, double stiffness, const char* what) {
-      const bool kept = std::isfinite(stiffness);
+      const bool kept =
+          std::isfinite(rigid_if_stiff(stiffness, rough_stiffness(scene, scene.pinion_wheel), scene.accuracy));
       list.push_back({of + " " + axis, kept,
-                      kept ? fmt::format("{} of {} N/m", what, to_text(stiffness)) : "rigid bearing: dropped"});
+                      kept || std::isfinite(stiffness) ? fmt::format("{} of {} N/m{}", what, to_text(stiffness),
+                                                                     kept ? "" : ": rigid beside the mesh, dropped")
+                                                       : "rigid bearing: dropped"});
     };
     bearing("y", gear->bearing_transverse, "bearing along the line of action");
     bearing("z", gear->bearing_axial, "axial bearing");
@@ -123,10 +130,22 @@ std::vector<PlannedResponse> pair_responses(const Scene& scene, int threads) {
                  3.0 * static_cast<double>(scene.transmission_error->pinion_speeds.size());
   // An error of the pinion or the wheel passes once a turn.
   const bool turns = scene.errors.pinion_error != 0 || scene.errors.wheel_error != 0;
-  const double cycles =
-      scene.dynamics->mesh_cycles.value_or(turns ? std::lcm(scene.pinion.teeth, scene.wheel.teeth) : 1);
-  size.unknowns = responses * cycles;
-  return {{"dynamics of the pair", "", size}};
+  const int period = turns ? std::lcm(scene.pinion.teeth, scene.wheel.teeth) : 1;
+  size.unknowns = responses * std::min(period, scene.dynamics->mesh_cycles.value_or(period));
+  return {{"dynamics of the pair", "", size, responses * pair_marching_seconds(scene)}};
+}
+
+double pair_marching_seconds(const Scene& scene) {
+  const auto geometry = make_pair_geometry(scene);
+  const auto& given = scene.pinion_wheel;
+  dynamics::MeshExcitation mesh = dynamics::ConstantStiffness{rough_stiffness(scene, given)};
+  if (given.stiffness == StiffnessShape::rectangular)
+    mesh = dynamics::RectangularStiffness{*given.mean, *given.ripple, *given.duty, 0};
+  const auto pair = make_pair(scene, geometry, mesh, 0);
+  const auto options = pair_simulation(scene);
+  const int cycles = scene.dynamics->mesh_cycles.value_or(
+      std::min(std::max(pair.error_period(), options.min_window_cycles), options.max_window_cycles));
+  return dynamics::marching_seconds(assemble(pair), pair.mesh_frequency(), cycles, options.integrator);
 }
 
 Plan make_pair_plan(const Scene& scene, const PairGeometry& geometry, int threads) {

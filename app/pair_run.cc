@@ -201,7 +201,7 @@ double pair_seconds(const Scene& scene) {
   // Measured: 4 ms at the ends of a torque and speed grid, some tens where the teeth part; a wave once per turn makes
   // the window longer.
   const bool turns = scene.errors.pinion_error != 0 || scene.errors.wheel_error != 0;
-  return turns ? 0.5 : 0.02;
+  return (turns ? 0.5 : 0.02) + (scene.dynamics->mesh_cycles ? pair_marching_seconds(scene) : 0);
 }
 
 PairRunResult run_pair(const Scene& scene, const RunOptions& given) {

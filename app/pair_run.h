@@ -75,6 +75,8 @@ PairRunResult run_pair(const Scene& scene, const RunOptions& options);
 
 /// Rough wall time of one response on one core, s.
 [[nodiscard]] double pair_seconds(const Scene& scene);
+/// Time integration of one response: of `mesh_cycles`, else of the window that confirms it.
+[[nodiscard]] double pair_marching_seconds(const Scene& scene);
 
 /// What will be modelled and why (pair_plan.cc).
 [[nodiscard]] Plan make_pair_plan(const Scene& scene, const PairGeometry& geometry, int threads = 1);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/cost_actual.h"
+#include "app/input_place.h"
 #include "app/planetary_subject.h"
 #include "app/progress.h"
 #include "app/report.h"
@@ -144,7 +145,14 @@ MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, cons
     return given_stiffness(model, sun ? scene.sun_planet : scene.ring_planet, scene, pair.contact_ratio(),
                            geometry.operating_point.mean_mesh_force);
   }
-  auto result = computed_stiffness(model, rings, options);
+  auto result = [&] {
+    try {
+      return computed_stiffness(model, rings, options);
+    } catch (const InputError& error) {  // what only the solve tells, with its place
+      const std::string what = sun ? "sun" : "ring '" + model.ring + "'";
+      throw InputError(with_place(scene, what + ": " + error.what()));
+    }
+  }();
   if (options.with_dynamics && may_be_coupled(scene, model)) {
     result.coupling = std::make_shared<SolvedCoupling>(solve_coupling(
         scene, geometry, model, 1 / result.mean_stiffness().value, options, options.out / rings.front()));

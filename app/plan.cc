@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "app/cost_plan.h"
 #include "app/motion_plan.h"
+#include "app/stiff_supports.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -67,12 +69,24 @@ std::vector<Quantity> ring_quantities(const RingGeometry& ring) {
   return list;
 }
 
-std::vector<FreedomPlan> freedoms(const SupportInput& supports, int planets) {
+/// Why a support leaves no freedom.
+std::string rigid_text(double given, const char* what) {
+  return std::isfinite(given) ? fmt::format("{} of {} N/m gives way by less than a thousandth of the accuracy: dropped",
+                                            what, to_text(given))
+                              : fmt::format("rigid {}: dropped", what);
+}
+
+std::vector<FreedomPlan> freedoms(const Scene& scene) {
+  const SupportInput& given = scene.supports;
+  const int planets = scene.stage.planets;
+  const auto supports =
+      effective_supports(scene, rough_stiffness(scene, scene.sun_planet), rough_stiffness(scene, scene.ring_planet));
   std::vector<FreedomPlan> list;
-  const auto plane = [&](const std::string& name, double stiffness) {
-    const bool kept = std::isfinite(stiffness);
+  const auto plane = [&](const std::string& name, double SupportInput::*member) {
+    const bool kept = std::isfinite(supports.*member);
     list.push_back(
-        {name + " x, y", kept, kept ? fmt::format("support of {} N/m", to_text(stiffness)) : "rigid support: dropped"});
+        {name + " x, y", kept,
+         kept ? fmt::format("support of {} N/m", to_text(supports.*member)) : rigid_text(given.*member, "support")});
   };
   const auto turn = [&](const std::string& name, double stiffness) {
     const bool kept = std::isfinite(stiffness);
@@ -81,15 +95,16 @@ std::vector<FreedomPlan> freedoms(const SupportInput& supports, int planets) {
                     : stiffness == 0 ? "free to turn: carries the power"
                                      : fmt::format("torsional support of {} N/m", to_text(stiffness))});
   };
-  plane("sun", supports.sun);
+  plane("sun", &SupportInput::sun);
   turn("sun", supports.sun_torsional);
-  plane("ring", supports.ring);
+  plane("ring", &SupportInput::ring);
   turn("ring", supports.ring_torsional);
-  plane("carrier", supports.carrier);
+  plane("carrier", &SupportInput::carrier);
   turn("carrier", supports.carrier_torsional);
   const std::string each = fmt::format("planet 1 ... {}", planets);
-  plane(each, supports.planet);
-  if (!std::isfinite(supports.planet)) list.back().reason = "rigid bearings: dropped, the planets ride on the carrier";
+  plane(each, &SupportInput::planet);
+  if (!std::isfinite(supports.planet))
+    list.back().reason = rigid_text(given.planet, "bearings") + ", the planets ride on the carrier";
   list.push_back({each + " u", true, "each planet turns on its bearing"});
   return list;
 }
@@ -211,7 +226,7 @@ Plan make_plan(const Scene& scene, const GearGeometry& geometry, int threads) {
     plan.meshes.push_back(ring_mesh_model(scene, geometry, i));
   }
   if (scene.dynamics) {
-    plan.freedoms = freedoms(scene.supports, scene.stage.planets);
+    plan.freedoms = freedoms(scene);
     plan.motion = motion_decisions(scene, plan.meshes);
   }
   plan.studies = plan_studies(scene);

@@ -53,7 +53,7 @@ details { margin: 10px 0; } summary { cursor: pointer; color: #0072B2; }
 std::string measured(double value, double error) {
   if (!std::isfinite(value)) return "not known";
   error = std::abs(error);
-  if (!(error > 0) || !std::isfinite(error)) return to_text(value, 5);
+  if (!std::isfinite(error) || !(error > 0)) return to_text(value, 5);
   // Two digits of the error and the value to the same place, but no more than five digits of the value: beyond them the
   // inputs are not known.
   const auto place = [](double x) { return static_cast<int>(std::floor(std::log10(x))); };

@@ -50,6 +50,12 @@ const std::string* provenance(const RingCoupling& coupling, const std::string& k
   return found == lines.end() ? nullptr : &found->second;
 }
 
+/// A ring on a single pin leans on its housing, now here, now there: no fixed supports hold it.
+bool rests_in_bore(const fem::RingStructure& structure) {
+  const auto* pins = std::get_if<fem::PinHeld>(&structure);
+  return pins != nullptr && pins->angles.size() == 1;
+}
+
 constexpr const char *id_key = "inputs_id", *error_key = "coupling_error_m_per_N", *seconds_key = "coupling_seconds",
                      *frequency_error_key = "mode_frequency_error_relative";
 
@@ -91,7 +97,8 @@ std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved,
 
 bool may_be_coupled(const Scene& scene, const MeshModel& model) {
   return scene.dynamics && scene.dynamics->rim_coupling != RimCoupling::none && scene.stage.planets > 1 &&
-         model.mesh == ring_planet && model.computed() && model.settings.rung != fem::Rung::closed_form;
+         model.mesh == ring_planet && model.computed() && model.settings.rung != fem::Rung::closed_form &&
+         !rests_in_bore(model.problem->structure);
 }
 
 std::optional<SolvedCoupling> load_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,

@@ -312,10 +312,16 @@ class Checker : KeyChecks {
     }
     integrator();
     const auto coupling = scene_.dynamics->rim_coupling;
-    if ((coupling == RimCoupling::elastic || coupling == RimCoupling::statical) &&
-        scene_.ring_planet.stiffness != StiffnessShape::computed)
+    if (coupling != RimCoupling::elastic && coupling != RimCoupling::statical) return;
+    if (scene_.ring_planet.stiffness != StiffnessShape::computed)
       problem("dynamics.rim_coupling", "",
               "needs a computed ring mesh: a given stiffness tells nothing about the ring");
+    for (const auto& ring : scene_.rings)
+      if (ring.has_pins() && ring.pin_count() == 1)
+        problem("dynamics.rim_coupling", "",
+                fmt::format("is not modelled for the ring '{}' on a single pin, which leans on its housing: use "
+                            "\"none\" or \"automatic\", or give the ring more pins",
+                            ring.name));
   }
 };
 

@@ -13,6 +13,9 @@
 /// The small language in which scene_schema.cc declares the keys of a scene.
 namespace annulus::app {
 
+/// Below any body of a gear set; lighter ones on stiff springs have frequencies beyond any number.
+inline constexpr double lightest_kg = 1e-9, least_inertia_kg_m2 = 1e-18;
+
 struct Unit {
   const char* suffix;
   const char* text;

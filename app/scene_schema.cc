@@ -6,6 +6,9 @@ namespace annulus::app {
 
 namespace {
 
+/// A turn in two years; powers divided by less are no torques.
+constexpr double slowest_rpm = 1e-6;
+
 constexpr const char* needs_dynamics = "needed by [dynamics]";
 const std::vector<StageKind> with_planets = {StageKind::planetary, StageKind::two_k_v};
 
@@ -17,8 +20,10 @@ void declare_gear(Declarations<Section>& t, bool internal) {
                  : "Profile shift in modules; positive moves the rack outwards.")
       .required()
       .from(-2, 3);
-  t.key("mass_kg", &Section::mass, "Mass.").above(0, 1e6).absent(needs_dynamics);
-  t.key("inertia_kg_m2", &Section::inertia, "Moment of inertia about the axis.").above(0, 1e6).absent(needs_dynamics);
+  t.key("mass_kg", &Section::mass, "Mass.").from(lightest_kg, 1e6).absent(needs_dynamics);
+  t.key("inertia_kg_m2", &Section::inertia, "Moment of inertia about the axis.")
+      .from(least_inertia_kg_m2, 1e6)
+      .absent(needs_dynamics);
   t.key("tip_diameter_mm", &Section::tip_diameter, "Tip diameter.")
       .above(0, 1e5)
       .absent("addendum of one module beyond the profile shift (ISO 53)");
@@ -173,11 +178,11 @@ std::vector<Table> declare_tables() {
       .required()
       .only(planetary);
   stage.key("sun_speed_rpm", &StageInput::sun_speed, "Speed of the sun; give this or carrier_speed_rpm.")
-      .above(0, 1e6)
+      .from(slowest_rpm, 1e6)
       .only(planetary)
       .absent("follows from carrier_speed_rpm");
   stage.key("carrier_speed_rpm", &StageInput::carrier_speed, "Speed of the carrier; give this or sun_speed_rpm.")
-      .above(0, 1e6)
+      .from(slowest_rpm, 1e6)
       .only(planetary)
       .absent("follows from sun_speed_rpm");
   stage
@@ -194,8 +199,10 @@ std::vector<Table> declare_tables() {
 
   Declarations<MaterialInput> material("material", "Material of all gears.",
                                        [](Scene& s, std::size_t) -> MaterialInput& { return s.material; });
-  material.key("youngs_modulus_GPa", &MaterialInput::youngs_modulus, "Young's modulus.").required().from(1, 2000);
-  material.key("poisson_ratio", &MaterialInput::poisson_ratio, "Poisson's ratio.").fallback(0.3, "steel").from(0, 0.49);
+  material.key("youngs_modulus_GPa", &MaterialInput::youngs_modulus, "Young's modulus.").required().from(1e-6, 2000);
+  material.key("poisson_ratio", &MaterialInput::poisson_ratio, "Poisson's ratio.")
+      .fallback(0.3, "steel")
+      .from(0, 0.4999);
   material.key("density_kg_per_m3", &MaterialInput::density, "Density; only used to check masses.")
       .fallback(7850.0, "steel")
       .from(100, 30000);
@@ -209,9 +216,9 @@ std::vector<Table> declare_tables() {
   Declarations<CarrierInput> carrier("carrier", "The planet carrier.",
                                      [](Scene& s, std::size_t) -> CarrierInput& { return s.carrier; });
   carrier.optional().only(planetary);
-  carrier.key("mass_kg", &CarrierInput::mass, "Mass without planets.").above(0, 1e6).absent(needs_dynamics);
+  carrier.key("mass_kg", &CarrierInput::mass, "Mass without planets.").from(lightest_kg, 1e6).absent(needs_dynamics);
   carrier.key("inertia_kg_m2", &CarrierInput::inertia, "Moment of inertia about the axis, without planets.")
-      .above(0, 1e6)
+      .from(least_inertia_kg_m2, 1e6)
       .absent(needs_dynamics);
   tables.push_back(carrier.done());
   declare_two_k_v(tables);
@@ -246,8 +253,8 @@ std::vector<Table> declare_tables() {
       .above(0, 1e5)
       .absent("no flange: the outer surface is held");
   ring.key("free_length_mm", &RingInput::free_length,
-           "thin_walled: toothless sleeve between the held face and the teeth.")
-      .above(0, 1e4)
+           "thin_walled: toothless sleeve between the held face and the teeth; 0: the teeth start at the held face.")
+      .from(0, 1e4)
       .absent("thin_walled only");
   ring.key("sleeve_thickness_mm", &RingInput::sleeve_thickness,
            "thin_walled: thickness of the sleeve, at the outside diameter.")
@@ -373,28 +380,33 @@ std::vector<Table> declare_tables() {
   tables.push_back(errors.done());
 
   Declarations<SupportInput> supports(
-      "supports", "Stiffness of the bearings; absent or inf means rigid, and the freedom is dropped.",
+      "supports",
+      "Stiffness of the bearings; 0 is none (planets need one). Absent or inf means rigid, and the "
+      "freedom is dropped; so does a stiffness "
+      "of a thousand meshes over the wanted accuracy.",
       [](Scene& s, std::size_t) -> SupportInput& { return s.supports; });
   supports.optional().only(planetary);
   const auto bearing = [&](const char* name, double SupportInput::*member, const char* meaning) {
-    supports.key(name, member, meaning).fallback(rigid, "rigid: the freedom is dropped").above(0, 1e14).infinite();
+    return supports.key(name, member, meaning).fallback(rigid, "rigid: the freedom is dropped").infinite();
   };
-  bearing("sun_N_per_m", &SupportInput::sun, "Support of the sun's axis, any direction.");
-  bearing("ring_N_per_m", &SupportInput::ring, "Support of the ring's axis, any direction.");
-  bearing("carrier_N_per_m", &SupportInput::carrier, "Support of the carrier's axis, any direction.");
-  bearing("planet_N_per_m", &SupportInput::planet, "Bearing of each planet on the carrier, radial and tangential.");
+  bearing("sun_N_per_m", &SupportInput::sun, "Support of the sun's axis, any direction.").from(0, 1e15);
+  bearing("ring_N_per_m", &SupportInput::ring, "Support of the ring's axis, any direction.").from(0, 1e15);
+  bearing("carrier_N_per_m", &SupportInput::carrier, "Support of the carrier's axis, any direction.").from(0, 1e15);
+  bearing("planet_N_per_m", &SupportInput::planet, "Bearing of each planet on the carrier, radial and tangential.")
+      .above(0, 1e15);
   bearing("ring_torsional_N_per_m", &SupportInput::ring_torsional,
-          "Torsional support of the ring, in u = base radius × angle.");
+          "Torsional support of the ring, in u = base radius × angle.")
+      .from(0, 1e15);
   supports
       .key("sun_torsional_N_per_m", &SupportInput::sun_torsional,
            "Torsional support of the sun, in u = base radius × angle.")
       .fallback(0.0, "free: the sun carries the power")
-      .from(0, 1e14);
+      .from(0, 1e15);
   supports
       .key("carrier_torsional_N_per_m", &SupportInput::carrier_torsional,
            "Torsional support of the carrier, in u = centre distance × angle.")
       .fallback(0.0, "free: the carrier carries the power")
-      .from(0, 1e14);
+      .from(0, 1e15);
   tables.push_back(supports.done());
 
   tables.push_back(mesh_table("mesh.sun_planet", "Stiffness of the sun mesh, given instead of computed.", with_planets,
@@ -451,10 +463,13 @@ std::vector<Table> declare_tables() {
                {"explicit", dynamics::Integrator::arkode_explicit},
                {"adams", dynamics::Integrator::cvode_adams},
                {"bdf", dynamics::Integrator::cvode_bdf},
+               {"implicit", dynamics::Integrator::arkode_implicit},
                {"runge_kutta_4", dynamics::Integrator::runge_kutta_4}},
               "Time integration. explicit: Runge-Kutta of order 5 with adaptive steps (ARKODE); adams, bdf: CVODE; "
-              "runge_kutta_4: the classical method with fixed steps, as in the papers; automatic: explicit or bdf by "
-              "stiffness ratio and damping.")
+              "implicit: L-stable Runge-Kutta of order 5 (ARKODE), for speeds so low that vibrations die within a mesh "
+              "cycle; "
+              "runge_kutta_4: the classical method with fixed steps, as in the papers; automatic: explicit, bdf or "
+              "implicit by stiffness ratio and damping.")
       .fallback(std::string("automatic"), "the faster one of those that are accurate");
   lumped.key("steps_per_cycle", &DynamicsInput::steps_per_cycle, "runge_kutta_4: steps per mesh cycle.")
       .from(10, 1e6)

@@ -15,7 +15,7 @@ Table pair_gear_table(const char* path, const char* meaning, HubGearInput& (*gea
   }
   Declarations<PairGearInput> bearings(path, meaning, section);
   const auto bearing = [&](const char* name, double PairGearInput::*member, const char* what) {
-    bearings.key(name, member, what).fallback(rigid, "rigid: the freedom is dropped").above(0, 1e14).infinite();
+    bearings.key(name, member, what).fallback(rigid, "rigid: the freedom is dropped").above(0, 1e15).infinite();
   };
   bearing("bearing_transverse_N_per_m", &PairGearInput::bearing_transverse,
           "Bearings and shaft along the transverse line of action.");

@@ -13,7 +13,7 @@ void declare_two_k_v(std::vector<Table>& tables) {
                                  [](Scene& s, std::size_t) -> CrankInput& { return s.crank; });
   crank.only(two_k_v);
   crank.key("inertia_kg_m2", &CrankInput::inertia, "Moment of inertia of one shaft without its planet.")
-      .above(0, 1e6)
+      .from(least_inertia_kg_m2, 1e6)
       .absent(needed);
   crank.key("shaft_Nm_per_rad", &CrankInput::shaft, "Torsional stiffness of one shaft between planet and eccentrics.")
       .above(0, 1e14)
@@ -60,9 +60,9 @@ void declare_two_k_v(std::vector<Table>& tables) {
              "Approach of pin and arc under load. handbook: Roark, 2/3 + ln(...), as the gear handbooks; johnson: "
              "Hertz pressure, depth to the centres of curvature.")
       .fallback(std::string("handbook"), "the formula of the paper");
-  arc.key("mass_kg", &ArcGearInput::mass, "Mass of one arc gear.").above(0, 1e6).absent(needed);
+  arc.key("mass_kg", &ArcGearInput::mass, "Mass of one arc gear.").from(lightest_kg, 1e6).absent(needed);
   arc.key("inertia_kg_m2", &ArcGearInput::inertia, "Moment of inertia of one arc gear about its axis.")
-      .above(0, 1e6)
+      .from(least_inertia_kg_m2, 1e6)
       .absent(needed);
   arc.key("bearing_N_per_m", &ArcGearInput::bearing,
           "Stiffness of an arc gear's bearing on one eccentric, any direction.")
@@ -74,7 +74,7 @@ void declare_two_k_v(std::vector<Table>& tables) {
                                       [](Scene& s, std::size_t) -> InputShaftInput& { return s.input; });
   input.only(two_k_v).optional();
   input.key("inertia_kg_m2", &InputShaftInput::inertia, "Moment of inertia, motor included.")
-      .above(0, 1e6)
+      .from(least_inertia_kg_m2, 1e6)
       .absent(needed);
   input.key("shaft_Nm_per_rad", &InputShaftInput::shaft, "Torsional stiffness of the shaft between input and sun.")
       .above(0, 1e14)
@@ -92,7 +92,7 @@ void declare_two_k_v(std::vector<Table>& tables) {
   output.key("torque_Nm", &OutputInput::torque, "Load on the output.").required().above(0, 1e9);
   output.key("speed_rpm", &OutputInput::speed, "Speed of the output.").required().above(0, 1e6);
   output.key("inertia_kg_m2", &OutputInput::inertia, "Moment of inertia of the carrier and what turns with it.")
-      .above(0, 1e6)
+      .from(least_inertia_kg_m2, 1e6)
       .absent(needed);
   output
       .key("support_Nm_per_rad", &OutputInput::support,

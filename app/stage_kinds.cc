@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/displacement_checks.h"
 #include "app/input_place.h"
 #include "app/pair_run.h"
 #include "app/pair_subject.h"
@@ -44,6 +45,9 @@ double planetary_seconds(const Scene& scene) {
   const auto periods = period_cycles(scene, geometry);
   double seconds = 0;
   for (const int period : periods) seconds += dynamics::point_seconds(scene.stage.planets, period);
+  // Studies march only where a number of cycles is asked for.
+  if (scene.dynamics->mesh_cycles)
+    for (const double marched : marching_seconds(scene, geometry)) seconds += marched;
   return seconds;
 }
 
@@ -52,15 +56,22 @@ double planetary_seconds(const Scene& scene) {
 void check_stage(const Scene& scene) {
   try {
     switch (scene.stage.kind) {
-      case StageKind::planetary:
-        check_rims(scene, make_geometry(scene));
+      case StageKind::planetary: {
+        const auto geometry = make_geometry(scene);
+        check_rims(scene, geometry);
+        check_displacements(scene, geometry);
         return;
-      case StageKind::helical_pair:
-        check_rims(scene, make_pair_geometry(scene));
+      }
+      case StageKind::helical_pair: {
+        const auto geometry = make_pair_geometry(scene);
+        check_rims(scene, geometry);
+        check_displacements(scene, geometry);
         return;
+      }
       case StageKind::two_k_v:
         check_two_k_v(scene);
         check_rims(scene, sun_planet_pair(scene));
+        check_sun_displacements(scene);
         return;
     }
   } catch (const GeometryError& error) {

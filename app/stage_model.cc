@@ -4,6 +4,7 @@
 #include "app/accuracy_choice.h"
 #include "app/content_id.h"
 #include "app/stage_response.h"
+#include "app/stiff_supports.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -93,30 +94,32 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   dynamics::set_kinematics(stage, set);
   stage.sun.mass = *scene.sun.mass;
   stage.sun.inertia = *scene.sun.inertia;
-  stage.sun.support = scene.supports.sun;
   stage.sun.torsional_support = scene.supports.sun_torsional;
   stage.sun.errors = {{e.sun_eccentricity, e.sun_eccentricity_phase}, {e.sun_installation, e.sun_installation_phase}};
   stage.ring.mass = *input.mass;
   stage.ring.inertia = *input.inertia;
-  stage.ring.support = scene.supports.ring;
-  stage.ring.torsional_support = scene.supports.ring_torsional;
   stage.ring.errors = {{e.ring_eccentricity, e.ring_eccentricity_phase},
                        {e.ring_installation, e.ring_installation_phase}};
   stage.carrier.mass = *scene.carrier.mass;
   stage.carrier.inertia = *scene.carrier.inertia;
-  stage.carrier.support = scene.supports.carrier;
   stage.carrier.torsional_support = scene.supports.carrier_torsional;
   stage.carrier.errors = {{e.carrier_eccentricity, e.carrier_eccentricity_phase},
                           {e.carrier_installation, e.carrier_installation_phase}};
   stage.planet.mass = *scene.planet.mass;
   stage.planet.inertia = *scene.planet.inertia;
-  stage.planet.bearing_radial = stage.planet.bearing_tangential = scene.supports.planet;
   for (std::size_t n = 0; n < static_cast<std::size_t>(scene.stage.planets); ++n) {
     stage.planet_errors.push_back({{e.planet_eccentricity[n], e.planet_eccentricity_phase[n]},
                                    {e.planet_installation[n], e.planet_installation_phase[n]}});
   }
   stage.sun_mesh = excitation_of(scene.sun_planet, sun_mesh, point.mean_mesh_force, scene.dynamics->load_dependence);
   stage.ring_mesh = excitation_of(scene.ring_planet, ring_mesh, point.mean_mesh_force, scene.dynamics->load_dependence);
+  const auto supports =
+      effective_supports(scene, dynamics::mean_stiffness(stage.sun_mesh), dynamics::mean_stiffness(stage.ring_mesh));
+  stage.sun.support = supports.sun;
+  stage.ring.support = supports.ring;
+  stage.ring.torsional_support = supports.ring_torsional;
+  stage.carrier.support = supports.carrier;
+  stage.planet.bearing_radial = stage.planet.bearing_tangential = supports.planet;
   if (ring_mesh.coupling)
     stage.ring_coupling = taken_coupling(*ring_mesh.coupling, coupling_choice(scene, *ring_mesh.coupling).taken);
   stage.sun_half_backlash = scene.sun_planet.half_backlash.value_or(scene.dynamics->half_backlash);

@@ -49,7 +49,7 @@ std::string nominal_mark(const Frame& frame, const SpreadColumn& c, double x) {
   if (!std::isfinite(c.nominal)) return "";
   const double y = frame.at_y(c.nominal);
   std::string svg = fmt::format("<path d=\"M{:.1f} {:.1f}l5 -5l5 5l-5 5z\" fill=\"#222\"/>", x - 5, y);
-  if (!(c.nominal_error > 0) || !std::isfinite(c.nominal_error)) return svg;
+  if (!std::isfinite(c.nominal_error) || !(c.nominal_error > 0)) return svg;
   const double low = frame.at_y(c.nominal - c.nominal_error), high = frame.at_y(c.nominal + c.nominal_error);
   return svg + fmt::format(
                    "<path d=\"M{0:.1f} {1:.1f}V{2:.1f}M{3:.1f} {1:.1f}h8M{3:.1f} {2:.1f}h8\" stroke=\"#222\" "

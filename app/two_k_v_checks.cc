@@ -50,6 +50,10 @@ class TwoKVChecker : KeyChecks {
   }
 
   void gears() {
+    if (usable("stage.planets") && scene_.stage.planets < 2)
+      problem(
+          "stage.planets", "",
+          "must be at least 2: a single crank has dead points, at which nothing holds the arc gears against turning");
     if (usable("stage.helix_angle_deg") && scene_.stage.helix_angle != 0)
       problem("stage.helix_angle_deg", "", "the model of a 2K-V stage has spur gears: leave it out or give 0");
     if (given("sun.mass_kg"))

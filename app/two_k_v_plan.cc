@@ -3,8 +3,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/cost_plan.h"
 #include "app/two_k_v_run.h"
 #include "core/units.h"
+#include "dynamics/marching_cost.h"
 
 namespace annulus::app {
 
@@ -95,14 +97,36 @@ std::vector<MeshModel> two_k_v_meshes(const Scene& scene) {
 std::vector<PlannedResponse> two_k_v_responses(const Scene& scene) {
   if (!scene.dynamics) return {};
   CostRun size;
-  size.unknowns = scene.dynamics->mesh_cycles.value_or(scene.planet.teeth);  // one turn of the crank
+  size.unknowns = scene.planet.teeth;  // one turn of the crank
+  const double marching = two_k_v_marching_seconds(scene);
   const auto given_alone = [](const MeshInput& m) { return m.stiffness != StiffnessShape::computed; };
   const bool given = given_alone(scene.sun_planet) && given_alone(scene.arc_pins);
   size.kind = given ? "response_two_k_v_given" : "response_two_k_v";
-  std::vector<PlannedResponse> list = {{"dynamics", "", size}};
+  std::vector<PlannedResponse> list = {{"dynamics", "", size, marching}};
   size.kind = "response_two_k_v";
-  if (compared_scene(scene)) list.push_back({"dynamics with computed stiffness", "computed", size});
+  if (compared_scene(scene)) list.push_back({"dynamics with computed stiffness", "computed", size, marching});
   return list;
+}
+
+double two_k_v_marching_seconds(const Scene& scene) {
+  Scene rough = scene;
+  for (auto* mesh : {&rough.sun_planet, &rough.arc_pins}) {
+    const double mean = rough_stiffness(scene, *mesh);
+    *mesh = {};
+    mesh->stiffness = StiffnessShape::constant;
+    mesh->mean = mean;
+  }
+  const MeshResult none{
+      .model = {},
+      .table = StiffnessTable("sun_planet", 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
+  const auto stage = make_two_k_v(rough, {none, none}, dynamics::LoadDependence::nominal);
+  const auto system = assemble(stage);
+  // Shooting integrates a turn of the crank once per state, then twice more.
+  const double turns = 2.0 * system.freedoms() + 2;
+  const double cycles =
+      scene.dynamics->mesh_cycles.value_or(1) * (scene.dynamics->mesh_cycles ? 1.0 : turns * scene.planet.teeth);
+  return dynamics::marching_seconds(system, stage.sun_mesh_frequency(), cycles,
+                                    two_k_v_simulation(scene, stage).integrator);
 }
 
 Plan make_two_k_v_plan(const Scene& scene, int threads) {

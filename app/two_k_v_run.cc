@@ -165,7 +165,7 @@ std::vector<std::string> two_k_v_tables_to_solve(const Scene& nominal, const Sce
 double two_k_v_seconds(const Scene& scene) {
   // Measured: shooting over one crank turn and two windows of some thousand samples.
   constexpr double one_turn = 2;
-  return scene.dynamics->mesh_cycles ? one_turn * *scene.dynamics->mesh_cycles / scene.planet.teeth : one_turn;
+  return one_turn + two_k_v_marching_seconds(scene);
 }
 
 }  // namespace annulus::app

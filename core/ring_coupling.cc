@@ -40,7 +40,7 @@ std::string complaint(const RingMode& mode, double lowest, int teeth) {
 std::string complaint(int planets, int teeth, double load, int per_cycle, std::size_t positions) {
   if (planets < 1) return "planets must be at least 1";
   if (teeth < 3) return "ring_teeth must be at least 3";
-  if (!(load > 0) || !std::isfinite(load)) return "load_N must be positive";
+  if (!std::isfinite(load) || !(load > 0)) return "load_N must be positive";
   if (per_cycle < 1) return "per_cycle must be at least 1";
   if (positions == 0 || positions % per_cycle != 0 || teeth % (positions / per_cycle) != 0)
     return fmt::format("{} ring positions at {} per mesh cycle do not repeat around {} teeth", positions, per_cycle,
@@ -158,7 +158,7 @@ RingCoupling RingCoupling::read_csv(const std::filesystem::path& compliance_file
   result.mass = header_number(csv, compliance_file, "mass_kg");
   result.rotational_mass = header_number(csv, compliance_file, "rotational_mass_kg");
   for (const double mass : {result.mass, result.rotational_mass})
-    if (!(mass >= 0) || !std::isfinite(mass))
+    if (!std::isfinite(mass) || !(mass >= 0))
       throw InputError(fmt::format("{}:1: a mass of {} kg", compliance_file.string(), mass));
   const auto sizes = complaint(result.planets, result.ring_teeth, result.load, result.per_cycle, csv.rows.size());
   if (!sizes.empty()) throw InputError(fmt::format("{}:1: {}", compliance_file.string(), sizes));

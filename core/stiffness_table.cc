@@ -9,6 +9,7 @@
 
 #include "core/csv.h"
 #include "core/errors.h"
+#include "core/floating_point.h"
 #include "core/units.h"
 
 namespace annulus {
@@ -179,6 +180,7 @@ std::vector<double> periodic_slopes(const std::vector<double>& values) {
   std::vector<double> x(n + 2 * pad + 1), y(x.size());
   std::iota(x.begin(), x.end(), -static_cast<double>(pad));
   for (std::size_t i = 0; i < y.size(); ++i) y[i] = values[(i + n * pad - pad) % n];
+  const UntrappedFloatingPoint untrapped;  // on a plateau makima divides zero by zero and mends it
   const boost::math::interpolators::makima<std::vector<double>> makima(std::move(x), std::move(y));
   std::vector<double> slopes(n);
   for (std::size_t i = 0; i < n; ++i) slopes[i] = makima.prime(static_cast<double>(i));

@@ -72,7 +72,7 @@ PinSum sum_of_pins(const ArcToothMesh& mesh, const Eigen::VectorXd& sines, doubl
 
 void ArcToothMesh::check() const {
   const auto positive = [](double value, const char* name, const char* unit) {
-    if (!(value > 0) || !std::isfinite(value))
+    if (!std::isfinite(value) || !(value > 0))
       throw InputError(fmt::format("arc-tooth mesh: {} {:g} {} must be positive", name, value, unit));
   };
   if (pins < 3) throw InputError(fmt::format("arc-tooth mesh: {} pins; at least 3 are needed", pins));
@@ -82,15 +82,15 @@ void ArcToothMesh::check() const {
   positive(youngs_modulus, "Young's modulus", "Pa");
   if (!(poisson_ratio >= 0 && poisson_ratio < 0.5))
     throw InputError(fmt::format("arc-tooth mesh: Poisson's ratio {:g} must lie in [0, 0.5)", poisson_ratio));
-  if (!(pin_circle_radius > eccentricity * pins) || !std::isfinite(pin_circle_radius))
+  if (!std::isfinite(pin_circle_radius) || !(pin_circle_radius > eccentricity * pins))
     throw InputError(
         fmt::format("arc-tooth mesh: the pin circle radius {:g} m must exceed eccentricity x pins = {:g} m",
                     pin_circle_radius, eccentricity * pins));
-  if (!(arc_radius > pin_radius) || !std::isfinite(arc_radius))
+  if (!std::isfinite(arc_radius) || !(arc_radius > pin_radius))
     throw InputError(
         fmt::format("arc-tooth mesh: the radius {:g} m of the concave arc must exceed the pin radius {:g} m",
                     arc_radius, pin_radius));
-  if (!(clearance >= 0) || !std::isfinite(clearance))
+  if (!std::isfinite(clearance) || !(clearance >= 0))
     throw InputError(fmt::format("arc-tooth mesh: clearance {:g} m must not be negative", clearance));
 }
 
@@ -142,7 +142,7 @@ double printed_stiffness(const ArcToothMesh& mesh, double torque) {
 
 ArcToothPosition arc_position(const ArcToothMesh& mesh, double torque, double phase) {
   mesh.check();
-  if (!(torque > 0) || !std::isfinite(torque))
+  if (!std::isfinite(torque) || !(torque > 0))
     throw InputError(fmt::format("arc-tooth mesh: torque {:g} N m on a gear must be positive", torque));
   const Eigen::VectorXd sines = loaded_sines(mesh, phase);
   const double load = torque / mesh.pitch_radius();

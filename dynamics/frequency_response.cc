@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/errors.h"
+#include "core/floating_point.h"
 #include "dynamics/modes.h"
 
 namespace annulus::dynamics {
@@ -16,15 +17,11 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Number of modes, from the first, that are rigid and stay so under K_Omega.
-Eigen::Index neutral_motions(const Modes& found, const Eigen::MatrixXd& stiffness) {
-  const double scale = found.modes.empty() ? 0 : std::pow(2 * std::numbers::pi * found.modes.back().frequency, 2);
+Eigen::Index neutral_motions(const Modes& found, const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
   Eigen::Index rigid = 0;
   for (const auto& mode : found.modes) {
     if (mode.frequency > 0) break;
-    const Eigen::VectorXd force = stiffness * mode.shape, back = stiffness.transpose() * mode.shape;
-    // Against M x (highest natural frequency)^2 x shape: rounding leaves 1e-16 of it, times the freedoms.
-    const double reference = 1e-12 * scale / mode.shape.cwiseAbs().maxCoeff();
-    if (force.cwiseAbs().maxCoeff() > reference || back.cwiseAbs().maxCoeff() > reference) return 0;
+    if (!costs_no_force(mode.shape, stiffness, mass)) return 0;
     ++rigid;
   }
   return rigid;
@@ -45,7 +42,7 @@ FrequencyResponse::FrequencyResponse(const LumpedSystem& system, const Eigen::Ve
     damping_ += system.meshes()[m].damping * b_.col(m) * b_.col(m).transpose();
   }
   const Modes found = modes(system, mesh_stiffness);
-  const Eigen::Index rigid_motions = neutral_motions(found, stiffness_);
+  const Eigen::Index rigid_motions = neutral_motions(found, stiffness_, mass_);
   Eigen::MatrixXd shapes(n, n), fixed = stiffness_;
   Eigen::VectorXd squares(n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -54,12 +51,15 @@ FrequencyResponse::FrequencyResponse(const LumpedSystem& system, const Eigen::Ve
   }
   for (Eigen::Index i = 0; i < n && squares[i] == 0; ++i) {
     const Eigen::VectorXd momentum = mass_ * shapes.col(i);
-    fixed += squares[n - 1] * momentum * momentum.transpose();
+    fixed += mesh_stiffness.maxCoeff() / momentum.cwiseAbs2().maxCoeff() * momentum * momentum.transpose();
   }
-  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(fixed);
-  static_inverse_ = factor.inverse();
+  // Scaled to a diagonal of ones: soft supports beside stiff ones are no singularity.
+  const Eigen::VectorXd scale = fixed.diagonal().cwiseAbs().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> factor(scale.asDiagonal() * fixed * scale.asDiagonal());
+  static_inverse_ = scale.asDiagonal() * factor.inverse() * scale.asDiagonal();
   if (!static_inverse_.allFinite() || !(factor.rcond() > 1e-15))
     throw SolverError("the stage with mean mesh stiffness is singular: a freedom is held by nothing");
+  const UntrappedFloatingPoint untrapped;  // the inverse of a defective matrix is infinite, and not used
   find_eigenvalues(shapes, squares, rigid_motions);
   by_eigenvalues_ = eigenvalues_agree();
 }

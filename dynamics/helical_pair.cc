@@ -107,7 +107,7 @@ double iso_6336_mesh_stiffness(double face_width, double transverse_contact_rati
                                double single_stiffness) {
   check_positive(face_width, "face width");
   check_positive(single_stiffness, "single stiffness");
-  if (!(transverse_contact_ratio >= 1) || !std::isfinite(transverse_contact_ratio))
+  if (!std::isfinite(transverse_contact_ratio) || !(transverse_contact_ratio >= 1))
     throw InputError(fmt::format("transverse contact ratio {} must be at least 1", transverse_contact_ratio));
   if (!(std::abs(helix_angle) < std::numbers::pi / 2))
     throw InputError(fmt::format("helix angle {} rad must lie below 90 degrees", helix_angle));

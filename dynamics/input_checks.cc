@@ -9,12 +9,12 @@
 namespace annulus::dynamics {
 
 void check_positive(double value, const std::string& name) {
-  if (!(value > 0) || !std::isfinite(value))
+  if (!std::isfinite(value) || !(value > 0))
     throw InputError(fmt::format("{} = {} must be positive and finite", name, value));
 }
 
 void check_not_negative(double value, const std::string& name) {
-  if (!(value >= 0) || !std::isfinite(value))
+  if (!std::isfinite(value) || !(value >= 0))
     throw InputError(fmt::format("{} = {} must not be negative, and finite", name, value));
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/errors.h"
@@ -38,15 +39,20 @@ Eigen::VectorXd absolute_tolerances(const LumpedSystem& system, const Integrator
     if (!(displacement > 0))
       throw InputError("the start deflects no mesh: give an absolute tolerance, none can be derived");
   }
-  double frequency = 0, local = 0;
+  double frequency = 0, local = 0, slowest = std::numeric_limits<double>::infinity();
   for (const auto& mesh : system.meshes()) frequency = std::max(frequency, 2 * std::numbers::pi * mesh.frequency);
   for (int i = 0; i < system.freedoms(); ++i) {
     double stiffness = system.stiffness()(i, i);
     for (std::size_t m = 0; m < system.meshes().size(); ++m)
       stiffness += workspace.stiffness[m] * std::pow(system.mesh_vector(static_cast<int>(m))[i], 2);
-    local = std::max(local, std::sqrt(stiffness / system.mass()(i, i)));
+    const double rate = std::sqrt(stiffness / system.mass()(i, i));
+    local = std::max(local, rate);
+    if (rate > 0) slowest = std::min(slowest, rate);
   }
   if (frequency == 0) frequency = local > 0 ? local : 1.0;
+  // Motions far slower than all vibrations: a velocity counts like a displacement of the slowest of these. To their own
+  // pace velocities follow from displacements, and the implicit method would resolve rounding.
+  if (options.method == Integrator::arkode_implicit && std::isfinite(slowest)) frequency = std::max(frequency, slowest);
   const int n = system.freedoms();
   Eigen::VectorXd tolerance = Eigen::VectorXd::Constant(size, 1e99);
   tolerance.head(n).setConstant(displacement);

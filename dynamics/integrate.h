@@ -11,11 +11,12 @@ namespace annulus::dynamics {
 /// Measured on the ring paper's stage, 64 samples a cycle: at tolerances from 1e-4 to 1e-8 Cash-Karp takes 15 % less
 /// time than Dormand-Prince for the same error; Verner 6(5) and Fehlberg 8(7) take two to five times as much.
 enum class Integrator {
-  automatic,        ///< arkode_explicit or cvode_bdf, see choose_integrator
+  automatic,        ///< arkode_explicit, arkode_implicit or cvode_bdf, see choose_integrator
   arkode_explicit,  ///< ARKODE ERKStep, Cash-Karp 5(4), adaptive: the fastest for gear sets of metal
   cvode_adams,      ///< CVODE Adams-Moulton with fixed-point iteration
   cvode_bdf,        ///< CVODE BDF with Newton and analytic Jacobian: for stiff, well damped systems
   runge_kutta_4,    ///< fixed step classical Runge-Kutta, as in the papers; needs `fixed_step`
+  arkode_implicit,  ///< ARKODE ARKStep, ESDIRK 5(4), L-stable: for slow motions of lightly damped systems
 };
 
 struct IntegratorOptions {

@@ -97,11 +97,13 @@ std::size_t slot_of(std::vector<double>& rates, double rate) {
   return rates.size() - 1;
 }
 
-void append_sparse(const Eigen::VectorXd& dense, FlatRows& rows) {
-  const double largest = dense.size() ? dense.cwiseAbs().maxCoeff() : 0;
+/// What a solve with a non-diagonal mass matrix leaves of a zero that cancelled: less than this share of its terms.
+constexpr double cancelled = 1e-15;
+
+/// `terms`: bounds of the entries' terms.
+void append_sparse(const Eigen::VectorXd& dense, const Eigen::VectorXd& terms, FlatRows& rows) {
   for (int i = 0; i < dense.size(); ++i)
-    // Below rounding of the solve with a non-diagonal mass matrix an entry is a zero that cancelled.
-    if (std::abs(dense[i]) > 1e-16 * largest) {
+    if (std::abs(dense[i]) > cancelled * terms[i]) {
       rows.index.push_back(i);
       rows.factor.push_back(dense[i]);
     }
@@ -231,11 +233,15 @@ LumpedSystem LumpedSystemBuilder::build() const {
   c.acceleration = mass.solve(system.load_);
   const Eigen::MatrixXd stiffness = mass.solve(system.stiffness_ + system.rotating_stiffness_);
   const Eigen::MatrixXd damping = mass.solve(system.damping_ + system.gyroscopic_);
-  const double largest = n ? stiffness.cwiseAbs().maxCoeff() : 0, largest_rate = n ? damping.cwiseAbs().maxCoeff() : 0;
+  // Entry by entry: a soft support beside a stiff one, a light body beside a heavy one are no rounding.
+  const Eigen::MatrixXd inverse = mass.solve(Eigen::MatrixXd::Identity(n, n)).cwiseAbs();
+  const Eigen::MatrixXd stiffness_terms = inverse * (system.stiffness_ + system.rotating_stiffness_).cwiseAbs();
+  const Eigen::MatrixXd damping_terms = inverse * (system.damping_ + system.gyroscopic_).cwiseAbs();
   c.row_start.push_back(0);
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j)
-      if (std::abs(stiffness(i, j)) > 1e-16 * largest || std::abs(damping(i, j)) > 1e-16 * largest_rate) {
+      if (std::abs(stiffness(i, j)) > cancelled * stiffness_terms(i, j) ||
+          std::abs(damping(i, j)) > cancelled * damping_terms(i, j)) {
         c.column.push_back(j);
         c.stiffness.push_back(stiffness(i, j));
         c.damping.push_back(damping(i, j));
@@ -254,8 +260,8 @@ LumpedSystem LumpedSystemBuilder::build() const {
   for (const auto& mesh : meshes_) {
     Eigen::VectorXd b = Eigen::VectorXd::Zero(n);  // the constant part
     for (const auto& [i, factor] : mesh.b) b[i] += factor;
-    append_sparse(b, c.b);
-    append_sparse(mass.solve(b), c.inverse_b);
+    append_sparse(b, b.cwiseAbs(), c.b);
+    append_sparse(mass.solve(b), inverse * b.cwiseAbs(), c.inverse_b);
     auto& m = c.meshes.emplace_back();
     m.damping = mesh.damping;
     m.damping_without_contact = mesh.damping_without_contact;

@@ -65,12 +65,12 @@ void ErrorProblem::check() const {
   for (int g = 0; g < 2; ++g) {
     const auto& gear = gears[g];
     if (gear.teeth < 1) throw InputError(fmt::format("{} teeth = {} must be positive", gear_names[g], gear.teeth));
-    if (!(gear.tooth_to_tooth > 0) || !(gear.total > gear.tooth_to_tooth) || !std::isfinite(gear.total))
+    if (!(gear.tooth_to_tooth > 0) || !std::isfinite(gear.total) || !(gear.total > gear.tooth_to_tooth))
       throw InputError(
           fmt::format("{}: the tooth-to-tooth deviation {} m must be positive and below the total one, {} m",
                       gear_names[g], gear.tooth_to_tooth, gear.total));
   }
-  if (!(divisor > 0) || !std::isfinite(divisor)) throw InputError("the divisor of the deviations must be positive");
+  if (!std::isfinite(divisor) || !(divisor > 0)) throw InputError("the divisor of the deviations must be positive");
   if (samples < 1) throw InputError("a Monte Carlo simulation needs at least one sample");
   if (bins < 1) throw InputError("a histogram needs at least one bin");
   for (const double p : {probability, confidence})

@@ -36,7 +36,7 @@ int period_in_cycles(const MeshExcitation& excitation) {
 void check(const MeshExcitation& excitation, const std::string& name) {
   const auto refuse = [&](const std::string& what) { throw InputError(name + ": " + what); };
   const auto check_mean = [&](double mean) {
-    if (!(mean > 0) || !std::isfinite(mean)) refuse(fmt::format("mean stiffness {} N/m must be positive", mean));
+    if (!std::isfinite(mean) || !(mean > 0)) refuse(fmt::format("mean stiffness {} N/m must be positive", mean));
   };
   if (const auto* constant = std::get_if<ConstantStiffness>(&excitation)) {
     check_mean(constant->mean);

@@ -1,8 +1,12 @@
 #include "dynamics/modes.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,17 +19,45 @@ namespace {
 /// Turns the shapes of every multiple frequency so that each is of one kind.
 void separate_multiples(const KindSorter& sorter, std::vector<Mode>& modes) {
   for (std::size_t begin = 0, end = 0; begin < modes.size(); begin = end) {
-    // Rounding parts equal frequencies by 1e-16 of the highest square over the square; different kinds that close are
-    // one for every purpose.
-    constexpr double same = 1e-9;
+    // Rounding parts equal frequencies by some 1e-15 of the highest; different kinds that close are one for every
+    // purpose.
+    constexpr double same = 1e-9, of_the_highest = 1e-14;
     for (end = begin + 1; end < modes.size(); ++end)
-      if (modes[end].frequency - modes[begin].frequency > same * modes[end].frequency) break;
+      if (modes[end].frequency - modes[begin].frequency >
+          same * modes[end].frequency + of_the_highest * modes.back().frequency)
+        break;
     if (end - begin == 1) continue;
     Eigen::MatrixXd shapes(modes[begin].shape.size(), static_cast<Eigen::Index>(end - begin));
     for (std::size_t i = begin; i < end; ++i) shapes.col(static_cast<Eigen::Index>(i - begin)) = modes[i].shape;
     shapes = sorter.separated(shapes);
     for (std::size_t i = begin; i < end; ++i) modes[i].shape = shapes.col(static_cast<Eigen::Index>(i - begin));
   }
+}
+
+/// sqrt(k) a^T of every spring and mesh, at least as many rows as freedoms: K = rows^T rows.
+Eigen::MatrixXd stiffness_rows(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness) {
+  const auto springs = static_cast<Eigen::Index>(system.springs().size());
+  const Eigen::Index n = system.freedoms(), meshes = mesh_stiffness.size();
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(std::max(springs + meshes, n), n);
+  const auto root = [](double k) {
+    if (!(k >= 0)) throw SolverError("the stiffness is indefinite: a support or mesh stiffness is negative");
+    return std::sqrt(k);
+  };
+  for (Eigen::Index i = 0; i < springs; ++i) {
+    const auto& spring = system.springs()[static_cast<std::size_t>(i)];
+    for (const auto& [freedom, factor] : spring.a) rows(i, freedom) += root(spring.stiffness) * factor;
+  }
+  Eigen::MatrixXd closing(meshes, n);
+  for (Eigen::Index m = 0; m < meshes; ++m) closing.row(m) = system.mesh_vector(static_cast<int>(m)).transpose();
+  if (system.couplings().empty()) {
+    for (Eigen::Index m = 0; m < meshes; ++m) rows.row(springs + m) = root(mesh_stiffness[m]) * closing.row(m);
+    return rows;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> coupled(mesh_stiffness_matrix(system, mesh_stiffness));
+  if (coupled.info() != Eigen::Success) throw SolverError("the stiffness of the coupled meshes has no square root");
+  for (Eigen::Index m = 0; m < meshes; ++m)
+    rows.row(springs + m) = root(coupled.eigenvalues()[m]) * coupled.eigenvectors().col(m).transpose() * closing;
+  return rows;
 }
 
 }  // namespace
@@ -47,13 +79,17 @@ Eigen::MatrixXd mesh_stiffness_matrix(const LumpedSystem& system, const Eigen::V
                    system.mesh_vector(coupling.meshes[j])[kept.freedom] / kept.stiffness;
         compliance(i, j) = compliance(j, i) = value;
       }
-    for (Eigen::Index i = 0; i < n; ++i) compliance(i, i) += 1 / mesh_stiffness[coupling.meshes[i]];
-    const Eigen::LLT<Eigen::MatrixXd> factor(compliance);
+    // (1/k + c)^-1 = s (1 + s c s)^-1 s with s = sqrt(k): also where a mesh has no stiffness.
+    Eigen::VectorXd root(n);
+    for (Eigen::Index i = 0; i < n; ++i) root[i] = std::sqrt(mesh_stiffness[coupling.meshes[i]]);
+    const Eigen::MatrixXd scaled = root.asDiagonal() * compliance * root.asDiagonal();
+    const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(n, n) + scaled);
     if (factor.info() != Eigen::Success)
       throw SolverError(
           "the coupling through the ring takes more compliance off its meshes than they have: its elastic modes belong "
           "to supports held both ways and do not fit a ring that lifts off so much of them");
-    const Eigen::MatrixXd stiffness = factor.solve(Eigen::MatrixXd::Identity(n, n));
+    const Eigen::MatrixXd stiffness =
+        root.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(n, n)) * root.asDiagonal();
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = 0; j < n; ++j)
         result(coupling.meshes[i], coupling.meshes[j]) = (stiffness(i, j) + stiffness(j, i)) / 2;
@@ -71,17 +107,21 @@ Modes modes(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness) {
   Modes result;
   result.freedoms = system.names();
   if (system.freedoms() == 0) return result;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness_with_meshes(system, mesh_stiffness),
-                                                                         system.mass());
-  if (solver.info() != Eigen::Success) throw SolverError("the eigenvalue solver for the natural frequencies failed");
-  const auto& squares = solver.eigenvalues();
-  // Rounding leaves squares of about 1e-16 x the largest (times the freedoms): below 1e-12 nothing is known but zero.
-  const double zero = 1e-12 * squares.cwiseAbs().maxCoeff();
-  for (int i = 0; i < squares.size(); ++i) {
-    if (squares[i] < -zero) throw SolverError("the stiffness is indefinite: a support or mesh stiffness is negative");
+  // The frequencies are the singular values of sqrt(k) a^T L^-T, one row per spring and mesh, M = L L^T. Rounding
+  // leaves 1e-16 of the highest frequency of them; of the eigenvalues of K it would leave that share of the highest
+  // square, and soft supports beside stiff ones would be lost.
+  const Eigen::LLT<Eigen::MatrixXd> mass(system.mass());
+  const Eigen::MatrixXd rows = stiffness_rows(system, mesh_stiffness);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> solver(mass.matrixL().solve(rows.transpose()).transpose(),
+                                                 Eigen::ComputeThinV);
+  const Eigen::VectorXd& rates = solver.singularValues();
+  if (!rates.allFinite()) throw SolverError("the natural frequencies are not finite numbers");
+  // 1e-15 times the freedoms; below 1e-13 nothing is known but zero.
+  const double zero = 1e-13 * rates[0];
+  for (Eigen::Index i = rates.size() - 1; i >= 0; --i) {
     Mode mode;
-    mode.frequency = squares[i] <= zero ? 0.0 : std::sqrt(squares[i]) / (2 * std::numbers::pi);
-    mode.shape = solver.eigenvectors().col(i);
+    mode.frequency = rates[i] <= zero ? 0.0 : rates[i] / (2 * std::numbers::pi);
+    mode.shape = mass.matrixU().solve(solver.matrixV().col(i));
     result.modes.push_back(std::move(mode));
   }
   return result;
@@ -92,6 +132,23 @@ Eigen::VectorXd mean_mesh_stiffness(const PlanetaryStage& stage) {
   stiffness.head(stage.planets()).setConstant(mean_tangent_stiffness(stage.sun_mesh));
   stiffness.tail(stage.planets()).setConstant(mean_tangent_stiffness(stage.ring_mesh));
   return stiffness;
+}
+
+bool costs_no_force(const Eigen::VectorXd& shape, const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
+  constexpr double rounding = 1e-11, noise = 1e-2;  // rounding x noise: what a shape's zeros are, of the whole shape
+  const Eigen::VectorXd size = shape.cwiseAbs().cwiseMax(noise * mass.diagonal().cwiseSqrt().cwiseInverse());
+  const auto vanishes = [&](const Eigen::MatrixXd& k) {
+    return ((k * shape).array().abs() <= rounding * (k.cwiseAbs() * size).array()).all();
+  };
+  return vanishes(stiffness) && vanishes(stiffness.transpose());
+}
+
+void refuse_unbalanced(const LumpedSystem& system, const Eigen::VectorXd& shape) {
+  Eigen::Index most = 0;
+  shape.cwiseProduct(system.load()).cwiseAbs().maxCoeff(&most);
+  throw InputError(
+      fmt::format("the load is not balanced: nothing holds {} against it; give it (or what it is coupled to) a support",
+                  system.names()[static_cast<std::size_t>(most)]));
 }
 
 Modes modes(const PlanetaryStage& stage) {

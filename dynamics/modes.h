@@ -22,7 +22,7 @@ struct Modes {
 };
 
 /// Undamped natural frequencies and mode shapes with the mean tangent mesh stiffness, all teeth in contact, without
-/// rotation (Omega = 0). Frequencies below 1e-6 of the highest one are rigid motions and given as exactly 0. Shapes of
+/// rotation (Omega = 0). Frequencies below 1e-13 of the highest one are rigid motions and given as exactly 0. Shapes of
 /// one multiple frequency are turned so that each is of one kind.
 /// Throws InputError when the stage cannot be assembled, SolverError when the stiffness is indefinite.
 [[nodiscard]] Modes modes(const PlanetaryStage& stage);
@@ -38,5 +38,13 @@ struct Modes {
 [[nodiscard]] Eigen::MatrixXd mesh_stiffness_matrix(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness);
 /// K + B K_m B^T, N/m, K_m the matrix above and B the mesh vectors.
 [[nodiscard]] Eigen::MatrixXd stiffness_with_meshes(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness);
+
+/// Does a motion (of unit kinetic energy, as shapes are) meet no force of a stiffness, in either direction, but for
+/// rounding? Entry by entry, so that a stiff support does not hide what rotation does.
+[[nodiscard]] bool costs_no_force(const Eigen::VectorXd& shape, const Eigen::MatrixXd& stiffness,
+                                  const Eigen::MatrixXd& mass);
+
+/// Throws InputError: the load does work on a rigid motion; names what moves most in it.
+[[noreturn]] void refuse_unbalanced(const LumpedSystem& system, const Eigen::VectorXd& shape);
 
 }  // namespace annulus::dynamics

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace annulus::dynamics {
 
@@ -41,7 +42,7 @@ Peak peak_of_rows(const Eigen::Ref<const Eigen::MatrixXd>& values, const std::ve
 
 Figure figure(const Peak& best, std::initializer_list<Peak> others) {
   Figure result{best.refined, 0};
-  if (!std::isfinite(best.refined)) return result;
+  if (!std::isfinite(best.refined)) return {best.refined, std::numeric_limits<double>::quiet_NaN()};
   result.error = best.refined - best.sampled;
   for (const auto& other : others) result.error += std::abs(best.refined - other.refined);
   return result;

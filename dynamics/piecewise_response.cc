@@ -103,11 +103,12 @@ class PeriodMap {
 /// Goes through the period once from the periodic state and notes what is asked for.
 class PeriodWalk {
  public:
+  /// Of the fastest mode between points: cubics and parabolas between are good to 1e-4 of its amplitude.
+  static constexpr double radians = 0.25;
+
   PeriodWalk(const LumpedSystem& system, PiecewiseSystem& linear, double period, Eigen::Index samples,
              PiecewiseResponse& response)
       : system_(system), linear_(linear), response_(response), step_(period / static_cast<double>(samples)) {
-    constexpr double radians =
-        0.25;  // of the fastest mode: cubics and parabolas between are good to 1e-4 of its amplitude
     fine_ = std::max(1, static_cast<int>(std::ceil(step_ * linear.fastest() / radians)));
     auto& p = response.periodic;
     const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
@@ -269,12 +270,19 @@ PiecewiseResponse piecewise_response(const LumpedSystem& system, double period, 
   response.solved_cycles = each_cycle ? 1 : cycles;
   const double solved = each_cycle ? period / cycles : period;
   const auto pieces = pieces_of(system, linear, solved);
+  const Eigen::Index samples = static_cast<Eigen::Index>(response.solved_cycles) * options.samples_per_cycle;
+  const double points = solved * linear.fastest() / PeriodWalk::radians;
+  constexpr double most_points = 2e6;  // of every mesh: some hundred megabytes
+  if (points > most_points) {
+    p.trouble =
+        fmt::format("the fastest motion swings too often within the period: {:.2g} points of every mesh", points);
+    return response;
+  }
   const PeriodMap map(linear, pieces);
   Eigen::VectorXd start;
   p.residual = map.solve(start);
   response.largest_multiplier = map.largest_multiplier();
-  PeriodWalk walk(system, linear, solved, static_cast<Eigen::Index>(response.solved_cycles) * options.samples_per_cycle,
-                  response);
+  PeriodWalk walk(system, linear, solved, samples, response);
   walk.run(pieces, start);
   if (options.motion) walk.keep_motion();
   response.solved = true;

@@ -63,13 +63,11 @@ void PiecewiseSystem::set_modes() {
   }
   w_ = std::sqrt(squares_[elastic_ - 1]);
   for (Eigen::Index i = elastic_; i < n; ++i) {
-    const Eigen::VectorXd nu = shapes_.col(i), force = stiffness_ * nu, back = stiffness_.transpose() * nu;
-    // As FrequencyResponse: against M x (highest natural frequency)^2 x shape.
-    const double reference = 1e-12 * w_ * w_ / nu.cwiseAbs().maxCoeff();
-    neutral_ = neutral_ && force.cwiseAbs().maxCoeff() <= reference && back.cwiseAbs().maxCoeff() <= reference;
+    const Eigen::VectorXd nu = shapes_.col(i);
+    neutral_ = neutral_ && costs_no_force(nu, stiffness_, system_.mass());
     const double work = std::abs(nu.dot(system_.load()));
     if (work > 1e-9 * nu.cwiseAbs().dot(system_.load().cwiseAbs()))  // a balanced load cancels to rounding
-      throw InputError("the load is not balanced: nothing holds the ring (or another body) against turning");
+      refuse_unbalanced(system_, nu);
   }
 }
 
@@ -156,8 +154,12 @@ int PiecewiseSystem::combination(double t) {
 
 const Eigen::MatrixXd& PiecewiseSystem::propagator(int combination, double duration) {
   auto& c = combinations_[combination];
-  // Durations that differ by rounding are one: 1e-11 of 1/w changes the state by as much.
-  const auto [entry, made] = c.propagators.try_emplace(std::llround(1e11 * w_ * duration));
+  // Durations that differ by rounding are one: 1e-11 of 1/w changes the state by as much. Of long ones rounding is a
+  // share of the duration.
+  constexpr double same = 1e-11, long_duration = 1e4;
+  const double x = w_ * duration;
+  const auto [entry, made] =
+      c.propagators.try_emplace(x < long_duration ? std::llround(x / same) : -std::llround(std::log(x) / same));
   if (made) entry->second = (c.matrix * (w_ * duration)).exp();
   return entry->second;
 }

@@ -72,8 +72,13 @@ MeshError sum_of(const std::vector<HarmonicError>& errors, double time) {
   return e;
 }
 
-double rate_of_planet(const PlanetaryStage& s) { return -s.carrier_speed * s.ring_teeth / s.planet_teeth; }
-double rate_of_sun(const PlanetaryStage& s) { return s.carrier_speed * s.ring_teeth / s.sun_teeth; }
+// A stage that stands (for its modes) may go without numbers of teeth.
+double rate_of_planet(const PlanetaryStage& s) {
+  return s.carrier_speed == 0 ? 0 : -s.carrier_speed * s.ring_teeth / s.planet_teeth;
+}
+double rate_of_sun(const PlanetaryStage& s) {
+  return s.carrier_speed == 0 ? 0 : s.carrier_speed * s.ring_teeth / s.sun_teeth;
+}
 
 void add(std::vector<HarmonicError>& list, double sign, const Deviation& deviation, double rate, double phase) {
   if (deviation.exists()) list.push_back({sign * deviation.amount, rate, deviation.phase + phase});

@@ -13,7 +13,11 @@ namespace {
 Peak sharing_peak(const Eigen::Ref<const Eigen::MatrixXd>& force) {
   const double sampled = load_sharing_instantaneous(force);
   if (!std::isfinite(sampled)) return {sampled, sampled};
-  return peak_of_rows(load_sharing_over_time(force));
+  Peak peak = peak_of_rows(load_sharing_over_time(force));
+  // Where one branch after the other carries everything, parabolas overshoot what branches that only push can share.
+  if (force.minCoeff() >= 0)
+    peak.refined = std::max(peak.sampled, std::min(peak.refined, static_cast<double>(force.rows())));
+  return peak;
 }
 
 /// Forces averaged over the mesh cycle that begins at each sample.

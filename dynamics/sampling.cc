@@ -68,9 +68,9 @@ void Distribution::check() const {
     return;
   }
   if (kind == Kind::rayleigh) {
-    if (!(scale > 0) || !std::isfinite(scale))
+    if (!std::isfinite(scale) || !(scale > 0))
       throw InputError("the scale of a Rayleigh distribution must be positive");
-  } else if (!(deviation > 0) || !std::isfinite(deviation)) {
+  } else if (!std::isfinite(deviation) || !(deviation > 0)) {
     throw InputError("the deviation must be above zero");
   }
   if (kind == Kind::lognormal && !(mean > 0)) throw InputError("the mean of a lognormal distribution must be positive");

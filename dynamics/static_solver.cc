@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/errors.h"
@@ -23,8 +24,8 @@ std::pair<Contact, double> wanted_state(double delta, double half_backlash, Cont
   return {contact, contact == held ? 0.0 : std::abs(delta - edge)};
 }
 
-// An open mesh keeps a billionth of its stiffness: an idle planet then has a definite place, at forces of at most
-// 1e-9 k x half backlash, which no figure of merit sees.
+// An open mesh keeps a billionth of its stiffness, so that an idle planet has a definite place. Its spring is then
+// anchored where it stands and pulls no more: 1e-9 k x half backlash may be more than a light load.
 constexpr double open_share = 1e-9;
 
 bool is_open(const LumpedSystem& system, int mesh, const LumpedSystem::Workspace& w) {
@@ -44,21 +45,17 @@ StaticSolver::StaticSolver(const LumpedSystem& system) : system_(system), base_(
   rest_ = Eigen::VectorXd::Zero(system.freedoms());
   forces_.resize(meshes);
   const Modes found = modes(system, mean);
-  const double scale = found.modes.empty() ? 0 : std::pow(found.modes.back().frequency, 2);
   for (const auto& mode : found.modes) {
     if (mode.frequency > 0) break;
     const double work = std::abs(mode.shape.dot(system.load()));
     // A balanced load cancels to rounding: some 1e-16 of the terms.
-    if (work > 1e-9 * mode.shape.cwiseAbs().dot(system.load().cwiseAbs()))
-      throw InputError(
-          "the load is not balanced: nothing holds the ring (or another body) against turning; give it a torsional "
-          "support");
+    if (work > 1e-9 * mode.shape.cwiseAbs().dot(system.load().cwiseAbs())) refuse_unbalanced(system, mode.shape);
     const Eigen::VectorXd momentum = system.mass() * mode.shape;
-    base_ += scale * momentum * momentum.transpose();
+    // As stiff as the meshes: stiffer, it would drown them in rounding.
+    base_ += mean.maxCoeff() / momentum.cwiseAbs2().maxCoeff() * momentum * momentum.transpose();
   }
-  load_scale_ = system.load().lpNorm<Eigen::Infinity>();
-  base_scale_ = base_.cwiseAbs().rowwise().sum().maxCoeff();
-  vectors_scale_ = vectors_.size() ? vectors_.cwiseAbs().maxCoeff() : 0;
+  base_size_ = base_.cwiseAbs();
+  anchor_ = Eigen::VectorXd::Zero(meshes);
 }
 
 void StaticSolver::factorise(const Eigen::MatrixXd& tangent, double t) {
@@ -75,11 +72,16 @@ double StaticSolver::residual(double t, const Eigen::VectorXd& q, LumpedSystem::
   for (int m = 0; m < forces_.size(); ++m) {
     w.delta_rate[m] = 0;
     w.force[m] = forces_[m] = w.elastic[m];
-    if (is_open(system_, m, w)) forces_[m] += open_share * w.stiffness[m] * w.closing[m];
+    if (is_open(system_, m, w)) forces_[m] += open_share * w.stiffness[m] * (w.closing[m] - anchor_[m]);
   }
   residual_ = system_.load() - base_ * q - vectors_ * forces_;
-  // Bounds of the terms by the largest entries: a scale is all that is wanted.
-  return load_scale_ + base_scale_ * q.lpNorm<Eigen::Infinity>() + forces_.lpNorm<1>() * vectors_scale_;
+  // A force carries the rounding of the motions and errors it is the difference of.
+  Eigen::VectorXd sizes = vectors_.cwiseAbs().transpose() * q.cwiseAbs();
+  for (int m = 0; m < forces_.size(); ++m)
+    sizes[m] = std::abs(forces_[m]) +
+               w.stiffness[m] * (sizes[m] + std::abs(w.error[m]) + system_.meshes()[m].half_backlash.value_or(0.0));
+  terms_ = system_.load().cwiseAbs() + base_size_ * q.cwiseAbs() + vectors_.cwiseAbs() * sizes;
+  return terms_.maxCoeff();
 }
 
 void StaticSolver::balance(double t, Eigen::VectorXd& q, LumpedSystem::Workspace& w) {
@@ -88,7 +90,8 @@ void StaticSolver::balance(double t, Eigen::VectorXd& q, LumpedSystem::Workspace
   constexpr double accuracy = 1e-13;
   double scale = residual(t, q, w);
   for (int step = 0; step < steps; ++step) {
-    if (residual_.cwiseAbs().maxCoeff() <= accuracy * scale) return;
+    // Freedom by freedom: stiff supports must not hide what light loads do elsewhere.
+    if ((residual_.array().abs() <= accuracy * terms_.array()).all()) return;
     system_.tangent_matrix(w, tangent_);
     for (int m = 0; m < forces_.size(); ++m)
       if (is_open(system_, m, w)) tangent_(m, m) += open_share * w.stiffness[m];
@@ -121,6 +124,8 @@ Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
   Eigen::VectorXd q = Eigen::VectorXd::Zero(system_.freedoms());
   tangent_.setZero(meshes, meshes);
   Eigen::VectorXd load = system_.load();
+  anchor_.setZero();
+  int anchored = 0;
   for (int m = 0; m < meshes; ++m) {
     const double offset = half(m) == 0 ? 0.0 : static_cast<int>(w.contact[m]) * half(m);
     tangent_(m, m) = (is_open(system_, m, w) ? open_share : 1.0) * w.stiffness[m];
@@ -143,7 +148,19 @@ Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
       }
       if (attempt < all_at_once) w.contact[m] = contact;
     }
-    if (changes == 0) return q;
+    if (changes == 0) {
+      // Anchored once, the springs pull with a billionth of a billionth; again where that changed contacts.
+      constexpr double unseen = 1e-12;
+      constexpr int enough = 20;
+      double pull = 0;
+      for (int m = 0; m < meshes; ++m)
+        if (is_open(system_, m, w)) {
+          pull = std::max(pull, std::abs(open_share * w.stiffness[m] * (w.closing[m] - anchor_[m])));
+          anchor_[m] = w.closing[m];
+        }
+      if (pull <= unseen * system_.load().lpNorm<Eigen::Infinity>() || anchored++ == enough) return q;
+      continue;
+    }
     // Changing all at once is fast but may cycle; one at a time, the worst first, ends it.
     if (attempt >= all_at_once) {
       if (worst < 0) return q;  // all differ by rounding only: on the edge either state is right

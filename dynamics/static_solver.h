@@ -30,9 +30,9 @@ class StaticSolver {
 
   const LumpedSystem& system_;
   Eigen::MatrixXd base_, vectors_;  // K with the rigid motions held; mesh vectors b (at the time) as columns
-  double load_scale_ = 0, base_scale_ = 0, vectors_scale_ = 0;  // largest load, row sum of |K|, entry of b
   Eigen::MatrixXd tangent_;
-  Eigen::VectorXd residual_, forces_, rest_;
+  Eigen::MatrixXd base_size_;  // |K|, for the rounding of the residual
+  Eigen::VectorXd residual_, terms_, forces_, rest_, anchor_;
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "dynamics/floquet.h"
 #include "dynamics/piecewise_response.h"
 
 namespace annulus::dynamics {
@@ -14,12 +15,12 @@ namespace annulus::dynamics {
 namespace {
 
 void check(const SteadyProblem& problem, const SimulationOptions& options) {
-  if (!(problem.mesh_frequency > 0) || !std::isfinite(problem.mesh_frequency))
+  if (!std::isfinite(problem.mesh_frequency) || !(problem.mesh_frequency > 0))
     throw InputError("a time response needs a speed above zero");
   if (problem.period_in_cycles < 1)
     throw InputError(fmt::format("a period of {} mesh cycles is none", problem.period_in_cycles));
-  if (!(problem.force_scale > 0) || !std::isfinite(problem.force_scale) || !(problem.stiffness > 0) ||
-      !std::isfinite(problem.stiffness))
+  if (!std::isfinite(problem.force_scale) || !(problem.force_scale > 0) || !std::isfinite(problem.stiffness) ||
+      !(problem.stiffness > 0))
     throw InputError("a time response needs a positive scale of force and stiffness to measure differences against");
   if (options.samples_per_cycle < 4) throw InputError("a time series needs at least 4 samples per mesh cycle");
   if (options.mesh_cycles && *options.mesh_cycles < 1) throw InputError("a simulation needs at least one mesh cycle");
@@ -165,6 +166,23 @@ std::optional<DirectWindows> solve_directly(const LumpedSystem& system, const St
   return windows;
 }
 
+/// Would the motion stay on the solution of a harmonic balance? From an unstable one it departs too slowly for one
+/// window to tell.
+bool stays(const LumpedSystem& system, const SteadyProblem& problem, const DirectWindows& found,
+           std::optional<DirectSolution>& direct) {
+  const bool parting = found.fine.open.size() > 0 && found.fine.open.maxCoeff() > 0;
+  // A thousandfold growth over a thousand cycles would pass unseen; double zero eigenvalues are 1e-7 from 1.
+  constexpr double still = 1e-4;
+  if (parting || direct->method != DirectMethod::harmonic_balance || system.has_moving_vectors()) return true;
+  direct->largest_multiplier = growth_per_cycle(system, problem.mesh_frequency, found.fine);
+  if (*direct->largest_multiplier <= 1 + still) return true;
+  direct->converged = false;
+  direct->trouble =
+      fmt::format("parametric resonance: disturbances of the periodic motion grow {:.4g} times per mesh cycle",
+                  *direct->largest_multiplier);
+  return false;
+}
+
 /// What a run has booked before `begin`, in a window that did not confirm, is none of this one's.
 void set_energy(const SystemState& begin, const SystemState& end, double before, double after, EnergyBalance& energy) {
   energy.supplied = end.supplied - begin.supplied;
@@ -183,6 +201,13 @@ void march_last_window(ResponseRun& run, int cycles, const SimulationOptions& op
   run.advance(cycles, &response.best, true);
   response.end = run.state();
   set_energy(response.begin, response.end, before, run.energy(), response.energy);
+  // Adaptive steps keep it near their tolerance whatever happens; fixed ones may be far too long for what does.
+  constexpr double hopeless = 0.05;
+  if (!(response.energy.relative <= hopeless))
+    throw SolverError(fmt::format("the time integration lost {:.2g} of the energy: {}", response.energy.relative,
+                                  options.integrator.method == Integrator::runge_kutta_4
+                                      ? "its fixed steps are too long (dynamics.steps_per_cycle)"
+                                      : "its tolerance is too loose (dynamics.relative_tolerance)"));
   if (options.estimate_error) {
     loose_run.loosen(10);
     response.loose.emplace();
@@ -216,6 +241,8 @@ SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& 
   std::optional<DirectWindows> direct;
   if (options.steady_state == SteadyState::direct && !options.mesh_cycles && whole)
     direct = solve_directly(system, problem, cycles, options, response.direct);
+  const bool unstable = direct && options.confirm && !stays(system, problem, *direct, response.direct);
+  if (unstable) direct.reset();
   const bool parting = direct && direct->fine.open.size() > 0 && direct->fine.open.maxCoeff() > 0;
   if (direct && !options.confirm && !(options.confirm_where_teeth_part && parting)) {
     response.steady = true;
@@ -230,6 +257,8 @@ SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& 
     response.integrator = choose_integrator(system, integrator.relative_tolerance);
     integrator.method = response.integrator->method;
   }
+  if (integrator.method == Integrator::runge_kutta_4)
+    check_fixed_step(system, problem.mesh_frequency, integrator.fixed_step);
   if (!integrator.absolute_tolerance)
     integrator.absolute_tolerance = 0.1 * integrator.relative_tolerance * problem.force_scale / problem.stiffness;
   ResponseRun run(system, problem.mesh_frequency, options.samples_per_cycle, integrator);
@@ -267,6 +296,8 @@ SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& 
       response.before = std::move(before);
     }
   }
+  // As long as no teeth part, nothing but an unstable motion is there: what grows slowly has not grown yet.
+  if (unstable && response.best.open.maxCoeff() == 0) response.steady = false;
   response.total_cycles = run.cycles();
   response.statistics = run.statistics();
   return response;

@@ -26,7 +26,7 @@ double TwoKVStage::arc_torque() const { return mean_arc_mesh_force() * eccentric
 void TwoKVStage::check() const {
   const auto refuse = [](const std::string& what) { throw InputError("2K-V stage: " + what); };
   const auto positive = [&](double value, const char* name, const char* unit) {
-    if (!(value > 0) || !std::isfinite(value)) refuse(fmt::format("{} {:g} {} must be positive", name, value, unit));
+    if (!std::isfinite(value) || !(value > 0)) refuse(fmt::format("{} {:g} {} must be positive", name, value, unit));
   };
   const auto not_negative = [&](double value, const char* name, const char* unit, bool may_be_rigid) {
     if (!(value >= 0) || (std::isinf(value) && !may_be_rigid))

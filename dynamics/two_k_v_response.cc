@@ -121,9 +121,12 @@ std::optional<double> shoot_for_start(const TwoKVStage& stage, const LumpedSyste
   auto workspace = system.workspace();
   const SystemState guess{0, solver.solve(0, workspace), Eigen::VectorXd::Zero(system.freedoms())};
   const auto found = shoot(system, problem.period_in_cycles / problem.mesh_frequency, guess, shooting);
-  if (found.converged) problem.start = found.start;
   const bool rigid_motion_exists = stage.input_support == 0 && stage.output_support == 0;
-  return std::abs(found.multipliers[rigid_motion_exists ? 2 : 0]);
+  const double multiplier = std::abs(found.multipliers[rigid_motion_exists ? 2 : 0]);
+  // From an unstable orbit the motion departs, sooner or later: marching from elsewhere finds where to.
+  constexpr double accuracy = 1e-3;  // of multipliers from differences; an undamped motion neither grows nor dies
+  if (found.converged && multiplier <= 1 + accuracy) problem.start = found.start;
+  return multiplier;
 }
 
 }  // namespace

@@ -156,7 +156,7 @@ std::vector<std::string> frequency_inputs(const TwoKVStage& stage) {
 }
 
 TwoKVStage scaled(const TwoKVStage& stage, const std::string& input, double factor) {
-  if (!(factor > 0) || !std::isfinite(factor))
+  if (!std::isfinite(factor) || !(factor > 0))
     throw InputError(fmt::format("{}: factor {:g} must be positive", input, factor));
   for (const auto& known : real_inputs) {
     if (known.name != input || !counts(stage, known)) continue;

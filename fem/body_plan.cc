@@ -59,7 +59,8 @@ geometry::Mesh BodyPlan::sector(const BodyResolution& resolution, const SolvedFa
   options.twist = profile_.twist();
   const double face_width = face.width;
   const auto cells = [&](double length) {
-    return std::max(1, static_cast<int>(std::lround(resolution.face_cells * length / face_width)));
+    constexpr double half_up = 1e-9;  // else the rounding of lengths, and with it their unit, decides on halves
+    return std::max(1, static_cast<int>(std::lround(resolution.face_cells * length / face_width + half_up)));
   };
   geometry::Layers teeth{0, face_width, resolution.face_cells};
   if (const auto* cantilever = std::get_if<EndFaceHeld>(&structure_)) {
@@ -71,7 +72,10 @@ geometry::Mesh BodyPlan::sector(const BodyResolution& resolution, const SolvedFa
       options.outside_radius = rim_.circles.back();
       teeth.radius_high = sleeve.radius_high = options.outside_radius;
     }
-    stacks.push_back(sleeve);
+    if (cantilever->free_length > 0)
+      stacks.push_back(sleeve);
+    else
+      options.end_low_radius = rim_.circles.front();
     if (cantilever->hoop && cantilever->hoop->width < face_width) {
       teeth.z_high = face_width - cantilever->hoop->width;
       teeth.cells = cells(teeth.z_high);

@@ -6,6 +6,8 @@
 #include <mutex>
 #include <thread>
 
+#include "fem/problem_check.h"
+
 namespace annulus::fem {
 
 std::vector<LoadedPosition> solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
@@ -30,6 +32,7 @@ std::vector<LoadedPosition> solve_positions(const LoadedMeshProblem& problem, co
           for (int cycle = phase == phases ? cycles - 1 : 0; cycle < cycles; ++cycle) {
             auto& position = positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load];
             position = solve(cycle, phase, load, cache, warm);
+            check_deflection(problem, settings, position);
             if (load != loads / 2) position.pressure.clear();
           }
         ++done;

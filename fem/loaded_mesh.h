@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -42,6 +43,8 @@ struct LoadedMeshSettings {
   /// Solid rungs solve half of the face width where the problem is its own mirror image about the middle: the same
   /// results in a fraction of the time.
   bool symmetry = true;
+  /// In modules: larger ones are refused, because a linear model with its unloaded flanks no longer describes them.
+  double largest_deflection = std::numeric_limits<double>::infinity();
   int threads = 1;                                  ///< changes the time, never the result
   std::function<void(double fraction)> progress{};  ///< called now and then with the finished fraction
   /// Where condensed teeth are looked for and kept; may be null. They depend neither on loads and phases nor on the

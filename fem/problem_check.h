@@ -8,4 +8,13 @@ namespace annulus::fem {
 /// none (plane, closed form).
 void check_problem(const LoadedMeshProblem& problem, Rung rung);
 
+/// Throws InputError when the flanks come nearer to each other than the settings permit.
+void check_deflection(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
+                      const LoadedPosition& position);
+
+/// m: turn of a rigid ring on its pins or splines under a mesh force (N), as displacement along the line of action; the
+/// ring's own deflection and its shift come on top. Play counts where it lets the ring turn. Infinite where nothing
+/// holds it.
+[[nodiscard]] double turn_on_supports(const LoadedMeshProblem& problem, double force);
+
 }  // namespace annulus::fem

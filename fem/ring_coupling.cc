@@ -137,7 +137,7 @@ void check(const LoadedMeshProblem& problem, int planets, double load, const Rin
   // The four teeth that share one mesh force are not those of the next planet.
   const int most = problem.pair.wheel().teeth() / 4;
   if (planets < 1 || planets > most) throw InputError(fmt::format("{} planets: 1 to {} are possible", planets, most));
-  if (!(load > 0) || !std::isfinite(load))
+  if (!std::isfinite(load) || !(load > 0))
     throw InputError(fmt::format("a mesh load of {} N: it has to be positive", load));
   if (settings.per_cycle < 1) throw InputError("at least one ring position per mesh cycle is needed");
   if (settings.motions.section < 1 || settings.motions.axial < 0 || settings.modes.count < 1)

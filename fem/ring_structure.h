@@ -24,7 +24,7 @@ struct Hoop {
 
 /// Cantilever: a toothless sleeve continues the rim below the teeth, its end face is held, the outside is free.
 struct EndFaceHeld {
-  double free_length = 0;       ///< m, sleeve between the held face and the teeth
+  double free_length = 0;       ///< m, sleeve between the held face and the teeth; 0: they stand on the held face
   double sleeve_thickness = 0;  ///< m, at the outside diameter
   std::optional<Hoop> hoop{};   ///< stiffens the free end
 };

@@ -158,7 +158,9 @@ Mesh extrude(const Mesh& plane, const std::vector<Layers>& stacks, const Extrude
       // Horizontal faces, seen counter-clockwise from outside the body.
       if (k == 0 || !slabs[k - 1].active[c]) {
         const bool flange = solid.regions.back() == Mesh::Region::flange;
-        const auto boundary = flange ? Boundary::flange_face : k == 0 ? Boundary::end_low : Boundary::inner;
+        const double radius = centre_radius(plane, c);
+        const bool end = k == 0 && radius >= options.end_low_radius && radius <= options.outside_radius;
+        const auto boundary = flange ? Boundary::flange_face : end ? Boundary::end_low : Boundary::inner;
         solid.faces.push_back({{cell[0], cell[3], cell[2], cell[1]}, boundary});
       }
       if (k + 1 == slabs.size() || !slabs[k + 1].active[c]) {

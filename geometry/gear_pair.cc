@@ -93,9 +93,11 @@ GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance
   if (internal()) check_internal_tips();
   if (total_contact_ratio() < 1) {
     throw GeometryError(
-        fmt::format("{} has a contact ratio of {:.4f}; at least 1 is needed: enlarge the tip diameters or reduce the "
-                    "working pressure angle ({:.4f} deg)",
-                    pair_name(planet_, wheel_), total_contact_ratio(), working_pressure_angle_ / units::deg));
+        fmt::format("{} has a contact ratio of {:.4f}; at least 1 is needed: {} or reduce the working pressure angle "
+                    "({:.4f} deg)",
+                    pair_name(planet_, wheel_), total_contact_ratio(),
+                    internal() ? "enlarge the planet's tip diameter, reduce the ring's" : "enlarge the tip diameters",
+                    working_pressure_angle_ / units::deg));
   }
 }
 

@@ -58,6 +58,9 @@ struct ExtrudeOptions {
   /// Angle by which the section is turned counter-clockwise per metre of z, rad/m (ToothProfile::twist); the plane mesh
   /// is the section at z = 0. The sides stay images of each other under rotation by a pitch.
   double twist = 0;
+  /// The lower end of the lowest stack gets `end_low` from this radius outwards, `inner` within: a ring without a
+  /// sleeve that is held by the rest of its end face, m.
+  double end_low_radius = 0;
 };
 
 /// Hexahedra from a plane mesh, stacks from low to high z, each starting where the one before ends. Side, flank, ...

@@ -223,7 +223,8 @@ void add_rim(const Gear& gear, const Rim& rim, const SectorResolution& n, const 
     const double height = std::abs(radius - upper_radius);
     const bool last = row + 1 == radii.size();
     const int rows_below = static_cast<int>(radii.size() - row) - 1;
-    const int share = static_cast<int>(std::lround(n.rim_cells * height / total));
+    constexpr double half_up = 1e-9;  // else rounding of the radii, and with it the unit of length, decides on halves
+    const int share = static_cast<int>(std::lround(n.rim_cells * height / total + half_up));
     const int cells = last ? std::max(1, cells_left) : std::clamp(share, 1, std::max(1, cells_left - rows_below));
     cells_left -= cells;
     double ratio = 1;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fuzzes the scene parser and the reader of stiffness tables, each for so many seconds (clang, libFuzzer, sanitizers):
 #   scripts/fuzz.sh [seconds] [scene|table]
-# A find ends it with an error and stands in build/fuzz/found. What reaches new code is kept in build/fuzz/corpus;
+# A find ends it with an error and stands in build/checked/found. What reaches new code is kept in build/checked/corpus;
 #   scripts/fuzz.sh keep
 # takes of that what adds to tests/fuzz/corpus.
 set -euo pipefail
@@ -10,9 +10,10 @@ seconds=${1:-60}
 read -r -a targets <<<"${2:-scene table}"
 
 command -v clang++ >/dev/null || { echo "fuzz.sh: needs clang (scripts/install_packages.sh)" >&2; exit 2; }
-cmake --preset fuzz >build/fuzz.log 2>&1 || { cat build/fuzz.log >&2; exit 1; }
-cmake --build build/fuzz --target fuzz_scene fuzz_table
-mkdir -p build/fuzz/found build/fuzz/corpus/scene build/fuzz/corpus/table
+mkdir -p build
+cmake --preset checked >build/checked.log 2>&1 || { cat build/checked.log >&2; exit 1; }
+cmake --build build/checked --target fuzz_scene fuzz_table
+mkdir -p build/checked/found build/checked/corpus/scene build/checked/corpus/table
 
 # The seeds that the project has anyway.
 seeds() {
@@ -21,13 +22,13 @@ seeds() {
 }
 
 for target in "${targets[@]}"; do
-  program=build/fuzz/tests/fuzz/fuzz_$target
-  settings=(-max_len=8192 -timeout=30 -rss_limit_mb=4096 -print_funcs=0 "-dict=tests/fuzz/$target.dict" "-artifact_prefix=build/fuzz/found/$target-")
+  program=build/checked/tests/fuzz/fuzz_$target
+  settings=(-max_len=8192 -timeout=30 -rss_limit_mb=4096 -print_funcs=0 "-dict=tests/fuzz/$target.dict" "-artifact_prefix=build/checked/found/$target-")
   read -r -a seeds <<<"$(seeds "$target" | tr '\n' ' ')"
   if [ "$seconds" = keep ]; then
-    "$program" "${settings[@]}" -use_counters=0 -set_cover_merge=1 "tests/fuzz/corpus/$target" "build/fuzz/corpus/$target"
+    "$program" "${settings[@]}" -use_counters=0 -set_cover_merge=1 "tests/fuzz/corpus/$target" "build/checked/corpus/$target"
   else
-    "$program" "${settings[@]}" "-max_total_time=$seconds" -print_final_stats=1 "build/fuzz/corpus/$target" "${seeds[@]}" \
+    "$program" "${settings[@]}" "-max_total_time=$seconds" -print_final_stats=1 "build/checked/corpus/$target" "${seeds[@]}" \
       2>&1 | grep -E -v '^#[0-9]+\s+(REDUCE|NEW)'
   fi
 done

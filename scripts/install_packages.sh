@@ -9,7 +9,7 @@ packages=(
   libopenblas-dev libopenblas0-pthread
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
   calculix-ccx octave  # tests only: what benchmarks compare with
-  clang libclang-rt-dev  # tests only: fuzzing
+  clang libclang-rt-dev clang-format clang-tidy valgrind  # tests only: sanitizers, fuzzing, analysis
 )
 
 missing=()

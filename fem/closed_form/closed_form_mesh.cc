@@ -38,7 +38,7 @@ class ClosedFormRun {
 
   [[nodiscard]] const std::vector<RingSupport>& supports() const { return supports_; }
 
-  [[nodiscard]] std::vector<LoadedPosition> solve(int cycles, const std::function<void(double)>& progress) const {
+  [[nodiscard]] std::vector<LoadedPosition> solve(int cycles, const LoadedMeshSettings& settings) const {
     const int loads = static_cast<int>(problem_.loads.size()), phases = problem_.phases;
     std::vector<LoadedPosition> positions(static_cast<std::size_t>(cycles * phases + 1) * loads);
     for (int phase = 0; phase <= phases; ++phase) {
@@ -47,10 +47,11 @@ class ClosedFormRun {
       for (int load = 0; load < loads; ++load) {
         std::vector<bool> start;  // the supports of the cycle before
         for (int cycle = phase == phases ? cycles - 1 : 0; cycle < cycles; ++cycle)
-          positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load] =
-              solve_position(contacts, cycle, load, start);
+          check_deflection(problem_, settings,
+                           positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load] =
+                               solve_position(contacts, cycle, load, start));
       }
-      if (progress) progress(static_cast<double>(phase + 1) / (phases + 1));
+      if (settings.progress) settings.progress(static_cast<double>(phase + 1) / (phases + 1));
     }
     return positions;
   }
@@ -169,7 +170,7 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
   const int loads = static_cast<int>(problem.loads.size());
   const ClosedFormRun run(problem, options);
   const double condensed = since();
-  auto positions = run.solve(cycles, settings.progress);
+  auto positions = run.solve(cycles, settings);
 
   const std::size_t table_size = static_cast<std::size_t>(cycles) * problem.phases * loads;
   std::vector<StiffnessEntry> entries;

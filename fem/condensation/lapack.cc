@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/floating_point.h"
 
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
@@ -108,6 +109,7 @@ std::pair<Eigen::VectorXd, Eigen::MatrixXd> largest_eigenpairs(Eigen::MatrixXd m
   const double unused = 0, tolerance = 0;
   int found = 0, info = 0, work_size = -1, integer_size = -1, integer_wanted = 0;
   double work_wanted = 0;
+  const UntrappedFloatingPoint untrapped;  // dsyevr tries what infinity and "not a number" do on this machine
   const auto call = [&](double* work, int* integers) {
     dsyevr_("V", "I", "L", &n, matrix.data(), &n, &unused, &unused, &first, &n, &tolerance, &found, values.data(),
             vectors.data(), &n, support.data(), work, &work_size, integers, &integer_size, &info);

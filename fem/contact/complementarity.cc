@@ -5,9 +5,17 @@
 
 #include "core/errors.h"
 #include "fem/condensation/lapack.h"
+#include "fem/contact/primal_active_set.h"
 
 namespace annulus::fem {
 namespace {
+
+std::vector<int> indices_of(const std::vector<bool>& active) {
+  std::vector<int> set;
+  for (int i = 0; i < static_cast<int>(active.size()); ++i)
+    if (active[i]) set.push_back(i);
+  return set;
+}
 
 /// Equality-constrained solve on the active set.
 bool solve_active(const ComplementarityProblem& p, const std::vector<int>& set, ComplementaritySolution& s) {
@@ -49,40 +57,26 @@ ComplementaritySolution solve_complementarity(const ComplementarityProblem& prob
     if (!problem.unilateral[i]) s.active[i] = true;
 
   constexpr int most_blocks = 60;
-  const int most = most_blocks + 20 * n;
-  // Gaps below round-off of the largest elastic deflection are closed.
-  const double scale = problem.compliance.diagonal().maxCoeff() * problem.load.cwiseAbs().maxCoeff();
-  const double gap_tolerance = 1e-13 * scale, force_tolerance = 1e-13 * problem.load.cwiseAbs().maxCoeff();
-  for (s.iterations = 1; s.iterations <= most; ++s.iterations) {
-    std::vector<int> set;
-    for (int i = 0; i < n; ++i)
-      if (s.active[i]) set.push_back(i);
+  ContactTolerances zero(problem);
+  for (s.iterations = 1; s.iterations <= most_blocks; ++s.iterations) {
+    const auto set = indices_of(s.active);
     if (!solve_active(problem, set, s)) {
-      s.active.assign(n, true);
       if (static_cast<int>(set.size()) == n) throw SolverError("the contacts and supports cannot carry the load");
+      s.active.assign(n, true);
       continue;
     }
-    int worst = -1;
-    double worst_violation = 0;
+    zero.set_motion(s.rigid);
     std::vector<bool> next = s.active;
     for (int i = 0; i < n; ++i) {
       if (!problem.unilateral[i]) continue;
-      double violation = 0;
-      if (s.active[i] && s.force[i] < -force_tolerance)
-        violation = -s.force[i] * problem.compliance(i, i);
-      else if (!s.active[i] && s.gap[i] < -gap_tolerance)
-        violation = -s.gap[i];
-      if (violation == 0) continue;
-      next[i] = !s.active[i];
-      if (violation > worst_violation) worst_violation = violation, worst = i;
+      if (s.active[i] ? s.force[i] < -zero.force(i) : s.gap[i] < -zero.gap()) next[i] = !s.active[i];
     }
-    if (worst < 0) return s;
-    if (s.iterations < most_blocks)
-      s.active = std::move(next);
-    else
-      s.active[worst] = !s.active[worst];
+    if (next == s.active) return s;
+    s.active = std::move(next);
   }
-  throw SolverError("the contact set did not settle in " + std::to_string(most) + " exchanges");
+  s.active = primal_active_set(problem);
+  if (!solve_active(problem, indices_of(s.active), s)) throw SolverError("the contacts leave the ring free to move");
+  return s;
 }
 
 }  // namespace annulus::fem

@@ -30,8 +30,8 @@ struct ComplementaritySolution {
   int iterations = 0;
 };
 
-/// Primal-dual active sets (terminates exactly, when the set repeats), single exchanges when the sets cycle.
-/// `start`: guess of the active set, may be empty. Throws SolverError when the set does not settle.
+/// Primal-dual active sets (terminates exactly, when the set repeats); where the sets cycle, a primal active-set
+/// method. `start`: guess of the active set, may be empty. Throws SolverError when the set does not settle.
 [[nodiscard]] ComplementaritySolution solve_complementarity(const ComplementarityProblem& problem,
                                                             std::vector<bool> start);
 

@@ -328,6 +328,8 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
                                     ContactForces* forces) const {
   const double load = options_.half_face ? whole_load / 2 : whole_load;
   if (!cache || cache->phase != phase || cache->load != load) cache = prepare(phase, load, options_.window);
+  // Pairs whose flanks all but touch without load: the first guess of what carries, no more.
+  const double touching = 2.5e-7 * flanks_.pair().planet().parameters().module;
   constexpr double largest_window = 12;  // in Hertz half-widths: longer than any flank at a sensible load
   for (;;) {
     const Pairs& setup = *cache;
@@ -340,7 +342,7 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
       const double reach = 0.6 * p.elements.back().distance;
       for (Eigen::Index e = 0; e < p.size(); ++e)
         guess[setup.start[i] + e] =
-            reuse ? known->second[e] : p.smallest_gap < 1e-9 && std::abs(p.elements[e].distance) < reach;
+            reuse ? known->second[e] : p.smallest_gap < touching && std::abs(p.elements[e].distance) < reach;
     }
     const auto solution = [&] {
       try {
@@ -359,8 +361,12 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
     }
     if (window_too_small) {
       if (setup.window > largest_window)
-        throw SolverError(
-            fmt::format("mesh phase {:.4f}: the contact at {:.4g} N does not fit its window", phase, whole_load));
+        throw InputError(fmt::format(
+            "mesh phase {:.4f}: under {:.4g} N the flanks touch over more than {} Hertz half-widths to either side: "
+            "they "
+            "give way by more than small displacements; reduce the load, or make teeth, rim, supports or material "
+            "stiffer",
+            phase, whole_load, largest_window));
       cache = prepare(phase, load, 1.5 * setup.window);
       continue;
     }

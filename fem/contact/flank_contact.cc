@@ -132,10 +132,14 @@ double FlankContact::nearest_roll(double contact_roll) const {
   }
   const double step = (d.high - d.low) / raster;
   const double a = std::max(d.low, d.low + (best - 1) * step), b = std::min(d.high, d.low + (best + 1) * step);
-  const auto [roll, value] = boost::math::tools::brent_find_minima(gap, a, b, 40);
+  // In parts of the interval: the tolerance has an absolute share.
+  const auto [part, value] =
+      boost::math::tools::brent_find_minima([&](double t) { return gap(a + t * (b - a)); }, 0.0, 1.0, 40);
   const double clamped = std::clamp(contact_roll, d.low, d.high);  // exact for unmodified flanks
-  const double at_clamped = gap(clamped);
-  return at_clamped <= value ? clamped : roll;
+  // Gaps are differences of places and know no less than their round-off, which must not choose the point: over so
+  // flat a minimum it would move it far.
+  const double round_off = 16 * std::numeric_limits<double>::epsilon() * pair_.centre_distance();
+  return gap(clamped) <= value + round_off ? clamped : a + part * (b - a);
 }
 
 double FlankContact::smallest_gap(double contact_roll) const {

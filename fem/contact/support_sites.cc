@@ -50,7 +50,7 @@ SupportSites spline_sites(const SplineHeld& spline, const SupportedRing& ring) {
   SupportDirection clockwise, counter_clockwise;
   clockwise.clearance = counter_clockwise.clearance = spline.clearance;
   clockwise.stiffness = counter_clockwise.stiffness =
-      spline.flank_stiffness.value_or(derived_spline_stiffness(ring.face_width));
+      spline.flank_stiffness.value_or(derived_spline_stiffness(ring.material, ring.face_width));
   clockwise.inward = counter_clockwise.inward = std::sin(spline.flank_angle);
   counter_clockwise.counter_clockwise = std::cos(spline.flank_angle);
   clockwise.counter_clockwise = -std::cos(spline.flank_angle);
@@ -72,6 +72,9 @@ double pin_span_stiffness(const Material& material, double diameter, double span
   return 2 / (std::pow(span, 3) / (12 * E * second_moment) + span / (kappa * shear_modulus * area));
 }
 
-double derived_spline_stiffness(double width) { return 14e9 * width; }
+double derived_spline_stiffness(const Material& material, double width) {
+  constexpr double of_steel = 14e9, steel = 206e9;  // Pa
+  return of_steel * material.youngs_modulus / steel * width;
+}
 
 }  // namespace annulus::fem

@@ -63,7 +63,8 @@ struct SupportedRing {
 [[nodiscard]] double pin_span_stiffness(const Material& material, double diameter, double span);
 
 /// Stiffness of one flank of a spline tooth, N/m: that of a gear tooth pair, 14 N/(mm um) (ISO 6336-1, magnitude of the
-/// theoretical single stiffness) times the width. An estimate, whatever the module.
-[[nodiscard]] double derived_spline_stiffness(double width);
+/// theoretical single stiffness) times the width for steel, in proportion to Young's modulus otherwise. An estimate,
+/// whatever the module.
+[[nodiscard]] double derived_spline_stiffness(const Material& material, double width);
 
 }  // namespace annulus::fem

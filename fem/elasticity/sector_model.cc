@@ -22,6 +22,13 @@ std::vector<double> distinct(std::vector<double> values, double tolerance) {
   return result;
 }
 
+/// Below this, differences of z are round-off: whatever the unit of length, and far below the thinnest layer of cells.
+double axial_round_off(const std::vector<Eigen::Vector3d>& points) {
+  double largest = 0;
+  for (const auto& p : points) largest = std::max(largest, std::abs(p.z()));
+  return 1e-12 * largest;
+}
+
 int station(const std::vector<double>& stations, double value) {
   const auto above = std::lower_bound(stations.begin(), stations.end(), value);
   if (above == stations.end()) return static_cast<int>(stations.size()) - 1;
@@ -35,7 +42,7 @@ TraceGrid make_trace(const std::vector<int>& nodes, const std::vector<Eigen::Vec
   trace.degree = degree;
   std::vector<double> z;
   for (const int n : nodes) z.push_back(points[n].z());
-  trace.axial = distinct(z, 1e-9);
+  trace.axial = distinct(z, axial_round_off(points));
   std::vector<std::vector<std::pair<double, int>>> rows(trace.axial.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
     rows[station(trace.axial, z[i])].emplace_back(profile_coordinate(points[nodes[i]]), nodes[i]);
@@ -134,9 +141,10 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
   model.stiffness.resize(rows, rows);
   model.stiffness.setFromTriplets(entries.begin(), entries.end());
 
+  const double same_height = axial_round_off(model.nodes);
   const auto radial_axial_order = [&](int a, int b) {
     const auto &p = model.nodes[a], &q = model.nodes[b];
-    if (std::abs(p.z() - q.z()) > 1e-9) return p.z() < q.z();
+    if (std::abs(p.z() - q.z()) > same_height) return p.z() < q.z();
     return std::hypot(p.x(), p.y()) < std::hypot(q.x(), q.y());
   };
   model.low_nodes = problem.boundary_nodes(geometry::Boundary::side_low);

@@ -11,14 +11,13 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <random>
-#include <regex>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "core/files.h"
+#include "tests/app/run_results.h"
 #include "tests/app/scenes.h"
 
 extern char** environ;
@@ -27,48 +26,13 @@ namespace annulus {
 namespace {
 
 namespace fs = std::filesystem;
+using test::check_same;
+using test::results_in;
+using test::text_of;
 
 /// Elements, supports that open, a sweep, random draws and a search: every kind of result that is kept.
 std::string whole_scene() {
-  return R"(title = "Interrupted"
-accuracy = 0.1
-rung = "plane"
-[stage]
-kind = "planetary"
-planets = 3
-module_mm = 4
-pressure_angle_deg = 20
-face_width_mm = 60
-centre_distance_mm = 96
-power_kW = 200
-sun_speed_rpm = 1500
-[material]
-youngs_modulus_GPa = 206
-[sun]
-teeth = 24
-profile_shift = 0
-bore_diameter_mm = 40
-mass_kg = 3.3
-inertia_kg_m2 = 0.0038
-[planet]
-teeth = 24
-profile_shift = 0
-bore_diameter_mm = 45
-mass_kg = 2.9
-inertia_kg_m2 = 0.0036
-[carrier]
-mass_kg = 18
-inertia_kg_m2 = 0.15
-[[ring]]
-name = "held"
-structure = "traditional"
-teeth = 72
-tip_diameter_mm = 282
-profile_shift = 0
-rim_thickness_mm = 24
-mass_kg = 14
-inertia_kg_m2 = 0.35
-[[ring]]
+  return "accuracy = 0.1\nrung = \"plane\"\n" + test::small_stage() + R"([[ring]]
 name = "pinned"
 structure = "pinned"
 pins = 12
@@ -79,16 +43,6 @@ profile_shift = 0
 rim_thickness_mm = 16
 mass_kg = 12
 inertia_kg_m2 = 0.3
-[errors]
-planet_installation_um = [10, 0, 0]
-planet_installation_phase_deg = [90, 0, 0]
-[supports]
-sun_N_per_m = 1e8
-planet_N_per_m = 1e9
-[dynamics]
-half_backlash_um = 50
-mesh_damping_ratio = 0.07
-support_damping_ratio = 0.03
 [[sweep]]
 input = "stage.sun_speed_rpm"
 from = 1000
@@ -144,62 +98,6 @@ class RunningProgram {
   fs::path messages_;
   pid_t id_ = 0;
 };
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-/// Without what tells how long things took and what was reused.
-void forget_times(nlohmann::json& json) {
-  static const std::regex cost("_seconds|^(condensed|reused)_teeth$|^reused$");
-  if (json.is_object()) {
-    for (const auto* key : {"timings_s", "reuse", "cost", "peak_memory_MB"}) json.erase(key);
-    for (auto it = json.begin(); it != json.end();)
-      it = std::regex_search(it.key(), cost) ? json.erase(it) : std::next(it);
-  }
-  if (json.is_structured())
-    for (auto& value : json) forget_times(value);
-}
-
-/// Every result of a run by its place, without times. The report repeats them with times all over.
-std::map<std::string, std::string> results_in(const fs::path& out) {
-  static const std::regex times("# ([a-z_]*_seconds|(condensed|reused)_teeth): [^\n]*\n");
-  std::map<std::string, std::string> results;
-  for (const auto& entry : fs::recursive_directory_iterator(out)) {
-    const auto place = entry.path().lexically_relative(out);
-    if (!entry.is_regular_file() || *place.begin() == "condensed" || place == "run.json" || place == "report.html" ||
-        is_unfinished(place))
-      continue;
-    auto text = text_of(entry.path());
-    if (place.extension() == ".csv") text = std::regex_replace(text, times, "");
-    if (place.extension() == ".json") {
-      auto json = nlohmann::json::parse(text);
-      forget_times(json);
-      text = json.dump();
-    }
-    results[place.generic_string()] = std::move(text);
-  }
-  return results;
-}
-
-/// Where two results differ, for messages.
-std::string difference(const std::string& place, const std::string& expected, const std::string& found) {
-  if (place.ends_with(".json"))
-    return nlohmann::json::diff(nlohmann::json::parse(expected), nlohmann::json::parse(found)).dump().substr(0, 500);
-  const auto at = std::mismatch(expected.begin(), expected.end(), found.begin(), found.end()).first - expected.begin();
-  return "at byte " + std::to_string(at);
-}
-
-void check_same(const std::map<std::string, std::string>& expected, const std::map<std::string, std::string>& found) {
-  for (const auto& [place, text] : expected) {
-    const auto it = found.find(place);
-    BOOST_TEST((it != found.end()), place << " is missing");
-    if (it != found.end() && it->second != text)
-      BOOST_ERROR(place << " differs: " << difference(place, text, it->second));
-  }
-  BOOST_TEST(found.size() == expected.size());
-}
 
 }  // namespace
 

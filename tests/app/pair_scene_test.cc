@@ -219,8 +219,8 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused_with_place_and_remedy) {
       {"module_mm = 15", "module_mm = 15\nplanets = 3", "stage.planets = 3", "belongs to planetary"},
       {"[wheel]", "[planet]", "[planet]: has no meaning for a stage of kind \"helical_pair\"",
        "it belongs to planetary"},
-      {"bearing_axial_N_per_m = 1e9\n[wheel]", "bearing_axial_N_per_m = 0\n[wheel]", "pinion.bearing_axial_N_per_m = 0",
-       "or inf"},
+      {"bearing_axial_N_per_m = 1e9\n[wheel]", "bearing_axial_N_per_m = -1\n[wheel]",
+       "pinion.bearing_axial_N_per_m = -1", "or inf"},
       // Between the keys of the mesh.
       {"stiffness = \"iso_6336\"", "stiffness = \"iso6336\"", "mesh.pinion_wheel.stiffness = \"iso6336\"",
        "did you mean \"iso_6336\"?"},

@@ -63,7 +63,58 @@ mesh_cycles = 110
 )";
 }
 
-/// `text` with the only occurrence of `what` replaced.
+/// Four planets between a sun of 24 and a ring of 72 teeth of module 4 mm, 200 kW at 1500 r/min; meshes are computed.
+inline std::string small_stage() {
+  return R"(title = "Promise"
+[stage]
+kind = "planetary"
+planets = 4
+module_mm = 4
+pressure_angle_deg = 20
+face_width_mm = 60
+centre_distance_mm = 96
+power_kW = 200
+sun_speed_rpm = 1500
+[material]
+youngs_modulus_GPa = 206
+[sun]
+teeth = 24
+profile_shift = 0
+bore_diameter_mm = 40
+mass_kg = 3.3
+inertia_kg_m2 = 0.0038
+[planet]
+teeth = 24
+profile_shift = 0
+bore_diameter_mm = 45
+mass_kg = 2.9
+inertia_kg_m2 = 0.0036
+[carrier]
+mass_kg = 18
+inertia_kg_m2 = 0.15
+[[ring]]
+name = "ring"
+structure = "traditional"
+teeth = 72
+tip_diameter_mm = 282
+profile_shift = 0
+rim_thickness_mm = 24
+mass_kg = 14
+inertia_kg_m2 = 0.35
+[errors]
+planet_installation_um = [10, 0, 0, 0]
+planet_installation_phase_deg = [90, 0, 0, 0]
+[supports]
+sun_N_per_m = 1e8
+planet_N_per_m = 1e9
+[dynamics]
+half_backlash_um = 50
+mesh_damping_ratio = 0.07
+support_damping_ratio = 0.03
+)";
+}
+
+/// `text` with the first occurrence of `what` replaced.
 inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
   const auto at = text.find(what);
   if (at == std::string::npos) throw std::logic_error("test scene has no '" + what + "'");

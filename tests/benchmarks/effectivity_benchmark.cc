@@ -12,6 +12,7 @@
 #include "benchmarks/stopwatch.h"
 #include "fem/loaded_mesh.h"
 #include "fem/ring_paper.h"
+#include "fem/ring_paper_problems.h"
 
 namespace {
 
@@ -51,9 +52,6 @@ fem::LoadedMeshResult solve(const Case& c, int level, int degree) {
   return solve_loaded_mesh(problem, settings);
 }
 
-/// The estimated error of the solution: the reference leaves out the same of the model.
-double estimate(const StiffnessEntry& entry) { return entry.error_relative - entry.error_parts.model; }
-
 /// Whether the largest estimate is of the size of the largest error, and the estimate of that entry as well.
 bool measure(const Case& c) {
   const benchmarks::Stopwatch watch;
@@ -72,9 +70,9 @@ bool measure(const Case& c) {
     for (std::size_t i = 0; i < entries; ++i) {
       const auto& entry = result.positions[i].entry;
       const double error = std::abs(entry.stiffness_secant / reference.positions[i].entry.stiffness_secant - 1);
-      worst_estimate = std::max(worst_estimate, estimate(entry));
-      if (error > worst_error) worst_error = error, at_worst = estimate(entry) / error;
-      if (error > smallest_error) ratios.push_back(estimate(entry) / error);
+      worst_estimate = std::max(worst_estimate, tests::numeric_error(entry));
+      if (error > worst_error) worst_error = error, at_worst = tests::numeric_error(entry) / error;
+      if (error > smallest_error) ratios.push_back(tests::numeric_error(entry) / error);
     }
     std::sort(ratios.begin(), ratios.end());
     const double effectivity = worst_estimate / worst_error;

@@ -6,16 +6,9 @@
 
 #include "core/errors.h"
 #include "core/files.h"
+#include "tests/temporary_folder.h"
 
 BOOST_AUTO_TEST_SUITE(csv)
-
-/// A folder of its own, removed at the end.
-struct Folder {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("annulus_csv_" + std::to_string(std::hash<const void*>{}(this)));
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-};
 
 std::string message_of(const std::filesystem::path& file, const std::string& text) {
   annulus::write_file(file, text);
@@ -28,15 +21,15 @@ std::string message_of(const std::filesystem::path& file, const std::string& tex
 }
 
 BOOST_AUTO_TEST_CASE(every_double_survives_the_round_trip) {
-  const Folder folder;
+  const annulus::test::TemporaryFolder folder("csv");
   annulus::Csv written;
   written.header = {{"annulus_version", "1"}, {"note", "a: colon, a comma and a # in the value"}};
   written.columns = {"a_m", "b_N"};
   written.rows = {{0.1, 1.0 / 3.0},
                   {std::nextafter(1.0, 2.0), -5e-324},
                   {std::numeric_limits<double>::max(), std::numeric_limits<double>::min()}};
-  written.write(folder.path / "t.csv");
-  const auto read = annulus::Csv::read(folder.path / "t.csv");
+  written.write(folder.path() / "t.csv");
+  const auto read = annulus::Csv::read(folder.path() / "t.csv");
   BOOST_TEST(read.columns == written.columns);
   BOOST_TEST((read.header == written.header));
   BOOST_TEST((read.rows == written.rows));  // bitwise: 17 digits identify a double
@@ -44,22 +37,22 @@ BOOST_AUTO_TEST_CASE(every_double_survives_the_round_trip) {
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_an_input_error) {
-  const Folder folder;
+  const annulus::test::TemporaryFolder folder("csv");
   annulus::Csv csv;
   csv.columns = {"a,b"};
-  BOOST_CHECK_THROW(csv.write(folder.path / "f"), annulus::InputError);
+  BOOST_CHECK_THROW(csv.write(folder.path() / "f"), annulus::InputError);
   csv.columns = {"a"};
   csv.header = {{"key", "two\nlines"}};
-  BOOST_CHECK_THROW(csv.write(folder.path / "f"), annulus::InputError);
+  BOOST_CHECK_THROW(csv.write(folder.path() / "f"), annulus::InputError);
   csv.header.clear();
   csv.rows = {{1, 2}};
-  BOOST_CHECK_THROW(csv.write(folder.path / "f"), annulus::InternalError);
-  BOOST_TEST(!std::filesystem::exists(folder.path / "f"));
+  BOOST_CHECK_THROW(csv.write(folder.path() / "f"), annulus::InternalError);
+  BOOST_TEST(!std::filesystem::exists(folder.path() / "f"));
 }
 
 BOOST_AUTO_TEST_CASE(malformed_files_are_refused_with_their_line) {
-  const Folder folder;
-  const auto file = folder.path / "bad.csv";
+  const annulus::test::TemporaryFolder folder("csv");
+  const auto file = folder.path() / "bad.csv";
   const auto at = [&](int line) { return file.string() + ":" + std::to_string(line) + ": "; };
   BOOST_TEST(message_of(file, "# k: v\na,b\n1,2\n3,x\n") == at(4) + "'x' in column b is not a number");
   BOOST_TEST(message_of(file, "a,b\n1,2 3\n") == at(2) + "'2 3' in column b is not a number");
@@ -69,13 +62,13 @@ BOOST_AUTO_TEST_CASE(malformed_files_are_refused_with_their_line) {
   BOOST_TEST(message_of(file, "# no value\na\n1\n") == at(1) + "expected '# key: value'");
   BOOST_TEST(message_of(file, "a\n1\n\n2\n") == at(4) + "data after an empty line; remove the empty line");
   BOOST_TEST(message_of(file, "# k: v\n") == at(2) + "no line with column names");
-  BOOST_CHECK_THROW((void)annulus::Csv::read(folder.path / "missing.csv"), annulus::InputError);
+  BOOST_CHECK_THROW((void)annulus::Csv::read(folder.path() / "missing.csv"), annulus::InputError);
 }
 
 BOOST_AUTO_TEST_CASE(line_ends_and_blanks_of_other_systems_are_accepted) {
-  const Folder folder;
-  annulus::write_file(folder.path / "dos.csv", "# k: v\r\na, b\r\n1, 2\r\n\r\n");
-  const auto csv = annulus::Csv::read(folder.path / "dos.csv");
+  const annulus::test::TemporaryFolder folder("csv");
+  annulus::write_file(folder.path() / "dos.csv", "# k: v\r\na, b\r\n1, 2\r\n\r\n");
+  const auto csv = annulus::Csv::read(folder.path() / "dos.csv");
   BOOST_TEST(csv.header.at(0).second == "v");
   BOOST_TEST(csv.columns.at(1) == "b");
   BOOST_TEST((csv.rows == std::vector<std::vector<double>>{{1, 2}}));

@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "core/files.h"
+#include "core/floating_point.h"
 #include "core/units.h"
 
 BOOST_AUTO_TEST_SUITE(stiffness_table)
@@ -117,6 +118,7 @@ BOOST_AUTO_TEST_CASE(a_damaged_file_is_refused_with_its_line) {
 }
 
 BOOST_AUTO_TEST_CASE(unusable_values_are_refused) {
+  const annulus::UntrappedFloatingPoint untrapped;  // values that are no numbers
   const auto make = [](std::vector<double> loads, StiffnessEntry e, int phases = 1) {
     std::vector<StiffnessEntry> entries(loads.size(), e);
     return StiffnessTable("sun_planet", phases, {0}, std::move(loads), std::move(entries));
@@ -139,6 +141,7 @@ BOOST_AUTO_TEST_CASE(unusable_values_are_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(curves_are_linear_in_load_and_refuse_to_extrapolate) {
+  const annulus::UntrappedFloatingPoint untrapped;  // values that are no numbers
   const auto table = sample(4, 3, {1000, 2000, 4000});
   for (const double load : {1000.0, 1700.0, 2000.0, 3500.0, 4000.0}) {
     const auto curves = annulus::curves_at_load(table, load);

@@ -17,12 +17,7 @@ using annulus::fem::Rung;
 
 /// A mesh of the ring paper's gears whose planet has a modified lead.
 LoadedMeshProblem modified(bool internal, double crowning, double slope) {
-  auto planet = ring_paper_planet();
-  planet.lead_crowning = crowning;
-  planet.lead_slope = slope;
-  LoadedMeshProblem problem = internal ? ring_mesh(annulus::fem::OutsideHeld{}, 2) : sun_mesh(2);
-  problem.pair = {annulus::geometry::Gear(planet), problem.pair.wheel(), problem.pair.centre_distance()};
-  return problem;
+  return with_planet_lead(internal ? ring_mesh(annulus::fem::OutsideHeld{}, 2) : sun_mesh(2), crowning, slope);
 }
 
 /// Place of the resultant along the face width: 0 at the end that carries most under a misalignment > 0, 1 at the

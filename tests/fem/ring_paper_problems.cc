@@ -24,6 +24,14 @@ fem::LoadedMeshProblem sun_mesh(int phases, std::vector<double> loads) {
   return problem;
 }
 
+fem::LoadedMeshProblem with_planet_lead(fem::LoadedMeshProblem problem, double crowning, double slope) {
+  auto planet = ring_paper_planet();
+  planet.lead_crowning = crowning;
+  planet.lead_slope = slope;
+  problem.pair = {geometry::Gear(planet), problem.pair.wheel(), problem.pair.centre_distance()};
+  return problem;
+}
+
 fem::PinHeld paper_pins(int pins, double first_pin_angle) {
   fem::PinHeld held;
   held.angles = fem::equal_angles(pins, first_pin_angle);

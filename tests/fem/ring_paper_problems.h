@@ -16,6 +16,8 @@ inline constexpr double pin_diameter = 15.5e-3;   ///< m
 fem::LoadedMeshProblem ring_mesh(const fem::RingStructure& structure, int phases,
                                  std::vector<double> loads = {nominal_load});
 fem::LoadedMeshProblem sun_mesh(int phases, std::vector<double> loads = {nominal_load});
+/// The same with a modified lead of the planet, m.
+fem::LoadedMeshProblem with_planet_lead(fem::LoadedMeshProblem problem, double crowning, double slope);
 /// Pins in equal spacing.
 fem::PinHeld paper_pins(int pins, double first_pin_angle);
 

@@ -254,7 +254,7 @@ BOOST_AUTO_TEST_CASE(gears_turn_in_contact_without_overlap) {
       double deepest_here = -1;
       for (int tooth = -4; tooth <= 4; ++tooth) {
         const double angle = planet_start + turn + tooth * planet.pitch_angle();
-        const auto probe = [&](const Eigen::Vector2d& local) {
+        const auto probe = [&, a = a](const Eigen::Vector2d& local) {
           const double c = std::cos(angle);
           const double s = std::sin(angle);
           const Eigen::Vector2d q(a + c * local.x() - s * local.y(), s * local.x() + c * local.y());

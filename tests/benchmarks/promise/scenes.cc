@@ -2,81 +2,29 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
+#include "tests/app/scenes.h"
 
 namespace annulus::benchmark {
 
 namespace {
 
-/// Four planets between a sun of 24 and a ring of 72 teeth of module 4 mm, 200 kW at 1500 r/min: 118 N per millimetre
-/// of face width. All planets mesh in phase; one sits 10 µm off.
-constexpr const char* base = R"(title = "Promise"
-[stage]
-kind = "planetary"
-planets = 4
-module_mm = 4
-pressure_angle_deg = 20
-face_width_mm = 60
-centre_distance_mm = 96
-power_kW = 200
-sun_speed_rpm = 1500
-[material]
-youngs_modulus_GPa = 206
-[sun]
-teeth = 24
-profile_shift = 0
-bore_diameter_mm = 40
-mass_kg = 3.3
-inertia_kg_m2 = 0.0038
-[planet]
-teeth = 24
-profile_shift = 0
-bore_diameter_mm = 45
-mass_kg = 2.9
-inertia_kg_m2 = 0.0036
-[carrier]
-mass_kg = 18
-inertia_kg_m2 = 0.15
-[[ring]]
-name = "ring"
-structure = "traditional"
-teeth = 72
-tip_diameter_mm = 282
-profile_shift = 0
-rim_thickness_mm = 24
-mass_kg = 14
-inertia_kg_m2 = 0.35
-[errors]
-planet_installation_um = [10, 0, 0, 0]
-planet_installation_phase_deg = [90, 0, 0, 0]
-[supports]
-sun_N_per_m = 1e8
-planet_N_per_m = 1e9
-[dynamics]
-half_backlash_um = 50
-mesh_damping_ratio = 0.07
-support_damping_ratio = 0.03
-)";
+using test::replaced;
 
-/// `text` with `what`, which must be there, replaced.
-std::string with(std::string text, const std::string& what, const std::string& by) {
-  const auto at = text.find(what);
-  if (at == std::string::npos) throw std::logic_error("the scene has no '" + what + "'");
-  return text.replace(at, what.size(), by);
-}
+/// 118 N per millimetre of face width. All planets mesh in phase; one sits 10 µm off.
+const std::string base = test::small_stage();
 
 std::string with_rim(double thickness) {
-  return with(base, "rim_thickness_mm = 24", fmt::format("rim_thickness_mm = {}", thickness));
+  return replaced(base, "rim_thickness_mm = 24", fmt::format("rim_thickness_mm = {}", thickness));
 }
 std::string with_power(const std::string& text, double kW) {
-  return with(text, "power_kW = 200", fmt::format("power_kW = {}", kW));
+  return replaced(text, "power_kW = 200", fmt::format("power_kW = {}", kW));
 }
 std::string with_supports(double rim, const char* structure, const char* more) {
-  return with(with_rim(rim), "structure = \"traditional\"", fmt::format("structure = \"{}\"\n{}", structure, more));
+  return replaced(with_rim(rim), "structure = \"traditional\"", fmt::format("structure = \"{}\"\n{}", structure, more));
 }
 /// Lines added to [sun] and [planet].
 std::string with_teeth(const std::string& text, const std::string& lines) {
-  return with(with(text, "[planet]", lines + "[planet]"), "[carrier]", lines + "[carrier]");
+  return replaced(replaced(text, "[planet]", lines + "[planet]"), "[carrier]", lines + "[carrier]");
 }
 
 }  // namespace
@@ -86,18 +34,19 @@ std::vector<PromiseScene> promise_scenes() {
       {"thick", "held outside, rim 6 modules", base},
       {"thin", "held outside, rim 1 module", with_rim(4)},
       {"light", "held outside, a twentieth of the load, errors of 2 µm",
-       with(with_power(base, 10), "planet_installation_um = [10,", "planet_installation_um = [2,")},
+       replaced(with_power(base, 10), "planet_installation_um = [10,", "planet_installation_um = [2,")},
       {"parting", "held outside, a twentieth of the load: teeth part", with_power(base, 10)},
       {"heavy", "held outside, three times the load", with_power(base, 600)},
       {"relief", "held outside, 15 µm tip relief on sun and planets",
        with_teeth(base, "tip_relief_um = 15\ntip_relief_length_mm = 4\n")},
       {"out_of_phase", "held outside, planets out of phase: sun 25, ring 71 teeth, 23 on each planet",
-       with(with(with(with(base, "teeth = 24", "teeth = 25"), "teeth = 24", "teeth = 23"), "teeth = 72", "teeth = 71"),
-            "tip_diameter_mm = 282", "tip_diameter_mm = 278.5")},
+       replaced(replaced(replaced(replaced(base, "teeth = 24", "teeth = 25"), "teeth = 24", "teeth = 23"), "teeth = 72",
+                         "teeth = 71"),
+                "tip_diameter_mm = 282", "tip_diameter_mm = 278.5")},
       {"pins_24", "24 pins, rim 4 modules", with_supports(16, "pinned", "pins = 24\npin_diameter_mm = 10")},
       {"pins_6", "6 pins, rim 3 modules, light load",
-       with(with_power(with_supports(12, "pinned", "pins = 6\npin_diameter_mm = 12"), 40),
-            "planet_installation_um = [10,", "planet_installation_um = [2,")},
+       replaced(with_power(with_supports(12, "pinned", "pins = 6\npin_diameter_mm = 12"), 40),
+                "planet_installation_um = [10,", "planet_installation_um = [2,")},
       {"pins_36", "36 pins, rim 2 modules, heavy load",
        with_power(with_supports(8, "pinned", "pins = 36\npin_diameter_mm = 8"), 600)},
       {"bolts_8", "8 bolts, rim 5 modules", with_supports(20, "bolted", "pins = 8\npin_diameter_mm = 14")},
@@ -108,8 +57,8 @@ std::vector<PromiseScene> promise_scenes() {
                      "free_length_mm = 25\nsleeve_thickness_mm = 6\nhoop_width_mm = 12\nhoop_thickness_mm = 10")},
       {"crowned", "held outside, lead crowned by 8 µm", with_teeth(base, "lead_crowning_um = 8\n")},
       {"helical", "held outside, helix angle 12°",
-       with(with(base, "module_mm = 4", "module_mm = 3.9125904\nhelix_angle_deg = 12"), "tip_diameter_mm = 282",
-            "tip_diameter_mm = 282.2")},
+       replaced(replaced(base, "module_mm = 4", "module_mm = 3.9125904\nhelix_angle_deg = 12"), "tip_diameter_mm = 282",
+                "tip_diameter_mm = 282.2")},
   };
 }
 
