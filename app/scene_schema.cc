@@ -93,7 +93,7 @@ Table mesh_table(const char* path, const char* meaning, const std::vector<StageK
       .fallback(std::string("none"), "the given stiffness alone")
       .only({StageKind::two_k_v});
   t.key("mean_N_per_m", &MeshInput::mean, "Mean stiffness of one mesh.")
-      .above(0, 1e13)
+      .from(1e-3, 1e13)
       .absent("needed by all given shapes but a table");
   t.key("ripple", &MeshInput::ripple,
         "Relative ripple: k = mean (1 + ripple cos 2π phase), or mean (1 + ripple (s(phase) - duty)) with s = 1 during "

@@ -16,31 +16,16 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Number of modes, from the first, that are rigid and stay so under K_Omega.
-Eigen::Index neutral_motions(const Modes& found, const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
-  Eigen::Index rigid = 0;
-  for (const auto& mode : found.modes) {
-    if (mode.frequency > 0) break;
-    if (!costs_no_force(mode.shape, stiffness, mass)) return 0;
-    ++rigid;
-  }
-  return rigid;
-}
-
 }  // namespace
 
 FrequencyResponse::FrequencyResponse(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness)
     : mass_(system.mass()),
-      damping_(system.damping() + system.gyroscopic()),
-      stiffness_(system.stiffness() + system.rotating_stiffness()) {
+      damping_(system.damping_with_meshes() + system.gyroscopic()),
+      stiffness_(system.stiffness() + system.rotating_stiffness()),
+      b_(system.mesh_vectors()) {
   const Eigen::Index n = system.freedoms(), meshes = mesh_stiffness.size();
   require(meshes == static_cast<Eigen::Index>(system.meshes().size()), "one stiffness per mesh");
-  b_.resize(n, meshes);
-  for (Eigen::Index m = 0; m < meshes; ++m) {
-    b_.col(m) = system.mesh_vector(static_cast<int>(m));
-    stiffness_ += mesh_stiffness[m] * b_.col(m) * b_.col(m).transpose();
-    damping_ += system.meshes()[m].damping * b_.col(m) * b_.col(m).transpose();
-  }
+  stiffness_ += b_ * mesh_stiffness.asDiagonal() * b_.transpose();
   const Modes found = modes(system, mesh_stiffness);
   const Eigen::Index rigid_motions = neutral_motions(found, stiffness_, mass_);
   Eigen::MatrixXd shapes(n, n), fixed = stiffness_;

@@ -28,10 +28,10 @@ void check_options(const IntegratorOptions& options) {
     throw InputError("a fixed step goes with the Runge-Kutta method only; the others choose their steps");
 }
 
-/// Absolute tolerances of (q, v, energies). Velocities count like a displacement at mesh frequency (or at the highest
-/// local frequency when nothing meshes); the energies follow the state and do not steer the step.
-Eigen::VectorXd absolute_tolerances(const LumpedSystem& system, const IntegratorOptions& options,
-                                    const LumpedSystem::Workspace& workspace, int size) {
+/// Tolerances of (q, v, energies). Velocities count like a displacement at mesh frequency (or at the highest local
+/// frequency when nothing meshes); the energies follow the state and do not steer the step.
+StateTolerance state_tolerance(const LumpedSystem& system, const IntegratorOptions& options,
+                               const LumpedSystem::Workspace& workspace, const Eigen::VectorXd& start, int size) {
   double displacement = options.absolute_tolerance.value_or(0.0);
   if (!options.absolute_tolerance) {
     for (const double delta : workspace.delta) displacement = std::max(displacement, std::abs(delta));
@@ -39,24 +39,29 @@ Eigen::VectorXd absolute_tolerances(const LumpedSystem& system, const Integrator
     if (!(displacement > 0))
       throw InputError("the start deflects no mesh: give an absolute tolerance, none can be derived");
   }
-  double frequency = 0, local = 0, slowest = std::numeric_limits<double>::infinity();
+  const int n = system.freedoms();
+  double frequency = 0;
+  Eigen::ArrayXd rate(n);
   for (const auto& mesh : system.meshes()) frequency = std::max(frequency, 2 * std::numbers::pi * mesh.frequency);
-  for (int i = 0; i < system.freedoms(); ++i) {
+  for (int i = 0; i < n; ++i) {
     double stiffness = system.stiffness()(i, i);
     for (std::size_t m = 0; m < system.meshes().size(); ++m)
       stiffness += workspace.stiffness[m] * std::pow(system.mesh_vector(static_cast<int>(m))[i], 2);
-    const double rate = std::sqrt(stiffness / system.mass()(i, i));
-    local = std::max(local, rate);
-    if (rate > 0) slowest = std::min(slowest, rate);
+    rate[i] = std::sqrt(stiffness / system.mass()(i, i));
   }
-  if (frequency == 0) frequency = local > 0 ? local : 1.0;
-  // Motions far slower than all vibrations: a velocity counts like a displacement of the slowest of these. To their own
-  // pace velocities follow from displacements, and the implicit method would resolve rounding.
-  if (options.method == Integrator::arkode_implicit && std::isfinite(slowest)) frequency = std::max(frequency, slowest);
-  const int n = system.freedoms();
-  Eigen::VectorXd tolerance = Eigen::VectorXd::Constant(size, 1e99);
-  tolerance.head(n).setConstant(displacement);
-  tolerance.segment(n, n).setConstant(displacement * frequency);
+  if (frequency == 0) frequency = rate.maxCoeff() > 0 ? rate.maxCoeff() : 1.0;
+  // Steps may be far longer than vibrations: a velocity counts like the displacement it becomes in the vibration of its
+  // freedom. Held to the pace of the meshes, the implicit method would resolve rounding.
+  const bool implicit = options.method == Integrator::arkode_implicit;
+  StateTolerance tolerance;
+  tolerance.relative = options.relative_tolerance;
+  tolerance.absolute = Eigen::ArrayXd::Constant(size, 1e99);
+  tolerance.absolute.head(n).setConstant(displacement);
+  tolerance.absolute.segment(n, n).setConstant(displacement * frequency);
+  if (implicit) tolerance.absolute.segment(n, n) = displacement * rate.max(frequency);
+  tolerance.origin = Eigen::ArrayXd::Zero(size);
+  tolerance.origin.head(n) = start;
+  tolerance.extent = tolerance.absolute * (10 / options.relative_tolerance);
   return tolerance;
 }
 
@@ -74,7 +79,7 @@ void apply_roots(const StepperProblem& problem, const std::vector<int>& roots) {
 bool contact_contradicted(const StepperProblem& problem) {
   for (const int m : problem.rooted) {
     const double half = *problem.system.meshes()[m].half_backlash, delta = problem.workspace.delta[m];
-    const double slack = 1e-4 * half;
+    const double slack = 1e-4 * std::min(half, problem.tolerance.extent[0]) + 1e-14 * half;
     const auto contact = problem.workspace.contact[m];
     if (contact == Contact::drive  ? delta < half - slack
         : contact == Contact::back ? delta > -half + slack
@@ -123,7 +128,8 @@ IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, d
   double stop = segment_end();
   system.hold_waves((t + stop) / 2, workspace);
   system.detect_contact(t, state.q.data(), workspace);
-  const auto stepper = make_stepper(problem, options, absolute_tolerances(system, options, workspace, problem.size()));
+  problem.tolerance = state_tolerance(system, options, workspace, state.q, problem.size());
+  const auto stepper = make_stepper(problem, options);
   auto y = stepper->state();
   y.head(n) = state.q;
   y.segment(n, n) = state.v;

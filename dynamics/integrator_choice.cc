@@ -19,12 +19,10 @@ namespace {
 Eigen::VectorXcd state_eigenvalues(const LumpedSystem& system) {
   const Eigen::Index n = system.freedoms();
   Eigen::MatrixXd stiffness = system.stiffness() + system.rotating_stiffness();
-  Eigen::MatrixXd damping = system.damping() + system.gyroscopic();
+  const Eigen::MatrixXd damping = system.damping_with_meshes() + system.gyroscopic();
   for (std::size_t m = 0; m < system.meshes().size(); ++m) {
-    const auto& mesh = system.meshes()[m];
     const Eigen::VectorXd b = system.mesh_vector(static_cast<int>(m));
-    stiffness += mean_stiffness(mesh.excitation) * b * b.transpose();
-    damping += mesh.damping * b * b.transpose();
+    stiffness += mean_stiffness(system.meshes()[m].excitation) * b * b.transpose();
   }
   const Eigen::LLT<Eigen::MatrixXd> mass(system.mass());
   // Velocities / w: entries of like size.

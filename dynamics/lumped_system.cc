@@ -32,10 +32,10 @@ template <class Compiled>
 void subtract_coupled(const LumpedSystem& system, const Compiled& c, double t, Eigen::Ref<Eigen::MatrixXd> result,
                       const LumpedSystem::Workspace& w) {
   const int n = system.freedoms(), meshes = static_cast<int>(c.meshes.size());
-  Eigen::MatrixXd b(n, meshes), rate(n, meshes), inverse = Eigen::MatrixXd::Zero(n, meshes), tangent(meshes, meshes);
+  const Eigen::MatrixXd b = system.mesh_vectors(t);
+  Eigen::MatrixXd rate(n, meshes), inverse = Eigen::MatrixXd::Zero(n, meshes), tangent(meshes, meshes);
   Eigen::VectorXd damping(meshes);
   for (int m = 0; m < meshes; ++m) {
-    b.col(m) = system.mesh_vector(m, t);
     rate.col(m) = system.mesh_vector_rate(m, t);
     for (int i = c.inverse_b.start[m]; i < c.inverse_b.start[m + 1]; ++i)
       inverse(c.inverse_b.index[i], m) = c.inverse_b.factor[i];
@@ -73,6 +73,21 @@ Eigen::VectorXd LumpedSystem::mesh_vector_rate(int mesh, double t) const {
     rate[share.freedom] += element.frequency * share.curve.derivative(element.frequency * t + element.phase_offset) +
                            share.wave.amount * share.wave.rate * std::cos(share.wave.rate * t + share.wave.phase);
   return rate;
+}
+
+Eigen::MatrixXd LumpedSystem::mesh_vectors(double t) const {
+  Eigen::MatrixXd b(freedoms(), static_cast<Eigen::Index>(meshes_.size()));
+  for (Eigen::Index m = 0; m < b.cols(); ++m) b.col(m) = mesh_vector(static_cast<int>(m), t);
+  return b;
+}
+
+Eigen::MatrixXd LumpedSystem::damping_with_meshes() const {
+  Eigen::MatrixXd sum = damping_;
+  for (std::size_t m = 0; m < meshes_.size(); ++m) {
+    const Eigen::VectorXd b = mesh_vector(static_cast<int>(m));
+    sum += meshes_[m].damping * b * b.transpose();
+  }
+  return sum;
 }
 
 bool LumpedSystem::has_moving_vectors() const { return !compiled_->moving.empty(); }

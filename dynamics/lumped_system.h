@@ -117,6 +117,8 @@ class LumpedSystem {
   [[nodiscard]] const Eigen::VectorXd& load() const { return load_; }              ///< f, N
   [[nodiscard]] Eigen::VectorXd mesh_vector(int mesh, double t = 0) const;         ///< b at a time, dense
   [[nodiscard]] Eigen::VectorXd mesh_vector_rate(int mesh, double t) const;        ///< db/dt, 1/s
+  [[nodiscard]] Eigen::MatrixXd mesh_vectors(double t = 0) const;                  ///< all b, freedoms x meshes
+  [[nodiscard]] Eigen::MatrixXd damping_with_meshes() const;                       ///< C + sum c b b^T, b at time 0
   [[nodiscard]] bool has_moving_vectors() const;                                   ///< does any b change in time?
   [[nodiscard]] const std::vector<MeshCoupling>& couplings() const { return couplings_; }
 

@@ -28,7 +28,8 @@ double marching_seconds(const LumpedSystem& system, double mesh_frequency, doubl
     case Integrator::cvode_bdf:
       return cycles * 2 * std::max(accurate, 1 / (mesh_frequency * choice.implicit_step)) * newton;
     case Integrator::arkode_implicit:
-      return cycles * accurate * 7 * 2 * newton;
+      // Some 300 steps whatever the speed, seven stages each, and again with a looser tolerance.
+      return cycles * 300 / 40 * accurate * 7 * 1.8 * newton;
     case Integrator::automatic:
     case Integrator::cvode_adams:
     case Integrator::arkode_explicit:

@@ -32,12 +32,9 @@ ModalEnergy modal_energy(const LumpedSystem& system, const Eigen::VectorXd& mesh
     stiffness.push_back(spring.stiffness);
   }
   const auto springs = static_cast<Eigen::Index>(vectors.size());
-  const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
-  Eigen::MatrixXd closing(system.freedoms(), meshes);
-  for (Eigen::Index m = 0; m < meshes; ++m) {
-    result.elements.push_back(system.meshes()[m].name);
-    closing.col(m) = system.mesh_vector(static_cast<int>(m));
-  }
+  const Eigen::MatrixXd closing = system.mesh_vectors();
+  const Eigen::Index meshes = closing.cols();
+  for (const auto& mesh : system.meshes()) result.elements.push_back(mesh.name);
   const Eigen::MatrixXd coupled = mesh_stiffness_matrix(system, mesh_stiffness);
   if (!system.couplings().empty()) result.elements.emplace_back("ring_body");
 

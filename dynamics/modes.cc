@@ -98,8 +98,7 @@ Eigen::MatrixXd mesh_stiffness_matrix(const LumpedSystem& system, const Eigen::V
 }
 
 Eigen::MatrixXd stiffness_with_meshes(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness) {
-  Eigen::MatrixXd b(system.freedoms(), mesh_stiffness.size());
-  for (int m = 0; m < mesh_stiffness.size(); ++m) b.col(m) = system.mesh_vector(m);
+  const Eigen::MatrixXd b = system.mesh_vectors();
   return system.stiffness() + b * mesh_stiffness_matrix(system, mesh_stiffness) * b.transpose();
 }
 
@@ -141,6 +140,16 @@ bool costs_no_force(const Eigen::VectorXd& shape, const Eigen::MatrixXd& stiffne
     return ((k * shape).array().abs() <= rounding * (k.cwiseAbs() * size).array()).all();
   };
   return vanishes(stiffness) && vanishes(stiffness.transpose());
+}
+
+Eigen::Index neutral_motions(const Modes& found, const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
+  Eigen::Index count = 0;
+  for (const auto& mode : found.modes) {
+    if (mode.frequency > 0) break;
+    if (!costs_no_force(mode.shape, stiffness, mass)) return 0;
+    ++count;
+  }
+  return count;
 }
 
 void refuse_unbalanced(const LumpedSystem& system, const Eigen::VectorXd& shape) {

@@ -44,6 +44,11 @@ struct Modes {
 [[nodiscard]] bool costs_no_force(const Eigen::VectorXd& shape, const Eigen::MatrixXd& stiffness,
                                   const Eigen::MatrixXd& mass);
 
+/// Number of modes, from the first, that are rigid and meet no force of `stiffness` (with the meshes and K_Omega)
+/// either.
+[[nodiscard]] Eigen::Index neutral_motions(const Modes& found, const Eigen::MatrixXd& stiffness,
+                                           const Eigen::MatrixXd& mass);
+
 /// Throws InputError: the load does work on a rigid motion; names what moves most in it.
 [[noreturn]] void refuse_unbalanced(const LumpedSystem& system, const Eigen::VectorXd& shape);
 

@@ -14,13 +14,9 @@ PiecewiseSystem::PiecewiseSystem(const LumpedSystem& system)
     : system_(system),
       workspace_(system.workspace()),
       freedoms_(system.freedoms()),
-      b_(system.freedoms(), static_cast<Eigen::Index>(system.meshes().size())),
+      b_(system.mesh_vectors()),
       stiffness_(system.stiffness() + system.rotating_stiffness()),
-      damping_(system.damping() + system.gyroscopic()) {
-  for (Eigen::Index m = 0; m < b_.cols(); ++m) {
-    b_.col(m) = system.mesh_vector(static_cast<int>(m));
-    damping_ += system.meshes()[m].damping * b_.col(m) * b_.col(m).transpose();
-  }
+      damping_(system.damping_with_meshes() + system.gyroscopic()) {
   set_modes();
   set_static();
   set_errors();

@@ -20,6 +20,7 @@ class ResponseRun {
   /// Integrates over whole mesh cycles; `window` (may be null) receives the samples.
   void advance(int cycles, ResponseWindow* window, bool track_energy = false);
   /// Energy at the end of what has been integrated, a stiffness jump at this very instant not yet done.
+  [[nodiscard]] const LumpedSystem& system() const { return system_; }
   [[nodiscard]] double energy();
   /// Does a stiffness jump at this very instant: whole mesh cycles are where waves jump.
   void pass_jump();

@@ -28,11 +28,7 @@ Matrices matrices_of(const PlanetaryStage& stage, const LumpedSystem& system, bo
     return m;
   }
   m.stiffness += system.rotating_stiffness();
-  m.rate += system.damping();
-  for (int i = 0; i < static_cast<int>(system.meshes().size()); ++i) {
-    const Eigen::VectorXd b = system.mesh_vector(i);
-    m.rate += system.meshes()[i].damping * b * b.transpose();
-  }
+  m.rate += system.damping_with_meshes();
   return m;
 }
 

@@ -34,14 +34,11 @@ bool is_open(const LumpedSystem& system, int mesh, const LumpedSystem::Workspace
 
 }  // namespace
 
-StaticSolver::StaticSolver(const LumpedSystem& system) : system_(system), base_(system.stiffness()) {
-  const int meshes = static_cast<int>(system.meshes().size());
-  vectors_.resize(system.freedoms(), meshes);
+StaticSolver::StaticSolver(const LumpedSystem& system)
+    : system_(system), base_(system.stiffness()), vectors_(system.mesh_vectors()) {
+  const int meshes = static_cast<int>(vectors_.cols());
   Eigen::VectorXd mean(meshes);
-  for (int m = 0; m < meshes; ++m) {
-    vectors_.col(m) = system.mesh_vector(m);
-    mean[m] = mean_stiffness(system.meshes()[m].excitation);
-  }
+  for (int m = 0; m < meshes; ++m) mean[m] = mean_stiffness(system.meshes()[m].excitation);
   rest_ = Eigen::VectorXd::Zero(system.freedoms());
   forces_.resize(meshes);
   const Modes found = modes(system, mean);
@@ -115,8 +112,7 @@ void StaticSolver::balance(double t, Eigen::VectorXd& q, LumpedSystem::Workspace
 Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
   system_.evaluate_excitation(t, w);
   const int meshes = static_cast<int>(vectors_.cols());
-  if (system_.has_moving_vectors())
-    for (int m = 0; m < meshes; ++m) vectors_.col(m) = system_.mesh_vector(m, t);
+  if (system_.has_moving_vectors()) vectors_ = system_.mesh_vectors(t);
   const auto half = [&](int m) { return system_.meshes()[m].half_backlash.value_or(0.0); };
   constexpr int tries = 200, all_at_once = 20;
   // The linear solution with the stiffnesses in the workspace: the equilibrium itself for linear meshes, near it for a

@@ -184,23 +184,36 @@ bool stays(const LumpedSystem& system, const SteadyProblem& problem, const Direc
 }
 
 /// What a run has booked before `begin`, in a window that did not confirm, is none of this one's.
-void set_energy(const SystemState& begin, const SystemState& end, double before, double after, EnergyBalance& energy) {
+void set_energy(const SystemState& begin, const SystemState& end, double before, double after, double resolved,
+                EnergyBalance& energy) {
   energy.supplied = end.supplied - begin.supplied;
   energy.dissipated = end.dissipated - begin.dissipated;
   energy.change = after - before;
   energy.relative = std::abs(energy.change - energy.supplied + energy.dissipated) /
-                    (energy.dissipated + std::max(std::abs(before), std::abs(after)));
+                    (energy.dissipated + std::max(std::abs(before), std::abs(after)) + resolved);
+}
+
+/// Energies below this are not known: displacements are to a thousandth from a hundred times their tolerance on, and to
+/// rounding, which matters where backlash is far wider than deflections.
+double resolved_energy(const LumpedSystem& system, const Eigen::VectorXd& displacement, const SteadyProblem& problem,
+                       double relative_tolerance) {
+  const double resolved = 100 * relative_tolerance * problem.force_scale;
+  const Eigen::VectorXd distance = displacement.cwiseAbs();
+  const double rounding = 1e-15 * distance.dot(system.stiffness().cwiseAbs() * distance);
+  return resolved * resolved / (2 * problem.stiffness) + rounding;
 }
 
 /// The last window of a march, its energies booked, and the same window with a looser integration.
-void march_last_window(ResponseRun& run, int cycles, const SimulationOptions& options, SteadyResponse& response) {
+void march_last_window(ResponseRun& run, int cycles, const SteadyProblem& problem, const SimulationOptions& options,
+                       SteadyResponse& response) {
   response.begin = run.state();
   run.pass_jump();
   const double before = run.energy();
   ResponseRun loose_run = run;
   run.advance(cycles, &response.best, true);
   response.end = run.state();
-  set_energy(response.begin, response.end, before, run.energy(), response.energy);
+  const double resolved = resolved_energy(run.system(), response.end.q, problem, options.integrator.relative_tolerance);
+  set_energy(response.begin, response.end, before, run.energy(), resolved, response.energy);
   // Adaptive steps keep it near their tolerance whatever happens; fixed ones may be far too long for what does.
   constexpr double hopeless = 0.05;
   if (!(response.energy.relative <= hopeless))
@@ -270,7 +283,7 @@ SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& 
   }
   if (direct) {
     run.start_from(direct->fine.displacement.col(0), direct->fine.velocity.col(0));
-    march_last_window(run, cycles, options, response);
+    march_last_window(run, cycles, problem, options, response);
     response.steady_difference = largest_difference(response.best, direct->fine, problem.force_scale);
     response.steady = response.confirmed = *response.steady_difference <= options.steady_tolerance;
     if (response.confirmed) response.before = std::move(direct->fine);
@@ -289,7 +302,7 @@ SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& 
       if (lead > 0 && lead < cycles) run.advance(lead, nullptr);
       compared = whole && lead >= cycles;
     }
-    march_last_window(run, cycles, options, response);
+    march_last_window(run, cycles, problem, options, response);
     if (compared) {
       response.steady_difference = largest_difference(response.best, before, problem.force_scale);
       if (options.mesh_cycles) response.steady = *response.steady_difference <= options.steady_tolerance;

@@ -73,7 +73,7 @@ struct EnergyBalance {
   double supplied = unknown;    ///< J, by torques, errors and stiffness change
   double dissipated = unknown;  ///< J, by dampers (>= 0)
   double change = unknown;      ///< J, kinetic + elastic
-  double relative = unknown;    ///< |change - supplied + dissipated| / (dissipated + energy)
+  double relative = unknown;    ///< |change - supplied + dissipated| / (dissipated + energy + what is resolved of it)
 };
 
 enum class DirectMethod {

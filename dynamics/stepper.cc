@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <sundials/sundials_context.hpp>
 
@@ -65,6 +66,15 @@ static int annulus_roots(realtype t, N_Vector y, realtype* values, void* data) {
   return 0;
 }
 
+static int annulus_weights(N_Vector y, N_Vector weights, void* data) {
+  const auto& tolerance = static_cast<StepperProblem*>(data)->tolerance;
+  const Eigen::Map<const Eigen::ArrayXd> state(N_VGetArrayPointer(y), tolerance.absolute.size());
+  Eigen::Map<Eigen::ArrayXd>(N_VGetArrayPointer(weights), tolerance.absolute.size()) =
+      1 /
+      (tolerance.relative * state.abs().min((state - tolerance.origin).abs() + tolerance.extent) + tolerance.absolute);
+  return 0;
+}
+
 /// SUNDIALS prints its complaints; here they end in the exception.
 static void annulus_complaint(int, const char*, const char*, char* message, void* data) {
   *static_cast<std::string*>(data) = message;
@@ -72,29 +82,98 @@ static void annulus_complaint(int, const char*, const char*, char* message, void
 
 }  // extern "C"
 
-constexpr int root_return = 2;  // CV_ROOT_RETURN and ARK_ROOT_RETURN
+/// The calls that CVODE, ERKStep and ARKStep share but for their names.
+struct Package {
+  int (*set_complaints)(void*, void (*)(int, const char*, const char*, char*, void*), void*);
+  int (*set_user_data)(void*, void*);
+  int (*set_weights)(void*, int (*)(N_Vector, N_Vector, void*));
+  int (*set_max_steps)(void*, long);
+  int (*set_roots)(void*, int, int (*)(realtype, N_Vector, realtype*, void*));
+  int (*set_stop_time)(void*, realtype);
+  int (*evolve)(void*, realtype, N_Vector, realtype*, int);
+  int (*root_info)(void*, int*);
+  int (*steps)(void*, long*);
+  void (*free)(void**);
+};
+
+constexpr Package erkstep{ERKStepSetErrHandlerFn, ERKStepSetUserData, ERKStepWFtolerances, ERKStepSetMaxNumSteps,
+                          ERKStepRootInit,        ERKStepSetStopTime, ERKStepEvolve,       ERKStepGetRootInfo,
+                          ERKStepGetNumSteps,     ERKStepFree};
+constexpr Package arkstep{ARKStepSetErrHandlerFn, ARKStepSetUserData, ARKStepWFtolerances, ARKStepSetMaxNumSteps,
+                          ARKStepRootInit,        ARKStepSetStopTime, ARKStepEvolve,       ARKStepGetRootInfo,
+                          ARKStepGetNumSteps,     ARKStepFree};
+constexpr Package cvode{CVodeSetErrHandlerFn,
+                        CVodeSetUserData,
+                        CVodeWFtolerances,
+                        CVodeSetMaxNumSteps,
+                        CVodeRootInit,
+                        CVodeSetStopTime,
+                        CVode,
+                        CVodeGetRootInfo,
+                        CVodeGetNumSteps,
+                        CVodeFree};
+
+constexpr int root_return = 2, normal = 1;  // the same numbers in CVODE and ARKODE
 
 class SundialsStepper : public Stepper {
  public:
-  SundialsStepper(StepperProblem& problem, const Eigen::VectorXd& tolerance)
-      : problem_(problem), roots_(2 * problem.rooted.size(), 0) {
+  ~SundialsStepper() override {
+    if (memory_) package_.free(&memory_);
+    N_VDestroy(y_);
+  }
+  SundialsStepper(const SundialsStepper&) = delete;
+  SundialsStepper& operator=(const SundialsStepper&) = delete;
+
+  Eigen::Map<Eigen::VectorXd> state() final { return {N_VGetArrayPointer(y_), problem_.size()}; }
+  const std::vector<int>& roots() final { return roots_; }
+
+  void restart(double t, double stop) final {
+    close();
+    begin(t, stop);
+    counting_ = true;
+  }
+
+  Reached advance(double out) override {
+    double t = out;
+    const int flag = package_.evolve(memory_, out, y_, &t, normal);
+    check(flag, t);
+    if (flag == root_return) check(package_.root_info(memory_, roots_.data()), t);
+    return {t, flag == root_return};
+  }
+
+  void close() final {
+    if (!counting_) return;
+    long steps = 0;
+    check(package_.steps(memory_, &steps), 0);
+    if (steps > 0) remember();
+    problem_.statistics.steps += steps;
+    counting_ = false;
+  }
+
+ protected:
+  SundialsStepper(StepperProblem& problem, const Package& package)
+      : package_(package), problem_(problem), roots_(2 * problem.rooted.size(), 0) {
     y_ = N_VNew_Serial(problem.size(), context_);
     // One pass per Runge-Kutta stage instead of one per term; every vector cloned from this one inherits it.
     N_VEnableFusedOps_Serial(y_, SUNTRUE);
     use_fast_kernels(y_);
-    tolerance_ = N_VNew_Serial(problem.size(), context_);
-    for (int i = 0; i < problem.size(); ++i) NV_Ith_S(tolerance_, i) = tolerance[i];
   }
-  ~SundialsStepper() override {
-    N_VDestroy(y_);
-    N_VDestroy(tolerance_);
-  }
-  SundialsStepper(const SundialsStepper&) = delete;
-  SundialsStepper& operator=(const SundialsStepper&) = delete;
-  Eigen::Map<Eigen::VectorXd> state() override { return {N_VGetArrayPointer(y_), problem_.size()}; }
-  const std::vector<int>& roots() override { return roots_; }
 
- protected:
+  /// Takes what the package's constructor made, and tells it what is common to all.
+  void own(void* memory, const IntegratorOptions& options) {
+    memory_ = memory;
+    if (!memory_) throw SolverError("a time integrator could not be set up: out of memory");
+    check(package_.set_complaints(memory_, annulus_complaint, &complaint_), 0);
+    check(package_.set_user_data(memory_, &problem_), 0);
+    check(package_.set_weights(memory_, annulus_weights), 0);
+    check(package_.set_max_steps(memory_, options.max_steps), 0);
+    if (!problem_.rooted.empty()) check(package_.set_roots(memory_, static_cast<int>(roots_.size()), annulus_roots), 0);
+  }
+
+  virtual void begin(double t, double stop) = 0;
+  /// Called after the last step before a restart.
+  virtual void remember() {}
+
   void check(int flag, double t) const {
     if (flag < 0)
       throw SolverError(
@@ -104,22 +183,38 @@ class SundialsStepper : public Stepper {
   }
 
   sundials::Context context_;
+  const Package& package_;
   StepperProblem& problem_;
-  N_Vector y_ = nullptr, tolerance_ = nullptr;
+  N_Vector y_ = nullptr;
+  void* memory_ = nullptr;
+
+ private:
   std::vector<int> roots_;
   std::string complaint_;
+  bool counting_ = false;
+};
+
+/// Newton's matrix and its factorisation.
+class NewtonMatrix {
+ public:
+  NewtonMatrix(N_Vector y, int size, SUNContext context)
+      : matrix(SUNDenseMatrix(size, size, context)), solver(SUNLinSol_Dense(y, matrix, context)) {}
+  ~NewtonMatrix() {
+    SUNLinSolFree(solver);
+    SUNMatDestroy(matrix);
+  }
+  NewtonMatrix(const NewtonMatrix&) = delete;
+  NewtonMatrix& operator=(const NewtonMatrix&) = delete;
+
+  SUNMatrix matrix;
+  SUNLinearSolver solver;
 };
 
 class ExplicitStepper final : public SundialsStepper {
  public:
-  ExplicitStepper(StepperProblem& problem, const IntegratorOptions& options, const Eigen::VectorXd& tolerance)
-      : SundialsStepper(problem, tolerance), fixed_step_(options.fixed_step) {
-    memory_ = ERKStepCreate(annulus_rhs, 0.0, y_, context_);
-    if (!memory_) throw SolverError("ARKODE could not be set up");
-    check(ERKStepSetErrHandlerFn(memory_, annulus_complaint, &complaint_), 0);
-    check(ERKStepSetUserData(memory_, &problem_), 0);
-    check(ERKStepSVtolerances(memory_, options.relative_tolerance, tolerance_), 0);
-    check(ERKStepSetMaxNumSteps(memory_, options.max_steps), 0);
+  ExplicitStepper(StepperProblem& problem, const IntegratorOptions& options)
+      : SundialsStepper(problem, erkstep), fixed_step_(options.fixed_step) {
+    own(ERKStepCreate(annulus_rhs, 0.0, y_, context_), options);
     if (options.method == Integrator::runge_kutta_4) {
       // Zonneveld's pair is the classical method with an embedded error estimate that a fixed step ignores. The bare
       // four-stage table would lose an order: ERKStep up to 6.6 takes any table whose last node is 1 for
@@ -132,183 +227,94 @@ class ExplicitStepper final : public SundialsStepper {
       // the tolerance either way, but the state after a contact event is an interpolated one and goes on.
       if (problem_.rooted.empty()) check(ERKStepSetInterpolantDegree(memory_, 3), 0);
     }
-    if (!problem_.rooted.empty())
-      check(ERKStepRootInit(memory_, static_cast<int>(2 * problem_.rooted.size()), annulus_roots), 0);
   }
-  ~ExplicitStepper() override { ERKStepFree(&memory_); }
-  ExplicitStepper(const ExplicitStepper&) = delete;
-  ExplicitStepper& operator=(const ExplicitStepper&) = delete;
 
-  void restart(double t, double stop) override {
-    close();
+ private:
+  void begin(double t, double stop) override {
     check(ERKStepReInit(memory_, annulus_rhs, t, y_), t);
     // The step that served before the event serves after it.
     if (fixed_step_ == 0 && last_step_ > 0) check(ERKStepSetInitStep(memory_, std::min(last_step_, stop - t)), t);
     check(ERKStepSetStopTime(memory_, stop), t);
-    counting_ = true;
   }
+  void remember() override { check(ERKStepGetCurrentStep(memory_, &last_step_), 0); }
 
-  Reached advance(double out) override {
-    double t = out;
-    const int flag = ERKStepEvolve(memory_, out, y_, &t, ARK_NORMAL);
-    check(flag, t);
-    if (flag == root_return) check(ERKStepGetRootInfo(memory_, roots_.data()), t);
-    return {t, flag == root_return};
-  }
-
-  void close() override {
-    if (!counting_) return;
-    long steps = 0;
-    check(ERKStepGetNumSteps(memory_, &steps), 0);
-    if (steps > 0) check(ERKStepGetCurrentStep(memory_, &last_step_), 0);
-    problem_.statistics.steps += steps;
-    counting_ = false;
-  }
-
- private:
-  void* memory_ = nullptr;
   double fixed_step_ = 0, last_step_ = 0;
-  bool counting_ = false;
 };
 
-class ImplicitStepper final : public SundialsStepper {
+class MultistepStepper final : public SundialsStepper {
  public:
-  ImplicitStepper(StepperProblem& problem, const IntegratorOptions& options, const Eigen::VectorXd& tolerance)
-      : SundialsStepper(problem, tolerance) {
-    memory_ = CVodeCreate(options.method == Integrator::cvode_adams ? CV_ADAMS : CV_BDF, context_);
-    if (!memory_) throw SolverError("CVODE could not be set up");
-    check(CVodeSetErrHandlerFn(memory_, annulus_complaint, &complaint_), 0);
-    check(CVodeInit(memory_, annulus_rhs, 0.0, y_), 0);
-    check(CVodeSetUserData(memory_, &problem_), 0);
-    check(CVodeSVtolerances(memory_, options.relative_tolerance, tolerance_), 0);
-    check(CVodeSetMaxNumSteps(memory_, options.max_steps), 0);
-    if (options.method == Integrator::cvode_adams) {
+  MultistepStepper(StepperProblem& problem, const IntegratorOptions& options) : SundialsStepper(problem, cvode) {
+    const bool adams = options.method == Integrator::cvode_adams;
+    void* memory = CVodeCreate(adams ? CV_ADAMS : CV_BDF, context_);
+    // Settings are taken after the first initialisation only.
+    if (memory) check(CVodeInit(memory, annulus_rhs, 0.0, y_), 0);
+    own(memory, options);
+    if (adams) {
       // Where Adams' methods are of use, steps are short enough for the fixed point, at a third of Newton's time.
       iteration_ = SUNNonlinSol_FixedPoint(y_, 0, context_);
       check(CVodeSetNonlinearSolver(memory_, iteration_), 0);
     } else {
-      matrix_ = SUNDenseMatrix(problem.size(), problem.size(), context_);
-      solver_ = SUNLinSol_Dense(y_, matrix_, context_);
-      check(CVodeSetLinearSolver(memory_, solver_, matrix_), 0);
+      newton_.emplace(y_, problem.size(), context_);
+      check(CVodeSetLinearSolver(memory_, newton_->solver, newton_->matrix), 0);
       check(CVodeSetJacFn(memory_, annulus_jacobian), 0);
     }
-    if (!problem_.rooted.empty())
-      check(CVodeRootInit(memory_, static_cast<int>(2 * problem_.rooted.size()), annulus_roots), 0);
   }
-  ~ImplicitStepper() override {
-    CVodeFree(&memory_);
+  ~MultistepStepper() override {
     if (iteration_) SUNNonlinSolFree(iteration_);
-    if (solver_) SUNLinSolFree(solver_);
-    if (matrix_) SUNMatDestroy(matrix_);
   }
-  ImplicitStepper(const ImplicitStepper&) = delete;
-  ImplicitStepper& operator=(const ImplicitStepper&) = delete;
-
-  void restart(double t, double stop) override {
-    close();
-    check(CVodeReInit(memory_, t, y_), t);
-    check(CVodeSetStopTime(memory_, stop), t);
-    counting_ = true;
-  }
-
-  Reached advance(double out) override {
-    double t = out;
-    const int flag = CVode(memory_, out, y_, &t, CV_NORMAL);
-    check(flag, t);
-    if (flag == root_return) check(CVodeGetRootInfo(memory_, roots_.data()), t);
-    return {t, flag == root_return};
-  }
-
-  void close() override {
-    if (!counting_) return;
-    long steps = 0;
-    check(CVodeGetNumSteps(memory_, &steps), 0);
-    problem_.statistics.steps += steps;
-    counting_ = false;
-  }
+  MultistepStepper(const MultistepStepper&) = delete;
+  MultistepStepper& operator=(const MultistepStepper&) = delete;
 
  private:
-  void* memory_ = nullptr;
-  SUNMatrix matrix_ = nullptr;
-  SUNLinearSolver solver_ = nullptr;
+  void begin(double t, double stop) override {
+    check(CVodeReInit(memory_, t, y_), t);
+    check(CVodeSetStopTime(memory_, stop), t);
+  }
+
+  std::optional<NewtonMatrix> newton_;
   SUNNonlinearSolver iteration_ = nullptr;
-  bool counting_ = false;
 };
 
 /// Diagonally implicit Runge-Kutta method of order 5, L-stable: steps follow the motion that is there, not the fast one
 /// that might be, however lightly that is damped (BDF is unstable there).
 class DiagonallyImplicitStepper final : public SundialsStepper {
  public:
-  DiagonallyImplicitStepper(StepperProblem& problem, const IntegratorOptions& options, const Eigen::VectorXd& tolerance)
-      : SundialsStepper(problem, tolerance) {
-    memory_ = ARKStepCreate(nullptr, annulus_rhs, 0.0, y_, context_);
-    if (!memory_) throw SolverError("ARKODE could not be set up");
-    check(ARKStepSetErrHandlerFn(memory_, annulus_complaint, &complaint_), 0);
-    check(ARKStepSetUserData(memory_, &problem_), 0);
-    check(ARKStepSVtolerances(memory_, options.relative_tolerance, tolerance_), 0);
-    check(ARKStepSetMaxNumSteps(memory_, options.max_steps), 0);
+  DiagonallyImplicitStepper(StepperProblem& problem, const IntegratorOptions& options)
+      : SundialsStepper(problem, arkstep), newton_(y_, problem.size(), context_) {
+    own(ARKStepCreate(nullptr, annulus_rhs, 0.0, y_, context_), options);
     check(ARKStepSetTableNum(memory_, ARKODE_ESDIRK547L2SA_7_4_5, ARKODE_ERK_NONE), 0);
     // Hermite interpolation multiplies what is left of fast motions by their rates.
     check(ARKStepSetInterpolantType(memory_, ARK_INTERP_LAGRANGE), 0);
-    matrix_ = SUNDenseMatrix(problem.size(), problem.size(), context_);
-    solver_ = SUNLinSol_Dense(y_, matrix_, context_);
-    check(ARKStepSetLinearSolver(memory_, solver_, matrix_), 0);
+    check(ARKStepSetLinearSolver(memory_, newton_.solver, newton_.matrix), 0);
     check(ARKStepSetJacFn(memory_, annulus_jacobian), 0);
     // What Newton's method leaves, stiffness and step multiply into velocities: with the usual tenth of the tolerance
     // the step control would answer to that. The problem is nearly linear: an iteration more gets there.
     check(ARKStepSetNonlinConvCoef(memory_, 1e-5), 0);
-    if (!problem_.rooted.empty())
-      check(ARKStepRootInit(memory_, static_cast<int>(2 * problem_.rooted.size()), annulus_roots), 0);
-  }
-  ~DiagonallyImplicitStepper() override {
-    ARKStepFree(&memory_);
-    if (solver_) SUNLinSolFree(solver_);
-    if (matrix_) SUNMatDestroy(matrix_);
-  }
-  DiagonallyImplicitStepper(const DiagonallyImplicitStepper&) = delete;
-  DiagonallyImplicitStepper& operator=(const DiagonallyImplicitStepper&) = delete;
-
-  void restart(double t, double) override {
-    close();
-    check(ARKStepReInit(memory_, nullptr, annulus_rhs, t, y_), t);
-    counting_ = true;
+    // Back from steps a million times longer than the fast motion's takes more than the usual seven refused ones.
+    check(ARKStepSetMaxErrTestFails(memory_, 20), 0);
   }
 
   /// Steps end at `out`: what is asked for is a state of the method, not an interpolated one.
   Reached advance(double out) override {
-    double t = out;
-    check(ARKStepSetStopTime(memory_, out), t);
-    const int flag = ARKStepEvolve(memory_, out, y_, &t, ARK_NORMAL);
-    check(flag, t);
-    if (flag == root_return) check(ARKStepGetRootInfo(memory_, roots_.data()), t);
-    return {t, flag == root_return};
-  }
-
-  void close() override {
-    if (!counting_) return;
-    long steps = 0;
-    check(ARKStepGetNumSteps(memory_, &steps), 0);
-    problem_.statistics.steps += steps;
-    counting_ = false;
+    check(ARKStepSetStopTime(memory_, out), out);
+    return SundialsStepper::advance(out);
   }
 
  private:
-  void* memory_ = nullptr;
-  SUNMatrix matrix_ = nullptr;
-  SUNLinearSolver solver_ = nullptr;
-  bool counting_ = false;
+  void begin(double t, double) override { check(ARKStepReInit(memory_, nullptr, annulus_rhs, t, y_), t); }
+
+  NewtonMatrix newton_;
 };
 
 }  // namespace
 
-std::unique_ptr<Stepper> make_stepper(StepperProblem& problem, const IntegratorOptions& options,
-                                      const Eigen::VectorXd& tolerance) {
+std::unique_ptr<Stepper> make_stepper(StepperProblem& problem, const IntegratorOptions& options) {
   require(options.method != Integrator::automatic, "the integrator is chosen before the stepper is made");
   if (options.method == Integrator::arkode_implicit)
-    return std::make_unique<DiagonallyImplicitStepper>(problem, options, tolerance);
+    return std::make_unique<DiagonallyImplicitStepper>(problem, options);
   if (options.method == Integrator::cvode_adams || options.method == Integrator::cvode_bdf)
-    return std::make_unique<ImplicitStepper>(problem, options, tolerance);
-  return std::make_unique<ExplicitStepper>(problem, options, tolerance);
+    return std::make_unique<MultistepStepper>(problem, options);
+  return std::make_unique<ExplicitStepper>(problem, options);
 }
 
 }  // namespace annulus::dynamics

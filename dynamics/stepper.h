@@ -8,12 +8,20 @@
 
 namespace annulus::dynamics {
 
+/// Tolerated error of a state entry y: relative × min(|y|, |y - origin| + extent) + absolute. Where backlash is wide
+/// and the load light, displacements are far larger than the deflections that matter.
+struct StateTolerance {
+  double relative = 0;
+  Eigen::ArrayXd absolute, origin, extent;
+};
+
 /// What the SUNDIALS callbacks see.
 struct StepperProblem {
   const LumpedSystem& system;
   LumpedSystem::Workspace& workspace;
   std::vector<int> rooted;  ///< meshes with backlash; two root functions each: delta - half, delta + half
   bool track_energy = false;
+  StateTolerance tolerance{};
   IntegratorStatistics statistics{};
   [[nodiscard]] int size() const { return 2 * system.freedoms() + (track_energy ? 2 : 0); }
 };
@@ -39,8 +47,6 @@ class Stepper {
   virtual void close() = 0;
 };
 
-/// `tolerance`: absolute, one per state entry.
-[[nodiscard]] std::unique_ptr<Stepper> make_stepper(StepperProblem& problem, const IntegratorOptions& options,
-                                                    const Eigen::VectorXd& tolerance);
+[[nodiscard]] std::unique_ptr<Stepper> make_stepper(StepperProblem& problem, const IntegratorOptions& options);
 
 }  // namespace annulus::dynamics

@@ -157,8 +157,10 @@ class Matrix {
           check_balances(ring["dynamics"], largest, problems);
           for (const auto& mesh : ring["load_sharing"]) {
             const auto& still = mesh["quasi_static"]["value"];
+            // Where no flank bears backwards, no planet carries more than all.
+            const bool bound = !backward_flanks_;
             const auto planets = static_cast<double>(ring["dynamic_factor"]["sun_planet"].size());
-            if (!still.is_number() || still < 1 - 1e-9 || still > planets * (1 + 1e-9))
+            if (!still.is_number() || still < 1 - 1e-9 || (bound && still > planets * (1 + 1e-9)))
               problems.push_back("quasi-static load sharing " + still.dump());
           }
         }
@@ -180,6 +182,9 @@ class Matrix {
     return problems.empty() ? summary : json{};
   }
 
+  /// From here on backlash is narrower than the errors: planets may push against each other.
+  void let_flanks_bear_backwards(bool let) { backward_flanks_ = let; }
+
   /// A figure of two scenes that has to agree: within `tolerance` and both errors.
   void same(const std::string& what, const std::string& a, const std::string& b, double tolerance) {
     const auto first = run(what, a), second = run(what + " (the other)", b);
@@ -198,6 +203,7 @@ class Matrix {
   std::string name_;
   test::TemporaryFolder folder_;
   Tally tally_;
+  bool backward_flanks_ = false;
 };
 
 Changes both(Changes a, const Changes& b) {
@@ -274,13 +280,17 @@ BOOST_AUTO_TEST_CASE(torque_errors_and_backlash) {
   const auto even = changed(quick(), {{"errors.planet_eccentricity_um", "[0, 0, 0, 0, 0]"}});
   for (const double factor : {1e-9, 300.0})
     matrix.same(fmt::format("even, times {}", factor), changed(even, at(1128, factor)), even, 1e-6);
-  for (const char* error : {"1e-3", "100", "1000", "10000"})
-    matrix.run(std::string("error ") + error,
-               changed(quick(), {{"errors.planet_eccentricity_um", fmt::format("[{}, 0, 0, 0, 0]", error)}}));
-  for (const char* backlash : {"0", "1e-3", "1", "10", "1e4"})
+  const auto with_error = [](const char* error) {
+    return changed(quick(), {{"errors.planet_eccentricity_um", fmt::format("[{}, 0, 0, 0, 0]", error)}});
+  };
+  for (const char* error : {"1e-3", "100", "1000"}) matrix.run(std::string("error ") + error, with_error(error));
+  matrix.run("error 10000", with_error("10000"), "planet_eccentricity_um");
+  for (const char* backlash : {"0", "1e-3", "1", "10", "1e4"}) {
+    matrix.let_flanks_bear_backwards(std::atof(backlash) < 10);
     for (const double factor : {0.01, 1.0})
       matrix.run(fmt::format("backlash {}, load times {}", backlash, factor),
                  changed(quick(), both(at(1128, factor), {{"dynamics.half_backlash_um", backlash}})));
+  }
   matrix.run("errors on light loads without damping",
              changed(quick(), both(at(1128, 0.01), {{"dynamics.mesh_damping_ratio", "0"}})));
 }
@@ -296,10 +306,11 @@ BOOST_AUTO_TEST_CASE(cycles_and_integrators) {
     matrix.run(std::string(method) + " light", changed(quick(), both(few, at(1128, 0.01))));
   }
   const Changes fixed = {{"dynamics.integrator", "\"runge_kutta_4\""}, {"dynamics.mesh_cycles", "60"}};
-  for (const char* steps : {"10", "20"})
-    matrix.run(std::string("fixed ") + steps, changed(quick(), both(fixed, {{"dynamics.steps_per_cycle", steps}})),
-               "steps_per_cycle");
-  matrix.run("fixed 200", changed(quick(), both(fixed, {{"dynamics.steps_per_cycle", "200"}})));
+  const auto with_steps = [&](const char* steps) {
+    return changed(quick(), both(fixed, {{"dynamics.steps_per_cycle", steps}}));
+  };
+  matrix.run("fixed 10", with_steps("10"), "steps_per_cycle");
+  for (const char* steps : {"20", "200"}) matrix.run(std::string("fixed ") + steps, with_steps(steps));
   matrix.run("fixed, stiff",
              changed(quick(), both(fixed, {{"dynamics.steps_per_cycle", "50"}, {"supports.sun_N_per_m", "1e13"}})),
              "steps_per_cycle");
@@ -326,7 +337,7 @@ BOOST_AUTO_TEST_CASE(units_of_time) {
   };
   // The bounds of masses (1e6 kg) and speeds (1e6 r/min) end the range of whole scenes; tests of the stage go on to
   // 1e6.
-  for (const double unit : {2e-3, 1e2}) {
+  for (const double unit : {5e-3, 1e2}) {
     matrix.same(fmt::format("unit {}", unit), scaled(quick(), unit), quick(), 1e-6);
     matrix.same(fmt::format("jumps, unit {}", unit), scaled(jumping(), unit), jumping(), 1e-6);
   }

@@ -214,7 +214,7 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused_with_place_and_remedy) {
       {"pinion_torque_Nm = 20000", "pinion_torque_kNm = 20", "pair.toml:8:1: stage.pinion_torque_kNm",
        "did you mean stage.pinion_torque_Nm?"},
       {"teeth = 37", "teeth = 37.5", "wheel.teeth = 37.5", "a whole number"},
-      {"mass_kg = 205", "mass_kg = -1", "pinion.mass_kg = -1", "0 < value"},
+      {"mass_kg = 205", "mass_kg = -1", "pinion.mass_kg = -1", "1e-9 <= value"},
       {"mass_kg = 205\n", "", "pinion.mass_kg: is required by [dynamics]", ""},
       {"module_mm = 15", "module_mm = 15\nplanets = 3", "stage.planets = 3", "belongs to planetary"},
       {"[wheel]", "[planet]", "[planet]: has no meaning for a stage of kind \"helical_pair\"",

@@ -85,14 +85,13 @@ void write_script(const LumpedSystem& system, const SystemState& start, double e
   const int n = system.freedoms();
   const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
   const Eigen::LLT<Eigen::MatrixXd> mass(system.mass());
-  Eigen::MatrixXd b(n, meshes);
+  const Eigen::MatrixXd b = system.mesh_vectors();
   std::size_t terms = 0;
   for (const auto& mesh : system.meshes()) terms = std::max(terms, mesh.errors.size());
   const auto columns = static_cast<Eigen::Index>(terms);
   Eigen::MatrixXd amount = Eigen::MatrixXd::Zero(meshes, columns), rate = amount, phase = amount, contact(meshes, 2);
   for (Eigen::Index m = 0; m < meshes; ++m) {
     const auto& mesh = system.meshes()[static_cast<std::size_t>(m)];
-    b.col(m) = system.mesh_vector(static_cast<int>(m));
     for (std::size_t i = 0; i < mesh.errors.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       amount(m, column) = mesh.errors[i].amount;

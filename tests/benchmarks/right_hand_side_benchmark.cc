@@ -50,13 +50,11 @@ class DensePeer {
         factor_(system.mass()),
         stiffness_(system.stiffness() + system.rotating_stiffness()),
         damping_(system.damping() + system.gyroscopic()),
-        b_(system.freedoms(), static_cast<int>(system.meshes().size())),
+        b_(system.mesh_vectors()),
         force_(b_.cols()),
         closing_(b_.cols()),
         closing_rate_(b_.cols()),
-        right_(system.freedoms()) {
-    for (int m = 0; m < b_.cols(); ++m) b_.col(m) = system.mesh_vector(m);
-  }
+        right_(system.freedoms()) {}
   void operator()(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dy, LumpedSystem::Workspace& w) {
     const auto n = right_.size();
     const auto q = y.head(n), v = y.tail(n);
