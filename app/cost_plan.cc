@@ -206,11 +206,9 @@ std::vector<double> marching_seconds(const Scene& scene, const GearGeometry& geo
   std::vector<double> seconds;
   for (const auto& stage : rough_stages(scene, geometry)) {
     const auto options = simulation_options(scene, stage);
-    // Without damping no motion is found directly: it is followed through all windows.
-    const bool undamped = scene.dynamics->mesh_damping_ratio == 0;
-    const int searched = undamped ? options.max_window_cycles : options.confirm ? periods[seconds.size()] : 0;
-    const double cycles = scene.dynamics->mesh_cycles.value_or(searched);
-    seconds.push_back(dynamics::marching_seconds(assemble(stage), stage.mesh_frequency(), cycles, options.integrator));
+    const auto system = assemble(stage);
+    const double cycles = dynamics::marched_cycles(system, stage.mesh_frequency(), periods[seconds.size()], options);
+    seconds.push_back(dynamics::marching_seconds(system, stage.mesh_frequency(), cycles, options.integrator));
   }
   return seconds;
 }

@@ -11,7 +11,7 @@ namespace annulus::app {
 /// what shows only when the bodies are solved is refused there (fem/problem_check.h).
 void check_displacements(const Scene& scene, const GearGeometry& geometry);
 void check_displacements(const Scene& scene, const PairGeometry& geometry);
-/// Of the sun and a planet of a 2K-V stage.
-void check_sun_displacements(const Scene& scene);
+/// Of the bearings and of the sun and a planet of a 2K-V stage.
+void check_two_k_v_displacements(const Scene& scene);
 
 }  // namespace annulus::app

@@ -71,7 +71,7 @@ void check_stage(const Scene& scene) {
       case StageKind::two_k_v:
         check_two_k_v(scene);
         check_rims(scene, sun_planet_pair(scene));
-        check_sun_displacements(scene);
+        check_two_k_v_displacements(scene);
         return;
     }
   } catch (const GeometryError& error) {

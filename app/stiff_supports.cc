@@ -4,9 +4,18 @@
 
 namespace annulus::app {
 
+namespace {
+
+constexpr double unseen = 1e-3;  // of the accuracy
+
+}  // namespace
+
 double rigid_if_stiff(double support, double neighbours, double accuracy) {
-  constexpr double unseen = 1e-3;  // of the accuracy
   return neighbours <= unseen * accuracy * support ? rigid : support;
+}
+
+double as_stiff_as_matters(double stiffness, double neighbours, double accuracy) {
+  return std::min(stiffness, neighbours / (unseen * accuracy));
 }
 
 SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring_mesh) {

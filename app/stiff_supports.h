@@ -8,6 +8,9 @@ namespace annulus::app {
 /// counts as rigid: its freedom would cost steps of its own pace and change nothing.
 [[nodiscard]] double rigid_if_stiff(double support, double neighbours, double accuracy);
 
+/// A stiffness between two bodies, bounded by the same rule: more of it changes nothing but the pace.
+[[nodiscard]] double as_stiff_as_matters(double stiffness, double neighbours, double accuracy);
+
 /// The supports of a planetary stage by that rule. `sun_mesh`, `ring_mesh`: mean stiffness of one mesh, N/m.
 [[nodiscard]] SupportInput effective_supports(const Scene& scene, double sun_mesh, double ring_mesh);
 

@@ -7,6 +7,7 @@
 
 #include "app/content_id.h"
 #include "app/stage_response.h"
+#include "app/stiff_supports.h"
 #include "core/errors.h"
 #include "core/units.h"
 
@@ -157,12 +158,17 @@ dynamics::TwoKVStage make_two_k_v(const Scene& scene, const TwoKVTables& tables,
   stage.arc_inertia = *scene.arc_gear.inertia;
   stage.arc_mass = *scene.arc_gear.mass;
   stage.output_inertia = *scene.output.inertia;
-  stage.input_shaft = *scene.input.shaft;
-  stage.crank_shaft = *scene.crank.shaft;
-  stage.crank_bearing = *scene.crank.bearing;
-  stage.arc_bearing = *scene.arc_gear.bearing;
   stage.sun_mesh = excitation_of(scene.sun_planet, tables.sun, stage.mean_sun_mesh_force(), dependence);
   stage.arc_mesh = excitation_of(scene.arc_pins, tables.arc, stage.mean_arc_mesh_force(), dependence);
+  const double sun = mean_stiffness(stage.sun_mesh), arcs = stage.arc_gears * mean_stiffness(stage.arc_mesh);
+  const auto beside = [&](double neighbours, double stiffness) {
+    return as_stiff_as_matters(stiffness, neighbours, scene.accuracy);
+  };
+  stage.input_shaft = beside(stage.cranks * sun * std::pow(stage.sun_base_radius(), 2), *scene.input.shaft);
+  stage.crank_shaft = beside(sun * std::pow(stage.planet_base_radius(), 2) + arcs * std::pow(stage.eccentricity, 2),
+                             *scene.crank.shaft);
+  stage.crank_bearing = beside(sun + arcs, *scene.crank.bearing);
+  stage.arc_bearing = beside(arcs, *scene.arc_gear.bearing);
   stage.input_support = scene.input.support;
   stage.output_support = scene.output.support;
   stage.sun_half_backlash = half_backlash(scene.sun_planet, *scene.dynamics);

@@ -6,6 +6,7 @@
 
 #include "core/floating_point.h"
 #include "dynamics/integrator_choice.h"
+#include "dynamics/piecewise_response.h"
 
 namespace annulus::dynamics {
 
@@ -36,6 +37,20 @@ double marching_seconds(const LumpedSystem& system, double mesh_frequency, doubl
       break;
   }
   return cycles * std::max(accurate, choice.explicit_steps) * 6 * evaluation;
+}
+
+double marched_cycles(const LumpedSystem& system, double mesh_frequency, int period, const SimulationOptions& options) {
+  if (options.mesh_cycles) return *options.mesh_cycles;
+  const auto [window, whole] = window_length(period, options);
+  if (!whole) return 2.0 * window;
+  double damping = 0;
+  for (const auto& mesh : system.meshes()) damping += mesh.damping;
+  if (damping == 0) return static_cast<double>(options.max_windows) * window;
+  constexpr double until_two_agree = 4;
+  const double seconds = window / mesh_frequency;
+  const bool jumps = std::isfinite(system.next_jump(0)) && why_not_piecewise(system, seconds).empty();
+  if (jumps && too_fast_for_piecewise(system, seconds, window)) return until_two_agree * window;
+  return options.confirm ? window : 0;
 }
 
 }  // namespace annulus::dynamics

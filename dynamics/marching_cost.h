@@ -2,6 +2,7 @@
 
 #include "dynamics/integrate.h"
 #include "dynamics/lumped_system.h"
+#include "dynamics/steady_response.h"
 
 namespace annulus::dynamics {
 
@@ -10,5 +11,11 @@ namespace annulus::dynamics {
 /// which restart the integrator, are not foreseen: they double it.
 [[nodiscard]] double marching_seconds(const LumpedSystem& system, double mesh_frequency, double cycles,
                                       const IntegratorOptions& options);
+
+/// Mesh cycles that a response of this period (in mesh cycles) takes until it is known, marched: the window that
+/// confirms a direct solution, or, where none is possible, the windows until two agree. Rough: nearly undamped motions
+/// take more, up to `max_windows`.
+[[nodiscard]] double marched_cycles(const LumpedSystem& system, double mesh_frequency, int period,
+                                    const SimulationOptions& options);
 
 }  // namespace annulus::dynamics

@@ -200,9 +200,10 @@ PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& opt
   response.force_min.value *= -1;
   response.force_mean = averaging_force(found.best).row(0).mean();
   const double f = response.static_force;
-  response.dynamic_factor = f == 0  ? Figure{std::numeric_limits<double>::quiet_NaN(), 0}
-                            : f > 0 ? Figure{response.force_max.value / f, response.force_max.error / f}
-                                    : Figure{response.force_min.value / f, -response.force_min.error / f};
+  response.dynamic_factor =
+      f == 0  ? Figure{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()}
+      : f > 0 ? Figure{response.force_max.value / f, response.force_max.error / f}
+              : Figure{response.force_min.value / f, -response.force_min.error / f};
   response.contact_loss = found.best.open[0];
   response.acceleration = {evidence.acceleration(&WindowPeaks::line_of_action),
                            evidence.acceleration(&WindowPeaks::axial), evidence.acceleration(&WindowPeaks::rotation),

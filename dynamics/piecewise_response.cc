@@ -234,6 +234,13 @@ void judge(const LumpedSystem& system, PiecewiseResponse& response) {
   p.converged = p.trouble.empty();
 }
 
+constexpr double most_points = 2e6;  // of every mesh: some hundred megabytes
+
+/// Without turning errors the excitation often repeats earlier than asked for.
+int cycles_to_solve(const LumpedSystem& system, const PiecewiseSystem& linear, double period, int cycles) {
+  return !linear.errors_turn() && why_not_piecewise(system, period / cycles).empty() ? 1 : cycles;
+}
+
 }  // namespace
 
 std::string why_not_piecewise(const LumpedSystem& system, double period) {
@@ -252,6 +259,12 @@ std::string why_not_piecewise(const LumpedSystem& system, double period) {
   return {};
 }
 
+bool too_fast_for_piecewise(const LumpedSystem& system, double period, int cycles) {
+  const PiecewiseSystem linear(system);
+  const double solved = period * cycles_to_solve(system, linear, period, cycles) / cycles;
+  return solved * linear.fastest() / PeriodWalk::radians > most_points;
+}
+
 PiecewiseResponse piecewise_response(const LumpedSystem& system, double period, int cycles,
                                      const PiecewiseOptions& options) {
   if (!(period > 0) || cycles < 1) throw InputError("a periodic response needs a positive period of whole cycles");
@@ -265,14 +278,11 @@ PiecewiseResponse piecewise_response(const LumpedSystem& system, double period, 
     p.trouble = "rotation acts on the rigid motions of the system";
     return response;
   }
-  // Without turning errors the excitation often repeats earlier than asked for.
-  const bool each_cycle = !linear.errors_turn() && why_not_piecewise(system, period / cycles).empty();
-  response.solved_cycles = each_cycle ? 1 : cycles;
-  const double solved = each_cycle ? period / cycles : period;
+  response.solved_cycles = cycles_to_solve(system, linear, period, cycles);
+  const double solved = response.solved_cycles == cycles ? period : period / cycles;
   const auto pieces = pieces_of(system, linear, solved);
   const Eigen::Index samples = static_cast<Eigen::Index>(response.solved_cycles) * options.samples_per_cycle;
   const double points = solved * linear.fastest() / PeriodWalk::radians;
-  constexpr double most_points = 2e6;  // of every mesh: some hundred megabytes
   if (points > most_points) {
     p.trouble =
         fmt::format("the fastest motion swings too often within the period: {:.2g} points of every mesh", points);

@@ -41,6 +41,9 @@ struct PiecewiseResponse {
 /// with the period, no law, no coupling, no moving mesh vector, errors constant or harmonic.
 [[nodiscard]] std::string why_not_piecewise(const LumpedSystem& system, double period);
 
+/// Would the exact solution of such a system have too many points, of a motion far faster than the period?
+[[nodiscard]] bool too_fast_for_piecewise(const LumpedSystem& system, double period, int cycles);
+
 /// While no mesh separates and between two jumps the system is linear with constant coefficients, y' = A y + B a(t),
 /// with a = (1, sin, cos of the error rates), itself the solution of a linear system: the state over a piece is a
 /// matrix exponential. The periodic state solves (I - Phi) y0 = c, Phi the product of the pieces (monodromy matrix),

@@ -30,19 +30,6 @@ void check(const SteadyProblem& problem, const SimulationOptions& options) {
     throw InputError("the evaluated window must be at least one mesh cycle long");
 }
 
-struct WindowLength {
-  int cycles = 0;
-  bool whole = false;  ///< whole error periods
-};
-
-WindowLength window_length(const SteadyProblem& problem, const SimulationOptions& options) {
-  const int period = problem.period_in_cycles;
-  const int limit = std::min(options.max_window_cycles, options.mesh_cycles.value_or(options.max_window_cycles));
-  if (period > limit) return {limit, false};
-  const int wanted = period * ((options.min_window_cycles + period - 1) / period);
-  return {wanted <= limit ? wanted : limit / period * period, true};
-}
-
 double largest_difference(const ResponseWindow& a, const ResponseWindow& b, double mean_force) {
   return (a.force - b.force).cwiseAbs().maxCoeff() / mean_force;
 }
@@ -230,6 +217,13 @@ void march_last_window(ResponseRun& run, int cycles, const SteadyProblem& proble
 
 }  // namespace
 
+WindowLength window_length(int period, const SimulationOptions& options) {
+  const int limit = std::min(options.max_window_cycles, options.mesh_cycles.value_or(options.max_window_cycles));
+  if (period > limit) return {limit, false};
+  const int wanted = period * ((options.min_window_cycles + period - 1) / period);
+  return {wanted <= limit ? wanted : limit / period * period, true};
+}
+
 TimeSeries series_of(const LumpedSystem& system, ResponseWindow window) {
   TimeSeries series;
   series.freedoms = system.names();
@@ -246,7 +240,7 @@ int enough_samples(int window_cycles) { return window_cycles > long_window ? 16 
 SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& problem,
                                const SimulationOptions& options) {
   check(problem, options);
-  const auto [cycles, whole] = window_length(problem, options);
+  const auto [cycles, whole] = window_length(problem.period_in_cycles, options);
   SteadyResponse response;
   response.window_cycles = cycles;
   response.whole_period = whole;

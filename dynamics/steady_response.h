@@ -56,6 +56,13 @@ struct SimulationOptions {
   bool estimate_error = true;
 };
 
+struct WindowLength {
+  int cycles = 0;
+  bool whole = false;  ///< whole periods
+};
+/// The evaluated window of a motion that repeats after `period` mesh cycles.
+[[nodiscard]] WindowLength window_length(int period, const SimulationOptions& options);
+
 /// Time series over the evaluated window, equidistant, the end point not included.
 struct TimeSeries {
   std::vector<std::string> freedoms;  ///< sun_x, planet1_u, ... (all are lengths, m)

@@ -243,10 +243,16 @@ BOOST_AUTO_TEST_CASE(damping) {
 
 BOOST_AUTO_TEST_CASE(supports) {
   Matrix matrix("supports");
-  for (const char* key : {"sun", "ring", "carrier", "planet"})
-    for (const char* stiffness : {"1e-3", "1e3", "1e12", "1e14"})
+  // Planets bear their load alone, the others are held in the middle by them.
+  for (const std::string key : {"sun", "ring", "carrier", "planet"})
+    for (const char* stiffness : {"1e-3", "1e3", "1e8", "1e12", "1e14"})
       matrix.run(fmt::format("{} {}", key, stiffness),
-                 changed(quick(), {{fmt::format("supports.{}_N_per_m", key), stiffness}}));
+                 changed(quick(), {{fmt::format("supports.{}_N_per_m", key), stiffness}}),
+                 key == "planet" && std::atof(stiffness) < 1e7 ? "planet_N_per_m" : "");
+  for (const char* stiffness : {"1", "1e6"})
+    matrix.run(std::string("ring turning on ") + stiffness,
+               changed(quick(), {{"supports.ring_torsional_N_per_m", stiffness}}), "ring_torsional_N_per_m");
+  matrix.run("ring turning on 1e9", changed(quick(), {{"supports.ring_torsional_N_per_m", "1e9"}}));
   for (const char* key : {"sun", "ring", "carrier", "planet"})
     matrix.same(std::string("rigid ") + key, changed(quick(), {{fmt::format("supports.{}_N_per_m", key), "1e15"}}),
                 changed(quick(), {{fmt::format("supports.{}_N_per_m", key), "inf"}}), 1e-5);
@@ -264,21 +270,28 @@ BOOST_AUTO_TEST_CASE(supports) {
 
 BOOST_AUTO_TEST_CASE(planets) {
   Matrix matrix("planets");
-  for (const int n : {1, 2, 4, 5, 8, 10, 11, 20}) matrix.run(fmt::format("{}", n), many_planets(n));
+  matrix.run("1", many_planets(1), "sun_N_per_m");
+  matrix.run("1, its sun held", changed(many_planets(1), {{"supports.sun_N_per_m", "1e9"}}));
+  for (const int n : {2, 4, 5, 8, 10, 11, 20}) matrix.run(fmt::format("{}", n), many_planets(n));
   matrix.run("unequal places", many_planets(3), "planets");
   matrix.run("too many", many_planets(40), "collide");
 }
 
 BOOST_AUTO_TEST_CASE(torque_errors_and_backlash) {
   Matrix matrix("torque");
-  for (const double factor : {1e-9, 1e-6, 1e-3, 1e-2, 0.1, 10.0, 300.0})
+  for (const double factor : {1e-9, 1e-6, 1e-3, 1e-2, 0.1, 10.0})
     matrix.run(fmt::format("times {}", factor), changed(quick(), at(1128, factor)));
-  matrix.run("times 1000", changed(quick(), at(112.8, 1000)));
+  const auto stiff = changed(quick(), {{"supports.planet_N_per_m", "inf"}});
+  matrix.run("times 100", changed(quick(), at(1128, 100)), "planet_N_per_m");
+  matrix.run("times 300, planets held", changed(stiff, at(1128, 300)), "power_kW");
+  // Of meshes a thousand times as stiff.
+  matrix.run("times 1000", changed(stiff, both(at(112.8, 1000), {{"mesh.sun_planet.mean_N_per_m", "1e12"},
+                                                                 {"mesh.ring_planet.mean_N_per_m", "1e12"}})));
   matrix.run("none", changed(quick(), {{"stage.power_kW", "0"}}), "power_kW");
   matrix.run("reversed", changed(quick(), {{"stage.power_kW", "-2958.8"}}), "power_kW");
   // Without errors nothing but the load deflects: it divides out.
   const auto even = changed(quick(), {{"errors.planet_eccentricity_um", "[0, 0, 0, 0, 0]"}});
-  for (const double factor : {1e-9, 300.0})
+  for (const double factor : {1e-9, 10.0})
     matrix.same(fmt::format("even, times {}", factor), changed(even, at(1128, factor)), even, 1e-6);
   const auto with_error = [](const char* error) {
     return changed(quick(), {{"errors.planet_eccentricity_um", fmt::format("[{}, 0, 0, 0, 0]", error)}});
@@ -352,12 +365,13 @@ BOOST_AUTO_TEST_CASE(pairs) {
   for (const char* ratio : {"0", "2"})
     matrix.run(std::string("damping ") + ratio,
                changed(pair, {{"dynamics.mesh_damping_ratio", ratio}, {"dynamics.support_damping_ratio", ratio}}));
-  for (const char* stiffness : {"1e-3", "1", "1e14", "1e15"}) {
+  for (const char* stiffness : {"1e-3", "1", "1e8", "1e14", "1e15"}) {
     Changes all;
     for (const char* gear : {"pinion", "wheel"})
       for (const char* bearing : {"transverse", "axial"})
         all.emplace_back(fmt::format("{}.bearing_{}_N_per_m", gear, bearing), stiffness);
-    matrix.run(std::string("bearings ") + stiffness, changed(pair, all));
+    matrix.run(std::string("bearings ") + stiffness, changed(pair, all),
+               std::atof(stiffness) < 1e7 ? "pinion.bearing_transverse_N_per_m" : "");
   }
   matrix.run("no bearing", changed(pair, {{"pinion.bearing_transverse_N_per_m", "0"}}), "bearing_transverse_N_per_m");
   for (const char* backlash : {"0", "1", "1e4"})
@@ -375,10 +389,11 @@ BOOST_AUTO_TEST_CASE(reducers) {
   for (const char* ratio : {"0", "2"})
     matrix.run(std::string("damping ") + ratio,
                changed(reducer, {{"dynamics.mesh_damping_ratio", ratio}, {"dynamics.support_damping_ratio", ratio}}));
-  for (const char* stiffness : {"1", "1e12"}) {
+  matrix.run("crank bearings 1", changed(reducer, {{"crank.bearing_N_per_m", "1"}}), "crank.bearing_N_per_m");
+  for (const char* stiffness : {"1e7", "1e12", "9e13"})
     matrix.run(std::string("crank bearings ") + stiffness, changed(reducer, {{"crank.bearing_N_per_m", stiffness}}));
+  for (const char* stiffness : {"1", "1e12"})
     matrix.run(std::string("shaft ") + stiffness, changed(reducer, {{"input.shaft_Nm_per_rad", stiffness}}));
-  }
   matrix.run("free output", changed(reducer, {{"output.support_Nm_per_rad", "0"}}));
   matrix.run("one crank", changed(reducer, {{"stage.planets", "1"}}), "planets");
   matrix.run("twenty cranks", changed(reducer, {{"stage.planets", "20"}}), "planets");
