@@ -92,10 +92,9 @@ void check_bearing(const Scene& scene, const char* key, double stiffness, double
   const double most = largest_misplacement * scene.stage.module;
   if (stiffness == 0 || force <= most * stiffness) return;  // without a bearing the load is refused as unbalanced
   throw InputError(
-      fmt::format("{} = {}: gives way by {} mm under the load of {} N, {} of the module are the most: beyond that the "
-                  "teeth hardly reach into each other; from {} N/m on it does not",
-                  key, to_text(stiffness, 6), to_text(force / stiffness / units::mm, 3), to_text(force, 3),
-                  largest_misplacement, to_text(force / most, 3)));
+      fmt::format("{} = {}: under the load of {} N it gives way by more than {} of the module: beyond that the teeth "
+                  "hardly reach into each other; from {} N/m on it does not",
+                  key, to_text(stiffness, 6), to_text(force, 3), largest_misplacement, to_text(force / most, 3)));
 }
 
 /// `key` is a torsional support with the stiffness `per_radius2` (N/m) at `radius` and carries `force` (N) there.
@@ -103,9 +102,8 @@ void check_turn(const char* key, double per_radius2, double force, double radius
   constexpr double most = 0.1;  // rad
   if (force <= most * radius * per_radius2) return;
   throw InputError(fmt::format(
-      "{} = {}: turns by {} rad under the load; small turns are computed, up to {} rad: from {} N/m on it does not",
-      key, to_text(per_radius2, 6), to_text(force / (per_radius2 * radius), 3), most,
-      to_text(force / (most * radius), 3)));
+      "{} = {}: turns by more than {} rad under the load; small turns are computed: from {} N/m on it does not", key,
+      to_text(per_radius2, 6), most, to_text(force / (most * radius), 3)));
 }
 
 /// Several planets hold sun, ring and carrier in the middle; one does not.

@@ -13,11 +13,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// printf pads bytes; this pads characters, so that "µm" and "kg m²" line up.
+/// printf pads bytes; this pads characters, so that "µm" and "kg m²" line up. What follows stays apart.
 std::string pad(const std::string& text, std::size_t width) {
   std::size_t characters = 0;
   for (const char c : text) characters += (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  return characters < width ? text + std::string(width - characters, ' ') : text;
+  return text + std::string(characters < width ? width - characters : 1, ' ');
 }
 
 std::string quantity_lines(const std::vector<Quantity>& quantities) {

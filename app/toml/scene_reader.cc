@@ -1,42 +1,16 @@
 #include <fmt/format.h>
 
-#include <toml++/toml.h>
 #include <algorithm>
-#include <cmath>
 #include <fstream>
-#include <iterator>
-#include <sstream>
 
-#include "app/overrides.h"
 #include "app/scene_checks.h"
 #include "app/scene_limits.h"
 #include "app/scene_schema.h"
+#include "app/toml/tables.h"
 
 namespace annulus::app {
 
 namespace {
-
-struct Place {
-  int line = 0, column = 0;
-};
-
-Place place_of(const toml::source_region& source) {
-  return {static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
-}
-
-std::string node_text(const toml::node& node) {
-  if (node.is_table() || node.is_array_of_tables()) return "{...}";
-  if (const auto* text = node.as_string()) return '"' + shown(**text) + '"';
-  if (const auto* number = node.as_floating_point()) {
-    // A whole-valued float must look like one, or "5 must be a whole number" would puzzle.
-    if (std::isnan(**number)) return "nan";
-    const std::string text = to_text(**number, 15);
-    return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
-  }
-  std::ostringstream out;
-  node.visit([&](const auto& n) { out << n; });
-  return shown(out.str());
-}
 
 /// Reads the tables of one file against the schema and collects every problem.
 class Reader {
@@ -131,7 +105,7 @@ class Reader {
         const Place at = place_of(entry.source());
         if (p.required(kind_)) {
           problem(at, fmt::format("{}: is missing{}; must be {}. {}", p.key(),
-                                  ring.empty() ? "" : " for ring '" + shown(ring) + "'", expected(p), p.meaning));
+                                  ring.empty() ? "" : " for ring '" + shown(ring) + "'", expected_text(p), p.meaning));
           continue;
         }
         input.origin = Origin::default_value;
@@ -144,93 +118,14 @@ class Reader {
         input.line = at.line;
         input.column = at.column;
         // A refused value stays in the list without a value, so that later checks do not call it missing.
-        if (!convert(p, found->second, at, input.value)) input.value = {};
+        if (const auto wrong = read_value(p, found->second, input.value); !wrong.empty()) {
+          problem(at, fmt::format("{} = {}: {}", p.key(), node_text(found->second), wrong));
+          input.value = {};
+        }
       }
       if (!std::holds_alternative<std::monostate>(input.value)) p.store(scene_, index, input.value);
       scene_.inputs.push_back(std::move(input));
     }
-  }
-
-  static std::string expected(const Parameter& p) {
-    const auto range = p.range_text();
-    return p.type_text() + (range.empty() ? "" : ", " + range);
-  }
-
-  static std::string too_long(const Parameter& p, std::size_t size) {
-    return fmt::format("has {} values, at most {} are possible", size, p.longest);
-  }
-
-  /// What is wrong with a text, empty if nothing is. Texts go into reports, tables and messages.
-  static std::string text_rule(const std::string& text) {
-    if (has_controls(text)) return "must be one line without control characters";
-    if (text.size() > longest_text)
-      return fmt::format("has {} bytes, at most {} are possible", text.size(), longest_text);
-    return "";
-  }
-
-  bool convert(const Parameter& p, const toml::node& node, Place at, Value& value) {
-    const std::string head = fmt::format("{} = {}", p.key(), node_text(node));
-    const auto refuse = [&](const std::string& rule) {
-      problem(at, head + ": " + rule);
-      return false;
-    };
-    switch (p.kind) {
-      case Parameter::Kind::integer:
-        if (!node.is_integer()) return refuse("must be " + expected(p));
-        value = static_cast<long>(**node.as_integer());
-        if (!p.in_range(static_cast<double>(std::get<long>(value))))
-          return refuse("must be in range: " + p.range_text());
-        break;
-      case Parameter::Kind::real:
-        if (!node.is_number()) return refuse("must be " + expected(p));
-        value = *node.value<double>();
-        if (!p.in_range(std::get<double>(value))) return refuse("must be in range: " + p.range_text());
-        break;
-      case Parameter::Kind::reals: {
-        const auto* array = node.as_array();
-        if (array && array->size() > p.longest) return refuse(too_long(p, array->size()));
-        std::vector<double> list;
-        for (std::size_t i = 0; array && i < array->size(); ++i) {
-          const auto* item = array->get(i);
-          if (!item->is_number()) return refuse("must be " + expected(p));
-          list.push_back(*item->value<double>());
-          if (!p.in_range(list.back()))
-            return refuse(fmt::format("value {} must be in range: {}", i + 1, p.range_text()));
-        }
-        if (!array) return refuse("must be " + expected(p));
-        value = std::move(list);
-        break;
-      }
-      case Parameter::Kind::texts: {
-        const auto* array = node.as_array();
-        if (array && array->size() > p.longest) return refuse(too_long(p, array->size()));
-        std::vector<std::string> list;
-        for (std::size_t i = 0; array && i < array->size(); ++i) {
-          const auto* item = array->get(i)->as_string();
-          if (!item) return refuse("must be " + expected(p));
-          if (const auto rule = text_rule(**item); !rule.empty()) return refuse(rule);
-          list.push_back(**item);
-        }
-        if (!array) return refuse("must be " + expected(p));
-        value = std::move(list);
-        break;
-      }
-      case Parameter::Kind::text:
-        if (!node.is_string()) return refuse("must be " + expected(p));
-        if (const auto rule = text_rule(**node.as_string()); !rule.empty()) return refuse(rule);
-        value = **node.as_string();
-        break;
-      case Parameter::Kind::choice: {
-        const auto text = node.value<std::string>();
-        if (!text || std::find(p.choices.begin(), p.choices.end(), *text) == p.choices.end()) {
-          const std::string near = text ? nearest(*text, p.choices) : "";
-          return refuse("must be " + p.type_text() + (near.empty() ? "" : "; did you mean \"" + near + "\"?"));
-        }
-        value = *text;
-        break;
-      }
-    }
-    return true;
   }
 
   void check_keys(const Table& table, const toml::table& entry) {
@@ -360,37 +255,9 @@ class Reader {
   bool refused_ = false;  ///< something had a problem before [assumed] was read
 };
 
-toml::table& table_at(toml::table& root, const InputEdit& edit) {
-  if (edit.ring) return *root.get("ring")->as_array()->get(*edit.ring)->as_table();
-  toml::table* table = &root;
-  std::istringstream path(edit.parameter->table);
-  for (std::string name; std::getline(path, name, '.');) {
-    if (!table->contains(name)) table->insert(name, toml::table{});
-    table = table->get(name)->as_table();
-    require(table != nullptr, "a checked scene has tables where its schema has");
-  }
-  return *table;
-}
-
-void set_number(toml::table& root, const InputEdit& edit) {
-  const Parameter& p = *edit.parameter;
-  toml::table& table = table_at(root, edit);
-  if (p.kind == Parameter::Kind::integer) {
-    table.insert_or_assign(p.name, static_cast<std::int64_t>(edit.value));
-  } else if (p.kind == Parameter::Kind::reals) {
-    toml::array list;
-    const auto* present = table[p.name].as_array();
-    for (std::size_t i = 0; i < edit.length; ++i)
-      list.push_back(i == *edit.index                 ? edit.value
-                     : present && i < present->size() ? present->get(i)->value_or(0.0)
-                                                      : 0.0);
-    table.insert_or_assign(p.name, std::move(list));
-  } else {
-    table.insert_or_assign(p.name, edit.value);
-  }
-}
-
 }  // namespace
+
+Scene read_tables(const toml::table& root, const std::filesystem::path& file) { return Reader(root, file).read(); }
 
 Scene parse_scene(const std::string& text, const std::filesystem::path& name) {
   check_scene_text(text, name.string());
@@ -401,56 +268,9 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& name) {
     const Place at = place_of(error.source());
     throw SceneError(name.string(), {{at.line, at.column, "not valid TOML: " + std::string(error.description())}});
   }
-  Scene scene = Reader(root, name).read();
+  Scene scene = read_tables(root, name);
   scene.text = text;
   return scene;
-}
-
-namespace {
-
-toml::table changed_root(const Scene& scene, const std::vector<Override>& overrides) {
-  require(!scene.text.empty(), "only a scene read from a file or text can be changed");
-  toml::table root = toml::parse(scene.text, scene.file.string());
-  // A changed scene answers one question: it has no studies of its own, and no one asks for its assumptions.
-  for (const auto& table : schema()) {
-    if (is_study_table(table.path)) root.erase(table.path);
-  }
-  root.erase("assumed");
-  for (const auto& edit : resolve(scene, overrides)) set_number(root, edit);
-  return root;
-}
-
-}  // namespace
-
-Scene with_overrides(const Scene& scene, const std::vector<Override>& overrides) {
-  return Reader(changed_root(scene, overrides), scene.file).read();
-}
-
-Scene with_accuracy(const Scene& scene, double accuracy, const std::string& note) {
-  require(!scene.text.empty(), "only a scene read from a file or text can be changed");
-  toml::table root = toml::parse(scene.text, scene.file.string());
-  root.insert_or_assign("accuracy", accuracy);
-  std::ostringstream text;
-  text << root << '\n';
-  Scene changed = parse_scene(text.str(), scene.file);
-  for (auto& input : changed.inputs) {
-    if (input.key != "accuracy") continue;
-    input.origin = Origin::derived;
-    input.note = note;
-  }
-  return changed;
-}
-
-std::string scene_text(const Scene& scene, const std::vector<Override>& overrides) {
-  toml::table root = changed_root(scene, overrides);
-  root.erase("reference");  // its path is relative to the original
-  std::ostringstream text;
-  text << root << '\n';
-  return text.str();
-}
-
-Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  return with_overrides(read_scene(file), overrides);
 }
 
 Scene read_scene(const std::filesystem::path& file) {
