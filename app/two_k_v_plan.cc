@@ -61,6 +61,38 @@ std::vector<FreedomPlan> two_k_v_freedoms(const Scene& scene) {
           held("output u", scene.output.support)};
 }
 
+/// The stage with rough stiffness, before anything is solved.
+dynamics::TwoKVStage rough_two_k_v(const Scene& scene) {
+  Scene rough = scene;
+  for (auto* mesh : {&rough.sun_planet, &rough.arc_pins}) {
+    const double mean = rough_stiffness(scene, *mesh);
+    *mesh = {};
+    mesh->stiffness = StiffnessShape::constant;
+    mesh->mean = mean;
+  }
+  const MeshResult none{
+      .model = {},
+      .table = StiffnessTable("sun_planet", 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
+  return make_two_k_v(rough, {none, none}, dynamics::LoadDependence::nominal);
+}
+
+std::vector<std::string> stiff_parts(const Scene& scene) {
+  const auto stage = rough_two_k_v(scene);
+  std::vector<std::string> list;
+  const auto add = [&](const char* key, double given, double taken, const char* unit) {
+    if (taken < given)
+      list.push_back(
+          fmt::format("{} = {} {unit} counts as some {} {unit}: it then gives way by less than a "
+                      "thousandth of the accuracy beside its neighbours, and more changes nothing.",
+                      key, to_text(given), to_text(taken, 2), fmt::arg("unit", unit)));
+  };
+  add("input.shaft_Nm_per_rad", *scene.input.shaft, stage.input_shaft, "N m/rad");
+  add("crank.shaft_Nm_per_rad", *scene.crank.shaft, stage.crank_shaft, "N m/rad");
+  add("crank.bearing_N_per_m", *scene.crank.bearing, stage.crank_bearing, "N/m");
+  add("arc_gear.bearing_N_per_m", *scene.arc_gear.bearing, stage.arc_bearing, "N/m");
+  return list;
+}
+
 std::vector<std::string> two_k_v_remarks(const Scene& scene, const std::vector<MeshModel>& meshes) {
   std::vector<std::string> list;
   bool computed = false;
@@ -81,6 +113,7 @@ std::vector<std::string> two_k_v_remarks(const Scene& scene, const std::vector<M
   list.emplace_back("Centrifugal and gyroscopic terms are left out, as in the paper; the crank turns slowly.");
   if (scene.dynamics->half_backlash == 0)
     list.emplace_back("Without backlash no mesh parts: its force may take either sign.");
+  for (auto& remark : stiff_parts(scene)) list.push_back(std::move(remark));
   if (!scene.dynamics->mesh_cycles)
     list.emplace_back("The motion is looked for directly (shooting) and confirmed by time integration.");
   return list;
@@ -109,17 +142,7 @@ std::vector<PlannedResponse> two_k_v_responses(const Scene& scene) {
 }
 
 double two_k_v_marching_seconds(const Scene& scene) {
-  Scene rough = scene;
-  for (auto* mesh : {&rough.sun_planet, &rough.arc_pins}) {
-    const double mean = rough_stiffness(scene, *mesh);
-    *mesh = {};
-    mesh->stiffness = StiffnessShape::constant;
-    mesh->mean = mean;
-  }
-  const MeshResult none{
-      .model = {},
-      .table = StiffnessTable("sun_planet", 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
-  const auto stage = make_two_k_v(rough, {none, none}, dynamics::LoadDependence::nominal);
+  const auto stage = rough_two_k_v(scene);
   const auto system = assemble(stage);
   // Shooting integrates a turn of the crank once per state, then twice more.
   const double turns = 2.0 * system.freedoms() + 2;

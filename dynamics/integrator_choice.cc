@@ -131,9 +131,8 @@ void check_fixed_step(const LumpedSystem& system, double mesh_frequency, double 
   }
   if (step <= largest) return;
   throw InputError(fmt::format(
-      "the fixed-step Runge-Kutta method is unstable with {:.4g} steps per mesh cycle: the fastest motion asks for "
-      "{:.4g} "
-      "(dynamics.steps_per_cycle), for accuracy for several times more; other integrators choose their steps",
+      "the fixed-step Runge-Kutta method is unstable with {:.4g} steps per mesh cycle (dynamics.steps_per_cycle): the "
+      "fastest motion asks for {:.4g}, accuracy for several times more; other integrators choose their steps",
       1 / (mesh_frequency * step), std::ceil(1 / (mesh_frequency * largest))));
 }
 

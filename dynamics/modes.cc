@@ -47,8 +47,7 @@ Eigen::MatrixXd stiffness_rows(const LumpedSystem& system, const Eigen::VectorXd
     const auto& spring = system.springs()[static_cast<std::size_t>(i)];
     for (const auto& [freedom, factor] : spring.a) rows(i, freedom) += root(spring.stiffness) * factor;
   }
-  Eigen::MatrixXd closing(meshes, n);
-  for (Eigen::Index m = 0; m < meshes; ++m) closing.row(m) = system.mesh_vector(static_cast<int>(m)).transpose();
+  const Eigen::MatrixXd closing = system.mesh_vectors().transpose();
   if (system.couplings().empty()) {
     for (Eigen::Index m = 0; m < meshes; ++m) rows.row(springs + m) = root(mesh_stiffness[m]) * closing.row(m);
     return rows;
