@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/errors.h"
+#include "core/floating_point.h"
 
 namespace annulus::dynamics {
 
@@ -97,6 +98,7 @@ Interval share_interval(long successes, long trials, double confidence) {
   using boost::math::binomial;
   const auto n = static_cast<double>(trials), k = static_cast<double>(successes);
   const double tail = (1 - confidence) / 2;
+  const UntrappedFloatingPoint untrapped;  // Boost's search for the bounds comes upon "not a number" and goes on
   return {k / n, successes == 0 ? 0 : binomial::find_lower_bound_on_p(n, k, tail),
           successes == trials ? 1 : binomial::find_upper_bound_on_p(n, k, tail)};
 }

@@ -33,8 +33,9 @@ Eigen::MatrixXd sum_harmonics(const HarmonicMatrix& cuts, double pitch, int sect
   for (int h = first, k = 0; h < harmonics; h += step) {
     Eigen::MatrixXcd matrix = cuts.factor(h);
     lapack::invert_from_cholesky(matrix);
-    inverses.col(2 * k) = matrix.real().reshaped();
-    inverses.col(2 * k + 1) = matrix.imag().reshaped();
+    const Eigen::VectorXcd entries = matrix.reshaped();
+    inverses.col(2 * k) = entries.real();
+    inverses.col(2 * k + 1) = entries.imag();
     // Harmonics h and N - h are conjugate.
     const double weight = (h == 0 || 2 * h == sectors ? 1.0 : 2.0) / sectors;
     for (int d = 0; d < offsets; ++d) {

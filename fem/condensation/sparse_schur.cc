@@ -110,7 +110,7 @@ void condense_loads(cholmod_factor* factor, const Eigen::MatrixXd& retained_fact
       const Eigen::MatrixXd block = lapack::transpose_product(y, acting_inside.leftCols(until));
       result.compliance.block(first, 0, columns, until) = block;
       result.compliance.block(0, first, until, columns) = block.transpose();
-    } else {
+    } else if (acting > 0) {
       result.compliance.middleRows(first, columns) = lapack::transpose_product(y, acting_inside);
     }
   }
