@@ -10,13 +10,6 @@
 namespace annulus::fem {
 namespace {
 
-std::vector<int> indices_of(const std::vector<bool>& active) {
-  std::vector<int> set;
-  for (int i = 0; i < static_cast<int>(active.size()); ++i)
-    if (active[i]) set.push_back(i);
-  return set;
-}
-
 /// Equality-constrained solve on the active set.
 bool solve_active(const ComplementarityProblem& p, const std::vector<int>& set, ComplementaritySolution& s) {
   const auto n = static_cast<Eigen::Index>(set.size());

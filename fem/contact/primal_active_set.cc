@@ -60,6 +60,13 @@ std::optional<Eigen::VectorXd> carrying_forces(const ComplementarityProblem& p) 
 
 }  // namespace
 
+std::vector<int> indices_of(const std::vector<bool>& active) {
+  std::vector<int> set;
+  for (int i = 0; i < static_cast<int>(active.size()); ++i)
+    if (active[i]) set.push_back(i);
+  return set;
+}
+
 std::vector<bool> primal_active_set(const ComplementarityProblem& p) {
   ContactTolerances zero(p);
   const Eigen::Index n = p.gap.size(), rigid = p.rigid.cols();
@@ -71,9 +78,7 @@ std::vector<bool> primal_active_set(const ComplementarityProblem& p) {
   const int most = 200 + 20 * static_cast<int>(n);
   for (int step = 0; step < most; ++step) {
     // Forces in equilibrium on the set, and the motions that close its gaps; the least ones where it leaves some free.
-    std::vector<int> set;
-    for (int i = 0; i < static_cast<int>(n); ++i)
-      if (active[i]) set.push_back(i);
+    const std::vector<int> set = indices_of(active);
     const auto m = static_cast<Eigen::Index>(set.size());
     const double stiff = p.compliance.diagonal().mean();
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(m + rigid, m + rigid);
