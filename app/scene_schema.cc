@@ -382,8 +382,7 @@ std::vector<Table> declare_tables() {
   Declarations<SupportInput> supports(
       "supports",
       "Stiffness of the bearings; 0 is none (planets need one). Absent or inf means rigid, and the "
-      "freedom is dropped; so does a stiffness "
-      "of a thousand meshes over the wanted accuracy.",
+      "freedom is dropped; so does a stiffness of a thousand meshes over the wanted accuracy.",
       [](Scene& s, std::size_t) -> SupportInput& { return s.supports; });
   supports.optional().only(planetary);
   const auto bearing = [&](const char* name, double SupportInput::*member, const char* meaning) {

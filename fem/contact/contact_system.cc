@@ -363,9 +363,8 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
       if (setup.window > largest_window)
         throw InputError(fmt::format(
             "mesh phase {:.4f}: under {:.4g} N the flanks touch over more than {} Hertz half-widths to either side: "
-            "they "
-            "give way by more than small displacements; reduce the load, or make teeth, rim, supports or material "
-            "stiffer",
+            "they give way by more than small displacements; reduce the load, or make teeth, rim, supports or "
+            "material stiffer",
             phase, whole_load, largest_window));
       cache = prepare(phase, load, 1.5 * setup.window);
       continue;
