@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
-#include "app/cost_actual.h"
-#include "app/input_place.h"
-#include "app/planetary_subject.h"
+#include "app/plan/cost_actual.h"
 #include "app/progress.h"
-#include "app/report.h"
-#include "app/scene_files.h"
-#include "app/studies.h"
-#include "app/summary.h"
+#include "app/report/report.h"
+#include "app/scene/input_place.h"
+#include "app/scene/scene_files.h"
+#include "app/stage/summary.h"
+#include "app/study/planetary_subject.h"
+#include "app/study/studies.h"
 #include "app/tasks.h"
 #include "core/files.h"
 #include "core/log.h"

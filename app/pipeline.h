@@ -8,15 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "app/coupling_effect.h"
-#include "app/gear_geometry.h"
-#include "app/mesh_result.h"
-#include "app/plan.h"
-#include "app/reference.h"
+#include "app/plan/plan.h"
 #include "app/reuse.h"
-#include "app/scene.h"
-#include "app/stage_response.h"
-#include "app/study_result.h"
+#include "app/scene/scene.h"
+#include "app/stage/coupling_effect.h"
+#include "app/stage/gear_geometry.h"
+#include "app/stage/mesh_result.h"
+#include "app/stage/reference.h"
+#include "app/stage/stage_response.h"
+#include "app/study/study_result.h"
 
 /// annulus from a scene file to a report. Start reading here: the whole program is six functions in a row,
 ///

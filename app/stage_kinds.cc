@@ -4,16 +4,16 @@
 
 #include <algorithm>
 
-#include "app/displacement_checks.h"
-#include "app/input_place.h"
-#include "app/pair_run.h"
-#include "app/pair_subject.h"
-#include "app/plan.h"
-#include "app/planetary_subject.h"
-#include "app/rim_checks.h"
-#include "app/summary.h"
-#include "app/two_k_v_run.h"
-#include "app/two_k_v_subject.h"
+#include "app/pair/pair_run.h"
+#include "app/pair/pair_subject.h"
+#include "app/plan/plan.h"
+#include "app/scene/displacement_checks.h"
+#include "app/scene/input_place.h"
+#include "app/scene/rim_checks.h"
+#include "app/stage/summary.h"
+#include "app/study/planetary_subject.h"
+#include "app/two_k_v/two_k_v_run.h"
+#include "app/two_k_v/two_k_v_subject.h"
 #include "core/errors.h"
 
 namespace annulus::app {

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "app/cost_plan.h"
-#include "app/mesh_model.h"
-#include "app/scene.h"
-#include "app/study_result.h"
+#include "app/plan/cost_plan.h"
+#include "app/plan/mesh_model.h"
+#include "app/scene/scene.h"
+#include "app/study/study_result.h"
 
 /// Where the kinds of stages differ, in one place: a new kind adds its tables (scene_schema.cc), its checks
 /// (scene_checks.cc) and a case to each function here.

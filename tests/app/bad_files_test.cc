@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/scene_files.h"
-#include "app/scene_limits.h"
-#include "app/scene_schema.h"
+#include "app/scene/scene_files.h"
+#include "app/scene/scene_limits.h"
+#include "app/scene/scene_schema.h"
 #include "app/stage_kinds.h"
-#include "app/studies.h"
+#include "app/study/studies.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "tests/app/bad_scenes.h"

@@ -5,9 +5,9 @@
 #include <map>
 #include <optional>
 
-#include "app/scene_schema.h"
+#include "app/scene/scene_schema.h"
 #include "app/stage_kinds.h"
-#include "app/studies.h"
+#include "app/study/studies.h"
 #include "core/errors.h"
 #include "tests/app/bad_scenes.h"
 #include "tests/app/scene_edit.h"

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene.h"
+#include "app/scene/scene.h"
 #include "tests/app/pair_scenes.h"
 #include "tests/app/scenes.h"
 #include "tests/app/two_k_v_scenes.h"

@@ -1,4 +1,4 @@
-#include "app/carried_errors.h"
+#include "app/stage/carried_errors.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "app/pipeline.h"
-#include "app/report_parts.h"
-#include "app/stage_modes.h"
+#include "app/report/report_parts.h"
+#include "app/stage/stage_modes.h"
 #include "core/files.h"
 #include "core/log.h"
 #include "tests/app/scenes.h"

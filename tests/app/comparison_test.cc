@@ -1,4 +1,4 @@
-#include "app/comparison.h"
+#include "app/stage/comparison.h"
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,4 +1,4 @@
-#include "app/cost_budget.h"
+#include "app/plan/cost_budget.h"
 
 #include <sys/wait.h>
 
@@ -10,8 +10,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "app/cost_actual.h"
-#include "app/plan.h"
+#include "app/plan/cost_actual.h"
+#include "app/plan/plan.h"
 #include "app/stage_kinds.h"
 #include "core/files.h"
 #include "tests/app/pair_scenes.h"

@@ -1,4 +1,4 @@
-#include "app/cost_model.h"
+#include "app/plan/cost_model.h"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <map>
 
-#include "app/cost_plan.h"
+#include "app/plan/cost_plan.h"
 #include "app/progress.h"
 #include "tests/app/scenes.h"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "app/cost_model.h"
+#include "app/plan/cost_model.h"
 #include "app/stage_kinds.h"
 #include "core/files.h"
 #include "tests/app/pair_scenes.h"

@@ -7,9 +7,9 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "app/gear_geometry.h"
-#include "app/mesh_model.h"
-#include "app/scene_schema.h"
+#include "app/plan/mesh_model.h"
+#include "app/scene/scene_schema.h"
+#include "app/stage/gear_geometry.h"
 #include "app/stage_kinds.h"
 #include "core/errors.h"
 #include "tests/app/scene_edit.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene.h"
+#include "app/scene/scene.h"
 #include "fem/loaded_mesh.h"
 
 /// Scenes at their limits: what comes of one, and what has to hold.

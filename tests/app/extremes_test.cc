@@ -7,9 +7,9 @@
 #include <ctime>
 #include <functional>
 
-#include "app/gear_geometry.h"
-#include "app/pair_model.h"
+#include "app/pair/pair_model.h"
 #include "app/pipeline.h"
+#include "app/stage/gear_geometry.h"
 #include "core/errors.h"
 #include "tests/app/pair_scenes.h"
 #include "tests/app/scenes.h"

@@ -30,8 +30,9 @@ std::vector<Include> includes_of(const std::string& layer) {
     while (std::getline(in, line)) {
       if (!std::regex_search(line, match, line_pattern)) continue;
       const auto relative = fs::relative(entry.path(), ANNULUS_SOURCE_DIR);
-      // Folders within a layer are its own business; its contract lies at its top.
-      const bool internal = std::distance(relative.begin(), relative.end()) > 2;
+      // Folders within a layer are its own business; its contract lies at its top. The application has parts of a
+      // layer's size, whose contracts lie at theirs.
+      const bool internal = std::distance(relative.begin(), relative.end()) > (layer == "app" ? 3 : 2);
       includes.push_back({relative.string(), layer, match[1], extension == ".h", internal});
     }
   }

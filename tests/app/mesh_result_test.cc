@@ -1,4 +1,4 @@
-#include "app/mesh_result.h"
+#include "app/stage/mesh_result.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/optimisation.h"
+#include "app/study/optimisation.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "app/pipeline.h"
-#include "app/scene_value.h"
+#include "app/scene/scene_value.h"
 #include "core/files.h"
 #include "core/log.h"
 #include "tests/app/background_run.h"

@@ -1,10 +1,10 @@
-#include "app/overrides.h"
+#include "app/scene/overrides.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "app/studies.h"
-#include "app/study_cases.h"
+#include "app/study/studies.h"
+#include "app/study/study_cases.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
 

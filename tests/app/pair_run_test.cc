@@ -1,4 +1,4 @@
-#include "app/pair_run.h"
+#include "app/pair/pair_run.h"
 
 #include <sys/wait.h>
 
@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/pair_subject.h"
+#include "app/pair/pair_subject.h"
 #include "app/stage_kinds.h"
-#include "app/studies.h"
+#include "app/study/studies.h"
 #include "core/log.h"
 #include "core/units.h"
 #include "tests/app/pair_scenes.h"

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/pair_errors.h"
-#include "app/pair_model.h"
-#include "app/pair_stiffness.h"
+#include "app/pair/pair_errors.h"
+#include "app/pair/pair_model.h"
+#include "app/pair/pair_stiffness.h"
 #include "app/stage_kinds.h"
-#include "app/study_cases.h"
+#include "app/study/study_cases.h"
 #include "core/units.h"
 #include "tests/app/pair_scenes.h"
 #include "tests/app/scenes.h"

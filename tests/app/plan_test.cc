@@ -1,4 +1,4 @@
-#include "app/plan.h"
+#include "app/plan/plan.h"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
@@ -7,8 +7,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "app/cost_model.h"
-#include "app/cost_plan.h"
+#include "app/plan/cost_model.h"
+#include "app/plan/cost_plan.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
 

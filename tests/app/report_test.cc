@@ -1,12 +1,12 @@
-#include "app/report.h"
+#include "app/report/report.h"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
-#include "app/report_parts.h"
-#include "app/summary.h"
-#include "app/svg_map.h"
+#include "app/report/report_parts.h"
+#include "app/report/svg_map.h"
+#include "app/stage/summary.h"
 #include "tests/app/made_up_solution.h"
 #include "tests/app/scenes.h"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/pipeline.h"
-#include "app/summary.h"
+#include "app/stage/summary.h"
 #include "core/csv.h"
 #include "core/log.h"
 #include "tests/app/scenes.h"

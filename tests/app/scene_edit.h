@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene_schema.h"
+#include "app/scene/scene_schema.h"
 
 namespace annulus::test {
 

@@ -1,4 +1,4 @@
-#include "app/scene.h"
+#include "app/scene/scene.h"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "app/scene_schema.h"
+#include "app/scene/scene_schema.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
 

@@ -1,4 +1,4 @@
-#include "app/scene_value.h"
+#include "app/scene/scene_value.h"
 
 #include <boost/test/unit_test.hpp>
 #include <limits>

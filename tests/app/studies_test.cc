@@ -1,4 +1,4 @@
-#include "app/studies.h"
+#include "app/study/studies.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

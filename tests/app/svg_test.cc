@@ -1,11 +1,11 @@
-#include "app/svg_plot.h"
+#include "app/report/svg_plot.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "app/report_parts.h"
-#include "app/svg_mesh.h"
-#include "app/svg_mode.h"
+#include "app/report/report_parts.h"
+#include "app/report/svg_mesh.h"
+#include "app/report/svg_mode.h"
 #include "geometry/sector_mesh.h"
 #include "tests/app/made_up_solution.h"
 

@@ -1,4 +1,4 @@
-#include "app/tradeoff.h"
+#include "app/tradeoff/tradeoff.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <iterator>
 #include <limits>
 
-#include "app/measured_work.h"
-#include "app/trade_report.h"
+#include "app/tradeoff/measured_work.h"
+#include "app/tradeoff/trade_report.h"
 #include "core/errors.h"
 #include "core/log.h"
 #include "tests/app/scenes.h"

@@ -1,4 +1,4 @@
-#include "app/two_k_v_run.h"
+#include "app/two_k_v/two_k_v_run.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "app/stage_kinds.h"
-#include "app/two_k_v_subject.h"
+#include "app/two_k_v/two_k_v_subject.h"
 #include "core/log.h"
 #include "tests/app/scenes.h"
 #include "tests/app/two_k_v_scenes.h"

@@ -1,10 +1,10 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "app/overrides.h"
-#include "app/scene_schema.h"
+#include "app/scene/overrides.h"
+#include "app/scene/scene_schema.h"
 #include "app/stage_kinds.h"
-#include "app/two_k_v_model.h"
+#include "app/two_k_v/two_k_v_model.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
 #include "tests/app/two_k_v_scenes.h"

@@ -7,11 +7,11 @@
 #include <cstdlib>
 #include <exception>
 
-#include "app/measured_work.h"
-#include "app/overrides.h"
-#include "app/scene.h"
-#include "app/trade_report.h"
-#include "app/tradeoff.h"
+#include "app/scene/overrides.h"
+#include "app/scene/scene.h"
+#include "app/tradeoff/measured_work.h"
+#include "app/tradeoff/trade_report.h"
+#include "app/tradeoff/tradeoff.h"
 #include "core/log.h"
 #include "tests/benchmarks/promise/scenes.h"
 

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "app/scene_schema.h"
+#include "app/scene/scene_schema.h"
 #include "app/stage_kinds.h"
-#include "app/studies.h"
+#include "app/study/studies.h"
 #include "core/errors.h"
 
 namespace annulus::app {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene_schema.h"
+#include "app/scene/scene_schema.h"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 

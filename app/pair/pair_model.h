@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/scene/scene.h"
+#include "core/stiffness_table.h"
+#include "dynamics/helical_pair.h"
+#include "dynamics/steady_response.h"
+#include "geometry/gear_pair.h"
+
+/// A helical pair as geometry and as lumped masses.
+namespace annulus::app {
+
+/// What follows from the scene without computing an elastic body.
+struct PairGeometry {
+  geometry::GearPair gears;     ///< `planet()` is the pinion
+  double base_helix_angle = 0;  ///< rad, without its sign
+  double transverse_force = 0;  ///< N, magnitude, along the transverse line of action: torque / base radius
+
+  [[nodiscard]] const geometry::Gear& pinion() const { return gears.planet(); }
+  [[nodiscard]] const geometry::Gear& wheel() const { return gears.wheel(); }
+  /// N/m along the normal of the flanks = this x N/m along the transverse line of action: the normal force is larger by
+  /// 1/cos b, the normal deflection smaller by cos b.
+  [[nodiscard]] double to_normal() const;
+};
+
+/// Throws GeometryError, naming the gear, when the gears cannot exist or mesh.
+[[nodiscard]] PairGeometry make_pair_geometry(const Scene& scene);
+
+/// m: the given centre distance, else the one without backlash at these profile shifts.
+[[nodiscard]] double pair_centre_distance(const Scene& scene);
+/// kg m^2: the given inertia, else that of a solid disc of the reference radius; nothing without a mass.
+[[nodiscard]] std::optional<double> pair_inertia(const Scene& scene, const PairGearInput& gear);
+
+/// The lumped model. `mesh_error`: amplitude at mesh frequency, m. Throws InternalError without [dynamics].
+[[nodiscard]] dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry,
+                                              const dynamics::MeshExcitation& mesh, double mesh_error);
+[[nodiscard]] dynamics::SimulationOptions pair_simulation(const Scene& scene);
+
+/// Identity of everything a response depends on. `table`: behind the stiffness of the mesh, if there is one.
+[[nodiscard]] std::string pair_id(const dynamics::HelicalPair& pair, const dynamics::SimulationOptions& options,
+                                  const StiffnessTable* table);
+
+}  // namespace annulus::app

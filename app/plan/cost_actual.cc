@@ -1,0 +1,122 @@
+#include "app/plan/cost_actual.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "app/report/report_parts.h"
+#include "app/report/svg_plot.h"
+
+namespace annulus::app {
+
+std::optional<CostRun> actual_mesh(CostRun size, const MeshResult& mesh) {
+  if (mesh.reused || !mesh.model.computed()) return std::nullopt;
+  const auto fact = [&](const char* name) {
+    const double value = mesh.fact(name);
+    return std::isfinite(value) ? value : 0.0;
+  };
+  size.level = static_cast<int>(fact("level"));
+  size.levels = mesh.model.settings.level ? 2 : size.level + 1;
+  size.unknowns = fact("unknowns");
+  size.error = fact("worst_error_relative");
+  size.body_s = fact("mesh_seconds") + fact("condense_seconds");
+  size.contact_s = fact("contact_seconds");
+  size.saved_s = fact("saved_seconds");
+  return size;
+}
+
+CostRun actual_time(CostRun size, double seconds) {
+  size.body_s = seconds;
+  return size;
+}
+
+PlanCost actual_costs(const PlanCost& planned, const std::function<std::optional<CostRun>(const CostStep&)>& actual) {
+  PlanCost cost = planned;
+  for (auto& step : cost.steps)
+    if (step.kind != CostKind::studies) step.actual = actual(step);
+  return cost.done();
+}
+
+PlanCost actual_costs(const RunResult& result) {
+  return actual_costs(result.plan.cost, [&](const CostStep& step) -> std::optional<CostRun> {
+    if (step.kind == CostKind::mesh && step.label == result.sun_mesh.model.label())
+      return actual_mesh(step.size, result.sun_mesh);
+    for (const auto& ring : result.rings) {
+      const auto& coupling = ring.mesh.coupling;
+      if (step.kind == CostKind::mesh && step.label == ring.mesh.model.label())
+        return actual_mesh(step.size, ring.mesh);
+      if (step.kind == CostKind::coupling && step.ring == ring.name && coupling && !coupling->reused) {
+        auto time = actual_time(step.size, coupling->seconds);
+        if (coupling->reused_teeth > 0) time.saved_s = std::numeric_limits<double>::quiet_NaN();
+        return time;
+      }
+      if (step.kind == CostKind::response && step.ring == ring.name && ring.response && !ring.response->reused)
+        return actual_time(step.size, ring.response_seconds);
+    }
+    return std::nullopt;
+  });
+}
+
+void keep_costs(const PlanCost& done) {
+  std::vector<CostRun> runs;
+  for (const auto& step : done.steps)
+    // A long time integration is predicted from its steps: it says nothing about the laws of all others.
+    if (step.actual && step.marching_s < 0.2 * step.predicted.seconds && step.actual->seconds() > 0 &&
+        std::isfinite(step.actual->saved_s)) {
+      // What it would have cost without teeth of others.
+      runs.push_back(*step.actual);
+      runs.back().body_s += step.actual->saved_s;
+    }
+  add_user_costs(user_costs_file(), runs);
+}
+
+std::string cost_sentence(const PlanCost& planned, const PlanCost& done, double peak_memory_MB) {
+  if (done.empty()) return "";
+  const auto meshes = [](const PlanCost& cost) {
+    return std::count_if(cost.steps.begin(), cost.steps.end(),
+                         [](const CostStep& step) { return step.kind == CostKind::mesh; });
+  };
+  if (meshes(done) < meshes(planned))
+    return fmt::format("predicted {}, actual {} for what was not reused", duration_text(done.seconds()),
+                       duration_text(done.actual_seconds()));
+  return fmt::format("predicted {} and {}, actual {} and {}", duration_text(done.seconds()),
+                     memory_text(done.peak_MB()), duration_text(done.actual_seconds()), memory_text(peak_memory_MB));
+}
+
+std::string cost_sentence(const RunResult& result) {
+  return cost_sentence(result.plan.cost, result.cost, result.peak_memory_MB);
+}
+
+std::string cost_json(const PlanCost& done) {
+  const auto known = [](double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr); };
+  nlohmann::ordered_json json = {{"predicted_s", known(done.seconds())},
+                                 {"actual_s", known(done.actual_seconds())},
+                                 {"predicted_peak_MB", known(done.peak_MB())}};
+  for (const auto& step : done.steps)
+    json["steps"].push_back({{"step", to_text(step.kind)},
+                             {"name", step.label},
+                             {"predicted_s", known(step.predicted.seconds)},
+                             {"actual_s", step.actual->seconds()}});
+  return json.dump();
+}
+
+std::string predicted_and_actual_html(const RunResult& result) {
+  return predicted_and_actual_html(result.plan.cost, result.cost, result.peak_memory_MB);
+}
+
+std::string predicted_and_actual_html(const PlanCost& planned, const PlanCost& done, double peak_memory_MB) {
+  if (done.empty()) return "";
+  HtmlTable table{
+      .head = {"step", "predicted time", "actual time", "predicted peak memory"}, .rows = {}, .css_class = "numbers"};
+  for (const auto& step : done.steps)
+    table.rows.push_back({escape(step.label), duration_text(step.predicted.seconds),
+                          duration_text(step.actual->seconds()),
+                          step.kind == CostKind::coupling ? "–" : memory_text(step.predicted.peak_MB)});
+  return "<p>Cost of the steps that were not reused, as predicted before the run and as measured: " +
+         escape(cost_sentence(planned, done, peak_memory_MB)) + ".</p>\n" + html(table);
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,387 @@
+#include "app/plan/mesh_model.h"
+
+#include <fmt/format.h>
+
+#include "app/content_id.h"
+#include "fem/solved_face.h"
+
+namespace annulus::app {
+
+namespace {
+
+fem::RingStructure structure_of(const RingInput& ring) {
+  switch (ring.structure) {
+    case Structure::traditional:
+      if (ring.flange_width) return fem::FlangeHeld{*ring.flange_width, *ring.flange_diameter / 2};
+      return fem::OutsideHeld{};
+    case Structure::thin_walled: {
+      fem::EndFaceHeld held{.free_length = *ring.free_length, .sleeve_thickness = *ring.sleeve_thickness};
+      if (ring.hoop_width) held.hoop = fem::Hoop{*ring.hoop_width, *ring.hoop_thickness};
+      return held;
+    }
+    case Structure::splined:
+      return fem::SplineHeld{.teeth = *ring.splines,
+                             .flank_angle = *ring.spline_flank_angle,
+                             .clearance = ring.spline_clearance.value_or(0),
+                             .flank_stiffness = ring.spline_stiffness,
+                             .first_tooth_angle = ring.first_spline_angle.value_or(0)};
+    case Structure::pinned:
+    case Structure::bolted:
+      break;
+  }
+  return fem::PinHeld{
+      .angles = ring.pins ? fem::equal_angles(*ring.pins, ring.first_pin_angle.value_or(0)) : ring.pin_angles,
+      .pin_diameter = *ring.pin_diameter,
+      .clearance = ring.pin_clearance.value_or(0),
+      .free_span = ring.pin_free_span.value_or(0),
+      .radial_stiffness = ring.pin_radial_stiffness,
+      .tangential_stiffness = ring.pin_tangential_stiffness,
+      .housing_clearance = ring.housing_clearance,
+      .unilateral = ring.structure == Structure::pinned};
+}
+
+fem::LoadedMeshProblem problem_of(const Scene& scene, const geometry::GearPair& pair, const HubGearInput& planet) {
+  return {.pair = pair,
+          .material = {scene.material.youngs_modulus, scene.material.poisson_ratio, scene.material.density},
+          .face_width = scene.stage.face_width,
+          .planet_bore_radius = planet.bore_diameter.value_or(0) / 2};
+}
+
+void use(MeshModel& model, fem::Rung rung) {
+  model.settings.rung = rung;
+  model.rung = rung_name(rung);
+}
+
+/// The cheapest rung the mesh permits, unless the scene asks for another.
+void set_rung(MeshModel& model, const Scene& scene, const std::string& why_solid, const std::string& why_plane) {
+  const bool needs_solid = !why_solid.empty();
+  const std::string& why = needs_solid ? why_solid : why_plane;
+  constexpr const char* asked = "the scene asks for it (rung)";
+  switch (scene.rung) {
+    case Rung::automatic:
+      use(model, needs_solid ? fem::Rung::solid : fem::Rung::plane);
+      model.reason = why;
+      break;
+    case Rung::closed_form:
+      use(model, fem::Rung::closed_form);
+      model.reason = asked;
+      break;
+    case Rung::plane:
+      use(model, fem::Rung::plane);
+      model.reason = asked;
+      break;
+    case Rung::solid:
+      use(model, fem::Rung::solid);
+      model.reason = needs_solid ? why_solid : asked;
+      break;
+    case Rung::resolved:
+      use(model, needs_solid ? fem::Rung::resolved_solid : fem::Rung::resolved_plane);
+      model.reason = std::string(asked) + "; " + why;
+      break;
+  }
+}
+
+/// Formulas do where their error, known beforehand, is within the accuracy. Rings on single supports are left to
+/// elements unless the accuracy is very rough: these also tell how their meshes act on each other through the ring.
+bool formulas_do(const MeshModel& model, const Scene& scene, double error) {
+  return scene.rung == Rung::automatic && model.settings.rung == fem::Rung::plane && error <= scene.accuracy &&
+         (scene.accuracy >= very_rough_accuracy || !model.problem->pair.internal() ||
+          !fem::on_single_supports(model.problem->structure));
+}
+
+/// Why linear elements would be too stiff, by more than their error estimate tells: they lock where the volume hardly
+/// changes, and where thin parts bend.
+std::string unfit_for_linear(const fem::LoadedMeshProblem& problem) {
+  constexpr double nearly_incompressible = 0.4, thin_rim = 2, slender_sleeve = 0.1;
+  if (problem.material.poisson_ratio > nearly_incompressible)
+    return fmt::format("linear ones are too stiff where Poisson's ratio exceeds {}", nearly_incompressible);
+  const auto* sleeve = std::get_if<fem::EndFaceHeld>(&problem.structure);
+  if (sleeve == nullptr) return "";
+  const auto& gear = problem.pair.wheel();
+  if (problem.wheel_support_radius - gear.root_radius() < thin_rim * gear.parameters().module ||
+      sleeve->sleeve_thickness < slender_sleeve * sleeve->free_length)
+    return "linear ones are too stiff where a thin rim or a slender sleeve bends";
+  return "";
+}
+
+/// What the wanted accuracy asks of a mesh whose problem is complete but for phases and loads.
+void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
+  model.settings.accuracy = scene.accuracy;
+  model.settings.largest_deflection = 0.25;  // small displacements; what is known beforehand: displacement_checks.h
+  auto table = table_resolution(scene.accuracy, load_uptake(mean_force, model.problem->face_width,
+                                                            model.problem->pair.planet().parameters().module,
+                                                            model.problem->material.youngs_modulus));
+  model.problem->phases = table.phases;
+  for (const double factor : table.load_factors) model.problem->loads.push_back(factor * mean_force);
+  model.phases = std::move(table.phases_reason);
+  model.loads = std::move(table.loads_reason);
+  if (model.settings.rung == fem::Rung::plane) {
+    const double error = fem::closed_form_error(*model.problem);
+    if (formulas_do(model, scene, error)) {
+      use(model, fem::Rung::closed_form);
+      model.reason += fmt::format("; formulas are within {:.1g} %", 100 * error);
+    }
+  }
+  if (model.settings.rung == fem::Rung::closed_form) return;
+  auto elements = element_choice(model.settings.rung, scene.accuracy, unfit_for_linear(*model.problem));
+  model.settings.degree = elements.degree;
+  model.elements = std::move(elements.reason);
+}
+
+std::string plane_reason(const RingInput& ring) {
+  constexpr const char* rest = ": nothing changes along the face width";
+  switch (ring.structure) {
+    case Structure::pinned:
+      return std::string("the pins carry over the full width") + rest;
+    case Structure::bolted:
+      return std::string("the bolts hold over the full width") + rest;
+    case Structure::splined:
+      return std::string("the splines carry over the full width") + rest;
+    case Structure::traditional:
+    case Structure::thin_walled:
+      break;
+  }
+  return std::string("the outer surface is held over the full width") + rest;
+}
+
+/// Why the mesh of a ring with single supports repeats after so many teeth.
+std::string repeats_text(const RingInput& ring, int positions) {
+  std::string supports = fmt::format("{} supports at given places", ring.pin_count());
+  if (ring.structure == Structure::splined) supports = fmt::format("{} splines", *ring.splines);
+  if (ring.pins) supports = fmt::format("{} equal supports", *ring.pins);
+  if (ring.has_pins() && ring.pin_count() == 1) supports = "a single support";
+  if (positions == ring.teeth)
+    return fmt::format("{} teeth on {}: no smaller turn repeats the ring", ring.teeth, supports);
+  return fmt::format("{} teeth on {}: the ring repeats after {} teeth", ring.teeth, supports, positions);
+}
+
+void add_reason(std::string& reasons, bool applies, const std::string& reason) {
+  if (applies) reasons += (reasons.empty() ? "" : "; ") + reason;
+}
+
+bool lead_modified(const GearInput& gear) { return gear.lead_crowning != 0 || gear.lead_slope != 0; }
+
+/// What both meshes have in common: the teeth themselves.
+std::string tooth_reasons(const Scene& scene, const GearInput& planet, const std::string& planet_name,
+                          const GearInput& wheel, const std::string& wheel_name, double misalignment) {
+  constexpr const char* lead = "the lead of the {} is modified, so the load varies along the face width";
+  std::string reasons;
+  add_reason(reasons, scene.stage.helix_angle != 0,
+             "helical teeth enter the contact progressively along the face width");
+  add_reason(reasons, lead_modified(wheel), fmt::format(lead, wheel_name));
+  add_reason(reasons, lead_modified(planet), fmt::format(lead, planet_name));
+  add_reason(reasons, misalignment != 0, "the flanks are misaligned, so the load varies along the face width");
+  return reasons;
+}
+
+void set_given(MeshModel& model, const std::string& shape) {
+  model.rung = "given";
+  model.reason = fmt::format("the scene gives the stiffness (mesh.{}: {})", model.mesh, shape);
+  model.repeats = "as given";
+}
+
+std::string shape_text(StiffnessShape shape) {
+  switch (shape) {
+    case StiffnessShape::computed:
+      return "computed";
+    case StiffnessShape::constant:
+      return "constant";
+    case StiffnessShape::harmonic:
+      return "harmonic";
+    case StiffnessShape::rectangular:
+      return "rectangular";
+    case StiffnessShape::iso_6336:
+      return "iso_6336";
+    case StiffnessShape::closed_form:
+      return "closed_form";
+    case StiffnessShape::table:
+      break;
+  }
+  return "table";
+}
+
+void add_gear(ContentId& id, const std::string& name, const geometry::Gear& gear) {
+  const auto& p = gear.parameters();
+  id.add(name + ".teeth", p.teeth).add(name + ".module", p.module).add(name + ".pressure_angle", p.pressure_angle);
+  id.add(name + ".profile_shift", p.profile_shift).add(name + ".tip_radius", gear.tip_radius());
+  id.add(name + ".root_radius", gear.root_radius()).add(name + ".root_fillet", p.root_fillet_factor);
+  id.add(name + ".tip_relief", p.tip_relief).add(name + ".tip_relief_length", p.tip_relief_length);
+  id.add(name + ".profile_crowning", p.profile_crowning).add(name + ".helix_angle", p.helix_angle);
+  id.add(name + ".lead_crowning", p.lead_crowning).add(name + ".lead_slope", p.lead_slope);
+}
+
+void add_structure(ContentId& id, const fem::RingStructure& structure) {
+  constexpr double absent = -1;
+  id.add("structure", static_cast<double>(structure.index()));
+  if (const auto* sleeve = std::get_if<fem::EndFaceHeld>(&structure)) {
+    id.add("free_length", sleeve->free_length).add("sleeve_thickness", sleeve->sleeve_thickness);
+    if (sleeve->hoop) id.add("hoop_width", sleeve->hoop->width).add("hoop_thickness", sleeve->hoop->thickness);
+  } else if (const auto* pins = std::get_if<fem::PinHeld>(&structure)) {
+    for (const double angle : pins->angles) id.add("pin", angle);
+    id.add("pin_diameter", pins->pin_diameter).add("clearance", pins->clearance).add("free_span", pins->free_span);
+    id.add("pin_stiffness", pins->radial_stiffness.value_or(absent));
+    id.add("pin_tangential_stiffness", pins->tangential_stiffness.value_or(absent));
+    id.add("housing_clearance", pins->housing_clearance.value_or(absent));
+    id.add("unilateral", pins->unilateral ? 1 : 0);
+  } else if (const auto* flange = std::get_if<fem::FlangeHeld>(&structure)) {
+    id.add("flange_width", flange->width).add("flange_radius", flange->outside_radius);
+  } else if (const auto* spline = std::get_if<fem::SplineHeld>(&structure)) {
+    id.add("splines", spline->teeth).add("first_spline", spline->first_tooth_angle);
+    id.add("flank_angle", spline->flank_angle).add("clearance", spline->clearance);
+    id.add("flank_stiffness", spline->flank_stiffness.value_or(absent));
+  }
+}
+
+Decision symmetry_decision(const fem::LoadedMeshProblem& problem, const fem::LoadedMeshSettings& settings) {
+  if (fem::solved_face(problem, settings).half)
+    return {"symmetry", "half of the face", "the mesh is its own mirror image about the middle of the face"};
+  return {"symmetry", "whole face", settings.symmetry ? fem::asymmetry_of_face(problem) : "asked for"};
+}
+
+}  // namespace
+
+const char* rung_name(fem::Rung rung) {
+  switch (rung) {
+    case fem::Rung::closed_form:
+      return "closed_form";
+    case fem::Rung::plane:
+      return "plane";
+    case fem::Rung::solid:
+      return "solid";
+    case fem::Rung::resolved_plane:
+      return "resolved_plane";
+    case fem::Rung::resolved_solid:
+      break;
+  }
+  return "resolved_solid";
+}
+
+std::vector<Decision> decisions(const MeshModel& model) {
+  std::vector<Decision> list = {{"rung", model.rung, model.reason}};
+  if (!model.computed()) return list;
+  const auto& settings = model.settings;
+  const auto& problem = *model.problem;
+  const bool elements = settings.rung != fem::Rung::closed_form;
+  const bool solid = settings.rung == fem::Rung::solid || settings.rung == fem::Rung::resolved_solid;
+  list.push_back({"dimension", solid ? "3D" : "2D, plane strain",
+                  solid ? "the face width is meshed" : "one section stands for the whole face width"});
+  if (solid) list.push_back(symmetry_decision(problem, settings));
+  if (elements) {
+    constexpr const char* names[] = {"linear", "quadratic", "cubic"};
+    list.push_back({"elements", names[settings.degree - 1], model.elements});
+    list.push_back(
+        settings.level
+            ? Decision{"refinement", fmt::format("level {}", *settings.level), "asked for"}
+            : Decision{"refinement", fmt::format("until {:g} %", 100 * settings.accuracy),
+                       "cells 1.5 times smaller from level to level until two levels agree at every position"});
+    list.push_back(
+        {"sectors",
+         fmt::format("1 of {} and 1 of {} teeth", problem.pair.planet().teeth(), problem.pair.wheel().teeth()),
+         "equal teeth are condensed once and the gears composed of them"});
+  }
+  list.push_back({"ring positions", std::to_string(model.positions), model.repeats});
+  list.push_back({"positions per mesh cycle", std::to_string(problem.phases), model.phases});
+  std::string loads = to_text(problem.loads.front() / 1e3, 4) + " kN";
+  if (problem.loads.size() > 1)
+    loads = fmt::format("{}, {} to {} kN", problem.loads.size(), to_text(problem.loads.front() / 1e3, 4),
+                        to_text(problem.loads.back() / 1e3, 4));
+  list.push_back({"loads", loads, model.loads});
+  return list;
+}
+
+std::string MeshModel::id() const {
+  ContentId id;
+  id.add("mesh", mesh).add("rung", rung);
+  if (problem) {
+    add_gear(id, "planet", problem->pair.planet());
+    add_gear(id, "wheel", problem->pair.wheel());
+    id.add("centre_distance", problem->pair.centre_distance());
+    id.add("E", problem->material.youngs_modulus).add("nu", problem->material.poisson_ratio);
+    id.add("face_width", problem->face_width).add("planet_bore", problem->planet_bore_radius);
+    id.add("wheel_support", problem->wheel_support_radius).add("phases", problem->phases);
+    id.add("misalignment", problem->misalignment);
+    for (const double load : problem->loads) id.add("load", load);
+    if (problem->pair.internal()) add_structure(id, problem->structure);
+    id.add("accuracy", settings.accuracy).add("degree", settings.degree).add("level", settings.level.value_or(0));
+  }
+  return id.id();
+}
+
+std::string MeshModel::label() const {
+  if (mesh == pinion_wheel) return "mesh of pinion and wheel";
+  if (mesh == arc_pins) return "mesh of arc teeth and pins";
+  return ring.empty() ? "sun-planet mesh" : fmt::format("ring-planet mesh of '{}'", ring);
+}
+
+std::string solid_reason(const Scene& scene, const RingInput& ring) {
+  std::string reasons;
+  add_reason(reasons, ring.structure == Structure::thin_walled,
+             "the ring hangs on one end face, so the deflection grows toward its free end");
+  add_reason(reasons, ring.flange_width.has_value(),
+             "a flange holds the ring at one end, so the deflection grows toward the other");
+  add_reason(reasons, ring.hoop_width.has_value(), "a hoop stiffens the free end");
+  const std::string teeth =
+      tooth_reasons(scene, scene.planet, "planet", ring, "ring", scene.errors.ring_planet_misalignment);
+  add_reason(reasons, !teeth.empty(), teeth);
+  return reasons;
+}
+
+std::string solid_reason(const Scene& scene) {
+  return tooth_reasons(scene, scene.planet, "planet", scene.sun, "sun", scene.errors.sun_planet_misalignment);
+}
+
+std::string solid_reason(const Scene& scene, const ExternalMesh& mesh) {
+  return tooth_reasons(scene, mesh.planet, mesh.planet_name, mesh.wheel, mesh.wheel_name, mesh.misalignment);
+}
+
+MeshModel external_mesh_model(const Scene& scene, const ExternalMesh& mesh) {
+  MeshModel model{.mesh = mesh.mesh};
+  if (mesh.input.stiffness != StiffnessShape::computed) {
+    set_given(model, shape_text(mesh.input.stiffness));
+    return model;
+  }
+  set_rung(model, scene, solid_reason(scene, mesh),
+           "spur gears without lead modifications on hubs over the full width: nothing changes along the face width");
+  model.repeats = "equal teeth on concentric hubs: one mesh cycle tells all";
+  model.problem = problem_of(scene, mesh.pair, mesh.planet);
+  model.problem->wheel_support_radius = mesh.wheel.bore_diameter.value_or(0) / 2;
+  model.problem->misalignment = mesh.misalignment;
+  set_resolution(model, scene, mesh.mean_force);
+  return model;
+}
+
+MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry) {
+  return external_mesh_model(scene, {.mesh = sun_planet,
+                                     .pair = geometry.sun_mesh(),
+                                     .input = scene.sun_planet,
+                                     .planet = scene.planet,
+                                     .wheel = scene.sun,
+                                     .planet_name = "planet",
+                                     .wheel_name = "sun",
+                                     .misalignment = scene.errors.sun_planet_misalignment,
+                                     .mean_force = geometry.operating_point.mean_mesh_force});
+}
+
+MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
+  const auto& input = scene.rings.at(ring);
+  const auto& ring_geometry = geometry.rings.at(ring);
+  MeshModel model{.mesh = ring_planet, .ring = input.name};
+  if (scene.ring_planet.stiffness != StiffnessShape::computed) {
+    set_given(model, shape_text(scene.ring_planet.stiffness));
+    return model;
+  }
+  set_rung(model, scene, solid_reason(scene, input), plane_reason(input));
+  const auto structure = structure_of(input);
+  model.positions = fem::repeating_teeth(structure, input.teeth);
+  model.repeats = input.has_pins() || input.structure == Structure::splined
+                      ? repeats_text(input, model.positions)
+                      : "the support is the same behind every tooth: one mesh cycle tells all";
+  model.problem = problem_of(scene, ring_geometry.set.ring_mesh(), scene.planet);
+  model.problem->wheel_support_radius = ring_geometry.outside_radius;
+  model.problem->structure = structure;
+  model.problem->misalignment = scene.errors.ring_planet_misalignment;
+  set_resolution(model, scene, geometry.operating_point.mean_mesh_force);
+  return model;
+}
+
+}  // namespace annulus::app

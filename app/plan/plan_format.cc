@@ -1,0 +1,192 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "app/content_id.h"
+#include "app/plan/plan.h"
+
+namespace annulus::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// printf pads bytes; this pads characters, so that "µm" and "kg m²" line up. What follows stays apart.
+std::string pad(const std::string& text, std::size_t width) {
+  std::size_t characters = 0;
+  for (const char c : text) characters += (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  return text + std::string(characters < width ? width - characters : 1, ' ');
+}
+
+std::string quantity_lines(const std::vector<Quantity>& quantities) {
+  std::string text;
+  for (const auto& q : quantities) text += "  " + pad(to_text(q.value, 8) + " " + q.unit, 26) + q.meaning + "\n";
+  return text;
+}
+
+std::string decision_lines(const std::vector<Decision>& list) {
+  std::size_t longest = 0;
+  for (const auto& d : list) longest = std::max(longest, d.choice.size());
+  std::string text;
+  for (const auto& d : list)
+    text += "    " + pad(d.what, 26) + pad(d.choice, std::min<std::size_t>(longest, 30) + 2) + d.reason + "\n";
+  return text;
+}
+
+Json decisions_json(const std::vector<Decision>& list) {
+  Json json = Json::array();
+  for (const auto& d : list) json.push_back({{"what", d.what}, {"choice", d.choice}, {"reason", d.reason}});
+  return json;
+}
+
+Json value_json(const Value& value) {
+  if (const auto* v = std::get_if<long>(&value)) return *v;
+  if (const auto* v = std::get_if<double>(&value)) return std::isinf(*v) ? Json("inf") : Json(*v);
+  if (const auto* v = std::get_if<std::string>(&value)) return *v;
+  if (const auto* v = std::get_if<std::vector<double>>(&value)) return *v;
+  if (const auto* v = std::get_if<std::vector<std::string>>(&value)) return *v;
+  return nullptr;
+}
+
+Json quantities_json(const std::vector<Quantity>& quantities) {
+  Json json = Json::object();
+  for (const auto& q : quantities) json[q.key] = q.value;
+  return json;
+}
+
+Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+std::string cost_lines(const Plan& plan) {
+  if (plan.cost.empty()) return "";
+  const auto& cost = plan.cost;
+  std::string text = fmt::format("\nPredicted cost on {} thread{}\n", cost.threads, cost.threads == 1 ? "" : "s");
+  for (const auto& step : cost.steps) {
+    text += "  " + pad(step.label, 34) + fmt::format("{:>10}", duration_text(step.predicted.seconds));
+    text += step.kind == CostKind::mesh || step.kind == CostKind::response
+                ? fmt::format("{:>11}", memory_text(step.predicted.peak_MB))
+                : "";
+    if (step.kind == CostKind::mesh && step.size.unknowns > 0)
+      text += fmt::format(
+          "   level {}, about {:.0f} thousand unknowns, expected error {}", step.size.level, step.size.unknowns / 1e3,
+          std::isfinite(step.expected_error) ? fmt::format("{:.2g} %", 100 * step.expected_error) : "not known");
+    text += "\n";
+  }
+  text += "  " + pad("in all", 34) +
+          fmt::format("{:>10}{:>11}\n", duration_text(cost.seconds()), memory_text(cost.peak_MB()));
+  return plan.budget.empty() ? text : text + "  " + plan.budget + "\n";
+}
+
+}  // namespace
+
+std::string to_text(const Plan& plan) {
+  std::string text = plan.title + "\n\nInputs (origin: scene, default, derived; * assumed)\n";
+  std::string ring;
+  for (const auto& input : plan.inputs) {
+    if (!input.ring.empty() && input.ring != ring) text += "  ring '" + input.ring + "'\n";
+    ring = input.ring;
+    text += "  " + pad(input.key, 40) + pad(to_text(input.value) + " " + input.unit, 30) +
+            (input.assumed.empty() ? "  " : "* ") + to_text(input.origin);
+    if (input.origin != Origin::scene && !input.note.empty()) text += " (" + input.note + ")";
+    text += "\n";
+  }
+  text += "\nDerived\n" + quantity_lines(plan.quantities);
+  for (const auto& [name, quantities] : plan.rings) text += "  ring '" + name + "'\n" + quantity_lines(quantities);
+
+  text += "\nMeshes and bodies\n";
+  for (const auto& mesh : plan.meshes) text += "  " + mesh.label() + "\n" + decision_lines(decisions(mesh));
+  text += fmt::format("  {} contact problems per level of resolution\n", plan.contact_problems());
+  text += cost_lines(plan);
+
+  if (!plan.freedoms.empty()) text += "\nLumped model\n" + decision_lines(plan.motion);
+  for (const auto& f : plan.freedoms)
+    text += fmt::format("  {} {} {}\n", f.kept ? "kept   " : "dropped", pad(f.name, 18), f.reason);
+
+  if (!plan.studies.empty()) text += "\nStudies\n";
+  for (const auto& s : plan.studies) {
+    text += fmt::format("  {}: {}; {} responses{}, about {} on one core", s.name, s.what, s.responses,
+                        plan.rings.empty() ? "" : " of all rings", duration_text(s.seconds));
+    text += s.tables ? fmt::format("; {} stiffness tables of their own\n", s.tables) : ", on the tables of the scene\n";
+  }
+
+  text += "\nRemarks\n";
+  for (const auto& remark : plan.remarks) text += "  " + remark + "\n";
+
+  std::string assumed, last;
+  for (const auto& input : plan.inputs) {
+    if (input.assumed.empty() || input.key + input.assumed == last) continue;
+    last = input.key + input.assumed;
+    if (assumed.find("  " + input.key + ": ") != std::string::npos) continue;  // the same for several rings
+    assumed += "  " + input.key + ": " + input.assumed + "\n";
+  }
+  if (!assumed.empty()) text += "\nAssumed inputs, and why\n" + assumed;
+  return text;
+}
+
+std::string to_json(const Plan& plan) {
+  Json json;
+  json["annulus_version"] = version();
+  json["title"] = plan.title;
+  for (const auto& input : plan.inputs) {
+    Json item = {{"key", input.key},
+                 {"value", value_json(input.value)},
+                 {"unit", input.unit},
+                 {"origin", to_text(input.origin)}};
+    if (!input.ring.empty()) item["ring"] = input.ring;
+    if (!input.assumed.empty()) item["assumed"] = input.assumed;
+    if (!input.note.empty() && input.origin != Origin::scene) item["note"] = input.note;
+    json["inputs"].push_back(std::move(item));
+  }
+  json["stage"] = quantities_json(plan.quantities);
+  for (const auto& [name, quantities] : plan.rings) json["rings"][name] = quantities_json(quantities);
+  for (const auto& mesh : plan.meshes) {
+    Json item = {{"mesh", mesh.mesh}, {"rung", mesh.rung}, {"reason", mesh.reason}};
+    if (!mesh.ring.empty()) item["ring"] = mesh.ring;
+    item["decisions"] = decisions_json(decisions(mesh));
+    if (mesh.computed()) {
+      item["phases"] = mesh.problem->phases;
+      item["ring_positions"] = mesh.positions;
+      item["loads_N"] = mesh.problem->loads;
+      if (mesh.settings.rung != fem::Rung::closed_form) item["degree"] = mesh.settings.degree;
+      for (const auto& step : plan.cost.steps) {
+        if (step.kind != CostKind::mesh || step.label != mesh.label()) continue;
+        item["predicted_s"] = finite(step.predicted.seconds);
+        item["predicted_peak_MB"] = finite(step.predicted.peak_MB);
+      }
+    }
+    json["meshes"].push_back(std::move(item));
+  }
+  json["motion"] = decisions_json(plan.motion);
+  json["freedoms"] = Json::array();
+  for (const auto& f : plan.freedoms)
+    json["freedoms"].push_back({{"name", f.name}, {"kept", f.kept}, {"reason", f.reason}});
+  for (const auto& s : plan.studies)
+    json["studies"].push_back({{"name", s.name},
+                               {"what", s.what},
+                               {"responses", s.responses},
+                               {"stiffness_tables", s.tables},
+                               {"seconds_on_one_core", s.seconds}});
+  json["remarks"] = plan.remarks;
+  json["contact_problems"] = plan.contact_problems();
+  if (plan.cost.empty()) return json.dump(2) + "\n";
+  json["threads"] = plan.cost.threads;
+  for (const auto& step : plan.cost.steps) {
+    Json item = {{"step", to_text(step.kind)},
+                 {"name", step.label},
+                 {"predicted_s", finite(step.predicted.seconds)},
+                 {"predicted_peak_MB", finite(step.predicted.peak_MB)}};
+    if (step.kind == CostKind::mesh) {
+      item["level"] = step.size.level;
+      item["unknowns"] = std::lround(step.size.unknowns);
+      item["expected_error_relative"] = finite(step.expected_error);
+    }
+    json["cost"].push_back(std::move(item));
+  }
+  json["predicted_s"] = finite(plan.cost.seconds());
+  json["predicted_peak_MB"] = finite(plan.cost.peak_MB());
+  if (!plan.budget.empty()) json["budget"] = plan.budget;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,162 @@
+#include "app/report/svg_map.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "app/report/svg_frame.h"
+
+namespace annulus::app {
+
+namespace {
+
+using Rgb = std::array<double, 3>;
+
+// ColorBrewer's YlGnBu without its palest step (Harrower and Brewer): what carries little stays pale, also without
+// colour vision.
+constexpr std::array<Rgb, 8> one_way = {{{237, 248, 177},
+                                         {199, 233, 180},
+                                         {127, 205, 187},
+                                         {65, 182, 196},
+                                         {29, 145, 192},
+                                         {34, 94, 168},
+                                         {37, 52, 148},
+                                         {8, 29, 88}}};
+constexpr std::array<Rgb, 5> both_ways = {
+    {{0, 84, 140}, {110, 170, 210}, {247, 247, 247}, {240, 160, 100}, {180, 70, 0}}};
+constexpr const char* grey_fill = "#bcc2c7";
+constexpr int levels = 33;  // odd: the middle one is the neutral colour of a scale both ways
+constexpr int no_value = -1;
+
+template <std::size_t N>
+std::string mix(const std::array<Rgb, N>& scale, double at) {
+  const double place = std::clamp(at, 0.0, 1.0) * (N - 1);
+  const auto low = std::min(static_cast<std::size_t>(place), N - 2);
+  const double t = place - static_cast<double>(low);
+  std::array<int, 3> c{};
+  for (std::size_t i = 0; i < 3; ++i)
+    c[i] = static_cast<int>(std::lround((1 - t) * scale[low][i] + t * scale[low + 1][i]));
+  return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
+}
+
+/// Colours in steps, so that equal ones can be drawn together.
+class ColourScale {
+ public:
+  explicit ColourScale(Range values) : diverging_(values.low < 0), range_(values) {
+    if (diverging_) {
+      const double most = std::max(std::abs(values.low), std::abs(values.high));
+      range_ = {-most, most};
+    }
+  }
+  [[nodiscard]] int level(const std::optional<double>& value) const {
+    if (!value || !std::isfinite(*value)) return no_value;
+    const double at = (*value - range_.low) / (range_.high - range_.low);
+    return std::clamp(static_cast<int>(at * levels), 0, levels - 1);
+  }
+  [[nodiscard]] std::string colour(int level) const {
+    if (level == no_value) return grey_fill;
+    const double at = static_cast<double>(level) / (levels - 1);
+    return diverging_ ? mix(both_ways, at) : mix(one_way, at);
+  }
+  [[nodiscard]] const Range& range() const { return range_; }
+
+ private:
+  bool diverging_;
+  Range range_;
+};
+
+/// All cells of one panel, one path per colour; runs of equal neighbours in x joined.
+std::string cells(const Frame& frame, const std::vector<ColourMap::Cell>& list, const ColourScale& scale) {
+  std::map<int, std::string> paths;
+  for (std::size_t i = 0; i < list.size();) {
+    const auto& first = list[i];
+    const int level = scale.level(first.value);
+    double end = first.x.high;
+    std::size_t next = i + 1;
+    for (; next < list.size(); ++next) {
+      const auto& cell = list[next];
+      if (cell.x.low != end || cell.y.low != first.y.low || cell.y.high != first.y.high ||
+          scale.level(cell.value) != level)
+        break;
+      end = cell.x.high;
+    }
+    const double x = frame.at_x(first.x.low), y = frame.at_y(first.y.high);
+    paths[level] +=
+        fmt::format("M{:.1f} {:.1f}H{:.1f}V{:.1f}H{:.1f}Z", x, y, frame.at_x(end), frame.at_y(first.y.low), x);
+    i = next;
+  }
+  std::string svg = "<g shape-rendering=\"crispEdges\">";
+  for (const auto& [level, d] : paths) svg += fmt::format("<path fill=\"{}\" d=\"{}\"/>", scale.colour(level), d);
+  return svg + "</g>";
+}
+
+std::string line(const Frame& frame, const std::vector<std::pair<double, double>>& points) {
+  std::string d;
+  bool pen_down = false;
+  for (const auto& [x, y] : points) {
+    const bool there = std::isfinite(x) && std::isfinite(y);
+    if (there) d += fmt::format("{}{:.1f} {:.1f}", pen_down ? "L" : "M", frame.at_x(x), frame.at_y(y));
+    pen_down = there;
+  }
+  return fmt::format(
+      "<path d=\"{0}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"3\" stroke-opacity=\"0.7\"/>"
+      "<path d=\"{0}\" fill=\"none\" stroke=\"#111\" stroke-width=\"1.2\"/>",
+      d);
+}
+
+/// The scale as a bar from bottom to top, with ticks, and the grey of cells without a value below it.
+std::string colour_bar(const ColourMap& map, const ColourScale& scale, double left, double top, double bottom) {
+  constexpr double width = 12;
+  if (!map.grey.empty()) bottom -= 26;
+  const Frame bar{left, left + width, top, bottom, {0, 1}, scale.range()};
+  std::string svg;
+  const double step = (bottom - top) / levels;
+  for (int i = 0; i < levels; ++i) {
+    svg += fmt::format("<path fill=\"{}\" d=\"M{:.1f} {:.2f}h{:.1f}v{:.2f}h{:.1f}Z\"/>", scale.colour(i), left,
+                       bottom - (i + 1) * step - 0.2, width, step + 0.4, -width);
+  }
+  const auto ticks = nice_ticks(bar.y.low, bar.y.high, static_cast<int>((bottom - top) / 34));
+  const auto labels = tick_labels(ticks);
+  for (std::size_t i = 0; i < ticks.size(); ++i)
+    svg +=
+        fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", left + width + 5, bar.at_y(ticks[i]) + 3.5, labels[i]);
+  svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>", map.width - 2.0, top - 8,
+                     escape(map.value_label));
+  if (!map.grey.empty()) {
+    svg += fmt::format(
+        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"12\" fill=\"{}\" stroke=\"#aaa\" "
+        "stroke-width=\"0.5\"/><text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>",
+        left, bottom + 13, width, grey_fill, left + width + 5, bottom + 22.5, escape(map.grey));
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::string to_svg(const ColourMap& map) {
+  constexpr double left = 62, bar_space = 92, between = 16;
+  const ColourScale scale(map.values);
+  const bool panel_titles =
+      std::any_of(map.panels.begin(), map.panels.end(), [](const auto& p) { return !p.title.empty(); });
+  const double top = (map.title.empty() ? 22 : 40) + (panel_titles ? 2 : 0), bottom = map.height - 42.0;
+  std::string svg = open_svg(map.title, map.width, map.height, left);
+  const auto count = static_cast<double>(std::max<std::size_t>(1, map.panels.size()));
+  const double width = (map.width - left - bar_space - between * (count - 1)) / count;
+  double x = left;
+  for (const auto& panel : map.panels) {
+    const Frame frame{x, x + width, top, bottom, panel.x_range, map.y_range};
+    // Only the first panel tells what is upright.
+    const std::optional<int> ticks = x > left ? 0 : map.y_ticks;
+    svg += axes(frame, map.x_label, x == left ? map.y_label : "", ticks) + cells(frame, panel.cells, scale);
+    if (!panel.line.empty()) svg += line(frame, panel.line);
+    if (!panel.title.empty())
+      svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", x, top - 7, escape(panel.title));
+    x += width + between;
+  }
+  return svg + colour_bar(map, scale, map.width - bar_space + 14, top, bottom) + "</svg>";
+}
+
+}  // namespace annulus::app

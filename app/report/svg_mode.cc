@@ -1,0 +1,77 @@
+#include "app/report/svg_mode.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/report/svg_frame.h"
+#include "app/report/svg_plot.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr double exaggeration = 0.2;  // of the centre distance, for the largest displacement
+constexpr int picture_width = 260, picture_height = 280;
+constexpr const char *at_rest = "#c4c4c4", *carrier_colour = "#444444";
+
+/// Page coordinates of a point of the stage, y upwards.
+struct Page {
+  double x0, y0, scale;
+  [[nodiscard]] double x(double v) const { return x0 + scale * v; }
+  [[nodiscard]] double y(double v) const { return y0 - scale * v; }
+};
+
+std::string circle(const Page& page, double x, double y, double radius, const char* colour) {
+  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"none\" stroke=\"{}\"/>", page.x(x),
+                     page.y(y), page.scale * radius, colour);
+}
+
+std::string line(const Page& page, double x1, double y1, double x2, double y2, const char* colour) {
+  return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"{}\"/>", page.x(x1), page.y(y1), page.x(x2),
+                     page.y(y2), colour);
+}
+
+/// A wheel with marks that show how far it turned: `marks` lines from `inner` to the circle.
+std::string wheel(const Page& page, double x, double y, double radius, double angle, int marks, double inner,
+                  const char* colour) {
+  std::string svg = circle(page, x, y, radius, colour);
+  for (int i = 0; i < marks; ++i) {
+    const double a = angle + 2 * std::numbers::pi * i / marks, c = std::cos(a), s = std::sin(a);
+    svg += line(page, x + inner * radius * c, y + inner * radius * s, x + radius * c, y + radius * s, colour);
+  }
+  return svg;
+}
+
+std::string draw_stage(const Page& page, const ModeDrawing& m, double e, bool moved) {
+  const auto colour = [&](const char* own) { return moved ? own : at_rest; };
+  std::string svg = moved ? "<g stroke-width=\"1.6\">" : "<g stroke-width=\"1\">";
+  svg += wheel(page, e * m.ring.x, e * m.ring.y, m.ring_radius, e * m.ring.u / m.ring_radius, 12, 1.08,
+               colour(palette(2)));
+  const double turn = e * m.carrier.u / m.centre_distance;
+  for (std::size_t n = 0; n < m.planets.size(); ++n) {
+    const double phi = m.planet_angles[n], c = std::cos(phi), s = std::sin(phi);
+    const auto& p = m.planets[n];
+    svg += line(page, e * m.carrier.x, e * m.carrier.y, e * m.carrier.x + m.centre_distance * std::cos(phi + turn),
+                e * m.carrier.y + m.centre_distance * std::sin(phi + turn), colour(carrier_colour));
+    const double radial = m.centre_distance + e * p.x, tangential = e * p.y;
+    svg += wheel(page, c * radial - s * tangential, s * radial + c * tangential, m.planet_radius,
+                 phi + e * p.u / m.planet_radius, 2, 0.35, colour(palette(1)));
+  }
+  svg += wheel(page, e * m.sun.x, e * m.sun.y, m.sun_radius, e * m.sun.u / m.sun_radius, 3, 0.3, colour(palette(0)));
+  return svg + "</g>";
+}
+
+}  // namespace
+
+std::string to_svg(const ModeDrawing& mode) {
+  const double reach = 1.08 * mode.ring_radius + exaggeration * mode.centre_distance;
+  const Page page{picture_width / 2.0, 20 + (picture_height - 20) / 2.0, (picture_width - 8) / 2.0 / reach};
+  std::string svg = open_svg(mode.title, picture_width, picture_height, 4);
+  svg += draw_stage(page, mode, 0, false);
+  svg += draw_stage(page, mode, exaggeration * mode.centre_distance, true);
+  return svg + "</svg>";
+}
+
+}  // namespace annulus::app

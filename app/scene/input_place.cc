@@ -1,0 +1,60 @@
+#include "app/scene/input_place.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/scene/scene_limits.h"
+
+namespace annulus::app {
+
+namespace {
+
+std::string text_of(const Scene& scene, const Input* input) {
+  if (!input || input->line <= 0) return scene.file.string();
+  return fmt::format("{}:{}:{}", scene.file.string(), input->line, input->column);
+}
+
+template <class Is>
+const Input* first(const Scene& scene, Is is) {
+  const auto found = std::find_if(scene.inputs.begin(), scene.inputs.end(), is);
+  return found == scene.inputs.end() ? nullptr : &*found;
+}
+
+/// Whether the text starts with the word as a whole.
+bool starts_with_word(const std::string& text, const std::string& word) {
+  return text.starts_with(word) &&
+         (text.size() == word.size() || std::string(" :,").find(text[word.size()]) != std::string::npos);
+}
+
+const Input* talked_about(const Scene& scene, const std::string& message) {
+  if (const auto* key = first(scene, [&](const Input& i) { return i.line > 0 && starts_with_word(message, i.key); }))
+    return key;
+  if (const auto* ring = first(
+          scene, [&](const Input& i) { return i.key == "ring.name" && message.starts_with("ring '" + i.ring + "'"); }))
+    return ring;
+  if (const auto* table = first(scene, [&](const Input& i) {
+        return i.line > 0 && starts_with_word(message, i.key.substr(0, i.key.find('.')));
+      }))
+    return table;
+  return first(scene, [](const Input& i) { return i.key == "stage.kind"; });
+}
+
+}  // namespace
+
+std::string place_text(const Scene& scene, const std::string& key, std::size_t entry) {
+  return text_of(scene, first(scene, [&](const Input& i) { return i.key == key && i.entry == entry; }));
+}
+
+std::string with_place(const Scene& scene, const std::string& message) {
+  return text_of(scene, talked_about(scene, message)) + ": " + without_controls(message);
+}
+
+std::string without_place(const Scene& scene, const std::string& message) {
+  const auto file = scene.file.string() + ":";
+  if (!message.starts_with(file)) return message;
+  const auto end = message.find(": ", file.size() - 1);
+  return end == std::string::npos ? message : message.substr(end + 2);
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "app/scene/scene_schema.h"
+
+namespace annulus::app {
+
+/// A changed input of a scene, named by its key path:
+///
+///     stage.power_kW                             table and key
+///     mesh.sun_planet.mean_N_per_m
+///     ring.pins                                  of every ring that gives it
+///     ring.pinned.pins                           of the ring 'pinned'
+///     errors.planet_eccentricity_phase_deg[2]    of planet 2, counted from 1
+struct Override {
+  std::string input;
+  double value = 0;     ///< in the unit of the key
+  bool factor = false;  ///< the present value is multiplied by `value` instead
+};
+
+/// What a key path means in one scene.
+struct InputTarget {
+  const Parameter* parameter = nullptr;
+  std::vector<std::size_t> rings;    ///< which rings; empty for all other tables
+  std::optional<std::size_t> index;  ///< within a list, from 0
+};
+
+/// Throws InputError, with the nearest valid path, when the scene has no such numeric input.
+[[nodiscard]] InputTarget find_input(const Scene& scene, const std::string& path);
+
+/// The present value in the unit of the key, of the given ring where it is a ring's; nothing when it has none.
+[[nodiscard]] std::optional<double> input_value(const Scene& scene, const InputTarget& target, std::size_t ring = 0);
+
+/// "errors.planet_installation_um[*]" as one path per planet, any other path as itself.
+[[nodiscard]] std::vector<std::string> expand_planets(const Scene& scene, const std::string& path);
+
+/// One number to be set in one table of the file.
+struct InputEdit {
+  const Parameter* parameter = nullptr;
+  double value = 0;  ///< whole where the key is
+  std::optional<std::size_t> index{}, ring{};
+  std::size_t length = 0;  ///< of the list
+};
+/// Throws what find_input throws, and InputError for a number that is not whole where one has to be or a factor without
+/// a value.
+[[nodiscard]] std::vector<InputEdit> resolve(const Scene& scene, const std::vector<Override>& overrides);
+
+/// The path as part of a file name: "supports.planet_N_per_m" -> "supports_planet_N_per_m".
+[[nodiscard]] std::string file_name(const std::string& path);
+
+/// The scene with other values, put in before anything is checked: ranges, rules and derived values are those of a
+/// file that says so. Without studies. Throws InputError for an unknown input, a number that is not whole where one has
+/// to be, and SceneError for what the checks find.
+[[nodiscard]] Scene with_overrides(const Scene& scene, const std::vector<Override>& overrides);
+[[nodiscard]] Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides);
+
+/// The scene with another wanted accuracy, studies and assumptions included; `note` says where it comes from.
+[[nodiscard]] Scene with_accuracy(const Scene& scene, double accuracy, const std::string& note);
+
+/// The same scene as the text of a file. Comments are lost.
+[[nodiscard]] std::string scene_text(const Scene& scene, const std::vector<Override>& overrides);
+
+}  // namespace annulus::app

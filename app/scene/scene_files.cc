@@ -1,0 +1,77 @@
+#include "app/scene/scene_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "app/plan/mesh_model.h"
+#include "app/scene/input_place.h"
+#include "app/scene/scene_limits.h"
+#include "app/stage/reference.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr std::uintmax_t largest_file = 100'000'000;  // bytes; a table of 1000 positions, 64 phases, 9 loads has 60 MB
+
+InputError refusal(const Scene& scene, const std::string& key, const std::string& name, const std::string& why) {
+  return InputError(
+      fmt::format("{}: {} = \"{}\": {}", place_text(scene, key), key, shown(name), without_controls(why)));
+}
+
+/// Does `use` with the file; what is wrong with its content is told with the key that names it.
+template <class Use>
+auto with_file(const Scene& scene, const std::string& key, const std::string& name, Use use) {
+  const auto file = file_of_scene(scene, key, name);
+  try {
+    return use(file);
+  } catch (const InputError& error) {
+    throw refusal(scene, key, name, error.what());
+  }
+}
+
+}  // namespace
+
+std::filesystem::path file_of_scene(const Scene& scene, const std::string& key, const std::string& name) {
+  namespace fs = std::filesystem;
+  constexpr const char* where = "a path relative to the scene, to a file in its folder or below";
+  if (name.empty() || fs::path(name).is_absolute()) throw refusal(scene, key, name, fmt::format("must be {}", where));
+  std::error_code error;
+  const auto folder = scene.file.parent_path();
+  const auto file = folder / name;
+  // Made absolute first: of a file that is not there, a relative path would stay one.
+  const auto root = fs::weakly_canonical(fs::absolute(folder.empty() ? fs::path(".") : folder), error);
+  const auto target = error ? fs::path() : fs::weakly_canonical(fs::absolute(file), error);
+  const bool below =
+      !error && std::mismatch(root.begin(), root.end(), target.begin(), target.end()).first == root.end();
+  if (!below) throw refusal(scene, key, name, fmt::format("leads out of the scene's folder; must be {}", where));
+  const auto status = fs::status(file, error);
+  if (!fs::exists(status)) throw refusal(scene, key, name, "there is no such file; is the path right?");
+  if (!fs::is_regular_file(status)) throw refusal(scene, key, name, "is not a file");
+  if (const auto size = fs::file_size(file, error); error || size > largest_file)
+    throw refusal(scene, key, name, fmt::format("is larger than {} MB", largest_file / 1'000'000));
+  return file;
+}
+
+StiffnessTable given_table(const Scene& scene, const std::string& mesh, const MeshInput& input) {
+  return with_file(scene, "mesh." + mesh + ".file", *input.file, [&](const std::filesystem::path& file) {
+    auto table = StiffnessTable::read_csv(file);
+    if (table.mesh() != mesh)
+      throw InputError(fmt::format("{}: is the table of a {} mesh, not of {}", file.string(), table.mesh(), mesh));
+    return table;
+  });
+}
+
+void check_files(const Scene& scene) {
+  for (const auto& [mesh, input] : {std::pair{sun_planet, &scene.sun_planet},
+                                    {ring_planet, &scene.ring_planet},
+                                    {pinion_wheel, &scene.pinion_wheel},
+                                    {arc_pins, &scene.arc_pins}})
+    if (input->stiffness == StiffnessShape::table && input->file) (void)given_table(scene, mesh, *input);
+  if (scene.reference)
+    with_file(scene, "reference", *scene.reference, [](const auto& file) { return read_reference(file); });
+}
+
+}  // namespace annulus::app

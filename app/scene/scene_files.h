@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/scene/scene.h"
+#include "core/stiffness_table.h"
+
+namespace annulus::app {
+
+/// The file that a scene names under `key` (mesh.sun_planet.file, reference). A scene reads below its own folder only:
+/// throws InputError for absolute paths, for those that lead elsewhere, links followed, and for what is no file.
+[[nodiscard]] std::filesystem::path file_of_scene(const Scene& scene, const std::string& key, const std::string& name);
+
+/// The stiffness table that [mesh.NAME] names. Throws InputError, naming place and key, when it cannot be used.
+[[nodiscard]] StiffnessTable given_table(const Scene& scene, const std::string& mesh, const MeshInput& input);
+
+/// Reads every file the scene names, so that a bad one is told of before time is spent.
+void check_files(const Scene& scene);
+
+}  // namespace annulus::app

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "geometry/planetary.h"
+
+namespace annulus::app {
+
+/// Speeds, torques and forces that follow from power and speed; SI.
+struct OperatingPoint {
+  double sun_speed = 0, carrier_speed = 0;  ///< rad/s
+  double sun_torque = 0;                    ///< N m
+  double carrier_torque = 0;                ///< N m, magnitude
+  double mesh_frequency = 0;                ///< Hz
+  double mean_mesh_force = 0;               ///< N, along the line of action, of each of the 2 N meshes
+};
+
+/// One ring of the scene with the planetary set it makes.
+struct RingGeometry {
+  std::string name;
+  geometry::PlanetarySet set;
+  double outside_radius = 0;  ///< m
+};
+
+/// The second stage of the pipeline: everything that follows from the scene without computing an elastic body.
+/// Sun and planets are the same for all rings, and so is the sun mesh.
+struct GearGeometry {
+  std::vector<RingGeometry> rings;
+  OperatingPoint operating_point;
+
+  [[nodiscard]] const geometry::GearPair& sun_mesh() const { return rings.front().set.sun_mesh(); }
+};
+
+/// A gear of the scene. `hand`: 1 for the hand of stage.helix_angle_deg, -1 for the other.
+[[nodiscard]] geometry::Gear make_gear(const Scene& scene, const GearInput& input, geometry::GearKind kind,
+                                       int hand = 1);
+
+/// m. Throws GeometryError when it follows from a gear that cannot exist.
+[[nodiscard]] double outside_radius(const Scene& scene, const RingInput& ring);
+
+/// Throws GeometryError, naming the ring, when the gears cannot exist or mesh.
+[[nodiscard]] GearGeometry make_geometry(const Scene& scene);
+
+}  // namespace annulus::app

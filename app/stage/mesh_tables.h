@@ -1,0 +1,27 @@
+#pragma once
+
+#include "app/plan/mesh_model.h"
+#include "core/csv.h"
+#include "fem/loaded_mesh.h"
+
+/// The files of one solved mesh as tables: units in the column names, tooth pairs and pins counted from 1, the wheel
+/// called sun or ring. A table of something the solution does not have is empty.
+namespace annulus::app {
+
+/// lte_<mesh>.csv: every position and load, with load shares and invariants, and the face load factor and the largest
+/// stresses where they are known.
+[[nodiscard]] Csv position_table(const MeshModel& model, const fem::LoadedMeshResult& solved);
+/// pins_<mesh>.csv: state of every pin, bolt or spline tooth at the nominal load.
+[[nodiscard]] Csv pin_table(const MeshModel& model, const fem::LoadedMeshResult& solved);
+/// housing_<mesh>.csv: force on the housing bore behind every ring tooth (numbered from 0) where the rim touches it, at
+/// the nominal load.
+[[nodiscard]] Csv housing_table(const MeshModel& model, const fem::LoadedMeshResult& solved);
+/// pressure_<mesh>.csv: mean pressure on the touching pieces of the flanks at the nominal load.
+[[nodiscard]] Csv pressure_table(const MeshModel& model, const fem::LoadedMeshResult& solved);
+/// line_load_<mesh>.csv: load over the face width at the nominal load; empty when there is a single slice.
+[[nodiscard]] Csv line_load_table(const MeshModel& model, const fem::LoadedMeshResult& solved);
+/// stress_<mesh>.csv: stress along tooth roots and rim, each where its largest von Mises stress occurs. The header
+/// names the curves: `curve_1: planet root`.
+[[nodiscard]] Csv stress_table(const MeshModel& model, const fem::LoadedMeshResult& solved);
+
+}  // namespace annulus::app

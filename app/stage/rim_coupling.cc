@@ -1,0 +1,167 @@
+#include "app/stage/rim_coupling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/content_id.h"
+#include "app/pipeline.h"
+#include "core/log.h"
+#include "fem/ring_coupling.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr int coupling_level = 1;  // the far field converges fast; its error is estimated
+/// Modes up to this multiple of the mesh frequency: the mesh excites little beyond.
+constexpr double highest_mesh_order = 10;
+
+double highest_frequency(const GearGeometry& geometry, const RingInput& ring) {
+  return highest_mesh_order * ring.teeth * geometry.operating_point.carrier_speed / (2 * std::numbers::pi);
+}
+
+/// Mesh and planet bearing in series; 1/K_path of the stage without its sun mesh, hence rather too small.
+double path_compliance(const Scene& scene, const GearGeometry& geometry, double mesh_compliance) {
+  const auto& set = geometry.rings.front().set;
+  const double as = set.sun_mesh().working_pressure_angle(), ar = set.ring_mesh().working_pressure_angle();
+  const double arm = std::pow(std::cos(as) + std::cos(ar), 2) + std::pow(std::sin(as) - std::sin(ar), 2);
+  return mesh_compliance + arm / scene.supports.planet;
+}
+
+std::string coupling_id(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
+                        const RingInput& ring) {
+  ContentId id;
+  id.add("mesh", model.id()).add("planets", scene.stage.planets).add("level", coupling_level);
+  id.add("load", geometry.operating_point.mean_mesh_force).add("highest", highest_frequency(geometry, ring));
+  id.add("density", scene.material.density);
+  return id.id();
+}
+
+const RingInput& ring_of(const Scene& scene, const MeshModel& model) {
+  return *std::find_if(scene.rings.begin(), scene.rings.end(), [&](const auto& r) { return r.name == model.ring; });
+}
+
+const std::string* provenance(const RingCoupling& coupling, const std::string& key) {
+  const auto& lines = coupling.provenance;
+  const auto found = std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.first == key; });
+  return found == lines.end() ? nullptr : &found->second;
+}
+
+/// A ring on a single pin leans on its housing, now here, now there: no fixed supports hold it.
+bool rests_in_bore(const fem::RingStructure& structure) {
+  const auto* pins = std::get_if<fem::PinHeld>(&structure);
+  return pins != nullptr && pins->angles.size() == 1;
+}
+
+constexpr const char *id_key = "inputs_id", *error_key = "coupling_error_m_per_N", *seconds_key = "coupling_seconds",
+                     *frequency_error_key = "mode_frequency_error_relative";
+
+}  // namespace
+
+double SolvedCoupling::largest() const {
+  double largest = 0;
+  for (const auto& matrix : coupling.compliance) largest = std::max(largest, matrix.cwiseAbs().maxCoeff());
+  return largest;
+}
+
+CouplingChoice coupling_choice(const Scene& scene, const SolvedCoupling& solved) {
+  constexpr const char* asked = "the scene asks for it (rim_coupling)";
+  const double share = solved.largest() / solved.path_compliance;
+  const auto percent = [](double x) { return fmt::format("{:.2g} %", 100 * x); };
+  switch (scene.dynamics->rim_coupling) {
+    case RimCoupling::none:
+      return {RimCoupling::none, asked};
+    case RimCoupling::statical:
+      return {RimCoupling::statical, asked};
+    case RimCoupling::elastic:
+      return {RimCoupling::elastic, asked};
+    case RimCoupling::automatic:
+      break;
+  }
+  const bool small = share <= scene.accuracy;
+  return {small ? RimCoupling::none : RimCoupling::statical,
+          fmt::format("another planet's load moves a mesh by at most {} of what its own load moves the planet's path "
+                      "(mesh and bearing): {} than the wanted accuracy of {}",
+                      percent(share), small ? "less" : "more", percent(scene.accuracy))};
+}
+
+std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved, RimCoupling taken) {
+  if (taken == RimCoupling::none) return nullptr;
+  auto coupling = std::make_shared<RingCoupling>(solved.coupling);
+  if (taken != RimCoupling::elastic) coupling->modes.clear();
+  return coupling;
+}
+
+bool may_be_coupled(const Scene& scene, const MeshModel& model) {
+  return scene.dynamics && scene.dynamics->rim_coupling != RimCoupling::none && scene.stage.planets > 1 &&
+         model.mesh == ring_planet && model.computed() && model.settings.rung != fem::Rung::closed_form &&
+         !rests_in_bore(model.problem->structure);
+}
+
+std::optional<SolvedCoupling> load_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
+                                            double mesh_compliance, const std::filesystem::path& folder) {
+  const auto compliance = folder / "ring_coupling.csv", modes = folder / "ring_modes.csv";
+  if (!std::filesystem::exists(compliance) || !std::filesystem::exists(modes)) return std::nullopt;
+  const auto& ring = ring_of(scene, model);
+  try {
+    SolvedCoupling kept{.coupling = RingCoupling::read_csv(compliance, modes), .mesh_compliance = mesh_compliance};
+    const auto *id = provenance(kept.coupling, id_key), *error = provenance(kept.coupling, error_key),
+               *frequency = provenance(kept.coupling, frequency_error_key),
+               *seconds = provenance(kept.coupling, seconds_key);
+    if (!id || !error || !frequency || !seconds || *id != coupling_id(scene, geometry, model, ring))
+      return std::nullopt;
+    kept.compliance_error = std::stod(*error);
+    kept.frequency_error_relative = std::stod(*frequency);
+    kept.seconds = std::stod(*seconds);
+    kept.highest_frequency = highest_frequency(geometry, ring);
+    kept.path_compliance = path_compliance(scene, geometry, mesh_compliance);
+    kept.reused = true;
+    return kept;
+  } catch (const std::exception& error) {
+    log::info(fmt::format("{}: {}; solved again", compliance.string(), error.what()));
+    return std::nullopt;
+  }
+}
+
+SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
+                              double mesh_compliance, const RunOptions& options, const std::filesystem::path& folder) {
+  if (auto kept = load_coupling(scene, geometry, model, mesh_compliance, folder)) return std::move(*kept);
+  const auto& ring = ring_of(scene, model);
+  fem::RingCouplingSettings settings;
+  settings.level = coupling_level;
+  settings.threads = options.threads;
+  settings.store = options.store;
+  settings.modes.highest_frequency = highest_frequency(geometry, ring);
+  StageTimers timers;
+  fem::SolvedRingCoupling solved;
+  {
+    const auto timer = timers.measure("coupling");
+    solved = fem::solve_ring_coupling(*model.problem, scene.stage.planets, geometry.operating_point.mean_mesh_force,
+                                      settings);
+  }
+  SolvedCoupling result{.coupling = std::move(solved.coupling),
+                        .mesh_compliance = mesh_compliance,
+                        .path_compliance = path_compliance(scene, geometry, mesh_compliance),
+                        .compliance_error = solved.compliance_error,
+                        .frequency_error_relative = solved.frequency_error_relative,
+                        .highest_frequency = settings.modes.highest_frequency,
+                        .seconds = timers.seconds("coupling"),
+                        .reused_teeth = solved.reused_teeth};
+  count_reuse(options, condensed_teeth, solved.reused_teeth, solved.condensed_teeth);
+  result.coupling.provenance = {{"annulus_version", version()},
+                                {id_key, coupling_id(scene, geometry, model, ring)},
+                                {error_key, fmt::format("{:.17g}", result.compliance_error)},
+                                {frequency_error_key, fmt::format("{:.17g}", result.frequency_error_relative)},
+                                {seconds_key, fmt::format("{:.3f}", result.seconds)}};
+  std::filesystem::create_directories(folder);
+  result.coupling.write_csv(folder / "ring_coupling.csv", folder / "ring_modes.csv");
+  log::info(fmt::format(
+      "coupling of the meshes through ring '{}': {} ring positions, {} modes below {:.0f} Hz; {:.2f} s", ring.name,
+      result.coupling.compliance.size(), result.coupling.modes.size(), result.highest_frequency, result.seconds));
+  return result;
+}
+
+}  // namespace annulus::app

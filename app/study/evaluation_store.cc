@@ -1,0 +1,85 @@
+#include "app/study/evaluation_store.h"
+
+#include <algorithm>
+
+#include "app/content_id.h"
+#include "core/csv.h"
+#include "core/errors.h"
+
+namespace annulus::app {
+
+namespace {
+const std::string failure_line = "failure_";
+constexpr auto evaluations_interval = std::chrono::seconds(2);  // the most that an interruption costs
+}  // namespace
+
+EvaluationStore::EvaluationStore(std::filesystem::path file, std::string id, std::vector<std::string> variables,
+                                 std::vector<std::string> figures)
+    : file_(std::move(file)),
+      id_(std::move(id)),
+      variables_(std::move(variables)),
+      figures_(std::move(figures)),
+      saved_(std::chrono::steady_clock::now()) {
+  read();
+}
+
+void EvaluationStore::read() {
+  if (!std::filesystem::exists(file_)) return;
+  try {
+    const Csv csv = Csv::read(file_);
+    if (csv.header.size() < 2 || csv.header[1].second != id_) return;
+    if (csv.columns.size() != variables_.size() + 1 + figures_.size()) return;
+    std::map<std::string, std::string> failures;
+    for (const auto& [name, value] : csv.header) failures[name] = value;
+    for (std::size_t row = 0; row < csv.rows.size(); ++row) {
+      const auto& values = csv.rows[row];
+      const auto n = static_cast<std::ptrdiff_t>(variables_.size());
+      const std::vector<double> x(values.begin(), values.begin() + n);
+      StudyPoint point;
+      if (values[variables_.size()] == 0)
+        point.values.assign(values.begin() + n + 1, values.end());
+      else
+        point.failure = failures.at(failure_line + std::to_string(row + 1));
+      order_.push_back(x);
+      points_[x] = std::move(point);
+    }
+  } catch (const std::exception&) {  // damaged: computed again and overwritten
+    order_.clear();
+    points_.clear();
+  }
+  kept_ = static_cast<int>(order_.size());
+}
+
+const StudyPoint* EvaluationStore::find(const std::vector<double>& x) const {
+  const auto found = points_.find(x);
+  return found == points_.end() ? nullptr : &found->second;
+}
+
+void EvaluationStore::add(const std::vector<double>& x, StudyPoint point) {
+  if (points_.emplace(x, std::move(point)).second) order_.push_back(x);
+  changed_ = true;
+  if (std::chrono::steady_clock::now() - saved_ > evaluations_interval) save();
+}
+
+void EvaluationStore::save() {
+  if (!changed_) return;
+  Csv csv;
+  csv.header = {{"annulus_version", version()}, {"inputs_id", id_}};
+  csv.columns = variables_;
+  csv.columns.emplace_back("failed");
+  csv.columns.insert(csv.columns.end(), figures_.begin(), figures_.end());
+  for (const auto& x : order_) {
+    const auto& point = points_.at(x);
+    auto row = x;
+    row.push_back(point.failure.empty() ? 0.0 : 1.0);
+    for (std::size_t i = 0; i < figures_.size(); ++i) row.push_back(point.value(i));
+    csv.rows.push_back(std::move(row));
+    if (!point.failure.empty()) csv.header.emplace_back(failure_line + std::to_string(csv.rows.size()), point.failure);
+  }
+  std::filesystem::create_directories(file_.parent_path());
+  csv.write(file_);
+  saved_ = std::chrono::steady_clock::now();
+  changed_ = false;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/study/study_result.h"
+
+namespace annulus::app {
+
+/// The evaluations of one search, kept in one file as they come: an interrupted search is repeated with the answers it
+/// already had. Values of variables are compared to the last bit.
+class EvaluationStore {
+ public:
+  /// Reads what an earlier run with this identity kept; `variables` name the first columns, figures the others.
+  EvaluationStore(std::filesystem::path file, std::string id, std::vector<std::string> variables,
+                  std::vector<std::string> figures);
+
+  /// nullptr: not known.
+  [[nodiscard]] const StudyPoint* find(const std::vector<double>& x) const;
+  /// Saves now and then.
+  void add(const std::vector<double>& x, StudyPoint point);
+  void save();
+  [[nodiscard]] int kept() const { return kept_; }  ///< evaluations of earlier runs
+
+ private:
+  void read();
+
+  std::filesystem::path file_;
+  std::string id_;
+  std::vector<std::string> variables_, figures_;
+  std::vector<std::vector<double>> order_;  ///< as they came
+  std::map<std::vector<double>, StudyPoint> points_;
+  int kept_ = 0;
+  bool changed_ = false;
+  std::chrono::steady_clock::time_point saved_;
+};
+
+}  // namespace annulus::app

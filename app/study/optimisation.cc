@@ -1,0 +1,298 @@
+#include "app/study/optimisation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+
+#include "app/content_id.h"
+#include "app/pipeline.h"
+#include "app/progress.h"
+#include "app/study/design_store.h"
+#include "app/study/evaluation_store.h"
+#include "app/study/studies.h"
+#include "app/study/study_cases.h"
+#include "app/tasks.h"
+#include "core/errors.h"
+#include "core/files.h"
+
+namespace annulus::app {
+
+namespace {
+
+/// The objective of one scene: figures of one variant over changed inputs.
+class DesignObjective {
+ public:
+  explicit DesignObjective(const StudySubject& subject)
+      : subject_(subject),
+        scene_(subject.scene()),
+        settings_(*scene_.optimise),
+        figures_(subject.figures()),
+        variant_(variant_of(subject)) {
+    for (const auto& column : settings_.objective) columns_.push_back(find_figure(figures_, column));
+    steady_ = find_figure(figures_, "steady");
+    quick_ = std::all_of(columns_.begin(), columns_.end(), [&](std::size_t i) { return figures_[i].quick; });
+    weights_ = settings_.weights;
+    const auto n = static_cast<double>(columns_.size());
+    if (weights_.empty()) weights_.assign(columns_.size(), 1 / n);
+  }
+
+  [[nodiscard]] std::size_t variant() const { return variant_; }
+  [[nodiscard]] bool quick() const { return quick_; }
+  /// What is made small is this times the objective.
+  [[nodiscard]] double sign() const { return settings_.goal == Goal::smallest ? 1 : -1; }
+
+  [[nodiscard]] double value(const StudyPoint& point) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < columns_.size(); ++i) sum += weights_[i] * point.value(columns_[i]);
+    return sum;
+  }
+
+  /// Why the point has no value; empty when it has. Figures of a motion that does not repeat depend on where the
+  /// integration happened to end: noise, among which a search finds its luck.
+  [[nodiscard]] std::string trouble(const StudyPoint& point) const {
+    if (!point.failure.empty()) return point.failure;
+    return steady_ != std::string::npos && point.value(steady_) == 0 ? "the motion does not become periodic" : "";
+  }
+
+  /// Of the objective at the scene as given, as far as its figures carry errors.
+  [[nodiscard]] double numerical_error() const {
+    const auto nominal = subject_.nominal(variant_);
+    double error = 0;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const auto known = nominal.find(settings_.objective[i]);
+      if (known != nominal.end() && std::isfinite(known->second.error))
+        error += std::abs(weights_[i]) * known->second.error;
+    }
+    return error;
+  }
+
+  [[nodiscard]] std::vector<Override> overrides(const std::vector<double>& x) const {
+    std::vector<Override> list;
+    for (std::size_t i = 0; i < x.size(); ++i) list.push_back({scene_.variables[i].input, x[i]});
+    return list;
+  }
+
+  [[nodiscard]] StudyCase study_case(const std::vector<double>& x) const {
+    std::string text, folder = "optimise";
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      text += fmt::format("{}{} = {}", i ? ", " : "", scene_.variables[i].input, to_text(x[i], 6));
+      folder += fmt::format("/{}_{}", file_name(scene_.variables[i].input), to_text(x[i], 17));
+    }
+    return {overrides(x), "[optimise] (" + text + ")", folder};
+  }
+
+  /// Whatever is wrong at x fails the point alone. Any number of threads at once.
+  [[nodiscard]] StudyPoint evaluate(const std::vector<double>& x, bool quick) const {
+    const auto changed = study_case(x);
+    try {
+      {
+        // Tables are solved with all threads.
+        const std::scoped_lock lock(solving_);
+        subject_.prepare(changed.overrides, changed.where, changed.folder);
+      }
+      return app::evaluate(subject_.model(changed.overrides, changed.where, variant_, changed.folder, false), quick);
+    } catch (const InputError& error) {
+      return {.failure = one_line(error.what())};
+    } catch (const SolverError& error) {
+      return {.failure = one_line(error.what())};
+    }
+  }
+
+  /// Kept, or found and kept. One that fails is found anew.
+  [[nodiscard]] Design design(const std::vector<double>& x) const {
+    const auto changed = study_case(x);
+    std::optional<DesignStore> store;
+    try {
+      subject_.prepare(changed.overrides, changed.where, changed.folder);
+      const auto model = subject_.model(changed.overrides, changed.where, variant_, changed.folder, true);
+      ContentId id;
+      id.add("design", model.id).add("quick", quick_ ? 1 : 0).add("starts", settings_.starts);
+      store.emplace(subject_.folder(variant_) / "optimise" / "designs", id.add("seed", settings_.seed).id(), figures_);
+    } catch (const Error&) {
+      return found_design(x);  // fails the same way, and tells why
+    }
+    auto kept = store->find(x);
+    count_reuse(subject_.options(), study_responses, kept ? 1 : 0, kept ? 0 : 1);
+    Design d = kept ? std::move(*kept) : found_design(x);
+    d.objective = value(d.point);
+    if (!kept && d.point.failure.empty()) store->save(d);
+    return d;
+  }
+
+  [[nodiscard]] Design found_design(const std::vector<double>& x) const {
+    Design d{.x = x, .objective = 0, .point = evaluate(x, false), .starts = std::nullopt};
+    if (quick_ && d.point.failure.empty()) {
+      // The same numbers as the search saw: the motion is sampled otherwise.
+      const auto as_searched = evaluate(x, true);
+      for (std::size_t i = 0; i < figures_.size(); ++i) {
+        if (figures_[i].quick) d.point.values[i] = as_searched.value(i);
+      }
+    }
+    d.objective = value(d.point);
+    if (!d.point.failure.empty() || settings_.starts == 0) return d;
+    const auto changed = study_case(x);
+    d.starts =
+        subject_.starts(changed.overrides, changed.where, variant_, changed.folder, settings_.starts, settings_.seed);
+    return d;
+  }
+
+  [[nodiscard]] std::vector<double> given() const {
+    std::vector<double> x;
+    for (const auto& v : scene_.variables)
+      x.push_back(input_value(scene_, find_input(scene_, v.input), variant_).value_or(std::nan("")));
+    return x;
+  }
+
+ private:
+  static std::size_t variant_of(const StudySubject& subject) {
+    const auto& ring = subject.scene().optimise->ring;
+    if (!ring) return 0;
+    const auto names = subject.variants();
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), *ring) - names.begin());
+  }
+  static std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+  }
+
+  const StudySubject& subject_;
+  const Scene& scene_;
+  const OptimiseInput& settings_;
+  std::vector<StudyFigure> figures_;
+  std::size_t variant_ = 0;
+  std::vector<std::size_t> columns_;
+  std::size_t steady_ = 0;  ///< column, npos: the kind does not tell
+  std::vector<double> weights_;
+  bool quick_ = true;
+  mutable std::mutex solving_;
+};
+
+std::vector<dynamics::OptimiseVariable> search_variables(const Scene& scene) {
+  std::vector<dynamics::OptimiseVariable> list;
+  for (const auto& v : scene.variables)
+    list.push_back({.name = v.input,
+                    .low = v.low,
+                    .high = v.high,
+                    .logarithmic = v.scale == SweepScale::logarithmic,
+                    .whole = find_input(scene, v.input).parameter->kind == Parameter::Kind::integer});
+  return list;
+}
+
+dynamics::OptimiseOptions search_options(const OptimiseInput& s, const std::string& optimiser, int repeat) {
+  return {.optimiser = optimiser_of(optimiser),
+          .generations = s.generations,
+          .population = s.population,
+          .seed = static_cast<std::uint64_t>(s.seed) + static_cast<std::uint64_t>(repeat),
+          .elite = s.elite,
+          .crossover = s.crossover,
+          .mutation = s.mutation};
+}
+
+OptimiseRun search(const StudySubject& subject, const DesignObjective& objective, const std::string& optimiser,
+                   int repeat, TaskProgress& progress) {
+  const auto& scene = subject.scene();
+  std::vector<std::string> variables, figures;
+  for (const auto& v : scene.variables) variables.push_back(file_name(v.input));
+  for (const auto& f : subject.figures()) {
+    if (f.quick || !objective.quick()) figures.push_back(f.column);
+  }
+  // The answers depend on the scene, not on how the search goes on; the file is one search's.
+  EvaluationStore store(
+      subject.folder(objective.variant()) / "optimise" / fmt::format("{}_{}.csv", optimiser, repeat + 1),
+      subject.model({}, "[optimise]", objective.variant(), "", true).id, variables, figures);
+  OptimiseRun run{.optimiser = optimiser, .repeat = repeat + 1, .search = {}, .kept = 0};
+  const auto answer = [&](const std::vector<double>& x) {
+    const StudyPoint* known = store.find(x);
+    if (known) {
+      ++run.kept;
+    } else {
+      store.add(x, objective.evaluate(x, objective.quick()));
+      known = store.find(x);
+    }
+    if (const auto trouble = objective.trouble(*known); !trouble.empty()) throw SolverError(trouble);
+    return objective.sign() * objective.value(*known);
+  };
+  const auto options = search_options(*scene.optimise, optimiser, repeat);
+  run.search = dynamics::optimise(search_variables(scene), answer, options, [&](const auto&) { progress.done(); });
+  store.save();
+  count_reuse(subject.options(), search_evaluations, run.kept,
+              static_cast<long>(run.search.evaluations.size()) - run.kept);
+  return run;
+}
+
+void write_history(const StudySubject& subject, const OptimiseResults& result, double sign) {
+  const auto folder = subject.folder(result.variant) / "optimise";
+  for (const auto& run : result.runs) {
+    Csv csv;
+    csv.header = {{"annulus_version", version()}, {"optimiser", run.optimiser}, {"stopped", run.search.stopped}};
+    csv.columns = {"generation", "evaluations", "best", "mean", "worst", "failed"};
+    for (const auto& g : run.search.history)
+      csv.rows.push_back({static_cast<double>(g.generation), static_cast<double>(g.evaluations), sign * g.best,
+                          sign * g.mean, sign * g.worst, static_cast<double>(g.failed)});
+    csv.write(folder / fmt::format("{}_{}_history.csv", run.optimiser, run.repeat));
+  }
+  write_file(folder / "best.toml", scene_text(subject.scene(), [&] {
+               std::vector<Override> list;
+               for (std::size_t i = 0; i < result.best.x.size(); ++i)
+                 list.push_back({result.variables[i].input, result.best.x[i]});
+               return list;
+             }()));
+}
+
+}  // namespace
+
+const std::vector<std::string>& optimiser_names() {
+  static const std::vector<std::string> names = {"genetic", "cma_es", "differential_evolution"};
+  return names;
+}
+
+dynamics::Optimiser optimiser_of(const std::string& name) {
+  const auto& names = optimiser_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  require(found != names.end(), "optimisers are checked when the scene is read");
+  constexpr dynamics::Optimiser kinds[] = {dynamics::Optimiser::genetic, dynamics::Optimiser::cma_es,
+                                           dynamics::Optimiser::differential_evolution};
+  return kinds[found - names.begin()];
+}
+
+OptimiseResults run_optimise(const StudySubject& subject) {
+  const auto& scene = subject.scene();
+  const auto& settings = *scene.optimise;
+  const DesignObjective objective(subject);
+  OptimiseResults result{
+      .settings = settings, .variables = scene.variables, .units = {}, .variant = objective.variant()};
+  for (const auto& v : scene.variables) result.units.push_back(find_input(scene, v.input).parameter->unit);
+
+  const auto repeats = static_cast<std::size_t>(settings.repeats);
+  const std::size_t tasks = settings.optimisers.size() * repeats;
+  result.runs.resize(tasks);
+  TaskProgress progress("optimisation", tasks * static_cast<std::size_t>(settings.generations + 1));
+  for_each_task(tasks, subject.options().threads, [&](std::size_t task) {
+    result.runs[task] =
+        search(subject, objective, settings.optimisers[task / repeats], static_cast<int>(task % repeats), progress);
+  });
+  std::vector<dynamics::OptimiseEvaluation> all;
+  for (std::size_t i = 0; i < tasks; ++i) {
+    const auto& search = result.runs[i].search;
+    if (search.value < result.runs[result.best_run].search.value) result.best_run = i;
+    all.insert(all.end(), search.evaluations.begin(), search.evaluations.end());
+  }
+  result.given = objective.design(objective.given());
+  result.best = objective.design(result.runs[result.best_run].search.x);
+  result.numerical_error = objective.numerical_error();
+  result.range = dynamics::objective_range(all, result.numerical_error);
+  const double best = result.runs[result.best_run].search.value;
+  const double gain = std::isfinite(result.given.objective) ? std::abs(result.given.objective - result.best.objective)
+                                                            : result.range.high - result.range.low;
+  for (const auto& run : result.runs)
+    result.evaluations_to_best.push_back(dynamics::evaluations_to_reach(
+        run.search.evaluations, best, std::max(result.range.least_meaning, 0.01 * gain)));
+  write_history(subject, result, objective.sign());
+  progress.finish(fmt::format("{} evaluations, best {}", all.size(), to_text(result.best.objective, 6)));
+  return result;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/pipeline.h"
+#include "app/study/study_subject.h"
+
+namespace annulus::app {
+
+/// The lumped model of one ring in a changed scene.
+struct ChangedStage {
+  dynamics::PlanetaryStage stage;
+  dynamics::SimulationOptions simulation;
+  std::string id;  ///< of everything the response depends on; empty when not asked for
+};
+
+/// Sun mesh first, then one per ring.
+[[nodiscard]] std::vector<MeshModel> mesh_models(const Scene& scene, const GearGeometry& geometry);
+
+/// Whether a table solved for `nominal` answers for `changed` as well: the same bodies, and a mean mesh force within
+/// the tabulated loads, between which tables are interpolated.
+[[nodiscard]] bool table_serves(const MeshModel& nominal, const MeshModel& changed, double mean_mesh_force);
+
+/// The figures a planetary stage answers with.
+[[nodiscard]] std::vector<StudyFigure> planetary_figures();
+
+/// The rings of a planetary stage, on the tables of the nominal run where these serve and on others where not.
+class PlanetarySubject final : public StudySubject {
+ public:
+  PlanetarySubject(const RunResult& nominal, const RunOptions& options) : nominal_(nominal), options_(options) {}
+
+  [[nodiscard]] const Scene& scene() const override { return nominal_.scene; }
+  [[nodiscard]] const RunOptions& options() const override { return options_; }
+  [[nodiscard]] std::vector<std::string> variants() const override;
+  [[nodiscard]] std::vector<StudyFigure> figures() const override { return planetary_figures(); }
+  [[nodiscard]] NominalFigures nominal(std::size_t ring) const override;
+  bool prepare(const std::vector<Override>& overrides, const std::string& where,
+               const std::string& folder) const override;
+  [[nodiscard]] ChangedModel model(const std::vector<Override>& overrides, const std::string& where, std::size_t ring,
+                                   const std::string& folder, bool with_id) const override;
+  [[nodiscard]] std::optional<StartSpread> starts(const std::vector<Override>& overrides, const std::string& where,
+                                                  std::size_t ring, const std::string& folder, int count,
+                                                  int seed) const override;
+
+ private:
+  [[nodiscard]] ChangedStage stage(const std::vector<Override>& overrides, const std::string& where, std::size_t ring,
+                                   const std::string& folder, bool with_id) const;
+  [[nodiscard]] const MeshResult& nominal_mesh(std::size_t mesh) const;
+
+  const RunResult& nominal_;
+  const RunOptions& options_;
+};
+
+}  // namespace annulus::app

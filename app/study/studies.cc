@@ -1,0 +1,130 @@
+#include "app/study/studies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/pipeline.h"
+#include "app/progress.h"
+#include "app/scene/input_place.h"
+#include "app/stage_kinds.h"
+#include "app/study/point_store.h"
+#include "app/study/study_runner.h"
+#include "app/tasks.h"
+#include "core/log.h"
+
+namespace annulus::app {
+
+namespace {
+
+std::string place_of(const Scene& scene, const RandomVariable& variable) {
+  for (std::size_t i = 0; i < scene.random_inputs.size(); ++i) {
+    const auto paths = expand_planets(scene, scene.random_inputs[i].input);
+    if (std::find(paths.begin(), paths.end(), variable.input) != paths.end())
+      return place_text(scene, "monte_carlo.input.input", i);
+  }
+  return scene.file.string();
+}
+
+void check_random_input(const Scene& scene, const RandomVariable& variable) {
+  const std::string where = "[[monte_carlo.input]] " + variable.input;
+  const auto target = find_input(scene, variable.input);
+  const auto place = place_of(scene, variable);
+  const auto refuse = [&](const std::string& why) { throw InputError(fmt::format("{}: {}: {}", place, where, why)); };
+  if (target.parameter->kind == Parameter::Kind::integer) refuse("is a whole number; a [[sweep]] suits it");
+  try {
+    variable.distribution.check();
+  } catch (const InputError& error) {
+    refuse(error.what());
+  }
+  for (int sample = 0; sample < scene.monte_carlo->samples; ++sample) {
+    const double x = draw(variable, scene.monte_carlo->seed, sample);
+    if (!target.parameter->in_range(x))
+      refuse(fmt::format("sample {} draws {}, which must be in range: {}; truncate the distribution with low and high",
+                         sample + 1, to_text(x, 6), target.parameter->range_text()));
+  }
+  const auto changed =
+      change_scene(scene, {{{variable.input, draw(variable, scene.monte_carlo->seed, 0)}}, where, "", place});
+  const auto tables = tables_to_solve(scene, changed);
+  if (!tables.empty())
+    refuse(
+        fmt::format("changes the stiffness table of the {}, which every sample would have to solve again; use "
+                    "[[sweep]] or [sensitivity], or give the stiffness in [mesh]",
+                    tables.front()));
+}
+
+}  // namespace
+
+void check_studies(const Scene& scene) {
+  if (!scene.dynamics) return;
+  for (std::size_t i = 0; i < scene.sweeps.size(); ++i) {
+    for (const auto& study_case : sweep_cases(scene, i)) (void)change_scene(scene, study_case);
+  }
+  for (std::size_t i = 0; i < scene.grids.size(); ++i) {
+    for (const auto& study_case : grid_cases(scene, i)) (void)change_scene(scene, study_case);
+  }
+  for (const auto& study_case : sensitivity_cases(scene)) (void)change_scene(scene, study_case);
+  if (!scene.monte_carlo) return;
+  const auto variables = random_variables(scene);
+  if (variables.empty())
+    throw InputError(place_text(scene, "monte_carlo.samples") +
+                     ": [monte_carlo]: nothing is uncertain: there are no errors of unknown phase and no "
+                     "[[monte_carlo.input]]");
+  for (const auto& variable : variables) {
+    const bool phase = variable.input.find("_phase_deg") != std::string::npos;
+    if (!phase) check_random_input(scene, variable);
+  }
+}
+
+CasePoints run_cases(const StudySubject& subject, const std::vector<StudyCase>& cases, const std::string& label) {
+  const auto names = subject.variants();
+  const std::size_t variants = names.size(), n = cases.size();
+  CasePoints result;
+  result.variants.assign(variants, std::vector<StudyPoint>(n));
+  std::vector<std::string> failures(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    try {
+      result.tables += subject.prepare(cases[i].overrides, cases[i].where, cases[i].folder) ? 1 : 0;
+    } catch (const SolverError& error) {
+      failures[i] = error.what();
+    }
+  }
+  TaskProgress progress(label, n * variants);
+  const PointStore store(subject);
+  for_each_task(n * variants, subject.options().threads, [&](std::size_t task) {
+    const std::size_t i = task / variants, variant = task % variants;
+    auto& point = result.variants[variant][i];
+    if (failures[i].empty())
+      point = store.point(cases[i].overrides, cases[i].where, variant, cases[i].folder);
+    else
+      point.failure = failures[i];
+    progress.done();
+  });
+  std::size_t failed = 0;
+  for (std::size_t variant = 0; variant < variants; ++variant) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto& point = result.variants[variant][i];
+      if (point.failure.empty()) continue;
+      ++failed;
+      log::warn(fmt::format("{}{}: {}", cases[i].where, names[variant].empty() ? "" : ", ring '" + names[variant] + "'",
+                            point.failure));
+    }
+  }
+  progress.finish(fmt::format("{} responses{}", n * variants, failed ? fmt::format(", {} failed", failed) : ""));
+  return result;
+}
+
+StudyResults run_studies(const StudySubject& subject) {
+  const auto& scene = subject.scene();
+  StudyResults results{.variants = subject.variants(), .figures = subject.figures()};
+  for (std::size_t i = 0; i < results.variants.size(); ++i) results.nominal.push_back(subject.nominal(i));
+  if (!scene.dynamics) return results;
+  for (std::size_t i = 0; i < scene.sweeps.size(); ++i) results.sweeps.push_back(run_sweep(subject, i));
+  for (std::size_t i = 0; i < scene.grids.size(); ++i) results.grids.push_back(run_grid(subject, i));
+  if (scene.monte_carlo) results.monte_carlo = run_monte_carlo(subject);
+  if (scene.optimise) results.optimise = run_optimise(subject);
+  if (scene.sensitivity) results.sensitivity = run_sensitivity(subject);
+  return results;
+}
+
+}  // namespace annulus::app

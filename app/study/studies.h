@@ -1,0 +1,24 @@
+#pragma once
+
+#include "app/study/study_subject.h"
+
+/// [[sweep]], [[grid]], [monte_carlo], [sensitivity] and [optimise]: the dynamics of a scene again, for other inputs.
+namespace annulus::app {
+
+/// Makes every changed scene of sweeps, grids and sensitivity and checks it, draws every sample and checks its range.
+/// Throws InputError naming the study, the value and what is wrong with it. Computes nothing elastic.
+void check_studies(const Scene& scene);
+
+/// All studies of the nominal scene on its tables and others where needed. Writes OUT/<variant>/dynamics/sweep_<n>.csv,
+/// sweep_<n>_poincare.csv, grid_<n>.csv, monte_carlo.csv, optimise/ and OUT/sensitivity.csv; finished points are kept
+/// and reused.
+[[nodiscard]] StudyResults run_studies(const StudySubject& subject);
+
+// The studies one by one.
+[[nodiscard]] SweepResult run_sweep(const StudySubject& subject, std::size_t sweep);
+[[nodiscard]] GridResult run_grid(const StudySubject& subject, std::size_t grid);
+[[nodiscard]] MonteCarloResult run_monte_carlo(const StudySubject& subject);
+[[nodiscard]] SensitivityResult run_sensitivity(const StudySubject& subject);
+[[nodiscard]] OptimiseResults run_optimise(const StudySubject& subject);
+
+}  // namespace annulus::app

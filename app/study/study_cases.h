@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/scene/overrides.h"
+#include "dynamics/sampling.h"
+
+/// What the studies of a scene consist of: lists of changed scenes, made without computing anything.
+namespace annulus::app {
+
+/// One changed scene.
+struct StudyCase {
+  std::vector<Override> overrides;
+  std::string where;    ///< for messages: "[[sweep]] 1, value 7 of 20 (stage.power_kW = 900)"
+  std::string folder;   ///< of tables of its own, below OUT
+  std::string place{};  ///< of the study's input in the scene: "scene.toml:40:1"; empty: not known
+};
+
+/// One per value.
+[[nodiscard]] std::vector<StudyCase> sweep_cases(const Scene& scene, std::size_t sweep);
+
+/// Throws the error again as InputError "place: where: what", or "file: where: what", when it is one of the input;
+/// others unchanged.
+[[noreturn]] void rethrow_at(const Scene& scene, const std::string& where, const std::string& place = "");
+
+/// The changed scene. Throws InputError naming the study and the value where it is not a good one.
+[[nodiscard]] Scene change_scene(const Scene& scene, const StudyCase& study_case);
+
+/// One per point of the grid, x fastest.
+[[nodiscard]] std::vector<StudyCase> grid_cases(const Scene& scene, std::size_t grid);
+
+/// The inputs of [sensitivity]: those listed, or the finite supports, damping ratios and backlash
+/// (of a 2K-V stage: stiffnesses and inertias besides).
+[[nodiscard]] std::vector<std::string> sensitivity_inputs(const Scene& scene);
+/// Two per input: divided, multiplied.
+[[nodiscard]] std::vector<StudyCase> sensitivity_cases(const Scene& scene);
+
+/// One random number of every sample.
+struct RandomVariable {
+  std::string input;  ///< key path
+  dynamics::Distribution distribution;
+};
+/// The phases of all errors that are there or drawn (unless given), then the inputs of [[monte_carlo.input]].
+[[nodiscard]] std::vector<RandomVariable> random_variables(const Scene& scene);
+[[nodiscard]] double draw(const RandomVariable& variable, int seed, int sample);
+[[nodiscard]] StudyCase sample_case(const std::vector<RandomVariable>& variables, int seed, int sample);
+
+}  // namespace annulus::app

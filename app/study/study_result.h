@@ -1,0 +1,158 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene/scene.h"
+#include "core/csv.h"
+#include "dynamics/figures.h"
+#include "dynamics/optimise.h"
+#include "dynamics/statistics.h"
+#include "dynamics/study_point.h"
+
+/// What studies find: named figures of many responses to changed inputs, whatever the kind of the stage.
+namespace annulus::app {
+
+/// A figure that the lumped model of a stage answers with.
+struct StudyFigure {
+  std::string column;     ///< of all tables: "sun_planet_load_sharing_averaged", with its unit: "frequency_1_Hz"
+  std::string title;      ///< for people
+  std::string label{};    ///< of an axis: "N F / ΣF", "rms, µm"
+  double scale = 1;       ///< from the table to the axis
+  bool quick = true;      ///< found without the motion of the bodies
+  bool plotted = false;   ///< over sweeps and grids
+  bool spread = false;    ///< in the pictures and tables of Monte Carlo samples
+  bool ordering = false;  ///< compared between the variants; the first such one orders them
+  std::string with{};     ///< a figure drawn dashed in the same picture
+};
+
+/// The figures of one response, or why there are none.
+struct StudyPoint {
+  std::vector<double> values{};                     ///< in the order of the figures; NaN: not known
+  std::vector<dynamics::PoincarePoint> poincare{};  ///< where the motion was asked for
+  std::string failure{};                            ///< empty: none
+  /// NaN for a point that failed.
+  [[nodiscard]] double value(std::size_t figure) const;
+};
+
+using NominalFigures = std::map<std::string, dynamics::Figure>;  ///< by column, with their errors
+
+struct SweepResult {
+  SweepInput sweep;
+  std::string unit;                               ///< of the input, for people
+  std::vector<double> values;                     ///< in that unit
+  int tables = 0;                                 ///< how many of the values needed stiffness tables of their own
+  std::vector<std::vector<StudyPoint>> variants;  ///< [variant][value]
+};
+
+/// Two inputs run through a grid.
+struct GridResult {
+  GridInput grid;
+  std::string x_unit, y_unit;
+  std::vector<double> x, y;
+  int tables = 0;
+  std::vector<std::vector<StudyPoint>> variants;  ///< [variant][y * x.size() + x]
+};
+
+struct FigureStatistics {
+  std::string figure;       ///< column of the samples
+  dynamics::Interval mean;  ///< Student's interval
+  double deviation = 0;
+  dynamics::Interval q05, median, q95;  ///< intervals between order statistics
+};
+
+struct VariantSamples {
+  Csv samples;  ///< sample, failed, inputs drawn, figures
+  int failed = 0, not_steady = 0;
+  std::vector<FigureStatistics> statistics;  ///< over the samples that did not fail
+
+  [[nodiscard]] const FigureStatistics* find(const std::string& figure) const;  ///< nullptr: none
+};
+
+/// In what share of the samples variant a's figure lies above variant b's, both with the same draws.
+struct PairedOrder {
+  std::size_t a = 0, b = 0;
+  std::string figure;
+  long above = 0, equal = 0, samples = 0;  ///< samples: both succeeded
+  dynamics::Interval share{};              ///< above / samples, Clopper and Pearson
+  dynamics::Interval difference{};         ///< mean of a's figure less b's, Student
+};
+
+struct MonteCarloResult {
+  int samples = 0, seed = 0;
+  std::vector<std::string> inputs{};  ///< drawn
+  std::vector<VariantSamples> variants{};
+  std::vector<PairedOrder> orders{};
+};
+
+/// One input divided and multiplied by the factor.
+struct SensitivityRow {
+  std::string input, unit;
+  std::vector<double> values;                   ///< nominal value by variant; NaN where it has none
+  std::vector<StudyPoint> divided, multiplied;  ///< by variant
+  bool order_stays = false;                     ///< the order of the variants by the ordering figure, both times
+};
+
+struct SensitivityResult {
+  double factor = 0;
+  std::vector<StudyPoint> nominal;  ///< by variant
+  std::vector<SensitivityRow> rows;
+};
+
+/// Steady motions found from several initial conditions.
+struct StartSpread {
+  int starts = 0, motions = 0;    ///< motions: distinct ones
+  std::vector<double> low, high;  ///< of every quick figure of the subject over the starts
+  int not_steady = 0;
+};
+
+/// One search by one optimiser.
+struct OptimiseRun {
+  std::string optimiser;
+  int repeat = 0;
+  dynamics::OptimiseResult search;  ///< its values are to be made small: negative where the goal is the largest
+  int kept = 0;                     ///< evaluations answered from an earlier run
+};
+
+/// A design and its figures.
+struct Design {
+  std::vector<double> x;  ///< values of the variables, in the unit of the inputs
+  double objective = 0;   ///< NaN when the response fails
+  StudyPoint point{};
+  std::optional<StartSpread> starts{};
+};
+
+struct OptimiseResults {
+  OptimiseInput settings;
+  std::vector<VariableInput> variables;
+  std::vector<std::string> units{};  ///< of the variables
+  std::size_t variant = 0;
+  std::vector<OptimiseRun> runs{};
+  std::size_t best_run = 0;
+  Design given{}, best{};
+  double numerical_error = 0;        ///< of the objective, where the scene's own figures tell it
+  dynamics::ObjectiveRange range{};  ///< over all evaluations of all runs, of values to be made small
+  /// Evaluations until the objective of the best run was met within 1 % of the gain (at least the numerical error), by
+  /// run; absent: never.
+  std::vector<std::optional<long>> evaluations_to_best{};
+};
+
+struct StudyResults {
+  std::vector<std::string> variants;  ///< names; a single empty one for kinds without variants
+  std::vector<StudyFigure> figures;
+  std::vector<NominalFigures> nominal{};  ///< by variant
+  std::vector<SweepResult> sweeps{};
+  std::vector<GridResult> grids{};
+  std::optional<MonteCarloResult> monte_carlo{};
+  std::optional<SensitivityResult> sensitivity{};
+  std::optional<OptimiseResults> optimise{};
+
+  /// Of a point by column; NaN when there is none.
+  [[nodiscard]] double value(const StudyPoint& point, const std::string& column) const;
+  /// The figure that orders the variants; nullptr when none does.
+  [[nodiscard]] const StudyFigure* ordering() const;
+};
+
+}  // namespace annulus::app

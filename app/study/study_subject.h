@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene/overrides.h"
+#include "app/study/study_result.h"
+
+namespace annulus::app {
+
+struct RunOptions;
+
+/// The lumped model of a changed scene.
+struct ChangedModel {
+  std::string id;  ///< of everything its answer depends on; empty when not asked for
+  /// The figures in the order of the subject's list; only the quick ones, the others NaN, when `quick`.
+  /// Throws what solving throws. Any number of threads at once.
+  std::function<StudyPoint(bool quick)> answer;
+};
+
+/// What studies vary: the lumped model of a scene in one or more variants (rings), which answers changed scenes with
+/// named figures. One class per kind of stage.
+class StudySubject {
+ public:
+  virtual ~StudySubject() = default;
+
+  [[nodiscard]] virtual const Scene& scene() const = 0;
+  [[nodiscard]] virtual const RunOptions& options() const = 0;
+  /// Names, of folders too; a single empty one for kinds without variants.
+  [[nodiscard]] virtual std::vector<std::string> variants() const = 0;
+  [[nodiscard]] virtual std::vector<StudyFigure> figures() const = 0;
+  /// The figures of the scene as it is, by column, for the pictures; may be empty.
+  [[nodiscard]] virtual NominalFigures nominal(std::size_t variant) const = 0;
+
+  /// Solves what a changed scene needs beyond the nominal results (stiffness tables), with all threads, into
+  /// OUT/`folder`; true when there was anything. Throws what solving throws.
+  virtual bool prepare(const std::vector<Override>& overrides, const std::string& where,
+                       const std::string& folder) const = 0;
+  /// Any number of threads at once. What `prepare` made is read back from `folder`; with an empty folder only the
+  /// nominal results serve. Throws InputError, naming `where`, for a scene that is not a good one.
+  [[nodiscard]] virtual ChangedModel model(const std::vector<Override>& overrides, const std::string& where,
+                                           std::size_t variant, const std::string& folder, bool with_id) const = 0;
+
+  /// The motion followed from several initial conditions; nothing for kinds that do not offer it.
+  [[nodiscard]] virtual std::optional<StartSpread> starts(const std::vector<Override>& overrides,
+                                                          const std::string& where, std::size_t variant,
+                                                          const std::string& folder, int count, int seed) const {
+    (void)overrides, (void)where, (void)variant, (void)folder, (void)count, (void)seed;
+    return std::nullopt;
+  }
+
+  /// The options of a run into OUT/`folder`, its earlier tables looked for alike.
+  [[nodiscard]] RunOptions options_in(const std::string& folder) const;
+  /// OUT/<variant>/dynamics
+  [[nodiscard]] std::filesystem::path folder(std::size_t variant) const;
+};
+
+/// A column of the subject's figures; npos when there is none of this name.
+[[nodiscard]] std::size_t find_figure(const std::vector<StudyFigure>& figures, const std::string& column);
+
+/// The answer; errors of solver and input become the failure of the point.
+[[nodiscard]] StudyPoint evaluate(const ChangedModel& model, bool quick);
+
+}  // namespace annulus::app

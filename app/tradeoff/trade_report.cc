@@ -1,0 +1,286 @@
+#include "app/tradeoff/trade_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/content_id.h"
+#include "app/plan/cost_plan.h"
+#include "app/report/report_parts.h"
+#include "app/scene/overrides.h"
+#include "core/files.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr double wanted_accuracies[] = {0.1, 0.01, 0.001};
+
+const char* part_name(TradePart part) { return part == TradePart::mesh ? "mesh" : "dynamics"; }
+const char* part_title(TradePart part) { return part == TradePart::mesh ? "Stiffness tables" : "Dynamics"; }
+
+std::string percent(double share) { return to_text(100 * share, 2) + " %"; }
+
+std::string setting_text(const TradePoint& p) { return p.rung + ", " + p.settings; }
+
+/// Fields with commas or quotes stand in quotes (RFC 4180).
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c == '\n' ? ' ' : c);
+  return out + '"';
+}
+
+std::string csv_number(double x) { return std::isfinite(x) ? fmt::format("{:.17g}", x) : ""; }
+
+/// "For 1 %: plane, degree 2, level 1, 0.3 s, 240 MB (worst: ...)".
+std::string cheapest_text(const RingTrade& ring, TradePart part, double accuracy) {
+  const auto* p = ring.cheapest(part, accuracy);
+  if (!p) return fmt::format("For {}: no setting but the finest.", percent(accuracy));
+  const auto& worst = trade_figures()[*p->worst_figure()];
+  return fmt::format("For {}: {}; {}, {:.0f} MB; errors up to {} ({}).", percent(accuracy), setting_text(*p),
+                     duration_text(p->cost.wall), p->cost.peak_memory_MB, percent(p->error()), worst.title);
+}
+
+/// "The planner, asked for 1 %: 3.1 s, 400 MB; errors up to 0.2 % (...)".
+std::string planned_text(const TradePoint& p) {
+  const std::string text = fmt::format("The planner, asked for {}: ", percent(*p.planned_for));
+  if (!p.failure.empty()) return text + p.failure;
+  std::optional<std::size_t> worst;
+  for (std::size_t i = 0; i < p.values.size(); ++i)
+    if (trade_figures()[i].promised && p.values[i].error == p.promised_error()) worst = i;
+  return text + fmt::format("{}, {:.0f} MB; errors up to {}{}.", duration_text(p.cost.wall), p.cost.peak_memory_MB,
+                            percent(p.promised_error()),
+                            worst ? std::string(" (") + trade_figures()[*worst].title + ")" : "");
+}
+
+const TradePoint* finest_of(const RingTrade& ring, TradePart part) {
+  const auto found = std::find_if(ring.points.begin(), ring.points.end(),
+                                  [part](const TradePoint& p) { return p.part == part && p.finest; });
+  return found == ring.points.end() ? nullptr : &*found;
+}
+
+/// The cheapest setting for every figure and accuracy: what a user asks who wants one thing.
+HtmlTable cheapest_table(const RingTrade& ring, TradePart part) {
+  HtmlTable table{.head = {"figure"}, .rows = {}};
+  for (const double accuracy : wanted_accuracies) table.head.push_back(percent(accuracy));
+  for (std::size_t f = 0; f < trade_figures().size(); ++f) {
+    if (ring.front(part, f).empty()) continue;
+    std::vector<std::string> row = {trade_figures()[f].title};
+    for (const double accuracy : wanted_accuracies) {
+      const auto* p = ring.cheapest(part, accuracy, f);
+      row.push_back(p ? escape(setting_text(*p)) + " <span class=\"muted\">" + duration_text(p->cost.wall) + "</span>"
+                      : std::string("the finest alone"));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+/// The front of every figure.
+std::string fronts_picture(const RingTrade& ring, TradePart part) {
+  Plot plot{.title = "The front of every figure", .x_label = "wall time, s", .y_label = "error"};
+  plot.x_log = plot.y_log = plot.legend = true;
+  plot.width = 640;
+  plot.height = 460;
+  for (std::size_t f = 0; f < trade_figures().size(); ++f) {
+    Series series{.label = trade_figures()[f].title, .colour = f};
+    for (const auto* p : ring.front(part, f)) {
+      if (!(p->error(f) > 0)) continue;
+      series.x.push_back(p->cost.wall);
+      series.y.push_back(p->error(f));
+    }
+    if (!series.x.empty()) plot.series.push_back(std::move(series));
+  }
+  return to_svg(plot);
+}
+
+/// How far the program's own estimates are from the errors, over all figures with both.
+std::string estimates_text(const RingTrade& ring, TradePart part) {
+  int kept = 0, all = 0;
+  for (const auto& p : ring.points) {
+    if (p.part != part || p.finest || p.changes_model || !p.failure.empty()) continue;
+    for (const auto& v : p.values) {
+      if (!std::isfinite(v.error) || !std::isfinite(v.error_estimate)) continue;
+      ++all;
+      kept += v.error <= v.error_estimate;
+    }
+  }
+  if (all == 0) return "";
+  return fmt::format("<p>{} of {} errors lie within their own estimates.</p>\n", kept, all);
+}
+
+HtmlTable points_table(const RingTrade& ring, TradePart part) {
+  HtmlTable table{.head = {"how", "setting", "wall", "processor", "memory", "largest error", "in"},
+                  .rows = {},
+                  .css_class = "numbers"};
+  const auto front = ring.front(part);
+  for (const auto& p : ring.points) {
+    if (p.part != part) continue;
+    const bool best = std::find(front.begin(), front.end(), &p) != front.end();
+    const auto bold = [&](const std::string& text) { return best ? "<b>" + text + "</b>" : text; };
+    std::vector<std::string> row = {bold(escape(p.rung)), bold(escape(p.settings)), duration_text(p.cost.wall),
+                                    duration_text(p.cost.processor), fmt::format("{:.0f} MB", p.cost.peak_memory_MB)};
+    if (!p.failure.empty()) {
+      row.insert(row.end(), {"failed", escape(p.failure)});
+    } else if (p.finest) {
+      row.insert(row.end(), {"finest", ""});
+    } else if (const auto worst = p.worst_figure()) {
+      row.insert(row.end(), {percent(p.error()), escape(trade_figures()[*worst].title)});
+    } else {
+      row.insert(row.end(), {"", ""});
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+/// Error of every figure, one column each.
+HtmlTable errors_table(const RingTrade& ring, TradePart part) {
+  HtmlTable table{.head = {"setting"}, .rows = {}, .css_class = "numbers"};
+  for (const auto& f : trade_figures()) table.head.emplace_back(f.title);
+  for (const auto& p : ring.points) {
+    if (p.part != part || !p.failure.empty() || p.finest) continue;
+    std::vector<std::string> row = {escape(setting_text(p))};
+    for (const auto& v : p.values) {
+      std::string cell = std::isfinite(v.error) ? percent(v.error) : "–";
+      if (std::isfinite(v.error_estimate)) cell += " <span class=\"muted\">(" + percent(v.error_estimate) + ")</span>";
+      row.push_back(std::move(cell));
+    }
+    row.resize(table.head.size(), "–");
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string part_section(const RingTrade& ring, TradePart part) {
+  const auto* finest = finest_of(ring, part);
+  if (!finest) return "";
+  std::string text = fmt::format("<h3>{}</h3>\n", part_title(part));
+  if (!finest->failure.empty())
+    return text + "<p>The finest setting failed, so no errors are known: " + escape(finest->failure) + "</p>\n";
+  text += fmt::format("<p>Held against: {}; {}, {:.0f} MB.</p>\n<ul>", escape(setting_text(*finest)),
+                      duration_text(finest->cost.wall), finest->cost.peak_memory_MB);
+  for (const double accuracy : wanted_accuracies)
+    text += "<li>" + escape(cheapest_text(ring, part, accuracy)) + "</li>";
+  for (const auto& p : ring.points)
+    if (p.part == part && p.planned_for) text += "<li>" + escape(planned_text(p)) + "</li>";
+  text += "</ul>\n" + figure({trade_picture(ring, part), fronts_picture(ring, part)}, "",
+                             "Largest error over all figures against wall time. The line joins the settings that no "
+                             "other beats in both; what leaves parts of the model out is marked apart.");
+  text += "<p>The cheapest setting for one figure alone:</p>\n<div class=\"wide\">" + html(cheapest_table(ring, part)) +
+          "</div>\n<p>All settings (bold: on the front of the largest error):</p>\n";
+  text += "<div class=\"wide\">" + html(points_table(ring, part)) + "</div>\n" + estimates_text(ring, part);
+  return text +
+         "<details><summary>Error of every figure (in brackets: the program's own estimate)</summary><div "
+         "class=\"wide\">" +
+         html(errors_table(ring, part)) + "</div></details>\n";
+}
+
+}  // namespace
+
+std::string trade_picture(const RingTrade& ring, TradePart part) {
+  Plot plot{.title = fmt::format("{}, {}", ring.ring, part == TradePart::mesh ? "stiffness tables" : "dynamics"),
+            .x_label = "wall time, s",
+            .y_label = "largest error"};
+  plot.x_log = plot.y_log = plot.legend = true;
+  plot.width = 640;
+  plot.height = 400;
+  Series front{.label = "front", .colour = 6};
+  for (const auto* p : ring.front(part)) {
+    front.x.push_back(p->cost.wall);
+    front.y.push_back(p->error());
+  }
+  plot.series.push_back(std::move(front));
+  for (const auto& p : ring.points) {
+    if (p.part != part || p.finest || !(p.error() > 0)) continue;
+    auto same =
+        std::find_if(plot.series.begin(), plot.series.end(), [&](const Series& s) { return s.label == p.rung; });
+    if (same == plot.series.end()) {
+      plot.series.push_back(
+          {.label = p.rung, .colour = plot.series.size() - 1, .style = Series::Style::dots, .size = 7});
+      same = plot.series.end() - 1;
+    }
+    same->x.push_back(p.cost.wall);
+    same->y.push_back(p.error());
+  }
+  return to_svg(plot);
+}
+
+std::string trade_csv(const TradeOff& trade) {
+  std::string text =
+      fmt::format("# annulus_version: {}\n# scene: {}\n", version(), trade.scene.file.filename().string());
+  text += "ring,part,rung,settings,finest,figure,value,error,error_estimate,wall_s,processor_s,peak_MB,failure\n";
+  for (const auto& ring : trade.rings) {
+    for (const auto& p : ring.points) {
+      const std::string head = fmt::format("{},{},{},{},{:d},", csv_field(ring.ring), part_name(p.part),
+                                           csv_field(p.rung), csv_field(p.settings), p.finest);
+      const std::string cost = fmt::format("{:.6g},{:.6g},{:.6g},{}\n", p.cost.wall, p.cost.processor,
+                                           p.cost.peak_memory_MB, csv_field(p.failure));
+      if (p.values.empty()) text += head + ",,,," + cost;
+      for (std::size_t i = 0; i < p.values.size(); ++i) {
+        const auto& v = p.values[i];
+        if (!std::isfinite(v.value)) continue;
+        text += head +
+                fmt::format("{},{},{},{},", trade_figures()[i].column, csv_number(v.value), csv_number(v.error),
+                            csv_number(v.error_estimate)) +
+                cost;
+      }
+    }
+  }
+  return text;
+}
+
+std::string trade_text(const TradeOff& trade) {
+  std::string text;
+  for (const auto& ring : trade.rings) {
+    for (const auto part : {TradePart::mesh, TradePart::dynamics}) {
+      if (!finest_of(ring, part)) continue;
+      text += fmt::format("{}{}, {}\n", text.empty() ? "" : "\n", ring.ring, part_title(part));
+      for (const auto* p : ring.front(part))
+        text += fmt::format("  {:>9}  {:>6.0f} MB  error {:>8}  {}\n", duration_text(p->cost.wall),
+                            p->cost.peak_memory_MB, percent(p->error()), setting_text(*p));
+      for (const double accuracy : wanted_accuracies) text += "  " + cheapest_text(ring, part, accuracy) + "\n";
+      for (const auto& p : ring.points)
+        if (p.part == part && p.planned_for) text += "  " + planned_text(p) + "\n";
+    }
+  }
+  return text;
+}
+
+std::string trade_html(const TradeOff& trade) {
+  std::vector<Section> sections;
+  std::string verdict;
+  for (const auto& ring : trade.rings) {
+    sections.push_back({.anchor = file_name(ring.ring),
+                        .name = ring.ring,
+                        .text = fmt::format("<h2 id=\"{}\">{}</h2>\n", file_name(ring.ring), escape(ring.ring)) +
+                                part_section(ring, TradePart::mesh) + part_section(ring, TradePart::dynamics)});
+    for (const auto part : {TradePart::mesh, TradePart::dynamics}) {
+      if (finest_of(ring, part) && !finest_of(ring, part)->values.empty())
+        verdict += "<p><b>" + escape(ring.ring) + ", " + (part == TradePart::mesh ? "stiffness tables" : "dynamics") +
+                   "</b>. " + escape(cheapest_text(ring, part, 0.01)) + "</p>\n";
+    }
+  }
+  return report_page(
+      "Error against cost: " + escape(trade.scene.title),
+      fmt::format("annulus {} · scene <code>{}</code> · {} for all settings, one after the other", version(),
+                  escape(trade.scene.file.filename().string()), duration_text(trade.total_seconds)),
+      "<div class=\"verdict\">" + verdict + "</div>\n", {sections});
+}
+
+void write_tradeoff(const TradeOff& trade, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  write_file(folder / "tradeoff.csv", trade_csv(trade));
+  write_file(folder / "tradeoff.html", trade_html(trade));
+  for (const auto& ring : trade.rings) {
+    for (const auto part : {TradePart::mesh, TradePart::dynamics}) {
+      if (!ring.front(part).empty())
+        write_file(folder / fmt::format("tradeoff_{}_{}.svg", file_name(ring.ring), part_name(part)),
+                   trade_picture(ring, part));
+    }
+  }
+}
+
+}  // namespace annulus::app

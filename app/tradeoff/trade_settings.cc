@@ -1,0 +1,166 @@
+#include "app/tradeoff/trade_settings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/errors.h"
+
+namespace annulus::app {
+
+namespace {
+
+/// Multiples of the nominal load; the middle one is 1.
+std::vector<double> load_factors(int loads) {
+  switch (loads) {
+    case 1:
+      return {1};
+    case 3:
+      return {0.5, 1, 1.5};
+    case 5:
+      return {std::begin(table_load_factors), std::end(table_load_factors)};
+    case 9:
+      return {0.125, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2};
+    default:
+      break;
+  }
+  throw InternalError("internal error: no such number of loads");
+}
+
+}  // namespace
+
+std::string MeshSetting::text() const {
+  std::string text;
+  if (rung != fem::Rung::closed_form) text = fmt::format("degree {}, level {}, ", degree, level);
+  return text + fmt::format("{} phases, {} load{}", phases, loads, loads == 1 ? "" : "s");
+}
+
+std::string MeshSetting::folder() const {
+  return fmt::format("{}_d{}_l{}_p{}_n{}", rung_name(rung), degree, level, phases, loads);
+}
+
+MeshModel MeshSetting::applied(const MeshModel& planned, bool needs_solid) const {
+  MeshModel model = planned;
+  const auto used = rung == fem::Rung::solid && !needs_solid ? fem::Rung::plane : rung;
+  const double nominal = planned.problem->loads[planned.nominal_load()];
+  model.rung = rung_name(used);
+  model.settings.rung = used;
+  model.settings.degree = degree;
+  model.settings.level = level;
+  model.problem->phases = phases;
+  model.problem->loads.clear();
+  for (const double factor : load_factors(loads)) model.problem->loads.push_back(factor * nominal);
+  return model;
+}
+
+std::vector<MeshSetting> mesh_settings(const MeshModel& planned, bool needs_solid) {
+  using fem::Rung;
+  std::vector<MeshSetting> list;
+  const auto add = [&](Rung rung, std::vector<int> degrees, std::vector<int> levels) {
+    for (const int degree : degrees) {
+      for (const int level : levels) list.push_back({.rung = rung, .degree = degree, .level = level});
+    }
+  };
+  if (needs_solid) {
+    add(Rung::solid, {1, 2}, {1});
+    add(Rung::solid, {1}, {2});
+    for (const int phases : {8, 16}) list.push_back({.rung = Rung::solid, .phases = phases});
+    for (const int loads : {1, 3}) list.push_back({.rung = Rung::solid, .loads = loads});
+    list.push_back({.rung = Rung::solid, .degree = 2, .level = 2, .finest = true});
+    return list;
+  }
+  add(Rung::closed_form, {2}, {1});
+  add(Rung::plane, {1}, {1, 2, 3, 4});
+  add(Rung::plane, {2}, {1, 2, 3, 4});
+  add(Rung::plane, {3}, {1, 2});
+  for (const int phases : {8, 16, 64}) list.push_back({.rung = Rung::plane, .level = 2, .phases = phases});
+  for (const int loads : {1, 3, 9}) list.push_back({.rung = Rung::plane, .level = 2, .loads = loads});
+  // The resolved rung knows no pins, and every position of it has a mesh of its own.
+  if (!fem::on_single_supports(planned.problem->structure))
+    list.push_back({.rung = Rung::resolved_plane, .degree = 2, .level = 1, .phases = 16, .loads = 1});
+  list.push_back({.rung = Rung::plane, .degree = 3, .level = 3, .phases = 64, .loads = 9, .finest = true});
+  return list;
+}
+
+std::vector<DynamicsSetting> dynamics_settings(const dynamics::PlanetaryStage& stage,
+                                               const std::shared_ptr<const RingCoupling>& elastic) {
+  using dynamics::Integrator;
+  using Stage = dynamics::PlanetaryStage;
+  using Options = dynamics::SimulationOptions;
+  constexpr int fine_samples = 128;
+  std::vector<DynamicsSetting> list;
+  const auto directly = [](int samples) {
+    return [samples](Stage&, Options& o) {
+      o.confirm = false;
+      o.samples_per_cycle = samples;
+    };
+  };
+  for (const int samples : {8, 16, 32, 64})
+    list.push_back({"direct", fmt::format("{} samples per mesh cycle", samples), directly(samples)});
+  list.push_back({"direct", "64 samples, confirmed by marching", [](Stage&, Options&) {}});
+
+  const auto marching = [&](const char* name, Integrator method, double tolerance) {
+    list.push_back({"marching", fmt::format("{}, relative tolerance {:.0e}", name, tolerance),
+                    [method, tolerance](Stage&, Options& o) {
+                      o.steady_state = dynamics::SteadyState::marching;
+                      o.integrator.method = method;
+                      o.integrator.relative_tolerance = tolerance;
+                    }});
+  };
+  // A long period (pins, hunting teeth) is marched through many times: two tolerances tell what that costs.
+  const bool long_period = stage.error_period() > dynamics::long_window;
+  for (const double tolerance : long_period ? std::vector{1e-4, 1e-6} : std::vector{1e-3, 1e-4, 1e-5, 1e-6, 1e-8})
+    marching("Cash-Karp 5(4)", Integrator::arkode_explicit, tolerance);
+  if (!long_period) {
+    for (const double tolerance : {1e-4, 1e-6}) marching("BDF", Integrator::cvode_bdf, tolerance);
+    marching("Adams", Integrator::cvode_adams, 1e-6);
+  }
+  for (const int steps : long_period ? std::vector{64} : std::vector{32, 64, 128, 256}) {
+    list.push_back(
+        {"marching", fmt::format("Runge-Kutta 4, {} steps per mesh cycle", steps), [steps](Stage& s, Options& o) {
+           o.steady_state = dynamics::SteadyState::marching;
+           o.integrator.method = Integrator::runge_kutta_4;
+           o.integrator.fixed_step = 1 / (s.mesh_frequency() * steps);
+         }});
+  }
+
+  const auto without = [&](const char* what, auto drop) {
+    list.push_back({"fewer freedoms", what,
+                    [drop, fine = directly(fine_samples)](Stage& s, Options& o) {
+                      drop(s);
+                      fine(s, o);
+                    },
+                    false, true});
+  };
+  if (std::isfinite(stage.sun.support)) without("sun held in place", [](Stage& s) { s.sun.support = dynamics::rigid; });
+  if (std::isfinite(stage.ring.support))
+    without("ring held in place", [](Stage& s) { s.ring.support = dynamics::rigid; });
+  if (std::isfinite(stage.ring.torsional_support) && stage.ring.torsional_support > 0)
+    without("ring held against rotation", [](Stage& s) { s.ring.torsional_support = dynamics::rigid; });
+  if (std::isfinite(stage.carrier.support))
+    without("carrier held in place", [](Stage& s) { s.carrier.support = dynamics::rigid; });
+  if (std::isfinite(stage.planet.bearing_radial))
+    without("planet bearings rigid",
+            [](Stage& s) { s.planet.bearing_radial = s.planet.bearing_tangential = dynamics::rigid; });
+  if (stage.ring_coupling) {
+    list.push_back({"coupling", "planets not coupled through the ring",
+                    [fine = directly(fine_samples)](Stage& s, Options& o) {
+                      s.ring_coupling = nullptr;
+                      fine(s, o);
+                    },
+                    false, true});
+  }
+  if (elastic) {
+    list.push_back({"coupling", "ring with its elastic modes",
+                    [elastic](Stage& s, Options& o) {
+                      s.ring_coupling = elastic;
+                      o.confirm = false;
+                      o.samples_per_cycle = 64;
+                    },
+                    false, true});
+  }
+  list.push_back({"direct", fmt::format("{} samples per mesh cycle", fine_samples), directly(fine_samples), true});
+  return list;
+}
+
+}  // namespace annulus::app
