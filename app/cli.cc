@@ -4,26 +4,20 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <new>
-#include <optional>
 #include <thread>
 
+#include "app/commands.h"
+#include "app/completion.h"
 #include "app/content_id.h"
-#include "app/finished_run.h"
+#include "app/export/export.h"
 #include "app/interruption.h"
-#include "app/pipeline.h"
-#include "app/plan/cost_budget.h"
-#include "app/plan/run_limits.h"
 #include "app/progress.h"
-#include "app/scene/scene_files.h"
-#include "app/scene/scene_schema.h"
-#include "app/stage_kinds.h"
-#include "app/study/studies.h"
-#include "app/tradeoff/trade_report.h"
+#include "app/scene/scene_value.h"
 #include "core/errors.h"
-#include "core/files.h"
 #include "core/log.h"
 
 namespace annulus::app {
@@ -31,136 +25,6 @@ namespace annulus::app {
 namespace {
 
 enum ExitStatus { done = 0, defect = 1, wrong_input = 2, refused = 3, interrupted = 130 };
-
-struct Arguments {
-  std::string scene, out, tables, key;
-  std::optional<std::string> budget, max_memory, max_time;
-  bool json = false, markdown = false, quiet = false, verbose = false;
-  int threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-};
-
-RunOptions run_options(const Arguments& arguments, const Scene& scene) {
-  RunOptions options{.threads = arguments.threads};
-  options.out =
-      arguments.out.empty() ? std::filesystem::path("out") / scene.file.stem() : std::filesystem::path(arguments.out);
-  if (!arguments.tables.empty()) options.tables = arguments.tables;
-  return options;
-}
-
-RunLimits limits_of(const Arguments& arguments) {
-  auto limits = RunLimits::of_this_machine();
-  if (arguments.max_memory) limits.memory_MB = parse_memory(*arguments.max_memory);
-  if (arguments.max_time) limits.seconds = parse_duration(*arguments.max_time, "--max-time");
-  return limits;
-}
-
-/// Whether results can be written there, told before anything is computed; makes nothing.
-void check_out(const std::filesystem::path& out) {
-  namespace fs = std::filesystem;
-  fs::path there = fs::absolute(out).lexically_normal();
-  std::error_code error;
-  while (!fs::exists(there, error) && there.has_relative_path()) there = there.parent_path();
-  if (!fs::is_directory(there, error))
-    throw InputError(fmt::format("--out {}: {} is not a folder", out.string(), there.string()));
-  if (::access(there.c_str(), W_OK | X_OK) != 0)
-    throw InputError(fmt::format("--out {}: cannot write in {}", out.string(), there.string()));
-}
-
-/// What can be known to be wrong before anything is computed; the run itself checks its studies first.
-void check_scene(const Scene& scene, const Arguments& arguments, bool with_dynamics = true) {
-  check_stage(scene);
-  check_files(scene);
-  check_limits(scene, limits_of(arguments), arguments.threads, CostModel::of_this_machine(), with_dynamics);
-}
-
-/// The scene as the file has it, or as accurate as the budget allows; what that means goes into `sentence`.
-Scene wanted_scene(const Arguments& arguments, std::string& sentence) {
-  const double budget = arguments.budget ? parse_duration(*arguments.budget) : 0;
-  Scene scene = read_scene(arguments.scene);
-  if (!arguments.budget) return scene;
-  check_stage(scene);
-  auto choice = fit_budget(scene, budget, arguments.threads, CostModel::of_this_machine());
-  sentence = std::move(choice.sentence);
-  return std::move(choice.scene);
-}
-
-void run_and_print(const Arguments& arguments, bool with_dynamics) {
-  std::string budget;
-  const Scene scene = wanted_scene(arguments, budget);
-  if (!budget.empty()) log::info(budget);
-  auto options = run_options(arguments, scene);
-  options.with_dynamics = with_dynamics;
-  check_out(options.out);
-  const auto id = run_id(scene, options);
-  if (const auto earlier = finished_run(options.out, id)) {
-    fmt::print("{}reused   everything: nothing has changed since the run above\n", *earlier);
-  } else {
-    check_scene(scene, arguments, with_dynamics);
-    remove_unfinished_files(options.out);
-    const auto text = run_scene(scene, options);
-    fmt::print("{}", text);
-    keep_finished_run(options.out, id, text);
-  }
-  if (!budget.empty()) fmt::print("{}\n", budget);
-  fmt::print("report  {}\n", (options.out / "report.html").string());
-}
-
-void dynamics_command(const Arguments& arguments) {
-  const Scene scene = read_scene(arguments.scene);
-  if (!scene.dynamics) throw InputError(arguments.scene + ": has no [dynamics] table; add one to run the lumped model");
-  run_and_print(arguments, true);
-}
-
-void plan_command(const Arguments& arguments) {
-  std::string budget;
-  const Scene scene = wanted_scene(arguments, budget);
-  check_stage(scene);
-  check_files(scene);
-  check_studies(scene);
-  fmt::print("{}", plan_scene(scene, arguments.json, arguments.threads, budget));
-  // The plan itself shows what is too much.
-  std::fflush(stdout);
-  check_limits(scene, limits_of(arguments), arguments.threads, CostModel::of_this_machine());
-}
-
-void check_command(const Arguments& arguments) {
-  const Scene scene = read_scene(arguments.scene);
-  check_stage(scene);
-  check_files(scene);
-  check_studies(scene);
-  fmt::print("{}: good ({})\n", arguments.scene, stage_text(scene));
-}
-
-void tradeoff_command(const Arguments& arguments) {
-  const Scene scene = read_scene(arguments.scene);
-  const auto options = run_options(arguments, scene);
-  check_out(options.out);
-  check_scene(scene, arguments, false);
-  remove_unfinished_files(options.out);
-  const auto trade = measure_tradeoff(scene, options);
-  write_tradeoff(trade, options.out);
-  fmt::print("{}\ntable   {}\nreport  {}\n", trade_text(trade), (options.out / "tradeoff.csv").string(),
-             (options.out / "tradeoff.html").string());
-}
-
-void explain_command(const Arguments& arguments) {
-  if (arguments.markdown) {
-    fmt::print("{}", scene_reference());
-    return;
-  }
-  bool found = false;
-  for (const auto& table : schema()) {
-    const bool whole_table = arguments.key == table.path && !table.path.empty();
-    for (const auto& p : table.parameters) {
-      if (!arguments.key.empty() && arguments.key != p.key() && arguments.key != p.name && !whole_table) continue;
-      fmt::print("{}{}", found ? "\n" : "", explain(p));
-      found = true;
-    }
-  }
-  if (found) return;
-  const std::string near = nearest(arguments.key, all_keys());
-  throw InputError(arguments.key + ": there is no such key" + (near.empty() ? "" : "; did you mean " + near + "?"));
-}
 
 void add_common(CLI::App& command, Arguments& arguments) {
   command.add_option("--threads", arguments.threads, "Threads to use")
@@ -193,17 +57,18 @@ std::string unknown_command(const CLI::App& app) {
                      near.empty() ? "" : ", did you mean " + near + "?", known);
 }
 
-}  // namespace
-
-int run_command_line(int argc, char** argv) {
-  watch_for_interruption(interrupted);
-
-  Arguments arguments;
-  CLI::App app("What the structure of a ring gear does to load sharing and vibration of a planetary gear set.",
-               "annulus");
+/// All commands with their options, which write into `arguments`.
+void declare(CLI::App& app, Arguments& arguments) {
   app.set_version_flag("--version", std::string("annulus ") + version());
   app.require_subcommand(1);
+  app.set_help_all_flag("--help-all", "Help of all commands");
   add_common(app, arguments);
+  app.footer(
+      "Examples:\n"
+      "  annulus new planetary > my.toml     a scene to start from, every key with its meaning\n"
+      "  annulus plan my.toml                what will be modelled, how long it takes\n"
+      "  annulus run my.toml                 everything, with the report out/my/report.html\n"
+      "'annulus COMMAND --help' tells more of a command.");
 
   const auto out = [&](CLI::App* command) {
     command->add_option("-o,--out", arguments.out, "Folder of the results; default out/<scene name>");
@@ -221,28 +86,82 @@ int run_command_line(int argc, char** argv) {
                         "Refuse what is predicted to take longer: 2h, 3d; default a week");
     return command;
   };
-  limits(budget(out(add_command(app, arguments, "run", "Everything the scene asks for, and the report"))));
-  limits(out(add_command(app, arguments, "solve", "Meshes, loaded transmission error, stiffness tables")));
+  const auto examples = [](CLI::App* command, const std::string& text) { command->footer("Examples:\n" + text); };
+
+  examples(limits(budget(out(add_command(app, arguments, "run", "Everything the scene asks for, and the report")))),
+           "  annulus run my.toml\n"
+           "  annulus run my.toml -o results --threads 4\n"
+           "  annulus run my.toml --budget 30s      as accurate as half a minute allows");
+  examples(limits(out(add_command(app, arguments, "solve", "Meshes, loaded transmission error, stiffness tables"))),
+           "  annulus solve my.toml -o results");
   auto* dynamics =
       limits(out(add_command(app, arguments, "dynamics", "The lumped model from tables, solved first if missing")));
   dynamics->add_option("--tables", arguments.tables,
                        "Folder of an earlier run whose tables are used if they still fit");
-  limits(out(add_command(app, arguments, "tradeoff",
-                         "Every way to compute the stage measured: error against time and memory")));
+  examples(dynamics, "  annulus dynamics faster.toml --tables out/my");
+  examples(limits(out(add_command(app, arguments, "tradeoff",
+                                  "Every way to compute the stage measured: error against time and memory"))),
+           "  annulus tradeoff my.toml              then open out/my/tradeoff.html");
   auto* plan = limits(budget(add_command(
       app, arguments, "plan", "What will be modelled and why, predicted time and memory; computes nothing")));
   plan->add_flag("--json", arguments.json, "As JSON");
-  add_command(app, arguments, "check", "Check the scene only");
-  auto* explain_key = app.add_subcommand("explain", "The keys of a scene file");
+  examples(plan,
+           "  annulus plan my.toml\n"
+           "  annulus plan my.toml --json | jq .cost");
+  examples(add_command(app, arguments, "check", "Check the scene only"), "  annulus check my.toml");
+
+  auto* send = app.add_subcommand("export", "Results and gear data in the formats of other programs");
+  send->add_option("file", arguments.scene, "A table of a run (CSV), or a scene for rexs")->required();
+  std::string formats;
+  for (const auto& f : export_formats()) formats += (formats.empty() ? "" : "|") + std::string(f.name);
+  send->add_option("--to", arguments.format, "Format: " + formats)->required();
+  send->add_option("-o,--out", arguments.out, "File to write; default beside the source, with the format's ending");
+  send->add_option("--ring", arguments.ring, "Which ring of a scene, where there are several");
+  add_common(*send, arguments);
+  std::string what;
+  for (const auto& f : export_formats()) what += fmt::format("  {:9} {:11} {}\n", f.name, f.ending, f.what);
+  examples(send,
+           "  annulus export out/my/ring/stiffness_ring_planet.csv --to matlab\n"
+           "  annulus export out/my/ring/ring_compliance.csv --to hdf5 -o ring.h5\n"
+           "  annulus export my.toml --to rexs\nFormats:\n" +
+               what);
+
+  auto* fresh = app.add_subcommand("new", "Writes a commented scene to standard output");
+  fresh->add_option("kind", arguments.kind, "Kind of stage: planetary, helical_pair, two_k_v");
+  fresh->add_option("--rexs", arguments.rexs, "Fill it with the gear data of this REXS file");
+  add_common(*fresh, arguments);
+  examples(fresh,
+           "  annulus new planetary > my.toml\n"
+           "  annulus new --rexs gearbox.rexs > my.toml");
+
+  auto* explain_key = app.add_subcommand("explain", "The keys of a scene file: meaning, unit, range, default, source");
   explain_key->add_option("key", arguments.key, "Key, key path or table; absent: all");
   explain_key->add_flag("--markdown", arguments.markdown, "The scene reference as Markdown");
   add_common(*explain_key, arguments);
+  examples(explain_key,
+           "  annulus explain module_mm\n"
+           "  annulus explain supports");
 
+  auto* completion = app.add_subcommand("completion", "Completion of commands and options for a shell");
+  completion->add_option("shell", arguments.shell, "bash, zsh or fish")->required();
+  examples(completion, "  annulus completion bash > ~/.local/share/bash-completion/completions/annulus");
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  watch_for_interruption(interrupted);
+
+  Arguments arguments;
+  arguments.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  CLI::App app("What the structure of a ring gear does to load sharing and vibration of a planetary gear set.",
+               "annulus");
+  declare(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (const std::string unknown = unknown_command(app); !unknown.empty()) {
-      fmt::print(stderr, "{}\n", unknown);
+      log::error(unknown);
       return wrong_input;
     }
     const int status = app.exit(error);
@@ -251,34 +170,36 @@ int run_command_line(int argc, char** argv) {
   log::set_level(arguments.quiet ? log::Level::quiet : arguments.verbose ? log::Level::verbose : log::Level::normal);
   show_progress(!arguments.quiet);
 
-  const auto fail = [](const std::exception& error, ExitStatus status) {
-    fmt::print(stderr, "{}\n", error.what());
+  const std::map<std::string, std::function<void()>> commands = {
+      {"run", [&] { run_command(arguments); }},
+      {"solve", [&] { solve_command(arguments); }},
+      {"dynamics", [&] { dynamics_command(arguments); }},
+      {"tradeoff", [&] { tradeoff_command(arguments); }},
+      {"plan", [&] { plan_command(arguments); }},
+      {"check", [&] { check_command(arguments); }},
+      {"export", [&] { export_command(arguments); }},
+      {"new", [&] { new_command(arguments); }},
+      {"explain", [&] { explain_command(arguments); }},
+      {"completion", [&] { fmt::print("{}", completion_script(app, arguments.shell)); }}};
+  const auto fail = [](const std::string& message, ExitStatus status) {
+    log::error(message);
     return status;
   };
   try {
-    const std::string command = app.get_subcommands().front()->get_name();
-    if (command == "run") run_and_print(arguments, true);
-    if (command == "solve") run_and_print(arguments, false);
-    if (command == "dynamics") dynamics_command(arguments);
-    if (command == "tradeoff") tradeoff_command(arguments);
-    if (command == "plan") plan_command(arguments);
-    if (command == "check") check_command(arguments);
-    if (command == "explain") explain_command(arguments);
+    commands.at(app.get_subcommands().front()->get_name())();
     return done;
   } catch (const InputError& error) {
-    return fail(error, wrong_input);
+    return fail(error.what(), wrong_input);
   } catch (const Error& error) {
-    return fail(error, refused);
+    return fail(error.what(), refused);
   } catch (const std::filesystem::filesystem_error& error) {
-    return fail(error, wrong_input);
+    return fail(error.what(), wrong_input);
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr,
-               "out of memory: ask for less accuracy or fewer threads; finished results are kept and reused by the "
-               "next run\n");
-    return refused;
+    return fail(
+        "out of memory: ask for less accuracy or fewer threads; finished results are kept and reused by the next run",
+        refused);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "defect in annulus, please report it: ");
-    return fail(error, defect);
+    return fail(std::string("defect in annulus, please report it: ") + error.what(), defect);
   }
 }
 

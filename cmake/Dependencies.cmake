@@ -7,6 +7,7 @@ find_package(Boost 1.74 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(pugixml REQUIRED)
 find_package(SUNDIALS 6 REQUIRED)
 find_package(pagmo 2.18 REQUIRED)
 find_package(BLAS REQUIRED)
@@ -45,3 +46,13 @@ find_library(DEAL_II_RELEASE_LIBRARY NAMES deal.ii deal_II HINTS ${DEAL_II_PATH}
 # deal.II's headers inline calls into oneTBB.
 find_package(TBB REQUIRED)
 target_link_libraries(annulus_dealii INTERFACE ${DEAL_II_RELEASE_LIBRARY} TBB::tbb)
+
+# Of exports. The serial HDF5, as matio has it; deal.II brings the one with MPI, whose symbols are versioned apart.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(HDF5_SERIAL REQUIRED IMPORTED_TARGET hdf5-serial)
+find_library(HDF5_SERIAL_HL_LIBRARY hdf5_serial_hl HINTS ${HDF5_SERIAL_LIBRARY_DIRS} REQUIRED)
+add_library(annulus_hdf5 INTERFACE)
+target_link_libraries(annulus_hdf5 INTERFACE ${HDF5_SERIAL_HL_LIBRARY} PkgConfig::HDF5_SERIAL)
+pkg_check_modules(MATIO REQUIRED IMPORTED_TARGET matio)
+add_library(annulus_matio INTERFACE)
+target_link_libraries(annulus_matio INTERFACE PkgConfig::MATIO)

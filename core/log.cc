@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 
 namespace annulus::log {
@@ -14,8 +15,16 @@ namespace {
 // Made on first use, so that static initialisation order does not matter; the only global of annulus.
 spdlog::logger& logger() {
   static const auto instance = [] {
-    auto made = std::make_shared<spdlog::logger>("annulus", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
-    made->set_pattern("%v");
+    // Coloured on a terminal only, and not where the user wants none (no-color.org).
+    const char* no_colour = std::getenv("NO_COLOR");
+    const bool plain = no_colour != nullptr && *no_colour != '\0';
+    auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>(plain ? spdlog::color_mode::never
+                                                                            : spdlog::color_mode::automatic);
+    for (const auto level : {spdlog::level::info, spdlog::level::debug}) sink->set_color(level, sink->reset);
+    sink->set_color(spdlog::level::warn, sink->yellow);
+    sink->set_color(spdlog::level::err, sink->red);
+    auto made = std::make_shared<spdlog::logger>("annulus", std::move(sink));
+    made->set_pattern("%^%v%$");
     made->set_level(spdlog::level::info);
     made->flush_on(spdlog::level::info);
     return made;
@@ -42,6 +51,7 @@ void set_level(Level level) {
 // The message is an argument, not the format: braces in it stay as they are.
 void info(const std::string& message) { logger().info("{}", message); }
 void debug(const std::string& message) { logger().debug("{}", message); }
+void error(const std::string& message) { logger().error("{}", message); }
 void warn(const std::string& message) { logger().warn("warning: {}", message); }
 
 }  // namespace annulus::log

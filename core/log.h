@@ -9,11 +9,13 @@ namespace annulus::log {
 
 enum class Level { quiet, normal, verbose };
 
-/// All messages go to standard error; results go to files and standard output.
+/// All messages go to standard error, coloured on a terminal unless NO_COLOR is set; results go to files and standard
+/// output.
 void set_level(Level level);
 void info(const std::string& message);
 void debug(const std::string& message);
 void warn(const std::string& message);
+void error(const std::string& message);  ///< what ends the program
 
 }  // namespace annulus::log
 

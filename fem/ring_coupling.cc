@@ -20,6 +20,7 @@ namespace {
 struct Level {
   std::vector<Eigen::MatrixXd> compliance;
   std::vector<RingMode> modes;
+  Eigen::MatrixXd teeth;  // compliance between the mesh forces of all teeth, numbered as in the real ring
   double own = 0;
   long unknowns = 0;
   double mass = 0, rotational_mass = 0;
@@ -68,6 +69,21 @@ Eigen::MatrixXd unilateral_coupling(const RingOnSupports& ring, const Eigen::Mat
     coupling(n, n) = (state.displacement[n] - alone.displacement[0]) / load - others;
   }
   return coupling;
+}
+
+/// Of the real ring, whose teeth count the other way round than those of the solve.
+Eigen::MatrixXd teeth_compliance(const RingFlexibility& ring, const RingOnSupports* supported) {
+  const int teeth = ring.teeth;
+  Eigen::MatrixXd solved(teeth, teeth), result(teeth, teeth);
+  if (supported) {
+    solved = supported->held_teeth_compliance();
+  } else {
+    for (int a = 0; a < teeth; ++a)
+      for (int b = 0; b < teeth; ++b) solved(a, b) = ring.compliance.block(a - b)(0, 0);
+  }
+  for (int a = 0; a < teeth; ++a)
+    for (int b = 0; b < teeth; ++b) result(a, b) = solved((teeth - a) % teeth, (teeth - b) % teeth);
+  return 0.5 * (result + result.transpose());
 }
 
 Level solve_level(const LoadedMeshProblem& problem, int planets, double load, const RingCouplingSettings& settings,
@@ -119,6 +135,7 @@ Level solve_level(const LoadedMeshProblem& problem, int planets, double load, co
     result.compliance.push_back(std::move(coupling));
   }
   result.own /= static_cast<double>(positions) * planets;
+  result.teeth = teeth_compliance(ring, supported ? &*supported : nullptr);
   result.modes =
       supported ? supported_ring_modes(ring, *supported, settings.modes) : held_ring_modes(ring, settings.modes);
   for (int s = 0; s < ring.teeth; ++s) {
@@ -178,6 +195,8 @@ SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, int pla
     result.frequency_error_relative =
         std::max(result.frequency_error_relative, std::abs(coarser.modes[k].frequency / level.modes[k].frequency - 1));
   result.own_compliance = level.own;
+  result.teeth_compliance_error = (level.teeth - coarser.teeth).cwiseAbs().maxCoeff();
+  result.teeth_compliance = std::move(level.teeth);
   result.unknowns = level.unknowns;
   result.reused_teeth = (coarser.reused ? 1 : 0) + (level.reused ? 1 : 0);
   result.condensed_teeth = 2 - result.reused_teeth;

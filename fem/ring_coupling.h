@@ -24,6 +24,11 @@ struct SolvedRingCoupling {
   /// m/N, mean over ring positions and planets: what a mesh alone moves its own tooth, force and displacement spread
   /// over half the flank (no contact, no bending of the planet): the scale of the coupling.
   double own_compliance = 0;
+  /// m/N, ring teeth x ring teeth: closing lost at the flank of tooth i under a unit mesh force on tooth j, both along
+  /// the line of action at the pitch point; supports that could lift off are held both ways. Symmetric, positive
+  /// definite: its inverse is the stiffness matrix of the ring reduced to its teeth.
+  Eigen::MatrixXd teeth_compliance{};
+  double teeth_compliance_error = 0;    ///< m/N, estimated, largest of all entries
   double compliance_error = 0;          ///< m/N, estimated, largest of all entries
   double frequency_error_relative = 0;  ///< estimated, largest of the modes kept
   long unknowns = 0;                    ///< freedoms of the sector

@@ -120,10 +120,22 @@ RingOnSupports::State RingOnSupports::solve(const Eigen::MatrixXd& patterns, con
   return state;
 }
 
-Eigen::MatrixXd RingOnSupports::held_compliance() const {
+std::vector<Eigen::Index> RingOnSupports::held() const {
   std::vector<Eigen::Index> held;
   for (std::size_t i = 0; i < plan_.forces().size(); ++i)
     if (plan_.forces()[i].site < plan_.sites().pins) held.push_back(static_cast<Eigen::Index>(i));
+  return held;
+}
+
+Eigen::MatrixXd RingOnSupports::held_teeth_compliance() const {
+  const auto held = this->held();
+  const Eigen::MatrixX3d R_h = resultants_(held, Eigen::all);
+  return eliminate_supports(all_compliances(ring_, 0, 1, 0, 1), teeth_coupling_(held, Eigen::all),
+                            compliance_(held, held), all_resultants(ring_, 0, 1), R_h);
+}
+
+Eigen::MatrixXd RingOnSupports::held_compliance() const {
+  const auto held = this->held();
   const int motions = ring_.motions, first = ring_.first_motion();
   const Eigen::Index teeth = ring_.teeth, all = teeth * (1 + motions);
   Eigen::MatrixXd F(all, all);

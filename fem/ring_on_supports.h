@@ -30,10 +30,14 @@ class RingOnSupports {
   /// Compliance between the mesh forces of all teeth, then the inertia loads of all sectors [1 + sector * motions +
   /// motion], all pins or spline flanks held both ways, a housing bore left away.
   [[nodiscard]] Eigen::MatrixXd held_compliance() const;
+  /// Its part between the mesh forces of all teeth.
+  [[nodiscard]] Eigen::MatrixXd held_teeth_compliance() const;
 
  private:
   /// Loads first ... first + count - 1 of every sector: displacements under support forces, forces x (sector, load).
   [[nodiscard]] Eigen::MatrixXd coupling(int first, int count) const;
+  /// Supports that can be held both ways: all but those of a housing bore.
+  [[nodiscard]] std::vector<Eigen::Index> held() const;
 
   const RingFlexibility& ring_;
   const SupportPlan& plan_;

@@ -8,7 +8,8 @@ packages=(
   libboost-dev libboost-test-dev
   libopenblas-dev libopenblas0-pthread
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
-  calculix-ccx octave  # tests only: what benchmarks compare with
+  libhdf5-dev libmatio-dev libpugixml-dev
+  calculix-ccx octave python3-h5py  # tests only: what benchmarks compare with, what reads exports
   clang libclang-rt-dev clang-format clang-tidy valgrind  # tests only: sanitizers, fuzzing, analysis
 )
 

@@ -9,6 +9,7 @@
 #include "app/scene/input_place.h"
 #include "app/scene/scene_limits.h"
 #include "app/stage/reference.h"
+#include "core/table_import.h"
 
 namespace annulus::app {
 
@@ -56,12 +57,8 @@ std::filesystem::path file_of_scene(const Scene& scene, const std::string& key, 
 }
 
 StiffnessTable given_table(const Scene& scene, const std::string& mesh, const MeshInput& input) {
-  return with_file(scene, "mesh." + mesh + ".file", *input.file, [&](const std::filesystem::path& file) {
-    auto table = StiffnessTable::read_csv(file);
-    if (table.mesh() != mesh)
-      throw InputError(fmt::format("{}: is the table of a {} mesh, not of {}", file.string(), table.mesh(), mesh));
-    return table;
-  });
+  return with_file(scene, "mesh." + mesh + ".file", *input.file,
+                   [&](const std::filesystem::path& file) { return import_table(file, mesh); });
 }
 
 void check_files(const Scene& scene) {

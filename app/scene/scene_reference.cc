@@ -105,8 +105,6 @@ std::string Parameter::range_text() const {
   return text;
 }
 
-namespace {
-
 std::string presence_text(const Parameter& p) {
   switch (p.presence) {
     case Parameter::Presence::required:
@@ -125,8 +123,6 @@ std::string presence_text(const Parameter& p) {
   if ((list && list->empty()) || (texts && texts->empty())) return "default " + p.note;
   return "default " + value + (p.note.empty() ? "" : " (" + p.note + ")");
 }
-
-}  // namespace
 
 std::string explain(const Parameter& p) {
   std::string text = p.key() + "\n  " + p.meaning + "\n  " + p.type_text();

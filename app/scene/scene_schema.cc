@@ -109,7 +109,10 @@ Table mesh_table(const char* path, const char* meaning, const std::vector<StageK
   t.key("half_backlash_um", &MeshInput::half_backlash, "Half the backlash of this mesh along the line of action.")
       .from(0, 1e4)
       .absent("that of [dynamics]");
-  t.key("file", &MeshInput::file, "Stiffness table (CSV as annulus writes it), relative to the scene.")
+  t.key("file", &MeshInput::file,
+        "Stiffness table (CSV), relative to the scene: one that annulus wrote, or columns of another program "
+        "(docs/exchange.md): "
+        "mesh_phase and stiffness_N_per_m, or lte_um and load_N.")
       .absent("needed by table");
   return t.done();
 }

@@ -94,5 +94,7 @@ void declare_two_k_v(std::vector<Table>& tables);
 /// The scene reference as Markdown (docs/scene.md), and one key for `annulus explain KEY`.
 [[nodiscard]] std::string scene_reference();
 [[nodiscard]] std::string explain(const Parameter& parameter);
+/// "required", "default 0.3 (steel)", "optional; absent: ...".
+[[nodiscard]] std::string presence_text(const Parameter& parameter);
 
 }  // namespace annulus::app

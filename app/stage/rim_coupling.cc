@@ -8,6 +8,7 @@
 
 #include "app/content_id.h"
 #include "app/pipeline.h"
+#include "core/csv.h"
 #include "core/log.h"
 #include "fem/ring_coupling.h"
 
@@ -57,7 +58,29 @@ bool rests_in_bore(const fem::RingStructure& structure) {
 }
 
 constexpr const char *id_key = "inputs_id", *error_key = "coupling_error_m_per_N", *seconds_key = "coupling_seconds",
-                     *frequency_error_key = "mode_frequency_error_relative";
+                     *frequency_error_key = "mode_frequency_error_relative", *compliance_file = "ring_compliance.csv";
+
+/// The ring reduced to its teeth, a row and a column each.
+void write_teeth_compliance(const fem::SolvedRingCoupling& solved, const std::string& id,
+                            const std::filesystem::path& file) {
+  const auto& compliance = solved.teeth_compliance;
+  Csv csv;
+  csv.header = {{"annulus_version", version()},
+                {id_key, id},
+                {"what",
+                 "closing lost at a tooth's flank along the line of action per newton on another's, ring held "
+                 "by its supports, both ways; its inverse is the stiffness matrix"},
+                {"error_m_per_N", fmt::format("{:.3g}", solved.teeth_compliance_error)}};
+  csv.columns = {"tooth"};
+  for (Eigen::Index j = 0; j < compliance.cols(); ++j)
+    csv.columns.push_back(fmt::format("compliance_tooth_{}_m_per_N", j));
+  for (Eigen::Index i = 0; i < compliance.rows(); ++i) {
+    auto& row = csv.rows.emplace_back();
+    row.push_back(static_cast<double>(i));
+    for (Eigen::Index j = 0; j < compliance.cols(); ++j) row.push_back(compliance(i, j));
+  }
+  csv.write(file);
+}
 
 }  // namespace
 
@@ -104,7 +127,8 @@ bool may_be_coupled(const Scene& scene, const MeshModel& model) {
 std::optional<SolvedCoupling> load_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
                                             double mesh_compliance, const std::filesystem::path& folder) {
   const auto compliance = folder / "ring_coupling.csv", modes = folder / "ring_modes.csv";
-  if (!std::filesystem::exists(compliance) || !std::filesystem::exists(modes)) return std::nullopt;
+  for (const auto& file : {compliance, modes, folder / compliance_file})
+    if (!std::filesystem::exists(file)) return std::nullopt;
   const auto& ring = ring_of(scene, model);
   try {
     SolvedCoupling kept{.coupling = RingCoupling::read_csv(compliance, modes), .mesh_compliance = mesh_compliance};
@@ -157,6 +181,7 @@ SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, 
                                 {frequency_error_key, fmt::format("{:.17g}", result.frequency_error_relative)},
                                 {seconds_key, fmt::format("{:.3f}", result.seconds)}};
   std::filesystem::create_directories(folder);
+  write_teeth_compliance(solved, coupling_id(scene, geometry, model, ring), folder / compliance_file);
   result.coupling.write_csv(folder / "ring_coupling.csv", folder / "ring_modes.csv");
   log::info(fmt::format(
       "coupling of the meshes through ring '{}': {} ring positions, {} modes below {:.0f} Hz; {:.2f} s", ring.name,

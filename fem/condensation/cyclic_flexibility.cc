@@ -24,7 +24,7 @@ CyclicFlexibility::CyclicFlexibility(int sectors, std::vector<Eigen::MatrixXcd> 
       block += harmonics_[h].real() * turn.real() - harmonics_[h].imag() * turn.imag();
     }
     if (d == 0 || 2 * d == sectors) block = (0.5 * (block + block.transpose())).eval();
-    if (d > 0) blocks_[sectors - d] = block.transpose();
+    if (d > 0 && 2 * d < sectors) blocks_[sectors - d] = block.transpose();
   }
 }
 

@@ -269,9 +269,9 @@ ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, doub
           planet_.compliance(o.planet, o.index, p.planet, p.index) + wheel_.compliance(o.wheel, other, p.wheel, tooth);
       result->asymmetry = std::max(result->asymmetry,
                                    (block - opposite.transpose()).cwiseAbs().maxCoeff() / block.cwiseAbs().maxCoeff());
-      compliance.block(start[i], start[j], size, block.cols()) = (block + opposite.transpose()) / 2;
-      compliance.block(start[j], start[i], block.cols(), size) =
-          compliance.block(start[i], start[j], size, block.cols()).transpose();
+      const Eigen::MatrixXd mean = (block + opposite.transpose()) / 2;
+      compliance.block(start[i], start[j], size, block.cols()) = mean;
+      compliance.block(start[j], start[i], block.cols(), size) = mean.transpose();
     }
     compliance.block(start[i], start[i], size, size) += planet_.near_field(p.planet) + wheel_.near_field(p.wheel);
   }

@@ -1,5 +1,6 @@
 #include "fem/ring_coupling.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -339,6 +340,29 @@ BOOST_AUTO_TEST_CASE(many_stiff_bolts_hold_like_a_held_surface) {
   const auto held = solve(OutsideHeld{}, 5);
   BOOST_TEST(largest(held.coupling.compliance[0]) < 0.2 * before);
   BOOST_TEST(held.coupling.compliance[0].diagonal().isZero(0));
+}
+
+BOOST_AUTO_TEST_CASE(the_matrix_of_the_teeth_couples_planets_as_the_coupling_does) {
+  // Three planets 54 teeth apart; bolts that are not symmetric, so that the numbering of teeth shows.
+  auto bolts = paper_pins(7, 0.3);
+  bolts.unilateral = false;
+  const std::vector<RingStructure> structures = {bolts, OutsideHeld{}};
+  for (const auto& structure : structures) {
+    const auto solved = solve(structure, 3);
+    const auto& teeth = solved.teeth_compliance;
+    BOOST_TEST_REQUIRE(teeth.rows() == 162);
+    BOOST_TEST(largest(teeth - teeth.transpose()) == 0);
+    BOOST_TEST((Eigen::LLT<Eigen::MatrixXd>(teeth).info() == Eigen::Success));
+    double worst = 0;
+    for (std::size_t i = 0; i < solved.coupling.compliance.size(); ++i)
+      for (int n = 0; n < 3; ++n)
+        for (int m = 0; m < 3; ++m) {
+          const auto row = (static_cast<int>(i) + 54 * n) % 162, column = (static_cast<int>(i) + 54 * m) % 162;
+          if (n != m) worst = std::max(worst, std::abs(solved.coupling.compliance[i](n, m) - teeth(row, column)));
+        }
+    BOOST_TEST(worst < round_off * largest(teeth));
+    BOOST_TEST(solved.teeth_compliance_error < 0.05 * largest(teeth));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_linear_ring_couples_alike_at_every_position) {

@@ -1,0 +1,185 @@
+#include "app/commands.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "app/export/export.h"
+#include "app/export/rexs.h"
+#include "app/finished_run.h"
+#include "app/pipeline.h"
+#include "app/plan/cost_budget.h"
+#include "app/plan/run_limits.h"
+#include "app/scene/new_scene.h"
+#include "app/scene/scene_files.h"
+#include "app/scene/scene_schema.h"
+#include "app/stage_kinds.h"
+#include "app/study/studies.h"
+#include "app/tradeoff/trade_report.h"
+#include "core/errors.h"
+#include "core/files.h"
+#include "core/log.h"
+
+namespace annulus::app {
+
+namespace {
+
+RunOptions run_options(const Arguments& arguments, const Scene& scene) {
+  RunOptions options{.threads = arguments.threads};
+  options.out =
+      arguments.out.empty() ? std::filesystem::path("out") / scene.file.stem() : std::filesystem::path(arguments.out);
+  if (!arguments.tables.empty()) options.tables = arguments.tables;
+  return options;
+}
+
+RunLimits limits_of(const Arguments& arguments) {
+  auto limits = RunLimits::of_this_machine();
+  if (arguments.max_memory) limits.memory_MB = parse_memory(*arguments.max_memory);
+  if (arguments.max_time) limits.seconds = parse_duration(*arguments.max_time, "--max-time");
+  return limits;
+}
+
+/// Whether results can be written there, told before anything is computed; makes nothing.
+void check_out(const std::filesystem::path& out) {
+  namespace fs = std::filesystem;
+  fs::path there = fs::absolute(out).lexically_normal();
+  std::error_code error;
+  while (!fs::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+  if (!fs::is_directory(there, error))
+    throw InputError(fmt::format("--out {}: {} is not a folder", out.string(), there.string()));
+  if (::access(there.c_str(), W_OK | X_OK) != 0)
+    throw InputError(fmt::format("--out {}: cannot write in {}", out.string(), there.string()));
+}
+
+/// What can be known to be wrong before anything is computed; the run itself checks its studies first.
+void check_scene(const Scene& scene, const Arguments& arguments, bool with_dynamics = true) {
+  check_stage(scene);
+  check_files(scene);
+  check_limits(scene, limits_of(arguments), arguments.threads, CostModel::of_this_machine(), with_dynamics);
+}
+
+/// The scene as the file has it, or as accurate as the budget allows; what that means goes into `sentence`.
+Scene wanted_scene(const Arguments& arguments, std::string& sentence) {
+  const double budget = arguments.budget ? parse_duration(*arguments.budget) : 0;
+  Scene scene = read_scene(arguments.scene);
+  if (!arguments.budget) return scene;
+  check_stage(scene);
+  auto choice = fit_budget(scene, budget, arguments.threads, CostModel::of_this_machine());
+  sentence = std::move(choice.sentence);
+  return std::move(choice.scene);
+}
+
+void run_and_print(const Arguments& arguments, bool with_dynamics) {
+  std::string budget;
+  const Scene scene = wanted_scene(arguments, budget);
+  if (!budget.empty()) log::info(budget);
+  auto options = run_options(arguments, scene);
+  options.with_dynamics = with_dynamics;
+  check_out(options.out);
+  const auto id = run_id(scene, options);
+  if (const auto earlier = finished_run(options.out, id)) {
+    fmt::print("{}reused   everything: nothing has changed since the run above\n", *earlier);
+  } else {
+    check_scene(scene, arguments, with_dynamics);
+    remove_unfinished_files(options.out);
+    const auto text = run_scene(scene, options);
+    fmt::print("{}", text);
+    keep_finished_run(options.out, id, text);
+  }
+  if (!budget.empty()) fmt::print("{}\n", budget);
+  fmt::print("report  {}\n", (options.out / "report.html").string());
+}
+
+}  // namespace
+
+void run_command(const Arguments& arguments) { run_and_print(arguments, true); }
+void solve_command(const Arguments& arguments) { run_and_print(arguments, false); }
+
+void dynamics_command(const Arguments& arguments) {
+  const Scene scene = read_scene(arguments.scene);
+  if (!scene.dynamics) throw InputError(arguments.scene + ": has no [dynamics] table; add one to run the lumped model");
+  run_and_print(arguments, true);
+}
+
+void plan_command(const Arguments& arguments) {
+  std::string budget;
+  const Scene scene = wanted_scene(arguments, budget);
+  check_stage(scene);
+  check_files(scene);
+  check_studies(scene);
+  fmt::print("{}", plan_scene(scene, arguments.json, arguments.threads, budget));
+  // The plan itself shows what is too much.
+  std::fflush(stdout);
+  check_limits(scene, limits_of(arguments), arguments.threads, CostModel::of_this_machine());
+}
+
+void check_command(const Arguments& arguments) {
+  const Scene scene = read_scene(arguments.scene);
+  check_stage(scene);
+  check_files(scene);
+  check_studies(scene);
+  fmt::print("{}: good ({})\n", arguments.scene, stage_text(scene));
+}
+
+void tradeoff_command(const Arguments& arguments) {
+  const Scene scene = read_scene(arguments.scene);
+  const auto options = run_options(arguments, scene);
+  check_out(options.out);
+  check_scene(scene, arguments, false);
+  remove_unfinished_files(options.out);
+  const auto trade = measure_tradeoff(scene, options);
+  write_tradeoff(trade, options.out);
+  fmt::print("{}\ntable   {}\nreport  {}\n", trade_text(trade), (options.out / "tradeoff.csv").string(),
+             (options.out / "tradeoff.html").string());
+}
+
+void explain_command(const Arguments& arguments) {
+  if (arguments.markdown) {
+    fmt::print("{}", scene_reference());
+    return;
+  }
+  bool found = false;
+  for (const auto& table : schema()) {
+    const bool whole_table = arguments.key == table.path && !table.path.empty();
+    for (const auto& p : table.parameters) {
+      if (!arguments.key.empty() && arguments.key != p.key() && arguments.key != p.name && !whole_table) continue;
+      fmt::print("{}{}", found ? "\n" : "", explain(p));
+      found = true;
+    }
+  }
+  if (found) return;
+  const std::string near = nearest(arguments.key, all_keys());
+  throw InputError(arguments.key + ": there is no such key" + (near.empty() ? "" : "; did you mean " + near + "?"));
+}
+
+void export_command(const Arguments& arguments) {
+  const auto file = export_file(arguments.scene, arguments.format, arguments.out, arguments.ring);
+  fmt::print("written {}\n", file.string());
+}
+
+void new_command(const Arguments& arguments) {
+  if (!arguments.rexs.empty()) {
+    if (!arguments.kind.empty())
+      throw InputError(arguments.kind + ": the kind of stage follows from the REXS file; give one of the two");
+    const auto scene = read_rexs(arguments.rexs);
+    fmt::print("{}", new_scene(scene.kind, scene.values));
+    return;
+  }
+  std::vector<std::string> names;
+  for (const auto kind : stage_kinds()) {
+    if (arguments.kind == kind_name(kind)) {
+      fmt::print("{}", new_scene(kind, example_values(kind)));
+      return;
+    }
+    names.emplace_back(kind_name(kind));
+  }
+  const std::string near = nearest(arguments.kind, names);
+  throw InputError(fmt::format("{}there is no such kind of stage{}; the kinds are {}",
+                               arguments.kind.empty() ? "" : arguments.kind + ": ",
+                               near.empty() ? "" : ", did you mean " + near + "?", kinds_text(stage_kinds())));
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace annulus::app {
+
+/// What the command line says, whatever the command.
+struct Arguments {
+  std::string scene, out, tables, key, format, ring, kind, rexs, shell;
+  std::optional<std::string> budget, max_memory, max_time;
+  bool json = false, markdown = false, quiet = false, verbose = false;
+  int threads = 1;
+};
+
+/// The commands, each from checking its arguments to its last line of output. They throw what the stages throw.
+void run_command(const Arguments& arguments);
+void solve_command(const Arguments& arguments);
+void dynamics_command(const Arguments& arguments);
+void tradeoff_command(const Arguments& arguments);
+void plan_command(const Arguments& arguments);
+void check_command(const Arguments& arguments);
+void export_command(const Arguments& arguments);
+void new_command(const Arguments& arguments);
+void explain_command(const Arguments& arguments);
+
+}  // namespace annulus::app

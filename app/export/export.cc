@@ -1,0 +1,161 @@
+#include "app/export/export.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "app/export/array_files.h"
+#include "app/export/rexs.h"
+#include "app/export/table_text.h"
+#include "app/scene/scene.h"
+#include "core/csv.h"
+#include "core/errors.h"
+#include "core/files.h"
+#include "core/stiffness_table.h"
+
+namespace annulus::app {
+
+namespace {
+
+/// A CSV without the lines in front of the column names, which many programs trip over.
+void write_plain_csv(const std::filesystem::path& file, Csv csv) {
+  csv.header.clear();
+  csv.write(file);
+}
+
+void write_arrays(const std::string& format, const std::filesystem::path& file, const NamedArrays& arrays) {
+  if (format == "hdf5")
+    write_hdf5(file, arrays);
+  else
+    write_matlab(file, arrays);
+}
+
+bool has_column(const Csv& csv, const std::string& name) {
+  return std::find(csv.columns.begin(), csv.columns.end(), name) != csv.columns.end();
+}
+
+/// The matrices of a ring reduced to its teeth; the stiffness is the inverse of the compliance in the file.
+NamedArrays ring_matrices(const Csv& csv) {
+  const auto teeth = csv.rows.size();
+  if (csv.columns.size() != teeth + 1) throw InputError("is no square matrix");
+  Eigen::MatrixXd compliance(teeth, teeth);
+  for (std::size_t i = 0; i < teeth; ++i)
+    for (std::size_t j = 0; j < teeth; ++j) compliance(i, j) = csv.rows[i][j + 1];
+  const Eigen::LLT<Eigen::MatrixXd> factor(compliance);
+  if (factor.info() != Eigen::Success) throw InputError("the compliance is not positive definite; is the file whole?");
+  const Eigen::MatrixXd stiffness =
+      factor.solve(Eigen::MatrixXd::Identity(static_cast<Eigen::Index>(teeth), static_cast<Eigen::Index>(teeth)));
+  NamedArrays all{csv.header, {}};
+  const auto add = [&](const char* name, const Eigen::MatrixXd& m) {
+    NamedArray array{name, {teeth, teeth}, {}, {}};
+    for (Eigen::Index i = 0; i < m.rows(); ++i)
+      for (Eigen::Index j = 0; j < m.cols(); ++j) array.values.push_back((m(i, j) + m(j, i)) / 2);
+    all.arrays.push_back(std::move(array));
+  };
+  add("compliance_m_per_N", compliance);
+  add("stiffness_N_per_m", stiffness);
+  return all;
+}
+
+/// The stiffness matrix as a table: a row and a column per tooth.
+Csv stiffness_csv(const Csv& compliance) {
+  const auto matrices = ring_matrices(compliance);
+  const auto& stiffness = matrices.arrays.back();
+  const auto teeth = stiffness.shape.front();
+  Csv csv;
+  csv.columns = {"tooth"};
+  for (std::size_t j = 0; j < teeth; ++j) csv.columns.push_back(fmt::format("stiffness_tooth_{}_N_per_m", j));
+  for (std::size_t i = 0; i < teeth; ++i) {
+    csv.rows.push_back({static_cast<double>(i)});
+    csv.rows.back().insert(csv.rows.back().end(), stiffness.values.begin() + static_cast<long>(i * teeth),
+                           stiffness.values.begin() + static_cast<long>((i + 1) * teeth));
+  }
+  return csv;
+}
+
+std::string formats_text() {
+  std::string text;
+  for (const auto& f : export_formats()) text += (text.empty() ? "" : ", ") + std::string(f.name);
+  return text;
+}
+
+void export_table(const std::filesystem::path& source, const std::string& format, const std::filesystem::path& file) {
+  const Csv csv = Csv::read(source);
+  const bool arrays = format == "hdf5" || format == "matlab";
+  if (has_column(csv, "stiffness_secant_N_per_m") && has_column(csv, "mesh_phase")) {
+    const auto table = StiffnessTable::read_csv(source);
+    if (format == "csv") return write_plain_csv(file, csv);
+    if (arrays) return write_arrays(format, file, arrays_of(table));
+    if (format == "modelica") return write_file(file, modelica_text(table));
+    if (format == "adams") return write_file(file, adams_text(table));
+    if (format == "simpack") return write_file(file, simpack_text(table));
+    throw InputError(source.string() + ": is a stiffness table; rexs takes a scene");
+  }
+  if (format != "csv" && !arrays)
+    throw InputError(
+        fmt::format("{}: is no stiffness table, and {} takes nothing else; csv, hdf5 and matlab take any table",
+                    source.string(), format));
+  if (has_column(csv, "tooth") && has_column(csv, "compliance_tooth_0_m_per_N")) {
+    try {
+      return format == "csv" ? write_plain_csv(file, stiffness_csv(csv))
+                             : write_arrays(format, file, ring_matrices(csv));
+    } catch (const InputError& error) {
+      throw InputError(source.string() + ": " + error.what());
+    }
+  }
+  if (format == "csv") return write_plain_csv(file, csv);
+  write_arrays(format, file, arrays_of(csv));
+}
+
+void export_scene(const std::filesystem::path& source, std::string ring, const std::filesystem::path& file) {
+  const Scene scene = read_scene(source);
+  if (ring.empty() && scene.rings.size() == 1) ring = scene.rings.front().name;
+  write_file(file, rexs_text(scene, ring));
+}
+
+}  // namespace
+
+const std::vector<ExportFormat>& export_formats() {
+  static const std::vector<ExportFormat> formats = {
+      {"csv", ".plain.csv", "columns alone, for spreadsheets"},
+      {"hdf5", ".h5", "HDF5 with named axes and units"},
+      {"matlab", ".mat", "MATLAB, Octave, SciPy"},
+      {"modelica", ".txt", "CombiTable1D and CombiTable2D of the Modelica Standard Library"},
+      {"simpack", ".afs", "input functions of Simpack"},
+      {"adams", ".adm", "SPLINE statements of Adams"},
+      {"rexs", ".rexs", "gear data of a scene as REXS 1.4 (XML)"}};
+  return formats;
+}
+
+std::filesystem::path export_file(const std::filesystem::path& source, const std::string& format,
+                                  const std::filesystem::path& out, const std::string& ring) {
+  const auto& formats = export_formats();
+  const auto found = std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.name == format; });
+  if (found == formats.end()) {
+    std::vector<std::string> names;
+    for (const auto& f : formats) names.emplace_back(f.name);
+    const std::string near = nearest(format, names);
+    throw InputError(fmt::format("--to {}: there is no such format{}; the formats are {}", format,
+                                 near.empty() ? "" : ", did you mean " + near + "?", formats_text()));
+  }
+  const bool is_scene = source.extension() == ".toml";
+  if (is_scene && format != "rexs")
+    throw InputError(
+        fmt::format("{}: a scene can be exported as rexs; {} takes a table of a run, such as "
+                    "OUT/<ring>/stiffness_ring_planet.csv",
+                    source.string(), format));
+  if (!is_scene && format == "rexs") throw InputError(fmt::format("{}: rexs takes a scene (.toml)", source.string()));
+  auto file = out;
+  if (file.empty()) file = std::filesystem::path(source).replace_extension(found->ending);
+  std::error_code error;
+  if (std::filesystem::equivalent(file, source, error))
+    throw InputError(fmt::format("-o {}: is the file to be exported itself", file.string()));
+  if (is_scene)
+    export_scene(source, ring, file);
+  else
+    export_table(source, format, file);
+  return file;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/scene/new_scene.h"
+#include "app/scene/scene.h"
+
+/// REXS (Reusable Engineering EXchange Standard, FVA, version 1.4): the gear data of a stage as XML.
+namespace annulus::app {
+
+/// The stage with the ring of that name (helical pairs have none). What REXS has no attribute for stands in custom
+/// attributes `custom_annulus_<key>`, with the key, unit and value of the scene. Throws InputError for a ring that is
+/// not there and for stages that REXS cannot describe (2K-V).
+[[nodiscard]] std::string rexs_text(const Scene& scene, const std::string& ring);
+
+/// What a file of REXS 1.x says about its planetary stage or, without one, its first cylindrical stage.
+struct RexsScene {
+  StageKind kind = StageKind::planetary;
+  NewValues values{};
+};
+/// Throws InputError naming the file and what it lacks or contradicts.
+[[nodiscard]] RexsScene read_rexs(const std::filesystem::path& file);
+
+}  // namespace annulus::app

@@ -1,0 +1,285 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <pugixml.hpp>
+#include <set>
+
+#include "app/export/rexs.h"
+#include "app/scene/scene_limits.h"
+#include "app/scene/scene_schema.h"
+#include "core/errors.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr const char* custom_prefix = "custom_annulus_";
+
+struct Component {
+  int id = 0;
+  std::string type, name;
+  pugi::xml_node node;
+};
+
+struct StageRelation {
+  int planetary = 0, stage = 0, first = 0, second = 0;
+};
+
+/// A file with its components by number.
+class RexsFile {
+ public:
+  explicit RexsFile(const std::filesystem::path& file) : file_(file.string()) {
+    const auto result = document_.load_file(file.c_str());
+    if (!result) throw refusal(fmt::format("cannot be read as XML: {} (byte {})", result.description(), result.offset));
+    const auto model = document_.child("model");
+    if (!model) throw refusal("has no element 'model'; is it a REXS file?");
+    if (const std::string version = model.attribute("version").value(); !version.starts_with("1."))
+      throw refusal(fmt::format("is REXS version '{}'; 1.x can be read", shown(version)));
+    for (const auto node : model.child("components").children("component")) {
+      const int id = node.attribute("id").as_int();
+      components_[id] = {id, node.attribute("type").value(), node.attribute("name").value(), node};
+    }
+    for (const auto node : model.child("relations").children("relation")) relations_.push_back(node);
+  }
+
+  [[nodiscard]] InputError refusal(const std::string& why) const { return InputError(file_ + ": " + why); }
+
+  [[nodiscard]] const Component& component(int id) const {
+    const auto found = components_.find(id);
+    if (found == components_.end()) throw refusal(fmt::format("a relation names component {}, which is not there", id));
+    return found->second;
+  }
+
+  /// The component in that role of a relation; 0 when there is none.
+  static int role(const pugi::xml_node& relation, const char* role) {
+    const auto ref = relation.find_child_by_attribute("ref", "role", role);
+    return ref ? ref.attribute("id").as_int() : 0;
+  }
+
+  [[nodiscard]] std::vector<StageRelation> stages() const {
+    std::vector<StageRelation> list;
+    for (const auto& relation : relations_) {
+      if (std::string(relation.attribute("type").value()) != "stage") continue;
+      list.push_back({role(relation, "planetary_stage"), role(relation, "stage"), role(relation, "gear_1"),
+                      role(relation, "gear_2")});
+    }
+    return list;
+  }
+
+  /// Components that `type` relations put in `to` where `id` is in `from`.
+  [[nodiscard]] std::vector<Component> related(const char* type, const char* from, int id,
+                                               std::initializer_list<const char*> to) const {
+    std::vector<Component> list;
+    for (const auto& relation : relations_) {
+      if (std::string(relation.attribute("type").value()) != type || role(relation, from) != id) continue;
+      for (const char* name : to)
+        if (const int other = role(relation, name)) list.push_back(component(other));
+    }
+    return list;
+  }
+
+  [[nodiscard]] std::vector<Component> of_type(const std::string& type) const {
+    std::vector<Component> list;
+    for (const auto& [id, c] : components_)
+      if (c.type == type) list.push_back(c);
+    return list;
+  }
+
+  /// A number in `unit`; nothing when the component does not have it.
+  [[nodiscard]] std::optional<double> number(const Component& c, const char* name, const std::string& unit) const {
+    const auto node = c.node.find_child_by_attribute("attribute", "id", name);
+    if (!node) return std::nullopt;
+    const std::string text = node.text().get();
+    double value = 0;
+    const auto* first = text.data() + std::min(text.find_first_not_of(" \t\r\n"), text.size());
+    const auto* last = text.data() + text.find_last_not_of(" \t\r\n") + 1;
+    const auto [end, error] = std::from_chars(first, std::max(first, last), value);
+    if (error != std::errc{} || end != last || !std::isfinite(value))
+      throw refusal(fmt::format("component {}: {} = '{}' is not a number", c.id, name, shown(text)));
+    const std::string given = node.attribute("unit").value();
+    if (given.empty() || given == unit) return value;
+    static const std::map<std::pair<std::string, std::string>, double> factors = {
+        {{"m", "mm"}, 1e3},       {{"mum", "mm"}, 1e-3},      {{"rad", "deg"}, 180 / 3.14159265358979323846},
+        {{"MPa", "N / mm^2"}, 1}, {{"GPa", "N / mm^2"}, 1e3}, {{"kg / m^3", "kg / dm^3"}, 1e-3},
+        {{"g", "kg"}, 1e-3}};
+    const auto factor = factors.find({given, unit});
+    if (factor == factors.end())
+      throw refusal(fmt::format("component {}: {} is in '{}'; '{}' is expected", c.id, name, shown(given), unit));
+    return value * factor->second;
+  }
+
+ private:
+  std::string file_;
+  pugi::xml_document document_;
+  std::map<int, Component> components_;
+  std::vector<pugi::xml_node> relations_;
+};
+
+/// Text of a custom attribute that can stand in a scene: numbers, lists of them, plain words in quotes.
+bool harmless(const std::string& text) {
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
+    return std::all_of(text.begin() + 1, text.end() - 1,
+                       [](char c) { return c != '"' && c != '\\' && static_cast<unsigned char>(c) >= ' '; });
+  return !text.empty() && text.find_first_not_of("0123456789+-.eE,[] inf") == std::string::npos;
+}
+
+/// Fills the values of a scene from components.
+class Filler {
+ public:
+  Filler(const RexsFile& file, RexsScene& scene) : file_(file), scene_(scene) {}
+
+  void put(const std::string& key, std::optional<double> value, const std::string& remark = "") {
+    if (value) scene_.values[key] = {toml_text(Value(*value)), remark};
+  }
+  void put_count(const std::string& key, double value) {
+    scene_.values[key] = {std::to_string(std::lround(value)), ""};
+  }
+  void put_text(const std::string& key, const std::string& text) { scene_.values[key] = {toml_text(Value(text)), ""}; }
+
+  /// Attributes of annulus itself: keys of `table`, or whole key paths where it is empty.
+  void custom(const Component& c, const std::string& table) {
+    for (const auto node : c.node.children("attribute")) {
+      const std::string id = node.attribute("id").value();
+      if (!id.starts_with(custom_prefix)) continue;
+      const std::string key = (table.empty() ? "" : table + ".") + id.substr(std::string(custom_prefix).size());
+      const std::string text = node.text().get();
+      if (find_parameter(key) == nullptr) continue;
+      if (!harmless(text))
+        throw file_.refusal(
+            fmt::format("component {}: {} = '{}' cannot stand in a scene", c.id, shown(id), shown(text)));
+      scene_.values[key] = {text, ""};
+    }
+  }
+
+  /// A gear's own keys; `sign` -1 for an internal gear with a negative number of teeth.
+  void gear(const Component& c, const std::string& table, bool internal) {
+    const auto teeth = file_.number(c, "number_of_teeth", "none");
+    if (!teeth) throw file_.refusal(fmt::format("component {} ({}): has no number_of_teeth", c.id, c.type));
+    put_count(table + ".teeth", std::abs(*teeth));
+    const auto flanks = file_.related("flank", "gear", c.id, {"left", "right"});
+    std::optional<double> shift;
+    for (const auto& part : flanks)
+      for (const char* name : {"profile_shift_coefficient", "addendum_modification_coefficient"})
+        if (!shift) shift = file_.number(part, name, "none");
+    const bool turned = internal && *teeth < 0;
+    if (shift)
+      put(table + ".profile_shift", turned && *shift != 0 ? -*shift : *shift,
+          internal && !turned ? "sign as in the REXS file, whose number of teeth is positive: check it" : "");
+    for (const auto& [key, name] :
+         {std::pair{"tip_diameter_mm", "tip_diameter"}, {"root_diameter_mm", "root_diameter"}})
+      if (const auto value = file_.number(c, name, "mm")) put(table + "." + key, std::abs(*value));
+    put(table + ".mass_kg", file_.number(c, "mass_of_component", "kg"));
+    custom(c, table);
+  }
+
+  /// What all gears of a stage have in common.
+  void common(const Component& c, const std::optional<double>& centre_distance) {
+    put("stage.module_mm", file_.number(c, "normal_module", "mm"));
+    put("stage.face_width_mm", file_.number(c, "face_width", "mm"));
+    if (const auto helix = file_.number(c, "helix_angle_reference_diameter", "deg"); helix && *helix != 0)
+      put("stage.helix_angle_deg", std::abs(*helix));
+    for (const auto& part : file_.related("flank", "gear", c.id, {"left", "right"}))
+      put("stage.pressure_angle_deg", file_.number(part, "normal_pressure_angle", "deg"));
+    if (centre_distance) put("stage.centre_distance_mm", std::abs(*centre_distance));
+    for (const auto& m : file_.related("reference", "origin", c.id, {"referenced"})) {
+      if (m.type != "material") continue;
+      if (const auto modulus = file_.number(m, "elastic_modulus", "N / mm^2"))
+        put("material.youngs_modulus_GPa", *modulus / 1e3);
+      put("material.poisson_ratio", file_.number(m, "poisson_ratio", "none"));
+      if (const auto density = file_.number(m, "density", "kg / dm^3"))
+        put("material.density_kg_per_m3", *density * 1e3);
+    }
+  }
+
+ private:
+  const RexsFile& file_;
+  RexsScene& scene_;
+};
+
+void read_planetary(const RexsFile& file, const std::vector<StageRelation>& stages, RexsScene& scene) {
+  Filler fill(file, scene);
+  std::set<int> rings, planets, suns;
+  const auto is_ring = [&](int id) { return file.component(id).type == "ring_gear"; };
+  for (const auto& s : stages) {
+    if (is_ring(s.first)) rings.insert(s.first), planets.insert(s.second);
+    if (is_ring(s.second)) rings.insert(s.second), planets.insert(s.first);
+  }
+  if (rings.size() != 1)
+    throw file.refusal(fmt::format("{} ring gears mesh; a scene can be made of a stage with one", rings.size()));
+  std::optional<double> distance;
+  int planetary = 0;
+  for (const auto& s : stages) {
+    if (is_ring(s.first) || is_ring(s.second)) planetary = s.planetary;
+    if (planets.count(s.first) == planets.count(s.second)) continue;
+    const int other = planets.count(s.first) ? s.second : s.first;
+    if (is_ring(other)) continue;
+    suns.insert(other);
+    distance = file.number(file.component(s.stage), "center_distance", "mm");
+  }
+  if (suns.size() != 1)
+    throw file.refusal(fmt::format("{} gears mesh with the planets beside the ring; a scene has one sun", suns.size()));
+  fill.put_count("stage.planets", static_cast<double>(planets.size()));
+  const auto &sun = file.component(*suns.begin()), &planet = file.component(*planets.begin()),
+             &ring = file.component(*rings.begin());
+  fill.common(sun, distance);
+  fill.gear(sun, "sun", false);
+  fill.gear(planet, "planet", false);
+  fill.gear(ring, "ring", true);
+  fill.put_text("ring.name", "ring");
+  if (const auto speed = file.number(sun, "rotational_speed", "1 / min"); speed && *speed != 0)
+    fill.put("stage.sun_speed_rpm", std::abs(*speed));
+  for (const auto& carrier : file.of_type("planet_carrier")) {
+    fill.put("carrier.mass_kg", file.number(carrier, "mass_of_component", "kg"));
+    fill.custom(carrier, "carrier");
+  }
+  if (planetary != 0) {
+    const auto& stage = file.component(planetary);
+    if (!stage.name.empty()) fill.put_text("title", stage.name);
+    fill.custom(stage, "");
+  }
+}
+
+void read_pair(const RexsFile& file, const StageRelation& stage, RexsScene& scene) {
+  scene.kind = StageKind::helical_pair;
+  Filler fill(file, scene);
+  const auto &first = file.component(stage.first), &second = file.component(stage.second);
+  fill.common(first, file.number(file.component(stage.stage), "center_distance", "mm"));
+  fill.gear(first, "pinion", false);
+  fill.gear(second, "wheel", false);
+  for (const auto& unit : file.of_type("gear_unit")) {
+    if (!unit.name.empty()) fill.put_text("title", unit.name);
+    fill.custom(unit, "");
+  }
+}
+
+}  // namespace
+
+RexsScene read_rexs(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) throw InputError(path.string() + ": there is no such file");
+  const RexsFile file(path);
+  const auto stages = file.stages();
+  RexsScene scene;
+  scene.values["title"] = {toml_text(Value(path.stem().string())), ""};
+  scene.values["stage.kind"] = {"\"planetary\"", ""};
+  scene.values["accuracy"] = {"0.01", ""};
+  const bool planetary = std::any_of(stages.begin(), stages.end(), [&](const auto& s) {
+    return file.component(s.first).type == "ring_gear" || file.component(s.second).type == "ring_gear";
+  });
+  if (planetary) {
+    read_planetary(file, stages, scene);
+  } else {
+    const auto pair = std::find_if(stages.begin(), stages.end(), [&](const auto& s) {
+      return file.component(s.first).type == "cylindrical_gear" && file.component(s.second).type == "cylindrical_gear";
+    });
+    if (pair == stages.end()) throw file.refusal("has no stage of cylindrical gears");
+    scene.values["stage.kind"] = {"\"helical_pair\"", ""};
+    read_pair(file, *pair, scene);
+  }
+  return scene;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,282 @@
+#include <fmt/format.h>
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "app/scene/new_scene.h"
+#include "app/scene/scene.h"
+#include "app/scene/scene_schema.h"
+#include "core/csv.h"
+#include "core/files.h"
+#include "core/stiffness_table.h"
+#include "tests/app/run_program.h"
+#include "tests/temporary_folder.h"
+
+/// `annulus export` and `annulus new`, read back by readers that are not annulus' own: Python (csv, xml, h5py) and
+/// Octave.
+namespace annulus {
+
+namespace {
+
+/// Any numbers will do, as long as no two are the same.
+StiffnessTable some_table(int positions, int phases, const std::vector<double>& loads) {
+  std::vector<double> angles;
+  std::vector<StiffnessEntry> entries;
+  for (int r = 0; r < positions; ++r) {
+    angles.push_back(2 * std::numbers::pi * (r + 0.1) / 162);
+    for (int p = 0; p < phases; ++p)
+      for (const double load : loads) {
+        const double secant = 1e9 * (1 + 0.1 * std::sin(r + 0.3 * p)) + load, unloaded = 1e-6 * std::cos(p + r);
+        entries.push_back({.unloaded_te = unloaded,
+                           .lte = unloaded + load / secant,
+                           .stiffness_secant = secant,
+                           .stiffness_tangent = 1.1 * secant,
+                           .error_relative = 0.01});
+      }
+  }
+  StiffnessTable table("ring_planet", phases, std::move(angles), loads, std::move(entries));
+  table.provenance = {{"annulus_version", "test"}, {"rung", "plane"}};
+  return table;
+}
+
+/// Runs a reader; what it prints.
+std::string read_with(const std::string& command, const std::filesystem::path& folder) {
+  const auto out = folder / "reader.txt";
+  const int status =
+      std::system(("cd '" + folder.string() + "' && { " + command + "; } >reader.txt 2>reader_errors.txt").c_str());
+  const auto text = test::text_of(out);
+  BOOST_TEST(status == 0, command << ": " << text << test::text_of(folder / "reader_errors.txt"));
+  return text;
+}
+
+const std::string python = "'" ANNULUS_PYTHON "' '" ANNULUS_SOURCE_DIR "/tests/app/read_exports.py' ";
+
+void export_to(const std::filesystem::path& folder, const std::string& arguments) {
+  const auto outcome = test::run_program(folder, "export " + arguments);
+  BOOST_TEST(outcome.status == 0, arguments << ": " << outcome.err);
+}
+
+std::string refusal(const std::filesystem::path& folder, const std::string& arguments) {
+  const auto outcome = test::run_program(folder, arguments);
+  BOOST_TEST(outcome.status == 2, arguments);
+  return outcome.err;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(exports)
+
+BOOST_AUTO_TEST_CASE(every_format_of_a_table_is_read_back_by_others) {
+  const test::TemporaryFolder folder("exports");
+  for (const auto& [positions, phases, loads] :
+       {std::tuple{3, 8, std::vector<double>{1e3, 5e4, 1.234567890123e5}}, {1, 5, std::vector<double>{2e4}}}) {
+    const auto table = some_table(positions, phases, loads);
+    table.write_csv(folder.path() / "stiffness.csv");
+    for (const auto& [format, file] : {std::pair{"csv", "table.csv"},
+                                       {"hdf5", "table.h5"},
+                                       {"matlab", "table.mat"},
+                                       {"modelica", "table.txt"},
+                                       {"adams", "table.adm"},
+                                       {"simpack", "table.afs"}})
+      export_to(folder.path(), fmt::format("stiffness.csv --to {} -o {}", format, file));
+    const int rows = positions * phases * static_cast<int>(loads.size());
+    const int numbers = std::stoi(read_with(python + "table stiffness.csv .", folder.path()));
+    BOOST_TEST(numbers > 4 * 4 * rows);  // four quantities in four formats at least
+    const auto octave =
+        read_with("octave-cli --no-init-file '" ANNULUS_SOURCE_DIR "/tests/app/read_matlab.m' table.mat stiffness.csv",
+                  folder.path());
+    BOOST_TEST(octave == fmt::format("{}\n", 7 * rows));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_ring_matrix_is_inverted) {
+  const test::TemporaryFolder folder("exports_matrix");
+  Csv csv;
+  csv.columns = {"tooth"};
+  constexpr int teeth = 12;
+  for (int j = 0; j < teeth; ++j) csv.columns.push_back(fmt::format("compliance_tooth_{}_m_per_N", j));
+  for (int i = 0; i < teeth; ++i) {
+    csv.rows.push_back({static_cast<double>(i)});
+    for (int j = 0; j < teeth; ++j) csv.rows.back().push_back(1e-9 * std::exp(-std::abs(i - j)));  // positive definite
+  }
+  csv.write(folder.path() / "ring_compliance.csv");
+  export_to(folder.path(), "ring_compliance.csv --to hdf5 -o ring.h5");
+  export_to(folder.path(), "ring_compliance.csv --to csv -o ring.csv");
+  BOOST_TEST(read_with(python + "matrix ring_compliance.csv .", folder.path()) ==
+             fmt::format("{}\n", 3 * teeth * teeth));
+  BOOST_TEST(refusal(folder.path(), "export ring_compliance.csv --to adams").find("is no stiffness table") !=
+             std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(any_table_goes_as_columns) {
+  const test::TemporaryFolder folder("exports_columns");
+  const Csv csv{{{"what", "a test"}}, {"time_s", "sun_u_m"}, {{0, 1e-6}, {0.5, 2e-6}}};
+  csv.write(folder.path() / "series.csv");
+  export_to(folder.path(), "series.csv --to matlab");
+  BOOST_TEST(read_with("octave-cli --no-init-file --eval \"s = load('series.mat'); printf('%g %g %s', s.time_s(2), "
+                       "s.sun_u_m(2) * 1e6, s.provenance.what)\"",
+                       folder.path()) == "0.5 2 a test");
+  export_to(folder.path(), "series.csv --to csv");
+  BOOST_TEST(test::text_of(folder.path() / "series.plain.csv").starts_with("time_s,sun_u_m\n"));
+}
+
+BOOST_AUTO_TEST_CASE(gear_data_as_rexs_and_back) {
+  const test::TemporaryFolder folder("exports_rexs");
+  const auto made = test::run_program(folder.path(), "new planetary");
+  BOOST_REQUIRE(made.status == 0);
+  write_file(folder.path() / "stage.toml", made.out);
+  export_to(folder.path(), "stage.toml --to rexs");
+  // Of data/scenes/ring_types.toml; diameters by hand: d = m z, and for the ring d_f as the scene's rules give it.
+  const auto read = read_with(python +
+                                  "rexs stage.rexs ring_gear.number_of_teeth@none=-162 "
+                                  "cylindrical_gear.number_of_teeth@none=48 cylindrical_gear.normal_module@mm=3.8 "
+                                  "cylindrical_gear.reference_circle_diameter@mm=182.4 "
+                                  "ring_gear.reference_circle_diameter@mm=-615.6 ring_gear.mass_of_component@kg=31.25 "
+                                  "cylindrical_gear_flank.addendum_modification_coefficient@none=0.7608 "
+                                  "cylindrical_gear_flank.normal_pressure_angle@deg=22.5 "
+                                  "cylindrical_stage.center_distance@mm=201 material.elastic_modulus@N_/_mm^2=206000 "
+                                  "material.density@kg_/_dm^3=7.85 planet_carrier.mass_of_component@kg=400.1 "
+                                  "ring_gear.custom_annulus_outside_diameter_mm@mm=663.6 "
+                                  "planetary_stage.custom_annulus_supports.sun_N_per_m@N/m=1e7",
+                              folder.path());
+  BOOST_TEST(read ==
+             "14 cylindrical_gear:6 cylindrical_gear_flank:14 cylindrical_stage:10 gear_unit:1 material:1 "
+             "planet_carrier:1 planetary_stage:1 ring_gear:1\n");
+
+  const auto back = test::run_program(folder.path(), "new --rexs stage.rexs");
+  BOOST_REQUIRE(back.status == 0);
+  const auto first = app::parse_scene(made.out, "stage.toml"), second = app::parse_scene(back.out, "back.toml");
+  std::map<std::string, std::string> values;
+  for (const auto& input : second.inputs) values[input.key] = app::to_text(input.value);
+  int compared = 0;
+  for (const auto& input : first.inputs) {
+    if (input.origin != app::Origin::scene || input.key == "ring.name") continue;
+    BOOST_TEST(values[input.key] == app::to_text(input.value), input.key);
+    ++compared;
+  }
+  BOOST_TEST(compared > 40);
+}
+
+BOOST_AUTO_TEST_CASE(rexs_of_others) {
+  const test::TemporaryFolder folder("exports_rexs_others");
+  // What another program might write: metres, no custom attributes, one planet listed twice, positive ring teeth.
+  const auto gear = [](int id, const char* type, int teeth) {
+    return fmt::format(
+        R"(<component id="{0}" type="{1}"><attribute id="number_of_teeth" unit="none">{2}</attribute>)"
+        R"(<attribute id="normal_module" unit="m">0.002</attribute><attribute id="face_width" unit="mm">20</attribute>)"
+        R"(</component><component id="{3}" type="cylindrical_gear_flank"><attribute id="normal_pressure_angle" unit="rad">)"
+        R"({4}</attribute><attribute id="profile_shift_coefficient">0.1</attribute></component>)",
+        id, type, teeth, id + 10, std::numbers::pi / 9);
+  };
+  const auto relation = [](int id, const char* type, const std::string& refs) {
+    return fmt::format(R"(<relation id="{}" type="{}">{}</relation>)", id, type, refs);
+  };
+  const auto ref = [](int id, const char* role) { return fmt::format(R"(<ref id="{}" role="{}"/>)", id, role); };
+  const auto text = [&](const char* version, const std::string& more) {
+    return fmt::format(
+               R"(<?xml version="1.0"?><model version="{}" applicationId="x" applicationVersion="1" date="2026-01-01"><relations>)",
+               version) +
+           relation(1, "stage", ref(30, "stage") + ref(1, "gear_1") + ref(2, "gear_2")) +
+           relation(2, "stage", ref(31, "stage") + ref(2, "gear_1") + ref(3, "gear_2")) +
+           relation(3, "flank", ref(1, "gear") + ref(11, "left")) +
+           relation(4, "flank", ref(2, "gear") + ref(12, "left")) +
+           relation(5, "flank", ref(3, "gear") + ref(13, "left")) + more + "</relations><components>" +
+           gear(1, "cylindrical_gear", 20) + gear(2, "cylindrical_gear", 30) + gear(3, "ring_gear", 80) +
+           R"(<component id="30" type="cylindrical_stage"><attribute id="center_distance" unit="mum">50200</attribute></component>)"
+           R"(<component id="31" type="cylindrical_stage"/></components></model>)";
+  };
+  write_file(folder.path() / "other.rexs", text("1.2", ""));
+  const auto outcome = test::run_program(folder.path(), "new --rexs other.rexs");
+  BOOST_TEST(outcome.status == 0, outcome.err);
+  for (const char* line : {"\nmodule_mm = 2\n", "\nface_width_mm = 20\n", "\nplanets = 1\n", "\nteeth = 80\n",
+                           "\ncentre_distance_mm = 50.2\n", "check it"})
+    BOOST_TEST(outcome.out.find(line) != std::string::npos, line);
+  BOOST_TEST(outcome.out.find("power_kW =      <- to be filled in") != std::string::npos);
+  // 20 degrees, but for rounding of the unit.
+  BOOST_TEST(outcome.out.find("\npressure_angle_deg = 20") != std::string::npos);
+
+  const auto refused = [&](const std::string& content, const std::string& what) {
+    write_file(folder.path() / "bad.rexs", content);
+    const auto message = refusal(folder.path(), "new --rexs bad.rexs");
+    BOOST_TEST(message.find(what) != std::string::npos, message);
+  };
+  refused("no xml", "cannot be read as XML");
+  refused("<?xml version=\"1.0\"?><html/>", "no element 'model'");
+  refused(text("2.0", ""), "REXS version '2.0'");
+  refused(text("1.2", relation(6, "stage", ref(30, "stage") + ref(2, "gear_1") + ref(77, "gear_2"))), "component 77");
+  refused(text("1.2", relation(6, "stage", ref(30, "stage") + ref(2, "gear_1") + ref(11, "gear_2"))), "one sun");
+  auto spoilt = text("1.2", "");
+  spoilt.replace(spoilt.find(">20<"), 4, ">two<");
+  refused(spoilt, "number_of_teeth = 'two' is not a number");
+  spoilt = text("1.2", "");
+  spoilt.replace(spoilt.find("unit=\"m\""), 8, "unit=\"inch\"");
+  refused(spoilt, "normal_module is in 'inch'");
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_exported) {
+  const test::TemporaryFolder folder("exports_refused");
+  write_file(folder.path() / "stage.toml", test::run_program(folder.path(), "new two_k_v").out);
+  some_table(1, 4, {1e3}).write_csv(folder.path() / "stiffness.csv");
+  const auto message = [&](const std::string& arguments) { return refusal(folder.path(), "export " + arguments); };
+  BOOST_TEST(message("stiffness.csv --to mathlab").find("did you mean matlab?") != std::string::npos);
+  BOOST_TEST(message("stiffness.csv --to rexs").find("rexs takes a scene") != std::string::npos);
+  BOOST_TEST(message("stage.toml --to hdf5").find("takes a table of a run") != std::string::npos);
+  BOOST_TEST(message("stage.toml --to rexs").find("no arc-tooth gears") != std::string::npos);
+  BOOST_TEST(message("nowhere.csv --to hdf5").find("cannot read nowhere.csv") != std::string::npos);
+  BOOST_TEST(message("stiffness.csv --to hdf5 -o nowhere/x.h5").find("cannot write nowhere/x.h5") != std::string::npos);
+  BOOST_TEST(message("stiffness.csv --to matlab -o nowhere/x.mat").find("cannot write nowhere/x.mat") !=
+             std::string::npos);
+  BOOST_TEST(message("stiffness.csv --to csv -o stiffness.csv").find("the file to be exported itself") !=
+             std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(new_scenes_are_good_and_tell_every_key) {
+  const test::TemporaryFolder folder("new_scenes");
+  for (const auto kind : app::stage_kinds()) {
+    const auto made = test::run_program(folder.path(), std::string("new ") + app::kind_name(kind));
+    BOOST_REQUIRE(made.status == 0);
+    write_file(folder.path() / "scene.toml", made.out);
+    BOOST_TEST(test::run_program(folder.path(), "check scene.toml").status == 0);
+    for (const auto& table : app::schema()) {
+      for (const auto& p : table.parameters)
+        if (table.applies_to(kind) && p.applies_to(kind))
+          BOOST_TEST((made.out.find("\n" + p.name + " = ") != std::string::npos ||
+                      made.out.find("\n# " + p.name + " =") != std::string::npos),
+                     app::kind_name(kind) << ": " << p.key());
+    }
+  }
+  BOOST_TEST(refusal(folder.path(), "new planetry").find("did you mean planetary?") != std::string::npos);
+  BOOST_TEST(refusal(folder.path(), "new").find("the kinds are planetary") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(completion_completes) {
+  const test::TemporaryFolder folder("completion");
+  write_file(folder.path() / "bash", test::run_program(folder.path(), "completion bash").out);
+  const auto complete = [&](const std::string& words, int at) {
+    return read_with(
+        fmt::format("bash -c 'source ./bash; COMP_WORDS=({}); COMP_CWORD={}; _annulus; echo ${{COMPREPLY[*]}}'", words,
+                    at),
+        folder.path());
+  };
+  BOOST_TEST(complete("annulus exp", 1) == "export explain\n");
+  BOOST_TEST(complete("annulus run --bud", 2) == "--budget\n");
+  BOOST_TEST(complete("annulus export --t", 2) == "--to --threads\n");
+  for (const char* shell : {"zsh", "fish"})
+    BOOST_TEST(test::run_program(folder.path(), std::string("completion ") + shell).out.find("tradeoff") !=
+               std::string::npos);
+  BOOST_TEST(refusal(folder.path(), "completion tcsh").find("bash, zsh and fish") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(colours_are_for_terminals) {
+  const test::TemporaryFolder folder("colours");
+  // `script` runs a command on a terminal of its own.
+  const std::string command = "script -qec \"'" ANNULUS_PROGRAM "' check nowhere.toml\" /dev/null || true";
+  BOOST_TEST(test::run_program(folder.path(), "check nowhere.toml").err.find('\x1b') == std::string::npos);
+  BOOST_TEST(read_with("env -u NO_COLOR TERM=xterm " + command, folder.path()).find("\x1b[31m") != std::string::npos);
+  BOOST_TEST(read_with("env NO_COLOR=1 TERM=xterm " + command, folder.path()).find('\x1b') == std::string::npos);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace annulus
