@@ -53,6 +53,10 @@ pkg_check_modules(HDF5_SERIAL REQUIRED IMPORTED_TARGET hdf5-serial)
 find_library(HDF5_SERIAL_HL_LIBRARY hdf5_serial_hl HINTS ${HDF5_SERIAL_LIBRARY_DIRS} REQUIRED)
 add_library(annulus_hdf5 INTERFACE)
 target_link_libraries(annulus_hdf5 INTERFACE ${HDF5_SERIAL_HL_LIBRARY} PkgConfig::HDF5_SERIAL)
+pkg_check_modules(RSVG REQUIRED IMPORTED_TARGET librsvg-2.0)
 pkg_check_modules(MATIO REQUIRED IMPORTED_TARGET matio)
 add_library(annulus_matio INTERFACE)
 target_link_libraries(annulus_matio INTERFACE PkgConfig::MATIO)
+
+# Inlined in reports when they are written.
+find_file(ANNULUS_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js NO_DEFAULT_PATH REQUIRED)

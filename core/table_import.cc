@@ -185,10 +185,10 @@ StiffnessTable import_table(const std::filesystem::path& file, const std::string
   std::vector<std::vector<double>> deflection, unloaded, error;
   for (const auto& [force, samples] : curves.by_load) {
     loads.push_back(force);
-    const auto values = [&](double Sample::*value) {
-      if (!even) return resampled(samples, value, curves.period, count);
+    const auto values = [&, &places = samples](double Sample::*value) {
+      if (!even) return resampled(places, value, curves.period, count);
       std::vector<double> list;
-      for (const auto& s : samples) list.push_back(s.*value);
+      for (const auto& s : places) list.push_back(s.*value);
       return list;
     };
     deflection.push_back(values(&Sample::deflection_per_newton));

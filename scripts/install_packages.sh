@@ -8,8 +8,9 @@ packages=(
   libboost-dev libboost-test-dev
   libopenblas-dev libopenblas0-pthread
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
-  libhdf5-dev libmatio-dev libpugixml-dev
-  calculix-ccx octave python3-h5py  # tests only: what benchmarks compare with, what reads exports
+  libhdf5-dev libmatio-dev libpugixml-dev librsvg2-dev libjs-chart.js
+  calculix-ccx octave  # tests only: what benchmarks compare with
+  python3-h5py chromium  # tests only: what reads exports and reports
   clang libclang-rt-dev clang-format clang-tidy valgrind  # tests only: sanitizers, fuzzing, analysis
 )
 

@@ -8,6 +8,7 @@
 #include "app/export/array_files.h"
 #include "app/export/rexs.h"
 #include "app/export/table_text.h"
+#include "app/report/report_files.h"
 #include "app/scene/scene.h"
 #include "core/csv.h"
 #include "core/errors.h"
@@ -124,7 +125,8 @@ const std::vector<ExportFormat>& export_formats() {
       {"modelica", ".txt", "CombiTable1D and CombiTable2D of the Modelica Standard Library"},
       {"simpack", ".afs", "input functions of Simpack"},
       {"adams", ".adm", "SPLINE statements of Adams"},
-      {"rexs", ".rexs", "gear data of a scene as REXS 1.4 (XML)"}};
+      {"rexs", ".rexs", "gear data of a scene as REXS 1.4 (XML)"},
+      {"png", ".png", "a picture of a report (OUT/pictures/*.svg) in pixels"}};
   return formats;
 }
 
@@ -139,7 +141,10 @@ std::filesystem::path export_file(const std::filesystem::path& source, const std
     throw InputError(fmt::format("--to {}: there is no such format{}; the formats are {}", format,
                                  near.empty() ? "" : ", did you mean " + near + "?", formats_text()));
   }
-  const bool is_scene = source.extension() == ".toml";
+  const bool is_scene = source.extension() == ".toml", is_picture = source.extension() == ".svg";
+  if (is_picture != (format == "png"))
+    throw InputError(
+        fmt::format("{}: png takes a picture (.svg), and a picture can be exported as png only", source.string()));
   if (is_scene && format != "rexs")
     throw InputError(
         fmt::format("{}: a scene can be exported as rexs; {} takes a table of a run, such as "
@@ -151,7 +156,9 @@ std::filesystem::path export_file(const std::filesystem::path& source, const std
   std::error_code error;
   if (std::filesystem::equivalent(file, source, error))
     throw InputError(fmt::format("-o {}: is the file to be exported itself", file.string()));
-  if (is_scene)
+  if (is_picture)
+    write_png(source, file);
+  else if (is_scene)
     export_scene(source, ring, file);
   else
     export_table(source, format, file);

@@ -18,6 +18,7 @@ struct ExportFormat {
 ///     ring_compliance.csv        csv, hdf5, matlab: the compliance and the stiffness matrix of the ring
 ///     other tables of a run      csv, hdf5, matlab: a vector per column
 ///     a scene (.toml)            rexs; `ring` chooses one where there are several
+///     a picture (.svg)           png
 ///
 /// Throws InputError when the source is none of these or cannot be had in that format.
 [[nodiscard]] std::filesystem::path export_file(const std::filesystem::path& source, const std::string& format,

@@ -1,4 +1,5 @@
 #include "app/pair/pair_run.h"
+#include "app/report/report_files.h"
 
 #include <fmt/format.h>
 
@@ -273,7 +274,7 @@ PairRunResult run_pair(const Scene& scene, const RunOptions& given) {
   });
   keep_costs(result.cost);
   write_file(options.out / "summary.json", pair_summary_json(result));
-  write_file(options.out / "report.html", pair_report_html(result));
+  write_report(options.out / "report.html", pair_report_html(result));
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/pair_report_parts.h"
 
 namespace annulus::app {
@@ -42,7 +43,7 @@ std::string histogram_picture(const PairRunResult& result) {
       {q + 0.27 * drawn.x.back(), 0.72 * top,
        fmt::format("{:.0f} % of the draws lie below {:.2f} µm", 100 * result.errors.problem->probability, q)});
   return figure(
-      {to_svg(plot)},
+      {plot_html(plot)},
       legend_html({{"drawn", 0}, {"exact law (hypoexponential in the square)", 1}, {"quantile of the draws", 5}}),
       "The pinion's error over a turn is T = X₁ sin θ + X₂ sin zθ with Rayleigh amplitudes; this is how large "
       "its envelope becomes from gear to gear. Table: <code>errors/samples.csv</code>, "

@@ -6,6 +6,7 @@
 
 #include "app/content_id.h"
 #include "app/plan/cost_actual.h"
+#include "app/report/interactive_plot.h"
 #include "app/report/pair_report_parts.h"
 #include "core/units.h"
 
@@ -110,9 +111,9 @@ std::string pair_motion_section(const PairRunResult& result) {
     lines.y.push_back(row[2] / 1e3);
   }
   spectrum.series.push_back(std::move(lines));
-  std::vector<std::string> pictures = {to_svg(force), to_svg(te)};
-  if (!axes.series.empty()) pictures.push_back(to_svg(axes));
-  pictures.push_back(to_svg(spectrum));
+  std::vector<std::string> pictures = {plot_html(force), plot_html(te)};
+  if (!axes.series.empty()) pictures.push_back(plot_html(axes));
+  pictures.push_back(plot_html(spectrum));
   return "<h2 id=\"motion\">Time history</h2>\n" +
          figure(pictures, "",
                 fmt::format("The first mesh cycles of the evaluated window at the operating point; whole window of {} "

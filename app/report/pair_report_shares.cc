@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/pair_report_parts.h"
 #include "core/units.h"
 
@@ -60,7 +61,7 @@ std::string shares_pictures(const std::vector<const ShareRow*>& rows) {
   };
   const auto plot = [&](const char* title, bool dynamic) {
     const auto of = [dynamic](const dynamics::PeakToPeak& p) { return dynamic ? p.dynamic : p.quasi_static; };
-    return to_svg(
+    return plot_html(
         Plot{.title = title,
              .x_label = "torque of the pinion, kN m",
              .y_label = "peak to peak, µm",
@@ -77,7 +78,7 @@ std::string shares_pictures(const std::vector<const ShareRow*>& rows) {
       .series = {series("largest", 0, false, [](const auto& r) { return r.largest_dynamic; }),
                  series("amplitude", 1, false, [](const auto& r) { return r.shares.errors_alone.quasi_static / 2; }),
                  series("deflection", 5, true, [](const auto& r) { return r.shares.load_deflection; })}};
-  return figure({plot("Range, quasi-static", false), plot("Range, in motion", true), to_svg(largest)},
+  return figure({plot("Range, quasi-static", false), plot("Range, in motion", true), plot_html(largest)},
                 legend_html({{"all causes", 0},
                              {"errors alone (last picture: their amplitude)", 1},
                              {"stiffness alone", 2},
@@ -98,7 +99,7 @@ std::string speeds_pictures(const std::vector<const SpeedRow*>& rows) {
       }
       p.series.push_back(std::move(s));
     }
-    return to_svg(p);
+    return plot_html(p);
   };
   return figure({plot("Largest acceleration of the teeth", "m/s²", &SpeedRow::Motion::acceleration, 1),
                  plot("Range of the mesh force", "largest – smallest, kN", &SpeedRow::Motion::force_range, 1e-3),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/pair_report_parts.h"
 
 namespace annulus::app {
@@ -110,7 +111,7 @@ std::string cycle_picture(const PairRunResult& result) {
     plot.series.push_back(curve_over_cycle("finite elements", *result.mesh.table, result.geometry, 2));
   else if (result.scene.pinion_wheel.stiffness == StiffnessShape::table)
     plot.series.push_back(curve_over_cycle("table", *result.mesh.table, result.geometry, 0));
-  return figure({to_svg(plot)}, "",
+  return figure({plot_html(plot)}, "",
                 "Secant stiffness at the nominal mesh force. Phases of the sources are their own: a given wave begins "
                 "where the scene says, the others where a tooth pair touches at the pitch point in the middle of the "
                 "face width.");

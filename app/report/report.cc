@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/content_id.h"
+#include "app/report/report_files.h"
 #include "app/report/report_parts.h"
 #include "core/units.h"
 
@@ -45,7 +46,11 @@ figcaption { color: #555; font-size: 13.5px; max-width: 110ch; margin-top: 6px; 
 .undecided { background: #ececec; color: #444; } .assumed { background: #fdf0d5; color: #7a4f00; }
 .muted { color: #777; } code { font-size: 13px; }
 details { margin: 10px 0; } summary { cursor: pointer; color: #0072B2; }
-@media print { main { max-width: none; } nav { display: none; } figure { break-inside: avoid; } }
+.plot { position: relative; outline-offset: 2px; } .plot .live { position: relative; } .plot.awake > svg { display: none; }
+.plot .tools { font-size: 12px; color: #999; opacity: 0; transition: opacity 0.15s; height: 20px; margin-top: -4px; }
+.plot:hover .tools, .plot:focus-within .tools { opacity: 1; }
+.plot .tools button { font: inherit; color: #0072B2; background: none; border: 0; padding: 0 10px 0 0; cursor: pointer; }
+@media print { .plot .tools, .plot .live { display: none; } .plot.awake > svg { display: block; } main { max-width: none; } nav { display: none; } figure { break-inside: avoid; } }
 )css";
 
 }  // namespace
@@ -117,7 +122,8 @@ std::string report_page(const std::string& title, const std::string& sub, const 
       body += section.text;
     }
   }
-  return page + "<nav>" + links + "</nav>\n" + body + "</main></body></html>\n";
+  page += "<nav>" + links + "</nav>\n" + body + "</main>\n";
+  return page + page_scripts(page) + "</body></html>\n";
 }
 
 std::vector<Section> study_sections(const Scene& scene, const StudyResults& studies) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 #include "app/report/svg_map.h"
 
@@ -69,7 +70,7 @@ std::string face_width(const RunResult& result) {
   if (plot.series.empty()) return "";
   plot.y_range = Range{0, range.range().high};
   return "<h3>Face width</h3>\n" +
-         figure({to_svg(plot)}, "",
+         figure({plot_html(plot)}, "",
                 "Force per millimetre of face width, all tooth pairs together, at the nominal load: the line at the "
                 "position with the largest face load factor K<sub>Hβ</sub> (largest over mean line load, ISO 6336-1), "
                 "the band over all positions. Meshes in which nothing changes along the face width are left out.");
@@ -196,7 +197,7 @@ std::string pressure_profile(const std::string& title, const MeshResult& mesh, c
     add(end, 0);
     plot.series.push_back(std::move(series));
   }
-  return to_svg(plot);
+  return plot_html(plot);
 }
 
 std::string pressures(const RunResult& result) {
@@ -299,7 +300,7 @@ std::string stresses(const RunResult& result) {
       plot.series.push_back({.label = {}, .x = l.x, .y = l.von_mises, .colour = l.colour, .dashed = true});
       places += (places.empty() ? "" : "; ") + escape(l.mesh) + ": " + l.place;
     }
-    text += figure({to_svg(plot)}, "",
+    text += figure({plot_html(plot)}, "",
                    std::string("Solid: stress along the surface, tension positive; dashed: von Mises. ") +
                        (rim ? "Around the whole circumference. "
                             : "From the form circle of the trailing to that of the leading flank. ") +

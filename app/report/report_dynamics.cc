@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 
 namespace annulus::app {
@@ -74,7 +75,7 @@ std::string per_planet(const RunResult& result, const char* mesh, const Lines& l
   std::vector<std::string> pictures;
   for (auto& plot : plots) {
     plot.y_range = range.range();
-    pictures.push_back(to_svg(plot));
+    pictures.push_back(plot_html(plot));
   }
   return figure(pictures, planet_legend(planets), caption);
 }
@@ -127,7 +128,7 @@ std::string spectra(const RunResult& result, const char* mesh) {
   for (auto& plot : plots) {
     plot.y_range = Range{0, 1.08 * highest};
     plot.x_range = Range{0, plot.series.front().x.back()};
-    pictures.push_back(to_svg(plot));
+    pictures.push_back(plot_html(plot));
   }
   return figure(
              pictures, "",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 #include "app/scene/overrides.h"
 #include "app/study/study_subject.h"
@@ -38,7 +39,7 @@ std::string lines_picture(const GridResult& grid, const std::vector<StudyPoint>&
     }
     plot.series.push_back(std::move(series));
   }
-  return any ? to_svg(plot) : "";
+  return any ? plot_html(plot) : "";
 }
 
 std::string one_grid(const Scene& scene, const StudyResults& studies, std::size_t n) {

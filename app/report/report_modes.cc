@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 #include "app/report/svg_mode.h"
 #include "core/units.h"
@@ -161,7 +162,7 @@ std::string campbell_part(const RunResult& result) {
   HtmlTable table{.head = {"ring", "critical speeds nearest to the operating speed"}, .rows = {}};
   for (const auto* ring : rings_with_response(result)) {
     if (ring->response->modes.campbell.rows.empty()) continue;
-    pictures.push_back(to_svg(campbell_plot(*ring, speed)));
+    pictures.push_back(plot_html(campbell_plot(*ring, speed)));
     table.rows.push_back({escape(ring->name), critical_cell(ring->response->modes, speed)});
   }
   if (pictures.empty()) return "";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 
 namespace annulus::app {
@@ -81,7 +82,7 @@ std::string pin_forces(const RunResult& result) {
   std::vector<std::string> pictures;
   for (auto& plot : plots) {
     plot.y_range = range.range();
-    pictures.push_back(to_svg(plot));
+    pictures.push_back(plot_html(plot));
   }
   return figure(pictures, planet_legend(result.scene.stage.planets),
                 "Resultant of the radial and tangential force, the planet's centrifugal force included. Line: largest "
@@ -137,7 +138,7 @@ std::string orbits(const RunResult& result) {
   make_square(plots);
   std::vector<std::string> pictures;
   pictures.reserve(plots.size());
-  for (const auto& plot : plots) pictures.push_back(to_svg(plot));
+  for (const auto& plot : plots) pictures.push_back(plot_html(plot));
   return "<h3>Sun orbit</h3>\n" +
          figure(pictures, legend_html({{"orbit", 5}, {"once per mesh cycle", 7}}),
                 "Centre of the sun in the frame of the carrier, planet 1 on the x axis; one scale for all.");
@@ -162,7 +163,7 @@ std::string sections(const RunResult& result) {
   }
   std::vector<std::string> pictures;
   pictures.reserve(plots.size());
-  for (const auto& plot : plots) pictures.push_back(to_svg(plot));
+  for (const auto& plot : plots) pictures.push_back(plot_html(plot));
   return "<h3>Poincaré section</h3>\n" +
          figure(pictures, planet_legend(result.scene.stage.planets),
                 "Dynamic transmission error of both meshes of each planet once per mesh cycle. A motion that repeats "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 #include "app/study/study_subject.h"
 
@@ -96,7 +97,7 @@ std::string history_picture(const OptimiseResults& o) {
     }
     plot.series.push_back(std::move(series));
   }
-  return to_svg(plot);
+  return plot_html(plot);
 }
 
 /// Every evaluation over one variable.
@@ -115,7 +116,7 @@ std::string cloud_picture(const OptimiseResults& o, std::size_t variable) {
     }
     plot.series.push_back(std::move(series));
   }
-  return to_svg(plot);
+  return plot_html(plot);
 }
 
 HtmlTable runs_table(const OptimiseResults& o) {

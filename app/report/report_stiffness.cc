@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 #include "core/units.h"
 
@@ -90,7 +91,7 @@ std::string per_ring(const RunResult& result, const char* y_label, Pick pick, bo
               .y_range = range.range()};
     const auto& mesh = result.rings[i].mesh;
     add_curve(plot, result.rings[i].name, c, i, mesh.model.computed() && mesh.table.positions() == 1);
-    plots.push_back(to_svg(plot));
+    plots.push_back(plot_html(plot));
   }
   return figure(plots, "", caption);
 }
@@ -118,7 +119,8 @@ std::string overlay(const RunResult& result) {
     }
     plot.series.push_back(std::move(series));
   }
-  return figure({to_svg(plot)}, "", "Rings that repeat with every tooth are continued over the period of the others.");
+  return figure({plot_html(plot)}, "",
+                "Rings that repeat with every tooth are continued over the period of the others.");
 }
 
 std::string over_load(const RunResult& result) {
@@ -152,7 +154,7 @@ std::string over_load(const RunResult& result) {
   add("sun mesh", result.sun_mesh, result.rings.size());
   if (plot.series.empty()) return "";
   return figure(
-      {to_svg(plot)}, "",
+      {plot_html(plot)}, "",
       "Secant: force over deflection. Tangent: slope of the force over the deflection, what small vibrations feel.");
 }
 
@@ -174,7 +176,7 @@ std::string shares_plot(const std::string& title, const MeshResult& mesh, std::s
                   .y_label = "share of the mesh force",
                   .y_range = Range{-0.03, 1.05},
                   .series = {series}};
-  return to_svg(plot);
+  return plot_html(plot);
 }
 
 std::string shares(const RunResult& result) {
@@ -228,7 +230,7 @@ std::string stiffness_section(const RunResult& result) {
   Plot plot{
       .title = "Sun mesh stiffness (secant)", .x_label = "mesh cycle", .y_label = "N/µm", .width = 900, .height = 300};
   add_curve(plot, "sun mesh", sun, result.rings.size(), result.sun_mesh.model.computed());
-  text += figure({to_svg(plot)}, "", "The same for all rings.");
+  text += figure({plot_html(plot)}, "", "The same for all rings.");
   return text + stiffness_error_section(result) + over_load(result) + shares(result);
 }
 

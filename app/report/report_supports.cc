@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 #include "app/report/svg_map.h"
 
@@ -158,13 +159,13 @@ std::string force_plot(const std::string& ring, const MeshResult& mesh) {
       along.y.push_back(s.tangential);
     }
   }
-  return to_svg(Plot{.title = "Forces around the contact, " + ring,
-                     .x_label = "angle of the support from the contact, °",
-                     .y_label = "force on the support, kN",
-                     .series = {out, along},
-                     .legend = true,
-                     .width = 900,
-                     .height = 320});
+  return plot_html(Plot{.title = "Forces around the contact, " + ring,
+                        .x_label = "angle of the support from the contact, °",
+                        .y_label = "force on the support, kN",
+                        .series = {out, along},
+                        .legend = true,
+                        .width = 900,
+                        .height = 320});
 }
 
 std::string caption(Structure structure) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 #include "app/scene/overrides.h"
 #include "app/study/study_subject.h"
@@ -50,7 +51,7 @@ class SweepPictures {
             {.label = name, .x = x_, .y = y, .colour = variant, .style = Series::Style::dots, .size = 3.5});
       }
     }
-    return any ? to_svg(plot) : "";
+    return any ? plot_html(plot) : "";
   }
 
   /// The lowest natural frequencies, one picture per variant; nothing when the input does not move them.
@@ -67,7 +68,7 @@ class SweepPictures {
         plot.series.push_back(
             {.label = figure.title, .x = x_, .y = y, .colour = variant, .style = Series::Style::line});
       }
-      if (!plot.series.empty()) pictures.push_back(to_svg(plot));
+      if (!plot.series.empty()) pictures.push_back(plot_html(plot));
     }
     return moved ? pictures : std::vector<std::string>{};
   }
@@ -93,7 +94,7 @@ class SweepPictures {
     std::vector<std::string> pictures;
     for (auto& plot : plots) {
       plot.y_range = range.range();
-      pictures.push_back(to_svg(plot));
+      pictures.push_back(plot_html(plot));
     }
     return pictures;
   }

@@ -54,11 +54,11 @@ std::string axes(const Frame& frame, const std::string& x_label, const std::stri
   return svg;
 }
 
-std::string open_svg(const std::string& title, int width, int height, double title_left) {
+std::string open_svg(const std::string& title, int width, int height, double title_left, const std::string& label) {
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" "
       "font-family=\"system-ui, sans-serif\" font-size=\"11\" fill=\"#333\">",
-      width, height, escape(title));
+      width, height, escape(label.empty() ? title : label));
   if (!title.empty())
     svg += fmt::format("<text x=\"{:.1f}\" y=\"15\" font-size=\"13\" font-weight=\"600\">{}</text>", title_left,
                        escape(title));

@@ -29,7 +29,9 @@ struct Frame {
 /// The upright part of `axes` alone, with the frame.
 [[nodiscard]] std::string y_axis(const Frame& frame, const std::string& y_label, std::optional<int> y_ticks = {});
 
-/// The opening tag with size and font, and the title when there is one.
-[[nodiscard]] std::string open_svg(const std::string& title, int width, int height, double title_left);
+/// The opening tag with size and font, and the title when there is one. `label`: what those hear who cannot see it;
+/// absent: the title.
+[[nodiscard]] std::string open_svg(const std::string& title, int width, int height, double title_left,
+                                   const std::string& label = {});
 
 }  // namespace annulus::app

@@ -265,7 +265,8 @@ Frame frame_of(const Plot& plot) {
 
 std::string to_svg(const Plot& plot) {
   const Frame frame = frame_of(plot);
-  std::string svg = open_svg(plot.title, plot.width, plot.height, frame.left);
+  std::string svg = open_svg(plot.title, plot.width, plot.height, frame.left,
+                             plot.title + (plot.title.empty() ? "" : ": ") + plot.y_label + " over " + plot.x_label);
   svg += axes(frame, plot.x_label, plot.y_label);
   if (plot.legend) svg += legend(frame, plot);
   // A nested <svg> clips what it shows, without an identifier that would have to be unique within the page.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 #include "app/report/svg_bars.h"
 #include "app/report/two_k_v_report.h"
@@ -44,7 +45,7 @@ std::string cycle_plot(const TwoKVResult& result, bool arc) {
     range.add(plot.series.back().y);
   }
   plot.y_range = Range{0, range.range().high};
-  return to_svg(plot);
+  return plot_html(plot);
 }
 
 double mean_secant(const MeshResult& mesh, std::size_t load) {
@@ -103,8 +104,8 @@ std::string arc_part(const TwoKVResult& result) {
     over_load.series.push_back(std::move(series));
     over_load.series.push_back(std::move(printed));
   }
-  std::vector<std::string> pictures = {to_svg(pins)};
-  if (!over_load.series.empty()) pictures.push_back(to_svg(over_load));
+  std::vector<std::string> pictures = {plot_html(pins)};
+  if (!over_load.series.empty()) pictures.push_back(plot_html(over_load));
   return fmt::format(
              "<h3>Arc teeth on their pins</h3>\n<p>{} of {} pins carry; the largest force is {} N, the paper's formula "
              "gives {} N at the same torque of {} N m on one gear and {} N at the uneven share of {} of the load. Its "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 #include "app/report/two_k_v_report.h"
 #include "core/units.h"
@@ -32,7 +33,7 @@ std::string error_plot(const ShownCase& shown, double turns) {
                          .x = column_values(m.output_error, "crank_turn", turns),
                          .y = about_mean(column_values(m.output_error, "error_rad", turns), m.error_mean, arc_second),
                          .colour = 0});
-  return to_svg(plot);
+  return plot_html(plot);
 }
 
 bool is_multiple(double order, int of) { return std::abs(order / of - std::round(order / of)) < 1e-9; }
@@ -64,7 +65,7 @@ std::string spectrum_plot(const ShownCase& shown) {
             .height = 280};
   for (auto* series : {&rest, &sun, &arc})
     if (!series->x.empty()) plot.series.push_back(std::move(*series));
-  return to_svg(plot);
+  return plot_html(plot);
 }
 
 /// Sun mesh cycles shown of the period: enough to see the shape of a cycle and how the next one differs.
@@ -89,7 +90,7 @@ std::string force_plot(const ShownCase& shown, bool arc) {
                            .dashed = colour % 2 == 1});
     ++colour;
   }
-  return to_svg(plot);
+  return plot_html(plot);
 }
 
 std::string motion_table(const TwoKVResult& result) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 #include "app/report/svg_bars.h"
 #include "app/report/two_k_v_report.h"
@@ -115,7 +116,7 @@ std::string over_crank_plots(const ShownCase& shown) {
   std::vector<std::pair<std::string, std::size_t>> legend;
   for (std::size_t m = 0; m < v.modes.modes.size(); ++m)
     if (v.modes.modes[m].frequency > 0) legend.emplace_back(fmt::format("mode {}", m + 1), m);
-  return figure({to_svg(absolute), to_svg(change)}, legend_html(legend),
+  return figure({plot_html(absolute), plot_html(change)}, legend_html(legend),
                 "Frozen at each crank angle with the mesh stiffness of that position. The bearings of the arc gears "
                 "push along directions that turn with the crank; half a turn exchanges the arc gears.");
 }
@@ -180,7 +181,7 @@ std::string shapes_over_crank(const TwoKVVibration& v) {
                              .colour = body_colour(name),
                              .dashed = name.find('2') != std::string::npos});
     }
-    pictures.push_back(to_svg(plot));
+    pictures.push_back(plot_html(plot));
   }
   return "<h3>Mode shapes over the crank angle</h3>\n" +
          figure(pictures, legend_html({{"input", 4}, {"sun", 0}, {"planets", 1}, {"cranks", 3}, {"arc gears", 2}}),
@@ -275,7 +276,7 @@ std::string torsion_section(const TwoKVResult& result) {
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i].push_back(to_text(values[i], 4));
   }
   table.rows = std::move(rows);
-  return text + figure({to_svg(plot)}, legend_html(legend), "") + html(table);
+  return text + figure({plot_html(plot)}, legend_html(legend), "") + html(table);
 }
 
 }  // namespace annulus::app

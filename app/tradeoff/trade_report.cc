@@ -7,6 +7,7 @@
 
 #include "app/content_id.h"
 #include "app/plan/cost_plan.h"
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 #include "app/scene/overrides.h"
 #include "core/files.h"
@@ -79,7 +80,7 @@ HtmlTable cheapest_table(const RingTrade& ring, TradePart part) {
 }
 
 /// The front of every figure.
-std::string fronts_picture(const RingTrade& ring, TradePart part) {
+Plot fronts_plot(const RingTrade& ring, TradePart part) {
   Plot plot{.title = "The front of every figure", .x_label = "wall time, s", .y_label = "error"};
   plot.x_log = plot.y_log = plot.legend = true;
   plot.width = 640;
@@ -93,7 +94,7 @@ std::string fronts_picture(const RingTrade& ring, TradePart part) {
     }
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   }
-  return to_svg(plot);
+  return plot;
 }
 
 /// How far the program's own estimates are from the errors, over all figures with both.
@@ -166,7 +167,7 @@ std::string part_section(const RingTrade& ring, TradePart part) {
     text += "<li>" + escape(cheapest_text(ring, part, accuracy)) + "</li>";
   for (const auto& p : ring.points)
     if (p.part == part && p.planned_for) text += "<li>" + escape(planned_text(p)) + "</li>";
-  text += "</ul>\n" + figure({trade_picture(ring, part), fronts_picture(ring, part)}, "",
+  text += "</ul>\n" + figure({plot_html(trade_plot(ring, part)), plot_html(fronts_plot(ring, part))}, "",
                              "Largest error over all figures against wall time. The line joins the settings that no "
                              "other beats in both; what leaves parts of the model out is marked apart.");
   text += "<p>The cheapest setting for one figure alone:</p>\n<div class=\"wide\">" + html(cheapest_table(ring, part)) +
@@ -180,7 +181,7 @@ std::string part_section(const RingTrade& ring, TradePart part) {
 
 }  // namespace
 
-std::string trade_picture(const RingTrade& ring, TradePart part) {
+Plot trade_plot(const RingTrade& ring, TradePart part) {
   Plot plot{.title = fmt::format("{}, {}", ring.ring, part == TradePart::mesh ? "stiffness tables" : "dynamics"),
             .x_label = "wall time, s",
             .y_label = "largest error"};
@@ -205,7 +206,7 @@ std::string trade_picture(const RingTrade& ring, TradePart part) {
     same->x.push_back(p.cost.wall);
     same->y.push_back(p.error());
   }
-  return to_svg(plot);
+  return plot;
 }
 
 std::string trade_csv(const TradeOff& trade) {
@@ -278,7 +279,7 @@ void write_tradeoff(const TradeOff& trade, const std::filesystem::path& folder) 
     for (const auto part : {TradePart::mesh, TradePart::dynamics}) {
       if (!ring.front(part).empty())
         write_file(folder / fmt::format("tradeoff_{}_{}.svg", file_name(ring.ring), part_name(part)),
-                   trade_picture(ring, part));
+                   to_svg(trade_plot(ring, part)));
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "app/report/svg_plot.h"
 #include "app/tradeoff/tradeoff.h"
 
 namespace annulus::app {
@@ -12,7 +13,7 @@ namespace annulus::app {
 /// tradeoff.html, self-contained: pictures of error against wall time, the cheapest settings, every measurement.
 [[nodiscard]] std::string trade_html(const TradeOff& trade);
 /// Error against wall time with the front of settings that nothing beats, as a picture of its own.
-[[nodiscard]] std::string trade_picture(const RingTrade& ring, TradePart part);
+[[nodiscard]] Plot trade_plot(const RingTrade& ring, TradePart part);
 /// For the standard output: the cheapest setting for 10 %, 1 % and 0.1 %, and the front.
 [[nodiscard]] std::string trade_text(const TradeOff& trade);
 

@@ -1,0 +1,146 @@
+#include "app/report/report_files.h"
+
+#include <fmt/format.h>
+#include <librsvg/rsvg.h>
+
+#include <cctype>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/files.h"
+#include "core/log.h"
+#include "page_parts.h"
+
+namespace annulus::app {
+
+namespace {
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// "Mean mesh stiffness, N/mm" -> "mean_mesh_stiffness_n_mm"
+std::string slug(const std::string& title) {
+  constexpr std::size_t longest = 60;
+  std::string result;
+  for (const char c : title) {
+    const auto u = static_cast<unsigned char>(c);
+    if (u < 128 && std::isalnum(u) != 0)
+      result += static_cast<char>(std::tolower(u));
+    else if (!result.empty() && result.back() != '_')
+      result += '_';
+  }
+  result = result.substr(0, longest);
+  while (!result.empty() && result.back() == '_') result.pop_back();
+  return result;
+}
+
+std::string between(const std::string& text, const std::string& head, std::size_t from, std::size_t until) {
+  const auto begin = text.find(head, from);
+  if (begin == std::string::npos || begin >= until) return {};
+  const auto start = begin + head.size();
+  return text.substr(start, text.find('"', start) - start);
+}
+
+struct Picture {
+  std::string section, title, svg;
+};
+
+/// Behind the end of the element that begins at `at`, which may hold others of its kind.
+std::size_t end_of_svg(const std::string& page, std::size_t at) {
+  static const std::string opening = "<svg", closing = "</svg>";
+  for (int depth = 0;;) {
+    const auto open = page.find(opening, at), close = page.find(closing, at);
+    require(close != std::string::npos, "a picture without an end");
+    if (open < close) {
+      ++depth;
+      at = open + opening.size();
+    } else {
+      at = close + closing.size();
+      if (--depth == 0) return at;
+    }
+  }
+}
+
+/// All outermost <svg> elements of a page; nested ones have no name space of their own.
+std::vector<Picture> pictures_of(const std::string& page) {
+  static const std::string opening = "<svg xmlns=", heading = "<h2 id=\"";
+  std::vector<Picture> pictures;
+  std::string section;
+  std::size_t at = 0, heading_at = page.find(heading);
+  for (std::size_t begin; (begin = page.find(opening, at)) != std::string::npos;) {
+    for (; heading_at < begin; heading_at = page.find(heading, heading_at + 1))
+      section = between(page, heading, heading_at, begin);
+    at = end_of_svg(page, begin);
+    const auto svg = page.substr(begin, at - begin);
+    pictures.push_back({section, between(svg, "aria-label=\"", 0, svg.find('>')), svg});
+  }
+  return pictures;
+}
+
+}  // namespace
+
+std::string page_scripts(const std::string& page) {
+  if (page.find("<div class=\"plot\">") == std::string::npos) return {};
+  const std::string library = text_of(ANNULUS_CHART_JS);
+  if (library.empty()) {
+    log::warn("the report's plots are pictures only: " ANNULUS_CHART_JS " is not installed (Debian: libjs-chart.js)");
+    return {};
+  }
+  return "<script>" + library + "</script>\n<script>" + page_script + "</script>\n";
+}
+
+void write_report(const std::filesystem::path& file, const std::string& page) {
+  write_file(file, page);
+  const auto folder = file.parent_path() / "pictures";
+  std::filesystem::remove_all(folder);
+  const auto pictures = pictures_of(page);
+  if (pictures.empty()) return;
+  std::filesystem::create_directories(folder);
+  int number = 0;
+  for (const auto& p : pictures) {
+    const auto title = slug(p.title);
+    write_file(folder / fmt::format("{:02}_{}{}.svg", ++number, slug(p.section), title.empty() ? "" : "_" + title),
+               p.svg);
+  }
+}
+
+void write_png(const std::filesystem::path& svg, const std::filesystem::path& png) {
+  constexpr double pixels = 4;  // per unit of the picture: some 300 per inch at the width of a page
+  GError* error = nullptr;
+  const std::unique_ptr<RsvgHandle, decltype(&g_object_unref)> handle(rsvg_handle_new_from_file(svg.c_str(), &error),
+                                                                      [](gpointer p) {
+                                                                        if (p != nullptr) g_object_unref(p);
+                                                                      });
+  if (!handle) {
+    const std::string why = error != nullptr ? error->message : "unknown";
+    g_clear_error(&error);
+    throw InputError(fmt::format("{}: is no picture: {}", svg.string(), why));
+  }
+  gboolean has_box = FALSE;
+  RsvgRectangle box{};
+  rsvg_handle_get_intrinsic_dimensions(handle.get(), nullptr, nullptr, nullptr, nullptr, &has_box, &box);
+  if (has_box == FALSE || !(box.width > 0 && box.width < 10000 && box.height > 0 && box.height < 10000))
+    throw InputError(fmt::format("{}: has no size", svg.string()));
+  const RsvgRectangle whole{0, 0, pixels * box.width, pixels * box.height};
+  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
+      cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(whole.width), static_cast<int>(whole.height)),
+      cairo_surface_destroy);
+  const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> context(cairo_create(surface.get()), cairo_destroy);
+  cairo_set_source_rgb(context.get(), 1, 1, 1);
+  cairo_paint(context.get());
+  if (rsvg_handle_render_document(handle.get(), context.get(), &whole, nullptr) == FALSE)
+    throw InputError(fmt::format("{}: cannot be drawn", svg.string()));
+  UnfinishedFile unfinished(png, ".png");
+  if (cairo_surface_write_to_png(surface.get(), unfinished.temporary().c_str()) != CAIRO_STATUS_SUCCESS)
+    throw InputError(
+        fmt::format("cannot write {}: check that its folder exists, is writable and not full", png.string()));
+  unfinished.finish();
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include "app/report/report.h"
+#include "app/report/report_files.h"
+#include "core/files.h"
+#include "tests/app/made_up_solution.h"
+#include "tests/app/run_program.h"
+#include "tests/app/scenes.h"
+#include "tests/temporary_folder.h"
+
+/// Report pages in a browser: headless Chromium draws them and uses every plot.
+namespace annulus {
+
+namespace {
+
+/// What report_page.js saw of a page.
+nlohmann::json used_in_browser(const std::filesystem::path& folder, std::string page) {
+  const auto end = page.rfind("</body>");
+  BOOST_REQUIRE(end != std::string::npos);
+  page.insert(end, "<script>" + test::text_of(ANNULUS_SOURCE_DIR "/tests/app/report_page.js") + "</script>");
+  write_file(folder / "used.html", page);
+  // A profile of its own: tests run side by side.
+  const auto command = fmt::format(
+      "cd '{0}' && timeout 100 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage "
+      "--user-data-dir='{0}/profile' --window-size=1400,1000 --virtual-time-budget=20000 --dump-dom "
+      "'file://{0}/used.html' "
+      ">dom.html 2>chromium.txt",
+      folder.string());
+  BOOST_REQUIRE(std::system(command.c_str()) == 0);
+  const auto dom = test::text_of(folder / "dom.html");
+  const std::string head = "<pre id=\"result\">";
+  const auto begin = dom.find(head);
+  BOOST_REQUIRE_MESSAGE(begin != std::string::npos, dom.substr(0, 500));
+  const auto start = begin + head.size();
+  std::string text = dom.substr(start, dom.find("</pre>", start) - start);
+  for (const auto& [from, to] : {std::pair{"&gt;", ">"}, {"&amp;", "&"}})
+    for (std::size_t at; (at = text.find(from)) != std::string::npos;) text.replace(at, std::string(from).size(), to);
+  return nlohmann::json::parse(text);
+}
+
+void check_used(const nlohmann::json& used, int least_plots) {
+  BOOST_TEST(used["failures"].empty(), used["failures"].dump());
+  const int plots = used["plots"];
+  BOOST_TEST(plots >= least_plots);
+  for (const char* what : {"drawn", "zoomed", "reset", "hidden", "told"})
+    BOOST_TEST(used[what].get<int>() == plots, what << ": " << used[what].dump() << " of " << plots);
+  BOOST_TEST(used["rows"].get<int>() > 10 * plots);
+  BOOST_TEST(used["fetched"].get<int>() == 0);  // nothing from outside
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(report_page)
+
+BOOST_AUTO_TEST_CASE(every_plot_of_a_stage_can_be_used) {
+  const test::TemporaryFolder folder("report_page");
+  write_file(folder.path() / "scene.toml", test::quick_scene());
+  const auto outcome = test::run_program(folder.path(), "run scene.toml -o out --threads 2");
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const auto page = test::text_of(folder.path() / "out" / "report.html");
+  const auto used = used_in_browser(folder.path(), page);
+  check_used(used, 15);
+
+  // Every picture of the page is a file that other programs draw.
+  int pictures = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out" / "pictures")) {
+    ++pictures;
+    BOOST_TEST(test::text_of(entry.path()).starts_with("<svg xmlns="));
+    if (pictures > 3) continue;
+    const auto drawn =
+        test::run_program(folder.path(), "export '" + entry.path().string() + "' --to png -o picture.png");
+    BOOST_TEST(drawn.status == 0, drawn.err);
+    BOOST_TEST(test::text_of(folder.path() / "picture.png").starts_with("\x89PNG"));
+    BOOST_TEST(std::filesystem::file_size(folder.path() / "picture.png") > 10000U);
+  }
+  BOOST_TEST(pictures >= used["plots"].get<int>());
+}
+
+BOOST_AUTO_TEST_CASE(every_plot_of_solved_meshes_can_be_used) {
+  const test::TemporaryFolder folder("report_page_meshes");
+  const auto scene = app::read_scene(ANNULUS_SOURCE_DIR "/data/scenes/ring_structures.toml");
+  const auto used = used_in_browser(folder.path(), app::report_html(test::made_up_run(scene, 4)));
+  check_used(used, 20);
+  BOOST_TEST(used["bands"].get<int>() > 5);
+}
+
+BOOST_AUTO_TEST_CASE(what_a_scene_says_stays_text) {
+  const test::TemporaryFolder folder("report_page_text");
+  const std::string hostile = "</script><script>window.failures.push('ran')</script><!--";
+  const auto text = test::replaced(test::quick_scene(), "title = \"Quick\"", "title = \"" + hostile + "\"");
+  write_file(folder.path() / "scene.toml", text);
+  const auto outcome = test::run_program(folder.path(), "run scene.toml -o out --threads 2");
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  check_used(used_in_browser(folder.path(), test::text_of(folder.path() / "out" / "report.html")), 15);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace annulus
