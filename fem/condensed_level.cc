@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/field_recovery.h"
 #include "fem/level.h"
 #include "fem/mesh_bodies.h"
 
@@ -58,6 +59,31 @@ std::vector<StressCurve> worst_curves(const LoadedMeshProblem& problem, const Me
   return result;
 }
 
+/// Displacement and stress of both bodies where the wheel's root, or without one the planet's, is stressed most.
+std::vector<BodyField> worst_fields(const LoadedMeshProblem& problem, const MeshBodies& bodies,
+                                    const ContactSystem& system, const std::vector<LoadedPosition>& positions) {
+  const std::size_t loads = problem.loads.size();
+  std::size_t worst = loads / 2;
+  for (std::size_t i = worst; i < positions.size(); i += loads)
+    if (positions[i].wheel_stress->root_von_mises > positions[worst].wheel_stress->root_von_mises) worst = i;
+  ContactSystem::WarmStart warm;
+  ContactSystem::PairsCache cache;
+  ContactForces forces;
+  (void)system.solve(positions[worst].ring_tooth, positions[worst].mesh_phase, positions[worst].load, cache, warm,
+                     &forces);
+  std::vector<BodyField> fields;
+  const auto add = [&](const char* name, const BodySource& source, const CondensedBody& body,
+                       const std::vector<ToothForces>& teeth, const SupportRow* supports) {
+    const FieldRecovery recovery(body.body(), source, problem.material, problem.face_width, supports);
+    fields.push_back(recovery.field(teeth, forces, problem.pair.internal()));
+    fields.back().body = name;
+    fields.back().position = worst;
+  };
+  add("planet", bodies.planet_source, *bodies.planet, forces.planet, nullptr);
+  add("wheel", bodies.wheel_source, *bodies.wheel, forces.wheel, bodies.supports.get());
+  return fields;
+}
+
 /// What the discretised pressure leaves of the stiffness at the middle load: against twice as many elements, at some
 /// positions of the first cycle. Halving constant pieces leaves a quarter of their error.
 double contact_error(const LoadedMeshProblem& problem, const FlankContact& flanks, const MeshBodies& bodies,
@@ -107,6 +133,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   result.positions = solve_positions(problem, settings, one_cycle, solve, progress);
   result.contact_error = contact_error(problem, flanks, bodies, options, result.positions);
   result.stress_curves = worst_curves(problem, bodies, system, result.positions);
+  if (settings.want_fields && level > 0) result.fields = worst_fields(problem, bodies, system, result.positions);
   result.planet_sector = std::move(bodies.planet_sector);
   result.wheel_sector = std::move(bodies.wheel_sector);
   result.half_face = bodies.face.half;

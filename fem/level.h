@@ -16,6 +16,7 @@ struct SolvedLevel {
   /// solved twice.
   std::vector<LoadedPosition> positions;
   std::vector<StressCurve> stress_curves;
+  std::vector<BodyField> fields;
   geometry::Mesh planet_sector, wheel_sector;
   bool half_face = false;
   long unknowns = 0;

@@ -118,6 +118,7 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   result.pin_angles = std::move(solved.pin_angles);
   result.slice_edges = std::move(solved.slice_edges);
   result.stress_curves = std::move(solved.stress_curves);
+  result.fields = std::move(solved.fields);
   result.mesh_seconds = mesh_seconds;
   result.condense_seconds = condense_seconds;
   result.contact_seconds = contact_seconds;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -45,6 +46,7 @@ struct LoadedMeshSettings {
   bool symmetry = true;
   /// In modules: larger ones are refused, because a linear model with its unloaded flanks no longer describes them.
   double largest_deflection = std::numeric_limits<double>::infinity();
+  bool want_fields = false;                         ///< of condensed rungs: LoadedMeshResult::fields
   int threads = 1;                                  ///< changes the time, never the result
   std::function<void(double fraction)> progress{};  ///< called now and then with the finished fraction
   /// Where condensed teeth are looked for and kept; may be null. They depend neither on loads and phases nor on the
@@ -107,6 +109,20 @@ struct StressCurve {
   std::vector<double> tangential, von_mises;  ///< Pa
 };
 
+/// Displacement and stress of a body under the contact forces of one position, in the frame of its tooth 0.
+struct BodyField {
+  std::string body;          ///< "planet", "wheel"
+  std::size_t position = 0;  ///< index into LoadedMeshResult::positions
+  /// All sectors of a plane body, those near the contact of a solid one (the lower half of a symmetric face), each with
+  /// vertices of its own.
+  geometry::Mesh mesh;
+  std::vector<Eigen::Vector3d> displacement;  ///< m, per vertex; of the planet relative to its hub
+  /// Pa, per vertex: xx, yy, zz, xy, yz, zx; means of the adjacent cells, so that peaks at edges are cut.
+  std::vector<std::array<double, 6>> stress;
+
+  [[nodiscard]] double von_mises(std::size_t vertex) const;  ///< Pa
+};
+
 struct LoadedMeshResult {
   StiffnessTable table;
   std::vector<LoadedPosition> positions;  ///< at every load, [ring tooth][phase][load], then the closure positions
@@ -122,6 +138,7 @@ struct LoadedMeshResult {
   std::vector<double> pin_angles{};   ///< rad, from the centre of tooth 0; empty without pins
   std::vector<double> slice_edges{};  ///< m, z of the slices of the face width
   std::vector<StressCurve> stress_curves{};
+  std::vector<BodyField> fields{};  ///< of both bodies, if wanted, where the wheel's root is stressed most
   double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0;
   int condensed_teeth = 0, reused_teeth = 0;  ///< made, and read from the store, on all levels; none by resolved rungs
   double saved_seconds = 0;                   ///< that condense_seconds would be longer without the store

@@ -137,6 +137,11 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     return NearField{tasks[fine].body.flank, tasks[coarse].body.flank, compliance(fine), compliance(coarse)};
   };
   bodies.unknowns = tasks[0].body.unknowns + tasks[1].body.unknowns;
+  const auto source = [&](const Task& task) {
+    return BodySource{task.mesh, task.profile, task.support_radius, task.options.sector};
+  };
+  bodies.planet_source = source(tasks[0]);
+  bodies.wheel_source = source(tasks[1]);
   bodies.planet_sector = face.half ? planet.whole_sector(solid_counts) : std::move(tasks[0].mesh);
   bodies.wheel_sector = face.half ? wheel.whole_sector(solid_counts) : std::move(tasks[1].mesh);
   std::optional<NearField> planet_near_field, wheel_near_field;

@@ -13,11 +13,20 @@
 
 namespace annulus::fem {
 
+/// What a body was condensed from.
+struct BodySource {
+  geometry::Mesh mesh;
+  const geometry::ToothProfile* profile = nullptr;
+  double support_radius = 0;
+  SectorModelOptions options;
+};
+
 /// The two condensed bodies of a loaded mesh at one level of resolution, ready for contact.
 struct MeshBodies {
   std::unique_ptr<CondensedBody> planet, wheel;
   std::unique_ptr<SupportRow> supports;  ///< of a floating ring
   std::unique_ptr<StressRecovery> planet_stress, wheel_stress;
+  BodySource planet_source, wheel_source;
   SolvedFace face;
   std::vector<double> slice_edges;             ///< m, of the solved part of the face
   geometry::Mesh planet_sector, wheel_sector;  ///< over the whole face

@@ -393,7 +393,11 @@ ContactForces ContactSystem::port_forces(const Pairs& setup, int cycle, const Co
     result.planet.push_back({p.index, planet_.port_weights(p.planet) * force});
     result.wheel.push_back({wheel_tooth(p.index, cycle), wheel_.port_weights(p.wheel) * force});
   }
-  if (supports_ != nullptr) result.supports = solution.force.tail(supports_->size());
+  if (supports_ != nullptr) {
+    result.supports = solution.force.tail(supports_->size());
+    result.rigid = solution.rigid.tail(supports_->rigid_motions());
+    result.rigid.tail(result.rigid.size() - 2) /= flanks_.pair().wheel().reference_radius();
+  }
   return result;
 }
 

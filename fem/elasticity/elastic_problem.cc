@@ -334,6 +334,63 @@ std::vector<SurfaceStress> ElasticProblem<dim>::surface_stress(
 }
 
 template <int dim>
+VertexField ElasticProblem<dim>::vertex_field() const {
+  const double E = material_.youngs_modulus, nu = material_.poisson_ratio;
+  const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
+  constexpr int corners = dealii::GeometryInfo<dim>::vertices_per_cell, stresses = dim == 3 ? 6 : 4;
+  // Lexicographic to counter-clockwise numbering.
+  constexpr std::array<int, 8> order = {0, 1, 3, 2, 4, 5, 7, 6};
+  const dealii::QTrapezoid<dim> at_vertices;
+  dealii::FEValues<dim> values(mapping_, element_, at_vertices, dealii::update_gradients);
+
+  VertexField field;
+  std::map<int, std::uint32_t> vertex_of_node;
+  std::vector<int> cells_at;
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
+  for (const auto& cell : dofs_.active_cell_iterators()) {
+    values.reinit(cell);
+    cell->get_dof_indices(indices);
+    auto& corners_of_cell = field.cells.emplace_back();
+    corners_of_cell.fill(0);
+    for (int v = 0; v < corners; ++v) {
+      const int node = node_of_freedom_[cell->vertex_dof_index(v, 0)];
+      const auto [found, fresh] = vertex_of_node.try_emplace(node, static_cast<std::uint32_t>(field.nodes.size()));
+      if (fresh) {
+        field.nodes.push_back(node);
+        cells_at.push_back(0);
+      }
+      const std::uint32_t vertex = found->second;
+      ++cells_at[vertex];
+      corners_of_cell[order[v]] = vertex;
+      const int row = static_cast<int>(vertex) * stresses;
+      for (unsigned int i = 0; i < element_.dofs_per_cell; ++i) {
+        if (element_.system_to_component_index(i).first != 0) continue;
+        const int column = node_of_freedom_[indices[i]] * dim;
+        const auto g = values.shape_grad(i, v);
+        for (int c = 0; c < dim; ++c) {
+          if (g[c] == 0) continue;
+          for (int normal = 0; normal < 3; ++normal)
+            entries.emplace_back(row + normal, column + c, (lambda + (normal == c ? 2 * mu : 0)) * g[c]);
+        }
+        // xy, yz, zx
+        constexpr int shear[3][2] = {{0, 1}, {1, 2}, {2, 0}};
+        for (int k = 0; k < stresses - 3; ++k) {
+          const auto [a, b] = shear[k];
+          entries.emplace_back(row + 3 + k, column + a, mu * g[b]);
+          entries.emplace_back(row + 3 + k, column + b, mu * g[a]);
+        }
+      }
+    }
+  }
+  const auto rows = static_cast<Eigen::Index>(field.nodes.size()) * stresses;
+  for (auto& e : entries) e = {e.row(), e.col(), e.value() / cells_at[e.row() / stresses]};
+  field.stress.resize(rows, static_cast<Eigen::Index>(node_points_.size()) * dim);
+  field.stress.setFromTriplets(entries.begin(), entries.end());
+  return field;
+}
+
+template <int dim>
 std::pair<double, double> ElasticProblem<dim>::errors(
     const Eigen::VectorXd& solution, const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& exact,
     const std::function<dealii::Tensor<2, dim>(const dealii::Point<dim>&)>& exact_gradient) const {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "fem/elasticity/nodal_load.h"
+#include "fem/elasticity/sector_model.h"
 #include "fem/material.h"
 #include "geometry/mesh.h"
 
@@ -46,6 +47,8 @@ class ElasticProblem {
       const;
   /// Stress at all nodes of a free surface made of some boundaries, the mean of the adjacent elements; ascending nodes.
   [[nodiscard]] std::vector<SurfaceStress> surface_stress(const std::vector<geometry::Boundary>& boundaries) const;
+  /// The cells' vertices with the stress there.
+  [[nodiscard]] VertexField vertex_field() const;
   /// L2 and energy (strain-energy seminorm: H1) errors against an exact solution and its gradient.
   [[nodiscard]] std::pair<double, double> errors(
       const Eigen::VectorXd& solution, const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& exact,

@@ -167,6 +167,7 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
     model.outside = make_trace(problem.boundary_nodes(Boundary::support), model.nodes, options.degree,
                                [twist](const Eigen::Vector3d& p) { return polar_angle(p, twist); });
   if (options.want_mass) model.nodal_mass = problem.nodal_mass();
+  if (options.want_field) model.field = problem.vertex_field();
   if (options.want_stress) {
     const auto surface = [&](const std::vector<Boundary>& boundaries, double low, double high) {
       auto stress = problem.surface_stress(boundaries);

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -28,6 +30,14 @@ struct StressSurface {
   std::vector<SurfaceStress> stress;
 };
 
+/// The vertices and cells of the refined mesh with the stress at every vertex, the mean of the adjacent cells.
+struct VertexField {
+  std::vector<int> nodes;                           ///< of every vertex
+  std::vector<std::array<std::uint32_t, 8>> cells;  ///< of vertices, numbered as in geometry::Mesh
+  /// Rows [vertex][xx, yy, zz, xy and, of a solid, yz, zx], columns [node][component]: Pa/m.
+  Eigen::SparseMatrix<double, Eigen::RowMajor> stress;
+};
+
 /// Which boundary of a sector is held.
 enum class HeldBoundary { none, support, end_low, flange_face };
 
@@ -45,7 +55,8 @@ struct SectorModel {
   StressSurface root_low, root_high;       ///< root land and fillet of the trailing (y < 0) and of the leading side
   StressSurface rim;                       ///< of the support circle (empty when held)
   Eigen::SparseMatrix<double>
-      nodal_mass;  ///< of one component, nodes x nodes; see ElasticProblem (empty unless wanted)
+      nodal_mass;     ///< of one component, nodes x nodes; see ElasticProblem (empty unless wanted)
+  VertexField field;  ///< empty unless wanted
 };
 
 struct SectorModelOptions {
@@ -60,6 +71,7 @@ struct SectorModelOptions {
   double outside_radius = std::numeric_limits<double>::quiet_NaN();
   bool want_stress = false;  ///< root_low, root_high, and rim where the support circle is free
   bool want_mass = false;    ///< nodal_mass
+  bool want_field = false;   ///< field
 };
 
 [[nodiscard]] SectorModel make_sector_model(const geometry::Mesh& mesh, const geometry::ToothProfile& profile,
