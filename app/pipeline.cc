@@ -21,6 +21,17 @@ namespace annulus::app {
 
 namespace {
 
+std::vector<geometry::PointData> point_data(const fem::BodyField& field) {
+  geometry::PointData displacement{"displacement_m", 3, {}}, von_mises{"von_mises_Pa", 1, {}},
+      stress{"stress_xx_yy_zz_xy_yz_zx_Pa", 6, {}};
+  for (std::size_t v = 0; v < field.displacement.size(); ++v) {
+    for (int c = 0; c < 3; ++c) displacement.values.push_back(static_cast<float>(field.displacement[v][c]));
+    von_mises.values.push_back(static_cast<float>(field.von_mises(v)));
+    for (const double s : field.stress[v]) stress.values.push_back(static_cast<float>(s));
+  }
+  return {std::move(displacement), std::move(von_mises), std::move(stress)};
+}
+
 void write_meshes(const MeshModel& model, const fem::LoadedMeshResult& solved, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   const std::string wheel = model.mesh == sun_planet ? "_sun" : model.mesh == pinion_wheel ? "_wheel" : "_ring";
@@ -30,6 +41,12 @@ void write_meshes(const MeshModel& model, const fem::LoadedMeshResult& solved, c
     if (mesh->cells.empty()) continue;  // a closed form meshes nothing
     geometry::write_msh(*mesh, folder / (name + ".msh"));
     geometry::write_vtu(*mesh, folder / (name + ".vtu"));
+  }
+  for (const auto& field : solved.fields) {
+    const bool planet = field.body == "planet";
+    const auto name =
+        model.mesh + (planet ? (model.mesh == pinion_wheel ? "_pinion" : "_planet") : wheel) + "_field.vtu";
+    geometry::write_vtu(field.mesh, folder / name, point_data(field));
   }
 }
 
@@ -99,6 +116,7 @@ fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& op
   fem::LoadedMeshSettings settings = model.settings;
   settings.threads = threads;
   settings.store = options.store;
+  settings.want_fields = !options.for_study;
   settings.progress = [&](double fraction) { progress.update(fraction); };
   progress.update(0);
   auto solved = fem::solve_loaded_mesh(*model.problem, settings);

@@ -60,3 +60,5 @@ target_link_libraries(annulus_matio INTERFACE PkgConfig::MATIO)
 
 # Inlined in reports when they are written.
 find_file(ANNULUS_CHART_JS chart.min.js PATHS /usr/share/javascript/chart.js NO_DEFAULT_PATH REQUIRED)
+find_file(ANNULUS_THREE_JS three.min.js PATHS /usr/share/javascript/three NO_DEFAULT_PATH REQUIRED)
+find_file(ANNULUS_ORBIT_JS OrbitControls.js PATHS /usr/share/javascript/three/examples/js/controls NO_DEFAULT_PATH REQUIRED)

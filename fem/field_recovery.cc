@@ -142,24 +142,26 @@ BodyField FieldRecovery::field(const std::vector<ToothForces>& teeth, const Cont
                                bool mirrored) const {
   const int dim = model_.dimension, stresses = dim == 3 ? 6 : 4;
   const auto& grid = model_.field;
-  int first = 0, last = body_.teeth - 1;
-  const int reach = std::min(6, body_.compliance.max_cut_offset() - 1);
-  if (dim == 3) {
-    const auto [low, high] =
-        std::minmax_element(teeth.begin(), teeth.end(), [](const auto& a, const auto& b) { return a.tooth < b.tooth; });
-    first = high->tooth - reach;
-    last = std::min(low->tooth + reach, first + body_.teeth - 1);
-  }
+  const auto [low, high] =
+      std::minmax_element(teeth.begin(), teeth.end(), [](const auto& a, const auto& b) { return a.tooth < b.tooth; });
+  constexpr int most_vertices = 60000;
+  const int fit = std::max(3, most_vertices / static_cast<int>(grid.nodes.size()));
+  // As far as the body was composed.
+  const bool whole = body_.compliance.max_cut_offset() == body_.teeth / 2;
+  const int farthest = whole ? body_.teeth : body_.compliance.max_cut_offset() - 1;
+  const int first = std::max(low->tooth - fit / 2, high->tooth - farthest);
+  const int last = std::min({high->tooth + fit / 2, low->tooth + farthest, first + body_.teeth - 1});
   const double side = mirrored ? -1 : 1;
   const Eigen::Vector3d mirror(1, side, 1);
   BodyField result;
   result.mesh.dimension = dim;
+  result.sectors = last - first + 1;
   for (int sector = first; sector <= last; ++sector) {
     const Eigen::VectorXd u = sector_displacement(sector, teeth, forces.supports);
     const Eigen::VectorXd stress = grid.stress * u;
     const Eigen::Matrix3d turn =
         Eigen::AngleAxisd(sector * model_.pitch_angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    const auto offset = static_cast<std::uint32_t>(result.mesh.vertices.size());
+    const auto first_vertex = static_cast<std::uint32_t>(result.mesh.vertices.size());
     for (std::size_t v = 0; v < grid.nodes.size(); ++v) {
       const int node = grid.nodes[v];
       const Eigen::Vector3d place = turn * model_.nodes[node];
@@ -184,7 +186,7 @@ BodyField FieldRecovery::field(const std::vector<ToothForces>& teeth, const Cont
       // Still counter-clockwise in the mirror.
       if (mirrored)
         for (const int base : {0, 4}) std::reverse(cell.begin() + base, cell.begin() + base + 4);
-      for (int k = 0; k < (dim == 3 ? 8 : 4); ++k) cell[k] += offset;
+      for (int k = 0; k < (dim == 3 ? 8 : 4); ++k) cell[k] += first_vertex;
       result.mesh.cells.push_back(cell);
       result.mesh.regions.push_back(geometry::Mesh::Region::tooth);
     }

@@ -23,8 +23,8 @@ class FieldRecovery {
   FieldRecovery(const FieldRecovery&) = delete;
   FieldRecovery& operator=(const FieldRecovery&) = delete;
 
-  /// Under `teeth`, the supports' forces and the rigid motion of `forces`. Plane bodies as a whole, solid ones near the
-  /// loaded teeth. `mirrored`: the real body is the mirror image of the solved one (y -> -y).
+  /// Under `teeth`, the supports' forces and the rigid motion of `forces`: as BodyField::mesh says. `mirrored`: the
+  /// real body is the mirror image of the solved one (y -> -y).
   [[nodiscard]] BodyField field(const std::vector<ToothForces>& teeth, const ContactForces& forces,
                                 bool mirrored) const;
   /// Displacements of all freedoms of one sector in its own frame, [node][component], without the rigid motion.

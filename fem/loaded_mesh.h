@@ -113,9 +113,10 @@ struct StressCurve {
 struct BodyField {
   std::string body;          ///< "planet", "wheel"
   std::size_t position = 0;  ///< index into LoadedMeshResult::positions
-  /// All sectors of a plane body, those near the contact of a solid one (the lower half of a symmetric face), each with
-  /// vertices of its own.
+  /// Sectors around the contact, each with vertices of its own, as many as make a file of some megabytes: of coarse
+  /// plane bodies all. Of a symmetric face the lower half.
   geometry::Mesh mesh;
+  int sectors = 1;
   std::vector<Eigen::Vector3d> displacement;  ///< m, per vertex; of the planet relative to its hub
   /// Pa, per vertex: xx, yy, zz, xy, yz, zx; means of the adjacent cells, so that peaks at edges are cut.
   std::vector<std::array<double, 6>> stress;

@@ -1,6 +1,10 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
+#include <bit>
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -98,7 +102,27 @@ void write_msh(const Mesh& mesh, const std::filesystem::path& file) {
   unfinished.finish();
 }
 
-void write_vtu(const Mesh& mesh, const std::filesystem::path& file) {
+namespace {
+
+/// As VTK reads it: the number of bytes, then the bytes, in base 64.
+std::string base64(const std::vector<float>& values) {
+  static_assert(std::endian::native == std::endian::little, "the header of the file says so");
+  const auto bytes = static_cast<std::uint32_t>(values.size() * sizeof(float));
+  std::string raw(sizeof(bytes) + bytes, '\0');
+  std::memcpy(raw.data(), &bytes, sizeof(bytes));
+  if (bytes > 0) std::memcpy(raw.data() + sizeof(bytes), values.data(), bytes);
+  const std::string padding((3 - raw.size() % 3) % 3, '=');
+  raw.append(padding.size(), '\0');
+  using Digits = boost::archive::iterators::base64_from_binary<
+      boost::archive::iterators::transform_width<std::string::const_iterator, 6, 8>>;
+  std::string text(Digits(raw.begin()), Digits(raw.end()));
+  text.replace(text.size() - padding.size(), padding.size(), padding);
+  return text;
+}
+
+}  // namespace
+
+void write_vtu(const Mesh& mesh, const std::filesystem::path& file, const std::vector<PointData>& data) {
   const bool solid = mesh.dimension == 3;
   const int corners = solid ? 8 : 4;
   constexpr int vtk_quad = 9;
@@ -106,7 +130,8 @@ void write_vtu(const Mesh& mesh, const std::filesystem::path& file) {
   std::string text;
   auto out = std::back_inserter(text);
   fmt::format_to(out,
-                 "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\">\n<UnstructuredGrid>\n"
+                 "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
+                 "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
                  "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n"
                  "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n",
                  mesh.vertices.size(), mesh.cells.size());
@@ -123,7 +148,14 @@ void write_vtu(const Mesh& mesh, const std::filesystem::path& file) {
       "</DataArray>\n</Cells>\n<CellData Scalars=\"region\">\n"
       "<DataArray type=\"Int32\" Name=\"region\" format=\"ascii\">\n";
   for (const auto region : mesh.regions) fmt::format_to(out, "{}\n", static_cast<int>(region));
-  text += "</DataArray>\n</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  text += "</DataArray>\n</CellData>\n<PointData>\n";
+  for (const auto& d : data) {
+    require(d.values.size() == mesh.vertices.size() * static_cast<std::size_t>(d.components), "values at every vertex");
+    fmt::format_to(
+        out, "<DataArray type=\"Float32\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n{}\n</DataArray>\n",
+        d.name, d.components, base64(d.values));
+  }
+  text += "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   write_file(file, text);
 }
 

@@ -8,7 +8,7 @@ packages=(
   libboost-dev libboost-test-dev
   libopenblas-dev libopenblas0-pthread
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
-  libhdf5-dev libmatio-dev libpugixml-dev librsvg2-dev libjs-chart.js
+  libhdf5-dev libmatio-dev libpugixml-dev librsvg2-dev libjs-chart.js libjs-three
   calculix-ccx octave  # tests only: what benchmarks compare with
   python3-h5py chromium  # tests only: what reads exports and reports
   clang libclang-rt-dev clang-format clang-tidy valgrind  # tests only: sanitizers, fuzzing, analysis

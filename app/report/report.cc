@@ -46,11 +46,16 @@ figcaption { color: #555; font-size: 13.5px; max-width: 110ch; margin-top: 6px; 
 .undecided { background: #ececec; color: #444; } .assumed { background: #fdf0d5; color: #7a4f00; }
 .muted { color: #777; } code { font-size: 13px; }
 details { margin: 10px 0; } summary { cursor: pointer; color: #0072B2; }
+.view3d { position: relative; } .view3d canvas { display: block; cursor: grab; } .view3d.awake > svg { display: none; }
+.view3d .turn { position: absolute; top: 4px; right: 4px; font: inherit; font-size: 13px; color: #0072B2; background: #fffc; border: 1px solid #0072B2; border-radius: 3px; cursor: pointer; }
+.view3d .tools.shown { display: block; font-size: 12px; color: #777; } .view3d .scale { font-size: 12.5px; color: #555; margin-top: 4px; }
+.view3d .scale i { display: inline-block; width: 120px; height: 9px; vertical-align: middle; }
+figure.fields .row { grid-template-columns: repeat(auto-fit, minmax(430px, 1fr)); align-items: start; }
 .plot { position: relative; outline-offset: 2px; } .plot .live { position: relative; } .plot.awake > svg { display: none; }
 .plot .tools { font-size: 12px; color: #999; opacity: 0; transition: opacity 0.15s; height: 20px; margin-top: -4px; }
 .plot:hover .tools, .plot:focus-within .tools { opacity: 1; }
 .plot .tools button { font: inherit; color: #0072B2; background: none; border: 0; padding: 0 10px 0 0; cursor: pointer; }
-@media print { .plot .tools, .plot .live { display: none; } .plot.awake > svg { display: block; } main { max-width: none; } nav { display: none; } figure { break-inside: avoid; } }
+@media print { .view3d canvas, .view3d .turn, .view3d .tools { display: none; } .view3d.awake > svg { display: block; } .plot .tools, .plot .live { display: none; } .plot.awake > svg { display: block; } main { max-width: none; } nav { display: none; } figure { break-inside: avoid; } }
 )css";
 
 }  // namespace
@@ -143,6 +148,7 @@ std::string report_html(const RunResult& result) {
                      {{{"figures", "Key figures", key_figures_section(result)},
                        {"comparison", "Comparison with the source", comparison_section(result)},
                        {"meshes", "Meshes", meshes_section(result)},
+                       {"fields", "Deformation and stress", fields_section(result)},
                        {"stiffness", "Transmission error and stiffness", stiffness_section(result)},
                        {"supports", "Pins and splines", supports_section(result)},
                        {"contact", "Face width, pressure, stress", contact_section(result)},

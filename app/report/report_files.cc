@@ -86,13 +86,29 @@ std::vector<Picture> pictures_of(const std::string& page) {
 }  // namespace
 
 std::string page_scripts(const std::string& page) {
-  if (page.find("<div class=\"plot\">") == std::string::npos) return {};
-  const std::string library = text_of(ANNULUS_CHART_JS);
-  if (library.empty()) {
-    log::warn("the report's plots are pictures only: " ANNULUS_CHART_JS " is not installed (Debian: libjs-chart.js)");
-    return {};
+  struct Part {
+    const char* element;
+    std::vector<const char*> libraries;
+    const char *script, *package;
+  };
+  const Part parts[] = {{"<div class=\"plot\">", {ANNULUS_CHART_JS}, page_script, "libjs-chart.js"},
+                        {"<div class=\"view3d\">", {ANNULUS_THREE_JS, ANNULUS_ORBIT_JS}, view3d_script, "libjs-three"}};
+  std::string scripts;
+  for (const auto& part : parts) {
+    if (page.find(part.element) == std::string::npos) continue;
+    std::string text;
+    bool there = true;
+    for (const char* file : part.libraries) {
+      const std::string library = text_of(file);
+      if (library.empty())
+        log::warn(
+            fmt::format("pictures of the report stay pictures: {} is not installed (Debian: {})", file, part.package));
+      there = there && !library.empty();
+      text += "<script>" + library + "</script>\n";
+    }
+    if (there) scripts += text + "<script>" + part.script + "</script>\n";
   }
-  return "<script>" + library + "</script>\n<script>" + page_script + "</script>\n";
+  return scripts;
 }
 
 void write_report(const std::filesystem::path& file, const std::string& page) {

@@ -63,6 +63,7 @@ inline constexpr double shown_cycles = 110;
 [[nodiscard]] std::string quality_section(const RunResult& result);  ///< invariants, timings, versions
 // report_stiffness.cc
 [[nodiscard]] std::string meshes_section(const RunResult& result);
+[[nodiscard]] std::string fields_section(const RunResult& result);           ///< empty where nothing was solved
 [[nodiscard]] std::string stiffness_section(const RunResult& result);        ///< transmission error, stiffness, shares
 [[nodiscard]] std::string stiffness_error_section(const RunResult& result);  ///< their errors by cause
 // report_supports.cc

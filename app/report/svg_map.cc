@@ -7,40 +7,16 @@
 #include <cmath>
 #include <map>
 
+#include "app/report/colour_scale.h"
 #include "app/report/svg_frame.h"
 
 namespace annulus::app {
 
 namespace {
 
-using Rgb = std::array<double, 3>;
-
-// ColorBrewer's YlGnBu without its palest step (Harrower and Brewer): what carries little stays pale, also without
-// colour vision.
-constexpr std::array<Rgb, 8> one_way = {{{237, 248, 177},
-                                         {199, 233, 180},
-                                         {127, 205, 187},
-                                         {65, 182, 196},
-                                         {29, 145, 192},
-                                         {34, 94, 168},
-                                         {37, 52, 148},
-                                         {8, 29, 88}}};
-constexpr std::array<Rgb, 5> both_ways = {
-    {{0, 84, 140}, {110, 170, 210}, {247, 247, 247}, {240, 160, 100}, {180, 70, 0}}};
 constexpr const char* grey_fill = "#bcc2c7";
-constexpr int levels = 33;  // odd: the middle one is the neutral colour of a scale both ways
+constexpr int levels = colour_levels;
 constexpr int no_value = -1;
-
-template <std::size_t N>
-std::string mix(const std::array<Rgb, N>& scale, double at) {
-  const double place = std::clamp(at, 0.0, 1.0) * (N - 1);
-  const auto low = std::min(static_cast<std::size_t>(place), N - 2);
-  const double t = place - static_cast<double>(low);
-  std::array<int, 3> c{};
-  for (std::size_t i = 0; i < 3; ++i)
-    c[i] = static_cast<int>(std::lround((1 - t) * scale[low][i] + t * scale[low + 1][i]));
-  return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
-}
 
 /// Colours in steps, so that equal ones can be drawn together.
 class ColourScale {
@@ -59,7 +35,7 @@ class ColourScale {
   [[nodiscard]] std::string colour(int level) const {
     if (level == no_value) return grey_fill;
     const double at = static_cast<double>(level) / (levels - 1);
-    return diverging_ ? mix(both_ways, at) : mix(one_way, at);
+    return diverging_ ? both_ways_colour(at) : one_way_colour(at);
   }
   [[nodiscard]] const Range& range() const { return range_; }
 

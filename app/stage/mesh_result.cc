@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/content_id.h"
+#include "app/report/field_view.h"
 #include "app/report/svg_mesh.h"
 #include "app/stage/mesh_tables.h"
 #include "core/files.h"
@@ -179,6 +180,7 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
                     .facts = facts_of(solved),
                     .nominal = model.nominal_load()};
   if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.ring);
+  for (const auto& field : solved.fields) result.fields += field_view(field, solved.positions[field.position]);
   if (result.table.mesh() != model.mesh) result.table = renamed(result.table, model.mesh);
   result.table.provenance = {{"annulus_version", version()}, {"inputs_id", model.id()}, {"rung", model.rung}};
   return result;
@@ -202,6 +204,7 @@ void save(const MeshResult& result, const std::filesystem::path& folder) {
   keep("lte", std::move(positions));
   for (const auto& [name, member] : side_tables) keep(name, result.*member);
   if (!result.picture.empty()) write_file(folder / "mesh" / (mesh + ".svg"), result.picture);
+  if (!result.fields.empty()) write_file(folder / "mesh" / (mesh + "_fields.html"), result.fields);
   // Written last: its presence says that the others are complete.
   result.table.write_csv(folder / ("stiffness_" + mesh + ".csv"));
 }

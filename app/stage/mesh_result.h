@@ -46,6 +46,7 @@ struct MeshResult {
   Csv line_load{};        ///< line_load_<mesh>.csv: load over the face width
   Csv stress{};           ///< stress_<mesh>.csv: stress along roots and rim; its header names the curves
   std::string picture{};  ///< SVG of the meshes in contact; empty when none was meshed
+  std::string fields{};   ///< HTML: deformation and stress of both bodies (field_view.h); empty when not computed
   /// Invariants and sizes by name: force_balance_relative, max_penetration_m, unknowns, mesh_seconds ...
   std::map<std::string, double> facts{};
   /// Ring meshes: how those of all planets act on each other through the ring; null when that was not looked at.

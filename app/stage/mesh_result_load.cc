@@ -90,7 +90,8 @@ MeshResult given_stiffness(const MeshModel& model, const MeshInput& input, const
 std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::path& folder) {
   const auto table_file = folder / ("stiffness_" + model.mesh + ".csv");
   const auto positions_file = folder / ("lte_" + model.mesh + ".csv");
-  const auto picture_file = folder / "mesh" / (model.mesh + ".svg");
+  const auto picture_file = folder / "mesh" / (model.mesh + ".svg"),
+             fields_file = folder / "mesh" / (model.mesh + "_fields.html");
   for (const auto& file : {table_file, positions_file, picture_file}) {
     const bool needed = file != picture_file || model.settings.rung != fem::Rung::closed_form;
     if (needed && !std::filesystem::exists(file)) return std::nullopt;
@@ -120,6 +121,7 @@ std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::pa
       result.*member = std::move(csv);
     }
     if (std::filesystem::exists(picture_file)) result.picture = file_text(picture_file);
+    if (std::filesystem::exists(fields_file)) result.fields = file_text(fields_file);
     return result;
   } catch (const std::exception&) {
     return std::nullopt;  // damaged or from another version: solved again and overwritten

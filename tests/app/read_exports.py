@@ -1,8 +1,9 @@
 """Reads exported files with readers that are not annulus' own and compares them with the native table.
 
-usage: read_exports.py table stiffness.csv FOLDER | matrix ring_compliance.csv FOLDER | rexs FILE KEY=VALUE ...
+usage: read_exports.py table stiffness.csv FOLDER | matrix ring_compliance.csv FOLDER | rexs FILE KEY=VALUE ... | vtu FILE
 Ends with an error where anything differs; prints how many numbers were compared.
 """
+import base64
 import csv
 import itertools
 import re
@@ -181,7 +182,30 @@ def check_rexs(path, wanted):
     return len(wanted), {t: types.count(t) for t in set(types)}
 
 
+def check_vtu(path):
+    """A field: sizes, and von Mises' stress of the tensor that stands beside it."""
+    piece = xml.etree.ElementTree.parse(path).getroot().find("UnstructuredGrid/Piece")
+    points, cells = int(piece.get("NumberOfPoints")), int(piece.get("NumberOfCells"))
+    data = {}
+    for array in piece.find("PointData"):
+        assert array.get("type") == "Float32" and array.get("format") == "binary"
+        raw = base64.b64decode(array.text.strip(), validate=True)
+        assert int.from_bytes(raw[:4], "little") == len(raw) - 4
+        data[array.get("Name")] = numpy.frombuffer(raw[4:], dtype="<f4").reshape(points, -1).astype(float)
+    connectivity = numpy.array(piece.find("Cells/DataArray[@Name='connectivity']").text.split(), dtype=int)
+    assert connectivity.size % cells == 0 and connectivity.min() == 0 and connectivity.max() == points - 1
+    xx, yy, zz, xy, yz, zx = data["stress_xx_yy_zz_xy_yz_zx_Pa"].T
+    mises = numpy.sqrt(((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) / 2 + 3 * (xy**2 + yz**2 + zx**2))
+    assert numpy.allclose(mises, data["von_mises_Pa"][:, 0], rtol=1e-5, atol=1e-5 * mises.max())
+    largest = numpy.linalg.norm(data["displacement_m"], axis=1).max()
+    assert 1e-7 < largest < 1e-3, largest
+    return points
+
+
 def main(kind, source, *rest):
+    if kind == "vtu":
+        print(check_vtu(source))
+        return
     if kind == "rexs":
         count, types = check_rexs(source, rest)
         print(count, " ".join(f"{t}:{n}" for t, n in sorted(types.items())))

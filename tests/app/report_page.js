@@ -2,7 +2,7 @@
 window.failures = [];
 window.addEventListener('error', (event) => window.failures.push('error: ' + event.message));
 const expect = (condition, what) => { if (!condition) window.failures.push(what); };
-const result = {plots: 0, drawn: 0, zoomed: 0, reset: 0, hidden: 0, told: 0, rows: 0, pictures: 0, bands: 0};
+const result = {plots: 0, drawn: 0, zoomed: 0, reset: 0, hidden: 0, told: 0, rows: 0, pictures: 0, bands: 0, bodies: 0, shown: 0, turned: 0, undeformed: 0};
 
 const painted = (canvas) => {
   const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -73,9 +73,36 @@ function usePlot(box) {
   result.rows += lines.length - 1;
 }
 
+function turnBody(box) {
+  ++result.bodies;
+  const body = JSON.parse(box.querySelector('script').textContent);
+  const vertices = body.place_mm.length / 3;
+  expect(vertices > 50 && body.displacement_mm.length === 3 * vertices && body.stress_MPa.length === vertices, 'sizes');
+  expect(body.faces.length % 4 === 0 && Math.max(...body.faces) < vertices, 'faces');
+  box.querySelector('button.turn').click();
+  const {view} = box;
+  expect(view, 'no view: ' + (box.querySelector('button.turn') || {}).textContent);
+  if (!view) return;
+  const picture = () => view.renderer.domElement.toDataURL();
+  const first = picture();
+  const gl = view.renderer.getContext(), pixels = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight);
+  gl.readPixels(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+  let coloured = 0;
+  for (let i = 0; i < pixels.length; i += 4) coloured += Math.min(pixels[i], pixels[i + 1], pixels[i + 2]) < 250;
+  result.shown += coloured > 0.1 * pixels.length / 4;
+  view.camera.position.add(new THREE.Vector3(50, 20, 0));
+  view.controls.update();
+  result.turned += picture() !== first;
+  view.slider.value = 0;
+  view.slider.dispatchEvent(new Event('input'));
+  const at = view.geometry.getAttribute('position').array;
+  result.undeformed += at.every((x, i) => Math.abs(x - body.place_mm[i]) < 1e-4);
+}
+
 window.addEventListener('load', () => {
   try {
     for (const box of document.querySelectorAll('.plot')) usePlot(box);
+    for (const box of document.querySelectorAll('.view3d')) turnBody(box);
     result.pictures = document.querySelectorAll('svg').length;
     result.fetched = performance.getEntriesByType('resource').length;
   } catch (error) {

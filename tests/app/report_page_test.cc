@@ -24,7 +24,8 @@ nlohmann::json used_in_browser(const std::filesystem::path& folder, std::string 
   write_file(folder / "used.html", page);
   // A profile of its own: tests run side by side.
   const auto command = fmt::format(
-      "cd '{0}' && timeout 100 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage "
+      "cd '{0}' && timeout 100 chromium --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader "
+      "--disable-dev-shm-usage "
       "--user-data-dir='{0}/profile' --window-size=1400,1000 --virtual-time-budget=20000 --dump-dom "
       "'file://{0}/used.html' "
       ">dom.html 2>chromium.txt",
@@ -85,6 +86,30 @@ BOOST_AUTO_TEST_CASE(every_plot_of_solved_meshes_can_be_used) {
   const auto used = used_in_browser(folder.path(), app::report_html(test::made_up_run(scene, 4)));
   check_used(used, 20);
   BOOST_TEST(used["bands"].get<int>() > 5);
+}
+
+BOOST_AUTO_TEST_CASE(deformed_bodies_can_be_turned) {
+  const test::TemporaryFolder folder("report_page_fields");
+  write_file(folder.path() / "scene.toml", test::small_stage());
+  const auto outcome = test::run_program(folder.path(), "solve scene.toml -o out --threads 2");
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const auto used = used_in_browser(folder.path(), test::text_of(folder.path() / "out" / "report.html"));
+  check_used(used, 5);
+  BOOST_TEST(used["bodies"].get<int>() >= 4);  // planet and wheel of both meshes
+  for (const char* what : {"shown", "turned", "undeformed"})
+    BOOST_TEST(used[what].get<int>() == used["bodies"].get<int>(), what << ": " << used.dump());
+
+  // Their files, read by Python.
+  int fields = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out" / "ring" / "mesh")) {
+    if (!entry.path().string().ends_with("_field.vtu")) continue;
+    ++fields;
+    const auto command = fmt::format("'" ANNULUS_PYTHON "' '" ANNULUS_SOURCE_DIR "/tests/app/read_exports.py' vtu '{}'",
+                                     entry.path().string());
+    BOOST_TEST(std::system((command + " >'" + (folder.path() / "vtu.txt").string() + "'").c_str()) == 0);
+    BOOST_TEST(std::stoi(test::text_of(folder.path() / "vtu.txt")) > 1000);
+  }
+  BOOST_TEST(fields == 4);
 }
 
 BOOST_AUTO_TEST_CASE(what_a_scene_says_stays_text) {

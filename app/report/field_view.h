@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "fem/loaded_mesh.h"
+
+namespace annulus::app {
+
+/// Deformation and stress of one body near the contact, as HTML: a picture of the deformed body, displacements
+/// exaggerated, coloured by von Mises stress, with the numbers from which view3d.js makes a view that can be turned.
+[[nodiscard]] std::string field_view(const fem::BodyField& field, const fem::LoadedPosition& position);
+
+}  // namespace annulus::app
