@@ -144,7 +144,7 @@ BodyField FieldRecovery::field(const std::vector<ToothForces>& teeth, const Cont
   const auto& grid = model_.field;
   const auto [low, high] =
       std::minmax_element(teeth.begin(), teeth.end(), [](const auto& a, const auto& b) { return a.tooth < b.tooth; });
-  constexpr int most_vertices = 60000;
+  constexpr int most_vertices = 20000;
   const int fit = std::max(3, most_vertices / static_cast<int>(grid.nodes.size()));
   // As far as the body was composed.
   const bool whole = body_.compliance.max_cut_offset() == body_.teeth / 2;

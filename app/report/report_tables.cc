@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/report/report_parts.h"
+#include "app/report/svg_bars.h"
 #include "app/stage/comparison.h"
 
 namespace annulus::app {
@@ -161,6 +162,34 @@ void add_dynamic_rows(HtmlTable& table, const RunResult& result, bool sun) {
 
 }  // namespace
 
+namespace {
+
+/// The answer in one picture: by how much the most loaded planet and the largest dynamic load exceed the ideal.
+std::string answer_picture(const RunResult& result, const std::vector<RingQuantity>& quantities) {
+  BarChart chart{.title = "Above the ideal, %", .x_label = "%", .width = 640, .label_width = 220, .row_height = 22};
+  for (const auto& [key, name] : {std::pair{"load_sharing", "load sharing"}, {"dynamic_factor", "dynamic factor"}}) {
+    const auto* q = quantity(quantities, key);
+    if (q == nullptr) continue;
+    for (const auto& m : q->rings) {
+      if (!std::isfinite(m.value)) continue;
+      const auto ring =
+          std::find_if(result.rings.begin(), result.rings.end(), [&](const auto& r) { return r.name == m.ring; });
+      chart.bars.push_back({.label = std::string(name) + ", " + m.ring,
+                            .value = 100 * (m.value - 1),
+                            .colour = static_cast<std::size_t>(ring - result.rings.begin()),
+                            .note = fmt::format("{:.3g} %", 100 * (m.value - 1)),
+                            .error = 100 * m.error});
+    }
+  }
+  if (chart.bars.empty()) return "";
+  return figure({to_svg(chart)}, "",
+                "Excess of the most loaded planet over its share, and of the largest mesh force over its mean; "
+                "whiskers: estimated "
+                "numerical error.");
+}
+
+}  // namespace
+
 std::string verdict_section(const RunResult& result) {
   const auto quantities = ring_quantities(result);
   std::string text = "<div class=\"verdict\">\n";
@@ -184,7 +213,7 @@ std::string verdict_section(const RunResult& result) {
   if (!unsteady.empty())
     text += "<p>No periodic steady state was reached with " + enumerate(unsteady) +
             "; the figures hold for the evaluated window only.</p>\n";
-  return text + "</div>\n";
+  return text + "</div>\n" + answer_picture(result, quantities);
 }
 
 std::string key_figures_section(const RunResult& result) {

@@ -13,7 +13,8 @@ std::string to_svg(const BarChart& chart) {
   double reach = chart.reach;
   bool negative = chart.two_sided, positive = chart.two_sided, notes = false;
   for (const auto& bar : chart.bars) {
-    if (!(chart.reach > 0)) reach = std::max(reach, std::abs(bar.value));
+    if (!(chart.reach > 0))
+      reach = std::max(reach, std::abs(bar.value) + (bar.error > 0 && std::isfinite(bar.error) ? bar.error : 0));
     negative = negative || bar.value < 0;
     positive = positive || bar.value > 0;
     notes = notes || !bar.note.empty();
@@ -46,9 +47,18 @@ std::string to_svg(const BarChart& chart) {
     svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>",
                        std::min(x, zero), y - 0.36 * chart.row_height, std::abs(x - zero), 0.72 * chart.row_height,
                        palette(bar.colour));
+    double end = x;
+    if (bar.error > 0 && std::isfinite(bar.error)) {
+      const double low = frame.at_x(bar.value - bar.error), high = frame.at_x(bar.value + bar.error);
+      const double cap = 0.2 * chart.row_height;
+      svg += fmt::format(
+          "<path d=\"M{0:.1f} {2:.1f}v{3:.1f}M{1:.1f} {2:.1f}v{3:.1f}M{0:.1f} {4:.1f}H{1:.1f}\" stroke=\"#222\"/>", low,
+          high, y - cap, 2 * cap, y);
+      end = bar.value < 0 ? low : high;
+    }
     if (!bar.note.empty())
-      svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>", bar.value < 0 ? x - 4 : x + 4,
-                         y + 4, bar.value < 0 ? "end" : "start", escape(bar.note));
+      svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>",
+                         bar.value < 0 ? end - 4 : end + 4, y + 4, bar.value < 0 ? "end" : "start", escape(bar.note));
   }
   svg += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}\" stroke=\"#888\"/>", zero, top, bottom);
   return svg + "</svg>";

@@ -12,6 +12,7 @@ struct BarChart {
     double value = 0;
     std::size_t colour = 0;  ///< index into the palette
     std::string note{};      ///< behind the bar; empty: none
+    double error = 0;        ///< drawn as a whisker to either side, when it is above zero and known
   };
   std::string title{}, x_label{};
   std::vector<Bar> bars{};
