@@ -1,3 +1,5 @@
+include(GNUInstallDirs)
+
 # One library per layer: annulus_add_layer(core [SHARED] SOURCES a.cc b.cc PUBLIC ... PRIVATE ...)
 function(annulus_add_layer name)
   cmake_parse_arguments(ARG "SHARED" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
@@ -6,7 +8,8 @@ function(annulus_add_layer name)
   else()
     add_library(annulus_${name} STATIC ${ARG_SOURCES})
   endif()
-  target_include_directories(annulus_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_include_directories(annulus_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/annulus>)
   target_link_libraries(annulus_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   annulus_set_warnings(annulus_${name})
   # The layers that a scene or a table reaches before a solve guide the fuzzer.

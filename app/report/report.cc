@@ -38,6 +38,8 @@ figure .row.one { grid-template-columns: minmax(360px, 900px); }
 figure .row > div { min-width: 0; } figure svg { width: 100%; height: auto; display: block; }
 figure.meshes .row { align-items: start; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 24px; } figure.meshes svg { max-height: 470px; } figure.meshes h3 { margin-top: 0; }
 figure.shapes .row { grid-template-columns: repeat(auto-fill, minmax(190px, 1fr)); max-width: 1320px; }
+@keyframes swing { to { transform: translate(var(--x), var(--y)) rotate(var(--a)); } }
+.swing { animation: swing 0.7s ease-in-out infinite alternate paused; } figure.shapes .row > div:hover .swing { animation-play-state: running; }
 figcaption { color: #555; font-size: 13.5px; max-width: 110ch; margin-top: 6px; }
 .legend { font-size: 13px; color: #333; margin: 2px 0 4px; } .legend span { margin-right: 16px; white-space: nowrap; }
 .legend i { display: inline-block; width: 18px; height: 3px; vertical-align: middle; margin-right: 6px; }

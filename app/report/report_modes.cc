@@ -231,7 +231,7 @@ std::string shapes_part(const RunResult& result) {
   for (const auto& picture : pictures) text += "<div>" + picture + "</div>\n";
   return text + fmt::format(
                     "</div><figcaption>The two lowest of each kind, ring '{}'; grey at rest, displacements not "
-                    "to scale. One of each pair or multiple.</figcaption></figure>\n",
+                    "to scale. Point at one and it swings. One of each pair or multiple.</figcaption></figure>\n",
                     escape(ring.name));
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/report/svg_frame.h"
 #include "app/report/svg_plot.h"
+#include "core/units.h"
 
 namespace annulus::app {
 
@@ -44,22 +45,38 @@ std::string wheel(const Page& page, double x, double y, double radius, double an
   return svg;
 }
 
+/// A body that swings from where it is drawn, displaced by (dx, dy) and turned by `angle`, to its mirror image about
+/// its place at rest and back; the style of the page says when.
+std::string swinging(const Page& page, double x, double y, double dx, double dy, double angle,
+                     const std::string& content) {
+  return fmt::format(
+      "<g class=\"swing\" style=\"--x:{:.2f}px;--y:{:.2f}px;--a:{:.2f}deg;transform-origin:{:.1f}px {:.1f}px\">{}</g>",
+      -2 * page.scale * dx, 2 * page.scale * dy, 2 * angle / units::deg, page.x(x), page.y(y), content);
+}
+
 std::string draw_stage(const Page& page, const ModeDrawing& m, double e, bool moved) {
   const auto colour = [&](const char* own) { return moved ? own : at_rest; };
   std::string svg = moved ? "<g stroke-width=\"1.6\">" : "<g stroke-width=\"1\">";
-  svg += wheel(page, e * m.ring.x, e * m.ring.y, m.ring_radius, e * m.ring.u / m.ring_radius, 12, 1.08,
-               colour(palette(2)));
-  const double turn = e * m.carrier.u / m.centre_distance;
+  const auto body = [&](double x0, double y0, double dx, double dy, double angle, const std::string& content) {
+    svg += moved ? swinging(page, x0 + dx, y0 + dy, dx, dy, angle, content) : content;
+  };
+  const auto central = [&](const ModeDrawing::Motion& motion, double radius, int marks, double inner, const char* own) {
+    const double x = e * motion.x, y = e * motion.y, turn = e * motion.u / radius;
+    body(0, 0, x, y, turn, wheel(page, x, y, radius, turn, marks, inner, colour(own)));
+  };
+  central(m.ring, m.ring_radius, 12, 1.08, palette(2));
+  const double turn = e * m.carrier.u / m.centre_distance, cx = e * m.carrier.x, cy = e * m.carrier.y;
   for (std::size_t n = 0; n < m.planets.size(); ++n) {
     const double phi = m.planet_angles[n], c = std::cos(phi), s = std::sin(phi);
     const auto& p = m.planets[n];
-    svg += line(page, e * m.carrier.x, e * m.carrier.y, e * m.carrier.x + m.centre_distance * std::cos(phi + turn),
-                e * m.carrier.y + m.centre_distance * std::sin(phi + turn), colour(carrier_colour));
-    const double radial = m.centre_distance + e * p.x, tangential = e * p.y;
-    svg += wheel(page, c * radial - s * tangential, s * radial + c * tangential, m.planet_radius,
-                 phi + e * p.u / m.planet_radius, 2, 0.35, colour(palette(1)));
+    body(0, 0, cx, cy, turn,
+         line(page, cx, cy, cx + m.centre_distance * std::cos(phi + turn),
+              cy + m.centre_distance * std::sin(phi + turn), colour(carrier_colour)));
+    const double x = c * m.centre_distance, y = s * m.centre_distance, dx = e * (c * p.x - s * p.y),
+                 dy = e * (s * p.x + c * p.y), own = e * p.u / m.planet_radius;
+    body(x, y, dx, dy, own, wheel(page, x + dx, y + dy, m.planet_radius, phi + own, 2, 0.35, colour(palette(1))));
   }
-  svg += wheel(page, e * m.sun.x, e * m.sun.y, m.sun_radius, e * m.sun.u / m.sun_radius, 3, 0.3, colour(palette(0)));
+  central(m.sun, m.sun_radius, 3, 0.3, palette(0));
   return svg + "</g>";
 }
 

@@ -103,6 +103,8 @@ window.addEventListener('load', () => {
   try {
     for (const box of document.querySelectorAll('.plot')) usePlot(box);
     for (const box of document.querySelectorAll('.view3d')) turnBody(box);
+    const swinging = document.querySelectorAll('.swing');
+    result.swinging = [...swinging].filter((g) => getComputedStyle(g).animationName === 'swing').length;
     result.pictures = document.querySelectorAll('svg').length;
     result.fetched = performance.getEntriesByType('resource').length;
   } catch (error) {

@@ -65,6 +65,10 @@ BOOST_AUTO_TEST_CASE(every_plot_of_a_stage_can_be_used) {
   const auto used = used_in_browser(folder.path(), page);
   check_used(used, 15);
 
+  // Ring, sun, five planets and as many carrier arms of every mode shape.
+  BOOST_TEST(used["swinging"].get<int>() >= 2 * 12);
+  BOOST_TEST(used["swinging"].get<int>() % 12 == 0);
+
   // Every picture of the page is a file that other programs draw.
   int pictures = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out" / "pictures")) {
