@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "app/scene/new_scene.h"
@@ -11,6 +12,7 @@
 #include "core/files.h"
 #include "core/stiffness_table.h"
 #include "tests/app/run_program.h"
+#include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 
 /// `annulus export` and `annulus new`, read back by readers that are not annulus' own: Python (csv, xml, h5py) and
@@ -248,6 +250,47 @@ BOOST_AUTO_TEST_CASE(new_scenes_are_good_and_tell_every_key) {
   }
   BOOST_TEST(refusal(folder.path(), "new planetry").find("did you mean planetary?") != std::string::npos);
   BOOST_TEST(refusal(folder.path(), "new").find("the kinds are planetary") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_stiffness_of_another_program_drives_the_dynamics) {
+  // The harmonic wave of a scene as another program might give it: as a transmission error under one load, uneven
+  // phases.
+  const test::TemporaryFolder folder("imports");
+  constexpr double mean = 1.364e9, ripple = 0.2258, load = 40000;
+  std::string curve = "# program: elsewhere\nmesh_phase,lte_um,load_N\n";
+  constexpr int points = 150;
+  for (int i = 0; i < points; ++i) {
+    const double phase = (i + 0.3 * std::sin(0.7 * i)) / points + 0.002;
+    const double stiffness = mean * (1 + ripple * std::cos(2 * std::numbers::pi * phase));
+    curve += fmt::format("{:.12g},{:.12g},{}\n", phase, 1e6 * load / stiffness, load);
+  }
+  write_file(folder.path() / "other.csv", curve);
+  write_file(folder.path() / "given.toml", test::quick_scene());
+  write_file(folder.path() / "imported.toml",
+             test::replaced(test::quick_scene(),
+                            "[mesh.sun_planet]\nstiffness = \"harmonic\"\nmean_N_per_m = 1.364e9\nripple = 0.2258\n",
+                            "[mesh.sun_planet]\nstiffness = \"table\"\nfile = \"other.csv\"\n"));
+  const auto figures = [&](const std::string& name) {
+    const auto outcome = test::run_program(folder.path(), "run " + name + ".toml -o " + name);
+    BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+    const auto ring = nlohmann::json::parse(test::text_of(folder.path() / name / "summary.json"))["rings"]["held"];
+    std::vector<double> values = {ring["load_sharing"]["sun_planet"]["averaged"]["value"],
+                                  ring["load_sharing"]["ring_planet"]["instantaneous"]["value"]};
+    for (const auto& factor : ring["dynamic_factor"]["sun_planet"]) values.push_back(factor);
+    return values;
+  };
+  const auto given = figures("given"), imported = figures("imported");
+  BOOST_TEST_REQUIRE(given.size() == imported.size());
+  // Cubics through 150 uneven points miss the wave by 1e-4 of it; dynamic factors follow by some times that.
+  for (std::size_t i = 0; i < given.size(); ++i)
+    BOOST_TEST(given[i] == imported[i], boost::test_tools::tolerance(5e-4));
+  BOOST_TEST(given != imported);
+
+  write_file(folder.path() / "other.csv", "mesh_phase,lte_um\n0,1\n");
+  const auto bad = test::run_program(folder.path(), "check imported.toml");
+  BOOST_TEST(bad.status == 2);
+  BOOST_TEST(bad.err.find("lte needs a column load_N") != std::string::npos, bad.err);
+  BOOST_TEST(bad.err.find("mesh.sun_planet.file") != std::string::npos, bad.err);
 }
 
 BOOST_AUTO_TEST_CASE(completion_completes) {
