@@ -122,13 +122,15 @@ Csv Csv::read(const std::filesystem::path& file) {
 
 std::size_t Csv::column(const std::string& name) const {
   const auto found = std::find(columns.begin(), columns.end(), name);
-  if (found == columns.end()) {
-    constexpr std::size_t most = 40;
-    std::string names;
-    for (std::size_t i = 0; i < std::min(columns.size(), most); ++i) names += (i ? ", " : "") + shown(columns[i]);
-    throw InputError(fmt::format("no column '{}'; there are: {}", name, names));
-  }
+  if (found == columns.end()) throw InputError(fmt::format("no column '{}'; there are: {}", name, column_names()));
   return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::string Csv::column_names() const {
+  constexpr std::size_t most = 40;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(columns.size(), most); ++i) names += (i ? ", " : "") + shown(columns[i]);
+  return names;
 }
 
 }  // namespace annulus

@@ -20,6 +20,8 @@ struct Csv {
   [[nodiscard]] static Csv read(const std::filesystem::path& file);
   /// Index of a column; throws InputError naming the column when it is missing.
   [[nodiscard]] std::size_t column(const std::string& name) const;
+  /// For messages: the names of the first columns, whatever stands in them.
+  [[nodiscard]] std::string column_names() const;
 };
 
 }  // namespace annulus

@@ -84,9 +84,8 @@ class Curves {
     const auto unloaded = find(csv, {{"unloaded_te_m", 1}, {"unloaded_te_um", units::um}});
     const auto error = find(csv, {{"error_relative", 1}});
     const auto refuse = [&](const std::string& what) {
-      std::string names;
-      for (const auto& c : csv.columns) names += (names.empty() ? "" : ", ") + c.substr(0, 40);
-      throw InputError(fmt::format("{}:{}: {}; there are: {}", file_, first_line_ - 1, what, names.substr(0, 400)));
+      throw InputError(fmt::format("{}:{}: is no stiffness table: {}; there are: {}", file_, first_line_ - 1, what,
+                                   csv.column_names()));
     };
     if (!phase) refuse("no column mesh_phase, mesh_phase_deg or mesh_cycles");
     if (!stiffness && !lte) refuse("no column stiffness_N_per_m, stiffness_N_per_um, lte_m or lte_um");
