@@ -6,6 +6,7 @@
 #include <cctype>
 #include <fstream>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <vector>
 
@@ -114,16 +115,21 @@ std::string page_scripts(const std::string& page) {
 void write_report(const std::filesystem::path& file, const std::string& page) {
   write_file(file, page);
   const auto folder = file.parent_path() / "pictures";
-  std::filesystem::remove_all(folder);
-  const auto pictures = pictures_of(page);
-  if (pictures.empty()) return;
-  std::filesystem::create_directories(folder);
-  int number = 0;
-  for (const auto& p : pictures) {
+  std::set<std::filesystem::path> names;
+  for (const auto& p : pictures_of(page)) {
     const auto title = slug(p.title);
-    write_file(folder / fmt::format("{:02}_{}{}.svg", ++number, slug(p.section), title.empty() ? "" : "_" + title),
-               p.svg);
+    const auto name =
+        fmt::format("{:02}_{}{}.svg", names.size() + 1, slug(p.section), title.empty() ? "" : "_" + title);
+    std::filesystem::create_directories(folder);
+    write_file(folder / name, p.svg);
+    names.insert(name);
   }
+  // Those of an earlier page. Another run may be at work here: what it makes or removes meanwhile is its own.
+  std::error_code ignored;
+  std::vector<std::filesystem::path> old;
+  for (std::filesystem::directory_iterator at(folder, ignored), end; at != end; at.increment(ignored))
+    if (at->path().extension() == ".svg" && names.count(at->path().filename()) == 0) old.push_back(at->path());
+  for (const auto& picture : old) std::filesystem::remove(picture, ignored);
 }
 
 void write_png(const std::filesystem::path& svg, const std::filesystem::path& png) {
