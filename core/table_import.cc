@@ -37,7 +37,8 @@ struct Sample {
   std::size_t line;
 };
 
-constexpr int least_phases = 64;
+constexpr int least_phases = 64, most_cycles = 2000;  // no ring repeats later than after all its teeth
+constexpr std::size_t most_entries = 10'000'000;
 constexpr double same_phase = 1e-9, closing_tolerance = 1e-3;
 
 /// A quantity of samples over one whole period, at equidistant places.
@@ -101,7 +102,8 @@ class Curves {
       Sample s{value(phase, 0), 0, value(unloaded, 0), value(error, 0), i};
       const double force = value(load, any_load);
       if (!(force > 0 && force <= 1e30)) refuse_row(i, "load_N has to be above zero");
-      if (!(s.cycles >= 0 && s.cycles <= 1e6)) refuse_row(i, "the phase has to be a number from zero on");
+      if (!(s.cycles >= 0 && s.cycles <= most_cycles))
+        refuse_row(i, fmt::format("the phase has to lie between zero and {} mesh cycles", most_cycles));
       if (!(std::abs(s.unloaded) <= 1)) refuse_row(i, "unloaded_te has to be a length below a metre");
       if (!(s.error >= 0 && s.error <= 1e3)) refuse_row(i, "error_relative has to be a number from zero on");
       if (stiffness && !(value(stiffness, 0) >= 1e-3 && value(stiffness, 0) <= 1e30))
@@ -178,6 +180,9 @@ StiffnessTable import_table(const std::filesystem::path& file, const std::string
       even ? static_cast<int>(most) / positions
            : std::max(least_phases, static_cast<int>(std::ceil(static_cast<double>(most) / positions)));
   const int count = per_cycle * positions;
+  if (static_cast<std::size_t>(count) * curves.by_load.size() > most_entries)
+    throw InputError(fmt::format("{}:1: {} loads at {} places make more than {} entries", file.string(),
+                                 curves.by_load.size(), count, most_entries));
 
   // [load][place]
   std::vector<double> loads;

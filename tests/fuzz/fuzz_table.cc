@@ -5,16 +5,30 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "core/errors.h"
 #include "core/stiffness_table.h"
+#include "core/table_import.h"
+
+namespace {
+
+/// The mesh that the file says it belongs to, so that tables of annulus itself are read as such.
+std::string mesh_of(const std::uint8_t* data, std::size_t size) {
+  const std::string text(reinterpret_cast<const char*>(data), size);
+  for (const char* mesh : {"ring_planet", "pinion_wheel", "arc_pins"})
+    if (text.find(std::string("mesh: ") + mesh) != std::string::npos) return mesh;
+  return "sun_planet";
+}
+
+}  // namespace
 
 /// Any bytes as the file of a stiffness table: it is refused with InputError, or every number of it can be used.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const auto file = std::filesystem::temp_directory_path() / fmt::format("annulus_fuzz_{}.csv", ::getpid());
   std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   try {
-    const auto table = annulus::StiffnessTable::read_csv(file);
+    const auto table = annulus::import_table(file, mesh_of(data, size));
     for (const double load : table.loads()) {
       const auto curves = annulus::curves_at_load(table, load);
       for (const auto* curve : {&curves.stiffness_secant, &curves.stiffness_tangent, &curves.unloaded_te, &curves.lte})
