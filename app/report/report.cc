@@ -29,7 +29,7 @@ nav { font-size: 14px; margin: 8px 0 0; } nav a { margin-right: 14px; color: #00
 table { border-collapse: collapse; font-size: 14px; margin: 10px 0; font-variant-numeric: tabular-nums; }
 th, td { padding: 4px 12px 4px 0; text-align: left; vertical-align: top; border-bottom: 1px solid #eee; }
 th { font-weight: 600; border-bottom: 1px solid #bbb; }
-table.numbers td:not(:first-child), table.numbers th:not(:first-child) { text-align: right; padding: 4px 0 4px 18px; }
+table.numbers td:not(:first-child), table.numbers th:not(:first-child) { text-align: right; white-space: nowrap; padding: 4px 0 4px 18px; }
 table.numbers td.group { text-align: left; font-weight: 600; padding-top: 12px; }
 .wide { overflow-x: auto; }
 figure { margin: 14px 0 26px; }
@@ -57,7 +57,10 @@ figure.fields .row { grid-template-columns: repeat(auto-fit, minmax(430px, 1fr))
 .plot .tools { font-size: 12px; color: #999; opacity: 0; transition: opacity 0.15s; height: 20px; margin-top: -4px; }
 .plot:hover .tools, .plot:focus-within .tools { opacity: 1; }
 .plot .tools button { font: inherit; color: #0072B2; background: none; border: 0; padding: 0 10px 0 0; cursor: pointer; }
-@media print { .view3d canvas, .view3d .turn, .view3d .tools { display: none; } .view3d.awake > svg { display: block; } .plot .tools, .plot .live { display: none; } .plot.awake > svg { display: block; } main { max-width: none; } nav { display: none; } figure { break-inside: avoid; } }
+@media print { .view3d canvas, .view3d .turn, .view3d .tools { display: none; } .view3d.awake > svg { display: block; } .plot .tools, .plot .live { display: none; } .plot.awake > svg { display: block; } main { max-width: none; } nav { display: none; } figure { break-inside: avoid; }
+  h2, h3 { break-after: avoid; } figure.fields, figure.meshes { break-inside: auto; } .view3d, figure.meshes .row > div { break-inside: avoid; }
+  figure .row:not(.one), figure.fields .row { grid-template-columns: repeat(2, minmax(0, 1fr)); } .wide { overflow: visible; }
+  table { font-size: 12px; } table.numbers th { white-space: normal !important; } tr { break-inside: avoid; } }
 )css";
 
 }  // namespace

@@ -224,13 +224,12 @@ std::string fields_section(const RunResult& result) {
   for (const auto& ring : result.rings) add("Ring mesh, " + ring.name, ring.mesh);
   add("Sun mesh", result.sun_mesh);
   if (text.empty()) return "";
-  return "<h2 id=\"fields\">Deformation and stress</h2>\n<p>Planet and wheel near the contact, where the wheel's root "
-         "is "
-         "stressed most, one planet alone at the nominal load. Displacements are exaggerated; those of the planet are "
-         "relative to its hub. Grey: the outline without load. Fields of the whole bodies are in the "
-         "<code>_field.vtu</code> "
-         "files.</p>\n" +
-         text;
+  const std::string head =
+      "<h2 id=\"fields\">Deformation and stress</h2>\n<p>Planet and wheel near the contact, where the wheel's root is "
+      "stressed most, one planet alone at the nominal load. Displacements are exaggerated; those of the planet are "
+      "relative to its hub. Grey: the outline without load. The <code>_field.vtu</code> files hold more teeth, for "
+      "ParaView.</p>\n";
+  return head + text;
 }
 
 std::string stiffness_section(const RunResult& result) {
