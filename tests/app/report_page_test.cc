@@ -24,7 +24,7 @@ nlohmann::json used_in_browser(const std::filesystem::path& folder, std::string 
   write_file(folder / "used.html", page);
   // A profile of its own: tests run side by side.
   const auto command = fmt::format(
-      "cd '{0}' && timeout 100 chromium --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader "
+      "cd '{0}' && timeout 400 chromium --headless --no-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader "
       "--disable-dev-shm-usage "
       "--user-data-dir='{0}/profile' --window-size=1400,1000 --virtual-time-budget=20000 --dump-dom "
       "'file://{0}/used.html' "
