@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "app/export/array_files.h"
+#include "app/export/png_file.h"
 #include "app/export/rexs.h"
 #include "app/export/table_text.h"
-#include "app/report/report_files.h"
 #include "app/scene/scene.h"
 #include "core/csv.h"
 #include "core/errors.h"

@@ -13,7 +13,4 @@ namespace annulus::app {
 /// it. Pictures of an earlier page are removed.
 void write_report(const std::filesystem::path& file, const std::string& page);
 
-/// A picture as PNG, several times its size in pixels. Throws InputError naming the file.
-void write_png(const std::filesystem::path& svg, const std::filesystem::path& png);
-
 }  // namespace annulus::app
