@@ -12,7 +12,7 @@ namespace annulus::dynamics {
 
 /// The state once per mesh cycle.
 struct PoincareSection {
-  std::vector<std::string> quantities;  ///< sun_x_m, sun_y_m, <mesh>_closing_m, <mesh>_force_N
+  std::vector<std::string> quantities;  ///< sun_x_m, sun_y_m, then of every mesh closing_m, force_N
   Eigen::MatrixXd points;               ///< quantities x mesh cycles
   Eigen::VectorXd swing;                ///< per quantity, largest less smallest value over the whole series
 };

@@ -13,9 +13,10 @@ namespace annulus::dynamics {
 /// gears on the eccentrics of the cranks, which roll on the pins of the housing. SI. Models.md D, after "Dynamic
 /// modeling on arc toothed 2K-V reducer", eq. (6), corrected:
 ///
-///   V = 1/2 k_is (th_i - th_s)^2 + sum_i [1/2 k_p (r_bs th_s + r_bp th_pi - X_pi cos alpha)^2
-///         + 1/2 k_ph (th_pi - th_hi)^2 + 1/2 k_ha (X_pi - r_c th_o)^2]
-///     + sum_ij 1/2 k_b |(X_aj - a th_hi) v_j + (r_c th_aj - X_pi) t_i|^2 + sum_j 1/2 k_a (X_aj + a z_a th_aj)^2
+///   V = 1/2 k_is (th_i - th_s)^2 +
+///       sum_i [1/2 k_p (r_bs th_s + r_bp th_pi - X_pi cos alpha)^2 + 1/2 k_ph (th_pi - th_hi)^2 +
+///              1/2 k_ha (X_pi - r_c th_o)^2] +
+///       sum_ij 1/2 k_b |(X_aj - a th_hi) v_j + (r_c th_aj - X_pi) t_i|^2 + sum_j 1/2 k_a (X_aj + a z_a th_aj)^2
 ///
 /// Frame: fixed to the output carrier. The cranks stand still in it, at phi_i = 2 pi i/n, t_i = (-sin phi_i, cos
 /// phi_i); v_j = (-sin Theta_j, cos Theta_j) is across the eccentricity of gear j, Theta_j = Theta + 2 pi j/m. All th
