@@ -135,14 +135,17 @@ class Curves {
 
  private:
   void tidy(std::vector<Sample>& samples) const {
-    const auto& end = samples.back();
+    const Sample end = samples.back();
     if (std::abs(end.cycles - period) <= same_phase) {
       const double a = end.deflection_per_newton, b = samples.front().deflection_per_newton;
       if (samples.size() > 1 && samples.front().cycles <= same_phase && std::abs(a - b) > closing_tolerance * b)
         refuse_row(end.line, fmt::format("the end of the period is not its beginning: {:.4g} of it", a / b));
       samples.pop_back();
     }
-    if (samples.size() < 4) refuse_row(end.line, "at least four phases are needed for each load");
+    if (static_cast<double>(samples.size()) < 4 * period)
+      refuse_row(end.line,
+                 fmt::format("{} phases over {} mesh cycles: at least four phases are needed for each load and cycle",
+                             samples.size(), period));
     for (std::size_t i = 1; i < samples.size(); ++i)
       if (samples[i].cycles - samples[i - 1].cycles <= same_phase) refuse_row(samples[i].line, "the same phase twice");
   }

@@ -19,10 +19,10 @@ namespace annulus {
 ///     load_N                                        optional with a stiffness; several loads make a law
 ///     unloaded_te_m or unloaded_te_um, error_relative                optional
 ///
-/// Rows may come in any order and at any phases; a row at the end of the period that repeats the first is taken off.
-/// Phases that are not equidistant are resampled, at least 64 per mesh cycle, with the local cubics of PeriodicCurve. A
-/// single load, or none, stands for a stiffness that does not depend on the load. Tangents are those over the loads of
-/// the file. Throws InputError naming file, line and column.
+/// Rows may come in any order and at any phases, four at least in each cycle; a row at the end of the period that
+/// repeats the first is taken off. Phases that are not equidistant are resampled, at least 64 per mesh cycle, with the
+/// local cubics of PeriodicCurve. A single load, or none, stands for a stiffness that does not depend on the load.
+/// Tangents are those over the loads of the file. Throws InputError naming file, line and column.
 [[nodiscard]] StiffnessTable import_table(const std::filesystem::path& file, const std::string& mesh);
 
 }  // namespace annulus

@@ -119,6 +119,7 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_is_told_with_its_line) {
   tells("mesh_phase,lte_um\n0,1\n", "lte needs a column load_N");
   tells(head, "no data");
   tells(head + three, "at least four phases");
+  tells("mesh_cycles,stiffness_N_per_m\n0,1e9\n0.25,1e9\n0.5,1e9\n7.5,1e9\n", "4 phases over 8 mesh cycles");
   tells(head + three + "0.75,0\n", ":5: the stiffness has to be above zero");
   tells(head + three + "0.75,nan\n", ":5: stiffness_N_per_m is not a finite number");
   tells(head + three + "0.5,1e9\n", "the same phase twice");
