@@ -146,6 +146,7 @@ class Curves {
       refuse_row(end.line,
                  fmt::format("{} phases over {} mesh cycles: at least four phases are needed for each load and cycle",
                              samples.size(), period));
+    if (period - samples.back().cycles <= same_phase) refuse_row(samples.back().line, "the same phase twice");
     for (std::size_t i = 1; i < samples.size(); ++i)
       if (samples[i].cycles - samples[i - 1].cycles <= same_phase) refuse_row(samples[i].line, "the same phase twice");
   }
