@@ -39,6 +39,8 @@ struct Sample {
 
 constexpr int least_phases = 64, most_cycles = 2000;  // no ring repeats later than after all its teeth
 constexpr std::size_t most_entries = 10'000'000;
+// Phases written with fewer digits are still the same; stiffnesses may be rounded to a few digits by hand, as in
+// StiffnessTable.
 constexpr double same_phase = 1e-9, closing_tolerance = 1e-3;
 
 /// A quantity of samples over one whole period, at equidistant places.
