@@ -67,7 +67,7 @@ struct PlanetaryStage {
   CentralBody sun, ring, carrier;
   PlanetBody planet;
 
-  std::vector<double> planet_angles;      ///< phi_n, rad, one per planet, counter-clockwise, equally spaced for modes
+  std::vector<double> planet_angles;      ///< phi_n, rad, one per planet, counter-clockwise
   std::vector<BodyErrors> planet_errors;  ///< empty: none; otherwise one per planet
   double sun_working_angle = 0;           ///< a_s, rad
   double ring_working_angle = 0;          ///< a_r, rad

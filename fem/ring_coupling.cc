@@ -51,10 +51,10 @@ std::optional<SupportPlan> support_plan(const LoadedMeshProblem& problem) {
 }
 
 /// Mesh forces of all planets, planet 0 at `position`: teeth x planets.
-Eigen::MatrixXd mesh_forces(double position, int planets, int teeth) {
-  Eigen::MatrixXd patterns(teeth, planets);
-  for (int n = 0; n < planets; ++n)
-    patterns.col(n) = mesh_force_on_teeth(position + static_cast<double>(n) * teeth / planets, teeth);
+Eigen::MatrixXd mesh_forces(double position, const std::vector<double>& teeth_ahead, int teeth) {
+  Eigen::MatrixXd patterns(teeth, static_cast<Eigen::Index>(teeth_ahead.size()));
+  for (std::size_t n = 0; n < teeth_ahead.size(); ++n)
+    patterns.col(static_cast<Eigen::Index>(n)) = mesh_force_on_teeth(position + teeth_ahead[n], teeth);
   return patterns;
 }
 
@@ -86,8 +86,9 @@ Eigen::MatrixXd teeth_compliance(const RingFlexibility& ring, const RingOnSuppor
   return 0.5 * (result + result.transpose());
 }
 
-Level solve_level(const LoadedMeshProblem& problem, int planets, double load, const RingCouplingSettings& settings,
-                  int level) {
+Level solve_level(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead, double load,
+                  const RingCouplingSettings& settings, int level) {
+  const auto planets = static_cast<Eigen::Index>(teeth_ahead.size());
   const bool solid = needs_solid(problem);
   const geometry::ToothProfile profile(mirrored(problem.pair.wheel()));
   const BodyPlan body(problem, profile, true, geometry::Boundary::trailing_flank, settings.degree, solid,
@@ -113,7 +114,7 @@ Level solve_level(const LoadedMeshProblem& problem, int planets, double load, co
   const int positions = repeating_teeth(problem.structure, ring.teeth) * settings.per_cycle;
   std::vector<bool> touching;
   for (int i = 0; i < positions; ++i) {
-    const Eigen::MatrixXd patterns = mesh_forces(static_cast<double>(i) / settings.per_cycle, planets, ring.teeth);
+    const Eigen::MatrixXd patterns = mesh_forces(static_cast<double>(i) / settings.per_cycle, teeth_ahead, ring.teeth);
     Eigen::MatrixXd coupling;
     if (supported) {
       const auto state = supported->solve(patterns, loads, touching);
@@ -134,7 +135,7 @@ Level solve_level(const LoadedMeshProblem& problem, int planets, double load, co
     }
     result.compliance.push_back(std::move(coupling));
   }
-  result.own /= static_cast<double>(positions) * planets;
+  result.own /= static_cast<double>(positions) * static_cast<double>(planets);
   result.teeth = teeth_compliance(ring, supported ? &*supported : nullptr);
   result.modes =
       supported ? supported_ring_modes(ring, *supported, settings.modes) : held_ring_modes(ring, settings.modes);
@@ -146,14 +147,28 @@ Level solve_level(const LoadedMeshProblem& problem, int planets, double load, co
   return result;
 }
 
-void check(const LoadedMeshProblem& problem, int planets, double load, const RingCouplingSettings& settings) {
+void check_places(const std::vector<double>& teeth_ahead, int teeth) {
+  if (teeth_ahead.empty() || teeth_ahead.front() != 0)
+    throw InputError("the coupling of ring meshes needs planets, the first of them 0 teeth ahead");
+  // The four teeth that share one mesh force are not those of the next planet.
+  constexpr double apart = 4;
+  for (std::size_t n = 0; n < teeth_ahead.size(); ++n) {
+    const double next = n + 1 < teeth_ahead.size() ? teeth_ahead[n + 1] : teeth;
+    if (!std::isfinite(next) || next - teeth_ahead[n] < apart)
+      throw InputError(
+          fmt::format("planet {} stands {} ring teeth ahead of planet 1, the next one {}: at least {} have "
+                      "to lie between them",
+                      n + 1, teeth_ahead[n], next, apart));
+  }
+}
+
+void check(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead, double load,
+           const RingCouplingSettings& settings) {
   if (!problem.pair.internal()) throw InputError("the coupling of ring meshes needs a planet-ring pair");
   const int last = needs_solid(problem) ? last_solid_level : last_plane_level;
   if (settings.level < 1 || settings.level > last)
     throw InputError(fmt::format("level {} is not available: 1 to {} are", settings.level, last));
-  // The four teeth that share one mesh force are not those of the next planet.
-  const int most = problem.pair.wheel().teeth() / 4;
-  if (planets < 1 || planets > most) throw InputError(fmt::format("{} planets: 1 to {} are possible", planets, most));
+  check_places(teeth_ahead, problem.pair.wheel().teeth());
   if (!std::isfinite(load) || !(load > 0))
     throw InputError(fmt::format("a mesh load of {} N: it has to be positive", load));
   if (settings.per_cycle < 1) throw InputError("at least one ring position per mesh cycle is needed");
@@ -176,14 +191,14 @@ Eigen::VectorXd mesh_force_on_teeth(double position, int teeth) {
   return result;
 }
 
-SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, int planets, double load,
-                                       const RingCouplingSettings& settings) {
-  check(problem, planets, load, settings);
+SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead,
+                                       double load, const RingCouplingSettings& settings) {
+  check(problem, teeth_ahead, load, settings);
   RingCouplingSettings before = settings;
   before.motions.section = std::max(1, settings.motions.section - 1);
   before.motions.axial = std::max(0, settings.motions.axial - 1);
-  const Level coarser = solve_level(problem, planets, load, before, settings.level - 1);
-  Level level = solve_level(problem, planets, load, settings, settings.level);
+  const Level coarser = solve_level(problem, teeth_ahead, load, before, settings.level - 1);
+  Level level = solve_level(problem, teeth_ahead, load, settings, settings.level);
 
   SolvedRingCoupling result;
   // As for the stiffness: the error falls with at least the first power of the cell size, so that the difference of two
@@ -201,7 +216,7 @@ SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, int pla
   result.reused_teeth = (coarser.reused ? 1 : 0) + (level.reused ? 1 : 0);
   result.condensed_teeth = 2 - result.reused_teeth;
   auto& coupling = result.coupling;
-  coupling.planets = planets;
+  coupling.planets = static_cast<int>(teeth_ahead.size());
   coupling.ring_teeth = problem.pair.wheel().teeth();
   coupling.load = load;
   coupling.per_cycle = settings.per_cycle;

@@ -35,12 +35,13 @@ struct SolvedRingCoupling {
   int condensed_teeth = 0, reused_teeth = 0;
 };
 
-/// Compliance between the ring meshes of `planets` equally spaced planets, and the modes of the ring.
+/// Compliance between the ring meshes of the planets, and the modes of the ring. `teeth_ahead` are the ring teeth by
+/// which each planet stands ahead of the first (PlanetarySet::ring_teeth_ahead): 0 and rising.
 ///
 /// Of the problem pair, material, face width, outside radius and structure count. Rings of constant section held over
 /// their full width (outside, pins, splines) are solved in the plane (plane strain), others as solids.
 ///
-/// Planet n stands n z_r / planets teeth ahead of planet 0. A mesh force between two whole positions lies on the four
+/// A mesh force between two whole positions lies on the four
 /// teeth around it with the weights of cubic interpolation: the far field of teeth that share it.
 ///
 /// Supports that can lift off make the ring non-linear. Off the diagonal stands the tangent compliance while all
@@ -53,7 +54,8 @@ struct SolvedRingCoupling {
 ///
 /// Throws InputError when the problem is not a ring mesh or an option is out of range, SolverError when the supports do
 /// not settle.
-[[nodiscard]] SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, int planets, double load,
+[[nodiscard]] SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem,
+                                                     const std::vector<double>& teeth_ahead, double load,
                                                      const RingCouplingSettings& settings);
 
 /// How a unit mesh force of a planet at ring position coordinate `position` (see PlanetarySet::ring_tooth_offset) lies

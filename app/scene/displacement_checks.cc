@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "app/plan/mesh_model.h"
 #include "app/two_k_v/two_k_v_model.h"
@@ -106,16 +108,24 @@ void check_turn(const char* key, double per_radius2, double force, double radius
       to_text(per_radius2, 6), most, to_text(force / (most * radius), 3)));
 }
 
-/// Several planets hold sun, ring and carrier in the middle; one does not.
+/// What the bearing of a central body has to carry at least, in mean mesh forces: planets on one side of it cannot hold
+/// it in the middle. Forces that add up to one per planet, in directions fixed to the planets, are smallest together
+/// when the outermost two share them.
+double borne_by_bearing(const geometry::PlanetarySet& set) {
+  double widest_gap = 2 * std::numbers::pi - set.planet_angle(set.planets() - 1);
+  for (int n = 1; n < set.planets(); ++n)
+    widest_gap = std::max(widest_gap, set.planet_angle(n) - set.planet_angle(n - 1));
+  return set.planets() * std::max(0.0, -std::cos(widest_gap / 2));
+}
+
 void check_bearings(const Scene& scene, const GearGeometry& geometry) {
   const auto& s = scene.supports;
   const double mesh = geometry.operating_point.mean_mesh_force;
   check_bearing(scene, "supports.planet_N_per_m", s.planet, 2 * mesh);
-  if (scene.stage.planets == 1) {
-    check_bearing(scene, "supports.sun_N_per_m", s.sun, mesh);
-    check_bearing(scene, "supports.ring_N_per_m", s.ring, mesh);
-    check_bearing(scene, "supports.carrier_N_per_m", s.carrier, 2 * mesh);
-  }
+  const double across = mesh * borne_by_bearing(geometry.rings.front().set);
+  check_bearing(scene, "supports.sun_N_per_m", s.sun, across);
+  check_bearing(scene, "supports.ring_N_per_m", s.ring, across);
+  check_bearing(scene, "supports.carrier_N_per_m", s.carrier, 2 * across);
   const double all = scene.stage.planets * mesh;
   if (s.ring_torsional > 0)
     check_turn("supports.ring_torsional_N_per_m", s.ring_torsional, all,

@@ -36,6 +36,7 @@ inline constexpr double rigid = std::numeric_limits<double>::infinity();
 struct StageInput {
   StageKind kind = StageKind::planetary;
   int planets = 0;
+  std::vector<double> planet_angles;  ///< rad; empty: equally spaced
   double module = 0, pressure_angle = 0, helix_angle = 0, face_width = 0, centre_distance = 0;
   double power = 0;
   std::optional<double> sun_speed, carrier_speed;  ///< rad/s; exactly one is given

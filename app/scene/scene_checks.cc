@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -27,6 +28,7 @@ class Checker : KeyChecks {
 
   void run() {
     speed();
+    planet_angles();
     errors();
     ring_names();
     // Rings of the same name cannot be told apart by the rules between keys, so only the first one is checked.
@@ -50,6 +52,21 @@ class Checker : KeyChecks {
     } else if (!sun && !carrier && usable("stage.kind")) {
       problem("stage.sun_speed_rpm", "",
               "give the speed of the sun (sun_speed_rpm) or of the carrier (carrier_speed_rpm)");
+    }
+  }
+
+  void planet_angles() {
+    const std::string key = "stage.planet_angles_deg";
+    if (!given(key) || !usable(key) || !usable("stage.planets")) return;
+    const auto& angles = scene_.stage.planet_angles;
+    if (angles.size() != static_cast<std::size_t>(scene_.stage.planets)) {
+      problem(key, "",
+              fmt::format("needs one angle per planet: {} angles for {} planets", angles.size(), scene_.stage.planets));
+    } else if (angles.front() != 0) {
+      problem(key, "", "the first planet stands at 0, the others are counted from it");
+    } else if (std::adjacent_find(angles.begin(), angles.end(), std::greater_equal<>()) != angles.end() ||
+               angles.back() >= 2 * std::numbers::pi) {
+      problem(key, "", "angles have to rise, and to stay below 360");
     }
   }
 

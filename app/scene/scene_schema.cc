@@ -151,10 +151,16 @@ std::vector<Table> declare_tables() {
                {"two_k_v", StageKind::two_k_v}},
               "Kind of stage.")
       .required();
-  stage.key("planets", &StageInput::planets, "Number of equally spaced planets.")
-      .from(1, 50)
-      .required()
-      .only(with_planets);
+  stage.key("planets", &StageInput::planets, "Number of planets.").from(1, 50).required().only(with_planets);
+  stage
+      .key("planet_angles_deg", &StageInput::planet_angles,
+           "Places of the planets, one per planet, counter-clockwise from the first, which stands at 0; two decimals "
+           "are "
+           "enough. A planet fits between the teeth of sun and ring every 360° / (teeth of the sun + teeth of the "
+           "ring).")
+      .from(0, 360)
+      .only(planetary)
+      .absent("equally spaced");
   stage.key("module_mm", &StageInput::module, "Module.").required().from(0.05, 100);
   stage.key("pressure_angle_deg", &StageInput::pressure_angle, "Pressure angle of the basic rack.")
       .required()

@@ -65,7 +65,10 @@ GearGeometry make_geometry(const Scene& scene) {
     const std::string name = "ring '" + input.name + "'";
     const auto ring = named(name, [&] { return make_gear(scene, input, GearKind::internal); });
     const auto set = named(name, [&] {
-      return geometry::PlanetarySet(sun, planet, ring, scene.stage.centre_distance, scene.stage.planets);
+      const auto& stage = scene.stage;
+      if (stage.planet_angles.empty())
+        return geometry::PlanetarySet(sun, planet, ring, stage.centre_distance, stage.planets);
+      return geometry::PlanetarySet(sun, planet, ring, stage.centre_distance, stage.planet_angles);
     });
     const double outside = outside_radius(scene, input);
     if (outside <= ring.root_radius()) {

@@ -32,10 +32,20 @@ double path_compliance(const Scene& scene, const GearGeometry& geometry, double 
   return mesh_compliance + arm / scene.supports.planet;
 }
 
+/// Ring teeth by which each planet stands ahead of the first.
+std::vector<double> places_on_ring(const GearGeometry& geometry, const RingInput& ring) {
+  const auto found = std::find_if(geometry.rings.begin(), geometry.rings.end(),
+                                  [&](const auto& candidate) { return candidate.name == ring.name; });
+  std::vector<double> places;
+  for (int n = 0; n < found->set.planets(); ++n) places.push_back(found->set.ring_teeth_ahead(n));
+  return places;
+}
+
 std::string coupling_id(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
                         const RingInput& ring) {
   ContentId id;
-  id.add("mesh", model.id()).add("planets", scene.stage.planets).add("level", coupling_level);
+  id.add("mesh", model.id()).add("level", coupling_level);
+  for (const double teeth : places_on_ring(geometry, ring)) id.add("planet", teeth);
   id.add("load", geometry.operating_point.mean_mesh_force).add("highest", highest_frequency(geometry, ring));
   id.add("density", scene.material.density);
   return id.id();
@@ -163,8 +173,8 @@ SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, 
   fem::SolvedRingCoupling solved;
   {
     const auto timer = timers.measure("coupling");
-    solved = fem::solve_ring_coupling(*model.problem, scene.stage.planets, geometry.operating_point.mean_mesh_force,
-                                      settings);
+    solved = fem::solve_ring_coupling(*model.problem, places_on_ring(geometry, ring),
+                                      geometry.operating_point.mean_mesh_force, settings);
   }
   SolvedCoupling result{.coupling = std::move(solved.coupling),
                         .mesh_compliance = mesh_compliance,

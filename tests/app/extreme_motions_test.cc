@@ -273,8 +273,40 @@ BOOST_AUTO_TEST_CASE(planets) {
   matrix.run("1", many_planets(1), "sun_N_per_m");
   matrix.run("1, its sun held", changed(many_planets(1), {{"supports.sun_N_per_m", "1e9"}}));
   for (const int n : {2, 4, 5, 8, 10, 11, 20}) matrix.run(fmt::format("{}", n), many_planets(n));
-  matrix.run("unequal places", many_planets(3), "planets");
+  matrix.run("three do not fit in equal places", many_planets(3), "assembly condition");
   matrix.run("too many", many_planets(40), "collide");
+}
+
+// With 200 + 240 teeth planets fit every 9/11 degrees.
+BOOST_AUTO_TEST_CASE(unequal_places) {
+  Matrix matrix("unequal places");
+  const auto placed = [](const std::vector<double>& degrees, const Changes& more = {}) {
+    const auto places = fmt::format("[{}]", fmt::join(degrees, ", "));
+    return changed(many_planets(static_cast<int>(degrees.size())), both({{"stage.planet_angles_deg", places}}, more));
+  };
+  const auto quasi_static = [](const json& summary) {
+    return summary.is_null()
+               ? 0.0
+               : summary["rings"].front()["load_sharing"]["sun_planet"]["quasi_static"]["value"].get<double>();
+  };
+  // Equal places, told one by one, change nothing.
+  matrix.same("four", many_planets(4), placed({0, 90, 180, 270}), 1e-12);
+  // A sun without bearing shares by equilibrium alone: by the sines of the angles between the two others.
+  const auto sine = [](double degrees) { return std::sin(degrees * std::numbers::pi / 180); };
+  const double sum = sine(135) + sine(135) + sine(90);
+  const auto three = matrix.run("three, no bearing", placed({0, 90, 225}, {{"supports.sun_N_per_m", "0"}}));
+  BOOST_TEST(quasi_static(three) == 3 * std::max(sine(135), sine(90)) / sum, boost::test_tools::tolerance(1e-9));
+  matrix.run("three", placed({0, 90, 225}));
+  matrix.run("a pair beside one", placed({0, 16.36, 180}));
+  matrix.run("five", placed({0, 45, 117, 180, 288}));
+  matrix.run("nineteen and a gap",
+             placed({0, 18, 36, 54, 72, 90, 108, 126, 144, 162, 180, 198, 216, 234, 252, 270, 288, 306, 324}));
+  matrix.run("on one side", placed({0, 18, 36}), "supports.sun_N_per_m");
+  matrix.run("on one side, all held", placed({0, 18, 36}, {{"supports.sun_N_per_m", "1e10"}}));
+  matrix.run("two, not opposite", placed({0, 90}), "supports.sun_N_per_m");
+  matrix.run("between two places", placed({0, 90.4, 225}), "planet 2 at 90.4 degrees");
+  matrix.run("falling", placed({0, 225, 90}), "stage.planet_angles_deg");
+  matrix.run("too near", placed({0, 9, 225}), "collide");
 }
 
 BOOST_AUTO_TEST_CASE(torque_errors_and_backlash) {

@@ -139,6 +139,35 @@ BOOST_AUTO_TEST_CASE(unequal_spacing_mixes_the_kinds) {
   BOOST_TEST(found.modes.front().frequency == 0.0);  // turning stays free
 }
 
+// Lin and Parker, "Structured vibration characteristics of planetary gears with unequally spaced planets", J. Sound
+// Vib. 233 (2000): planet modes take no notice of where the planets stand; with planets in opposite pairs rotational
+// modes do not either, and modes that only translate remain, no longer in pairs.
+BOOST_AUTO_TEST_CASE(what_unequal_spacing_leaves_alone) {
+  constexpr double rounding = 1e-9;  // as above
+  const auto same = [&](const std::vector<double>& a, const std::vector<double>& b) {
+    BOOST_TEST_REQUIRE(a.size() == b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) BOOST_TEST(std::abs(a[i] - b[i]) <= rounding * b[i]);
+  };
+  auto five = stages::lin_parker(5);
+  const auto equal_five = annulus::dynamics::modes(five);
+  five.planet_angles = {0, 1.1, 2.7, 3.9, 5.1};
+  const auto unequal_five = annulus::dynamics::modes(five);
+  BOOST_TEST(frequencies(unequal_five, ModeKind::planet).size() == 6U);
+  same(frequencies(unequal_five, ModeKind::planet), frequencies(equal_five, ModeKind::planet));
+  BOOST_TEST(frequencies(unequal_five, ModeKind::translational).empty());
+
+  auto four = stages::lin_parker(4);
+  const auto equal_four = annulus::dynamics::modes(four);
+  four.planet_angles = {0, 1.2, std::numbers::pi, std::numbers::pi + 1.2};
+  const auto opposite = annulus::dynamics::modes(four);
+  same(frequencies(opposite, ModeKind::planet), frequencies(equal_four, ModeKind::planet));
+  same(frequencies(opposite, ModeKind::rotational), frequencies(equal_four, ModeKind::rotational));
+  const auto translational = frequencies(opposite, ModeKind::translational);
+  BOOST_TEST(translational.size() == 12U);
+  for (std::size_t i = 0; i < translational.size(); i += 2)
+    BOOST_TEST(translational[i + 1] - translational[i] > 1e-3 * translational[i]);
+}
+
 // One and two planets have less symmetry: two planets leave modes that are alike (6) and unlike (9) under half a turn,
 // one planet leaves none.
 BOOST_AUTO_TEST_CASE(one_and_two_planets) {

@@ -58,6 +58,22 @@ BOOST_AUTO_TEST_CASE(a_floating_sun_shares_equally_among_three_planets) {
   BOOST_TEST(load_sharing_instantaneous(found.ring_force) - 1 <= 1e-10);
 }
 
+// Equilibrium of the sun alone: three forces along lines of action turned with their planets, sum F_n exp(i phi_n) = 0,
+// hence F_1 : F_2 : F_3 = sin(phi_3 - phi_2) : sin(phi_1 - phi_3) : sin(phi_2 - phi_1), whatever errors and stiffness.
+BOOST_AUTO_TEST_CASE(a_floating_sun_shares_among_three_unequally_spaced_planets_by_their_angles) {
+  auto stage = all_centres_held();
+  const std::vector<double> phi = {0, 100 * annulus::units::deg, 220 * annulus::units::deg};
+  stage.planet_angles = phi;
+  stage.planet_errors.resize(3);
+  stage.sun_phase_lag = stage.ring_phase_lag = stage.ring_tooth_offset = {};
+  stage.sun.support = 0;
+  const auto found = quasi_static(stage, 2);
+  const Eigen::Vector3d share(std::sin(phi[2] - phi[1]), std::sin(phi[0] - phi[2]), std::sin(phi[1] - phi[0]));
+  const double all = stage.sun_torque / stage.sun.radius;
+  for (Eigen::Index i = 0; i < found.sun_force.cols(); ++i)
+    BOOST_TEST((found.sun_force.col(i) - all / share.sum() * share).norm() <= 1e-10 * all);
+}
+
 BOOST_AUTO_TEST_CASE(forces_balance_in_every_position) {
   const auto stage = stages::ring_paper();
   const auto found = quasi_static(stage, 3);

@@ -284,14 +284,14 @@ BOOST_AUTO_TEST_CASE(the_coupling_of_a_ring_on_other_pins_condenses_nothing) {
   const Folder folder("coupling");
   annulus::fem::RingCouplingSettings settings;
   settings.store = folder.store();
-  const auto first = solve_ring_coupling(ring_mesh(paper_pins(81, 0), 2), 5, nominal_load, settings);
+  const auto first = solve_ring_coupling(ring_mesh(paper_pins(81, 0), 2), equal_places(5), nominal_load, settings);
   BOOST_TEST(first.condensed_teeth == 2);
   const auto problem = ring_mesh(paper_pins(54, 0.01), 2);
-  const auto reused = solve_ring_coupling(problem, 5, nominal_load, settings);
+  const auto reused = solve_ring_coupling(problem, equal_places(5), nominal_load, settings);
   BOOST_TEST(reused.condensed_teeth == 0);
   BOOST_TEST(reused.reused_teeth == 2);
   settings.store = nullptr;
-  const auto without = solve_ring_coupling(problem, 5, nominal_load, settings);
+  const auto without = solve_ring_coupling(problem, equal_places(5), nominal_load, settings);
   BOOST_TEST_REQUIRE(reused.coupling.compliance.size() == without.coupling.compliance.size());
   for (std::size_t i = 0; i < without.coupling.compliance.size(); ++i)
     BOOST_TEST((reused.coupling.compliance[i] == without.coupling.compliance[i]));

@@ -29,13 +29,17 @@ using annulus::fem::SolvedRingCoupling;
 // Two exact ways that differ by round-off: 2e-16 times a condition number of some 1e6.
 constexpr double round_off = 1e-9;
 
-SolvedRingCoupling solve(const RingStructure& structure, int planets, int per_cycle = 1, int level = 1) {
+SolvedRingCoupling solve(const RingStructure& structure, const std::vector<double>& places, int per_cycle = 1,
+                         int level = 1) {
   RingCouplingSettings settings;
   settings.level = level;
   settings.per_cycle = per_cycle;
   settings.modes.count = 1;
   settings.motions = {1, 0};  // modes are not what is tested
-  return solve_ring_coupling(ring_mesh(structure, 2), planets, nominal_load, settings);
+  return solve_ring_coupling(ring_mesh(structure, 2), places, nominal_load, settings);
+}
+SolvedRingCoupling solve(const RingStructure& structure, int planets, int per_cycle = 1, int level = 1) {
+  return solve(structure, equal_places(planets), per_cycle, level);
 }
 
 /// The paper's ring on pins, made of the parts of the program one by one.
@@ -233,16 +237,17 @@ BOOST_AUTO_TEST_CASE(on_soft_bolts_the_ring_moves_like_a_rigid_body) {
 
 BOOST_AUTO_TEST_CASE(the_diagonal_makes_equal_loads_exact) {
   auto pins = paper_pins(9, 0.02);
-  for (const double clearance : {0.0, 20e-6}) {
+  const std::vector<double> equal = equal_places(5), unequal = {0, 20.25, 61, 90.5, 140.75};
+  for (const auto& [places, clearance] : {std::pair(equal, 0.0), {equal, 20e-6}, {unequal, 0.0}, {unequal, 20e-6}}) {
     pins.clearance = clearance;
-    const auto solved = solve(pins, 5);
+    const auto solved = solve(pins, places);
     BOOST_TEST(solved.coupling.compliance.size() == 18U);
     // Anew from the states, at some positions.
     const PinnedRing ring(ring_mesh(pins, 2), pins);
     const auto& supported = ring.supported;
     for (const int position : {0, 7, 16}) {
       Eigen::MatrixXd patterns(162, 5);
-      for (int n = 0; n < 5; ++n) patterns.col(n) = annulus::fem::mesh_force_on_teeth(position + 32.4 * n, 162);
+      for (int n = 0; n < 5; ++n) patterns.col(n) = annulus::fem::mesh_force_on_teeth(position + places[n], 162);
       const Eigen::VectorXd all =
           supported.solve(patterns, Eigen::VectorXd::Constant(5, nominal_load), {}).displacement;
       const auto& coupling = solved.coupling.compliance[position];
@@ -260,6 +265,26 @@ BOOST_AUTO_TEST_CASE(the_diagonal_makes_equal_loads_exact) {
       for (const int n : {0, 1, 3, 4})
         // Unless the change lifts a pin; then the tangent is that of either side.
         BOOST_TEST(std::abs(moved[n] - coupling(n, 2) * more) < 1e-2 * std::abs(coupling.col(2).maxCoeff()) * more);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(unequally_spaced_planets_are_some_of_many_equally_spaced_ones) {
+  // Where nothing lifts off, planets that are not there change nothing for the others.
+  const std::vector<int> kept = {0, 1, 4, 7};
+  const auto many = equal_places(9);
+  std::vector<double> places;
+  for (const int n : kept) places.push_back(many[static_cast<std::size_t>(n)]);
+  auto bolts = paper_pins(27, 0.02);
+  bolts.unilateral = false;
+  for (const RingStructure& structure : {RingStructure(OutsideHeld{}), RingStructure(bolts)}) {
+    const auto all = solve(structure, 9), some = solve(structure, places);
+    BOOST_TEST_REQUIRE(all.coupling.compliance.size() == some.coupling.compliance.size());
+    for (std::size_t i = 0; i < all.coupling.compliance.size(); ++i) {
+      const auto &a = all.coupling.compliance[i], &b = some.coupling.compliance[i];
+      for (Eigen::Index n = 0; n < 4; ++n)
+        for (Eigen::Index m = 0; m < 4; ++m)
+          BOOST_TEST(std::abs(b(n, m) - a(kept[n], kept[m])) < round_off * largest(a));
     }
   }
 }
@@ -371,7 +396,8 @@ BOOST_AUTO_TEST_CASE(a_linear_ring_couples_alike_at_every_position) {
   settings.per_cycle = 4;
   settings.modes.count = 1;
   settings.motions = {1, 0};
-  const auto solved = solve_ring_coupling(ring_mesh(EndFaceHeld{18e-3, 10.6e-3, {}}, 2), 10, nominal_load, settings);
+  const auto solved =
+      solve_ring_coupling(ring_mesh(EndFaceHeld{18e-3, 10.6e-3, {}}, 2), equal_places(10), nominal_load, settings);
   BOOST_TEST_REQUIRE(solved.coupling.compliance.size() == 4U);
   const auto& first = solved.coupling.compliance.front();
   double worst = 0;
@@ -405,7 +431,7 @@ SolvedRingCoupling helical_sleeve(double helix_angle) {
   RingCouplingSettings settings;
   settings.modes.count = 6;
   settings.motions = {1, 1};
-  return solve_ring_coupling(problem, 5, nominal_load, settings);
+  return solve_ring_coupling(problem, equal_places(5), nominal_load, settings);
 }
 
 BOOST_AUTO_TEST_CASE(helical_rings_of_either_hand) {
@@ -427,7 +453,7 @@ BOOST_AUTO_TEST_CASE(stiffer_structures_move_less_and_ring_higher) {
     RingCouplingSettings settings;
     settings.modes.count = 1;
     settings.motions = {1, 1};
-    return solve_ring_coupling(ring_mesh(structure, 2), 5, nominal_load, settings);
+    return solve_ring_coupling(ring_mesh(structure, 2), equal_places(5), nominal_load, settings);
   };
   const auto sleeve = modes_of(EndFaceHeld{18e-3, 10.6e-3, {}});
   const auto hoop = modes_of(EndFaceHeld{18e-3, 10.6e-3, annulus::fem::Hoop{20e-3, 8e-3}});
@@ -473,9 +499,9 @@ BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_nothing) {
   RingCouplingSettings settings;
   settings.modes.count = 4;
   settings.motions = {1, 1};
-  const auto one = solve_ring_coupling(ring_mesh(OutsideHeld{}, 2), 3, nominal_load, settings);
+  const auto one = solve_ring_coupling(ring_mesh(OutsideHeld{}, 2), equal_places(3), nominal_load, settings);
   settings.threads = 3;
-  const auto many = solve_ring_coupling(ring_mesh(OutsideHeld{}, 2), 3, nominal_load, settings);
+  const auto many = solve_ring_coupling(ring_mesh(OutsideHeld{}, 2), equal_places(3), nominal_load, settings);
   BOOST_TEST((one.coupling.compliance[0].array() == many.coupling.compliance[0].array()).all());
   for (std::size_t k = 0; k < one.coupling.modes.size(); ++k)
     BOOST_TEST(one.coupling.modes[k].closing == many.coupling.modes[k].closing);
@@ -483,16 +509,20 @@ BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_nothing) {
 
 BOOST_AUTO_TEST_CASE(what_is_no_ring_mesh_is_refused) {
   RingCouplingSettings settings;
-  BOOST_CHECK_THROW(solve_ring_coupling(sun_mesh(2), 3, nominal_load, settings), InputError);
+  BOOST_CHECK_THROW(solve_ring_coupling(sun_mesh(2), equal_places(3), nominal_load, settings), InputError);
   const auto problem = ring_mesh(OutsideHeld{}, 2);
-  BOOST_CHECK_THROW(solve_ring_coupling(problem, 0, nominal_load, settings), InputError);
-  BOOST_CHECK_THROW(solve_ring_coupling(problem, 41, nominal_load, settings), InputError);
-  BOOST_CHECK_THROW(solve_ring_coupling(problem, 3, -1, settings), InputError);
-  BOOST_CHECK_THROW(solve_ring_coupling(problem, 3, std::nan(""), settings), InputError);
+  BOOST_CHECK_THROW(solve_ring_coupling(problem, equal_places(0), nominal_load, settings), InputError);
+  BOOST_CHECK_THROW(solve_ring_coupling(problem, equal_places(41), nominal_load, settings), InputError);
+  using Places = std::vector<double>;
+  for (const auto& places :
+       {Places{0, 3.9, 80}, Places{0, 80, 160}, Places{1, 80}, Places{0, 80, 20}, Places{0, std::nan("")}})
+    BOOST_CHECK_THROW(solve_ring_coupling(problem, places, nominal_load, settings), InputError);
+  BOOST_CHECK_THROW(solve_ring_coupling(problem, equal_places(3), -1, settings), InputError);
+  BOOST_CHECK_THROW(solve_ring_coupling(problem, equal_places(3), std::nan(""), settings), InputError);
   for (auto* value : {&settings.level, &settings.per_cycle, &settings.motions.section, &settings.modes.count}) {
     const int good = *value;
     *value = 0;
-    BOOST_CHECK_THROW(solve_ring_coupling(problem, 3, nominal_load, settings), InputError);
+    BOOST_CHECK_THROW(solve_ring_coupling(problem, equal_places(3), nominal_load, settings), InputError);
     *value = good;
   }
 }

@@ -287,10 +287,10 @@ BOOST_AUTO_TEST_CASE(the_rings_of_the_paper) {
     const bool pinned = std::holds_alternative<annulus::fem::PinHeld>(structure);
     settings.level = 1;
     settings.motions = {2, 0};
-    const auto coarse = solve_ring_coupling(problem, 5, nominal_load, settings);
+    const auto coarse = solve_ring_coupling(problem, equal_places(5), nominal_load, settings);
     settings.level = 2;
     settings.motions = {pinned ? 2 : 4, 0};
-    const auto fine = solve_ring_coupling(problem, 5, nominal_load, settings);
+    const auto fine = solve_ring_coupling(problem, equal_places(5), nominal_load, settings);
     double worst = 0;
     for (std::size_t k = 0; k < 12; ++k)
       worst = std::max(worst, std::abs(coarse.coupling.modes[k].frequency / fine.coupling.modes[k].frequency - 1));

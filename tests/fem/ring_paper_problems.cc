@@ -10,6 +10,12 @@
 
 namespace annulus::tests {
 
+std::vector<double> equal_places(int planets) {
+  std::vector<double> places;
+  for (int n = 0; n < planets; ++n) places.push_back(162.0 * n / planets);
+  return places;
+}
+
 fem::LoadedMeshProblem ring_mesh(const fem::RingStructure& structure, int phases, std::vector<double> loads) {
   fem::LoadedMeshProblem problem{ring_paper_pair(true), {}, 88e-3, 86e-3, ring_outside, structure};
   problem.loads = std::move(loads);

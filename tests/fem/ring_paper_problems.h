@@ -12,6 +12,9 @@ inline constexpr double nominal_load = 59460;     ///< N, normal force of one me
 inline constexpr double ring_outside = 331.8e-3;  ///< m, outside radius of the ring
 inline constexpr double pin_diameter = 15.5e-3;   ///< m
 
+/// Ring teeth by which equally spaced planets stand ahead of the first, in the paper's ring.
+std::vector<double> equal_places(int planets);
+
 /// The gear meshes of the ring-type paper; `phases` positions per mesh cycle.
 fem::LoadedMeshProblem ring_mesh(const fem::RingStructure& structure, int phases,
                                  std::vector<double> loads = {nominal_load});

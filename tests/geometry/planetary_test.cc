@@ -17,6 +17,14 @@ struct SetCase {
   Gear sun, planet, ring;
   double centre_distance;
   int planets;
+  std::vector<int> steps{};  ///< places of unequally spaced planets, in assembly angles
+
+  [[nodiscard]] PlanetarySet set() const {
+    if (steps.empty()) return {sun, planet, ring, centre_distance, planets};
+    std::vector<double> angles;
+    for (const int step : steps) angles.push_back(2 * pi * step / (sun.teeth() + ring.teeth()));
+    return {sun, planet, ring, centre_distance, angles};
+  }
 };
 
 /// A standard helical set; the ring of the wanted hand relative to the planets'.
@@ -28,7 +36,8 @@ SetCase helical_set(double ring_hand) {
           Gear(helical(plain_gear(GearKind::external, 25), beta)), Gear(ring), 55 * units::mm / std::cos(beta), 5};
 }
 
-/// Sets with odd and even planets, equal and different working angles, in phase and sequentially phased.
+/// Sets with odd and even planets, equal and different working angles, in phase and sequentially phased, with equal and
+/// unequal places of the planets.
 std::vector<SetCase> phasing_cases() {
   const auto external = [](int z, double x) { return Gear(plain_gear(GearKind::external, z, x)); };
   // The rings have a short addendum: with a full one their tips would reach below the planets' form circles.
@@ -41,6 +50,8 @@ std::vector<SetCase> phasing_cases() {
           {external(30, 0), external(25, 0), internal(80, 0), 55 * units::mm, 5},
           {external(30, 0), external(24, 0), internal(78, 0), 54 * units::mm, 4},
           {external(28, 0.2), external(23, 0.3), internal(74, 0.85), 52 * units::mm, 3},
+          {external(28, 0.2), external(23, 0.3), internal(74, 0.85), 52 * units::mm, 4, {0, 23, 53, 77}},
+          {external(30, 0), external(25, 0), internal(80, 0), 55 * units::mm, 3, {0, 37, 71}},
           helical_set(1)};
 }
 
@@ -61,20 +72,45 @@ BOOST_AUTO_TEST_CASE(impossible_sets_are_refused_with_the_reason) {
   check_refused([] { (void)PlanetarySet(paper_ring(), paper_planet(), paper_ring(), paper_centre_distance, 5); },
                 "external sun");
   BOOST_CHECK_NO_THROW(PlanetarySet(paper_sun(), paper_planet(), paper_ring(), paper_centre_distance, 1));
-  const auto build = [](const SetCase& c) { PlanetarySet(c.sun, c.planet, c.ring, c.centre_distance, c.planets); };
+  const auto build = [](const SetCase& c) { (void)c.set(); };
   BOOST_CHECK_NO_THROW(build(helical_set(1)));
   check_refused([&] { build(helical_set(-1)); }, "hand");
 }
 
+BOOST_AUTO_TEST_CASE(planets_stand_where_they_are_put_if_they_fit) {
+  const auto at = [](const std::vector<double>& degrees) {
+    std::vector<double> angles;
+    for (const double angle : degrees) angles.push_back(angle * units::deg);
+    return PlanetarySet(paper_sun(), paper_planet(), paper_ring(), paper_centre_distance, angles);
+  };
+  // 48 + 162 teeth: a planet fits every 12/7 degrees.
+  const auto set = at({0, 72, 5 * 12 * 6 / 7.0 + 96, 216});
+  BOOST_TEST(set.planets() == 4);
+  BOOST_TEST(set.assembly_angle() == 12.0 / 7 * units::deg, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(set.planet_angle(1) == 72 * units::deg, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(set.ring_teeth_ahead(1) == 162.0 / 5, boost::test_tools::tolerance(1e-15));
+  // Two decimals are enough; the planet then stands exactly where it fits.
+  BOOST_TEST(at({0, 70.29, 216}).planet_angle(1) == 41 * 12.0 / 7 * units::deg, boost::test_tools::tolerance(1e-15));
+  check_refused([&] { (void)at({0, 71, 216}); }, "planet 2 at 71 degrees does not fit");
+  check_refused([&] { (void)at({0, 71, 216}); }, "70.285714 and 72.000000 degrees");
+  check_refused([&] { (void)at({12.0 / 7, 72}); }, "first one stands at the angle 0");
+  check_refused([&] { (void)at({}); }, "at least one planet");
+  check_refused([&] { (void)at({0, 216, 72}); }, "rise");
+  check_refused([&] { (void)at({0, 72, 360}); }, "rise");
+  check_refused([&] { (void)at({0, std::nan("")}); }, "not a number");
+  check_refused([&] { (void)at({0, 48, 216}); }, "collide");
+  check_refused([&] { (void)at({0, 72, 312}); }, "collide");
+}
+
 BOOST_AUTO_TEST_CASE(ring_tooth_offsets_make_positions_advance_evenly) {
   for (const auto& c : phasing_cases()) {
-    const PlanetarySet set(c.sun, c.planet, c.ring, c.centre_distance, c.planets);
+    const PlanetarySet set = c.set();
     BOOST_TEST(set.ring_tooth_offset(0) == 0);
     for (int n = 0; n < c.planets; ++n) {
       const double offset = set.ring_tooth_offset(n);
       BOOST_TEST(offset == std::round(offset));
       const double coordinate = offset - set.ring_phase_lag(n);
-      const double further = static_cast<double>(c.ring.teeth()) * n / c.planets;
+      const double further = c.ring.teeth() * set.planet_angle(n) / (2 * pi);
       BOOST_TEST(std::abs(coordinate + set.ring_phase_lag(0) - further) < 1e-10);  // rounding of some hundred cycles
     }
   }
@@ -136,7 +172,7 @@ struct Placed {
 // point.
 BOOST_AUTO_TEST_CASE(lags_agree_with_flank_curves_placed_in_the_carrier_frame) {
   for (const auto& c : phasing_cases()) {
-    const PlanetarySet set(c.sun, c.planet, c.ring, c.centre_distance, c.planets);
+    const PlanetarySet set = c.set();
     const double a = c.centre_distance;
     const double sun_pitch = a * c.sun.teeth() / (c.sun.teeth() + c.planet.teeth());
     const double ring_pitch = a * c.ring.teeth() / (c.ring.teeth() - c.planet.teeth());
@@ -181,7 +217,7 @@ BOOST_AUTO_TEST_CASE(lags_agree_with_flank_curves_placed_in_the_carrier_frame) {
 // Parker and Lin 2004, planets turning clockwise: gamma_sn = z_s phi_n / 2 pi, gamma_rn = -z_r phi_n / 2 pi.
 BOOST_AUTO_TEST_CASE(lags_agree_with_parker_and_lin) {
   for (const auto& c : phasing_cases()) {
-    const PlanetarySet set(c.sun, c.planet, c.ring, c.centre_distance, c.planets);
+    const PlanetarySet set = c.set();
     for (int n = 0; n < c.planets; ++n) {
       const double turn = set.planet_angle(n) / (2 * pi);
       BOOST_TEST(cycle_distance(set.sun_phase_lag(n), c.sun.teeth() * turn) < 1e-12);
