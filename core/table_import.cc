@@ -52,7 +52,8 @@ std::vector<double> resampled(const std::vector<Sample>& samples, double Sample:
   const std::size_t turns = (pad + n - 1) / n;  // whole periods that `pad` samples reach back into
   for (std::size_t i = 0; i < n + 2 * pad + 1; ++i) {
     const std::size_t k = i + n * turns - pad;
-    x.push_back(samples[k % n].cycles + (static_cast<double>(k / n) - static_cast<double>(turns)) * period);
+    const std::size_t turn = k / n;
+    x.push_back(samples[k % n].cycles + (static_cast<double>(turn) - static_cast<double>(turns)) * period);
     y.push_back(samples[k % n].*value);
   }
   const UntrappedFloatingPoint untrapped;  // on a plateau makima divides zero by zero and mends it
@@ -63,6 +64,7 @@ std::vector<double> resampled(const std::vector<Sample>& samples, double Sample:
     return cycles < samples.front().cycles ? cycles + period : cycles;
   };
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) values.push_back(curve(place(i)));
   return values;
 }
@@ -198,6 +200,7 @@ StiffnessTable import_table(const std::filesystem::path& file, const std::string
     const auto values = [&, &places = samples](double Sample::*value) {
       if (!even) return resampled(places, value, curves.period, count);
       std::vector<double> list;
+      list.reserve(places.size());
       for (const auto& s : places) list.push_back(s.*value);
       return list;
     };

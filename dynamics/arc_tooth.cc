@@ -168,6 +168,7 @@ StiffnessTable arc_stiffness_table(const ArcToothMesh& mesh, const std::vector<d
   mesh.check();
   if (torques.empty() || phases < 1) throw InputError("arc-tooth mesh: a table needs a torque and a phase");
   std::vector<double> loads;
+  loads.reserve(torques.size());
   for (const double torque : torques) loads.push_back(torque / mesh.pitch_radius());
   std::vector<StiffnessEntry> entries;
   for (int i = 0; i < phases; ++i)

@@ -166,6 +166,7 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
 
   std::vector<MeshElement> ring_meshes;
   std::vector<PlaneBody> planets;
+  planets.reserve(stage.planet_angles.size());
   for (int n = 0; n < stage.planets(); ++n)
     planets.push_back(add_planet(builder, stage, carrier, stage.planet_angles[n], "planet" + std::to_string(n + 1)));
   const auto ring_modes = add_ring_modes(builder, stage, ring);

@@ -69,6 +69,7 @@ bool counts(const TwoKVStage& stage, const RealInput& input) {
 
 PeriodicCurve times(double factor, const PeriodicCurve& curve) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(curve.pieces()));
   for (int i = 0; i < curve.pieces(); ++i) values.push_back(factor * curve.coefficients(i)[0]);
   return {values, curve.pieces_per_unit()};
 }

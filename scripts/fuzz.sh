@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
-# Fuzzes the scene parser and the reader of stiffness tables, each for so many seconds (clang, libFuzzer, sanitizers):
-#   scripts/fuzz.sh [seconds] [scene|table]
+# Fuzzes the scene parser and the readers of stiffness tables and REXS files, each for so many seconds (clang, libFuzzer,
+# sanitizers):
+#   scripts/fuzz.sh [seconds] [scene|table|rexs]
 # A find ends it with an error and stands in build/checked/found. What reaches new code is kept in build/checked/corpus;
 #   scripts/fuzz.sh keep
 # takes of that what adds to tests/fuzz/corpus.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-60}
-read -r -a targets <<<"${2:-scene table}"
+read -r -a targets <<<"${2:-scene table rexs}"
 
 command -v clang++ >/dev/null || { echo "fuzz.sh: needs clang (scripts/install_packages.sh)" >&2; exit 2; }
 mkdir -p build
 cmake --preset checked >build/checked.log 2>&1 || { cat build/checked.log >&2; exit 1; }
-cmake --build build/checked --target fuzz_scene fuzz_table
-mkdir -p build/checked/found build/checked/corpus/scene build/checked/corpus/table
+cmake --build build/checked --target fuzz_scene fuzz_table fuzz_rexs
+mkdir -p build/checked/found build/checked/corpus/{scene,table,rexs}
 
 # The seeds that the project has anyway.
 seeds() {

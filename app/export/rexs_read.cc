@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <toml++/toml.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -118,12 +119,14 @@ class RexsFile {
   std::vector<pugi::xml_node> relations_;
 };
 
-/// Text of a custom attribute that can stand in a scene: numbers, lists of them, plain words in quotes.
-bool harmless(const std::string& text) {
-  if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
-    return std::all_of(text.begin() + 1, text.end() - 1,
-                       [](char c) { return c != '"' && c != '\\' && static_cast<unsigned char>(c) >= ' '; });
-  return !text.empty() && text.find_first_not_of("0123456789+-.eE,[] inf") == std::string::npos;
+/// Whether the text of a custom attribute can stand in a scene: one value on one line.
+bool is_one_value(const std::string& text) {
+  if (std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; })) return false;
+  try {
+    return toml::parse("value = " + text).size() == 1;
+  } catch (const toml::parse_error&) {
+    return false;
+  }
 }
 
 /// Fills the values of a scene from components.
@@ -135,6 +138,7 @@ class Filler {
     if (value) scene_.values[key] = {toml_text(Value(*value)), remark};
   }
   void put_count(const std::string& key, double value) {
+    if (value > 1e6) throw file_.refusal(fmt::format("{} = {} is no count that a scene can hold", key, value));
     scene_.values[key] = {std::to_string(std::lround(value)), ""};
   }
   void put_text(const std::string& key, const std::string& text) { scene_.values[key] = {toml_text(Value(text)), ""}; }
@@ -147,7 +151,7 @@ class Filler {
       const std::string key = (table.empty() ? "" : table + ".") + id.substr(std::string(custom_prefix).size());
       const std::string text = node.text().get();
       if (find_parameter(key) == nullptr) continue;
-      if (!harmless(text))
+      if (!is_one_value(text))
         throw file_.refusal(
             fmt::format("component {}: {} = '{}' cannot stand in a scene", c.id, shown(id), shown(text)));
       scene_.values[key] = {text, ""};

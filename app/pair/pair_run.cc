@@ -208,10 +208,10 @@ double pair_seconds(const Scene& scene) {
 PairRunResult run_pair(const Scene& scene, const RunOptions& given) {
   StageTimers timers;
   const RunOptions options = with_reuse(given);
-  auto geometry = make_pair_geometry(scene);
+  const auto geometry = make_pair_geometry(scene);
   if (options.with_dynamics) check_studies(scene);  // before anything expensive
   Plan plan = make_pair_plan(scene, geometry, options.threads);
-  PairRunResult result{.scene = scene, .geometry = std::move(geometry), .plan = std::move(plan)};
+  PairRunResult result{.scene = scene, .geometry = geometry, .plan = std::move(plan)};
   std::filesystem::create_directories(options.out);
   {
     const auto timer = timers.measure("mesh");

@@ -116,7 +116,7 @@ StiffnessTable closed_form_pair_table(const Scene& scene, const PairGeometry& ge
       e.lte = spur.loads()[static_cast<std::size_t>(load)] / e.stiffness_secant;
       e.error_relative = spur.at(0, i, load).error_relative;
       e.error_parts = spur.at(0, i, load).error_parts;
-      entries[static_cast<std::size_t>(i * loads + load)] = e;
+      entries[static_cast<std::size_t>(i) * static_cast<std::size_t>(loads) + static_cast<std::size_t>(load)] = e;
     }
   }
   return {pinion_wheel, phases, {0.0}, spur.loads(), std::move(entries)};

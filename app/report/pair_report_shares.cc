@@ -52,6 +52,7 @@ std::string shares_table(const std::vector<const ShareRow*>& rows) {
 
 std::string shares_pictures(const std::vector<const ShareRow*>& rows) {
   std::vector<double> torque;
+  torque.reserve(rows.size());
   for (const auto* row : rows) torque.push_back(row->pinion_torque / 1e3);
   const Range loads{0, 1.04 * torque.back()};
   const auto series = [&](const char* label, std::size_t colour, bool dashed, auto pick) {

@@ -10,6 +10,7 @@ namespace {
 
 std::vector<std::string> log_labels(const std::vector<double>& ticks) {
   std::vector<std::string> labels;
+  labels.reserve(ticks.size());
   for (const double tick : ticks) labels.push_back(to_text(tick, 3));
   return labels;
 }

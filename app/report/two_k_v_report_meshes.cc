@@ -20,6 +20,7 @@ Series stiffness_curve(const MeshResult& mesh, const ShownCase& shown) {
   Series series{.label = shown.name, .colour = shown.colour};
   const int phases = mesh.table.phases();
   std::vector<double> solved;
+  solved.reserve(static_cast<std::size_t>(phases));
   for (int i = 0; i < phases; ++i)
     solved.push_back(mesh.table.at(0, i, static_cast<int>(mesh.nominal)).stiffness_secant / 1e6);
   // A given wave is sampled densely already, and a rectangular one must not be rounded.

@@ -41,7 +41,7 @@ std::filesystem::path file_of_scene(const Scene& scene, const std::string& key, 
   if (name.empty() || fs::path(name).is_absolute()) throw refusal(scene, key, name, fmt::format("must be {}", where));
   std::error_code error;
   const auto folder = scene.file.parent_path();
-  const auto file = folder / name;
+  auto file = folder / name;
   // Made absolute first: of a file that is not there, a relative path would stay one.
   const auto root = fs::weakly_canonical(fs::absolute(folder.empty() ? fs::path(".") : folder), error);
   const auto target = error ? fs::path() : fs::weakly_canonical(fs::absolute(file), error);

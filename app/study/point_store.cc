@@ -66,7 +66,7 @@ StudyPoint PointStore::point(const std::vector<Override>& overrides, const std::
   auto kept = read_point(file, figures_, changed.id);
   count_reuse(subject_.options(), study_responses, kept ? 1 : 0, kept ? 0 : 1);
   if (kept) return std::move(*kept);
-  const auto found = evaluate(changed, false);
+  auto found = evaluate(changed, false);
   std::filesystem::create_directories(points);
   write_file(file, point_text(found, figures_, changed.id));
   return found;

@@ -35,7 +35,8 @@ std::vector<std::string> unknown_phases(const Scene& scene) {
     const bool planets = body.starts_with("planet");
     for (int n = 1; n <= (planets ? scene.stage.planets : 1); ++n) {
       const std::string index = planets ? fmt::format("[{}]", n) : "";
-      const std::string amount = "errors." + body + "_um" + index, phase = "errors." + body + "_phase_deg" + index;
+      const std::string amount = fmt::format("errors.{}_um{}", body, index),
+                        phase = fmt::format("errors.{}_phase_deg{}", body, index);
       const bool exists =
           input_value(scene, find_input(scene, amount)).value_or(0) != 0 || drawn(scene, amount) ||
           (body == "mesh_error" && scene.manufacturing_error && scene.manufacturing_error->reading != "none");

@@ -219,14 +219,12 @@ std::string trade_csv(const TradeOff& trade) {
                                            csv_field(p.rung), csv_field(p.settings), p.finest);
       const std::string cost = fmt::format("{:.6g},{:.6g},{:.6g},{}\n", p.cost.wall, p.cost.processor,
                                            p.cost.peak_memory_MB, csv_field(p.failure));
-      if (p.values.empty()) text += head + ",,,," + cost;
+      if (p.values.empty()) text.append(head).append(",,,,").append(cost);
       for (std::size_t i = 0; i < p.values.size(); ++i) {
         const auto& v = p.values[i];
         if (!std::isfinite(v.value)) continue;
-        text += head +
-                fmt::format("{},{},{},{},", trade_figures()[i].column, csv_number(v.value), csv_number(v.error),
-                            csv_number(v.error_estimate)) +
-                cost;
+        text += fmt::format("{}{},{},{},{},{}", head, trade_figures()[i].column, csv_number(v.value),
+                            csv_number(v.error), csv_number(v.error_estimate), cost);
       }
     }
   }

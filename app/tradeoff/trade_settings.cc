@@ -56,7 +56,7 @@ MeshModel MeshSetting::applied(const MeshModel& planned, bool needs_solid) const
 std::vector<MeshSetting> mesh_settings(const MeshModel& planned, bool needs_solid) {
   using fem::Rung;
   std::vector<MeshSetting> list;
-  const auto add = [&](Rung rung, std::vector<int> degrees, std::vector<int> levels) {
+  const auto add = [&](Rung rung, const std::vector<int>& degrees, const std::vector<int>& levels) {
     for (const int degree : degrees) {
       for (const int level : levels) list.push_back({.rung = rung, .degree = degree, .level = level});
     }

@@ -172,7 +172,7 @@ TwoKVMotion motion_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVRe
   const auto& series = r.series;
   m.output_error.columns = {"crank_turn", "time_s", "error_rad"};
   m.forces.columns = {"crank_turn"};
-  const auto toothed = static_cast<std::size_t>(stage.cranks + stage.arc_gears);
+  const auto toothed = static_cast<std::size_t>(stage.cranks) + static_cast<std::size_t>(stage.arc_gears);
   for (std::size_t i = 0; i < std::min(toothed, series.meshes.size()); ++i)
     m.forces.columns.push_back(series.meshes[i]);
   for (Eigen::Index i = 0; i < series.time.size(); ++i) {

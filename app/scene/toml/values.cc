@@ -82,7 +82,7 @@ std::string read_value(const Parameter& p, const toml::node& node, Value& value)
       for (std::size_t i = 0; array && i < array->size(); ++i) {
         const auto* item = array->get(i)->as_string();
         if (!item) return "must be " + expected_text(p);
-        if (const auto rule = text_rule(**item); !rule.empty()) return rule;
+        if (auto rule = text_rule(**item); !rule.empty()) return rule;
         list.push_back(**item);
       }
       if (!array) return "must be " + expected_text(p);
@@ -91,7 +91,7 @@ std::string read_value(const Parameter& p, const toml::node& node, Value& value)
     }
     case Parameter::Kind::text:
       if (!node.is_string()) return "must be " + expected_text(p);
-      if (const auto rule = text_rule(**node.as_string()); !rule.empty()) return rule;
+      if (auto rule = text_rule(**node.as_string()); !rule.empty()) return rule;
       value = **node.as_string();
       break;
     case Parameter::Kind::choice: {
