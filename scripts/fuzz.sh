@@ -24,7 +24,7 @@ seeds() {
 
 for target in "${targets[@]}"; do
   program=build/checked/tests/fuzz/fuzz_$target
-  settings=(-max_len=8192 -timeout=30 -rss_limit_mb=4096 -print_funcs=0 "-dict=tests/fuzz/$target.dict" "-artifact_prefix=build/checked/found/$target-")
+  settings=(-max_len=12288 -timeout=30 -rss_limit_mb=4096 -print_funcs=0 "-dict=tests/fuzz/$target.dict" "-artifact_prefix=build/checked/found/$target-")
   read -r -a seeds <<<"$(seeds "$target" | tr '\n' ' ')"
   if [ "$seconds" = keep ]; then
     "$program" "${settings[@]}" -use_counters=0 -set_cover_merge=1 "tests/fuzz/corpus/$target" "build/checked/corpus/$target"

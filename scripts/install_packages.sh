@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
-# Installs what annulus needs to be built and tested on Debian 12. As root or with sudo; quick when all is there.
+# Installs what annulus needs on Debian 12, as root or with sudo; quick when all is there.
+#   scripts/install_packages.sh            to be built and to run
+#   scripts/install_packages.sh --tests    to be tested as well (twice as much)
 set -euo pipefail
 
 packages=(
@@ -9,10 +11,14 @@ packages=(
   libopenblas-dev libopenblas0-pthread
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
   libhdf5-dev libmatio-dev libpugixml-dev librsvg2-dev libjs-chart.js libjs-three
-  calculix-ccx octave  # tests only: what benchmarks compare with
-  python3-h5py chromium  # tests only: what reads exports and reports
-  clang libclang-rt-dev clang-format clang-tidy valgrind  # tests only: sanitizers, fuzzing, analysis
 )
+if [ "${1:-}" = --tests ]; then
+  packages+=(
+    calculix-ccx octave    # what benchmarks compare with
+    python3-h5py chromium  # what reads exports and reports
+    clang libclang-rt-dev clang-format clang-tidy valgrind  # sanitizers, fuzzing, analysis
+  )
+fi
 
 missing=()
 for package in "${packages[@]}"; do
