@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=$(realpath "${1:-build/release/app/annulus}")
-command -v clang++ >/dev/null || { echo "compare_builds.sh: needs clang (scripts/install_packages.sh)" >&2; exit 2; }
+command -v clang++ >/dev/null || { echo "compare_builds.sh: needs clang (scripts/install_packages.sh --tests)" >&2; exit 2; }
 mkdir -p build
 cmake --preset checked >build/checked.log 2>&1 || { cat build/checked.log >&2; exit 1; }
 cmake --build build/checked --target annulus_cli

@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 seconds=${1:-60}
 read -r -a targets <<<"${2:-scene table rexs}"
 
-command -v clang++ >/dev/null || { echo "fuzz.sh: needs clang (scripts/install_packages.sh)" >&2; exit 2; }
+command -v clang++ >/dev/null || { echo "fuzz.sh: needs clang (scripts/install_packages.sh --tests)" >&2; exit 2; }
 mkdir -p build
 cmake --preset checked >build/checked.log 2>&1 || { cat build/checked.log >&2; exit 1; }
 cmake --build build/checked --target fuzz_scene fuzz_table fuzz_rexs

@@ -3,7 +3,7 @@
 #   scripts/sanitize.sh [options of ctest]    default: all unit and pipeline tests
 set -euo pipefail
 cd "$(dirname "$0")/.."
-command -v clang++ >/dev/null || { echo "sanitize.sh: needs clang (scripts/install_packages.sh)" >&2; exit 2; }
+command -v clang++ >/dev/null || { echo "sanitize.sh: needs clang (scripts/install_packages.sh --tests)" >&2; exit 2; }
 mkdir -p build
 cmake --preset checked >build/checked.log 2>&1 || { cat build/checked.log >&2; exit 1; }
 cmake --build --preset checked
