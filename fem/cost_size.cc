@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/contact/support_sites.h"
 #include "fem/resolution.h"
 #include "fem/solved_face.h"
 
@@ -91,6 +92,19 @@ double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSett
                       : 2 * nodes_of_section(section_counts(plane_resolution(gear, level).section), settings.degree);
   }
   return unknowns;
+}
+
+double support_forces(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
+  if (settings.rung != Rung::solid) return 0;
+  const SupportedRing ring{problem.pair.wheel().teeth(), problem.wheel_support_radius, problem.face_width,
+                           problem.material};
+  SupportSites sites;
+  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure)) sites = pin_sites(*pinned, ring);
+  if (const auto* splined = std::get_if<SplineHeld>(&problem.structure)) sites = spline_sites(*splined, ring);
+  const auto slices = solved_face(problem, settings).edges(2 * solid_resolution(level).face_cells).size() - 1;
+  double forces = 0;
+  for (const auto& site : sites.sites) forces += static_cast<double>(site.directions.size() * slices);
+  return forces;
 }
 
 }  // namespace annulus::fem

@@ -9,6 +9,7 @@
 
 #include "app/report/report_parts.h"
 #include "app/report/svg_plot.h"
+#include "fem/cost_size.h"
 
 namespace annulus::app {
 
@@ -21,6 +22,8 @@ std::optional<CostRun> actual_mesh(CostRun size, const MeshResult& mesh) {
   size.level = static_cast<int>(fact("level"));
   size.levels = mesh.model.settings.level ? 2 : size.level + 1;
   size.unknowns = fact("unknowns");
+  if (size.level > 0 && mesh.model.problem)
+    size.supports = fem::support_forces(*mesh.model.problem, mesh.model.settings, size.level);
   size.error = fact("worst_error_relative");
   size.body_s = fact("mesh_seconds") + fact("condense_seconds");
   size.contact_s = fact("contact_seconds");

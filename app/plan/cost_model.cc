@@ -79,9 +79,11 @@ double body_seconds(const CostLaw& law, const CostRun& run) {
 
 double contact_seconds(const CostLaw& law, const CostRun& run) {
   if (run.loads == 0) return 0;
-  return 1e-3 * sum_of_levels(run, law.contact_exponent) *
-         (law.first_ms * run.first_problems() + law.each_ms * run.problems()) /
-         speed_up(law.contact_efficiency, run.threads, contact_tasks(run));
+  // Between reading a dense matrix and factoring it.
+  const double supports = law.support_ms * std::pow(run.supports / 100, 2) * run.problems();
+  const double elements =
+      sum_of_levels(run, law.contact_exponent) * (law.first_ms * run.first_problems() + law.each_ms * run.problems());
+  return 1e-3 * (elements + supports) / speed_up(law.contact_efficiency, run.threads, contact_tasks(run));
 }
 
 double peak_memory(const CostLaw& law, const CostRun& run) {
@@ -125,6 +127,7 @@ struct LogFit {
 };
 
 constexpr double free_factor = 3;  // in the logarithm
+constexpr double usual_support_ms = 3;
 
 using Runs = std::vector<const CostRun*>;
 
@@ -150,12 +153,14 @@ void fit_contact(CostLaw& law, const UsualLaw& usual, const Runs& runs) {
   const auto with = [&](const Eigen::VectorXd& x) {
     CostLaw l;
     l.first_ms = std::exp(x[0]), l.each_ms = std::exp(x[1]), l.contact_exponent = x[2], l.contact_efficiency = x[3];
+    l.support_ms = std::exp(x[4]);
     return l;
   };
   LogFit fit{.usual = {{std::log(usual.first_ms), free_factor},
                        {std::log(usual.each_ms), free_factor},
                        usual.contact_exponent,
-                       {0.8, 0.2}},
+                       {0.8, 0.2},
+                       {std::log(usual_support_ms), free_factor}},
              .measured = {},
              .predicted = {}};
   Runs used;
@@ -168,6 +173,7 @@ void fit_contact(CostLaw& law, const UsualLaw& usual, const Runs& runs) {
   law.each_ms = l.each_ms;
   law.contact_exponent = l.contact_exponent;
   law.contact_efficiency = std::clamp(l.contact_efficiency, 0.0, 1.0);
+  law.support_ms = l.support_ms;
 }
 
 void fit_memory(CostLaw& law, const Runs& runs) {

@@ -18,7 +18,8 @@ struct PredictedCost {
 /// Laws of one kind of step. With N the unknowns of a level in ten thousands:
 ///
 ///     bodies    a sum_levels N^b / speed-up                               s
-///     contact   sum_levels N^c (first_ms first + each_ms all) / speed-up  ms, `first` and `all` being contact problems
+///     contact   (sum_levels N^c (first_ms first + each_ms all) + support_ms (S / 100)^2 all) / speed-up
+///               ms, `first` and `all` being contact problems, S the forces of supports in each of them
 ///     peak      base_MB + per_unknown_MB N                                MB, N of the last level
 ///     error     first ratio^(level - 1)                           by degree of the elements
 ///
@@ -26,6 +27,7 @@ struct PredictedCost {
 struct CostLaw {
   double body = 0, body_exponent = 1, body_efficiency = 0;
   double first_ms = 0, each_ms = 0, contact_exponent = 0, contact_efficiency = 0;
+  double support_ms = 0;
   double base_MB = 0, per_unknown_MB = 0;
   struct Error {
     double first = 0, ratio = 1;

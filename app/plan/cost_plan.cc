@@ -164,6 +164,7 @@ CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs) {
   // A level that is forced is solved with the one before it; refining starts at level 0 and passes them all.
   size.levels = last == 0 ? 1 : settings.level ? 2 : size.level + 1;
   size.unknowns = fem::estimated_unknowns(*model.problem, settings, size.level);
+  size.supports = fem::support_forces(*model.problem, settings, size.level);
   size.loads = static_cast<int>(model.problem->loads.size());
   size.phases = model.problem->phases;
   size.cycles = model.positions;

@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::size_t longest_user_list = 200;
 constexpr const char* cost_columns =
-    "kind,degree,level,levels,unknowns,loads,phases,cycles,threads,error,body_s,contact_s,peak_MB";
-constexpr std::size_t cost_column_count = 13;
+    "kind,degree,level,levels,unknowns,loads,phases,cycles,threads,error,body_s,contact_s,peak_MB,supports";
+constexpr std::size_t cost_column_count = 14;
 
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
@@ -61,6 +61,7 @@ CostRun cost_run(const std::vector<std::string>& cells) {
   run.body_s = cost_number(cells[10]);
   run.contact_s = cost_number(cells[11]);
   run.peak_MB = cost_number(cells[12]);
+  run.supports = cost_number(cells[13]);
   if (run.threads < 1 || run.levels < 1 || run.levels > 20 || run.seconds() <= 0)
     throw InputError("threads, levels and time must be above zero");
   return run;
@@ -93,9 +94,9 @@ std::vector<CostRun> parse_cost_runs(const std::string& text, const std::string&
 std::string cost_runs_text(const std::vector<CostRun>& runs) {
   std::string text = std::string(cost_columns) + "\n";
   for (const auto& r : runs)
-    text +=
-        fmt::format("{},{},{},{},{:.0f},{},{},{},{},{:.3g},{:.4g},{:.4g},{:.0f}\n", r.kind, r.degree, r.level, r.levels,
-                    r.unknowns, r.loads, r.phases, r.cycles, r.threads, r.error, r.body_s, r.contact_s, r.peak_MB);
+    text += fmt::format("{},{},{},{},{:.0f},{},{},{},{},{:.3g},{:.4g},{:.4g},{:.0f},{:.0f}\n", r.kind, r.degree,
+                        r.level, r.levels, r.unknowns, r.loads, r.phases, r.cycles, r.threads, r.error, r.body_s,
+                        r.contact_s, r.peak_MB, r.supports);
   return text;
 }
 

@@ -23,6 +23,7 @@ struct CostRun {
                                           ///< the ring positions
   int loads = 0, phases = 0, cycles = 0;  ///< of the table: loads, phases per mesh cycle, mesh cycles
   int threads = 1;
+  double supports = 0;   ///< forces of pins or splines in every contact problem of a solid ring
   double error = 0;      ///< estimated relative error at the reached level; 0: not known
   double body_s = 0;     ///< s, meshing and condensing; all there is of a coupling or a response
   double contact_s = 0;  ///< s

@@ -16,10 +16,11 @@ bool solve_active(const ComplementarityProblem& p, const std::vector<int>& set, 
   const auto rigid = p.rigid.cols();
   Eigen::MatrixXd c(n, n), e(n, rigid);
   Eigen::VectorXd g(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) c(i, j) = p.compliance(set[i], set[j]);
-    e.row(i) = p.rigid.row(set[i]);
-    g[i] = p.gap[set[i]];
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const auto column = p.compliance.col(set[j]);
+    for (Eigen::Index i = j; i < n; ++i) c(i, j) = column[set[i]];  // the lower half is enough
+    e.row(j) = p.rigid.row(set[j]);
+    g[j] = p.gap[set[j]];
   }
   if (!lapack::cholesky(c)) throw SolverError("the contact compliance is not positive definite");
   Eigen::MatrixXd right(n, rigid + 1);

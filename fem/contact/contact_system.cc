@@ -337,13 +337,15 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
     std::vector<bool> guess(problem.gap.size(), true);
     for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
       const auto& p = setup.pairs[i];
-      const auto known = warm.find(p.index);
-      const bool reuse = known != warm.end() && static_cast<Eigen::Index>(known->second.size()) == p.size();
+      const auto known = warm.pairs.find(p.index);
+      const bool reuse = known != warm.pairs.end() && static_cast<Eigen::Index>(known->second.size()) == p.size();
       const double reach = 0.6 * p.elements.back().distance;
       for (Eigen::Index e = 0; e < p.size(); ++e)
         guess[setup.start[i] + e] =
             reuse ? known->second[e] : p.smallest_gap < touching && std::abs(p.elements[e].distance) < reach;
     }
+    if (static_cast<Eigen::Index>(warm.supports.size()) == problem.gap.size() - setup.contacts)
+      std::copy(warm.supports.begin(), warm.supports.end(), guess.begin() + setup.contacts);
     const auto solution = [&] {
       try {
         return solve_complementarity(problem, std::move(guess));
@@ -351,12 +353,13 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
         throw SolverError(fmt::format("mesh phase {:.4f}, {:.4g} N: {}", phase, whole_load, error.what()));
       }
     }();
-    warm.clear();
+    warm.pairs.clear();
+    warm.supports.assign(solution.active.begin() + setup.contacts, solution.active.end());
     bool window_too_small = false;
     for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
       const auto& p = setup.pairs[i];
       const auto first = solution.active.begin() + setup.start[i];
-      warm[p.index] = std::vector<bool>(first, first + p.size());
+      warm.pairs[p.index] = std::vector<bool>(first, first + p.size());
       for (Eigen::Index e = 0; e < p.size(); ++e) window_too_small |= p.elements[e].outermost && first[e];
     }
     if (window_too_small) {

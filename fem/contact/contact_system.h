@@ -39,8 +39,11 @@ class ContactSystem {
                 const SupportRow* supports, const Material& material, std::vector<double> slice_edges,
                 ContactOptions options);
 
-  /// Active elements by pair, to start the neighbouring position from.
-  using WarmStart = std::map<int, std::vector<bool>>;
+  /// What carried at the neighbouring position, to start from: elements by pair, and supports (empty: not known).
+  struct WarmStart {
+    std::map<int, std::vector<bool>> pairs;
+    std::vector<bool> supports;
+  };
   /// The tooth pairs of one phase and load: the same in every mesh cycle, only the supports move on.
   struct Pairs;
   using PairsCache = std::shared_ptr<const Pairs>;

@@ -127,6 +127,7 @@ BOOST_AUTO_TEST_CASE(predictions_grow_with_the_work) {
       return model.predict(larger);
     };
     BOOST_TEST(more([](auto& s) { s.unknowns *= 2; }).seconds > base.seconds);
+    BOOST_TEST(more([](auto& s) { s.supports = 500; }).seconds > base.seconds);
     BOOST_TEST(more([](auto& s) { s.unknowns *= 2; }).peak_MB > base.peak_MB);
     BOOST_TEST(more([](auto& s) { s.levels += 1; }).seconds > base.seconds);
     BOOST_TEST(more([](auto& s) { s.loads += 1; }).seconds > base.seconds);

@@ -42,6 +42,7 @@ struct Axis {
 Tally all;
 constexpr const char* formulas = "\"closed_form\"";
 constexpr const char* plane = "\"plane\"";
+constexpr const char* solid = "\"solid\"";
 constexpr const char* automatic = "\"automatic\"";
 
 /// A held ring of 72 teeth; its mesh alone is computed.
@@ -205,8 +206,10 @@ BOOST_AUTO_TEST_CASE(pins) {
       {"120 that overlap", {{"ring", "pins", "120"}, {"ring", "pin_diameter_mm", "12"}}, Expected::refused});
   run_axis({"number of pins, formulas", cases, Trend::none, pinned()}, ring_scene(formulas));
   // Elements where few positions tell all: 72 teeth over multiples of the pins.
-  run_axis({"number of pins, plane", values_of("ring", "pins", {2, 12, 24, 72}), Trend::none, pinned()},
+  run_axis({"number of pins, plane", values_of("ring", "pins", {2, 12, 24, 72, 120}), Trend::none, pinned()},
            ring_scene(plane));
+  run_axis({"number of pins, solid", values_of("ring", "pins", {3, 24, 120}), Trend::rises, pinned()},
+           ring_scene(solid));
   run_on_both({"stiffness of pins",
                values_of("ring", "pin_radial_stiffness_N_per_m", {1e3, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e12, 1e14},
                          [](double k) { return k > 1e6; }),

@@ -40,7 +40,7 @@ void ContactBench::rebuild() {
   system_ = std::make_unique<fem::ContactSystem>(flanks_, *bodies_.planet, *bodies_.wheel, bodies_.supports.get(),
                                                  problem_.material, bodies_.slice_edges, options_);
   pairs_.reset();
-  warm_.clear();
+  warm_ = {};
 }
 
 fem::LoadedPosition ContactBench::solve(double phase, double load) {
