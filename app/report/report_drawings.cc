@@ -62,7 +62,8 @@ std::string structure_words(const RingInput& ring) {
     case Structure::traditional:
       return ring.flange_width ? "held by a flange" : "outer surface held";
     case Structure::thin_walled:
-      return ring.hoop_width ? "on a sleeve, with a hoop" : "on a sleeve";
+      return std::string(ring.free_length.value_or(0) > 0 ? "on a sleeve" : "held at its end face") +
+             (ring.hoop_width ? ", with a hoop" : "");
     case Structure::pinned:
       return fmt::format("{} pin{}", ring.pin_count(), ring.pin_count() == 1 ? "" : "s");
     case Structure::bolted:
@@ -107,6 +108,7 @@ TransverseSection stage_section(const Scene& scene, const GearGeometry& geometry
   section.gears.push_back({{.gear = set.ring(), .id = id + "-ring", .outside_radius = made.outside_radius},
                            {{Eigen::Vector2d::Zero(), stand.ring}}});
   std::vector<std::pair<double, double>> planets;
+  planets.reserve(stand.planets.size());
   for (int n = 0; n < set.planets(); ++n)
     planets.emplace_back(set.planet_angle(n), stand.planets[static_cast<std::size_t>(n)]);
   add_sun_and_planets(section, scene, set.sun_mesh(), stand.sun, planets, id);

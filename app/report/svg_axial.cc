@@ -34,9 +34,7 @@ Blocks blocks_of(const AxialSection& section) {
   const auto& ring = section.ring;
   const double width = ring.parameters().face_width, outside = section.outside_radius;
   Blocks blocks{{0, width, ring.root_radius(), outside}, {0, width, ring.tip_radius(), ring.root_radius()}};
-  if (std::holds_alternative<fem::OutsideHeld>(section.structure)) {
-    blocks.held.push_back({0, width, outside, outside});
-  } else if (const auto* sleeve = std::get_if<fem::EndFaceHeld>(&section.structure)) {
+  if (const auto* sleeve = std::get_if<fem::EndFaceHeld>(&section.structure)) {
     const double end = -sleeve->free_length, inside = outside - sleeve->sleeve_thickness;
     if (sleeve->free_length > 0) blocks.more.push_back({end, 0, inside, outside});
     if (sleeve->hoop)
@@ -48,7 +46,7 @@ Blocks blocks_of(const AxialSection& section) {
   } else if (const auto* pins = std::get_if<fem::PinHeld>(&section.structure)) {
     blocks.pins.push_back({0, width, outside - pins->pin_diameter / 2, outside + pins->pin_diameter / 2});
   } else {
-    blocks.held.push_back({0, width, outside, outside});  // splines, over the full width
+    blocks.held.push_back({0, width, outside, outside});  // outside held, or its splines
   }
   return blocks;
 }
@@ -170,7 +168,7 @@ std::string to_svg(const AxialSection& section) {
       std::min((axial_width - axial_left - axial_right) / (all.z_high - all.z_low), tallest / (all.r_high - all.r_low));
   const AxialPage page{scale, axial_left - scale * all.z_low, axial_top + scale * all.r_high};
   const double bottom = page.at(0, all.r_low).y();
-  std::string svg = open_svg(section.title, axial_width, static_cast<int>(bottom + 78), 14, section.label);
+  std::string svg = open_svg(section.title, axial_width, static_cast<int>(bottom + 78), 14.0, section.label);
   constexpr const char* edge = "stroke=\"#2c3a48\" stroke-width=\"0.9\"";
   const auto filled = [&](const char* fill) { return fmt::format("fill=\"{}\" {}", fill, edge); };
   for (const auto& block : blocks.more) svg += drawn(page, block, filled(wheel_fill).c_str());

@@ -121,7 +121,7 @@ std::string to_svg(const TeethInMesh& drawing, const geometry::GearPair& pair) {
                         .fill = pair.internal() ? wheel_fill : sun_fill,
                         .outside_radius = drawing.wheel_outside_radius};
   std::string svg = open_svg(
-      drawing.title, teeth_width, static_cast<int>(teeth_top + height + 4.6 * legend_row), 6,
+      drawing.title, teeth_width, static_cast<int>(teeth_top + height + 4.6 * legend_row), 6.0,
       fmt::format("{}, enlarged to scale at pitch-point contact: teeth of {} and {}, base circles, line of action",
                   drawing.title, drawing.planet_name, drawing.wheel_name));
   svg += fmt::format("<svg y=\"{0}\" width=\"{1}\" height=\"{2:.1f}\" viewBox=\"0 0 {1} {2:.1f}\">", teeth_top,

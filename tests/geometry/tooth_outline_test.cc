@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(outlines_have_the_thickness_of_their_teeth) {
     for (const double radius : {reference, reference + 0.4 * p.module, gear.tip_radius() - sign * 0.1 * p.module}) {
       const double at = std::acos(base / radius);
       const double half = std::numbers::pi / (2 * z) + sign * (2 * p.profile_shift * std::tan(p.pressure_angle) / z +
-                                                 inv(p.pressure_angle) - inv(at));
+                                                               inv(p.pressure_angle) - inv(at));
       // Where the outline crosses the circle on the leading side.
       bool found = false;
       for (std::size_t i = 1; i < outline.size(); ++i) {
