@@ -102,6 +102,15 @@ void declare(CLI::App& app, Arguments& arguments) {
   examples(limits(out(add_command(app, arguments, "tradeoff",
                                   "Every way to compute the stage measured: error against time and memory"))),
            "  annulus tradeoff my.toml              then open out/my/tradeoff.html");
+  auto* compare =
+      app.add_subcommand("compare", "Finished runs side by side: figures, errors, inputs that differ, cost");
+  compare->add_option("folders", arguments.folders, "Folders that annulus run wrote, two or more");
+  compare->add_option("-o,--out", arguments.out,
+                      "Page to write, FILE.html, with FILE.csv beside it; default comparison.html");
+  add_common(*compare, arguments);
+  examples(compare,
+           "  annulus compare out/my out/faster\n"
+           "  annulus compare out/held out/pins24 out/pins12 -o pins.html");
   auto* plan = limits(budget(add_command(
       app, arguments, "plan", "What will be modelled and why, predicted time and memory; computes nothing")));
   plan->add_flag("--json", arguments.json, "As JSON");
@@ -175,6 +184,7 @@ int run_command_line(int argc, char** argv) {
       {"solve", [&] { solve_command(arguments); }},
       {"dynamics", [&] { dynamics_command(arguments); }},
       {"tradeoff", [&] { tradeoff_command(arguments); }},
+      {"compare", [&] { compare_command(arguments); }},
       {"plan", [&] { plan_command(arguments); }},
       {"check", [&] { check_command(arguments); }},
       {"export", [&] { export_command(arguments); }},

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/compare/compared_run.h"
+#include "app/compare/comparison_page.h"
 #include "app/export/export.h"
 #include "app/export/rexs.h"
 #include "app/finished_run.h"
@@ -134,6 +136,21 @@ void tradeoff_command(const Arguments& arguments) {
   write_tradeoff(trade, options.out);
   fmt::print("{}\ntable   {}\nreport  {}\n", trade_text(trade), (options.out / "tradeoff.csv").string(),
              (options.out / "tradeoff.html").string());
+}
+
+void compare_command(const Arguments& arguments) {
+  const std::filesystem::path page = arguments.out.empty() ? "comparison.html" : arguments.out;
+  const auto table = std::filesystem::path(page).replace_extension(".csv");
+  if (page.extension() != ".html")
+    throw InputError(fmt::format("--out {}: names the page; give it the ending .html", page.string()));
+  check_out(page.parent_path().empty() ? "." : page.parent_path());
+  for (const auto& file : {page, table})
+    if (std::filesystem::is_directory(file)) throw InputError(fmt::format("--out {}: is a folder", file.string()));
+  const auto runs = read_finished_runs(arguments.folders);
+  if (page.has_parent_path()) std::filesystem::create_directories(page.parent_path());
+  write_file(page, comparison_html(runs));
+  write_file(table, comparison_csv(runs));
+  fmt::print("{}table   {}\npage    {}\n", comparison_text(runs), table.string(), page.string());
 }
 
 void explain_command(const Arguments& arguments) {

@@ -2,12 +2,14 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace annulus::app {
 
 /// What the command line says, whatever the command.
 struct Arguments {
   std::string scene, out, tables, key, format, ring, kind, rexs, shell;
+  std::vector<std::string> folders;  ///< of compare
   std::optional<std::string> budget, max_memory, max_time;
   bool json = false, markdown = false, quiet = false, verbose = false;
   int threads = 1;
@@ -19,6 +21,7 @@ void solve_command(const Arguments& arguments);
 void dynamics_command(const Arguments& arguments);
 void tradeoff_command(const Arguments& arguments);
 void plan_command(const Arguments& arguments);
+void compare_command(const Arguments& arguments);
 void check_command(const Arguments& arguments);
 void export_command(const Arguments& arguments);
 void new_command(const Arguments& arguments);

@@ -16,14 +16,15 @@ namespace annulus::app {
 namespace {
 
 constexpr const char* note_name = "run.json";
+constexpr const char* missing = "missing";
 
 /// Size and time; "missing" where there is no such file.
 std::string stamp(const std::filesystem::path& file) {
   std::error_code none;
   const auto bytes = std::filesystem::file_size(file, none);
-  if (none) return "missing";
+  if (none) return missing;
   const auto time = std::filesystem::last_write_time(file, none);
-  if (none) return "missing";
+  if (none) return missing;
   return fmt::format("{} bytes, {}", bytes, time.time_since_epoch().count());
 }
 
@@ -66,6 +67,23 @@ void keep_finished_run(const std::filesystem::path& out, const std::string& id, 
   nlohmann::json note = {{"annulus_version", version()}, {"inputs_id", id}, {"text", text}};
   for (const auto& file : files_of_run(out)) note["files"][file.generic_string()] = stamp(out / file);
   write_file(out / note_name, note.dump(1) + "\n");
+}
+
+std::optional<std::string> why_unfinished(const std::filesystem::path& out) {
+  std::ifstream stream(out / note_name);
+  if (!stream) return fmt::format("no {}", note_name);
+  const auto note = nlohmann::json::parse(stream, nullptr, false);
+  try {
+    if (note.is_discarded()) return fmt::format("{} is damaged", note_name);
+    for (const auto& [name, kept] : note.at("files").items()) {
+      const auto now = stamp(out / name);
+      const auto size = [](const std::string& text) { return text.substr(0, text.find(',')); };
+      if (now != missing && size(now) != size(kept.get<std::string>())) return name + " has changed since";
+    }
+  } catch (const nlohmann::json::exception&) {
+    return fmt::format("{} is damaged", note_name);
+  }
+  return std::nullopt;
 }
 
 std::optional<std::string> finished_run(const std::filesystem::path& out, const std::string& id) {

@@ -20,4 +20,8 @@ void keep_finished_run(const std::filesystem::path& out, const std::string& id, 
 /// else is read: a run that only looks takes a fraction of a second whatever the size of its results.
 [[nodiscard]] std::optional<std::string> finished_run(const std::filesystem::path& out, const std::string& id);
 
+/// Why OUT does not hold the results of one whole run: none has ended there, or a later one has begun to change its
+/// files. Files may have been copied, with new times, or removed. Nothing when it does.
+[[nodiscard]] std::optional<std::string> why_unfinished(const std::filesystem::path& out);
+
 }  // namespace annulus::app

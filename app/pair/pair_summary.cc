@@ -6,6 +6,8 @@
 #include "app/content_id.h"
 #include "app/pair/pair_run.h"
 #include "app/plan/cost_actual.h"
+#include "app/scene/inputs_json.h"
+#include "app/scene/scene_schema.h"
 #include "app/stage/error_parts_json.h"
 #include "app/stage/summary_studies.h"
 #include "core/units.h"
@@ -90,7 +92,7 @@ PairJson response_json_of(const PairResponseResult& response) {
 std::string pair_summary_json(const PairRunResult& result) {
   PairJson json = {{"title", result.scene.title},
                    {"annulus_version", version()},
-                   {"kind", "helical_pair"},
+                   {"kind", kind_name(result.scene.stage.kind)},
                    {"accuracy_wanted", result.scene.accuracy}};
   for (const auto& q : result.plan.quantities) json["derived"][q.key] = pair_number(q.value);
   for (const auto& s : result.stiffnesses)
@@ -137,6 +139,7 @@ std::string pair_summary_json(const PairRunResult& result) {
   ContentId inputs;
   for (const auto& input : result.scene.inputs) inputs.add(input.key, to_text(input.value));
   json["inputs_id"] = inputs.id();
+  json["inputs"] = PairJson::parse(inputs_json(result.plan.inputs));
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
   if (!result.cost.empty()) json["cost"] = PairJson::parse(cost_json(result.cost));

@@ -9,37 +9,6 @@ namespace annulus::app {
 
 namespace {
 
-fem::RingStructure structure_of(const RingInput& ring) {
-  switch (ring.structure) {
-    case Structure::traditional:
-      if (ring.flange_width) return fem::FlangeHeld{*ring.flange_width, *ring.flange_diameter / 2};
-      return fem::OutsideHeld{};
-    case Structure::thin_walled: {
-      fem::EndFaceHeld held{.free_length = *ring.free_length, .sleeve_thickness = *ring.sleeve_thickness};
-      if (ring.hoop_width) held.hoop = fem::Hoop{*ring.hoop_width, *ring.hoop_thickness};
-      return held;
-    }
-    case Structure::splined:
-      return fem::SplineHeld{.teeth = *ring.splines,
-                             .flank_angle = *ring.spline_flank_angle,
-                             .clearance = ring.spline_clearance.value_or(0),
-                             .flank_stiffness = ring.spline_stiffness,
-                             .first_tooth_angle = ring.first_spline_angle.value_or(0)};
-    case Structure::pinned:
-    case Structure::bolted:
-      break;
-  }
-  return fem::PinHeld{
-      .angles = ring.pins ? fem::equal_angles(*ring.pins, ring.first_pin_angle.value_or(0)) : ring.pin_angles,
-      .pin_diameter = *ring.pin_diameter,
-      .clearance = ring.pin_clearance.value_or(0),
-      .free_span = ring.pin_free_span.value_or(0),
-      .radial_stiffness = ring.pin_radial_stiffness,
-      .tangential_stiffness = ring.pin_tangential_stiffness,
-      .housing_clearance = ring.housing_clearance,
-      .unilateral = ring.structure == Structure::pinned};
-}
-
 fem::LoadedMeshProblem problem_of(const Scene& scene, const geometry::GearPair& pair, const HubGearInput& planet) {
   return {.pair = pair,
           .material = {scene.material.youngs_modulus, scene.material.poisson_ratio, scene.material.density},
@@ -313,6 +282,37 @@ std::string MeshModel::label() const {
   return ring.empty() ? "sun-planet mesh" : fmt::format("ring-planet mesh of '{}'", ring);
 }
 
+fem::RingStructure ring_structure(const RingInput& ring) {
+  switch (ring.structure) {
+    case Structure::traditional:
+      if (ring.flange_width) return fem::FlangeHeld{*ring.flange_width, *ring.flange_diameter / 2};
+      return fem::OutsideHeld{};
+    case Structure::thin_walled: {
+      fem::EndFaceHeld held{.free_length = *ring.free_length, .sleeve_thickness = *ring.sleeve_thickness};
+      if (ring.hoop_width) held.hoop = fem::Hoop{*ring.hoop_width, *ring.hoop_thickness};
+      return held;
+    }
+    case Structure::splined:
+      return fem::SplineHeld{.teeth = *ring.splines,
+                             .flank_angle = *ring.spline_flank_angle,
+                             .clearance = ring.spline_clearance.value_or(0),
+                             .flank_stiffness = ring.spline_stiffness,
+                             .first_tooth_angle = ring.first_spline_angle.value_or(0)};
+    case Structure::pinned:
+    case Structure::bolted:
+      break;
+  }
+  return fem::PinHeld{
+      .angles = ring.pins ? fem::equal_angles(*ring.pins, ring.first_pin_angle.value_or(0)) : ring.pin_angles,
+      .pin_diameter = *ring.pin_diameter,
+      .clearance = ring.pin_clearance.value_or(0),
+      .free_span = ring.pin_free_span.value_or(0),
+      .radial_stiffness = ring.pin_radial_stiffness,
+      .tangential_stiffness = ring.pin_tangential_stiffness,
+      .housing_clearance = ring.housing_clearance,
+      .unilateral = ring.structure == Structure::pinned};
+}
+
 std::string solid_reason(const Scene& scene, const RingInput& ring) {
   std::string reasons;
   add_reason(reasons, ring.structure == Structure::thin_walled,
@@ -371,7 +371,7 @@ MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std:
     return model;
   }
   set_rung(model, scene, solid_reason(scene, input), plane_reason(input));
-  const auto structure = structure_of(input);
+  const auto structure = ring_structure(input);
   model.positions = fem::repeating_teeth(structure, input.teeth);
   model.repeats = input.has_pins() || input.structure == Structure::splined
                       ? repeats_text(input, model.positions)

@@ -52,6 +52,9 @@ struct MeshModel {
   [[nodiscard]] std::string label() const;
 };
 
+/// What holds a ring, as its elastic body knows it.
+[[nodiscard]] fem::RingStructure ring_structure(const RingInput& ring);
+
 /// Why a mesh needs a solid model: what changes along its face width. Empty when nothing does.
 [[nodiscard]] std::string solid_reason(const Scene& scene, const RingInput& ring);  ///< ring-planet mesh
 [[nodiscard]] std::string solid_reason(const Scene& scene);                         ///< sun-planet mesh

@@ -6,6 +6,7 @@
 
 #include "app/content_id.h"
 #include "app/plan/plan.h"
+#include "app/scene/inputs_json.h"
 
 namespace annulus::app {
 
@@ -39,15 +40,6 @@ Json decisions_json(const std::vector<Decision>& list) {
   Json json = Json::array();
   for (const auto& d : list) json.push_back({{"what", d.what}, {"choice", d.choice}, {"reason", d.reason}});
   return json;
-}
-
-Json value_json(const Value& value) {
-  if (const auto* v = std::get_if<long>(&value)) return *v;
-  if (const auto* v = std::get_if<double>(&value)) return std::isinf(*v) ? Json("inf") : Json(*v);
-  if (const auto* v = std::get_if<std::string>(&value)) return *v;
-  if (const auto* v = std::get_if<std::vector<double>>(&value)) return *v;
-  if (const auto* v = std::get_if<std::vector<std::string>>(&value)) return *v;
-  return nullptr;
 }
 
 Json quantities_json(const std::vector<Quantity>& quantities) {
@@ -128,16 +120,7 @@ std::string to_json(const Plan& plan) {
   Json json;
   json["annulus_version"] = version();
   json["title"] = plan.title;
-  for (const auto& input : plan.inputs) {
-    Json item = {{"key", input.key},
-                 {"value", value_json(input.value)},
-                 {"unit", input.unit},
-                 {"origin", to_text(input.origin)}};
-    if (!input.ring.empty()) item["ring"] = input.ring;
-    if (!input.assumed.empty()) item["assumed"] = input.assumed;
-    if (!input.note.empty() && input.origin != Origin::scene) item["note"] = input.note;
-    json["inputs"].push_back(std::move(item));
-  }
+  json["inputs"] = Json::parse(inputs_json(plan.inputs));
   json["stage"] = quantities_json(plan.quantities);
   for (const auto& [name, quantities] : plan.rings) json["rings"][name] = quantities_json(quantities);
   for (const auto& mesh : plan.meshes) {

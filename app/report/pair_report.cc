@@ -2,6 +2,7 @@
 
 #include "app/content_id.h"
 #include "app/report/pair_report_parts.h"
+#include "app/report/report_drawings.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -15,7 +16,8 @@ std::string pair_report_html(const PairRunResult& result) {
       to_text(scene.stage.pinion_torque), to_text(scene.stage.pinion_speed / units::rpm, 6),
       to_text(scene.pinion.teeth * scene.stage.pinion_speed / units::rpm / 60, 6));
   return report_page(escape(scene.title), sub, pair_verdict(result),
-                     {{{"figures", "Key figures", pair_figures_section(result)},
+                     {{{"drawings", "Geometry", drawings_section(result)},
+                       {"figures", "Key figures", pair_figures_section(result)},
                        {"conclusions", "The paper's conclusions", pair_conclusions_section(result)},
                        {"errors", "Manufacturing errors", pair_errors_section(result)},
                        {"maps", "Torque and speed", pair_maps_section(result)},

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/content_id.h"
+#include "app/report/report_drawings.h"
 #include "app/report/report_files.h"
 #include "app/report/report_parts.h"
 #include "core/units.h"
@@ -150,7 +151,8 @@ std::string report_html(const RunResult& result) {
                                       result.scene.stage.planets, to_text(result.scene.stage.power / 1e3),
                                       to_text(result.geometry.operating_point.sun_speed / units::rpm, 6));
   return report_page(escape(result.scene.title), sub, verdict_section(result),
-                     {{{"figures", "Key figures", key_figures_section(result)},
+                     {{{"drawings", "Geometry", drawings_section(result)},
+                       {"figures", "Key figures", key_figures_section(result)},
                        {"comparison", "Comparison with the source", comparison_section(result)},
                        {"meshes", "Meshes", meshes_section(result)},
                        {"fields", "Deformation and stress", fields_section(result)},

@@ -5,6 +5,7 @@
 
 #include "app/pipeline.h"
 #include "app/report/svg_plot.h"
+#include "app/stage/measured.h"
 
 /// The parts of report.html, each a piece of HTML made from the results alone.
 namespace annulus::app {
@@ -52,6 +53,12 @@ inline constexpr double shown_cycles = 110;
 
 // report_tables.cc
 [[nodiscard]] std::string verdict_section(const RunResult& result);  ///< what came out, in plain words
+/// What the stiffness of the ring mesh, load sharing and dynamic factors of several rings say, and the last two in one
+/// picture: by how much the most loaded planet and the largest dynamic load exceed the ideal. `names`: of the rings, in
+/// the order of their colours.
+[[nodiscard]] std::string answer_sentences(const std::vector<RingQuantity>& quantities);
+[[nodiscard]] std::string answer_picture(const std::vector<RingQuantity>& quantities,
+                                         const std::vector<std::string>& names);
 [[nodiscard]] std::string key_figures_section(const RunResult& result);
 [[nodiscard]] std::string comparison_section(const RunResult& result);  ///< with the published results
 // report_inputs.cc

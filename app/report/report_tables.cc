@@ -36,8 +36,6 @@ std::vector<Measured> sorted(const RingQuantity& q) {
   return rings;
 }
 
-bool distinct(const Measured& a, const Measured& b) { return std::abs(a.value - b.value) > a.error + b.error; }
-
 std::string stiffness_sentence(const RingQuantity& q) {
   const auto rings = sorted(q);
   if (rings.size() < 2) {
@@ -46,8 +44,10 @@ std::string stiffness_sentence(const RingQuantity& q) {
   }
   std::vector<std::string> others;
   for (std::size_t i = 1; i < rings.size(); ++i) {
-    others.push_back(fmt::format("<b>{}</b> is {:.1f} % softer", escape(rings[i].ring),
-                                 100 * (1 - rings[i].value / rings.front().value)));
+    const std::string name = "<b>" + escape(rings[i].ring) + "</b> is ";
+    others.push_back(same(rings[i], rings.front())
+                         ? name + "as stiff"
+                         : name + fmt::format("{:.1f} % softer", 100 * (1 - rings[i].value / rings.front().value)));
   }
   return fmt::format("<p>Stiffness of the ring mesh: <b>{}</b> is the stiffest ({} N/µm); {}.</p>\n",
                      escape(rings.front().ring), measured(rings.front().value / 1e6, rings.front().error / 1e6),
@@ -64,7 +64,7 @@ std::string sharing_sentence(const RingQuantity& q) {
       escape(rings.front().ring));
   if (!std::isfinite(rings.front().error + rings.back().error)) return text + "; the error is not known.</p>\n";
   return text +
-         (distinct(rings.front(), rings.back()) ? ".</p>\n" : "; the difference is within the error bars.</p>\n");
+         (told_apart(rings.front(), rings.back()) ? ".</p>\n" : "; the difference is within the error bars.</p>\n");
 }
 
 std::string factor_sentence(const RingQuantity& q) {
@@ -164,21 +164,43 @@ void add_dynamic_rows(HtmlTable& table, const RunResult& result, bool sun) {
 
 namespace {
 
-/// The answer in one picture: by how much the most loaded planet and the largest dynamic load exceed the ideal.
-std::string answer_picture(const RunResult& result, const std::vector<RingQuantity>& quantities) {
-  BarChart chart{.title = "Above the ideal, %", .x_label = "%", .width = 640, .label_width = 220, .row_height = 22};
+std::vector<std::string> names_of(const RunResult& result) {
+  std::vector<std::string> names;
+  for (const auto& ring : result.rings) names.push_back(ring.name);
+  return names;
+}
+
+}  // namespace
+
+std::string answer_sentences(const std::vector<RingQuantity>& quantities) {
+  std::string text;
+  if (const auto* q = quantity(quantities, "ring_stiffness")) text += stiffness_sentence(*q);
+  if (const auto* q = quantity(quantities, "load_sharing")) text += sharing_sentence(*q);
+  if (const auto* q = quantity(quantities, "dynamic_factor")) text += factor_sentence(*q);
+  return text;
+}
+
+std::string answer_picture(const std::vector<RingQuantity>& quantities, const std::vector<std::string>& names) {
+  constexpr double letter = 6;
+  double longest = 0;
+  for (const auto& name : names) longest = std::max(longest, letter * static_cast<double>(name.size() + 18));
+  const int label_width = std::max(220, static_cast<int>(longest));
+  BarChart chart{.title = "Above the ideal, %",
+                 .x_label = "%",
+                 .width = 420 + label_width,
+                 .label_width = label_width,
+                 .row_height = 22};
   for (const auto& [key, name] : {std::pair{"load_sharing", "load sharing"}, {"dynamic_factor", "dynamic factor"}}) {
     const auto* q = quantity(quantities, key);
     if (q == nullptr) continue;
     for (const auto& m : q->rings) {
       if (!std::isfinite(m.value)) continue;
-      const auto ring =
-          std::find_if(result.rings.begin(), result.rings.end(), [&](const auto& r) { return r.name == m.ring; });
-      chart.bars.push_back({.label = std::string(name) + ", " + m.ring,
-                            .value = 100 * (m.value - 1),
-                            .colour = static_cast<std::size_t>(ring - result.rings.begin()),
-                            .note = fmt::format("{:.3g} %", 100 * (m.value - 1)),
-                            .error = 100 * m.error});
+      chart.bars.push_back(
+          {.label = std::string(name) + ", " + m.ring,
+           .value = 100 * (m.value - 1),
+           .colour = static_cast<std::size_t>(std::find(names.begin(), names.end(), m.ring) - names.begin()),
+           .note = fmt::format("{:.3g} %", 100 * (m.value - 1)),
+           .error = 100 * m.error});
     }
   }
   if (chart.bars.empty()) return "";
@@ -188,14 +210,9 @@ std::string answer_picture(const RunResult& result, const std::vector<RingQuanti
                 "numerical error.");
 }
 
-}  // namespace
-
 std::string verdict_section(const RunResult& result) {
   const auto quantities = ring_quantities(result);
-  std::string text = "<div class=\"verdict\">\n";
-  if (const auto* q = quantity(quantities, "ring_stiffness")) text += stiffness_sentence(*q);
-  if (const auto* q = quantity(quantities, "load_sharing")) text += sharing_sentence(*q);
-  if (const auto* q = quantity(quantities, "dynamic_factor")) text += factor_sentence(*q);
+  std::string text = "<div class=\"verdict\">\n" + answer_sentences(quantities);
   const auto all = verdicts(result);
   if (!all.empty()) {
     const auto count = [&](Verdict::Outcome o) {
@@ -213,7 +230,7 @@ std::string verdict_section(const RunResult& result) {
   if (!unsteady.empty())
     text += "<p>No periodic steady state was reached with " + enumerate(unsteady) +
             "; the figures hold for the evaluated window only.</p>\n";
-  return text + "</div>\n" + answer_picture(result, quantities);
+  return text + "</div>\n" + answer_picture(quantities, names_of(result));
 }
 
 std::string key_figures_section(const RunResult& result) {

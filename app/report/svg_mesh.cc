@@ -11,7 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "app/report/drawing_page.h"
+#include "app/report/svg_support.h"
 #include "core/units.h"
+#include "geometry/gear_places.h"
 
 namespace annulus::app {
 
@@ -20,21 +23,16 @@ namespace {
 using geometry::Boundary;
 using geometry::Mesh;
 
-constexpr const char* planet_fill = "#cfe3f2";
-constexpr const char* wheel_fill = "#f7dcc4";
-constexpr const char* held_fill = "#D55E00";
-
 // ---- plane: all teeth are copies of one sector, so it is written once and used again ----
 
-/// Page coordinates: the line of centres upright, the planet above the sun, the ring above the planet; mm.
-std::string page_point(double x, double y) { return fmt::format("{:.2f} {:.2f}", -y / units::mm, -x / units::mm); }
+constexpr DrawingPage mesh_page{1 / units::mm};
 
 std::string cells_path(const Mesh& mesh) {
   std::string d;
   for (const auto& cell : mesh.cells) {
     for (int i = 0; i < 4; ++i) {
       const auto& v = mesh.vertices[cell[static_cast<std::size_t>(i)]];
-      d += (i == 0 ? "M" : "L") + page_point(v.x(), v.y());
+      d += (i == 0 ? "M" : "L") + mesh_page.text(v.head<2>());
     }
     d += "Z";
   }
@@ -47,7 +45,7 @@ std::string outline_path(const Mesh& mesh) {
   for (const auto& face : mesh.faces) {
     if (face.boundary == Boundary::side_low || face.boundary == Boundary::side_high) continue;
     const auto &a = mesh.vertices[face.vertices[0]], &b = mesh.vertices[face.vertices[1]];
-    d += "M" + page_point(a.x(), a.y()) + "L" + page_point(b.x(), b.y());
+    d += "M" + mesh_page.text(a.head<2>()) + "L" + mesh_page.text(b.head<2>());
   }
   return d;
 }
@@ -67,68 +65,10 @@ std::string teeth(const Mesh& sector, const std::string& id, const char* fill, d
   return svg;
 }
 
-std::string arc(double radius, double from, double to, const char* style) {
-  std::string d;
-  constexpr int pieces = 48;
-  for (int i = 0; i <= pieces; ++i) {
-    const double angle = from + (to - from) * i / pieces;
-    d += (i == 0 ? "M" : "L") + page_point(radius * std::cos(angle), radius * std::sin(angle));
-  }
-  return fmt::format("<path d=\"{}\" fill=\"none\" {} vector-effect=\"non-scaling-stroke\"/>", d, style);
-}
-
-constexpr double least_margin = 6 * units::mm;
-
-/// Outline of spline teeth with their flank angle, as wide as their spaces; a sketch, for their height is not an input.
-std::string spline_teeth(const fem::SplineHeld& spline, double radius, double first, double reach) {
-  std::string d;
-  const double quarter = std::numbers::pi / 2 / spline.teeth;
-  const double height = std::min(quarter * radius, least_margin - 1 * units::mm);
-  const double top = quarter - height * std::tan(spline.flank_angle) / radius;
-  for (const double own : fem::equal_angles(spline.teeth, spline.first_tooth_angle)) {
-    const double angle = std::remainder(own, 2 * std::numbers::pi) + first;
-    if (std::abs(angle - first) > reach) continue;
-    const auto corner = [&](double r, double a) {
-      return page_point(r * std::cos(angle + a), r * std::sin(angle + a));
-    };
-    d += "M" + corner(radius, -quarter) + "L" + corner(radius + height, -top) + "L" + corner(radius + height, top) +
-         "L" + corner(radius, quarter) + "Z";
-  }
-  return fmt::format(
-      "<path d=\"{}\" fill=\"#D55E00\" fill-opacity=\"0.75\" stroke=\"#7a3600\" stroke-width=\"0.8\" "
-      "vector-effect=\"non-scaling-stroke\"/>",
-      d);
-}
-
 std::string supports(const fem::LoadedMeshProblem& problem, double first, double reach) {
   const double radius = problem.wheel_support_radius;
-  constexpr const char* held = "stroke=\"#D55E00\" stroke-width=\"3.5\"";
-  if (!problem.pair.internal() || std::holds_alternative<fem::OutsideHeld>(problem.structure))
-    return arc(radius, first - reach, first + reach, held);
-  if (const auto* spline = std::get_if<fem::SplineHeld>(&problem.structure))
-    return spline_teeth(*spline, radius, first, reach);
-  const auto* pins = std::get_if<fem::PinHeld>(&problem.structure);
-  if (!pins) return "";
-  std::string svg;
-  if (pins->housing_clearance)
-    svg +=
-        arc(radius, first - reach, first + reach, "stroke=\"#D55E00\" stroke-width=\"1.5\" stroke-dasharray=\"6 3\"");
-  for (const double own : pins->angles) {
-    const double angle = std::remainder(own, 2 * std::numbers::pi) + first;
-    if (std::abs(angle - first) > reach) continue;
-    svg += fmt::format(
-        "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" fill=\"#D55E00\" fill-opacity=\"0.75\" stroke=\"#7a3600\" "
-        "stroke-width=\"0.8\" vector-effect=\"non-scaling-stroke\"/>",
-        -radius * std::sin(angle) / units::mm, -radius * std::cos(angle) / units::mm,
-        pins->pin_diameter / 2 / units::mm);
-  }
-  return svg;
-}
-
-/// Air around the bodies, enough for the pins.
-double margin_of(const fem::LoadedMeshProblem& problem) {
-  const auto* pins = std::get_if<fem::PinHeld>(&problem.structure);
-  return pins ? std::max(least_margin, pins->pin_diameter / 2 + 1 * units::mm) : least_margin;
+  return problem.pair.internal() ? drawn_supports(mesh_page, problem.structure, radius, first, reach)
+                                 : held_arc(mesh_page, radius, first, reach);
 }
 
 std::string plane_picture(const fem::LoadedMeshProblem& problem, const fem::LoadedMeshResult& solved,
@@ -136,20 +76,14 @@ std::string plane_picture(const fem::LoadedMeshProblem& problem, const fem::Load
   const auto& pair = problem.pair;
   const auto &planet = pair.planet(), &wheel = pair.wheel();
   const double centre = pair.centre_distance();
-  // Working pitch circles; their common point is where the flanks touch at mesh phase 0.
-  const double ratio = static_cast<double>(wheel.teeth()) / planet.teeth();
-  const double planet_pitch = pair.internal() ? centre / (ratio - 1) : centre / (ratio + 1);
-  const double wheel_pitch = ratio * planet_pitch;
-  // Sun: the sun's and the planet's leading flanks touch; ring: the planet's trailing with the ring's leading flank.
-  const double planet_half = planet.tooth_half_angle(planet_pitch);
-  const double planet_first = pair.internal() ? planet_half : std::numbers::pi - planet_half;
-  const double wheel_first = -wheel.tooth_half_angle(wheel_pitch);
+  const auto [planet_first, wheel_first] = geometry::pair_places(pair);  // pitch-point contact
+  const double wheel_pitch = wheel.base_radius() / std::cos(pair.working_pressure_angle());
 
   constexpr int each_side = 4;
   const double half_width = 3.4 * wheel.pitch_angle() * wheel_pitch;
   const double low = pair.internal() ? centre + problem.planet_bore_radius : problem.wheel_support_radius;
   const double high = pair.internal() ? problem.wheel_support_radius : centre - problem.planet_bore_radius;
-  const double margin = margin_of(problem);
+  const double margin = support_margin(problem.structure);
   const double width = 2 * half_width / units::mm, height = (high - low + 2 * margin) / units::mm;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.2f} {:.2f} {:.2f} {:.2f}\" role=\"img\" "
@@ -217,7 +151,7 @@ std::vector<Facet> facets(const Mesh& mesh, const Camera& eye, std::optional<Bou
     facet.depth = middle.dot(eye.towards);
     for (std::size_t i = 0; i < 4; ++i)
       facet.corners[i] = {p[i].dot(eye.right) / units::mm, -p[i].dot(eye.up) / units::mm};
-    const char* colour = face.boundary == held                      ? held_fill
+    const char* colour = face.boundary == held                      ? held_colour
                          : face.boundary == Boundary::leading_flank ? planet_fill
                                                                     : wheel_fill;
     facet.fill = shade(colour, std::clamp(normal.dot(lamp), 0.0, 1.0));

@@ -8,6 +8,7 @@
 
 #include "app/content_id.h"
 #include "app/plan/cost_actual.h"
+#include "app/report/report_drawings.h"
 #include "app/report/report_parts.h"
 #include "core/units.h"
 
@@ -237,7 +238,8 @@ std::string two_k_v_report(const TwoKVResult& result) {
                   escape(scene.file.filename().string()), to_text(stage.ratio(), 6), to_text(scene.output.torque, 5),
                   to_text(scene.output.speed / units::rpm, 5));
   return report_page(escape(scene.title), subtitle, reducer_verdict(result),
-                     {{{"figures", "Key figures", reducer_figures(result)},
+                     {{{"drawings", "Geometry", drawings_section(result)},
+                       {"figures", "Key figures", reducer_figures(result)},
                        {"comparison", "Comparison with the source", reducer_comparison(result)},
                        {"frequencies", "Natural frequencies", frequencies_section(result)},
                        {"first-frequency", "First frequency", first_frequency_section(result)},

@@ -54,8 +54,7 @@ std::string numbers_text(const RingQuantity& quantity) {
 
 /// Outcome of "a is larger than b": undecided when the error bars overlap or are not known.
 Verdict::Outcome larger(const Measured& a, const Measured& b) {
-  const double errors = a.error + b.error;
-  if (!std::isfinite(errors) || std::abs(a.value - b.value) <= errors) return Verdict::Outcome::undecided;
+  if (!told_apart(a, b)) return Verdict::Outcome::undecided;
   return a.value > b.value ? Verdict::Outcome::agrees : Verdict::Outcome::disagrees;
 }
 
@@ -64,15 +63,13 @@ void worsen(Verdict& verdict, const Measured& a, const Measured& b, double margi
   const double ahead = a.value / b.value - 1;
   const bool too_close = outcome == Verdict::Outcome::agrees && ahead < margin;
   if (outcome == Verdict::Outcome::agrees && !too_close) return;
-  const std::string values =
-      fmt::format("'{}' {} and '{}' {}", a.ring, to_text(a.value, digits), b.ring, to_text(b.value, digits));
   verdict.why += verdict.why.empty() ? "" : "; ";
   if (outcome == Verdict::Outcome::undecided) {
-    verdict.why +=
-        values + (std::isfinite(a.error + b.error) ? " differ by less than the error bars" : " have no known error");
+    verdict.why += undecided_text(a, b, digits);
     if (verdict.outcome == Verdict::Outcome::agrees) verdict.outcome = Verdict::Outcome::undecided;
     return;
   }
+  const std::string values = both_text(a, b, digits);
   verdict.why += too_close ? fmt::format("{} differ by only {:.2g} %", values, 100 * ahead)
                            : values + " are in the opposite order";
   verdict.outcome = Verdict::Outcome::disagrees;

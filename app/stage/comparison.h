@@ -5,23 +5,10 @@
 #include <vector>
 
 #include "app/pipeline.h"
+#include "app/stage/measured.h"
 #include "app/stage/reference.h"
 
 namespace annulus::app {
-
-/// A number with its absolute error, of one ring.
-struct Measured {
-  std::string ring;
-  double value = 0, error = 0;
-};
-
-/// A quantity over all rings of the run, by the names references use.
-struct RingQuantity {
-  std::string key;   ///< "load_sharing"
-  std::string name;  ///< for people: "load sharing, sun meshes, averaged over a mesh cycle"
-  std::vector<Measured> rings;
-  int digits = 4;
-};
 
 /// Everything that can be compared between rings. One key may stand for several definitions of the same figure.
 [[nodiscard]] std::vector<RingQuantity> ring_quantities(const RunResult& result);

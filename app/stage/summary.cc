@@ -8,6 +8,8 @@
 
 #include "app/content_id.h"
 #include "app/plan/cost_actual.h"
+#include "app/scene/inputs_json.h"
+#include "app/scene/scene_schema.h"
 #include "app/stage/error_parts_json.h"
 #include "app/stage/summary_studies.h"
 
@@ -126,8 +128,10 @@ SummaryJson ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
 }  // namespace
 
 std::string summary_json(const RunResult& result) {
-  SummaryJson json = {
-      {"title", result.scene.title}, {"annulus_version", version()}, {"accuracy_wanted", result.scene.accuracy}};
+  SummaryJson json = {{"title", result.scene.title},
+                      {"annulus_version", version()},
+                      {"kind", kind_name(result.scene.stage.kind)},
+                      {"accuracy_wanted", result.scene.accuracy}};
   const auto& point = result.geometry.operating_point;
   json["operating_point"] = {{"sun_torque_N_m", point.sun_torque},
                              {"mesh_frequency_Hz", point.mesh_frequency},
@@ -143,6 +147,7 @@ std::string summary_json(const RunResult& result) {
   ContentId inputs;
   for (const auto& input : result.scene.inputs) inputs.add(input.ring + "." + input.key, to_text(input.value));
   json["inputs_id"] = inputs.add("meshes", ids).id();
+  json["inputs"] = SummaryJson::parse(inputs_json(result.plan.inputs));
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
   if (!result.cost.empty()) json["cost"] = SummaryJson::parse(cost_json(result.cost));

@@ -7,6 +7,8 @@
 
 #include "app/content_id.h"
 #include "app/plan/cost_actual.h"
+#include "app/scene/inputs_json.h"
+#include "app/scene/scene_schema.h"
 #include "app/stage/error_parts_json.h"
 #include "app/stage/summary_studies.h"
 #include "app/two_k_v/two_k_v_run.h"
@@ -96,7 +98,10 @@ ReducerJson case_json(const TwoKVCase& c) {
 
 std::string two_k_v_summary(const TwoKVResult& result) {
   const auto& scene = result.scene();
-  ReducerJson json = {{"title", scene.title}, {"annulus_version", version()}, {"accuracy_wanted", scene.accuracy}};
+  ReducerJson json = {{"title", scene.title},
+                      {"annulus_version", version()},
+                      {"kind", kind_name(scene.stage.kind)},
+                      {"accuracy_wanted", scene.accuracy}};
   for (const auto& q : result.plan.quantities) json["operating_point"][q.key] = q.value;
   json.update(case_json(result.own));
   if (result.computed) json["computed"] = case_json(*result.computed);
@@ -105,6 +110,7 @@ std::string two_k_v_summary(const TwoKVResult& result) {
   ContentId inputs;
   for (const auto& input : scene.inputs) inputs.add(input.key, to_text(input.value));
   json["inputs_id"] = inputs.add("mesh", result.own.tables.sun.model.id()).id();
+  json["inputs"] = ReducerJson::parse(inputs_json(result.plan.inputs));
   for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
   json["peak_memory_MB"] = result.peak_memory_MB;
   if (!result.cost.empty()) json["cost"] = ReducerJson::parse(cost_json(result.cost));

@@ -1,0 +1,195 @@
+#include "app/compare/compared_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/compare/compared_figures.h"
+#include "app/finished_run.h"
+#include "app/scene/scene_value.h"
+#include "core/errors.h"
+
+namespace annulus::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using RunJson = nlohmann::ordered_json;
+
+constexpr std::uintmax_t largest_summary = 50'000'000;  // bytes; those of long searches have a few millions
+
+/// Whether something of a run lies here: results of meshes, or teeth kept for later runs.
+bool has_begun(const fs::path& folder) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const auto name = at->path().filename().string();
+    if (name == "condensed" || name == "run.json" || name == "dynamics" || name.starts_with("stiffness_") ||
+        name.starts_with("lte_"))
+      return true;
+  }
+  return false;
+}
+
+RunJson read_summary(const fs::path& folder) {
+  const auto file = folder / "summary.json";
+  std::error_code error;
+  if (!fs::exists(folder, error))
+    throw InputError(folder.string() + ": there is no such folder; give one that 'annulus run SCENE -o OUT' wrote");
+  if (!fs::is_directory(folder, error))
+    throw InputError(folder.string() + ": is not a folder; give one that 'annulus run SCENE -o OUT' wrote");
+  const auto unfinished = [&](const std::string& why) {
+    return InputError(
+        fmt::format("{0}: its run is not finished ({1}); 'annulus run SCENE -o {0}' with its scene goes on "
+                    "where it stopped, then compare",
+                    folder.string(), why));
+  };
+  if (!fs::exists(file, error)) {
+    if (has_begun(folder)) throw unfinished("no summary.json");
+    throw InputError(folder.string() +
+                     ": holds no run (no summary.json); give a folder that 'annulus run SCENE -o OUT' wrote");
+  }
+  if (fs::file_size(file, error) > largest_summary || error)
+    throw InputError(fmt::format("{}: cannot be read or is larger than {} bytes; run its scene again", file.string(),
+                                 largest_summary));
+  std::ifstream stream(file);
+  RunJson summary;
+  try {
+    summary = RunJson::parse(stream);
+  } catch (const RunJson::exception& what) {
+    throw InputError(fmt::format("{}: is damaged: {}; run its scene again", file.string(), what.what()));
+  }
+  if (const auto why = why_unfinished(folder)) throw unfinished(*why);
+  return summary;
+}
+
+std::string kind_of(const RunJson& json) {
+  if (json.contains("kind")) return json.at("kind");
+  // Earlier versions named the kind of pairs only.
+  return json.contains("rings") ? "planetary" : "two_k_v";
+}
+
+std::string input_text(const RunJson& value) {
+  if (value.is_string()) return value.get<std::string>();
+  return value.is_number() ? to_text(value.get<double>()) : value.dump();
+}
+
+/// Inputs of one variant: those of the stage and those of its ring.
+std::map<std::string, std::string> inputs_of(const RunJson& json, const std::string& ring) {
+  std::map<std::string, std::string> inputs;
+  if (!json.contains("inputs")) return inputs;
+  for (const auto& input : json.at("inputs")) {
+    const std::string key = input.at("key"), own = input.value("ring", "");
+    if (key == "title" || (!own.empty() && own != ring)) continue;
+    const auto& value = input.at("value");
+    auto& text = inputs[key];
+    // Tables of a list (sweeps, random inputs) have the same keys.
+    text += (text.empty() ? "" : "; ") + input_text(value);
+  }
+  return inputs;
+}
+
+ComparedVariant variant_of(const RunJson& json, const RunJson& figures, const std::string& kind,
+                           const std::string& ring) {
+  return {.name = ring, .figures = read_figures(kind, figures.dump()), .inputs = inputs_of(json, ring)};
+}
+
+ComparedRun run_of(const RunJson& json, const fs::path& folder) {
+  ComparedRun run{.folder = folder,
+                  .title = json.at("title"),
+                  .version = json.at("annulus_version"),
+                  .kind = kind_of(json),
+                  .accuracy = json.at("accuracy_wanted"),
+                  .inputs_known = json.contains("inputs")};
+  if (compared_figures(run.kind).empty()) throw InputError("kind is '" + run.kind + "'");
+  if (run.kind == "planetary") {
+    if (!json.at("rings").is_object()) throw InputError("its rings are no object");
+    for (const auto& [ring, figures] : json.at("rings").items())
+      run.variants.push_back(variant_of(json, figures, run.kind, ring));
+    if (run.variants.empty()) throw InputError("it has no rings");
+  } else {
+    run.variants.push_back(variant_of(json, json, run.kind, ""));
+    if (json.contains("computed"))
+      run.variants.push_back(variant_of(json, json.at("computed"), run.kind, "computed stiffness"));
+  }
+  const auto tells = [](const ComparedVariant& variant) {
+    return std::any_of(variant.figures.begin(), variant.figures.end(),
+                       [](const auto& figure) { return std::isfinite(figure.second.first); });
+  };
+  if (std::none_of(run.variants.begin(), run.variants.end(), tells)) throw InputError("it holds no figures");
+  for (const auto& [stage, seconds] : json.at("timings_s").items()) run.timings.emplace_back(stage, seconds);
+  run.peak_memory_MB = json.at("peak_memory_MB");
+  if (json.contains("reuse")) run.read_back = json.at("reuse").at("reused").size();
+  return run;
+}
+
+ComparedRun read_run(const fs::path& folder) {
+  const auto json = read_summary(folder);
+  const auto foreign = [&](const std::string& why) {
+    return InputError(
+        fmt::format("{}: is not a summary of annulus: {}; give a folder that 'annulus run SCENE -o OUT' "
+                    "wrote",
+                    (folder / "summary.json").string(), why));
+  };
+  try {
+    return run_of(json, folder);
+  } catch (const RunJson::exception& what) {
+    throw foreign(what.what());
+  } catch (const InputError& what) {
+    throw foreign(what.what());
+  }
+}
+
+/// The folder with so many of its parents.
+std::string last_parts(const fs::path& folder, std::size_t parts) {
+  fs::path name;
+  auto at = folder.end();
+  while (parts-- > 0 && at != folder.begin()) name = name.empty() ? fs::path(*--at) : fs::path(*--at) / name;
+  return name.generic_string();
+}
+
+/// As few parents as tell the runs apart.
+void name_runs(std::vector<ComparedRun>& runs, const std::vector<fs::path>& places) {
+  constexpr std::size_t deepest = 64;
+  for (std::size_t parts = 1; parts < deepest; ++parts) {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < runs.size(); ++i) names.push_back(runs[i].name = last_parts(places[i], parts));
+    std::sort(names.begin(), names.end());
+    if (std::adjacent_find(names.begin(), names.end()) == names.end()) break;
+  }
+  for (auto& run : runs)
+    for (auto& variant : run.variants)
+      variant.name = run.variants.size() == 1 || variant.name.empty() ? run.name : run.name + ": " + variant.name;
+}
+
+}  // namespace
+
+std::vector<ComparedRun> read_finished_runs(const std::vector<std::string>& folders) {
+  if (folders.size() < 2)
+    throw InputError(fmt::format("compare{}: needs the folders of two finished runs or more",
+                                 folders.empty() ? "" : " " + folders.front()));
+  std::vector<fs::path> places;
+  for (const auto& folder : folders) {
+    auto place = fs::weakly_canonical(fs::absolute(folder));
+    if (!place.has_filename()) place = place.parent_path();
+    if (std::find(places.begin(), places.end(), place) != places.end())
+      throw InputError(folder + ": is given twice; give every folder once");
+    places.push_back(std::move(place));
+  }
+  std::vector<ComparedRun> runs;
+  for (const auto& folder : folders) {
+    runs.push_back(read_run(folder));
+    if (runs.back().kind != runs.front().kind)
+      throw InputError(
+          fmt::format("{}: is a stage of kind {}, {} one of kind {}: they have no figures in common; "
+                      "compare stages of one kind",
+                      folder, runs.back().kind, folders.front(), runs.front().kind));
+  }
+  name_runs(runs, places);
+  return runs;
+}
+
+}  // namespace annulus::app

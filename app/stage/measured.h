@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace annulus::app {
+
+/// A number with its absolute error, of one ring.
+struct Measured {
+  std::string ring;
+  double value = 0, error = 0;
+};
+
+/// A quantity over several rings, of one scene or of several, by the names references use.
+struct RingQuantity {
+  std::string key;   ///< "load_sharing"
+  std::string name;  ///< for people: "load sharing, sun meshes, averaged over a mesh cycle"
+  std::vector<Measured> rings{};
+  int digits = 4;
+};
+
+/// Whether two numbers differ by rounding alone.
+[[nodiscard]] bool same(const Measured& a, const Measured& b);
+/// Whether two numbers differ by more than their error bars together; never where an error is not known.
+[[nodiscard]] bool told_apart(const Measured& a, const Measured& b);
+
+/// "'a' 1.2 and 'b' 1.3", in so many digits.
+[[nodiscard]] std::string both_text(const Measured& a, const Measured& b, int digits);
+/// Why two numbers that are not told apart are not.
+[[nodiscard]] std::string undecided_text(const Measured& a, const Measured& b, int digits);
+/// A sentence without its full stop: by how much `b` differs from `a`, and whether that is more than the error bars
+/// together.
+[[nodiscard]] std::string difference_text(const Measured& a, const Measured& b, int digits);
+
+}  // namespace annulus::app
