@@ -7,6 +7,7 @@
 #include "core/errors.h"
 #include "dynamics/orbit.h"
 #include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(bearing_forces)
 
@@ -56,6 +57,8 @@ Inertia inertia(const TimeSeries& s, const std::string& body, double mass, doubl
 // Each planet: the forces of its two meshes, of its pin and of inertia (taken from the sampled velocities) cancel.
 // 256 samples a mesh cycle put the fourth-order difference of a 5 kHz motion at (0.18)^4/30 = 3e-5 of it.
 BOOST_AUTO_TEST_CASE(planets_are_in_equilibrium) {
+  annulus::test::Verification record("Forces on the planet pins",
+                                     "Newton: meshes, pin and inertia (from the sampled velocities) cancel");
   const auto stage = stages::ring_paper();
   const auto series = steady_series(stage, 256);
   const auto pins = annulus::dynamics::bearing_forces(stage, series);
@@ -67,12 +70,20 @@ BOOST_AUTO_TEST_CASE(planets_are_in_equilibrium) {
     auto mass_times = inertia(series, "planet" + std::to_string(n + 1), stage.planet.mass, omega);
     // The centrifugal force m a Omega^2 is a preload, and it turns with the carrier.
     mass_times.y += stage.planet.mass * omega * omega * row(series, series.displacement, "carrier_u");
-    BOOST_TEST(worst(std::sin(as) * fs - std::sin(ar) * fr - pins.radial.row(n).array().matrix() +
-                     Eigen::RowVectorXd::Constant(fs.size(), centrifugal) - mass_times.x) <= 1e-3 * expected);
-    BOOST_TEST(worst(std::cos(as) * fs + std::cos(ar) * fr - pins.tangential.row(n) - mass_times.y) <= 1e-3 * expected);
+    const char* origin = "fourth-order difference of the velocities at 256 samples a mesh cycle";
+    record.at_most("radial balance over the mean pin force", "",
+                   worst(std::sin(as) * fs - std::sin(ar) * fr - pins.radial.row(n).array().matrix() +
+                         Eigen::RowVectorXd::Constant(fs.size(), centrifugal) - mass_times.x) /
+                       expected,
+                   1e-3, origin);
+    record.at_most("tangential balance over the mean pin force", "",
+                   worst(std::cos(as) * fs + std::cos(ar) * fr - pins.tangential.row(n) - mass_times.y) / expected,
+                   1e-3, origin);
   }
   // All pins together carry the torque of the carrier; the windows repeat to 1e-4 of the mesh force.
-  BOOST_TEST(std::abs(pins.tangential.colwise().sum().mean() / (5 * expected) - 1) <= 1e-4);
+  record.near("torque of all pins over that of the carrier", "",
+              pins.tangential.colwise().sum().mean() / (5 * expected), 1, 1e-4,
+              "windows repeat to 1e-4 of the mesh force");
   BOOST_TEST((pins.resultant().array() >= pins.tangential.array().abs()).all());
 }
 
@@ -101,6 +112,8 @@ BOOST_AUTO_TEST_CASE(rigid_bearings) {
 
 // What acts on a body is what its inertia and its supports take.
 BOOST_AUTO_TEST_CASE(support_reactions_balance_the_meshes) {
+  annulus::test::Verification record("Reactions of the supports of sun, ring and carrier",
+                                     "Newton: what acts on a body is what its inertia and its supports take");
   const auto stage = stages::ring_paper();
   const auto series = steady_series(stage, 256);
   const auto pins = annulus::dynamics::bearing_forces(stage, series);
@@ -123,12 +136,17 @@ BOOST_AUTO_TEST_CASE(support_reactions_balance_the_meshes) {
     const auto mass_times = inertia(series, sun ? "sun" : carrier ? "carrier" : "ring", body.mass, omega);
     const auto reaction = support_reaction(stage, series, member);
     const double scale = stage.mean_mesh_force();
-    BOOST_TEST(worst(x - mass_times.x - reaction.x.transpose()) <= 1e-3 * scale);
-    BOOST_TEST(worst(y - mass_times.y - reaction.y.transpose()) <= 1e-3 * scale);
+    const char* origin = "fourth-order difference of the velocities at 256 samples a mesh cycle";
+    record.at_most("balance in x over the mean mesh force", "",
+                   worst(x - mass_times.x - reaction.x.transpose()) / scale, 1e-3, origin);
+    record.at_most("balance in y over the mean mesh force", "",
+                   worst(y - mass_times.y - reaction.y.transpose()) / scale, 1e-3, origin);
   }
   // The housing takes the difference of the torques through the ring: T_s - T_c.
   const double expected = stage.sun_torque - stage.carrier_torque();
-  BOOST_TEST(std::abs(support_reaction(stage, series, CentralMember::ring).torque.mean() / expected - 1) <= 1e-4);
+  record.near("torque on the housing over the difference of the torques", "",
+              support_reaction(stage, series, CentralMember::ring).torque.mean() / expected, 1, 1e-4,
+              "windows repeat to 1e-4 of the mesh force");
   BOOST_TEST(support_reaction(stage, series, CentralMember::sun).torque.cwiseAbs().maxCoeff() == 0.0);
 }
 

@@ -12,6 +12,7 @@
 #include "tests/dynamics/allocation_counter.h"
 #include "tests/dynamics/stages.h"
 #include "tests/dynamics/tables.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(mesh_coupling)
 
@@ -151,17 +152,20 @@ BOOST_AUTO_TEST_CASE(a_coupling_is_an_elastic_network_without_mass) {
   const auto network = builder.build();
   auto network_workspace = network.workspace();
   const auto all = StaticSolver(network).solve(0, network_workspace);
-  BOOST_TEST(std::abs(q[0] / all[0] - 1) <= 1e-11);
-  BOOST_TEST(std::abs(q[1] / all[2] - 1) <= 1e-11);
+  annulus::test::Verification record("Two meshes coupled through the compliance of the ring",
+                                     "a network of springs without mass; closed form q = F/k + D F");
+  record.close("first displacement, network", "m", q[0], all[0], 1e-11, "rounding of the solve");
+  record.close("second displacement, network", "m", q[1], all[2], 1e-11, "rounding of the solve");
   // and in closed form: F = load, q = F/k + D F
   const Eigen::Vector2d given = stiffness.inverse() * load;
-  BOOST_TEST(std::abs(q[0] / (load[0] / 1e9 + given[0]) - 1) <= 1e-11);
-  BOOST_TEST(std::abs(q[1] / (load[1] / 2e9 + given[1]) - 1) <= 1e-11);
+  record.close("first displacement, closed form", "m", q[0], load[0] / 1e9 + given[0], 1e-11, "rounding of the solve");
+  record.close("second displacement, closed form", "m", q[1], load[1] / 2e9 + given[1], 1e-11, "rounding of the solve");
   // The elastic energy of the coupling is that of the network.
   Eigen::VectorXd y(4), z(8);
   y << q, 0, 0;
   z << all, 0, 0, 0, 0;
-  BOOST_TEST(std::abs(coupled.energy(0, y.data(), w) / network.energy(0, z.data(), network_workspace) - 1) <= 1e-11);
+  record.close("elastic energy", "J", coupled.energy(0, y.data(), w), network.energy(0, z.data(), network_workspace), 1e-11,
+               "rounding of the solve");
 }
 
 BOOST_AUTO_TEST_CASE(without_compliance_nothing_changes) {
@@ -336,19 +340,24 @@ BOOST_AUTO_TEST_CASE(energy_changes_by_what_is_supplied_and_dissipated) {
 }
 
 BOOST_AUTO_TEST_CASE(modes_kept_change_nothing_statically) {
+  annulus::test::Verification record("Elastic modes of the ring in statics",
+                                     "theorem: what the modes give way is part of the static compliance");
   auto with = coupling(1e-10, 3), without = std::make_shared<RingCoupling>(*with);
   without->modes.clear();
   // What the modes give way is part of D: without any the single mesh and D hold all of it.
   const auto forces = quasi_static(stage_with(without), 3, 27), kept = quasi_static(stage_with(with), 3, 27);
   const double load = stages::ring_paper().mean_mesh_force();
-  BOOST_TEST((forces.ring_force - kept.ring_force).cwiseAbs().maxCoeff() <= 1e-9 * load);
-  BOOST_TEST((forces.sun_force - kept.sun_force).cwiseAbs().maxCoeff() <= 1e-9 * load);
+  record.at_most("ring mesh forces with and without modes, difference over the load", "",
+                 (forces.ring_force - kept.ring_force).cwiseAbs().maxCoeff() / load, 1e-9, "rounding of the solve");
+  record.at_most("sun mesh forces with and without modes, difference over the load", "",
+                 (forces.sun_force - kept.sun_force).cwiseAbs().maxCoeff() / load, 1e-9, "rounding of the solve");
   // and the coupling is not negligible
   const auto alone = quasi_static(stage_with(nullptr), 3, 27);
   BOOST_TEST((forces.ring_force - alone.ring_force).cwiseAbs().maxCoeff() >= 1e-3 * load);
 }
 
 BOOST_AUTO_TEST_CASE(a_ring_in_the_housing_moves_as_in_the_carrier_frame) {
+  annulus::test::Verification record("A ring described in the housing", "the same stage described in the carrier frame");
   // A mode that closes nothing and is not coupled only moves the ring's coordinates to the housing.
   auto inert = coupling(1e-10, 1);
   inert->modes[0].closing.assign(162, 0.0);
@@ -377,10 +386,12 @@ BOOST_AUTO_TEST_CASE(a_ring_in_the_housing_moves_as_in_the_carrier_frame) {
     std::copy_n(w.force.data(), 10, force[housing]);
   }
   for (int m = 0; m < 10; ++m)
-    BOOST_TEST(std::abs(force[0][m] - force[1][m]) <= 1e-6 * 59e3);  // global error of 1e-10 per step
+    record.near("mesh force after 4 ms", "N", force[1][m], force[0][m], 1e-6 * 59e3, "global error of 1e-10 per step");
 }
 
 BOOST_AUTO_TEST_CASE(natural_frequencies_of_a_ring_mode) {
+  annulus::test::Verification record("An elastic mode of the ring coupled by inertia to its translation",
+                                     "closed form: quadratic for two frequencies");
   auto stage = stage_with(coupling(0, 1), false);
   const auto system = assemble(stage);
   const int mode = system.find("ring_mode1"), x = system.find("ring_x");
@@ -399,7 +410,7 @@ BOOST_AUTO_TEST_CASE(natural_frequencies_of_a_ring_mode) {
     double nearest = 1e99;
     for (const auto& f : found.modes)
       nearest = std::min(nearest, std::abs(f.frequency / (std::sqrt(square) / tau) - 1));
-    BOOST_TEST(nearest <= 1e-9);
+    record.at_most("relative difference of a frequency", "", nearest, 1e-9, "rounding of the eigenvalue solver");
   }
 }
 

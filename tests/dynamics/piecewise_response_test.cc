@@ -10,6 +10,7 @@
 #include "dynamics/lumped_system.h"
 #include "dynamics/response.h"
 #include "stages.h"
+#include "tests/verification_record.h"
 
 using namespace annulus;
 using namespace annulus::dynamics;
@@ -90,6 +91,10 @@ BOOST_AUTO_TEST_CASE(floquet_multipliers_of_a_gear_pair_are_those_of_meissners_e
   const double high = mean * (1 + ripple * (1 - duty)), low = mean * (1 - ripple * duty);
   const double w1 = std::sqrt(high / pair_mass), w2 = std::sqrt(low / pair_mass);
   const double natural = std::sqrt(mean / pair_mass) / (2 * std::numbers::pi);
+  test::Verification record("Stability of a gear pair with rectangular stiffness (Floquet multipliers)",
+                            "Meissner's equation: trace of the monodromy matrix 2 cos a cos b - (w1/w2 + w2/w1) sin a "
+                            "sin b; damped: product of both transfer matrices");
+  test::RecordedPlot::Curve undamped_curve{"undamped", {}, {}, {}}, damped_curve{"damping ratio 0.05", {}, {}, {}};
   int stable = 0, unstable = 0;
   for (double ratio = 0.35; ratio < 2.6; ratio += 0.05) {
     const double period = 1 / (ratio * natural), a = w1 * duty * period, b = w2 * (1 - duty) * period;
@@ -99,7 +104,11 @@ BOOST_AUTO_TEST_CASE(floquet_multipliers_of_a_gear_pair_are_those_of_meissners_e
     const auto r = piecewise_response(gear_pair(1 / period, 0), period, 1);
     // Multipliers at the edge of instability are double: the root of the rounding there, away from it rounding.
     const double sensitivity = 1 / std::sqrt(std::max(std::abs(half_trace * half_trace - 1), 1e-6));
-    BOOST_TEST(std::abs(r.largest_multiplier - expected) <= 1e-12 * sensitivity * expected);
+    record.near("largest multiplier, undamped", "", r.largest_multiplier, expected, 1e-12 * sensitivity * expected,
+                "rounding; its root at the edge of instability, where multipliers are double");
+    undamped_curve.x.push_back(ratio);
+    undamped_curve.computed.push_back(r.largest_multiplier);
+    undamped_curve.reference.push_back(expected);
     BOOST_TEST(r.stable == (expected < 1 + 1e-9));
     ++(std::abs(half_trace) > 1 ? unstable : stable);
 
@@ -110,15 +119,25 @@ BOOST_AUTO_TEST_CASE(floquet_multipliers_of_a_gear_pair_are_those_of_meissners_e
         std::sqrt(std::complex<double>(map.trace() * map.trace() / 4 - map.determinant()));
     const double damped = std::max(std::abs(map.trace() / 2 + root), std::abs(map.trace() / 2 - root));
     const auto d = piecewise_response(gear_pair(1 / period, damping), period, 1);
-    BOOST_TEST(std::abs(d.largest_multiplier - damped) <= 1e-9 * damped);
+    record.near("largest multiplier, damping ratio 0.05", "", d.largest_multiplier, damped, 1e-9 * damped,
+                "rounding of the eigenvalues");
+    damped_curve.x.push_back(ratio);
+    damped_curve.computed.push_back(d.largest_multiplier);
+    damped_curve.reference.push_back(damped);
     BOOST_TEST((d.periodic.trouble.find("parametric resonance") != std::string::npos) == (damped > 1 + 1e-9));
   }
   BOOST_TEST(stable > 10);
   BOOST_TEST(unstable > 3);
+  record.plot({"Largest Floquet multiplier: closed form (lines), annulus (dots)",
+               "mesh over natural frequency",
+               "",
+               {undamped_curve, damped_curve}});
 }
 
 // x'' m + c x' + k x = F with both transfer matrices: x0 = (I - M)^-1 (particular part), a two by two problem.
 BOOST_AUTO_TEST_CASE(force_of_a_gear_pair_has_its_closed_form) {
+  test::Verification record("Periodic force of a gear pair with rectangular stiffness",
+                            "closed form: both transfer matrices, a two by two problem");
   const double high = mean * (1 + ripple * (1 - duty)), low = mean * (1 - ripple * duty);
   const double period = 2e-3, damping = 2 * 0.05 * std::sqrt(mean * pair_mass);
   const double load = pair_mass * (1000 / mass_1 + 1000 / mass_2);
@@ -131,8 +150,8 @@ BOOST_AUTO_TEST_CASE(force_of_a_gear_pair_has_its_closed_form) {
   const auto r = piecewise_response(gear_pair(1 / period, damping), period, 1);
   BOOST_TEST(r.stable);  // the teeth would part; the linear solution is compared
   BOOST_TEST(r.periodic.residual <= 1e-12);
-  BOOST_TEST(r.periodic.force(0, 0) == high * x[0] + damping * x[1], boost::test_tools::tolerance(1e-11));
-  BOOST_TEST(r.force_before(0, 0) == low * x[0] + damping * x[1], boost::test_tools::tolerance(1e-11));
+  record.close("force after the jump", "N", r.periodic.force(0, 0), high * x[0] + damping * x[1], 1e-11, "rounding");
+  record.close("force before the jump", "N", r.force_before(0, 0), low * x[0] + damping * x[1], 1e-11, "rounding");
   // The rigid motion stands still: no momentum, its mean place at zero.
   BOOST_TEST(std::abs(mass_1 * r.periodic.velocity(0, 0) - mass_2 * r.periodic.velocity(1, 0)) <=
              1e-11 * mass_1 * std::max(1e-3, r.periodic.velocity.cwiseAbs().maxCoeff()));
@@ -143,6 +162,9 @@ BOOST_AUTO_TEST_CASE(force_of_a_gear_pair_has_its_closed_form) {
 // A theorem of models.md C: moving every body by its part of the gap leaves equations without backlash, and without
 // errors these scale with the torque.
 BOOST_AUTO_TEST_CASE(load_sharing_depends_on_neither_backlash_nor_torque_while_no_mesh_separates) {
+  test::Verification record("Load sharing without errors depends on neither backlash nor torque",
+                            "theorem: each body moved by its part of the gap leaves equations without backlash, which "
+                            "scale with the torque");
   auto stage = stages::backlash_paper();
   const auto reference = load_sharing(piecewise_response(stage));
   BOOST_TEST(reference.sun > 1.1);
@@ -155,8 +177,8 @@ BOOST_AUTO_TEST_CASE(load_sharing_depends_on_neither_backlash_nor_torque_while_n
         const auto r = piecewise_response(stage);
         BOOST_TEST(r.periodic.converged);
         const auto l = load_sharing(r);
-        BOOST_TEST(std::abs(l.sun - reference.sun) <= 1e-10);
-        BOOST_TEST(std::abs(l.ring - reference.ring) <= 1e-10);
+        record.near("load sharing coefficient, sun meshes", "", l.sun, reference.sun, 1e-10, "rounding");
+        record.near("load sharing coefficient, ring meshes", "", l.ring, reference.ring, 1e-10, "rounding");
       }
   // The march sees it too. It carries the gap (up to 1 mm) in its displacements: rounding of a deflection of 1e-6 m and
   // a tolerance of 1e-9 of it leave some 1e-7.
@@ -172,7 +194,8 @@ BOOST_AUTO_TEST_CASE(load_sharing_depends_on_neither_backlash_nor_torque_while_n
     const auto r = simulate(stage, options);
     BOOST_TEST(r.steady);
     // 1e-3 by the exact solution's peaks, looked for between the samples here: the jump itself is exact.
-    BOOST_TEST(std::abs(r.sun_planet.load_sharing.instantaneous.value - reference.sun) <= 1e-6);
+    record.near("load sharing coefficient, sun meshes, marched", "", r.sun_planet.load_sharing.instantaneous.value,
+                reference.sun, 1e-6, "integrator: 1e-9 of some 1e-6 m beside a gap of 1 mm");
   }
 }
 

@@ -12,6 +12,7 @@
 #include "dynamics/static_solver.h"
 #include "dynamics/two_k_v_modes.h"
 #include "tests/dynamics/two_k_v_stages.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(two_k_v)
 
@@ -52,15 +53,17 @@ double potential(const Eigen::VectorXd& q, double crank_angle) {
 }
 
 BOOST_AUTO_TEST_CASE(ratio_follows_from_the_teeth) {
+  annulus::test::Verification record("Kinematics of the published 2K-V reducer",
+                                     "Willis for the sun against the carrier; pins met by the turning eccentric");
   const auto stage = stages::reducer();
-  BOOST_TEST(stage.ratio() == 103.0);
-  BOOST_TEST(std::abs(stage.crank_frequency() - 15) <= 1e-12);  // 30 turns of the crank per turn of the output
+  record.near("ratio", "", stage.ratio(), 103.0, 0, "exact");
+  record.near("crank frequency: 30 turns per turn of the output", "Hz", stage.crank_frequency(), 15, 1e-12, "rounding");
   BOOST_TEST(std::abs(stage.sun_mesh_frequency() - 510) <= 1e-10);
   BOOST_TEST(std::abs(stage.arc_mesh_frequency() - 435) <= 1e-10);
   // Willis for the sun against the carrier, and pins met by the turning eccentric: the same frequencies another way.
   const double turns = 0.5;
-  BOOST_TEST(std::abs(stage.sun_mesh_frequency() - 10 * (103 - 1) * turns) <= 1e-10);
-  BOOST_TEST(std::abs(stage.arc_mesh_frequency() - 30 * 29 * turns) <= 1e-10);
+  record.near("mesh frequency of the sun", "Hz", stage.sun_mesh_frequency(), 10 * (103 - 1) * turns, 1e-10, "rounding");
+  record.near("mesh frequency of the arc gears", "Hz", stage.arc_mesh_frequency(), 30 * 29 * turns, 1e-10, "rounding");
 }
 
 BOOST_AUTO_TEST_CASE(motion_without_deformation_costs_nothing) {
@@ -91,6 +94,8 @@ BOOST_AUTO_TEST_CASE(motion_without_deformation_costs_nothing) {
 }
 
 BOOST_AUTO_TEST_CASE(stiffness_is_the_hessian_of_the_potential) {
+  annulus::test::Verification record("Stiffness matrix of the 2K-V reducer",
+                                     "second differences of the potential energy, written down apart from the code");
   for (const double angle : {0.0, 0.4, 1.9, 5.0}) {
     const auto stage = free_reducer(angle);
     const auto system = assemble(stage);
@@ -107,7 +112,8 @@ BOOST_AUTO_TEST_CASE(stiffness_is_the_hessian_of_the_potential) {
         };
         // V is quadratic: differences of any step are exact but for rounding.
         const double hessian = (at(1, 1) - at(1, -1) - at(-1, 1) + at(-1, -1)) / 4;
-        BOOST_TEST(std::abs(k(i, j) - hessian) <= 1e-13 * (at(1, 1) + at(1, -1) + 1));
+        record.near("entry of the matrix, rotations in rad", "N m", k(i, j), hessian,
+                    1e-13 * (at(1, 1) + at(1, -1) + 1), "rounding: the potential is quadratic");
       }
   }
 }
@@ -149,6 +155,8 @@ BOOST_AUTO_TEST_CASE(mesh_phases_follow_the_bodies) {
 }
 
 BOOST_AUTO_TEST_CASE(static_equilibrium) {
+  annulus::test::Verification record("Static equilibrium of the 2K-V reducer under 58 N m",
+                                     "statics: forces from the ratio; wind-up = torque over torsional stiffness");
   const auto held = stages::reducer();
   const auto system = assemble(held);
   StaticSolver solver(system);
@@ -159,13 +167,16 @@ BOOST_AUTO_TEST_CASE(static_equilibrium) {
     const Eigen::VectorXd q = solver.solve(time, workspace);
     double reaction = 0;  // of the crank bearings on the held carrier
     for (const char* name : {"planet1_x", "planet2_x"}) reaction += 1.5e8 * q[system.find(name)] * 22e-3;
-    BOOST_TEST(std::abs(reaction - 58) <= 1e-9 * 58);
+    record.near("torque of the crank bearings", "N m", reaction, 58, 1e-9 * 58, "rounding of the solve");
     for (int m = 0; m < 2; ++m) {
-      BOOST_TEST(std::abs(workspace.force[m] - held.mean_sun_mesh_force()) <= 1e-9 * held.mean_sun_mesh_force());
-      BOOST_TEST(std::abs(workspace.force[2 + m] - held.mean_arc_mesh_force()) <= 1e-9 * held.mean_arc_mesh_force());
+      record.near("sun mesh force", "N", workspace.force[m], held.mean_sun_mesh_force(),
+                  1e-9 * held.mean_sun_mesh_force(), "rounding of the solve");
+      record.near("arc mesh force", "N", workspace.force[2 + m], held.mean_arc_mesh_force(),
+                  1e-9 * held.mean_arc_mesh_force(), "rounding of the solve");
     }
     const double wind_up = q[0] / radii[0];
-    BOOST_TEST(std::abs(wind_up - 58.0 / 103 / stiffness) <= 1e-9 * wind_up);
+    record.near("wind-up of the input", "rad", wind_up, 58.0 / 103 / stiffness, 1e-9 * wind_up,
+                "rounding of the solve");
   }
   // Free at both ends: the same forces.
   auto both_free = held;
