@@ -139,7 +139,11 @@ std::string Verification::text() const {
   for (const auto& plot : plots_) {
     json curves = json::array();
     for (const auto& c : plot.curves)
-      curves.push_back({{"label", c.label}, {"x", c.x}, {"computed", c.computed}, {"reference", c.reference}});
+      curves.push_back({{"label", c.label},
+                        {"x", c.x},
+                        {"computed", c.computed},
+                        {"reference", c.reference},
+                        {"reference_x", c.reference_x}});
     record["plots"].push_back({{"title", plot.title},
                                {"x_label", plot.x_label},
                                {"y_label", plot.y_label},

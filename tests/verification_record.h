@@ -10,6 +10,7 @@ struct RecordedPlot {
   struct Curve {
     std::string label;
     std::vector<double> x, computed, reference;  ///< no reference: the computed values are joined by a line
+    std::vector<double> reference_x = {};        ///< where the reference is given when not at x
   };
   std::string title, x_label, y_label;  ///< labels with units
   std::vector<Curve> curves;

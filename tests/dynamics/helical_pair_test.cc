@@ -38,7 +38,7 @@ BOOST_AUTO_TEST_CASE(turning_costs_nothing) {
   BOOST_TEST(found[0].frequency == 0.0);
   BOOST_TEST(found[1].frequency > 100.0);
   // models.md B: the resonance near 1.3 kHz.
-  record.close("highest natural frequency", "Hz", found[5].frequency, 1300.0, 0.03, "read from a plot");
+  record.close("highest natural frequency", "Hz", found[5].frequency, 1300.0, 0.03, "given as near 1.3 kHz");
 }
 
 BOOST_AUTO_TEST_CASE(static_equilibrium_is_the_compliance_in_line) {

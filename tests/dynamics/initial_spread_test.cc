@@ -44,7 +44,8 @@ BOOST_AUTO_TEST_CASE(all_starts_lead_to_the_one_exact_motion_where_it_is_the_onl
 
 // Below a resonance gap makes soft, a motion with closed teeth and one that loses contact stand side by side.
 BOOST_AUTO_TEST_CASE(two_motions_are_found_beside_a_softening_resonance) {
-  test::Verification record("Two motions beside a softening resonance", "the exact piecewise solution, where contact holds");
+  test::Verification record("Two motions beside a softening resonance",
+                            "the exact piecewise solution, where contact holds");
   const auto stage = at_speed(5000);
   const auto spread = initial_spread(stage), again = initial_spread(stage);
   BOOST_TEST(spread.attractors == 2);

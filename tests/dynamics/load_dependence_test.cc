@@ -59,7 +59,8 @@ BOOST_AUTO_TEST_CASE(every_tabulated_load_deflects_to_its_transmission_error) {
         const auto q = solver.solve(i / 16.0 / 100, workspace);
         const double expected = table.at(i / 16, i % 16, load).lte + half.value_or(0.0);
         // The tabulated points are passed to 1e-11 (force_surface); Newton ends at 1e-13.
-        record.near("deflection over the tabulated one", "", q[0] / expected, 1, 1e-10, "interpolation passes it to 1e-11");
+        record.near("deflection over the tabulated one", "", q[0] / expected, 1, 1e-10,
+                    "interpolation passes it to 1e-11");
         record.near("force over the load", "", workspace.elastic[0] / force, 1, 1e-12, "Newton ends at 1e-13");
         BOOST_TEST(system.outside_table(0, workspace) == 0);
       }

@@ -69,6 +69,7 @@ BOOST_AUTO_TEST_CASE(quantiles_lie_in_their_intervals) {
 }
 
 BOOST_AUTO_TEST_CASE(intervals_cover_as_often_as_they_say) {
+  test::Verification record("Confidence intervals of quantiles of random errors", "their level, 0.95, over 300 seeds");
   auto problem = paper();
   problem.samples = 1000;
   constexpr int runs = 300;
@@ -78,7 +79,8 @@ BOOST_AUTO_TEST_CASE(intervals_cover_as_often_as_they_say) {
     covered += r.sample.low <= r.exact && r.exact <= r.sample.high;
   }
   // Four standard deviations below 0.95; the interval is conservative, so nothing above.
-  BOOST_TEST(covered > runs * (0.95 - 4 * std::sqrt(0.95 * 0.05 / runs)));
+  record.at_least("share of intervals that hold the exact quantile", "", static_cast<double>(covered) / runs,
+                  0.95 - 4 * std::sqrt(0.95 * 0.05 / runs), "four standard deviations; they are conservative");
 }
 
 BOOST_AUTO_TEST_CASE(draws_follow_their_laws) {
@@ -147,6 +149,7 @@ BOOST_AUTO_TEST_CASE(draws_do_not_depend_on_their_number) {
 }
 
 BOOST_AUTO_TEST_CASE(histogram_counts_every_draw) {
+  test::Verification record("Histogram of random errors", "chi-squared test against the law, 0.999");
   const auto problem = paper();
   const auto h = dynamics::manufacturing_error(problem).histogram;
   int total = 0, bins = 0;
@@ -159,7 +162,8 @@ BOOST_AUTO_TEST_CASE(histogram_counts_every_draw) {
   }
   BOOST_TEST(total == problem.samples);
   BOOST_TEST(bins > 30);
-  BOOST_TEST(statistic < quantile(boost::math::chi_squared(bins), 0.999));
+  record.at_most("chi-squared statistic", "", statistic, quantile(boost::math::chi_squared(bins), 0.999),
+                 "exceeded with probability 0.001");
 }
 
 BOOST_AUTO_TEST_CASE(bad_input_is_refused) {

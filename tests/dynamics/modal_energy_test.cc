@@ -107,7 +107,8 @@ BOOST_AUTO_TEST_CASE(shares_are_sensitivities) {
 
 // Rayleigh: strain energy over kinetic energy of a shape is omega^2.
 BOOST_AUTO_TEST_CASE(rayleigh_quotient) {
-  annulus::test::Verification record("Rayleigh's quotient of all modes", "strain over kinetic energy of a shape is w^2");
+  annulus::test::Verification record("Rayleigh's quotient of all modes",
+                                     "strain over kinetic energy of a shape is w^2");
   const auto stage = stages::ring_paper();
   const auto system = assemble(stage);
   const auto stiffness = stiffness_with_meshes(system, mean_mesh_stiffness(stage));
@@ -147,7 +148,8 @@ BOOST_AUTO_TEST_CASE(coupled_meshes) {
               2 * std::numbers::pi * found.modes[1].frequency / std::sqrt(k / mass), 1, 1e-12, "rounding");
   const auto energy = annulus::dynamics::modal_energy(system, stiffness, found);
   const auto body = element(energy, "ring_body");
-  record.near("strain energy share of the body in step", "", energy.strain(body, 0), 2 * d * in_step, 1e-12, "rounding");
+  record.near("strain energy share of the body in step", "", energy.strain(body, 0), 2 * d * in_step, 1e-12,
+              "rounding");
   BOOST_TEST(std::abs(energy.strain(body, 1)) <= 1e-12);
   for (const auto* mesh : {"a_mesh", "b_mesh"}) {
     BOOST_TEST(std::abs(energy.strain(element(energy, mesh), 0) - in_step / k / 2) <= 1e-12);

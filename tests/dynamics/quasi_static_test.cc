@@ -36,7 +36,7 @@ BOOST_AUTO_TEST_CASE(all_centres_held_closed_form) {
   const auto found = quasi_static(stage, per_cycle);
   BOOST_REQUIRE(found.sun_force.cols() == 55 * per_cycle);
   double sharing = 0;
-  annulus::test::RecordedPlot plot{"Sun mesh forces: closed form (lines), annulus (dots)", "mesh cycles", "kN", {}};
+  annulus::test::RecordedPlot plot{"Sun mesh forces", "mesh cycles", "kN", {}};
   for (int n = 0; n < 5; ++n) plot.curves.push_back({"planet " + std::to_string(n + 1), {}, {}, {}});
   for (int i = 0; i < found.sun_force.cols(); ++i) {
     const double t = i / (per_cycle * stage.mesh_frequency());

@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(direct_solution_and_marching_agree) {
     curve.computed.push_back(direct.series.force(0, i) * 1e-3);
     curve.reference.push_back(confirmed.series.force(0, i) * 1e-3);
   }
-  record.plot({"Force on the first sun mesh: marched (line), harmonic balance (dots)", "mesh cycles", "kN", {curve}});
+  record.plot({"Force on the first sun mesh", "mesh cycles", "kN", {curve}});
   options.keep_series = false;
   BOOST_TEST(simulate(stage, options).series.force.size() == 0);
   options = quick();

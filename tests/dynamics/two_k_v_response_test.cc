@@ -73,6 +73,7 @@ BOOST_AUTO_TEST_CASE(slow_motion_is_quasi_static) {
 
 // Free at both ends the first elastic mode is at 1893 Hz: meshing at 162 Hz is slow.
 BOOST_AUTO_TEST_CASE(both_ends_free_give_the_same_mesh_forces) {
+  annulus::test::Verification record("A 2K-V reducer free at both ends", "statics: mesh forces from the ratio");
   auto stage = running(1);
   stage.output_support = 0;
   SimulationOptions options;
@@ -81,7 +82,8 @@ BOOST_AUTO_TEST_CASE(both_ends_free_give_the_same_mesh_forces) {
   options.estimate_error = false;
   const auto response = simulate(stage, options);
   for (const auto& mesh : response.sun_planet) {
-    BOOST_TEST(std::abs(mesh.mean_force / response.mean_sun_force - 1) <= 5e-3);
+    record.near("mean sun mesh force over that of statics", "", mesh.mean_force / response.mean_sun_force, 1, 5e-3,
+                "steady state 1e-3, first mode twelve times above the mesh frequency");
     BOOST_TEST(mesh.contact_loss == 0.0);
   }
 }

@@ -67,6 +67,7 @@ BOOST_AUTO_TEST_CASE(ratio_follows_from_the_teeth) {
 }
 
 BOOST_AUTO_TEST_CASE(motion_without_deformation_costs_nothing) {
+  annulus::test::Verification record("Motion of 2K-V reducers without deformation", "kinematics: it costs no energy");
   for (const auto& [sun, planet, arc, cranks, gears] :
        {std::tuple{10, 34, 29, 2, 2}, std::tuple{12, 30, 39, 3, 2}, std::tuple{9, 41, 18, 3, 3}}) {
     for (const double angle : {0.0, 0.7, 2.9, -4.0}) {
@@ -81,7 +82,9 @@ BOOST_AUTO_TEST_CASE(motion_without_deformation_costs_nothing) {
       const Eigen::VectorXd motion = rigid_motion(stage, system);
       const Eigen::MatrixXd k = stiffness_of(stage);
       // Rounding of the largest terms, k (103 r_bs)^2 and the like.
-      BOOST_TEST((k * motion).cwiseAbs().maxCoeff() <= 1e-13 * k.cwiseAbs().maxCoeff() * motion.cwiseAbs().maxCoeff());
+      record.at_most("largest force over largest stiffness x motion", "",
+                     (k * motion).cwiseAbs().maxCoeff() / (k.cwiseAbs().maxCoeff() * motion.cwiseAbs().maxCoeff()),
+                     1e-13, "rounding of the largest terms");
       BOOST_TEST(system.freedoms() == 3 + 3 * cranks + 2 * gears);
       BOOST_TEST((k - k.transpose()).cwiseAbs().maxCoeff() <= 1e-15 * k.cwiseAbs().maxCoeff());
       const auto found = annulus::dynamics::modes(stage);
@@ -140,6 +143,8 @@ BOOST_AUTO_TEST_CASE(turning_vectors_agree_with_the_frozen_ones) {
 // Where teeth and pins really are, from the absolute angles of the bodies at the crank angle: the output at -Theta/z_b,
 // the sun at the ratio times that, the eccentricity of gear j at Theta_j past the carrier.
 BOOST_AUTO_TEST_CASE(mesh_phases_follow_the_bodies) {
+  annulus::test::Verification record("Mesh phases of a 2K-V reducer",
+                                     "places of teeth and pins from the absolute angles of the bodies");
   auto stage = free_reducer(0.9);
   stage.sun_teeth = 9;
   stage.cranks = stage.arc_gears = 3;
@@ -148,9 +153,11 @@ BOOST_AUTO_TEST_CASE(mesh_phases_follow_the_bodies) {
   const auto whole = [](double cycles) { return std::abs(cycles - std::round(cycles)); };
   for (int i = 0; i < 3; ++i) {
     const double phi = two_pi * (i + 1) / 3;
-    BOOST_TEST(whole(system.meshes()[i].phase_offset - 9 * (sun - output - phi) / two_pi) <= 1e-12);
+    record.at_most("sun mesh, difference to a whole number", "mesh cycles",
+                   whole(system.meshes()[i].phase_offset - 9 * (sun - output - phi) / two_pi), 1e-12, "rounding");
     const double eccentric = output + 0.9 + phi;  // towards the pitch point, in the housing
-    BOOST_TEST(whole(system.meshes()[3 + i].phase_offset + 30 * eccentric / two_pi) <= 1e-12);
+    record.at_most("arc mesh, difference to a whole number", "mesh cycles",
+                   whole(system.meshes()[3 + i].phase_offset + 30 * eccentric / two_pi), 1e-12, "rounding");
   }
 }
 
@@ -191,6 +198,8 @@ BOOST_AUTO_TEST_CASE(static_equilibrium) {
 // Without speed the vectors stand still and nothing supplies energy: it stays. With the crank turning, the prescribed
 // turn of the directions does work, b'(t)^T q F: the energy changes by just what power() books.
 BOOST_AUTO_TEST_CASE(energy_of_free_vibration) {
+  annulus::test::Verification record("Free vibration of the 2K-V reducer, standing and turning",
+                                     "first law: change of energy = work of the turning vectors");
   for (const double speed : {0.0, 30.0}) {  // rad/s of the output; 30: a crank turn in 7 ms
     auto stage = stages::reducer();
     stage.output_torque = 0;
@@ -214,7 +223,8 @@ BOOST_AUTO_TEST_CASE(energy_of_free_vibration) {
     integrate(system, state, 5e-3, options, workspace, 0, {}, true);
     const double after = energy();
     // The integrator's error over some 150 periods of the highest mode, and of the energies that follow its steps.
-    BOOST_TEST(std::abs(after - before - state.supplied) <= 2e-6 * before);
+    record.near("change of energy over the energy", "", (after - before) / before, state.supplied / before, 2e-6,
+                "integrator over 150 periods of the highest mode");
     BOOST_TEST(state.dissipated == 0.0);
     if (speed == 0)
       BOOST_TEST(state.supplied == 0.0);

@@ -319,7 +319,7 @@ void check_estimate(annulus::test::Verification& record, const std::string& name
     curve.reference.push_back(exact.table.at(0, phase, 0).stiffness_secant * 1e-9);
     curve.computed.push_back(closed.table.at(0, phase, 0).stiffness_secant * 1e-9);
   }
-  record.plot({name + ", secant stiffness: finite elements (line), formulas (dots)", "mesh phase", "GN/m", {curve}});
+  record.plot({name + ", secant stiffness", "mesh phase", "GN/m", {curve}});
 }
 
 BOOST_AUTO_TEST_CASE(the_estimate_covers_the_difference_to_plane_finite_elements) {

@@ -138,10 +138,7 @@ BOOST_AUTO_TEST_CASE(misaligned_teeth_carry_like_a_row_of_springs) {
       record.near("slices in contact", "", slices - static_cast<double>(lifted), touching, 1.5, "a slice and a half");
     }
   }
-  record.plot({"Face load factor: springs of ISO 6336 (lines), annulus (dots)",
-               "misalignment over load, um",
-               "",
-               {light, nominal}});
+  record.plot({"Face load factor", "misalignment over load, um", "", {light, nominal}});
 }
 
 BOOST_AUTO_TEST_CASE(a_misalignment_of_the_other_sign_is_the_mirror_image) {

@@ -35,33 +35,39 @@ std::string cell(std::string text) {
   return text;
 }
 
-std::string value(double x) {
+/// With the digits that a tolerance asks for, but seven where it is rounding alone.
+std::string value(double x, double tolerance = 0) {
   if (x == 0) return "0";
-  return fmt::format("{:.7g}", x);
+  const double digits = tolerance > 1e-12 * std::abs(x) ? std::ceil(std::log10(std::abs(x) / tolerance)) + 2 : 7;
+  return fmt::format("{:.{}g}", x, static_cast<int>(std::clamp(digits, 4.0, 13.0)));
 }
 
 std::string with_unit(const std::string& text, const std::string& unit) {
-  return unit.empty() ? text : text + ' ' + unit;
+  if (unit.empty()) return text;
+  return text + ' ' + (unit == "um" ? "µm" : unit == "deg" ? "°" : unit);
 }
 
 std::string small(double x) { return x == 0 ? "0" : fmt::format("{:.2g}", x); }
 
 std::string row_text(const Row& row) {
-  std::string expected, difference, tolerance;
+  const double off = std::abs(row.computed - row.expected);
+  std::string expected, computed, difference, tolerance;
   if (row.kind == "relative") {
-    expected = with_unit(value(row.expected), row.unit);
-    difference =
-        row.expected == 0 ? "0" : small(std::abs(row.computed - row.expected) / std::abs(row.expected)) + " of it";
+    const double size = std::abs(row.expected);
+    expected = with_unit(value(row.expected, row.tolerance * size), row.unit);
+    computed = value(row.computed, row.tolerance * size);
+    difference = off == 0 ? "0" : small(off / size) + " of it";
     tolerance = fmt::format("{:.3g} of it", row.tolerance);
   } else if (row.kind == "absolute") {
-    expected = with_unit(value(row.expected), row.unit);
-    difference = with_unit(small(std::abs(row.computed - row.expected)), row.unit);
+    expected = with_unit(value(row.expected, row.tolerance), row.unit);
+    computed = row.expected == 0 ? small(row.computed) : value(row.computed, row.tolerance);
+    difference = with_unit(small(off), row.unit);
     tolerance = with_unit(fmt::format("{:.3g}", row.tolerance), row.unit);
   } else {
-    tolerance =
-        with_unit(fmt::format("{} {:.3g}", row.kind == "at_most" ? "at most" : "at least", row.tolerance), row.unit);
+    const bool most = row.kind == "at_most";
+    computed = fmt::format("{:.{}g}", row.computed, most ? 3 : 5);
+    tolerance = with_unit(fmt::format("{} {:.3g}", most ? "at most" : "at least", row.tolerance), row.unit);
   }
-  const auto computed = row.kind == "at_most" ? fmt::format("{:.3g}", row.computed) : value(row.computed);
   const auto count = row.comparisons > 1 ? fmt::format(" (worst of {})", row.comparisons) : "";
   return fmt::format("| {}{} | {} | {} | {} | {} | {} |\n", cell(row.quantity), count, cell(expected),
                      with_unit(computed, row.unit), difference, tolerance, cell(row.origin));

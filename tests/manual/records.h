@@ -16,7 +16,7 @@ struct Row {
 
 struct Curve {
   std::string label;
-  std::vector<double> x, computed, reference;
+  std::vector<double> x, computed, reference, reference_x;
 };
 
 struct Picture {
