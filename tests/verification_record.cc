@@ -116,7 +116,7 @@ void Verification::convergence(const std::string& title, const std::string& x_la
   for (const double size : sizes) curve.reference.push_back(errors[at] * std::pow(size / finest, order));
   const auto same = [&](const RecordedPlot& p) { return p.title == title; };
   auto known = std::find_if(plots_.begin(), plots_.end(), same);
-  if (known == plots_.end()) known = plots_.insert(plots_.end(), {title, x_label, y_label, {}, true, true});
+  if (known == plots_.end()) known = plots_.insert(plots_.end(), {title, x_label, y_label, {}, true, true, true});
   known->curves.push_back(std::move(curve));
 }
 
@@ -149,6 +149,7 @@ std::string Verification::text() const {
                                {"y_label", plot.y_label},
                                {"x_log", plot.x_log},
                                {"y_log", plot.y_log},
+                               {"slopes", plot.slopes},
                                {"curves", curves}});
   }
   return record.dump(1) + '\n';

@@ -15,6 +15,7 @@ struct RecordedPlot {
   std::string title, x_label, y_label;  ///< labels with units
   std::vector<Curve> curves;
   bool x_log = false, y_log = false;
+  bool slopes = false;  ///< references are the slopes that theory promises
 };
 
 /// What the running test case compares with an independent reference, stated once: each comparison is a check of the

@@ -319,7 +319,7 @@ void check_estimate(annulus::test::Verification& record, const std::string& name
     curve.reference.push_back(exact.table.at(0, phase, 0).stiffness_secant * 1e-9);
     curve.computed.push_back(closed.table.at(0, phase, 0).stiffness_secant * 1e-9);
   }
-  record.plot({name + ", secant stiffness", "mesh phase", "GN/m", {curve}});
+  record.plot({"Secant stiffness, " + name, "mesh phase", "GN/m", {curve}});
 }
 
 BOOST_AUTO_TEST_CASE(the_estimate_covers_the_difference_to_plane_finite_elements) {
@@ -455,7 +455,7 @@ BOOST_AUTO_TEST_CASE(elastic_ring_and_curved_beam_over_the_thickness_of_the_rim)
     beam_curve.x.push_back(rim * 1e3);
     beam_curve.computed.push_back(beam_differences.back() * 100);
   }
-  record.plot({"Mean stiffness of the ring mesh by formulas against finite elements",
+  record.plot({"Mean stiffness: formulas against finite elements",
                "thickness of the rim, mm",
                "difference, %",
                {elastic_curve, beam_curve}});

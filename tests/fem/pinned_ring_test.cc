@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(the_ring_is_stiffest_where_the_line_of_action_leaves_throug
   annulus::test::RecordedPlot::Curve curve{"", {}, {}, {}};
   annulus::test::RecordedPlot::Curve pins{"pin on the line of action", {}, {}, {}};
   curve.label = "transmission error";
-  double low = 1, high = 0;
+  double low = 1e9, high = 0;
   for (int i = 0; i < result.table.positions(); ++i) {
     curve.x.push_back(result.table.ring_angles()[i] * 180 / M_PI);
     curve.computed.push_back(result.table.at(i, 0, 0).lte * 1e6);

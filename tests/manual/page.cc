@@ -65,7 +65,7 @@ std::string row_text(const Row& row) {
     tolerance = with_unit(fmt::format("{:.3g}", row.tolerance), row.unit);
   } else {
     const bool most = row.kind == "at_most";
-    computed = fmt::format("{:.{}g}", row.computed, most ? 3 : 5);
+    computed = fmt::format("{:.{}g}", row.computed, most && row.computed < 0.1 ? 3 : 5);
     tolerance = with_unit(fmt::format("{} {:.3g}", most ? "at most" : "at least", row.tolerance), row.unit);
   }
   const auto count = row.comparisons > 1 ? fmt::format(" (worst of {})", row.comparisons) : "";

@@ -52,7 +52,7 @@ std::string picture_svg(const Picture& picture) {
     line.colour = i;
     line.x = compared && !c.reference_x.empty() ? c.reference_x : c.x;
     line.y = compared ? c.reference : c.computed;
-    line.dashed = compared && picture.x_log && picture.y_log;
+    line.dashed = compared && picture.slopes;
     line.label = compared && one ? (line.dashed ? "order of theory" : "reference") : c.label;
     plot.series.push_back(line);
     if (!compared) continue;

@@ -37,7 +37,7 @@ Row read_row(const json& j) {
 }
 
 Picture read_picture(const json& j) {
-  Picture picture{j.at("title"), j.at("x_label"), j.at("y_label"), j.at("x_log"), j.at("y_log"), {}};
+  Picture picture{j.at("title"), j.at("x_label"), j.at("y_label"), j.at("x_log"), j.at("y_log"), j.at("slopes"), {}};
   for (const auto& c : j.at("curves"))
     picture.curves.push_back({c.at("label"), numbers(c.at("x")), numbers(c.at("computed")), numbers(c.at("reference")),
                               numbers(c.at("reference_x"))});

@@ -21,7 +21,7 @@ struct Curve {
 
 struct Picture {
   std::string title, x_label, y_label;
-  bool x_log = false, y_log = false;
+  bool x_log = false, y_log = false, slopes = false;
   std::vector<Curve> curves;
 };
 
