@@ -179,10 +179,7 @@ BOOST_AUTO_TEST_CASE(thick_rings_follow_elasticity_and_leave_the_beam) {
     departure = std::abs(beam / finite - 1);
   }
   BOOST_TEST(departure > 0.02);
-  record.plot({"Departure from finite elements",
-               "height over radius",
-               "",
-               {elastic_curve, beam_curve}});
+  record.plot({"Departure from finite elements", "height over radius", "", {elastic_curve, beam_curve}});
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -101,6 +101,7 @@ BOOST_AUTO_TEST_CASE(balances_hold_and_the_overlap_smooths_the_mesh) {
 }
 
 BOOST_AUTO_TEST_CASE(a_hardly_helical_pair_is_a_spur_pair) {
+  annulus::test::Verification record("Hardly helical teeth, 0.1 and 0.01 degrees", "limit: the spur mesh");
   ContactBench spur(helical_sun_mesh(0), 0, annulus::fem::Rung::solid);
   const auto expected = spur.sweep(8, nominal_load);
   double before = 0;
@@ -113,7 +114,9 @@ BOOST_AUTO_TEST_CASE(a_hardly_helical_pair_is_a_spur_pair) {
     BOOST_TEST_MESSAGE("helix " << angle / degree << " degrees: LTE differs by " << worst);
     // The ends of the face are ahead and behind by half an overlap, 0.064 beta; what one gains the other loses, but
     // where a pair enters. The path that remains is of the order of beta.
-    BOOST_TEST(worst < angle);
+    record.at_most(angle > 0.05 * degree ? "transmission error, largest relative difference, 0.1 degrees"
+                                         : "transmission error, largest relative difference, 0.01 degrees",
+                   "", worst, angle, "of the order of the helix angle, where a pair enters");
     if (before > 0) BOOST_TEST(worst < 0.15 * before);
     before = worst;
   }
