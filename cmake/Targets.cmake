@@ -23,6 +23,9 @@ function(annulus_set_warnings target)
                          $<$<BOOL:${ANNULUS_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
 
+# What tests compare with independent references, for the verification manual (tests/verification_record.h).
+set(ANNULUS_VERIFICATION_RECORDS ${PROJECT_BINARY_DIR}/verification)
+
 # One test program per layer, one CTest entry per Boost.Test suite:
 #   annulus_add_tests(core LINK annulus_core SOURCES a.cc SUITES "unit:errors" "verification:hertz")
 # Each entry of SUITES is label:suite; the suite must exist (an empty selection fails).
@@ -44,6 +47,11 @@ function(annulus_add_tests name)
     list(GET parts 0 label)
     list(GET parts 1 suite)
     add_test(NAME ${name}.${suite} COMMAND test_${name} --run_test=${suite} --log_level=test_suite)
-    set_tests_properties(${name}.${suite} PROPERTIES LABELS ${label} TIMEOUT ${ARG_TIMEOUT})
+    set_tests_properties(${name}.${suite} PROPERTIES LABELS ${label} TIMEOUT ${ARG_TIMEOUT}
+                         ENVIRONMENT ANNULUS_VERIFICATION_RECORD=${ANNULUS_VERIFICATION_RECORDS})
+    if(NOT name STREQUAL app)
+      set_property(GLOBAL APPEND PROPERTY ANNULUS_TEST_ENTRIES "${label} ${name} ${suite} $<TARGET_FILE:test_${name}>")
+      set_property(GLOBAL APPEND PROPERTY ANNULUS_RECORDING_TESTS ${name}.${suite})
+    endif()
   endforeach()
 endfunction()

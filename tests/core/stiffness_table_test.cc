@@ -11,6 +11,7 @@
 #include "core/files.h"
 #include "core/floating_point.h"
 #include "core/units.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(stiffness_table)
 
@@ -179,13 +180,15 @@ std::vector<double> sampled(const auto& f, int values, double period) {
 const auto uneven = std::vector<double>{3, -1, 4, 1, -5, 9, 2, -6, 5, 3, 5, 8};  // 3 mesh cycles of 4 values
 
 BOOST_AUTO_TEST_CASE(passes_through_its_values_with_its_period) {
+  annulus::test::Verification record("Interpolation of a periodic curve (makima)", "its values; its period");
   const PeriodicCurve curve(uneven, 4);
   BOOST_TEST(curve.period() == 3.0);
-  for (int i = 0; i < 12; ++i) BOOST_TEST(std::abs(curve(i / 4.0) - uneven[i]) <= 1e-14);  // rounding
+  for (int i = 0; i < 12; ++i) record.near("value at a knot", "", curve(i / 4.0), uneven[i], 1e-14, "rounding");
   for (const double x : {0.0, 0.1, 0.99, 1.6, 2.9999})
     for (const int turns : {-1000, -1, 1, 7, 100000}) {
       // Reducing an argument of 3e5 loses 3e5 eps = 7e-11 of phase; slopes here reach 60 per cycle.
-      BOOST_TEST(std::abs(curve(x + 3.0 * turns) - curve(x)) <= 1e-8);
+      record.near("value up to 100 000 periods away", "", curve(x + 3.0 * turns), curve(x), 1e-8,
+                  "rounding of the argument x slope");
       BOOST_TEST(std::abs(curve.derivative(x + 3.0 * turns) - curve.derivative(x)) <= 1e-6);
     }
 }
@@ -231,11 +234,13 @@ BOOST_AUTO_TEST_CASE(mean_is_the_integral) {
   // Two-point Gauss integrates each cubic piece exactly.
   for (int i = 0; i < 12; ++i)
     for (const double g : {-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)}) integral += curve((i + 0.5 + g / 2) / 4) / 8;
-  BOOST_TEST(std::abs(curve.mean() - integral / 3) <= 1e-13);  // rounding
+  annulus::test::Verification record("Mean of an interpolated curve", "Gauss quadrature, exact for cubics");
+  record.near("mean", "", curve.mean(), integral / 3, 1e-13, "rounding");
 }
 
 BOOST_AUTO_TEST_CASE(converges_on_a_smooth_curve) {
   const auto f = [](double x) { return std::exp(std::sin(2 * std::numbers::pi * (x + 0.07))); };
+  annulus::test::Verification record("Interpolation of a smooth periodic curve", "exp(sin x)");
   std::vector<double> max, mean;
   for (const int n : {64, 128, 256}) {
     const PeriodicCurve curve(sampled(f, n, 1), n);
@@ -249,12 +254,18 @@ BOOST_AUTO_TEST_CASE(converges_on_a_smooth_curve) {
   }
   // The maximum is second order (at extrema). Its constant depends on where the extremum lies between two knots, so
   // two refinements are taken together: at least 0.9 of order 2 over both.
-  BOOST_TEST(std::log2(max[0] / max[2]) >= 2 * 1.8);
-  BOOST_TEST(max[2] <= 1e-4);
+  record.at_least("order of the largest error, over two refinements", "", std::log2(max[0] / max[2]) / 2, 1.8,
+                  "0.9 of the order 2 (at extrema)");
+  record.at_most("largest error, 256 values", "", max[2], 1e-4, "ceiling beside the rate");
   // The mean is h^3 log(1/h): the second-order error fades like h^3 / distance from the extremum. At h = 1/256 that is
   // a local order of 3 - 1/log(1/h) = 2.8, of which 0.9.
-  BOOST_TEST(std::log2(mean[1] / mean[2]) >= 2.5);
-  BOOST_TEST(mean[2] <= 3e-6);
+  record.at_least("order of the mean error", "", std::log2(mean[1] / mean[2]), 2.5, "0.9 of 3 - 1/log(1/h) = 2.8");
+  record.at_most("mean error, 256 values", "", mean[2], 3e-6, "ceiling beside the rate");
+  const std::vector<double> sizes{1.0 / 64, 1.0 / 128, 1.0 / 256};
+  record.convergence("Error of interpolation; dashed: orders 2 and 2.8", "distance of the values", "error", "largest",
+                     sizes, max, 2);
+  record.convergence("Error of interpolation; dashed: orders 2 and 2.8", "distance of the values", "error", "mean",
+                     sizes, mean, 2.8);
 }
 
 BOOST_AUTO_TEST_CASE(unusable_values_are_refused) {

@@ -7,6 +7,7 @@
 #include "core/errors.h"
 #include "dynamics/orbit.h"
 #include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(bearing_forces)
 
@@ -56,6 +57,8 @@ Inertia inertia(const TimeSeries& s, const std::string& body, double mass, doubl
 // Each planet: the forces of its two meshes, of its pin and of inertia (taken from the sampled velocities) cancel.
 // 256 samples a mesh cycle put the fourth-order difference of a 5 kHz motion at (0.18)^4/30 = 3e-5 of it.
 BOOST_AUTO_TEST_CASE(planets_are_in_equilibrium) {
+  annulus::test::Verification record("Forces on the planet pins",
+                                     "Newton: meshes, pin and inertia (from the sampled velocities) cancel");
   const auto stage = stages::ring_paper();
   const auto series = steady_series(stage, 256);
   const auto pins = annulus::dynamics::bearing_forces(stage, series);
@@ -67,26 +70,39 @@ BOOST_AUTO_TEST_CASE(planets_are_in_equilibrium) {
     auto mass_times = inertia(series, "planet" + std::to_string(n + 1), stage.planet.mass, omega);
     // The centrifugal force m a Omega^2 is a preload, and it turns with the carrier.
     mass_times.y += stage.planet.mass * omega * omega * row(series, series.displacement, "carrier_u");
-    BOOST_TEST(worst(std::sin(as) * fs - std::sin(ar) * fr - pins.radial.row(n).array().matrix() +
-                     Eigen::RowVectorXd::Constant(fs.size(), centrifugal) - mass_times.x) <= 1e-3 * expected);
-    BOOST_TEST(worst(std::cos(as) * fs + std::cos(ar) * fr - pins.tangential.row(n) - mass_times.y) <= 1e-3 * expected);
+    const char* origin = "fourth-order difference of the velocities at 256 samples a mesh cycle";
+    record.at_most("radial balance over the mean pin force", "",
+                   worst(std::sin(as) * fs - std::sin(ar) * fr - pins.radial.row(n).array().matrix() +
+                         Eigen::RowVectorXd::Constant(fs.size(), centrifugal) - mass_times.x) /
+                       expected,
+                   1e-3, origin);
+    record.at_most("tangential balance over the mean pin force", "",
+                   worst(std::cos(as) * fs + std::cos(ar) * fr - pins.tangential.row(n) - mass_times.y) / expected,
+                   1e-3, origin);
   }
   // All pins together carry the torque of the carrier; the windows repeat to 1e-4 of the mesh force.
-  BOOST_TEST(std::abs(pins.tangential.colwise().sum().mean() / (5 * expected) - 1) <= 1e-4);
+  record.near("torque of all pins over that of the carrier", "",
+              pins.tangential.colwise().sum().mean() / (5 * expected), 1, 1e-4,
+              "windows repeat to 1e-4 of the mesh force");
   BOOST_TEST((pins.resultant().array() >= pins.tangential.array().abs()).all());
 }
 
 BOOST_AUTO_TEST_CASE(without_errors_each_pin_carries_its_share) {
+  annulus::test::Verification record("Mean pin forces without errors", "statics: torque of the carrier shared by all");
   auto stage = stages::ring_paper();
   stage.planet_errors.clear();
   const auto pins = annulus::dynamics::bearing_forces(stage, steady_series(stage, 64));
   const double expected = stage.carrier_torque() / (5 * stage.carrier.radius);
-  for (int n = 0; n < 5; ++n) BOOST_TEST(std::abs(pins.tangential.row(n).mean() / expected - 1) <= 1e-4);
+  for (int n = 0; n < 5; ++n)
+    record.near("mean tangential force over its share", "", pins.tangential.row(n).mean() / expected, 1, 1e-4,
+                "windows repeat to 1e-4 of the mesh force");
 }
 
 // Rigid bearings: the forces come from the planets' equilibrium; the carrier's own equation of rotation, from sampled
 // velocities, is another way to their sum.
 BOOST_AUTO_TEST_CASE(rigid_bearings) {
+  annulus::test::Verification record("Pin forces in rigid bearings",
+                                     "the carrier's equation of rotation, from sampled velocities");
   auto stage = stages::ring_paper();
   stage.planet.bearing_radial = stage.planet.bearing_tangential = rigid;
   stage.carrier.support = rigid;
@@ -95,12 +111,17 @@ BOOST_AUTO_TEST_CASE(rigid_bearings) {
   const double a = stage.carrier.radius, output = stage.carrier_torque() / a;
   const Eigen::RowVectorXd acceleration =
       rate(row(series, series.velocity, "carrier_u"), series.time[1] - series.time[0]);
-  BOOST_TEST(worst(stage.carrier.inertia / (a * a) * acceleration - pins.tangential.colwise().sum() +
-                   Eigen::RowVectorXd::Constant(acceleration.size(), output)) <= 1e-3 * output);
+  record.at_most("balance of the carrier over its torque", "",
+                 worst(stage.carrier.inertia / (a * a) * acceleration - pins.tangential.colwise().sum() +
+                       Eigen::RowVectorXd::Constant(acceleration.size(), output)) /
+                     output,
+                 1e-3, "fourth-order difference of the velocities at 256 samples a mesh cycle");
 }
 
 // What acts on a body is what its inertia and its supports take.
 BOOST_AUTO_TEST_CASE(support_reactions_balance_the_meshes) {
+  annulus::test::Verification record("Reactions of the supports of sun, ring and carrier",
+                                     "Newton: what acts on a body is what its inertia and its supports take");
   const auto stage = stages::ring_paper();
   const auto series = steady_series(stage, 256);
   const auto pins = annulus::dynamics::bearing_forces(stage, series);
@@ -123,17 +144,24 @@ BOOST_AUTO_TEST_CASE(support_reactions_balance_the_meshes) {
     const auto mass_times = inertia(series, sun ? "sun" : carrier ? "carrier" : "ring", body.mass, omega);
     const auto reaction = support_reaction(stage, series, member);
     const double scale = stage.mean_mesh_force();
-    BOOST_TEST(worst(x - mass_times.x - reaction.x.transpose()) <= 1e-3 * scale);
-    BOOST_TEST(worst(y - mass_times.y - reaction.y.transpose()) <= 1e-3 * scale);
+    const char* origin = "fourth-order difference of the velocities at 256 samples a mesh cycle";
+    record.at_most("balance in x over the mean mesh force", "",
+                   worst(x - mass_times.x - reaction.x.transpose()) / scale, 1e-3, origin);
+    record.at_most("balance in y over the mean mesh force", "",
+                   worst(y - mass_times.y - reaction.y.transpose()) / scale, 1e-3, origin);
   }
   // The housing takes the difference of the torques through the ring: T_s - T_c.
   const double expected = stage.sun_torque - stage.carrier_torque();
-  BOOST_TEST(std::abs(support_reaction(stage, series, CentralMember::ring).torque.mean() / expected - 1) <= 1e-4);
+  record.near("torque on the housing over the difference of the torques", "",
+              support_reaction(stage, series, CentralMember::ring).torque.mean() / expected, 1, 1e-4,
+              "windows repeat to 1e-4 of the mesh force");
   BOOST_TEST(support_reaction(stage, series, CentralMember::sun).torque.cwiseAbs().maxCoeff() == 0.0);
 }
 
 // All supports rigid and one planet: the sun's bearing takes the mesh force as it is, and a rigid ring the same torque.
 BOOST_AUTO_TEST_CASE(rigid_supports) {
+  annulus::test::Verification record("One planet, all supports rigid",
+                                     "statics: bearings take the mesh forces as they are");
   auto stage = stages::ring_paper();
   stage.planet_angles = {0.4};
   stage.planet_errors.clear();
@@ -142,14 +170,18 @@ BOOST_AUTO_TEST_CASE(rigid_supports) {
   const auto series = steady_series(stage, 64);
   const auto sun = support_reaction(stage, series, CentralMember::sun);
   const Eigen::VectorXd force = series.force.row(0).transpose();
-  BOOST_TEST((sun.magnitude() - force.cwiseAbs()).cwiseAbs().maxCoeff() <= 1e-12 * force.maxCoeff());
+  record.at_most("force on the sun's bearing less mesh force, over it", "",
+                 (sun.magnitude() - force.cwiseAbs()).cwiseAbs().maxCoeff() / force.maxCoeff(), 1e-12, "rounding");
   // The line of action leans by a_s from the tangent at the planet: the sun is pushed back, against the rotation, and
   // away from the planet.
   const double phi = 0.4;
   const Eigen::VectorXd outwards = std::cos(phi) * sun.x + std::sin(phi) * sun.y;
-  BOOST_TEST(std::abs(outwards.mean() / force.mean() + std::sin(stage.sun_working_angle)) <= 1e-12);
+  record.near("radial part of it over the mesh force: -sin of the working pressure angle", "",
+              outwards.mean() / force.mean(), -std::sin(stage.sun_working_angle), 1e-12, "rounding");
   const auto ring = support_reaction(stage, series, CentralMember::ring);
-  BOOST_TEST(std::abs(ring.torque.mean() / (stage.sun_torque - stage.carrier_torque()) - 1) <= 1e-4);
+  record.near("torque on the ring over the difference of the torques", "",
+              ring.torque.mean() / (stage.sun_torque - stage.carrier_torque()), 1, 1e-4,
+              "windows repeat to 1e-4 of the mesh force");
   // Carrier: the pin's force, whatever the way there.
   const auto carrier = support_reaction(stage, series, CentralMember::carrier);
   const auto pins = annulus::dynamics::bearing_forces(stage, series);
@@ -164,6 +196,7 @@ BOOST_AUTO_TEST_CASE(series_of_another_stage_are_refused) {
 
 // A circle about (2, 1) um at three turns of the carrier, which itself turns a third of a turn.
 BOOST_AUTO_TEST_CASE(orbit_of_a_circle) {
+  annulus::test::Verification record("Orbit of a circle about a point off the axis", "closed form");
   auto stage = stages::ring_paper();
   TimeSeries series;
   series.freedoms = {"sun_x", "sun_y"};
@@ -180,7 +213,8 @@ BOOST_AUTO_TEST_CASE(orbit_of_a_circle) {
   BOOST_TEST(std::abs(path.mean_y - 1e-6) <= 1e-18);
   BOOST_TEST(std::abs(path.extent - 5e-6) <= 1e-18);
   // Farthest from the axis along the mean: between two samples by half a degree at most, 1 - cos(0.5 deg) = 4e-5.
-  BOOST_TEST(std::abs(path.largest / (5e-6 + std::sqrt(5.0) * 1e-6) - 1) <= 4e-5);
+  record.near("largest distance from the axis over radius + distance of the centre", "",
+              path.largest / (5e-6 + std::sqrt(5.0) * 1e-6), 1, 4e-5, "half a degree between two samples");
   for (int i = 0; i < samples; ++i) {
     const double turned = 2 * std::numbers::pi * i / samples / 3;
     BOOST_TEST(std::abs(path.housing_x[i] - (std::cos(turned) * path.x[i] - std::sin(turned) * path.y[i])) <= 1e-18);

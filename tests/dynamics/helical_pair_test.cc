@@ -9,6 +9,7 @@
 #include "dynamics/static_solver.h"
 #include "tests/dynamics/pairs.h"
 #include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(helical_pair)
 
@@ -22,6 +23,8 @@ double hertz(double stiffness, double mass) { return std::sqrt(stiffness / mass)
 double rotational_mass(const PairGear& g) { return g.inertia / (g.radius * g.radius); }
 
 BOOST_AUTO_TEST_CASE(turning_costs_nothing) {
+  test::Verification record("Resonance of the helical pair of the paper",
+                            "the natural frequency near 1.3 kHz of the paper's pair (docs/helical_pair.md)");
   const auto pair = pairs::error_paper();
   const auto system = assemble(pair);
   BOOST_REQUIRE(system.freedoms() == 6);
@@ -35,10 +38,13 @@ BOOST_AUTO_TEST_CASE(turning_costs_nothing) {
   BOOST_TEST(found[0].frequency == 0.0);
   BOOST_TEST(found[1].frequency > 100.0);
   // models.md B: the resonance near 1.3 kHz.
-  BOOST_TEST(found[5].frequency == 1300.0, boost::test_tools::tolerance(0.03));
+  record.close("highest natural frequency", "Hz", found[5].frequency, 1300.0, 0.03, "given as near 1.3 kHz");
 }
 
 BOOST_AUTO_TEST_CASE(static_equilibrium_is_the_compliance_in_line) {
+  test::Verification record("Static deflection of a helical pair on unlike bearings",
+                            "statics: force over stiffness, sums of compliances");
+  const char* origin = "rounding of the solve";
   auto pair = pairs::error_paper();
   pair.wheel.bearing_axial = 3e8;  // unlike bearings
   pair.pinion.bearing_transverse = 5e8;
@@ -48,27 +54,31 @@ BOOST_AUTO_TEST_CASE(static_equilibrium_is_the_compliance_in_line) {
   const double t = 0.3 / pair.mesh_frequency(), force = pair.static_force();
   const Eigen::VectorXd q = solver.solve(t, workspace);
   const double c = std::cos(pair.base_helix_angle), s = std::sin(pair.base_helix_angle);
-  BOOST_TEST(workspace.force[0] == force, rounding);
-  BOOST_TEST(q[system.find("pinion_y")] == -force * c / 5e8, rounding);
-  BOOST_TEST(q[system.find("wheel_y")] == force * c / 2e9, rounding);
-  BOOST_TEST(q[system.find("pinion_z")] == force * s / 1e9, rounding);
-  BOOST_TEST(q[system.find("wheel_z")] == -force * s / 3e8, rounding);
+  record.close("mesh force", "N", workspace.force[0], force, 1e-10, origin);
+  record.close("pinion, line of action", "m", q[system.find("pinion_y")], -force * c / 5e8, 1e-10, origin);
+  record.close("wheel, line of action", "m", q[system.find("wheel_y")], force * c / 2e9, 1e-10, origin);
+  record.close("pinion, axis", "m", q[system.find("pinion_z")], force * s / 1e9, 1e-10, origin);
+  record.close("wheel, axis", "m", q[system.find("wheel_z")], -force * s / 3e8, 1e-10, origin);
   const double k = mean_stiffness(pair.mesh) * (1 + 0.05 * std::cos(2 * std::numbers::pi * 0.3));
   const double e = 13.1e-6 * std::sin(2 * std::numbers::pi * 0.3);
   const double compliance = pair.static_compliance() - 1 / mean_stiffness(pair.mesh) + 1 / k;
-  BOOST_TEST(q[system.find("pinion_u")] + q[system.find("wheel_u")] == (force * compliance + e) / c, rounding);
+  record.close("rotations", "m", q[system.find("pinion_u")] + q[system.find("wheel_u")], (force * compliance + e) / c,
+               1e-10, origin);
   // The thrust is that of statics at the reference circle: T tan(beta) / r.
   const double thrust = pair.pinion_torque * std::tan(pairs::helix) / pairs::reference_radius(21);
-  BOOST_TEST(force * s == thrust, rounding);
+  record.close("axial thrust: T tan(beta) / r", "N", force * s, thrust, 1e-10, origin);
 }
 
 BOOST_AUTO_TEST_CASE(held_bearings_leave_the_torsional_pair) {
+  test::Verification record("Torsional frequency of a helical pair in held bearings",
+                            "closed form: sqrt(k cos^2 b / m), m of both inertias in series");
   const auto pair = pairs::held(pairs::error_paper());
   const auto found = modes(pair);
   BOOST_REQUIRE(found.modes.size() == 2);
   const double c = std::cos(pair.base_helix_angle);
   BOOST_TEST(found.modes[0].frequency == 0.0);
-  BOOST_TEST(found.modes[1].frequency == hertz(mean_stiffness(pair.mesh) * c * c, pair.reduced_mass()), rounding);
+  record.close("natural frequency", "Hz", found.modes[1].frequency,
+               hertz(mean_stiffness(pair.mesh) * c * c, pair.reduced_mass()), 1e-10, "rounding");
   const double m1 = rotational_mass(pair.pinion), m2 = rotational_mass(pair.wheel);
   BOOST_TEST(pair.reduced_mass() == m1 * m2 / (m1 + m2), rounding);
 }
@@ -88,6 +98,7 @@ BOOST_AUTO_TEST_CASE(spur_teeth_do_not_push_along_the_axis) {
 }
 
 BOOST_AUTO_TEST_CASE(energy_is_constant_without_dampers) {
+  test::Verification record("Energy of a helical pair without losses", "conservation of energy");
   auto pair = pairs::error_paper();
   pair.mesh_damping_ratio = pair.bearing_damping_ratio = 0;
   pair.mesh = ConstantStiffness{mean_stiffness(pair.mesh)};
@@ -105,10 +116,12 @@ BOOST_AUTO_TEST_CASE(energy_is_constant_without_dampers) {
   integrate(system, state, 0.1, options, workspace);
   y << state.q, state.v;
   // 130 periods of the fastest mode at 1e-10 per step of a tenth of it.
-  BOOST_TEST(system.energy(state.time, y.data(), workspace) == before, boost::test_tools::tolerance(1e-7));
+  record.close("energy after 0.1 s", "J", system.energy(state.time, y.data(), workspace), before, 1e-7,
+               "130 periods of the fastest mode, 1e-10 per step of a tenth of it");
 }
 
 BOOST_AUTO_TEST_CASE(periods_and_formulas) {
+  test::Verification record("Formulas of a helical pair", "ISO 21771; ISO 6336-1 (mesh stiffness, method B)");
   auto pair = pairs::error_paper();
   BOOST_TEST(pair.error_period() == 1);
   pair.pinion.error = {1e-6, 0};
@@ -118,10 +131,11 @@ BOOST_AUTO_TEST_CASE(periods_and_formulas) {
   BOOST_TEST(pair.mesh_frequency() == 525.0, rounding);
   BOOST_TEST(pair.wheel_speed() * pair.wheel_torque() == pair.pinion_speed * pair.pinion_torque, rounding);
   // tan b = tan(beta) cos(transverse pressure angle)
-  BOOST_TEST(std::tan(pair.base_helix_angle) == std::tan(pairs::helix) * std::cos(pairs::transverse_pressure()),
-             rounding);
+  record.close("tan of the base helix angle", "", std::tan(pair.base_helix_angle),
+               std::tan(pairs::helix) * std::cos(pairs::transverse_pressure()), 1e-10, "rounding");
   // 14 N/(mm um) cos 14 deg (0.75 1.6 + 0.25) x 150 mm = 2.955 kN/um
-  BOOST_TEST(iso_6336_mesh_stiffness(0.15, 1.6, pairs::helix) == 2.95455e9, boost::test_tools::tolerance(1e-5));
+  record.close("mesh stiffness: 14 N/(mm um) cos 14 deg (0.75 x 1.6 + 0.25) x 150 mm", "N/m",
+               iso_6336_mesh_stiffness(0.15, 1.6, pairs::helix), 2.95455e9, 1e-5, "digits of the reference");
 }
 
 BOOST_AUTO_TEST_CASE(bad_input_is_refused) {

@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "core/floating_point.h"
 #include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(integration)
 
@@ -44,6 +45,8 @@ IntegratorOptions tight(Integrator method, double tolerance, double absolute) {
 }
 
 BOOST_AUTO_TEST_CASE(damped_free_vibration_in_closed_form) {
+  annulus::test::Verification record("Damped free vibration of one mass, three integrators",
+                                     "closed form: x0 exp(-d t) (cos w t + d / w sin w t)");
   const Oscillator oscillator{2, 5e4, 40};
   const double w0 = std::sqrt(5e4 / 2), decay = 40.0 / 4, w = std::sqrt(w0 * w0 - decay * decay), t = 0.2;
   const double expected = 1e-3 * std::exp(-decay * t) * (std::cos(w * t) + decay / w * std::sin(w * t));
@@ -54,16 +57,21 @@ BOOST_AUTO_TEST_CASE(damped_free_vibration_in_closed_form) {
       auto state = start(1e-3, 0);
       const auto statistics = integrate(system, state, t, tight(method, tolerance, 1e-3 * tolerance), workspace);
       // Local errors of at most 2 x tolerance (relative + absolute) per step add up.
-      BOOST_TEST(std::abs(state.q[0] - expected) <= 2 * tolerance * 1e-3 * static_cast<double>(statistics.steps));
+      record.near(
+          tolerance < 1e-8 ? "displacement after 0.2 s, tolerance 1e-9" : "displacement after 0.2 s, tolerance 1e-6",
+          "m", state.q[0], expected, 2 * tolerance * 1e-3 * static_cast<double>(statistics.steps),
+          "steps x tolerance of the integrator x amplitude");
       BOOST_TEST(state.time == t);
       BOOST_TEST((statistics.jacobian_evaluations > 0) == (method == Integrator::cvode_bdf));
     }
 }
 
 BOOST_AUTO_TEST_CASE(runge_kutta_has_order_four) {
+  annulus::test::Verification record("Fixed-step Runge-Kutta has order four", "closed form: x0 cos w t");
   const auto system = Oscillator{}.system();
   const double w = std::sqrt(2.5e4), t = 0.1;
   double previous = 0;
+  std::vector<double> step_sizes, errors;
   for (const int steps : {100, 200, 400}) {
     auto workspace = system.workspace();
     auto state = start(1e-3, 0);
@@ -72,17 +80,21 @@ BOOST_AUTO_TEST_CASE(runge_kutta_has_order_four) {
     const auto statistics = integrate(system, state, t, options, workspace);
     BOOST_TEST(std::abs(statistics.steps - steps) <= 1);  // rounding may leave a last sliver
     const double error = std::hypot(state.q[0] - 1e-3 * std::cos(w * t), state.v[0] / w + 1e-3 * std::sin(w * t));
-    if (previous > 0) {
-      BOOST_TEST(std::log2(previous / error) > 3.8);  // bounded from both sides: neither less nor by chance more
-      BOOST_TEST(std::log2(previous / error) < 4.2);
-    }
+    if (previous > 0)  // bounded from both sides: neither less nor by chance more
+      record.near("order of convergence", "", std::log2(previous / error), 4, 0.2, "steps of finite size");
     previous = error;
+    step_sizes.push_back(t / steps);
+    errors.push_back(error / 1e-3);
   }
-  BOOST_TEST(previous < 1e-3 * 1e-6);  // w h = 0.04: n (w h)^5/120 = 3e-7 of the amplitude
+  record.at_most("error over amplitude, w h = 0.04", "", previous / 1e-3, 1e-6, "n (w h)^5 / 120 = 3e-7");
+  record.convergence("Error of Runge-Kutta; dashed: order 4", "step, s", "error over amplitude", "", step_sizes, errors,
+                     4);
 }
 
 // A mass between the two flanks of a dead band: free flight, half a sine in each contact.
 BOOST_AUTO_TEST_CASE(backlash_oscillator_in_closed_form) {
+  annulus::test::Verification record("A mass between the flanks of a dead band",
+                                     "closed form: free flight between, half a sine in each contact");
   LumpedSystemBuilder builder;
   MeshElement mesh;
   mesh.name = "m";
@@ -102,13 +114,18 @@ BOOST_AUTO_TEST_CASE(backlash_oscillator_in_closed_form) {
     BOOST_TEST(statistics.contact_events == 80);  // in and out, on both sides
     // Steps x tolerance of the excursion (1e-3 + 0.3/158 m), times 10: an error in speed goes on shifting the phase for
     // the rest of the flights.
-    BOOST_TEST(std::abs(state.q[0]) <= 10 * tolerance * 3e-3 * static_cast<double>(statistics.steps));
-    BOOST_TEST(std::abs(state.v[0] / speed - 1) <= 2 * tolerance * static_cast<double>(statistics.steps));
+    record.near("displacement after 20 periods", "m", state.q[0], 0,
+                10 * tolerance * 3e-3 * static_cast<double>(statistics.steps),
+                "10 x steps x tolerance of the integrator x excursion");
+    record.near("speed after 20 periods", "m/s", state.v[0], speed,
+                2 * tolerance * static_cast<double>(statistics.steps) * speed, "steps x tolerance of the integrator");
   }
 }
 
 // Meissner's equation: a stiffness switching between two values, each piece an exact rotation in the phase plane.
 BOOST_AUTO_TEST_CASE(rectangular_stiffness_in_closed_form) {
+  annulus::test::Verification record("A stiffness switching between two values",
+                                     "closed form of Meissner's equation: each piece a rotation in the phase plane");
   LumpedSystemBuilder builder;
   MeshElement mesh;
   mesh.name = "m";
@@ -133,11 +150,14 @@ BOOST_AUTO_TEST_CASE(rectangular_stiffness_in_closed_form) {
     const auto statistics = integrate(system, state, 30.0 / 70, tight(method, 1e-9, 1e-12), workspace);
     BOOST_TEST(statistics.stiffness_restarts == 60);
     const double scale = expected.norm(), bound = 2e-9 * static_cast<double>(statistics.steps);
-    BOOST_TEST(std::hypot((state.q[0] - expected[0]) * 158, state.v[0] - expected[1]) <= bound * scale);
+    record.at_most("state after 30 cycles: error over its size", "",
+                   std::hypot((state.q[0] - expected[0]) * 158, state.v[0] - expected[1]) / scale, bound,
+                   "steps x tolerance of the integrator");
   }
 }
 
 BOOST_AUTO_TEST_CASE(samples_lie_on_the_solution) {
+  annulus::test::Verification record("Samples between the steps of an integrator", "closed form: x0 cos w t");
   const auto system = Oscillator{}.system();
   const double w = std::sqrt(2.5e4);
   for (const auto method : adaptive) {
@@ -153,7 +173,8 @@ BOOST_AUTO_TEST_CASE(samples_lie_on_the_solution) {
     });
     BOOST_TEST(count == 97);
     // Interpolation between steps is of lower order than the steps: a hundred times the tolerance x steps (about 200).
-    BOOST_TEST(worst <= 1e-3 * 1e-8 * 2e4);
+    record.at_most("largest error of 97 samples", "m", worst, 1e-3 * 1e-8 * 2e4,
+                   "100 x steps x tolerance: interpolation is of lower order");
   }
 }
 
@@ -167,6 +188,8 @@ SystemState shaken(const LumpedSystem& system) {
 }
 
 BOOST_AUTO_TEST_CASE(undamped_unforced_energy_is_constant) {
+  annulus::test::Verification record("Energy of a rattling stage without losses and load",
+                                     "conservation of energy, also in the turning frame");
   for (const double speed : {0.0, 300.0}) {  // with the conservative terms of the rotating frame
     auto stage = stages::ring_paper();
     stage.planet_errors.clear();
@@ -190,12 +213,16 @@ BOOST_AUTO_TEST_CASE(undamped_unforced_energy_is_constant) {
       const double after = system.energy(state.time, y.data(), workspace);
       BOOST_TEST(statistics.contact_events > 10);
       // Each step errs by at most about the tolerance in every freedom; energy is quadratic: 2 x steps x tolerance.
-      BOOST_TEST(std::abs(after / before - 1) <= 2 * tolerance * static_cast<double>(statistics.steps));
+      record.near(speed > 0 ? "energy, carrier at 300 rad/s" : "energy, carrier at rest", "J", after, before,
+                  2 * tolerance * static_cast<double>(statistics.steps) * before,
+                  "2 x steps x tolerance of the integrator");
     }
   }
 }
 
 BOOST_AUTO_TEST_CASE(energy_bookkeeping_closes_with_everything_acting) {
+  annulus::test::Verification record("Energy of a stage with everything acting",
+                                     "first law: change of energy = supplied work - dissipated work");
   auto stage = stages::ring_paper();
   stage.sun_mesh = RectangularStiffness{1.364e9, 0.35, 0.6, 0};
   stage.sun_torque = 2000;  // light enough for the meshes to part
@@ -219,12 +246,15 @@ BOOST_AUTO_TEST_CASE(energy_bookkeeping_closes_with_everything_acting) {
     BOOST_TEST(state.dissipated > 0.1 * before);
     // Local errors, as above, of the larger of the energies that pass.
     const double scale = before + state.dissipated + std::abs(state.supplied);
-    BOOST_TEST(std::abs(after - before - state.supplied + state.dissipated) <=
-               2e-8 * static_cast<double>(statistics.steps) * scale);
+    record.near("change of energy", "J", after - before, state.supplied - state.dissipated,
+                2e-8 * static_cast<double>(statistics.steps) * scale,
+                "2 x steps x tolerance of the integrator x energies that pass");
   }
 }
 
 BOOST_AUTO_TEST_CASE(all_integrators_agree_on_a_rattling_stage) {
+  annulus::test::Verification record("Four integrators on a stage whose teeth part",
+                                     "each other: explicit Runge-Kutta, Adams, BDF, fixed-step Runge-Kutta");
   auto stage = stages::ring_paper();
   stage.sun_torque = 2000;
   stage.set_half_backlash(5e-6);
@@ -243,12 +273,17 @@ BOOST_AUTO_TEST_CASE(all_integrators_agree_on_a_rattling_stage) {
   BOOST_TEST(events > 10);
   // Deflections are some 1e-5 m; contact events amplify the integrators' 1e-9 differences by less than a thousand in
   // three mesh cycles.
-  for (const auto& end : ends) BOOST_TEST((end - ends[0]).cwiseAbs().maxCoeff() <= 1e-11);
+  for (const auto& end : ends)
+    record.at_most("largest difference of a freedom after three mesh cycles", "m",
+                   (end - ends[0]).cwiseAbs().maxCoeff(), 1e-11,
+                   "tolerance 1e-9 of 1e-5 m, amplified up to a thousand times by contact events");
 }
 
 // A linear stage (teeth always touching) under the planets' eccentricity, gyroscopic terms and dampers included,
 // against the solution of the complex linear system at that frequency.
 BOOST_AUTO_TEST_CASE(forced_response_agrees_with_the_frequency_domain) {
+  annulus::test::Verification record("Forced vibration of a turning stage by the eccentricity of its planets",
+                                     "complex linear system at that frequency, solved directly");
   auto stage = stages::ring_paper();
   stage.set_half_backlash({});
   stage.sun_mesh = ConstantStiffness{1.364e9};
@@ -294,7 +329,8 @@ BOOST_AUTO_TEST_CASE(forced_response_agrees_with_the_frequency_domain) {
   state.v = (1i * w * q).real();
   auto workspace = system.workspace();
   double worst = 0, swing = 0;
-  const auto compare = [&](int, const SystemState& s) {
+  annulus::test::RecordedPlot::Curve first{"", {}, {}, {}};
+  const auto compare = [&](int i, const SystemState& s) {
     const std::complex<double> turn = std::exp(1i * w * s.time);
     for (int m = 0; m < 10; ++m) {
       const Eigen::VectorXd b = system.mesh_vector(m);
@@ -303,18 +339,26 @@ BOOST_AUTO_TEST_CASE(forced_response_agrees_with_the_frequency_domain) {
       const double force = mean[m] * (b.dot(q0) - offset[m]) + vibration;
       worst = std::max(worst, std::abs(workspace.force[m] - force));
       swing = std::max(swing, std::abs(vibration));
+      if (m > 0 || i > 40) continue;
+      first.x.push_back(s.time * 1e3);
+      first.computed.push_back(workspace.force[m] * 1e-3);
+      first.reference.push_back(force * 1e-3);
     }
   };
   // Started on the periodic solution, the stage stays on it: ten periods.
   integrate(system, state, 20 * std::numbers::pi / w, tight(Integrator::arkode_explicit, 1e-9, 1e-14), workspace, 200,
             compare);
-  BOOST_TEST(swing > 1000);                             // N: the vibration is there
-  BOOST_TEST(worst <= 1e-5 * stage.mean_mesh_force());  // 1e-9 tolerance, 1e4 steps
+  BOOST_TEST(swing > 1000);  // N: the vibration is there
+  record.at_most("largest error of a mesh force in ten periods, over the mean force", "",
+                 worst / stage.mean_mesh_force(), 1e-5, "integrator: 1e4 steps of 1e-9");
+  record.plot({"Force on the first sun mesh", "time, ms", "kN", {first}});
 }
 
 // A body on spring and damper in the housing does not know that it is watched from a turning frame: its damped free
 // vibration, turned back by Omega t, is the answer. Every sign of the rotating-frame terms enters.
 BOOST_AUTO_TEST_CASE(the_turning_frame_changes_nothing_physical) {
+  annulus::test::Verification record("A body in the housing, watched from a turning frame",
+                                     "closed form: damped free vibration, turned back");
   const double mass = 2, stiffness = 5e4, damping = 40, speed = 90, t = 0.15;
   LumpedSystemBuilder builder;
   const auto x = builder.add_freedom("x"), y = builder.add_freedom("y");
@@ -335,7 +379,8 @@ BOOST_AUTO_TEST_CASE(the_turning_frame_changes_nothing_physical) {
                                                           velocity * std::sin(w * t) / w);
   const double c = std::cos(speed * t), s = std::sin(speed * t);
   const Eigen::Vector2d expected(c * housing[0] + s * housing[1], -s * housing[0] + c * housing[1]);
-  BOOST_TEST((state.q - expected).norm() <= 2e-9 * 1e-3 * static_cast<double>(statistics.steps));  // as above
+  record.at_most("distance from the expected place after 0.15 s", "m", (state.q - expected).norm(),
+                 2e-9 * 1e-3 * static_cast<double>(statistics.steps), "steps x tolerance of the integrator");
 }
 
 BOOST_AUTO_TEST_CASE(failures_are_reported) {

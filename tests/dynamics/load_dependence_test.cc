@@ -8,6 +8,7 @@
 #include "dynamics/static_solver.h"
 #include "tests/dynamics/stages.h"
 #include "tests/dynamics/tables.h"
+#include "tests/verification_record.h"
 
 /// The law of force over deflection within a system.
 BOOST_AUTO_TEST_SUITE(load_dependence)
@@ -43,6 +44,8 @@ PlanetaryStage stage_with_law() {
 }
 
 BOOST_AUTO_TEST_CASE(every_tabulated_load_deflects_to_its_transmission_error) {
+  annulus::test::Verification record("Static deflection by a load-dependent table",
+                                     "the tabulated transmission errors at all phases, positions and loads");
   const BentTable bent{.positions = 3};
   const auto table = bent.table();
   for (const std::optional<double> half : {std::optional<double>{}, std::optional<double>{40e-6}})
@@ -56,8 +59,9 @@ BOOST_AUTO_TEST_CASE(every_tabulated_load_deflects_to_its_transmission_error) {
         const auto q = solver.solve(i / 16.0 / 100, workspace);
         const double expected = table.at(i / 16, i % 16, load).lte + half.value_or(0.0);
         // The tabulated points are passed to 1e-11 (force_surface); Newton ends at 1e-13.
-        BOOST_TEST(std::abs(q[0] / expected - 1) <= 1e-10);
-        BOOST_TEST(std::abs(workspace.elastic[0] / force - 1) <= 1e-12);
+        record.near("deflection over the tabulated one", "", q[0] / expected, 1, 1e-10,
+                    "interpolation passes it to 1e-11");
+        record.near("force over the load", "", workspace.elastic[0] / force, 1, 1e-12, "Newton ends at 1e-13");
         BOOST_TEST(system.outside_table(0, workspace) == 0);
       }
     }
@@ -81,10 +85,13 @@ BOOST_AUTO_TEST_CASE(loads_outside_the_table_are_told) {
 }
 
 BOOST_AUTO_TEST_CASE(quasi_static_forces_of_a_stage_balance_and_a_linear_table_changes_nothing) {
+  annulus::test::Verification record("Quasi-static forces of a stage with load-dependent meshes",
+                                     "statics; a table without bend: the linear solution");
   auto stage = stage_with_law();
   const auto found = quasi_static(stage, 3);
   for (int i = 0; i < found.sun_force.cols(); ++i) {
-    BOOST_TEST(std::abs(found.sun_force.col(i).sum() * stage.sun.radius / stage.sun_torque - 1) <= 1e-9);
+    record.near("torque of the sun mesh forces over the load", "",
+                found.sun_force.col(i).sum() * stage.sun.radius / stage.sun_torque, 1, 1e-9, "Newton's end");
     BOOST_TEST((found.sun_force.col(i) - found.ring_force.col(i)).cwiseAbs().maxCoeff() <=
                1e-9 * stage.mean_mesh_force());
   }
@@ -96,7 +103,8 @@ BOOST_AUTO_TEST_CASE(quasi_static_forces_of_a_stage_balance_and_a_linear_table_c
   const auto law = quasi_static(stage, 4, 6);
   stage.ring_mesh = stage.sun_mesh = table_stiffness(table, load);
   const auto linear = quasi_static(stage, 4, 6);
-  BOOST_TEST((law.sun_force - linear.sun_force).cwiseAbs().maxCoeff() <= 1e-9 * load);
+  record.at_most("straight law against linear stiffness, over the load", "",
+                 (law.sun_force - linear.sun_force).cwiseAbs().maxCoeff() / load, 1e-9, "Newton's end");
 }
 
 BOOST_AUTO_TEST_CASE(jacobian_is_the_derivative_of_the_right_hand_side) {
@@ -151,6 +159,8 @@ BOOST_AUTO_TEST_CASE(tangent_matrix_is_the_derivative_of_the_forces) {
 }
 
 BOOST_AUTO_TEST_CASE(power_is_the_rate_of_energy) {
+  annulus::test::Verification record("Power of a stage with load-dependent meshes",
+                                     "first law: rate of the energy by central differences");
   const auto system = assemble(stage_with_law());
   const int n = system.freedoms();
   const Eigen::VectorXd y = stages::random_state(n, 6);
@@ -164,10 +174,12 @@ BOOST_AUTO_TEST_CASE(power_is_the_rate_of_energy) {
   const double rate =
       (system.energy(t + h, after.data(), workspace) - system.energy(t - h, before.data(), workspace)) / (2 * h);
   const double scale = std::abs(power.supplied) + power.dissipated;
-  BOOST_TEST(std::abs(rate - power.supplied + power.dissipated) <= 1e-6 * scale);  // as in the test without a law
+  record.near("rate of the energy", "W", rate, power.supplied - power.dissipated, 1e-6 * scale,
+              "rounding and curvature over a step of 10 ns");
 }
 
 BOOST_AUTO_TEST_CASE(energy_of_an_undamped_constant_law_is_kept) {
+  annulus::test::Verification record("A mass rattling on a bent law of force", "conservation of energy");
   const BentTable bent{.ripple = 0};
   auto table = bent.table();
   auto excitation = table_stiffness(table, bent.nominal, 0, LoadDependence::table);
@@ -191,10 +203,13 @@ BOOST_AUTO_TEST_CASE(energy_of_an_undamped_constant_law_is_kept) {
   system.detect_contact(state.time, y.data(), workspace);
   const double after = system.energy(state.time, y.data(), workspace);
   // Some thousand steps with relative errors of 1e-10, twice that in the energy.
-  BOOST_TEST(std::abs(after / before - 1) <= 2e-10 * static_cast<double>(statistics.steps));
+  record.near("energy", "J", after, before, 2e-10 * static_cast<double>(statistics.steps) * before,
+              "2 x steps x tolerance of the integrator");
 }
 
 BOOST_AUTO_TEST_CASE(energy_changes_by_what_is_supplied_and_dissipated) {
+  annulus::test::Verification record("Energy of a stage with load-dependent meshes",
+                                     "first law: change of energy = supplied work - dissipated work");
   const auto system = assemble(stage_with_law());
   const int n = system.freedoms();
   auto workspace = system.workspace();
@@ -212,10 +227,13 @@ BOOST_AUTO_TEST_CASE(energy_changes_by_what_is_supplied_and_dissipated) {
   BOOST_TEST(state.dissipated > 0);
   const double moved = std::abs(state.supplied) + state.dissipated + before;
   // The energies are integrated beside the state without steering the step.
-  BOOST_TEST(std::abs(after - before - state.supplied + state.dissipated) <= 1e-6 * moved);
+  record.near("change of energy", "J", after - before, state.supplied - state.dissipated, 1e-6 * moved,
+              "energies are integrated beside the state without steering the step");
 }
 
 BOOST_AUTO_TEST_CASE(small_vibrations_about_the_nominal_load_have_the_tangent_frequency) {
+  annulus::test::Verification record("Small vibration about the nominal load on a bent law",
+                                     "closed form: sqrt(tangent stiffness / mass); ten periods");
   const BentTable bent{.ripple = 0};
   auto excitation = table_stiffness(bent.table(), bent.nominal, 0, LoadDependence::table);
   excitation.unloaded_te = annulus::PeriodicCurve({0.0}, 1);
@@ -232,8 +250,9 @@ BOOST_AUTO_TEST_CASE(small_vibrations_about_the_nominal_load_have_the_tangent_fr
   options.absolute_tolerance = 1e-10 * amplitude;
   integrate(system, state, 20 * std::numbers::pi / w, options, workspace);  // ten periods
   // The frequency shift by the curvature of the law is of second order in the amplitude, 1e-8.
-  BOOST_TEST(std::abs((state.q[0] - rest) / amplitude - 1) <= 1e-4);
-  BOOST_TEST(std::abs(state.v[0] / (w * amplitude)) <= 1e-3);
+  const char* origin = "curvature of the law: second order in the amplitude";
+  record.near("displacement over amplitude", "", (state.q[0] - rest) / amplitude, 1, 1e-4, origin);
+  record.near("velocity over amplitude", "", state.v[0] / (w * amplitude), 0, 1e-3, origin);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

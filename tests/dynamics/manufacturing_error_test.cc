@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "core/units.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(manufacturing_error)
 
@@ -34,15 +35,18 @@ double kolmogorov(std::vector<double> values, const Law& law) {
 }
 
 BOOST_AUTO_TEST_CASE(readings_of_95_percent_of_the_paper) {
+  test::Verification record("Random manufacturing errors: scales and 95 % readings",
+                            "printed figures of the paper (docs/helical_pair.md)");
   const auto problem = paper();
-  // The paper prints three decimals.
-  BOOST_TEST(std::abs(problem.eta_1(0) / units::um - 5.294) < 5e-4);
-  BOOST_TEST(std::abs(problem.eta_2(0) / units::um - 1.901) < 5e-4);
-  BOOST_TEST(std::abs(exact_divisor() - 6.817) < 5e-4);
+  const char* digits = "half of the last printed digit";
+  record.near("scale of the pitch error", "um", problem.eta_1(0) / units::um, 5.294, 5e-4, digits);
+  record.near("scale of the tooth-to-tooth error", "um", problem.eta_2(0) / units::um, 1.901, 5e-4, digits);
+  record.near("divisor", "", exact_divisor(), 6.817, 5e-4, digits);
   const auto result = dynamics::manufacturing_error(problem);
   // models.md B, made from the rounded scales: half a unit of the second decimal and some.
   const auto is = [&](const char* name, double expected) {
-    BOOST_TEST(std::abs(result.at(name).exact / units::um - expected) < 6e-3, name);
+    record.near(std::string("95 % of ") + name, "um", result.at(name).exact / units::um, expected, 6e-3,
+                "half a unit of the second decimal, rounded scales");
   };
   is("pinion_error", 9.25);
   is("pinion_error_magnitude", 11.03);
@@ -65,6 +69,7 @@ BOOST_AUTO_TEST_CASE(quantiles_lie_in_their_intervals) {
 }
 
 BOOST_AUTO_TEST_CASE(intervals_cover_as_often_as_they_say) {
+  test::Verification record("Confidence intervals of quantiles of random errors", "their level, 0.95, over 300 seeds");
   auto problem = paper();
   problem.samples = 1000;
   constexpr int runs = 300;
@@ -74,10 +79,13 @@ BOOST_AUTO_TEST_CASE(intervals_cover_as_often_as_they_say) {
     covered += r.sample.low <= r.exact && r.exact <= r.sample.high;
   }
   // Four standard deviations below 0.95; the interval is conservative, so nothing above.
-  BOOST_TEST(covered > runs * (0.95 - 4 * std::sqrt(0.95 * 0.05 / runs)));
+  record.at_least("share of intervals that hold the exact quantile", "", static_cast<double>(covered) / runs,
+                  0.95 - 4 * std::sqrt(0.95 * 0.05 / runs), "four standard deviations; they are conservative");
 }
 
 BOOST_AUTO_TEST_CASE(draws_follow_their_laws) {
+  test::Verification record("Draws of random errors follow their laws",
+                            "Kolmogorov's distance to the laws; exceeded with probability 0.001");
   const auto problem = paper();
   for (const int g : {0, 1}) {
     const auto d = draw_errors(problem, g);
@@ -89,17 +97,22 @@ BOOST_AUTO_TEST_CASE(draws_follow_their_laws) {
     }
     // Exceeded with probability 0.001. That T is normal to 2e-4 only does not show at 10 000 draws.
     const double bound = 1.95 / std::sqrt(problem.samples);
-    BOOST_TEST(kolmogorov(d.error, [&](double x) { return normal_probability(x / deviation); }) < bound);
-    BOOST_TEST(kolmogorov(d.x_1, [&](double x) { return rayleigh_probability(x, a); }) < bound);
-    BOOST_TEST(kolmogorov(envelope, [&](double x) { return envelope_probability(x, a, b); }) < bound);
-    BOOST_TEST(kolmogorov(crest, [&](double x) { return crest_probability(x, a, b); }) < bound);
+    const char* origin = "1.95 / sqrt(number of draws)";
+    record.at_most("error", "", kolmogorov(d.error, [&](double x) { return normal_probability(x / deviation); }), bound,
+                   origin);
+    record.at_most("first amplitude", "", kolmogorov(d.x_1, [&](double x) { return rayleigh_probability(x, a); }),
+                   bound, origin);
+    record.at_most("envelope", "", kolmogorov(envelope, [&](double x) { return envelope_probability(x, a, b); }), bound,
+                   origin);
+    record.at_most("crest", "", kolmogorov(crest, [&](double x) { return crest_probability(x, a, b); }), bound, origin);
     // The test can tell: a law ten per cent wider is refused.
     BOOST_TEST(kolmogorov(d.error, [&](double x) { return normal_probability(x / (1.1 * deviation)); }) > bound);
   }
 }
 
 BOOST_AUTO_TEST_CASE(laws_agree_with_quadrature_and_limits) {
-  const auto close = boost::test_tools::tolerance(5e-6);  // of the rule at the narrowest r
+  test::Verification record("Laws of the envelope and of the crest of two random amplitudes",
+                            "midpoint rule over 400 000 probabilities; law of Erlang for alike amplitudes");
   for (const auto& [a, b] : {std::pair{5.294, 1.901}, {1.0, 3.0}, {2.0, 2.0}})
     for (const double r : {1.0, 4.0, 9.0}) {
       // Over the probabilities u of X_1 in the midpoint rule; smooth but for its ends.
@@ -111,13 +124,16 @@ BOOST_AUTO_TEST_CASE(laws_agree_with_quadrature_and_limits) {
         envelope += rayleigh_probability(std::sqrt(r * r - x * x), b) / n;
         crest += rayleigh_probability(r - x, b) / n;
       }
-      BOOST_TEST(envelope_probability(r, a, b) == envelope, close);
-      BOOST_TEST(crest_probability(r, a, b) == crest, close);
+      record.close("probability of the envelope", "", envelope_probability(r, a, b), envelope, 5e-6,
+                   "the rule at the narrowest r");
+      record.close("probability of the crest", "", crest_probability(r, a, b), crest, 5e-6,
+                   "the rule at the narrowest r");
       BOOST_TEST(envelope_probability(r, a, b) == envelope_probability(r, b, a));
     }
   // Alike amplitudes: the law of Erlang; nearly alike ones join it smoothly.
   const double s = 1.7 * 1.7 / 2, erlang = 1 - std::exp(-s) * (1 + s);
-  BOOST_TEST(envelope_probability(1.7, 1, 1) == erlang, boost::test_tools::tolerance(1e-14));
+  record.close("probability of the envelope, alike amplitudes", "", envelope_probability(1.7, 1, 1), erlang, 1e-14,
+               "rounding");
   for (const double off : {1e-12, 1e-9, 1e-7, 1e-5})
     BOOST_TEST(std::abs(envelope_probability(1.7, 1, 1 + off) - erlang) < 2 * off + 1e-15);
 }
@@ -133,6 +149,7 @@ BOOST_AUTO_TEST_CASE(draws_do_not_depend_on_their_number) {
 }
 
 BOOST_AUTO_TEST_CASE(histogram_counts_every_draw) {
+  test::Verification record("Histogram of random errors", "chi-squared test against the law, 0.999");
   const auto problem = paper();
   const auto h = dynamics::manufacturing_error(problem).histogram;
   int total = 0, bins = 0;
@@ -145,7 +162,8 @@ BOOST_AUTO_TEST_CASE(histogram_counts_every_draw) {
   }
   BOOST_TEST(total == problem.samples);
   BOOST_TEST(bins > 30);
-  BOOST_TEST(statistic < quantile(boost::math::chi_squared(bins), 0.999));
+  record.at_most("chi-squared statistic", "", statistic, quantile(boost::math::chi_squared(bins), 0.999),
+                 "exceeded with probability 0.001");
 }
 
 BOOST_AUTO_TEST_CASE(bad_input_is_refused) {

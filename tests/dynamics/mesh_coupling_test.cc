@@ -12,6 +12,7 @@
 #include "tests/dynamics/allocation_counter.h"
 #include "tests/dynamics/stages.h"
 #include "tests/dynamics/tables.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(mesh_coupling)
 
@@ -79,6 +80,7 @@ PlanetaryStage stage_with(std::shared_ptr<const RingCoupling> ring_coupling, boo
 }
 
 BOOST_AUTO_TEST_CASE(two_meshes_by_hand) {
+  annulus::test::Verification record("Forces of two coupled meshes", "two equations solved by hand");
   const double k1 = 1e9, k2 = 2e9, d12 = 2e-10, half = 10e-6;
   const Eigen::Matrix2d d = (Eigen::Matrix2d() << 0, d12, d12, 0).finished();
   auto system = pair_of_meshes(d, {});
@@ -89,14 +91,15 @@ BOOST_AUTO_TEST_CASE(two_meshes_by_hand) {
   const double determinant = 1 / (k1 * k2) - d12 * d12;
   const double f1 = (closing[0] / k2 - d12 * closing[1]) / determinant;
   const double f2 = (closing[1] / k1 - d12 * closing[0]) / determinant;
-  BOOST_TEST(std::abs(w.elastic[0] / f1 - 1) <= 1e-12);
-  BOOST_TEST(std::abs(w.elastic[1] / f2 - 1) <= 1e-12);
+  record.near("first force over the solution", "", w.elastic[0] / f1, 1, 1e-12, "rounding");
+  record.near("second force over the solution", "", w.elastic[1] / f2, 1, 1e-12, "rounding");
   BOOST_TEST(std::abs(w.delta[0] / (f1 / k1) - 1) <= 1e-12);  // what the mesh's own law meets
   BOOST_TEST(std::abs(w.force[0] - w.elastic[0] - 100 * 0.1) <= 1e-9);
   Eigen::MatrixXd tangent(2, 2);
   system.tangent_matrix(w, tangent);
   const Eigen::Matrix2d expected = (Eigen::Matrix2d() << 1 / k2, -d12, -d12, 1 / k1).finished() / determinant;
-  BOOST_TEST((tangent - expected).cwiseAbs().maxCoeff() <= 1e-12 * 2e9);
+  record.at_most("tangent stiffness, largest error", "N/m", (tangent - expected).cwiseAbs().maxCoeff(), 1e-12 * 2e9,
+                 "rounding");
 
   // With backlash the first mesh presses so hard that the ring leaves the second one: 1e9 x 90 um = 90 kN, which takes
   // 18 um from the 25 um of the second.
@@ -151,17 +154,20 @@ BOOST_AUTO_TEST_CASE(a_coupling_is_an_elastic_network_without_mass) {
   const auto network = builder.build();
   auto network_workspace = network.workspace();
   const auto all = StaticSolver(network).solve(0, network_workspace);
-  BOOST_TEST(std::abs(q[0] / all[0] - 1) <= 1e-11);
-  BOOST_TEST(std::abs(q[1] / all[2] - 1) <= 1e-11);
+  annulus::test::Verification record("Two meshes coupled through the compliance of the ring",
+                                     "a network of springs without mass; closed form q = F/k + D F");
+  record.close("first displacement, network", "m", q[0], all[0], 1e-11, "rounding of the solve");
+  record.close("second displacement, network", "m", q[1], all[2], 1e-11, "rounding of the solve");
   // and in closed form: F = load, q = F/k + D F
   const Eigen::Vector2d given = stiffness.inverse() * load;
-  BOOST_TEST(std::abs(q[0] / (load[0] / 1e9 + given[0]) - 1) <= 1e-11);
-  BOOST_TEST(std::abs(q[1] / (load[1] / 2e9 + given[1]) - 1) <= 1e-11);
+  record.close("first displacement, closed form", "m", q[0], load[0] / 1e9 + given[0], 1e-11, "rounding of the solve");
+  record.close("second displacement, closed form", "m", q[1], load[1] / 2e9 + given[1], 1e-11, "rounding of the solve");
   // The elastic energy of the coupling is that of the network.
   Eigen::VectorXd y(4), z(8);
   y << q, 0, 0;
   z << all, 0, 0, 0, 0;
-  BOOST_TEST(std::abs(coupled.energy(0, y.data(), w) / network.energy(0, z.data(), network_workspace) - 1) <= 1e-11);
+  record.close("elastic energy", "J", coupled.energy(0, y.data(), w), network.energy(0, z.data(), network_workspace),
+               1e-11, "rounding of the solve");
 }
 
 BOOST_AUTO_TEST_CASE(without_compliance_nothing_changes) {
@@ -188,6 +194,8 @@ BOOST_AUTO_TEST_CASE(without_compliance_nothing_changes) {
 }
 
 BOOST_AUTO_TEST_CASE(forces_solve_their_equations_in_every_contact_state) {
+  annulus::test::Verification record("Coupled meshes with backlash in any state of contact",
+                                     "every mesh's own law at its own deflection");
   const auto stage = stage_with(coupling(1e-10, 0));
   const auto system = assemble(stage);
   auto w = system.workspace();
@@ -211,7 +219,8 @@ BOOST_AUTO_TEST_CASE(forces_solve_their_equations_in_every_contact_state) {
       const double own = closing[5 + n] - w.error[5 + n] - d.row(n).dot(force);
       const double half = 50e-6, g = own > half ? own - half : own < -half ? own + half : 0;
       const double phase = stage.mesh_frequency() * t - stage.ring_phase_lag[n];
-      BOOST_TEST(std::abs(force[n] - surface(phase, g).force) <= 1e-11 * force.cwiseAbs().maxCoeff());
+      record.near("force over the largest force", "", force[n] / force.cwiseAbs().maxCoeff(),
+                  surface(phase, g).force / force.cwiseAbs().maxCoeff(), 1e-11, "Newton's end");
       (g == 0 ? open : closed) += 1;
     }
   }
@@ -297,6 +306,8 @@ BOOST_AUTO_TEST_CASE(right_hand_side_with_moving_vectors_is_the_matrix_equation)
 }
 
 BOOST_AUTO_TEST_CASE(power_is_the_rate_of_energy) {
+  annulus::test::Verification record("Power of a stage whose meshes are coupled through the ring",
+                                     "first law: rate of the energy by central differences");
   for (const int modes : {0, 3}) {
     const auto system = assemble(stage_with(coupling(1e-10, modes)));
     const int n = system.freedoms();
@@ -310,11 +321,14 @@ BOOST_AUTO_TEST_CASE(power_is_the_rate_of_energy) {
     const Eigen::VectorXd after = y + h * dy, before = y - h * dy;
     const double rate = (system.energy(t + h, after.data(), w) - system.energy(t - h, before.data(), w)) / (2 * h);
     const double scale = std::abs(power.supplied) + power.dissipated;
-    BOOST_TEST(std::abs(rate - power.supplied + power.dissipated) <= 1e-6 * scale);  // as without coupling
+    record.near("rate of the energy", "W", rate, power.supplied - power.dissipated, 1e-6 * scale,
+                "rounding and curvature over a step of 10 ns");
   }
 }
 
 BOOST_AUTO_TEST_CASE(energy_changes_by_what_is_supplied_and_dissipated) {
+  annulus::test::Verification record("Energy of a stage whose meshes are coupled through the ring",
+                                     "first law: change of energy = supplied work - dissipated work");
   for (const int modes : {0, 3}) {
     const auto system = assemble(stage_with(coupling(1e-10, modes)));
     const int n = system.freedoms();
@@ -331,24 +345,32 @@ BOOST_AUTO_TEST_CASE(energy_changes_by_what_is_supplied_and_dissipated) {
     y << state.q, state.v;
     const double after = system.energy(state.time, y.data(), w);
     const double moved = std::abs(state.supplied) + state.dissipated + before;
-    BOOST_TEST(std::abs(after - before - state.supplied + state.dissipated) <= 1e-6 * moved);
+    record.near(modes > 0 ? "change of energy, elastic modes of the ring" : "change of energy, static coupling", "J",
+                after - before, state.supplied - state.dissipated, 1e-6 * moved,
+                "energies are integrated beside the state without steering the step");
   }
 }
 
 BOOST_AUTO_TEST_CASE(modes_kept_change_nothing_statically) {
+  annulus::test::Verification record("Elastic modes of the ring in statics",
+                                     "theorem: what the modes give way is part of the static compliance");
   auto with = coupling(1e-10, 3), without = std::make_shared<RingCoupling>(*with);
   without->modes.clear();
   // What the modes give way is part of D: without any the single mesh and D hold all of it.
   const auto forces = quasi_static(stage_with(without), 3, 27), kept = quasi_static(stage_with(with), 3, 27);
   const double load = stages::ring_paper().mean_mesh_force();
-  BOOST_TEST((forces.ring_force - kept.ring_force).cwiseAbs().maxCoeff() <= 1e-9 * load);
-  BOOST_TEST((forces.sun_force - kept.sun_force).cwiseAbs().maxCoeff() <= 1e-9 * load);
+  record.at_most("ring mesh forces with and without modes, difference over the load", "",
+                 (forces.ring_force - kept.ring_force).cwiseAbs().maxCoeff() / load, 1e-9, "rounding of the solve");
+  record.at_most("sun mesh forces with and without modes, difference over the load", "",
+                 (forces.sun_force - kept.sun_force).cwiseAbs().maxCoeff() / load, 1e-9, "rounding of the solve");
   // and the coupling is not negligible
   const auto alone = quasi_static(stage_with(nullptr), 3, 27);
   BOOST_TEST((forces.ring_force - alone.ring_force).cwiseAbs().maxCoeff() >= 1e-3 * load);
 }
 
 BOOST_AUTO_TEST_CASE(a_ring_in_the_housing_moves_as_in_the_carrier_frame) {
+  annulus::test::Verification record("A ring described in the housing",
+                                     "the same stage described in the carrier frame");
   // A mode that closes nothing and is not coupled only moves the ring's coordinates to the housing.
   auto inert = coupling(1e-10, 1);
   inert->modes[0].closing.assign(162, 0.0);
@@ -377,10 +399,12 @@ BOOST_AUTO_TEST_CASE(a_ring_in_the_housing_moves_as_in_the_carrier_frame) {
     std::copy_n(w.force.data(), 10, force[housing]);
   }
   for (int m = 0; m < 10; ++m)
-    BOOST_TEST(std::abs(force[0][m] - force[1][m]) <= 1e-6 * 59e3);  // global error of 1e-10 per step
+    record.near("mesh force after 4 ms", "N", force[1][m], force[0][m], 1e-6 * 59e3, "global error of 1e-10 per step");
 }
 
 BOOST_AUTO_TEST_CASE(natural_frequencies_of_a_ring_mode) {
+  annulus::test::Verification record("An elastic mode of the ring coupled by inertia to its translation",
+                                     "closed form: quadratic for two frequencies");
   auto stage = stage_with(coupling(0, 1), false);
   const auto system = assemble(stage);
   const int mode = system.find("ring_mode1"), x = system.find("ring_x");
@@ -399,7 +423,7 @@ BOOST_AUTO_TEST_CASE(natural_frequencies_of_a_ring_mode) {
     double nearest = 1e99;
     for (const auto& f : found.modes)
       nearest = std::min(nearest, std::abs(f.frequency / (std::sqrt(square) / tau) - 1));
-    BOOST_TEST(nearest <= 1e-9);
+    record.at_most("relative difference of a frequency", "", nearest, 1e-9, "rounding of the eigenvalue solver");
   }
 }
 

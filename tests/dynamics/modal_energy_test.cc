@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(modal_energy)
 
@@ -37,6 +38,8 @@ BOOST_AUTO_TEST_CASE(elements_add_up_to_the_stiffness) {
 // Every share against another way to it: d(omega^2)/omega^2 per dk/k, the stiffness changed by a relative 1e-3 both
 // ways. Central differences err by 1e-6 x the curvature, which grows as modes of one symmetry come close.
 BOOST_AUTO_TEST_CASE(shares_are_sensitivities) {
+  annulus::test::Verification record("Strain energy shares of the modes",
+                                     "sensitivities d(w^2)/w^2 per dk/k by central differences");
   const auto stage = stages::lin_parker(4);
   auto system = assemble(stage);
   const auto stiffness = mean_mesh_stiffness(stage);
@@ -49,7 +52,7 @@ BOOST_AUTO_TEST_CASE(shares_are_sensitivities) {
   for (Eigen::Index i = 0; i < count; ++i) {
     // Sums of 23 shares.
     BOOST_TEST(std::abs(energy.strain.col(i).sum() - (found.modes[i].frequency > 0 ? 1 : 0)) <= 1e-14);
-    BOOST_TEST(std::abs(energy.kinetic.col(i).sum() - 1) <= 1e-14);
+    record.near("sum of the kinetic shares", "", energy.kinetic.col(i).sum(), 1, 1e-14, "rounding");
     BOOST_TEST(energy.strain.col(i).minCoeff() >= 0.0);
   }
 
@@ -69,7 +72,8 @@ BOOST_AUTO_TEST_CASE(shares_are_sensitivities) {
     const auto up = squares(change, 1 + step), down = squares(change, 1 - step);
     for (Eigen::Index i = 1; i < count; ++i) {
       const double sensitivity = (up[i] - down[i]) / (2 * step) / std::pow(found.modes[i].frequency, 2);
-      BOOST_TEST(std::abs(sensitivity - grouped.strain(place - grouped.groups.begin(), i)) <= 2e-5, group);
+      record.near("share of " + group, "", grouped.strain(place - grouped.groups.begin(), i), sensitivity, 2e-5,
+                  "step of 1e-3: 1e-6 x curvature");
     }
   };
   check("sun_planet", [](PlanetaryStage& s, double f) { s.sun_mesh = ConstantStiffness{5e8 * f}; });
@@ -96,13 +100,15 @@ BOOST_AUTO_TEST_CASE(shares_are_sensitivities) {
       if (found.modes[i].kind == ModeKind::translational) continue;
       const double sensitivity = (std::pow(above.modes[i].frequency, 2) - std::pow(below.modes[i].frequency, 2)) /
                                  (2 * step) / std::pow(found.modes[i].frequency, 2);
-      BOOST_TEST(std::abs(sensitivity - energy.strain(row, i)) <= 2e-5);
+      record.near("share of one mesh", "", energy.strain(row, i), sensitivity, 2e-5, "step of 1e-3: 1e-6 x curvature");
     }
   }
 }
 
 // Rayleigh: strain energy over kinetic energy of a shape is omega^2.
 BOOST_AUTO_TEST_CASE(rayleigh_quotient) {
+  annulus::test::Verification record("Rayleigh's quotient of all modes",
+                                     "strain over kinetic energy of a shape is w^2");
   const auto stage = stages::ring_paper();
   const auto system = assemble(stage);
   const auto stiffness = stiffness_with_meshes(system, mean_mesh_stiffness(stage));
@@ -111,13 +117,16 @@ BOOST_AUTO_TEST_CASE(rayleigh_quotient) {
     const double quotient = mode.shape.dot(stiffness * mode.shape) / mode.shape.dot(system.mass() * mode.shape);
     const double omega = 2 * std::numbers::pi * mode.frequency;
     // eps x the largest square over the smallest: (13 kHz / 60 Hz)^2 x 1e-16 x the number of freedoms.
-    BOOST_TEST(std::abs(quotient / (omega * omega) - 1) <= 1e-9);
+    record.near("quotient over w^2", "", quotient / (omega * omega), 1, 1e-9,
+                "eps x (highest over lowest frequency)^2 x freedoms");
   }
 }
 
 // Two masses on two meshes that share a body, D = d (1 1; 1 1): in step each mesh yields 1/k + 2d, against each other
 // the body does not yield at all.
 BOOST_AUTO_TEST_CASE(coupled_meshes) {
+  annulus::test::Verification record("Two meshes on one elastic body",
+                                     "closed form: in step 1/(1/k + 2 d), against each other k");
   constexpr double k = 1e6, d = 0.25e-6, mass = 2;
   LumpedSystemBuilder builder;
   for (const std::string name : {"a", "b"}) {
@@ -133,11 +142,14 @@ BOOST_AUTO_TEST_CASE(coupled_meshes) {
   const Eigen::VectorXd stiffness = Eigen::VectorXd::Constant(2, k);
   const auto found = annulus::dynamics::modes(system, stiffness);
   const double in_step = 1 / (1 / k + 2 * d);
-  BOOST_TEST(std::abs(2 * std::numbers::pi * found.modes[0].frequency / std::sqrt(in_step / mass) - 1) <= 1e-12);
-  BOOST_TEST(std::abs(2 * std::numbers::pi * found.modes[1].frequency / std::sqrt(k / mass) - 1) <= 1e-12);
+  record.near("angular frequency in step over the closed form", "",
+              2 * std::numbers::pi * found.modes[0].frequency / std::sqrt(in_step / mass), 1, 1e-12, "rounding");
+  record.near("angular frequency against each other over the closed form", "",
+              2 * std::numbers::pi * found.modes[1].frequency / std::sqrt(k / mass), 1, 1e-12, "rounding");
   const auto energy = annulus::dynamics::modal_energy(system, stiffness, found);
   const auto body = element(energy, "ring_body");
-  BOOST_TEST(std::abs(energy.strain(body, 0) - 2 * d * in_step) <= 1e-12);
+  record.near("strain energy share of the body in step", "", energy.strain(body, 0), 2 * d * in_step, 1e-12,
+              "rounding");
   BOOST_TEST(std::abs(energy.strain(body, 1)) <= 1e-12);
   for (const auto* mesh : {"a_mesh", "b_mesh"}) {
     BOOST_TEST(std::abs(energy.strain(element(energy, mesh), 0) - in_step / k / 2) <= 1e-12);

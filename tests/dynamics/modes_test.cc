@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(modes)
 
@@ -23,6 +24,9 @@ std::vector<double> frequencies(const Modes& found, ModeKind kind) {
 // Lin and Parker, J. Vib. Acoust. 121 (1999), table of the four-planet example. 0.05 %: the published figures (four to
 // six digits) rest on rounded inputs; the lowest pair deviates by 0.043 %.
 BOOST_AUTO_TEST_CASE(lin_and_parker_four_planets) {
+  annulus::test::Verification record(
+      "Natural frequencies of a planetary stage with four planets",
+      "Lin and Parker, J. Vib. Acoust. 121 (1999), published frequencies of the four-planet example");
   const auto found = annulus::dynamics::modes(stages::lin_parker(4));
   BOOST_REQUIRE(found.modes.size() == 21U);
   const std::map<ModeKind, std::vector<double>> published = {
@@ -30,14 +34,27 @@ BOOST_AUTO_TEST_CASE(lin_and_parker_four_planets) {
       {ModeKind::translational,
        {727.0, 727.0, 1091.0, 1091.0, 1892.8, 1892.8, 2342.5, 2342.5, 7189.9, 7189.9, 10437.6, 10437.6}},
       {ModeKind::planet, {1808.2, 5963.8, 6981.7}}};
+  std::vector<annulus::test::RecordedPlot::Curve> curves;
   for (const auto& [kind, values] : published) {
     const auto list = frequencies(found, kind);
     BOOST_REQUIRE(list.size() == values.size());
-    for (std::size_t i = 0; i < list.size(); ++i) BOOST_TEST(std::abs(list[i] - values[i]) <= 5e-4 * values[i]);
+    annulus::test::RecordedPlot::Curve curve{to_string(kind), {}, {}, {}};
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const auto name = std::string(to_string(kind)) + " mode " + std::to_string(i + 1);
+      record.near(name, "Hz", list[i], values[i], 5e-4 * values[i], "published digits, rounded inputs");
+      curve.x.push_back(static_cast<double>(i + 1));
+      curve.computed.push_back(list[i]);
+      curve.reference.push_back(values[i]);
+    }
+    curves.push_back(curve);
   }
+  record.plot({"Natural frequencies", "number within its kind", "Hz", curves});
 }
 
 BOOST_AUTO_TEST_CASE(structure_for_any_number_of_planets) {
+  annulus::test::Verification record("Kinds and multiplicities of modes with three to eight equal planets",
+                                     "Lin and Parker 1999: 6 rotational, 6 pairs of translational, 3 planet modes "
+                                     "(N - 3)-fold, for any number N of planets");
   std::vector<double> planet_frequencies;
   for (int planets = 3; planets <= 8; ++planets) {
     const auto found = annulus::dynamics::modes(stages::lin_parker(planets));
@@ -51,14 +68,17 @@ BOOST_AUTO_TEST_CASE(structure_for_any_number_of_planets) {
     // Pairs and multiples of one frequency differ by rounding: eps x the square of the highest frequency over twice the
     // frequency itself, 2e-11 of it at worst.
     for (std::size_t i = 0; i < translational.size(); i += 2)
-      BOOST_TEST(std::abs(translational[i + 1] - translational[i]) <= 1e-9 * translational[i]);
+      record.near("frequencies of a translational pair", "Hz", translational[i + 1], translational[i],
+                  1e-9 * translational[i], "rounding of the eigenvalue solver");
     if (planets == 4) planet_frequencies = planet;
     for (std::size_t i = 0; i < planet.size(); ++i)  // three frequencies, each planets - 3 times, for every number
-      BOOST_TEST(std::abs(planet[i] - planet_frequencies[i / (planets - 3)]) <= 1e-9 * planet[i]);
+      record.near("planet modes against those of four planets", "Hz", planet[i], planet_frequencies[i / (planets - 3)],
+                  1e-9 * planet[i], "rounding of the eigenvalue solver");
   }
 }
 
 BOOST_AUTO_TEST_CASE(shapes_are_mass_normalised_and_solve_the_eigenproblem) {
+  annulus::test::Verification record("Mode shapes solve the eigenproblem", "definition: K x = w^2 M x, x' M x = 1");
   const auto stage = stages::ring_paper();
   const auto system = assemble(stage);
   const auto found = annulus::dynamics::modes(stage);
@@ -67,11 +87,13 @@ BOOST_AUTO_TEST_CASE(shapes_are_mass_normalised_and_solve_the_eigenproblem) {
   for (int m = 0; m < 10; ++m)
     stiffness += (m < 5 ? 1.364e9 : 1.87e9) * system.mesh_vector(m) * system.mesh_vector(m).transpose();
   for (const auto& mode : found.modes) {
-    BOOST_TEST(std::abs(mode.shape.dot(system.mass() * mode.shape) - 1) <= 1e-12);
+    record.near("modal mass", "", mode.shape.dot(system.mass() * mode.shape), 1, 1e-12, "rounding");
     const double square = std::pow(2 * std::numbers::pi * mode.frequency, 2);
     // Backward error of the dense solver: eps x size x the largest stiffness.
     const Eigen::VectorXd residual = stiffness * mode.shape - square * system.mass() * mode.shape;
-    BOOST_TEST(residual.cwiseAbs().maxCoeff() <= 1e-13 * stiffness.cwiseAbs().maxCoeff());
+    record.at_most("residual over the largest stiffness", "",
+                   residual.cwiseAbs().maxCoeff() / stiffness.cwiseAbs().maxCoeff(), 1e-13,
+                   "backward error of the dense solver: eps x size");
     BOOST_TEST((mode.kind != ModeKind::mixed));
   }
   BOOST_TEST(found.modes.front().frequency == 0.0);
@@ -81,6 +103,9 @@ BOOST_AUTO_TEST_CASE(shapes_are_mass_normalised_and_solve_the_eigenproblem) {
 // Kahraman, Mech. Mach. Theory 29 (1994): purely torsional, ring fixed, planets riding on the carrier. In coordinates
 // u the planets' own modes have w^2 = (k1 + k2)/m_p, N - 1 times.
 BOOST_AUTO_TEST_CASE(torsional_closed_form) {
+  annulus::test::Verification record(
+      "Torsional natural frequencies, planets riding on the carrier",
+      "closed form: Kahraman, Mech. Mach. Theory 29 (1994); reduction to three freedoms");
   auto stage = stages::ring_paper();
   for (double* support :
        {&stage.sun.support, &stage.ring.support, &stage.carrier.support, &stage.ring.torsional_support,
@@ -92,7 +117,7 @@ BOOST_AUTO_TEST_CASE(torsional_closed_form) {
   const double expected = std::sqrt((1.364e9 + 1.87e9) / mp) / (2 * std::numbers::pi);
   const auto planet = frequencies(found, ModeKind::planet);
   BOOST_REQUIRE(planet.size() == 4U);
-  for (const double f : planet) BOOST_TEST(std::abs(f / expected - 1) <= 1e-12);
+  for (const double f : planet) record.close("planet modes, N - 1 times", "Hz", f, expected, 1e-12, "rounding");
 
   // The other two roots: sun s, carrier c and the planets moving alike p reduce to three freedoms with potential
   // N/2 [k1 (s + p - cos a_s c)^2 + k2 (-p - cos a_r c)^2]. w = 0 leaves a quadratic for w^2.
@@ -109,12 +134,15 @@ BOOST_AUTO_TEST_CASE(torsional_closed_form) {
   BOOST_TEST(rotational[0] == 0.0);
   for (const int i : {1, 2}) {
     const double square = (trace + (i == 1 ? -root : root)) / 2;
-    BOOST_TEST(std::abs(rotational[i] * 2 * std::numbers::pi / std::sqrt(square) - 1) <= 1e-12);
+    record.close(i == 1 ? "lower rotational mode" : "upper rotational mode", "Hz", rotational[i],
+                 std::sqrt(square) / (2 * std::numbers::pi), 1e-12, "rounding");
   }
 }
 
 // A stiff bearing tends to the rigid one: first order in 1/k_p.
 BOOST_AUTO_TEST_CASE(rigid_bearings_are_the_limit_of_stiff_ones) {
+  annulus::test::Verification record("A stiff planet bearing tends to the rigid one",
+                                     "limit: the difference is of first order in 1 / bearing stiffness");
   auto stage = stages::ring_paper();
   stage.planet.bearing_radial = stage.planet.bearing_tangential = rigid;
   const auto limit = annulus::dynamics::modes(stage);
@@ -126,7 +154,9 @@ BOOST_AUTO_TEST_CASE(rigid_bearings_are_the_limit_of_stiff_ones) {
     for (std::size_t i = 1; i < limit.modes.size(); ++i)
       worst = std::max(worst, std::abs(found.modes[i].frequency / limit.modes[i].frequency - 1));
     BOOST_TEST(worst < 20 * 1.87e9 / stiffness);
-    if (previous > 0) BOOST_TEST(std::abs(previous / worst - 10) < 0.5);
+    if (previous > 0)
+      record.near("difference of frequencies, 1e12 against 1e13 N/m", "times", previous / worst, 10, 0.5,
+                  "second order");
     previous = worst;
   }
 }
@@ -184,6 +214,8 @@ BOOST_AUTO_TEST_CASE(one_and_two_planets) {
 // With the centres held and the ring fixed the planets' own motions are one frequency N - 1 times for any N from 2 on;
 // rotational and planet modes are told apart also where a frequency is shared.
 BOOST_AUTO_TEST_CASE(held_centres) {
+  annulus::test::Verification record("Planet modes with the centres held, one to six planets",
+                                     "symmetry: 3 frequencies, N - 1 times each");
   for (int planets = 1; planets <= 6; ++planets) {
     auto stage = stages::lin_parker(planets);
     for (double* support :
@@ -195,7 +227,8 @@ BOOST_AUTO_TEST_CASE(held_centres) {
     BOOST_REQUIRE(planet.size() == static_cast<std::size_t>(3 * (planets - 1)));
     for (std::size_t i = 0; i + 1 < planet.size(); ++i)
       if (i % (planets - 1) + 1 < static_cast<std::size_t>(planets - 1))
-        BOOST_TEST(std::abs(planet[i + 1] - planet[i]) <= 1e-9 * planet[i]);
+        record.near("multiple frequencies", "Hz", planet[i + 1], planet[i], 1e-9 * planet[i],
+                    "rounding of the eigenvalue solver");
 
     // Nothing turns but the planets: N equal and separate bodies, one combination of which is alike.
     stage.sun.torsional_support = stage.carrier.torsional_support = rigid;

@@ -8,6 +8,7 @@
 
 #include "core/errors.h"
 #include "tests/dynamics/pairs.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(pair_response)
 
@@ -30,34 +31,56 @@ HelicalPair linear(HelicalPair pair) {
 }
 
 const auto close = boost::test_tools::tolerance(1e-6);
+const char* const top = "parabola through the highest of 256 samples: 1e-8";
 
 BOOST_AUTO_TEST_CASE(torsional_pair_follows_its_frequency_response) {
+  test::Verification record("Torsional helical pair under its transmission error, four speeds",
+                            "closed form: frequency response of one freedom");
   auto pair = linear(pairs::held(pairs::error_paper()));
   const double c = std::cos(pair.base_helix_angle), k = mean_stiffness(pair.mesh), m = pair.reduced_mass();
   const double damping = 2 * pair.mesh_damping_ratio * std::sqrt(k * m);
+  test::RecordedPlot::Curve factor{"", {}, {}, {}, {}};
+  // delta'' + c^2/m (k delta + damping delta') = static - e''
+  const auto amplitude = [&](double w, double e) {
+    const Complex law(k, w * damping);
+    return w * w * e / (c * c / m * law - w * w);
+  };
   for (const double speed : {300.0, 1500.0, 2900.0, 5000.0}) {
     pair.pinion_speed = speed * units::rpm;
     const double w = 2 * std::numbers::pi * pair.mesh_frequency(), e = pair.mesh_error.amount;
-    // delta'' + c^2/m (k delta + damping delta') = static - e''
-    const Complex law(k, w * damping), delta = w * w * e / (c * c / m * law - w * w), force = law * delta;
+    const Complex delta = amplitude(w, e), force = Complex(k, w * damping) * delta;
     const auto r = evaluate_pair(pair, direct());
     BOOST_TEST(r.total_cycles == 0);
     BOOST_TEST(r.static_force == pair.pinion_torque / (pair.pinion.radius * c), close);
-    BOOST_TEST(r.force_max.value == r.static_force + std::abs(force), close);
-    BOOST_TEST(r.force_min.value == r.static_force - std::abs(force), close);
-    BOOST_TEST(r.dynamic_factor.value == 1 + std::abs(force) / r.static_force, close);
+    record.close("largest mesh force", "N", r.force_max.value, r.static_force + std::abs(force), 1e-6, top);
+    record.close("smallest mesh force", "N", r.force_min.value, r.static_force - std::abs(force), 1e-6, top);
+    record.close("dynamic factor", "", r.dynamic_factor.value, 1 + std::abs(force) / r.static_force, 1e-6, top);
     BOOST_TEST(r.force_mean == r.static_force, close);
-    BOOST_TEST(r.dynamic.transmission_error.peak_to_peak.value == 2 * std::abs(delta + e) / c, close);
+    record.close("dynamic transmission error, peak to peak", "m", r.dynamic.transmission_error.peak_to_peak.value,
+                 2 * std::abs(delta + e) / c, 1e-6, top);
+    factor.x.push_back(speed);
+    factor.computed.push_back(r.dynamic_factor.value);
     BOOST_TEST(r.dynamic.relative.peak_to_peak.value == 2 * std::abs(delta + e) / c, close);  // bearings held
     BOOST_TEST(r.dynamic.transmission_error.mean == r.static_force / (k * c), close);
     const double lighter = pair.pinion.inertia / std::pow(pair.pinion.radius, 2);  // 205 kg against 289
-    BOOST_TEST(r.acceleration.rotation.value == c * std::abs(force) / lighter, close);
+    record.close("largest acceleration of rotation", "m/s^2", r.acceleration.rotation.value,
+                 c * std::abs(force) / lighter, 1e-6, top);
     BOOST_TEST(r.acceleration.tooth.value == r.acceleration.rotation.value, close);
     BOOST_TEST(r.acceleration.axial.value == 0.0);
   }
+  for (double speed = 300; speed <= 5000; speed += 25) {
+    pair.pinion_speed = speed * units::rpm;
+    const double w = 2 * std::numbers::pi * pair.mesh_frequency();
+    const Complex force = Complex(k, w * damping) * amplitude(w, pair.mesh_error.amount);
+    factor.reference_x.push_back(speed);
+    factor.reference.push_back(1 + std::abs(force) / pair.static_force());
+  }
+  record.plot({"Dynamic factor", "speed of the pinion, r/min", "", {factor}});
 }
 
 BOOST_AUTO_TEST_CASE(six_freedoms_follow_their_dynamic_stiffness) {
+  test::Verification record("Helical pair on bearings, six freedoms, under its transmission error",
+                            "dynamic stiffness matrix, solved directly");
   const auto pair = linear(pairs::error_paper());
   const auto system = assemble(pair);
   const double w = 2 * std::numbers::pi * pair.mesh_frequency(), k = mean_stiffness(pair.mesh);
@@ -70,13 +93,18 @@ BOOST_AUTO_TEST_CASE(six_freedoms_follow_their_dynamic_stiffness) {
   const auto at = [&](const char* name) { return q[system.find(name)]; };
   const auto r = evaluate_pair(pair, direct());
   const double force = std::abs(law * (b.cast<Complex>().dot(q) - pair.mesh_error.amount));
-  BOOST_TEST(r.force_max.value == r.static_force + force, close);
-  BOOST_TEST(r.acceleration.line_of_action.value == w * w * std::max(std::abs(at("pinion_y")), std::abs(at("wheel_y"))),
-             close);
-  BOOST_TEST(r.acceleration.axial.value == w * w * std::max(std::abs(at("pinion_z")), std::abs(at("wheel_z"))), close);
-  BOOST_TEST(r.acceleration.rotation.value == w * w * std::max(std::abs(at("pinion_u")), std::abs(at("wheel_u"))),
-             close);
-  BOOST_TEST(r.dynamic.transmission_error.peak_to_peak.value == 2 * std::abs(at("pinion_u") + at("wheel_u")), close);
+  const auto larger = [&](const char* one, const char* other) {
+    return w * w * std::max(std::abs(at(one)), std::abs(at(other)));
+  };
+  record.close("largest mesh force", "N", r.force_max.value, r.static_force + force, 1e-6, top);
+  record.close("acceleration along the line of action", "m/s^2", r.acceleration.line_of_action.value,
+               larger("pinion_y", "wheel_y"), 1e-6, top);
+  record.close("acceleration along the axis", "m/s^2", r.acceleration.axial.value, larger("pinion_z", "wheel_z"), 1e-6,
+               top);
+  record.close("acceleration of rotation", "m/s^2", r.acceleration.rotation.value, larger("pinion_u", "wheel_u"), 1e-6,
+               top);
+  record.close("dynamic transmission error, peak to peak", "m", r.dynamic.transmission_error.peak_to_peak.value,
+               2 * std::abs(at("pinion_u") + at("wheel_u")), 1e-6, top);
   BOOST_TEST(r.dynamic.relative.peak_to_peak.value ==
                  2 * std::abs(at("pinion_u") + at("wheel_u") + at("pinion_y") - at("wheel_y")),
              close);
@@ -87,6 +115,8 @@ BOOST_AUTO_TEST_CASE(six_freedoms_follow_their_dynamic_stiffness) {
 }
 
 BOOST_AUTO_TEST_CASE(force_is_the_mean_and_linear_in_the_error) {
+  test::Verification record("Dynamic force of a linear helical pair",
+                            "theorem: linear in the error, not in the torque");
   auto pair = linear(pairs::error_paper());
   const auto swing = [&](double error, double torque) {
     pair.mesh_error.amount = error;
@@ -96,17 +126,18 @@ BOOST_AUTO_TEST_CASE(force_is_the_mean_and_linear_in_the_error) {
     return r.force_max.value - r.static_force;
   };
   const double one = swing(5e-6, 20e3);
-  BOOST_TEST(swing(15e-6, 20e3) == 3 * one, close);
-  BOOST_TEST(swing(5e-6, 40e3) == one, close);
+  record.close("amplitude at three times the error", "N", swing(15e-6, 20e3), 3 * one, 1e-6, top);
+  record.close("amplitude at twice the torque", "N", swing(5e-6, 40e3), one, 1e-6, top);
 }
 
 BOOST_AUTO_TEST_CASE(marching_confirms_and_books_its_energy) {
+  test::Verification record("Helical pair marched", "balance of energy; mean force of statics");
   const auto r = evaluate_pair(pairs::error_paper());
   BOOST_TEST(r.confirmed);
   BOOST_TEST(r.steady);
   // The integrator's 1e-6 over a few hundred steps.
-  BOOST_TEST(r.energy.relative < 1e-4);
-  BOOST_TEST(r.force_mean == r.static_force, boost::test_tools::tolerance(1e-4));
+  record.at_most("energy balance, relative", "", r.energy.relative, 1e-4, "integrator: some hundred steps of 1e-6");
+  record.close("mean force", "N", r.force_mean, r.static_force, 1e-4, "integrator: some hundred steps of 1e-6");
   const auto quick = evaluate_pair(pairs::error_paper(), direct());
   // Two methods, to the sum of their estimates.
   const auto agree = [](const Figure& a, const Figure& b) { return std::abs(a.value - b.value) <= a.error + b.error; };
@@ -118,6 +149,7 @@ BOOST_AUTO_TEST_CASE(marching_confirms_and_books_its_energy) {
 }
 
 BOOST_AUTO_TEST_CASE(slow_turning_is_quasi_static) {
+  test::Verification record("A helical pair at a crawl", "limit: the quasi-static transmission error");
   auto pair = pairs::error_paper();
   pair.pinion.error = {20e-6, 0.4};
   pair.pinion_speed = 1 * units::rpm;
@@ -125,22 +157,24 @@ BOOST_AUTO_TEST_CASE(slow_turning_is_quasi_static) {
   options.samples_per_cycle = 64;
   const auto r = evaluate_pair(pair, options);
   // (0.35 Hz / 292 Hz)^2 and the damping are some 1e-5.
-  const auto near = boost::test_tools::tolerance(1e-4);
-  BOOST_TEST(r.dynamic.transmission_error.peak_to_peak.value == r.quasi_static.transmission_error.peak_to_peak.value,
-             near);
-  BOOST_TEST(r.dynamic.relative.largest.value == r.quasi_static.relative.largest.value, near);
+  const char* origin = "(0.35 Hz / 292 Hz)^2 and the damping: some 1e-5";
+  record.close("transmission error, peak to peak", "m", r.dynamic.transmission_error.peak_to_peak.value,
+               r.quasi_static.transmission_error.peak_to_peak.value, 1e-4, origin);
+  record.close("largest relative displacement", "m", r.dynamic.relative.largest.value,
+               r.quasi_static.relative.largest.value, 1e-4, origin);
 }
 
 BOOST_AUTO_TEST_CASE(back_flanks_mirror_the_drive_flanks) {
+  test::Verification record("Helical pair driven on the back flanks", "symmetry: mirror image of the drive flanks");
   auto pair = pairs::error_paper();
   pair.half_backlash = 60e-6;
   const auto drive = evaluate_pair(pair, direct());
   pair.pinion_torque *= -1;
   pair.mesh_error.amount *= -1;
   const auto back = evaluate_pair(pair, direct());
-  BOOST_TEST(back.force_min.value == -drive.force_max.value, close);
+  record.close("smallest force against the largest one", "N", back.force_min.value, -drive.force_max.value, 1e-6, top);
   BOOST_TEST(back.force_max.value == -drive.force_min.value, close);
-  BOOST_TEST(back.dynamic_factor.value == drive.dynamic_factor.value, close);
+  record.close("dynamic factor", "", back.dynamic_factor.value, drive.dynamic_factor.value, 1e-6, top);
   BOOST_TEST(back.dynamic.relative.mean == -drive.dynamic.relative.mean, close);
   // Without separation the backlash is not felt, and is not part of the transmission error.
   pair = pairs::error_paper();
@@ -182,19 +216,25 @@ BOOST_AUTO_TEST_CASE(lost_contact_is_marched) {
 }
 
 BOOST_AUTO_TEST_CASE(shares_have_their_closed_forms) {
+  test::Verification record(
+      "Shares of errors and stiffness in the quasi-static transmission error",
+      "closed forms: 2 e / cos b; F / cos b (1/k_min - 1/k_max); mean compliance with 1 / sqrt(1 - "
+      "ripple^2)");
   auto pair = pairs::error_paper();
   pair.half_backlash = 100e-6;
   const double c = std::cos(pair.base_helix_angle), k = mean_stiffness(pair.mesh), force = pair.static_force();
   const auto s = transmission_error_shares(pair, direct());
-  BOOST_TEST(s.errors_alone.quasi_static == 2 * pair.mesh_error.amount / c, close);
-  BOOST_TEST(s.stiffness_alone.quasi_static == force / c * (1 / (0.95 * k) - 1 / (1.05 * k)), close);
+  record.close("errors alone", "m", s.errors_alone.quasi_static, 2 * pair.mesh_error.amount / c, 1e-6, top);
+  record.close("stiffness alone", "m", s.stiffness_alone.quasi_static, force / c * (1 / (0.95 * k) - 1 / (1.05 * k)),
+               1e-6, top);
   // The mean of 1/(k (1 + ripple cos)) is 1/(k sqrt(1 - ripple^2)).
   const double compliance = pair.static_compliance() + (1 / std::sqrt(1 - 0.05 * 0.05) - 1) / k;
-  BOOST_TEST(s.load_deflection == force * compliance / c, close);
+  record.close("mean deflection by the load", "m", s.load_deflection, force * compliance / c, 1e-6, top);
   BOOST_TEST(s.all.quasi_static > s.errors_alone.quasi_static);
   // Both causes stand a quarter of a cycle apart here: (sin, cos) of one phase.
-  BOOST_TEST(s.all.quasi_static == std::hypot(s.errors_alone.quasi_static, s.stiffness_alone.quasi_static),
-             boost::test_tools::tolerance(0.01));  // 1/k is a cosine to the ripple alone
+  record.close("both, a quarter of a cycle apart", "m", s.all.quasi_static,
+               std::hypot(s.errors_alone.quasi_static, s.stiffness_alone.quasi_static), 0.01,
+               "1/k is a cosine to the ripple alone");
   BOOST_TEST(s.error_share().quasi_static == s.errors_alone.quasi_static / s.all.quasi_static, close);
   // No load, no bending: the errors are all there is.
   pair.pinion_torque = 0;

@@ -11,6 +11,7 @@
 #include "dynamics/frequency_response.h"
 #include "dynamics/integrate.h"
 #include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(periodic_responses)
 
@@ -74,6 +75,8 @@ double largest(const Eigen::MatrixXd& difference) { return difference.cwiseAbs()
 
 BOOST_AUTO_TEST_CASE(harmonic_error_in_closed_form) {
   using namespace std::complex_literals;
+  annulus::test::Verification record("Harmonic transmission error on a linear mesh",
+                                     "closed form: (k - w^2 m + i w c) x = (k + i w c) e");
   MeshedMass mass;
   const double w = 2 * std::numbers::pi * frequency, e = 1e-4;
   mass.mesh.errors = {{e, w, 0.7}};
@@ -85,15 +88,19 @@ BOOST_AUTO_TEST_CASE(harmonic_error_in_closed_form) {
   for (Eigen::Index i = 0; i < 16; ++i) {
     const auto turn = std::exp(1i * w * response.time[i]);
     // Rounding of some ten terms; the problem is linear and its linear part solves it.
-    BOOST_TEST(std::abs(response.displacement(0, i) - load / 5e4 - (x * turn).real()) <= 1e-12 * 1e-3);
-    BOOST_TEST(std::abs(response.velocity(0, i) - (1i * w * x * turn).real()) <= 1e-12 * w * 1e-3);
-    BOOST_TEST(std::abs(response.force(0, i) - load - (coupling * (x - error) * turn).real()) <= 1e-12 * load);
+    record.near("displacement", "m", response.displacement(0, i), load / 5e4 + (x * turn).real(), 1e-12 * 1e-3,
+                "rounding");
+    record.near("velocity", "m/s", response.velocity(0, i), (1i * w * x * turn).real(), 1e-12 * w * 1e-3, "rounding");
+    record.near("mesh force", "N", response.force(0, i), load + (coupling * (x - error) * turn).real(), 1e-12 * load,
+                "rounding");
   }
   BOOST_TEST(response.sampling_difference <= 1e-12 * load);
 }
 
 // Mathieu's equation with load and damper, against time integration until all is still (exp(-10 x 2.5) of the start).
 BOOST_AUTO_TEST_CASE(parametric_excitation_agrees_with_marching) {
+  annulus::test::Verification record("Parametric excitation (Mathieu's equation with load and damper)",
+                                     "time integration by ARKODE until all is still");
   MeshedMass mass;
   mass.mesh.excitation = HarmonicStiffness{5e4, 0.4, 0.1};
   const auto system = mass.system();
@@ -101,7 +108,15 @@ BOOST_AUTO_TEST_CASE(parametric_excitation_agrees_with_marching) {
   BOOST_TEST(response.converged);
   BOOST_TEST(largest(response.force.array() - load) > 0.2 * load);  // the stiffness does excite
   const auto force = marched(system, 1 / frequency, 60, 64, 1e-14).force;
-  BOOST_TEST(largest(response.force - force) <= 1e-7 * load);  // 1e-10 x steps of some decay times
+  record.at_most("largest difference of the mesh force over the load", "", largest(response.force - force) / load, 1e-7,
+                 "integrator: 1e-10 x steps of some decay times");
+  annulus::test::RecordedPlot::Curve curve{"", {}, {}, {}};
+  for (Eigen::Index i = 0; i < 64; ++i) {
+    curve.x.push_back(static_cast<double>(i) / 64);
+    curve.computed.push_back(response.force(0, i));
+    curve.reference.push_back(force(0, i));
+  }
+  record.plot({"Mesh force", "period", "N", {curve}});
 }
 
 /// Largest difference of a displacement (m).
@@ -115,19 +130,27 @@ double motion_error(const PeriodicResponse& response, const Marched& truth) {
 
 // Where contact or stiffness changes between two samples, means over the time step make the error of the motion second
 // order. (Next to a jump the velocity has a kink, and the force of the damper an error of first order.)
-void check_second_order(const LumpedSystem& system, const Marched& truth) {
+void check_second_order(annulus::test::Verification& record, const LumpedSystem& system, const Marched& truth) {
   double previous = 0;
+  std::vector<double> sizes, errors;
   for (const int samples : {64, 256, 1024}) {
     const auto response = solve(system, samples, 1e-8);
     BOOST_TEST(response.converged, response.trouble);
     const double error = motion_error(response, truth);
-    if (previous > 0) BOOST_TEST(std::log2(previous / error) / 2 >= 1.6);
+    if (previous > 0)
+      record.at_least("order of convergence", "", std::log2(previous / error) / 2, 1.6, "0.8 of the order 2");
     previous = error;
+    sizes.push_back(1.0 / samples);
+    errors.push_back(error / (load / 5e4));
   }
-  BOOST_TEST(previous <= 1e-4 * load / 5e4);
+  record.at_most("error of the motion over the static deflection, 1024 samples", "", previous / (load / 5e4), 1e-4,
+                 "ceiling beside the rate");
+  record.convergence("Error of the motion; dashed: order 2", "time step over period", "error over static deflection",
+                     "", sizes, errors, 2);
 }
 
 BOOST_AUTO_TEST_CASE(contact_loss_agrees_with_marching_to_second_order) {
+  annulus::test::Verification record("Teeth that part in every period", "time integration by ARKODE, tolerance 1e-10");
   MeshedMass mass;
   mass.mesh.damping = 200;
   mass.mesh.errors = {{8e-4, 2 * std::numbers::pi * frequency, 0.3}};
@@ -137,17 +160,20 @@ BOOST_AUTO_TEST_CASE(contact_loss_agrees_with_marching_to_second_order) {
   const auto apart = (truth.force.array() == 0).count();
   BOOST_TEST(apart > 100);
   BOOST_TEST(std::abs(solve(system, 256, 1e-8).open[0] - static_cast<double>(apart) / 1024) <= 2.0 / 256);
-  check_second_order(system, truth);
+  check_second_order(record, system, truth);
 }
 
 BOOST_AUTO_TEST_CASE(jumping_stiffness_agrees_with_marching_to_second_order) {
+  annulus::test::Verification record("Stiffness that jumps", "time integration by ARKODE, tolerance 1e-10");
   MeshedMass mass;
   mass.mesh.excitation = RectangularStiffness{5e4, 0.3, 0.37, 0.1};
   const auto system = mass.system();
-  check_second_order(system, marched(system, 1 / frequency, 60, 1024, 1e-14));
+  check_second_order(record, system, marched(system, 1 / frequency, 60, 1024, 1e-14));
 }
 
 BOOST_AUTO_TEST_CASE(stages_agree_with_marching) {
+  annulus::test::Verification record("Harmonic balance of planetary stages over an error period",
+                                     "time integration from the same state, tolerance 1e-9");
   auto with_phases = stages::ring_paper();
   for (int n = 0; n < 5; ++n) {
     with_phases.planet_errors[n].eccentricity.phase = 1.3 * n;
@@ -181,14 +207,18 @@ BOOST_AUTO_TEST_CASE(stages_agree_with_marching) {
               });
     // Harmonics above the 16th are left out: the difference to half the samples bounds that; and 1e-9 x some 1e4 steps.
     BOOST_TEST(response.sampling_difference <= 1e-5 * stage.mean_mesh_force());
-    BOOST_TEST(worst <= 1e-6 * stage.mean_mesh_force());
+    record.at_most("largest difference of a mesh force over the mean force", "", worst / stage.mean_mesh_force(), 1e-6,
+                   "harmonics above the 16th, 1e4 steps of 1e-9");
     // m; displacements are some 1e-4. A single planet out of balance lets the stage wander around, at no force.
-    if (stage.planets() > 1) BOOST_TEST(drift <= 1e-6 * 1e-4);
+    if (stage.planets() > 1)
+      record.at_most("largest difference of a freedom", "m", drift, 1e-6 * 1e-4, "a millionth of the displacements");
   }
 }
 
 BOOST_AUTO_TEST_CASE(transfer_functions_are_those_of_the_matrices) {
   using Complex = std::complex<double>;
+  annulus::test::Verification record("Transfer functions between the meshes of a turning stage",
+                                     "dense complex solve of the matrices at three frequencies");
   auto stage = stages::ring_paper();
   stage.carrier_speed = 200;
   const auto system = assemble(stage);
@@ -212,8 +242,13 @@ BOOST_AUTO_TEST_CASE(transfer_functions_are_those_of_the_matrices) {
     const Eigen::MatrixXcd solved = dynamic.partialPivLu().solve(b);
     const Eigen::MatrixXcd expected = b.transpose() * solved;
     // Rounding times the condition of the eigenvectors; the class itself demands 1e-9.
-    BOOST_TEST(largest(transfer.middleCols(20 * j, 10) - expected.real()) <= 1e-9 * largest(expected.cwiseAbs()));
-    BOOST_TEST(largest(transfer.middleCols(20 * j + 10, 10) - expected.imag()) <= 1e-9 * largest(expected.cwiseAbs()));
+    const char* origin = "rounding x condition of the eigenvectors";
+    record.at_most("real part, error over the largest entry", "",
+                   largest(transfer.middleCols(20 * j, 10) - expected.real()) / largest(expected.cwiseAbs()), 1e-9,
+                   origin);
+    record.at_most("imaginary part, error over the largest entry", "",
+                   largest(transfer.middleCols(20 * j + 10, 10) - expected.imag()) / largest(expected.cwiseAbs()), 1e-9,
+                   origin);
     const Eigen::VectorXcd expected_q = solved * Eigen::VectorXcd::Constant(10, Complex(1, 0.3));
     BOOST_TEST(largest((q.col(j) - expected_q).cwiseAbs()) <= 1e-8 * largest(expected_q.cwiseAbs()));
   }

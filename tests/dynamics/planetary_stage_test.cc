@@ -7,6 +7,7 @@
 #include "dynamics/lumped_system.h"
 #include "geometry/planetary.h"
 #include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(planetary_stage)
 
@@ -20,14 +21,18 @@ void displace(const LumpedSystem& system, Eigen::VectorXd& q, const std::string&
 }
 
 BOOST_AUTO_TEST_CASE(base_scene_agrees_with_the_printed_numbers) {
+  annulus::test::Verification record("Operating point of the planetary stage of the ring paper",
+                                     "gear and stage data of Hu et al. 2021 (docs/ring_types.md), calculated by hand");
   const auto stage = stages::ring_paper();
-  // Printed to the digits shown (models.md A).
-  BOOST_TEST(std::abs(stage.sun_working_angle / annulus::units::deg - 25.905) < 5e-4);
-  BOOST_TEST(std::abs(stage.ring_working_angle / annulus::units::deg - 20.860) < 5e-4);
-  BOOST_TEST(std::abs(stage.mesh_frequency() - 696.1) < 0.05);
-  BOOST_TEST(std::abs(stage.mean_mesh_force() - 59.46e3) < 5);
-  BOOST_TEST(std::abs(stage.sun_torque - 25048) < 0.5);
-  BOOST_TEST(std::abs(stage.carrier_torque() - 25048 * 210.0 / 48) < 2.2);
+  const char* digits = "half of the last digit";
+  record.near("working pressure angle of the sun mesh", "deg", stage.sun_working_angle / annulus::units::deg, 25.905,
+              5e-4, digits);
+  record.near("working pressure angle of the ring mesh", "deg", stage.ring_working_angle / annulus::units::deg, 20.860,
+              5e-4, digits);
+  record.near("mesh frequency", "Hz", stage.mesh_frequency(), 696.1, 0.05, digits);
+  record.near("mean mesh force", "N", stage.mean_mesh_force(), 59.46e3, 5, digits);
+  record.near("torque of the sun", "N m", stage.sun_torque, 25048, 0.5, digits);
+  record.near("torque of the carrier", "N m", stage.carrier_torque(), 25048 * 210.0 / 48, 2.2, digits);
   BOOST_TEST(stage.error_period() == 55);
 }
 

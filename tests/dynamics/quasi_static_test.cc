@@ -4,6 +4,7 @@
 #include "core/errors.h"
 #include "dynamics/figures.h"
 #include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(quasi_static_load_sharing)
 
@@ -22,6 +23,10 @@ PlanetaryStage all_centres_held() {
 //   F_n = F_bar + K (eps_bar - eps_n), eps = e_s + e_r,
 //   1/K = 1/k_sp + 1/k_rp + [(cos a_s + cos a_r)^2 + (sin a_s - sin a_r)^2]/k_p.
 BOOST_AUTO_TEST_CASE(all_centres_held_closed_form) {
+  annulus::test::Verification record("Quasi-static load sharing with all centres held",
+                                     "closed form: F_n = F + K (mean error - error_n), 1/K = 1/k_sp + 1/k_rp + [(cos "
+                                     "a_s + cos a_r)^2 + (sin a_s - sin "
+                                     "a_r)^2]/k_p");
   const auto stage = all_centres_held();
   const double as = stage.sun_working_angle, ar = stage.ring_working_angle;
   const double lever = std::pow(std::cos(as) + std::cos(ar), 2) + std::pow(std::sin(as) - std::sin(ar), 2);
@@ -31,6 +36,8 @@ BOOST_AUTO_TEST_CASE(all_centres_held_closed_form) {
   const auto found = quasi_static(stage, per_cycle);
   BOOST_REQUIRE(found.sun_force.cols() == 55 * per_cycle);
   double sharing = 0;
+  annulus::test::RecordedPlot plot{"Sun mesh forces", "mesh cycles", "kN", {}};
+  for (int n = 0; n < 5; ++n) plot.curves.push_back({"planet " + std::to_string(n + 1), {}, {}, {}});
   for (int i = 0; i < found.sun_force.cols(); ++i) {
     const double t = i / (per_cycle * stage.mesh_frequency());
     Eigen::VectorXd error(5);
@@ -38,14 +45,25 @@ BOOST_AUTO_TEST_CASE(all_centres_held_closed_form) {
     const Eigen::VectorXd force = mean + path * (error.mean() - error.array());
     sharing = std::max(sharing, 1 + path * (error.mean() - error.minCoeff()) / mean);
     // A direct solve; condition (1e10 against 1e9, rigid motion held) leaves far better than 1e-10.
-    BOOST_TEST((found.sun_force.col(i) - force).cwiseAbs().maxCoeff() <= 1e-10 * mean);
-    BOOST_TEST((found.ring_force.col(i) - force).cwiseAbs().maxCoeff() <= 1e-10 * mean);
+    for (int n = 0; n < 5; ++n) {
+      const char* origin = "condition of a direct solve";
+      record.near("sun mesh force", "N", found.sun_force(n, i), force[n], 1e-10 * mean, origin);
+      record.near("ring mesh force", "N", found.ring_force(n, i), force[n], 1e-10 * mean, origin);
+      if (i % 4 > 0) continue;
+      plot.curves[n].x.push_back(static_cast<double>(i) / per_cycle);
+      plot.curves[n].computed.push_back(found.sun_force(n, i) * 1e-3);
+      plot.curves[n].reference.push_back(force[n] * 1e-3);
+    }
   }
-  BOOST_TEST(std::abs(load_sharing_instantaneous(found.sun_force) - sharing) <= 1e-10);
+  record.near("load sharing coefficient", "", load_sharing_instantaneous(found.sun_force), sharing, 1e-10,
+              "condition of a direct solve");
+  record.plot(plot);
   BOOST_TEST(sharing > 1.1);  // these errors matter
 }
 
 BOOST_AUTO_TEST_CASE(a_floating_sun_shares_equally_among_three_planets) {
+  annulus::test::Verification record("A floating sun between three planets with errors",
+                                     "statics: three forces at equal angles that balance a torque are equal");
   auto stage = all_centres_held();
   stage.planet_angles = {0, 2 * std::numbers::pi / 3, 4 * std::numbers::pi / 3};
   stage.planet_errors.resize(3);
@@ -54,8 +72,10 @@ BOOST_AUTO_TEST_CASE(a_floating_sun_shares_equally_among_three_planets) {
   stage.sun.support = 0;
   const auto found = quasi_static(stage, 2);
   // Three forces in equilibrium with a torque, at equal angles: equal whatever the errors. Rounding of the solve.
-  BOOST_TEST(load_sharing_instantaneous(found.sun_force) - 1 <= 1e-10);
-  BOOST_TEST(load_sharing_instantaneous(found.ring_force) - 1 <= 1e-10);
+  record.near("load sharing coefficient, sun meshes", "", load_sharing_instantaneous(found.sun_force), 1, 1e-10,
+              "rounding of the solve");
+  record.near("load sharing coefficient, ring meshes", "", load_sharing_instantaneous(found.ring_force), 1, 1e-10,
+              "rounding of the solve");
 }
 
 // Equilibrium of the sun alone: three forces along lines of action turned with their planets, sum F_n exp(i phi_n) = 0,
@@ -75,13 +95,16 @@ BOOST_AUTO_TEST_CASE(a_floating_sun_shares_among_three_unequally_spaced_planets_
 }
 
 BOOST_AUTO_TEST_CASE(forces_balance_in_every_position) {
+  annulus::test::Verification record("Balance of the mesh forces in every position", "statics: torques in equilibrium");
   const auto stage = stages::ring_paper();
   const auto found = quasi_static(stage, 3);
   for (int i = 0; i < found.sun_force.cols(); ++i) {
-    BOOST_TEST(std::abs(found.sun_force.col(i).sum() * stage.sun.radius / stage.sun_torque - 1) <= 1e-10);
+    record.near("torque of the sun mesh forces over the load", "",
+                found.sun_force.col(i).sum() * stage.sun.radius / stage.sun_torque, 1, 1e-10, "rounding of the solve");
     // No torque on a planet: both its meshes carry the same.
-    BOOST_TEST((found.sun_force.col(i) - found.ring_force.col(i)).cwiseAbs().maxCoeff() <=
-               1e-10 * stage.mean_mesh_force());
+    record.at_most("sun mesh against ring mesh force of a planet, over the mean force", "",
+                   (found.sun_force.col(i) - found.ring_force.col(i)).cwiseAbs().maxCoeff() / stage.mean_mesh_force(),
+                   1e-10, "rounding of the solve");
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(response)
 
@@ -18,6 +19,7 @@ SimulationOptions quick() {
 }
 
 BOOST_AUTO_TEST_CASE(base_scene_reaches_its_steady_state) {
+  annulus::test::Verification record("Steady state of the stage of the ring paper", "balances of energy and of forces");
   const auto stage = stages::ring_paper();
   const auto r = simulate(stage, quick());
   BOOST_TEST(r.steady);
@@ -26,9 +28,9 @@ BOOST_AUTO_TEST_CASE(base_scene_reaches_its_steady_state) {
   BOOST_TEST(r.total_cycles % 55 == 0);
   BOOST_TEST(*r.steady_difference <= SimulationOptions{}.steady_tolerance);
   // Bookkeeping to the integrator's tolerance times its steps (5000 x 1e-6).
-  BOOST_TEST(r.energy.relative <= 5e-3);
+  record.at_most("energy balance, relative", "", r.energy.relative, 5e-3, "integrator: 5000 steps of 1e-6");
   BOOST_TEST(r.energy.dissipated > 0);
-  BOOST_TEST(r.force_balance_relative <= 1e-4);
+  record.at_most("balance of the mean forces, relative", "", r.force_balance_relative, 1e-4, "steady to 1e-3");
   for (const auto* kind : {&r.sun_planet, &r.ring_planet}) {
     double mean = 0;
     for (const auto& branch : kind->branches) {
@@ -38,7 +40,8 @@ BOOST_AUTO_TEST_CASE(base_scene_reaches_its_steady_state) {
       BOOST_TEST(branch.dynamic_factor_min < branch.mean_force / r.mean_mesh_force);
       BOOST_TEST(branch.dynamic_factor_max.error <= 5e-3);
     }
-    BOOST_TEST(std::abs(mean / r.mean_mesh_force - 1) <= 1e-4);  // steady to 1e-3, most of it in the differences
+    record.near("mean force over that of statics", "", mean / r.mean_mesh_force, 1, 1e-4,
+                "steady to 1e-3, most of it in the differences");
     const auto& sharing = kind->load_sharing;
     BOOST_TEST(sharing.averaged.value < sharing.instantaneous.value);
     BOOST_TEST(sharing.averaged.value > 1.0);
@@ -53,6 +56,7 @@ BOOST_AUTO_TEST_CASE(base_scene_reaches_its_steady_state) {
 
 // Three ways to the same steady state: directly, directly and confirmed, by marching from rest.
 BOOST_AUTO_TEST_CASE(direct_solution_and_marching_agree) {
+  annulus::test::Verification record("Harmonic balance and marching to the same steady state", "each other");
   auto stage = stages::ring_paper();
   stage.planet_errors[1].eccentricity.phase = 2;
   auto options = quick();
@@ -68,7 +72,16 @@ BOOST_AUTO_TEST_CASE(direct_solution_and_marching_agree) {
   BOOST_TEST(direct.total_cycles == 0);
   BOOST_TEST(std::isnan(direct.energy.relative));
   BOOST_TEST(direct.force_balance_relative <= 1e-6);
-  BOOST_TEST((direct.series.force - confirmed.series.force).cwiseAbs().maxCoeff() <= 1e-5 * direct.mean_mesh_force);
+  record.at_most("largest difference of a mesh force over the mean", "",
+                 (direct.series.force - confirmed.series.force).cwiseAbs().maxCoeff() / direct.mean_mesh_force, 1e-5,
+                 "integrator 1e-6, harmonics above the 16th");
+  annulus::test::RecordedPlot::Curve curve{"", {}, {}, {}};
+  for (Eigen::Index i = 0; i < 96; ++i) {
+    curve.x.push_back(static_cast<double>(i) / 32);
+    curve.computed.push_back(direct.series.force(0, i) * 1e-3);
+    curve.reference.push_back(confirmed.series.force(0, i) * 1e-3);
+  }
+  record.plot({"Force on the first sun mesh", "mesh cycles", "kN", {curve}});
   options.keep_series = false;
   BOOST_TEST(simulate(stage, options).series.force.size() == 0);
   options = quick();
@@ -107,6 +120,8 @@ BOOST_AUTO_TEST_CASE(marching_takes_over_where_harmonic_balance_fails) {
 
 // The error that is stated covers the distance to a much finer run.
 BOOST_AUTO_TEST_CASE(stated_errors_cover_the_true_ones) {
+  annulus::test::Verification record("Stated errors of load sharing and dynamic factors",
+                                     "a run with 8 times the samples, a thousandth of the tolerance, ten periods");
   const auto stage = stages::ring_paper();
   const auto coarse = simulate(stage, quick());
   SimulationOptions fine;
@@ -115,17 +130,23 @@ BOOST_AUTO_TEST_CASE(stated_errors_cover_the_true_ones) {
   fine.mesh_cycles = 10 * 55;
   const auto truth = simulate(stage, fine);
   BOOST_TEST(*truth.steady_difference < 1e-6);
-  const auto covered = [](const Figure& a, const Figure& b) { return std::abs(a.value - b.value) <= a.error + 1e-9; };
-  BOOST_TEST(covered(coarse.sun_planet.load_sharing.instantaneous, truth.sun_planet.load_sharing.instantaneous));
-  BOOST_TEST(covered(coarse.ring_planet.load_sharing.instantaneous, truth.ring_planet.load_sharing.instantaneous));
-  BOOST_TEST(covered(coarse.sun_planet.load_sharing.averaged, truth.sun_planet.load_sharing.averaged));
+  const auto covered = [&](const std::string& name, const Figure& a, const Figure& b) {
+    record.near(name, "", a.value, b.value, a.error + 1e-9, "its own stated error");
+  };
+  covered("instantaneous load sharing, sun meshes", coarse.sun_planet.load_sharing.instantaneous,
+          truth.sun_planet.load_sharing.instantaneous);
+  covered("instantaneous load sharing, ring meshes", coarse.ring_planet.load_sharing.instantaneous,
+          truth.ring_planet.load_sharing.instantaneous);
+  covered("averaged load sharing, sun meshes", coarse.sun_planet.load_sharing.averaged,
+          truth.sun_planet.load_sharing.averaged);
   for (int n = 0; n < 5; ++n)
-    BOOST_TEST(
-        covered(coarse.sun_planet.branches[n].dynamic_factor_max, truth.sun_planet.branches[n].dynamic_factor_max));
+    covered("dynamic factor of a sun mesh", coarse.sun_planet.branches[n].dynamic_factor_max,
+            truth.sun_planet.branches[n].dynamic_factor_max);
 }
 
 // Slow enough, the dynamic forces are the quasi-static ones.
 BOOST_AUTO_TEST_CASE(slow_running_is_quasi_static) {
+  annulus::test::Verification record("A planetary stage at a crawl", "limit: quasi-static forces");
   auto stage = stages::ring_paper();
   stage.carrier_speed /= 400;                               // 1.7 Hz mesh frequency, natural frequencies from 183 Hz on
   for (auto& e : stage.planet_errors) e.eccentricity = {};  // period of one mesh cycle
@@ -137,14 +158,19 @@ BOOST_AUTO_TEST_CASE(slow_running_is_quasi_static) {
   BOOST_REQUIRE(r.series.force.cols() == path.sun_force.cols());
   // Inertia adds (1.7/183)^2 = 1e-4 of the change of force over a cycle (some per cent of the mean), dampers
   // c w / k = 2 zeta w / w_n = 1e-3 of it.
-  BOOST_TEST((r.series.force.topRows(5) - path.sun_force).cwiseAbs().maxCoeff() <= 1e-4 * r.mean_mesh_force);
-  BOOST_TEST((r.series.force.bottomRows(5) - path.ring_force).cwiseAbs().maxCoeff() <= 1e-4 * r.mean_mesh_force);
+  const char* origin = "(1.7 Hz / 183 Hz)^2 and dampers, 1e-3, of a change of some per cent";
+  record.at_most("sun mesh force, largest difference over the mean", "",
+                 (r.series.force.topRows(5) - path.sun_force).cwiseAbs().maxCoeff() / r.mean_mesh_force, 1e-4, origin);
+  record.at_most("ring mesh force, largest difference over the mean", "",
+                 (r.series.force.bottomRows(5) - path.ring_force).cwiseAbs().maxCoeff() / r.mean_mesh_force, 1e-4,
+                 origin);
   BOOST_TEST((path.sun_force.rowwise().maxCoeff() - path.sun_force.rowwise().minCoeff()).maxCoeff() >
              0.01 * r.mean_mesh_force);
 }
 
 // While no mesh separates, backlash only shifts the coordinates.
 BOOST_AUTO_TEST_CASE(backlash_does_not_matter_without_separation) {
+  annulus::test::Verification record("Backlash while no mesh separates", "theorem: it only shifts the coordinates");
   auto stage = stages::ring_paper();
   auto options = quick();
   options.mesh_cycles = 165;
@@ -156,11 +182,15 @@ BOOST_AUTO_TEST_CASE(backlash_does_not_matter_without_separation) {
     const auto r = simulate(stage, options);
     BOOST_TEST(r.statistics.contact_events == 0);
     // The shift changes magnitudes, hence steps: tolerance x steps.
-    BOOST_TEST((r.series.force - linear.series.force).cwiseAbs().maxCoeff() <= 1e-4 * r.mean_mesh_force);
+    record.at_most("largest difference of a mesh force over the mean", "",
+                   (r.series.force - linear.series.force).cwiseAbs().maxCoeff() / r.mean_mesh_force, 1e-4,
+                   "tolerance x steps of the integrator");
   }
 }
 
 BOOST_AUTO_TEST_CASE(without_errors_load_sharing_does_not_depend_on_torque) {
+  annulus::test::Verification record("Load sharing without errors at full and at a tenth of the torque",
+                                     "theorem: a linear system scales");
   auto stage = stages::ring_paper();
   stage.planet_errors.clear();
   stage.set_half_backlash({});
@@ -172,8 +202,8 @@ BOOST_AUTO_TEST_CASE(without_errors_load_sharing_does_not_depend_on_torque) {
   const auto tenth = simulate(stage, options);
   BOOST_TEST(full.sun_planet.load_sharing.instantaneous.value > 1.001);  // the planets' phases differ
   // A linear system scales: rounding and tolerance x steps.
-  BOOST_TEST(std::abs(full.sun_planet.load_sharing.instantaneous.value -
-                      tenth.sun_planet.load_sharing.instantaneous.value) <= 1e-5);
+  record.near("load sharing coefficient", "", tenth.sun_planet.load_sharing.instantaneous.value,
+              full.sun_planet.load_sharing.instantaneous.value, 1e-5, "tolerance x steps of the integrator");
 }
 
 BOOST_AUTO_TEST_CASE(contact_is_lost_and_counted_at_light_load) {
@@ -192,6 +222,7 @@ BOOST_AUTO_TEST_CASE(contact_is_lost_and_counted_at_light_load) {
 
 // A table that samples the harmonic stiffness gives the harmonic answer, planet by planet: the phasing is the same.
 BOOST_AUTO_TEST_CASE(table_stiffness_reproduces_the_harmonic_stage) {
+  annulus::test::Verification record("A table that samples a harmonic stiffness", "the stage with the formula");
   const auto harmonic = stages::ring_paper();
   auto table = harmonic;
   const auto sampled = [](double mean, double ripple) {
@@ -206,7 +237,9 @@ BOOST_AUTO_TEST_CASE(table_stiffness_reproduces_the_harmonic_stage) {
   options.mesh_cycles = 110;
   const auto a = simulate(harmonic, options), b = simulate(table, options);
   // Interpolation at 256 values: 4e-5 of the ripple at extrema, so 1e-5 of the stiffness, times resonance (below 10).
-  BOOST_TEST((a.series.force - b.series.force).cwiseAbs().maxCoeff() <= 1e-4 * a.mean_mesh_force);
+  record.at_most("largest difference of a mesh force over the mean", "",
+                 (a.series.force - b.series.force).cwiseAbs().maxCoeff() / a.mean_mesh_force, 1e-4,
+                 "interpolation 1e-5 of the stiffness x resonance below 10");
 }
 
 // The second paper's kind of stage: planets ride on the carrier, everything but the sun turns only, stiffness jumps.

@@ -11,6 +11,7 @@
 #include "dynamics/campbell.h"
 #include "dynamics/modes.h"
 #include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(rotating_modes)
 
@@ -39,6 +40,7 @@ PlanetaryStage single_mass(double support, double damping_ratio) {
 }
 
 BOOST_AUTO_TEST_CASE(at_rest_they_are_the_real_modes) {
+  annulus::test::Verification record("Complex modes at rest", "the symmetric eigenproblem, another solver");
   const auto stage = turning(5);
   const auto real = annulus::dynamics::modes(stage);
   const auto found = annulus::dynamics::rotating_modes(stage, false);
@@ -47,8 +49,9 @@ BOOST_AUTO_TEST_CASE(at_rest_they_are_the_real_modes) {
   const auto mass = assemble(stage).mass();
   for (std::size_t i = 0; i < real.modes.size(); ++i) {
     // The unsymmetric solver: eps x the highest frequency x the freedoms, against the lowest of about 700 Hz.
-    BOOST_TEST(std::abs(found.modes[i].frequency - real.modes[i].frequency) <= 1e-11 * real.modes.back().frequency);
-    BOOST_TEST(std::abs(found.modes[i].damping_ratio) <= 1e-10);
+    record.near("frequency", "Hz", found.modes[i].frequency, real.modes[i].frequency,
+                1e-11 * real.modes.back().frequency, "rounding of the unsymmetric solver");
+    record.near("damping ratio", "", found.modes[i].damping_ratio, 0, 1e-10, "rounding of the unsymmetric solver");
     BOOST_TEST((found.modes[i].kind == real.modes[i].kind), i << " " << to_string(found.modes[i].kind));
     BOOST_TEST(std::abs(found.modes[i].shape.dot(mass * found.modes[i].shape) - 1.0) <= 1e-12);
   }
@@ -56,6 +59,9 @@ BOOST_AUTO_TEST_CASE(at_rest_they_are_the_real_modes) {
 
 // A mass on isotropic springs seen from a turning frame whirls at sqrt(k/m) -+ Omega.
 BOOST_AUTO_TEST_CASE(single_mass_in_the_turning_frame) {
+  annulus::test::Verification record("Whirling of a mass on isotropic springs seen from a turning frame",
+                                     "closed form: sqrt(k/m) -+ speed; with a damper in the housing sqrt(1 - zeta^2) "
+                                     "sqrt(k/m) -+ speed");
   for (const double speed : {0.0, 50.0, 400.0}) {
     auto stage = single_mass(2e6, 0.02);  // sqrt(k/m) = 1000 rad/s
     stage.carrier_speed = speed;
@@ -70,8 +76,9 @@ BOOST_AUTO_TEST_CASE(single_mass_in_the_turning_frame) {
     };
     auto pair = lowest_pair();
     // The meshes' 1e-3 N/m shift the frequency by 1e-9 of itself; rounding is far below.
-    BOOST_TEST(std::abs(pair[0].frequency * turn - (omega - speed)) <= 1e-6);
-    BOOST_TEST(std::abs(pair[1].frequency * turn - (omega + speed)) <= 1e-6);
+    const char* origin = "meshes of 1e-3 N/m shift 1e-9 of it";
+    record.near("backward whirl", "rad/s", pair[0].frequency * turn, omega - speed, 1e-6, origin);
+    record.near("forward whirl", "rad/s", pair[1].frequency * turn, omega + speed, 1e-6, origin);
     if (speed > 0)  // whirling: y is 90 degrees from x, at the same amplitude
       for (const auto& mode : pair)
         BOOST_TEST(std::abs(mode.shape[1] / mode.shape[0] * mode.shape[1] / mode.shape[0] + 1.0) <= 1e-6);
@@ -80,11 +87,11 @@ BOOST_AUTO_TEST_CASE(single_mass_in_the_turning_frame) {
     found = annulus::dynamics::rotating_modes(stage, true);
     pair = lowest_pair();
     const double damped = omega * std::sqrt(1 - zeta * zeta);
-    BOOST_TEST(std::abs(pair[0].frequency * turn - (damped - speed)) <= 1e-6);
-    BOOST_TEST(std::abs(pair[1].frequency * turn - (damped + speed)) <= 1e-6);
+    record.near("backward whirl, damped", "rad/s", pair[0].frequency * turn, damped - speed, 1e-6, origin);
+    record.near("forward whirl, damped", "rad/s", pair[1].frequency * turn, damped + speed, 1e-6, origin);
     for (const int i : {0, 1}) {
       const double size = std::hypot(zeta * omega, pair[i].frequency * turn);
-      BOOST_TEST(std::abs(pair[i].damping_ratio - zeta * omega / size) <= 1e-9);
+      record.near("damping ratio", "", pair[i].damping_ratio, zeta * omega / size, 1e-9, origin);
     }
   }
 }
@@ -113,6 +120,8 @@ BOOST_AUTO_TEST_CASE(structure_at_speed) {
 
 // A residual: each mode solves the quadratic eigenproblem it is a mode of.
 BOOST_AUTO_TEST_CASE(modes_solve_the_quadratic_eigenproblem) {
+  annulus::test::Verification record("Modes of the turning, damped stage",
+                                     "definition: residual of the quadratic eigenproblem");
   auto stage = stages::ring_paper();
   const auto system = assemble(stage);
   const auto stiffness = stiffness_with_meshes(system, mean_mesh_stiffness(stage));
@@ -128,11 +137,16 @@ BOOST_AUTO_TEST_CASE(modes_solve_the_quadratic_eigenproblem) {
     const Eigen::VectorXcd residual = lambda * lambda * system.mass() * mode.shape + lambda * rate * mode.shape +
                                       (stiffness + system.rotating_stiffness()) * mode.shape;
     // Backward error of the unsymmetric solver: eps x size x the largest stiffness.
-    BOOST_TEST(residual.cwiseAbs().maxCoeff() <= 1e-12 * stiffness.cwiseAbs().maxCoeff());
+    record.at_most("residual over the largest stiffness", "",
+                   residual.cwiseAbs().maxCoeff() / stiffness.cwiseAbs().maxCoeff(), 1e-12,
+                   "backward error of the solver: eps x size");
   }
 }
 
 BOOST_AUTO_TEST_CASE(campbell_of_a_single_mass) {
+  annulus::test::Verification record(
+      "Campbell diagram of a single mass",
+      "closed form: curves 1000 rad/s -+ speed; order h meets them at 1000 / (162 h +- 1)");
   auto stage = single_mass(2e6, 0);
   std::vector<double> speeds;
   for (int i = 0; i <= 20; ++i) speeds.push_back(i);
@@ -145,7 +159,8 @@ BOOST_AUTO_TEST_CASE(campbell_of_a_single_mass) {
     const double slope = (curve.frequency[20] - curve.frequency[0]) * turn / 20;
     (slope > 0 ? forward : backward) += 1;
     for (int i = 0; i <= 20; ++i) {
-      BOOST_TEST(std::abs(curve.frequency[i] * turn - (1000 + std::round(slope) * speeds[i])) <= 1e-6);
+      record.near("frequency along a curve", "rad/s", curve.frequency[i] * turn, 1000 + std::round(slope) * speeds[i],
+                  1e-6, "meshes of 1e-3 N/m shift 1e-9 of it");
       BOOST_TEST(curve.likeness[i] > 0.99);
     }
   }
@@ -160,7 +175,9 @@ BOOST_AUTO_TEST_CASE(campbell_of_a_single_mass) {
   for (const auto& crossing : diagram.crossings)
     if (crossing.frequency * turn > 900) found.push_back(crossing.carrier_speed);
   BOOST_REQUIRE(found.size() == expected.size());
-  for (std::size_t i = 0; i < found.size(); ++i) BOOST_TEST(std::abs(found[i] - expected[i]) <= 1e-8);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    record.near("critical speeds of the carrier", "rad/s", found[i], expected[i], 1e-8,
+                "meshes of 1e-3 N/m shift 1e-9 of it");
 }
 
 BOOST_AUTO_TEST_CASE(campbell_follows_curves_through_crossings) {
@@ -192,6 +209,9 @@ BOOST_AUTO_TEST_CASE(campbell_follows_curves_through_crossings) {
 // Parker and Lin 2004: order h excites rotational modes when h z_s is a multiple of N, translational ones when it is
 // one more or less, planet modes otherwise.
 BOOST_AUTO_TEST_CASE(phasing_decides_what_an_order_excites) {
+  annulus::test::Verification record("Which mesh orders excite which modes",
+                                     "Parker and Lin, J. Mech. Des. 126 (2004): rotational modes when h z_s is a "
+                                     "multiple of N, translational ones when one more or less, else planet modes");
   const auto stage = stages::ring_paper();  // 48 teeth, 5 planets
   std::vector<double> speeds;
   for (int i = 0; i <= 60; ++i) speeds.push_back(i);
@@ -203,9 +223,13 @@ BOOST_AUTO_TEST_CASE(phasing_decides_what_an_order_excites) {
     const bool allowed = kind == ModeKind::rotational      ? rest == 0
                          : kind == ModeKind::translational ? rest == 1 || rest == 4
                                                            : rest == 2 || rest == 3;
-    if (!allowed) BOOST_TEST(crossing.participation <= 1e-6);  // of the shape: eps over the gap to the next mode
+    if (!allowed)
+      record.near("participation of orders that cannot excite", "", crossing.participation, 0, 1e-6,
+                  "eps over the gap to the next mode");
     // Of a parted translational pair one whirls with the excitation and one against it.
-    if (allowed && kind != ModeKind::translational) BOOST_TEST(std::abs(crossing.participation - 1) <= 1e-6);
+    if (allowed && kind != ModeKind::translational)
+      record.near("participation of orders that excite", "", crossing.participation, 1, 1e-6,
+                  "eps over the gap to the next mode");
     if (allowed && crossing.participation > 0.99) ++seen[kind];
   }
   for (const auto kind : {ModeKind::rotational, ModeKind::translational, ModeKind::planet}) BOOST_TEST(seen[kind] > 0);

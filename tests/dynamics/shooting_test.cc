@@ -5,6 +5,8 @@
 #include <complex>
 #include <numbers>
 
+#include "tests/verification_record.h"
+
 BOOST_AUTO_TEST_SUITE(shooting)
 
 using namespace annulus::dynamics;
@@ -40,6 +42,8 @@ ShootingOptions options() {
 
 // Forced vibration and free decay in closed form.
 BOOST_AUTO_TEST_CASE(linear_oscillator) {
+  annulus::test::Verification record("Periodic state by shooting: one mass under a harmonic error",
+                                     "closed form: forced vibration and free decay");
   const auto system = oscillator();
   const double period = 1 / frequency, w = 2 * std::numbers::pi * frequency;
   const auto found = shoot(system, period, {0, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Zero(1)}, options());
@@ -49,13 +53,16 @@ BOOST_AUTO_TEST_CASE(linear_oscillator) {
   const std::complex<double> response = amount * spring / (spring - mass * w * w);  // e = Im(amount exp(i w t))
   const double q = load / stiffness + response.imag(), v = w * response.real();
   // The disturbance and the decay of 1 % per period multiply the integrator's 1e-9 by some hundred.
-  BOOST_TEST(std::abs(found.start.q[0] - q) <= 1e-6 * std::abs(q));
-  BOOST_TEST(std::abs(found.start.v[0] - v) <= 1e-6 * w * amount);
-  BOOST_TEST(std::abs(std::abs(found.multipliers[0]) - std::exp(-damping / (2 * mass) * period)) <= 1e-7);
+  const char* origin = "integrator's 1e-9, multiplied by disturbance and slow decay";
+  record.near("displacement", "m", found.start.q[0], q, 1e-6 * std::abs(q), origin);
+  record.near("velocity", "m/s", found.start.v[0], v, 1e-6 * w * amount, origin);
+  record.near("Floquet multiplier", "", std::abs(found.multipliers[0]), std::exp(-damping / (2 * mass) * period), 1e-7,
+              origin);
 }
 
 // A free body: its rigid motion stays where the guess has it.
 BOOST_AUTO_TEST_CASE(rigid_motion_stays) {
+  annulus::test::Verification record("Shooting on two free bodies", "closed form: static deflection; multiplier 1");
   LumpedSystemBuilder builder;
   const auto x = builder.add_freedom("one_x"), y = builder.add_freedom("two_x");
   builder.add_mass(x, 1);
@@ -72,9 +79,11 @@ BOOST_AUTO_TEST_CASE(rigid_motion_stays) {
   const auto found =
       shoot(builder.build(), 1 / frequency, {0, Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2)}, options());
   BOOST_TEST(found.converged);
-  BOOST_TEST(std::abs(found.start.q[0] - found.start.q[1] - load / stiffness) <= 1e-6 * load / stiffness);
+  record.near("deflection", "m", found.start.q[0] - found.start.q[1], load / stiffness, 1e-6 * load / stiffness,
+              "integrator");
   BOOST_TEST(std::abs(found.start.q.sum()) <= 1e-6 * load / stiffness);
-  BOOST_TEST(std::abs(found.multipliers[1] - 1.0) <= 1e-4);  // a double root: the square root of the accuracy
+  record.at_most("distance of the second multiplier from 1", "", std::abs(found.multipliers[1] - 1.0), 1e-4,
+                 "a double root: square root of the accuracy");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

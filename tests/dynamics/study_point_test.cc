@@ -6,6 +6,7 @@
 
 #include "dynamics/modes.h"
 #include "tests/dynamics/stages.h"
+#include "tests/verification_record.h"
 
 namespace annulus::dynamics {
 
@@ -29,6 +30,8 @@ BOOST_AUTO_TEST_SUITE(study_point)
 
 BOOST_AUTO_TEST_CASE(held_centres_share_after_the_closed_form) {
   // models.md A: L = 1 + max_n K_path (mean(e) - e_n) / F
+  test::Verification record("Load sharing of a point of a study, central bodies held",
+                            "closed form: L = 1 + max K (mean error - error_n) / F");
   const auto stage = held_centres();
   const double a = stage.sun_working_angle, r = stage.ring_working_angle;
   const double path = 1 / (1 / 1.364e9 + 1 / 1.87e9 +
@@ -43,8 +46,10 @@ BOOST_AUTO_TEST_CASE(held_centres_share_after_the_closed_form) {
   const auto point = evaluate_point(stage, {});
   // Without the rotating frame's centripetal terms it would be exact; they are 1e-4 of the bearing stiffness.
   for (const auto* kind : {&point.sun_planet, &point.ring_planet}) {
-    BOOST_TEST(kind->quasi_static == expected, boost::test_tools::tolerance(2e-4));
-    BOOST_TEST(kind->averaged == kind->quasi_static, boost::test_tools::tolerance(1e-4));
+    record.close("load sharing coefficient", "", kind->quasi_static, expected, 2e-4,
+                 "centripetal terms: 1e-4 of the bearing stiffness");
+    record.close("averaged against quasi-static coefficient", "", kind->averaged, kind->quasi_static, 1e-4,
+                 "centripetal terms: 1e-4 of the bearing stiffness");
     BOOST_TEST(kind->dynamic_factor == kind->averaged, boost::test_tools::tolerance(1e-4));
     BOOST_TEST(kind->contact_loss == 0.0);
   }
@@ -88,18 +93,22 @@ BOOST_AUTO_TEST_CASE(motion_is_that_of_the_time_series) {
 }
 
 BOOST_AUTO_TEST_CASE(points_agree_with_marching) {
+  test::Verification record("Load sharing of a point of a study", "marching to the steady state");
   const auto stage = stages::ring_paper();
   SimulationOptions marching;
   marching.steady_state = SteadyState::marching;
   const auto marched = simulate(stage, marching);
   // Sampling (64 or 32 per cycle, peaks refined) and steady_tolerance: 1e-3 of the mean force.
-  const auto close = boost::test_tools::tolerance(2e-3);
+  const char* origin = "sampling and steady state: 1e-3 of the mean force";
   for (const bool motion : {true, false}) {
     const auto point = evaluate_point(stage, {.simulation = {}, .motion = motion});
     BOOST_TEST(point.steady);
-    BOOST_TEST(point.sun_planet.averaged == marched.sun_planet.load_sharing.averaged.value, close);
-    BOOST_TEST(point.ring_planet.instantaneous == marched.ring_planet.load_sharing.instantaneous.value, close);
-    BOOST_TEST(point.sun_planet.quasi_static == marched.sun_planet.load_sharing.quasi_static.value, close);
+    record.close("averaged, sun meshes", "", point.sun_planet.averaged, marched.sun_planet.load_sharing.averaged.value,
+                 2e-3, origin);
+    record.close("instantaneous, ring meshes", "", point.ring_planet.instantaneous,
+                 marched.ring_planet.load_sharing.instantaneous.value, 2e-3, origin);
+    record.close("quasi-static, sun meshes", "", point.sun_planet.quasi_static,
+                 marched.sun_planet.load_sharing.quasi_static.value, 2e-3, origin);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "dynamics/static_solver.h"
 #include "dynamics/two_k_v_modes.h"
 #include "tests/dynamics/two_k_v_stages.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(two_k_v)
 
@@ -52,18 +53,21 @@ double potential(const Eigen::VectorXd& q, double crank_angle) {
 }
 
 BOOST_AUTO_TEST_CASE(ratio_follows_from_the_teeth) {
+  annulus::test::Verification record("Kinematics of the published 2K-V reducer",
+                                     "Willis for the sun against the carrier; pins met by the turning eccentric");
   const auto stage = stages::reducer();
-  BOOST_TEST(stage.ratio() == 103.0);
-  BOOST_TEST(std::abs(stage.crank_frequency() - 15) <= 1e-12);  // 30 turns of the crank per turn of the output
+  record.near("ratio", "", stage.ratio(), 103.0, 0, "exact");
+  record.near("crank frequency: 30 turns per turn of the output", "Hz", stage.crank_frequency(), 15, 1e-12, "rounding");
   BOOST_TEST(std::abs(stage.sun_mesh_frequency() - 510) <= 1e-10);
   BOOST_TEST(std::abs(stage.arc_mesh_frequency() - 435) <= 1e-10);
   // Willis for the sun against the carrier, and pins met by the turning eccentric: the same frequencies another way.
   const double turns = 0.5;
-  BOOST_TEST(std::abs(stage.sun_mesh_frequency() - 10 * (103 - 1) * turns) <= 1e-10);
-  BOOST_TEST(std::abs(stage.arc_mesh_frequency() - 30 * 29 * turns) <= 1e-10);
+  record.near("mesh frequency of the sun", "Hz", stage.sun_mesh_frequency(), 10 * (103 - 1) * turns, 1e-10, "rounding");
+  record.near("mesh frequency of the arc gears", "Hz", stage.arc_mesh_frequency(), 30 * 29 * turns, 1e-10, "rounding");
 }
 
 BOOST_AUTO_TEST_CASE(motion_without_deformation_costs_nothing) {
+  annulus::test::Verification record("Motion of 2K-V reducers without deformation", "kinematics: it costs no energy");
   for (const auto& [sun, planet, arc, cranks, gears] :
        {std::tuple{10, 34, 29, 2, 2}, std::tuple{12, 30, 39, 3, 2}, std::tuple{9, 41, 18, 3, 3}}) {
     for (const double angle : {0.0, 0.7, 2.9, -4.0}) {
@@ -78,7 +82,9 @@ BOOST_AUTO_TEST_CASE(motion_without_deformation_costs_nothing) {
       const Eigen::VectorXd motion = rigid_motion(stage, system);
       const Eigen::MatrixXd k = stiffness_of(stage);
       // Rounding of the largest terms, k (103 r_bs)^2 and the like.
-      BOOST_TEST((k * motion).cwiseAbs().maxCoeff() <= 1e-13 * k.cwiseAbs().maxCoeff() * motion.cwiseAbs().maxCoeff());
+      record.at_most("largest force over largest stiffness x motion", "",
+                     (k * motion).cwiseAbs().maxCoeff() / (k.cwiseAbs().maxCoeff() * motion.cwiseAbs().maxCoeff()),
+                     1e-13, "rounding of the largest terms");
       BOOST_TEST(system.freedoms() == 3 + 3 * cranks + 2 * gears);
       BOOST_TEST((k - k.transpose()).cwiseAbs().maxCoeff() <= 1e-15 * k.cwiseAbs().maxCoeff());
       const auto found = annulus::dynamics::modes(stage);
@@ -91,6 +97,8 @@ BOOST_AUTO_TEST_CASE(motion_without_deformation_costs_nothing) {
 }
 
 BOOST_AUTO_TEST_CASE(stiffness_is_the_hessian_of_the_potential) {
+  annulus::test::Verification record("Stiffness matrix of the 2K-V reducer",
+                                     "second differences of the potential energy, written down apart from the code");
   for (const double angle : {0.0, 0.4, 1.9, 5.0}) {
     const auto stage = free_reducer(angle);
     const auto system = assemble(stage);
@@ -107,7 +115,8 @@ BOOST_AUTO_TEST_CASE(stiffness_is_the_hessian_of_the_potential) {
         };
         // V is quadratic: differences of any step are exact but for rounding.
         const double hessian = (at(1, 1) - at(1, -1) - at(-1, 1) + at(-1, -1)) / 4;
-        BOOST_TEST(std::abs(k(i, j) - hessian) <= 1e-13 * (at(1, 1) + at(1, -1) + 1));
+        record.near("entry of the matrix, rotations in rad", "N m", k(i, j), hessian,
+                    1e-13 * (at(1, 1) + at(1, -1) + 1), "rounding: the potential is quadratic");
       }
   }
 }
@@ -134,6 +143,8 @@ BOOST_AUTO_TEST_CASE(turning_vectors_agree_with_the_frozen_ones) {
 // Where teeth and pins really are, from the absolute angles of the bodies at the crank angle: the output at -Theta/z_b,
 // the sun at the ratio times that, the eccentricity of gear j at Theta_j past the carrier.
 BOOST_AUTO_TEST_CASE(mesh_phases_follow_the_bodies) {
+  annulus::test::Verification record("Mesh phases of a 2K-V reducer",
+                                     "places of teeth and pins from the absolute angles of the bodies");
   auto stage = free_reducer(0.9);
   stage.sun_teeth = 9;
   stage.cranks = stage.arc_gears = 3;
@@ -142,13 +153,17 @@ BOOST_AUTO_TEST_CASE(mesh_phases_follow_the_bodies) {
   const auto whole = [](double cycles) { return std::abs(cycles - std::round(cycles)); };
   for (int i = 0; i < 3; ++i) {
     const double phi = two_pi * (i + 1) / 3;
-    BOOST_TEST(whole(system.meshes()[i].phase_offset - 9 * (sun - output - phi) / two_pi) <= 1e-12);
+    record.at_most("sun mesh, difference to a whole number", "mesh cycles",
+                   whole(system.meshes()[i].phase_offset - 9 * (sun - output - phi) / two_pi), 1e-12, "rounding");
     const double eccentric = output + 0.9 + phi;  // towards the pitch point, in the housing
-    BOOST_TEST(whole(system.meshes()[3 + i].phase_offset + 30 * eccentric / two_pi) <= 1e-12);
+    record.at_most("arc mesh, difference to a whole number", "mesh cycles",
+                   whole(system.meshes()[3 + i].phase_offset + 30 * eccentric / two_pi), 1e-12, "rounding");
   }
 }
 
 BOOST_AUTO_TEST_CASE(static_equilibrium) {
+  annulus::test::Verification record("Static equilibrium of the 2K-V reducer under 58 N m",
+                                     "statics: forces from the ratio; wind-up = torque over torsional stiffness");
   const auto held = stages::reducer();
   const auto system = assemble(held);
   StaticSolver solver(system);
@@ -159,13 +174,16 @@ BOOST_AUTO_TEST_CASE(static_equilibrium) {
     const Eigen::VectorXd q = solver.solve(time, workspace);
     double reaction = 0;  // of the crank bearings on the held carrier
     for (const char* name : {"planet1_x", "planet2_x"}) reaction += 1.5e8 * q[system.find(name)] * 22e-3;
-    BOOST_TEST(std::abs(reaction - 58) <= 1e-9 * 58);
+    record.near("torque of the crank bearings", "N m", reaction, 58, 1e-9 * 58, "rounding of the solve");
     for (int m = 0; m < 2; ++m) {
-      BOOST_TEST(std::abs(workspace.force[m] - held.mean_sun_mesh_force()) <= 1e-9 * held.mean_sun_mesh_force());
-      BOOST_TEST(std::abs(workspace.force[2 + m] - held.mean_arc_mesh_force()) <= 1e-9 * held.mean_arc_mesh_force());
+      record.near("sun mesh force", "N", workspace.force[m], held.mean_sun_mesh_force(),
+                  1e-9 * held.mean_sun_mesh_force(), "rounding of the solve");
+      record.near("arc mesh force", "N", workspace.force[2 + m], held.mean_arc_mesh_force(),
+                  1e-9 * held.mean_arc_mesh_force(), "rounding of the solve");
     }
     const double wind_up = q[0] / radii[0];
-    BOOST_TEST(std::abs(wind_up - 58.0 / 103 / stiffness) <= 1e-9 * wind_up);
+    record.near("wind-up of the input", "rad", wind_up, 58.0 / 103 / stiffness, 1e-9 * wind_up,
+                "rounding of the solve");
   }
   // Free at both ends: the same forces.
   auto both_free = held;
@@ -180,6 +198,8 @@ BOOST_AUTO_TEST_CASE(static_equilibrium) {
 // Without speed the vectors stand still and nothing supplies energy: it stays. With the crank turning, the prescribed
 // turn of the directions does work, b'(t)^T q F: the energy changes by just what power() books.
 BOOST_AUTO_TEST_CASE(energy_of_free_vibration) {
+  annulus::test::Verification record("Free vibration of the 2K-V reducer, standing and turning",
+                                     "first law: change of energy = work of the turning vectors");
   for (const double speed : {0.0, 30.0}) {  // rad/s of the output; 30: a crank turn in 7 ms
     auto stage = stages::reducer();
     stage.output_torque = 0;
@@ -203,7 +223,8 @@ BOOST_AUTO_TEST_CASE(energy_of_free_vibration) {
     integrate(system, state, 5e-3, options, workspace, 0, {}, true);
     const double after = energy();
     // The integrator's error over some 150 periods of the highest mode, and of the energies that follow its steps.
-    BOOST_TEST(std::abs(after - before - state.supplied) <= 2e-6 * before);
+    record.near("change of energy over the energy", "", (after - before) / before, state.supplied / before, 2e-6,
+                "integrator over 150 periods of the highest mode");
     BOOST_TEST(state.dissipated == 0.0);
     if (speed == 0)
       BOOST_TEST(state.supplied == 0.0);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fem/closed_form/ring_loads.h"
+#include "tests/verification_record.h"
 
 /// Rings as sums of harmonics, against the closed forms of the books.
 BOOST_AUTO_TEST_SUITE(closed_form_ring)
@@ -33,6 +34,11 @@ double deflection_under_equal_loads(const RingSeries& series, int loads, int har
 constexpr int most = 20000;
 
 BOOST_AUTO_TEST_CASE(equal_radial_loads_on_a_curved_beam) {
+  annulus::test::Verification record(
+      "Ring as a curved beam under 2 to 8 equal radial loads",
+      "Castigliano at the neutral axis: Timoshenko, Strength of Materials II, art. 80; thin ring: Roark");
+  annulus::test::RecordedPlot plot{"Deflection over that of the thin ring", "height over radius", "", {}, true, true};
+  for (const int loads : {2, 4, 8}) plot.curves.push_back({std::to_string(loads) + " loads", {}, {}, {}});
   for (const double height : {0.002, 0.02, 0.2, 0.6}) {
     const PlainRing ring = ring_of(height);
     const double log = std::log(ring.outer_radius / ring.inner_radius), R = height / log;
@@ -50,20 +56,33 @@ BOOST_AUTO_TEST_CASE(equal_radial_loads_on_a_curved_beam) {
                                    << ", extension and shear " << (extension + shear) / exact);
       const double left_out =
           static_cast<double>(loads) / most / (M_PI * log) * (1 / unit_moduli.young + 1.2 / unit_moduli.shear);
-      BOOST_TEST(std::abs(sum - exact) < 1.01 * left_out + 1e-9 * exact);  // 1 / (h e) is some 1e8: it loses digits
+      record.near("deflection under " + std::to_string(loads) + " loads x E' / P", "", sum, exact,
+                  1.01 * left_out + 1e-9 * exact, "harmonics beyond 20 000; 1 / (h e) loses digits");
+      const double thin_ring =
+          ((theta + s * c) / (s * s) - 2 / theta) / (4 * unit_moduli.young * std::pow(height, 3) / 12);
+      for (auto& curve : plot.curves)
+        if (curve.label == std::to_string(loads) + " loads") {
+          curve.x.push_back(height);
+          curve.computed.push_back(sum / thin_ring);
+          curve.reference.push_back(exact / thin_ring);
+        }
       if (height > 0.002) continue;
       // The inextensional thin ring (Roark; Timoshenko): the rest is of order (h n / R)^2.
       const double thin = ((theta + s * c) / (s * s) - 2 / theta) / (4 * unit_moduli.young * std::pow(height, 3) / 12);
-      BOOST_TEST(std::abs(sum / thin - 1) < 4 * std::pow(height * loads, 2));
+      record.near("over the deflection of the inextensional thin ring, h/R = 0.002", "", sum / thin, 1,
+                  4 * std::pow(height * loads, 2), "extension and shear: (n h / R)^2");
       // Two opposite forces: the diameter changes by P R^3 / (E I) (pi / 4 - 2 / pi).
       if (loads == 2)
         BOOST_TEST(std::abs(thin * 2 * unit_moduli.young * std::pow(height, 3) / 12 - (M_PI / 4 - 2 / M_PI)) <
                    round_off);
     }
   }
+  record.plot(plot);
 }
 
 BOOST_AUTO_TEST_CASE(a_curved_beam_of_large_radius_is_a_straight_one) {
+  annulus::test::Verification record("A curved beam of large radius under a sinusoidal load",
+                                     "closed form: Timoshenko's straight beam, q/(E I k^4) + q/(kappa G A k^2)");
   // Sinusoidal load q sin(k x) on Timoshenko's straight beam: q / (E I k^4) + q / (kappa G A k^2).
   const double radius = 1e3, height = 0.3, k = 2;
   const int n = static_cast<int>(k * radius);
@@ -72,59 +91,71 @@ BOOST_AUTO_TEST_CASE(a_curved_beam_of_large_radius_is_a_straight_one) {
   const double straight =
       1 / (unit_moduli.young * inertia * std::pow(k, 4)) + 1.2 / (unit_moduli.shear * height * k * k);
   // Loads are per radian: q R. The curvature counts with (1 / k R)^2.
-  BOOST_TEST(std::abs(compliance(0, 0) * radius / straight - 1) < 2 / std::pow(k * radius, 2));
+  record.near("deflection over that of the straight beam", "", compliance(0, 0) * radius / straight, 1,
+              2 / std::pow(k * radius, 2), "curvature: (1 / k R)^2");
 }
 
 BOOST_AUTO_TEST_CASE(a_slender_elastic_ring_is_a_curved_beam) {
+  annulus::test::Verification record("A slender ring by plane elasticity", "limit: the curved beam");
   for (const double height : {0.04, 0.02, 0.01})
     for (const int n : {2, 3, 5}) {
       const double ratio =
           elastic_ring(ring_of(height), n, HeldCircle::none)(0, 0) / curved_beam(ring_of(height), n)(0, 0);
       BOOST_TEST_MESSAGE("height " << height << ", harmonic " << n << ": elasticity / beam - 1 = " << ratio - 1);
       // What a beam leaves out is of the order of the shear deflection, (n h / R)^2 / 4.
-      BOOST_TEST(std::abs(ratio - 1) < 0.25 * std::pow(n * height, 2));
+      record.near("compliance over that of the beam", "", ratio, 1, 0.25 * std::pow(n * height, 2),
+                  "order of the shear deflection, (n h / R)^2 / 4");
     }
 }
 
 BOOST_AUTO_TEST_CASE(uniform_pressure_and_torsion_of_a_thick_ring) {
+  annulus::test::Verification record("Thick ring under pressure and under torsion",
+                                     "closed forms of Lame and of pure shear (Timoshenko and Goodier)");
   const double a = 1, b = 1.6, nu = 0.3;
   const PlainRing ring{a, b, unit_moduli};
   const auto free = elastic_ring(ring, 0, HeldCircle::none);
   // Lame, unit pressure inside: load per radian a.
   const auto lame = [&](double r) { return (1 + nu) * a * a / (b * b - a * a) * ((1 - 2 * nu) * r + b * b / r); };
-  BOOST_TEST(free(0, 0) * a == lame(a), boost::test_tools::tolerance(round_off));
-  BOOST_TEST(free(2, 0) * a == lame(b), boost::test_tools::tolerance(round_off));
+  record.close("displacement inside under pressure x E", "m", free(0, 0) * a, lame(a), round_off, "rounding");
+  record.close("displacement outside under pressure x E", "m", free(2, 0) * a, lame(b), round_off, "rounding");
   // Outside held, unit shear inside: u = a^2 / (2 G) (1/a - a/b^2).
   const auto held = elastic_ring(ring, 0, HeldCircle::outer);
   const double twist = a * a / (2 * unit_moduli.shear) * (1 / a - a / (b * b));
-  BOOST_TEST(held(1, 1) * a == twist, boost::test_tools::tolerance(round_off));
+  record.close("twist, held outside x E", "m", held(1, 1) * a, twist, round_off, "rounding");
   // Inside held, unit shear outside; and both free under opposite torques, up to a rotation.
   const auto hub = elastic_ring(ring, 0, HeldCircle::inner);
-  BOOST_TEST(hub(3, 3) * b == b * b / (2 * unit_moduli.shear) * (b / (a * a) - 1 / b),
-             boost::test_tools::tolerance(round_off));
+  record.close("twist, held inside x E", "m", hub(3, 3) * b, b * b / (2 * unit_moduli.shear) * (b / (a * a) - 1 / b),
+               round_off, "rounding");
   const Eigen::Vector4d opposite(0, 1 / a, 0, -1 / b), motion = free * opposite;
   BOOST_TEST(motion[1] / a - motion[3] / b == held(1, 1) / (a * a), boost::test_tools::tolerance(round_off));
 }
 
 BOOST_AUTO_TEST_CASE(short_waves_see_a_half_plane) {
+  annulus::test::Verification record("Short waves on a ring", "half-plane: Johnson, Contact Mechanics, eq. 13.7");
   const PlainRing ring{0.8, 1, unit_moduli};
   const int n = 3000;
   for (const auto held : {HeldCircle::none, HeldCircle::inner}) {
     // p cos(k x) on a half plane: u = 2 p / (E' k) (Johnson, Contact Mechanics, eq. 13.7); along the surface the same.
     const auto compliance = elastic_ring(ring, n, held);
-    BOOST_TEST(compliance(2, 2) * n * unit_moduli.young / 2 == 1.0, boost::test_tools::tolerance(2.0 / n));
-    BOOST_TEST(compliance(3, 3) * n * unit_moduli.young / 2 == 1.0, boost::test_tools::tolerance(2.0 / n));
+    record.close("normal displacement x E' k / 2 p", "", compliance(2, 2) * n * unit_moduli.young / 2, 1.0, 2.0 / n,
+                 "waves of finite length, 1/n");
+    record.close("tangential displacement x E' k / 2 p", "", compliance(3, 3) * n * unit_moduli.young / 2, 1.0, 2.0 / n,
+                 "waves of finite length, 1/n");
   }
 }
 
 BOOST_AUTO_TEST_CASE(compliances_are_symmetric_and_held_circles_do_not_move) {
+  annulus::test::Verification record("Compliances of rings, harmonics 0 to 40", "Maxwell and Betti: symmetry");
   const PlainRing ring{0.9, 1, unit_moduli};
   for (int n = 0; n <= 40; ++n) {
     std::vector<HarmonicCompliance> all = {curved_beam(ring, n)};
     for (const auto held : {HeldCircle::none, HeldCircle::inner, HeldCircle::outer})
       all.push_back(elastic_ring(ring, n, held));
     // Solutions in powers of r lose digits where the ring is thin against the wave: (R / h)^4 of them in bending.
-    for (const auto& c : all) BOOST_TEST((c - c.transpose()).cwiseAbs().maxCoeff() < 1e-10 * c.cwiseAbs().maxCoeff());
+    for (const auto& c : all)
+      record.at_most("asymmetry over the largest entry", "",
+                     (c - c.transpose()).cwiseAbs().maxCoeff() / c.cwiseAbs().maxCoeff(), 1e-10,
+                     "powers of r lose (R / h)^4 digits in bending");
     BOOST_TEST((all[2].topRows(2).isZero() && all[3].bottomRows(2).isZero()));
   }
 }
@@ -159,6 +190,8 @@ struct SainsotConstant {
 };
 
 BOOST_AUTO_TEST_CASE(the_foundation_is_that_of_sainsot_velex_and_duverger) {
+  annulus::test::Verification record("Foundation of a tooth on a ring",
+                                     "Sainsot, Velex and Duverger, J. Mech. Des. 126 (2004), table 1");
   const SainsotConstant l{-5.574e-5, -1.9986e-3, -2.3015e-4, 4.7702e-3, 0.0271, 6.8045};
   const SainsotConstant p{-50.952e-5, 185.50e-3, 0.0538e-4, 53.300e-3, 0.2895, 0.9236};
   const SainsotConstant q{-6.2042e-5, 9.0889e-3, -4.0964e-4, 7.8297e-3, -0.1472, 0.6904};
@@ -181,13 +214,15 @@ BOOST_AUTO_TEST_CASE(the_foundation_is_that_of_sainsot_velex_and_duverger) {
                               << p_ring << " against " << p(h, theta) << ", P* Q* " << pq_ring << " against "
                               << p(h, theta) * q(h, theta));
       // Their polynomials are fits; they leave the body's rotation out of L*, which counts at large h and theta.
-      BOOST_TEST(l_ring == l(h, theta), boost::test_tools::tolerance(0.07));
-      BOOST_TEST(p_ring == p(h, theta), boost::test_tools::tolerance(0.03));
-      BOOST_TEST(pq_ring == p(h, theta) * q(h, theta), boost::test_tools::tolerance(0.05));
+      record.close("L*", "", l_ring, l(h, theta), 0.07, "their fit, which leaves out the rotation of the body");
+      record.close("P*", "", p_ring, p(h, theta), 0.03, "their fit");
+      record.close("P* Q*", "", pq_ring, p(h, theta) * q(h, theta), 0.05, "their fit");
     }
 }
 
 BOOST_AUTO_TEST_CASE(the_work_of_the_root_tractions_gives_the_constants_of_weber_and_banaschek) {
+  annulus::test::Verification record("Foundation of a narrow tooth",
+                                     "half-plane constants of Weber and Banaschek: 18 (1 - nu^2) / pi, 1.04");
   // Half plane: 18 (1 - nu^2) / pi = 5.2 for the moment, 2 (1 - nu - 2 nu^2) = 1.04 for moment and shear together.
   const double theta = 0.002;
   const int harmonics = static_cast<int>(400 / theta);
@@ -196,9 +231,10 @@ BOOST_AUTO_TEST_CASE(the_work_of_the_root_tractions_gives_the_constants_of_weber
   const auto bending = moment(Circle::outer, 1, theta, harmonics);
   const auto shear = tangential_force(Circle::outer, theta, Spread::uniform, harmonics);
   // The curvature of the circle counts with theta times the size of the body.
-  BOOST_TEST(series.coupling(bending, bending)(0) * 4 * theta * theta == 18 * 0.91 / M_PI,
-             boost::test_tools::tolerance(0.005));
-  BOOST_TEST(2 * series.coupling(bending, shear)(0) * 2 * theta == 1.04, boost::test_tools::tolerance(0.1));
+  record.close("constant of the moment", "", series.coupling(bending, bending)(0) * 4 * theta * theta, 18 * 0.91 / M_PI,
+               0.005, "curvature of the circle: theta x size of the body");
+  record.close("constant of moment and shear together", "", 2 * series.coupling(bending, shear)(0) * 2 * theta, 1.04,
+               0.1, "curvature of the circle: theta x size of the body");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

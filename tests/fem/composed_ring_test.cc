@@ -7,6 +7,7 @@
 #include "fem/closed_form/ring_loads.h"
 #include "fem/condensation/cyclic_body.h"
 #include "structured_mesh.h"
+#include "tests/verification_record.h"
 
 /// Plain floating rings composed of finite-element sectors, against the closed forms of rings.
 BOOST_AUTO_TEST_SUITE(composed_ring)
@@ -81,6 +82,8 @@ ComposedRing composed_ring(double height, int radial_cells, int angular_cells) {
 }
 
 BOOST_AUTO_TEST_CASE(equal_radial_loads_on_a_slender_ring) {
+  annulus::test::Verification record("Floating ring composed of 24 finite-element sectors, 2 to 6 equal radial loads",
+                                     "thin ring of Roark and Timoshenko, extension and shear added");
   const PlaneModuli moduli = plane_strain(unit_material);
   for (const double height : {0.01, 0.02, 0.04}) {
     const ComposedRing ring = composed_ring(height, 4, 64);
@@ -98,12 +101,16 @@ BOOST_AUTO_TEST_CASE(equal_radial_loads_on_a_slender_ring) {
                                 << ", with extension and shear " << deflection / corrected - 1);
       // The thin ring leaves out that the neutral axis lies inside the middle: Winkler and Bach's R_n^2 h^2 / (12 e) is
       // 1 - 0.23 (h / R)^2. Elements of h/4 in height add 1e-5.
-      BOOST_TEST(std::abs(deflection / corrected - 1) < 0.25 * height * height + 1e-5);
+      record.near("deflection under " + std::to_string(loads) + " loads over the closed form", "",
+                  deflection / corrected, 1, 0.25 * height * height + 1e-5,
+                  "neutral axis inside the middle: 0.23 (h / R)^2; elements 1e-5");
     }
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_turn_by_a_sector_changes_nothing_and_the_compliance_is_symmetric) {
+  annulus::test::Verification record("Symmetries of a composed ring",
+                                     "turns by a sector, mirror image, Maxwell and Betti");
   const ComposedRing ring = composed_ring(0.05, 2, 8);
   // Self-equilibrated loads on three sectors and their mirror images; any place on the ring.
   const auto energy = [&](const std::vector<std::pair<int, Eigen::Vector2d>>& forces) {
@@ -117,22 +124,29 @@ BOOST_AUTO_TEST_CASE(a_turn_by_a_sector_changes_nothing_and_the_compliance_is_sy
   };
   const double opposite = energy({at(0, 1, 0), at(12, 1, 0)});
   for (int turned = 1; turned < sectors; ++turned)
-    BOOST_TEST(energy({at(turned, 1, 0), at(turned + 12, 1, 0)}) == opposite, boost::test_tools::tolerance(1e-12));
+    record.close("energy of two opposite forces, turned", "J", energy({at(turned, 1, 0), at(turned + 12, 1, 0)}),
+                 opposite, 1e-12, "rounding");
   // Three sectors pulled and turned, three others that hold them; and the mirror image.
   const double one =
       energy({at(0, 1, 0.5), at(8, 1, 0.5), at(16, 1, 0.5), at(4, 0, -0.5), at(12, 0, -0.5), at(20, 0, -0.5)});
   const double other =
       energy({at(0, 1, -0.5), at(16, 1, -0.5), at(8, 1, -0.5), at(20, 0, 0.5), at(12, 0, 0.5), at(4, 0, 0.5)});
-  BOOST_TEST(one == other, boost::test_tools::tolerance(1e-9));  // 1e-16 times the stiffness ratio (R / h)^3 of rings
+  record.close("energy of six forces and of their mirror image", "J", one, other, 1e-9,
+               "rounding x stiffness ratio (R / h)^3");
   for (int offset = 0; offset <= sectors / 2; ++offset) {
     const Eigen::Matrix2d there = ring.between(offset), back = ring.between(-offset);
-    BOOST_TEST((there - back.transpose()).norm() < 1e-10 * ring.between(0).norm());
+    record.at_most("asymmetry of the compliance over its norm", "",
+                   (there - back.transpose()).norm() / ring.between(0).norm(), 1e-10, "rounding");
     // Mirror image: radial and tangential couple antisymmetrically.
     BOOST_TEST(std::abs(there(0, 1) + back(0, 1)) < 1e-8 * ring.between(0).norm());
   }
 }
 
 BOOST_AUTO_TEST_CASE(thick_rings_follow_elasticity_and_leave_the_beam) {
+  annulus::test::Verification record("Thick ring composed of finite-element sectors",
+                                     "Fourier series of plane elasticity (Michell); the curved beam for comparison");
+  annulus::test::RecordedPlot::Curve elastic_curve{"plane elasticity", {}, {}, {}},
+      beam_curve{"curved beam", {}, {}, {}};
   const PlaneModuli moduli = plane_strain(unit_material);
   double departure = 0;
   for (const double height : {0.05, 0.1, 0.2, 0.4}) {
@@ -155,11 +169,17 @@ BOOST_AUTO_TEST_CASE(thick_rings_follow_elasticity_and_leave_the_beam) {
                               << beam / finite - 1);
     // Quadratic elements of height h/8; in the thick ring the two circles are but two waves of its loads apart, and the
     // displacement is a small difference.
-    BOOST_TEST(elastic == finite, boost::test_tools::tolerance(1e-3));
+    record.close("deflection by finite elements x E, h/R " + std::to_string(height).substr(0, 4), "m", finite, elastic,
+                 1e-3, "quadratic elements of h/8");
+    elastic_curve.x.push_back(height);
+    elastic_curve.computed.push_back(elastic / finite - 1);
+    beam_curve.x.push_back(height);
+    beam_curve.computed.push_back(beam / finite - 1);
     BOOST_TEST(std::abs(beam / finite - 1) > departure);
     departure = std::abs(beam / finite - 1);
   }
   BOOST_TEST(departure > 0.02);
+  record.plot({"Departure from finite elements", "height over radius", "", {elastic_curve, beam_curve}});
 }
 
 BOOST_AUTO_TEST_SUITE_END()

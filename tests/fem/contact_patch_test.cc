@@ -11,6 +11,7 @@
 #include "fem/contact/half_plane.h"
 #include "fem/contact/trace_basis.h"
 #include "structured_mesh.h"
+#include "tests/verification_record.h"
 
 /// Contact patch test: two blocks pressed on each other through meshes that do not match. The exact pressure is
 /// uniform.
@@ -136,6 +137,8 @@ double exact_approach() {
 // over an element of pressure is exact), and the mean gap of every element vanishes: the uniform pressure is the unique
 // solution. What is left is round-off, times the condition number of the compliance (some 1e3).
 BOOST_AUTO_TEST_CASE(even_pressures_between_meshes_that_do_not_match_are_exact) {
+  annulus::test::Verification record("Contact patch test: two blocks through meshes that do not match",
+                                     "closed form: uniform pressure, approach (1 - nu^2) p h / E each");
   for (const int degree : {1, 2, 3}) {
     const Block below = make_block(7, 3, 1.3, degree), above = make_block(5, 4, 0.7, degree);
     for (const int elements : {1, 4, 9}) {
@@ -147,13 +150,15 @@ BOOST_AUTO_TEST_CASE(even_pressures_between_meshes_that_do_not_match_are_exact) 
       const double worst = (pressure.array() - 1).abs().maxCoeff();
       BOOST_TEST_MESSAGE("degree " << degree << ", " << elements << " elements: pressure " << worst << ", approach "
                                    << approach / (2 * exact_approach()) - 1);
-      BOOST_TEST(worst < 1e-9);
-      BOOST_TEST(approach == 2 * exact_approach(), boost::test_tools::tolerance(1e-10));
+      record.at_most("largest error of the pressure, relative", "", worst, 1e-9,
+                     "rounding x condition of the compliance, some 1e3");
+      record.close("approach of the plates", "m", approach, 2 * exact_approach(), 1e-10, "rounding x condition");
     }
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_pressure_has_the_same_resultant_and_centre_on_both_meshes) {
+  annulus::test::Verification record("A contact pressure on two meshes", "statics: same resultant, same centre");
   // The pressure is the same on both bodies by construction; what the meshes make of it agrees for rigid motions.
   const Block below = make_block(7, 3, 1.3, 2), above = make_block(5, 4, 0.7, 2);
   const auto edges = element_edges(6);
@@ -162,8 +167,9 @@ BOOST_AUTO_TEST_CASE(a_pressure_has_the_same_resultant_and_centre_on_both_meshes
     return Eigen::Map<const Eigen::VectorXd>(trace.stations().data(), trace.size());
   };
   const Eigen::VectorXd lever = u.transpose() * coordinates(below.trace) - v.transpose() * coordinates(above.trace);
-  BOOST_TEST((u.colwise().sum() - v.colwise().sum()).cwiseAbs().maxCoeff() < 1e-13);
-  BOOST_TEST(lever.cwiseAbs().maxCoeff() < 1e-13 * width);
+  record.at_most("difference of the resultants of unit forces", "",
+                 (u.colwise().sum() - v.colwise().sum()).cwiseAbs().maxCoeff(), 1e-13, "rounding");
+  record.at_most("distance of the centres over the width", "", lever.cwiseAbs().maxCoeff() / width, 1e-13, "rounding");
 }
 
 // What the flanks of gears get is not exact: semi-elliptical loads on the mesh, as wide as its cells need, and the
@@ -171,6 +177,9 @@ BOOST_AUTO_TEST_CASE(a_pressure_has_the_same_resultant_and_centre_on_both_meshes
 // the loads become narrower than the cells. Where the contact ends inside the flank, as in a line contact, none of it
 // matters (see the comparison with Hertz); a contact that ends at an edge with full pressure is the worst case.
 BOOST_AUTO_TEST_CASE(spread_loads_and_their_half_plane_are_nearly_so_inside_and_not_at_the_edges) {
+  annulus::test::Verification record("Contact patch test of spread loads with the half-plane's near field",
+                                     "closed form: uniform pressure, approach (1 - nu^2) p h / E each");
+  std::vector<double> sizes, errors;
   const HalfPlane plane(steel);
   double before = 0;
   for (const int refine : {1, 2, 4}) {
@@ -198,12 +207,18 @@ BOOST_AUTO_TEST_CASE(spread_loads_and_their_half_plane_are_nearly_so_inside_and_
                                 << approach / (2 * exact_approach()) - 1);
     // The edges spoil a few elements whatever their size: their part of the block shrinks with it, so that inside and
     // approach converge with the first power at least; at the edge a sixth of the pressure stays wrong.
-    BOOST_TEST(inside < 0.05 / refine);
-    BOOST_TEST(all < 0.25);
-    BOOST_TEST(std::abs(approach / (2 * exact_approach()) - 1) < 0.15 / refine);
+    const char* origin = "edges spoil a few elements whatever their size";
+    record.at_most("pressure in the inner half, relative error x refinement", "", inside * refine, 0.05, origin);
+    record.at_most("pressure anywhere, relative error", "", all, 0.25,
+                   "a contact that ends with full pressure at an edge");
+    record.near("approach over the closed form", "", approach / (2 * exact_approach()), 1, 0.15 / refine, origin);
+    sizes.push_back(1.0 / elements);
+    errors.push_back(inside);
     if (before > 0) BOOST_TEST(inside < before);
     before = inside;
   }
+  record.convergence("Error of the pressure in the inner half; dashed: order 1", "length of an element",
+                     "relative error", "", sizes, errors, 1);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -9,6 +9,7 @@
 #include "discretised_body.h"
 #include "fem/condensation/sparse_schur.h"
 #include "structured_mesh.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(elasticity)
 
@@ -100,8 +101,12 @@ double interpolation_constant(int degree) {
   }
 }
 
+std::string in_words(int dim, int degree) {
+  return std::to_string(dim) + "D, elements of degree " + std::to_string(degree);
+}
+
 template <int dim>
-void check_rates(int degree, const std::vector<int>& cells) {
+void check_rates(annulus::test::Verification& record, int degree, const std::vector<int>& cells) {
   const Manufactured<dim> exact;
   std::vector<std::pair<double, double>> errors;
   for (const int n : cells) {
@@ -117,26 +122,41 @@ void check_rates(int degree, const std::vector<int>& cells) {
   const double rate_l2 = std::log(before.first / finest.first) / refinement;
   const double rate_h1 = std::log(before.second / finest.second) / refinement;
   BOOST_TEST_MESSAGE("rates: L2 " << rate_l2 << ", H1 " << rate_h1);
-  BOOST_TEST(rate_l2 >= 0.9 * (degree + 1));
-  BOOST_TEST(rate_h1 >= 0.9 * degree);
+  const auto model = in_words(dim, degree);
+  record.at_least("order of the displacement (L2), " + model, "", rate_l2, 0.9 * (degree + 1),
+                  "0.9 of the order " + std::to_string(degree + 1));
+  record.at_least("order of the strain (H1), " + model, "", rate_h1, 0.9 * degree,
+                  "0.9 of the order " + std::to_string(degree));
   // Ceiling: the interpolation error of a sine in each direction and component at the largest cell, (1 + 2 x 0.15) / n.
   const double kh = exact.longest_wave_number() * 1.3 / cells.back();
-  BOOST_TEST(finest.first < dim * interpolation_constant(degree) * std::pow(kh, degree + 1));
+  record.at_most("error of the displacement (L2) on the finest mesh, " + model, "", finest.first,
+                 dim * interpolation_constant(degree) * std::pow(kh, degree + 1), "interpolation error of a sine");
+  std::vector<double> sizes, displacement;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    sizes.push_back(1.0 / cells[i]);
+    displacement.push_back(errors[i].first);
+  }
+  record.convergence("Error of the displacement; dashed: order of theory", "size of a cell", "L2 error",
+                     "degree " + std::to_string(degree), sizes, displacement, degree + 1);
 }
 
 BOOST_AUTO_TEST_CASE(manufactured_solution_converges_with_the_right_order_in_the_plane) {
-  check_rates<2>(1, {8, 16, 32});
-  check_rates<2>(2, {4, 8, 16});
-  check_rates<2>(3, {4, 8, 16});
+  annulus::test::Verification record("Finite elements in the plane",
+                                     "manufactured solution: sines in all components, body forces to match");
+  check_rates<2>(record, 1, {8, 16, 32});
+  check_rates<2>(record, 2, {4, 8, 16});
+  check_rates<2>(record, 3, {4, 8, 16});
 }
 
 BOOST_AUTO_TEST_CASE(manufactured_solution_converges_with_the_right_order_in_space) {
-  check_rates<3>(1, {4, 8, 16});
-  check_rates<3>(2, {2, 4, 8});
+  annulus::test::Verification record("Finite elements in space",
+                                     "manufactured solution: sines in all components, body forces to match");
+  check_rates<3>(record, 1, {4, 8, 16});
+  check_rates<3>(record, 2, {2, 4, 8});
 }
 
 template <int dim>
-void check_patch(int degree) {
+void check_patch(annulus::test::Verification& record, int degree) {
   const double slope[3][3] = {{0.3, -0.2, 0.5}, {0.7, 0.1, -0.4}, {-0.6, 0.2, 0.9}};
   Gradient<dim> gradient;
   for (int i = 0; i < dim; ++i)
@@ -149,7 +169,8 @@ void check_patch(int degree) {
     const auto expected = linear(problem.node_points()[n]);
     for (int c = 0; c < dim; ++c) worst = std::max(worst, std::abs(u[problem.node_freedoms()[n][c]] - expected[c]));
   }
-  BOOST_TEST(worst < 1e-12);  // round-off: condition number (< 1e4 here) x 2e-16 x displacements of order one
+  record.at_most("largest error of a displacement (of order one)", "m", worst, 1e-12,
+                 "condition number (below 1e4) x rounding");
 
   // Energy of the uniform strain: 1/2 (lambda tr(e)^2 + 2 mu e : e) x unit volume.
   const double E = steel_like.youngs_modulus, nu = steel_like.poisson_ratio;
@@ -161,29 +182,34 @@ void check_patch(int degree) {
   }
   const double energy = 0.5 * u.dot(problem.stiffness() * u);
   // The quadrature is exact for constant strains on cells of this shape (Jacobian of degree <= dim - 1 per direction).
-  BOOST_TEST(energy == 0.5 * (lambda * trace * trace + 2 * mu * square), boost::test_tools::tolerance(1e-12));
+  record.close("strain energy: 1/2 (lambda tr(e)^2 + 2 mu e : e)", "J", energy,
+               0.5 * (lambda * trace * trace + 2 * mu * square), 1e-12, "rounding: the quadrature is exact here");
 }
 
 BOOST_AUTO_TEST_CASE(patch_test_linear_displacements_are_exact_on_every_element) {
-  for (const int degree : {1, 2, 3}) check_patch<2>(degree);
-  for (const int degree : {1, 2}) check_patch<3>(degree);
+  annulus::test::Verification record("Patch test: distorted cells, degrees 1 to 3 in 2D, 1 and 2 in 3D",
+                                     "closed form: a linear displacement has uniform strain");
+  for (const int degree : {1, 2, 3}) check_patch<2>(record, degree);
+  for (const int degree : {1, 2}) check_patch<3>(record, degree);
 }
 
 template <int dim>
-void check_rigid_motions(int degree) {
+void check_rigid_motions(annulus::test::Verification& record, int degree) {
   const ElasticProblem<dim> problem(annulus::tests::distorted_box(dim, 3, 0.25), {}, steel_like, degree);
   const Eigen::SparseMatrix<double> stiffness = problem.stiffness();
   const Eigen::SparseMatrix<double> transposed = stiffness.transpose();
   const double largest = stiffness.coeffs().cwiseAbs().maxCoeff();
   // Round-off of sums of some hundred entries: 100 x 2e-16.
-  BOOST_TEST((stiffness - transposed).norm() <= 1e-14 * stiffness.norm());
+  record.at_most("asymmetry of the stiffness matrix over its norm", "",
+                 (stiffness - transposed).norm() / stiffness.norm(), 1e-14, "rounding of sums of some hundred entries");
   std::vector<Vector<dim>> translations(dim);
   for (int c = 0; c < dim; ++c) translations[c][c] = 1;
   const auto check = [&](const auto& motion) {
     Eigen::VectorXd u(problem.freedoms());
     for (std::size_t n = 0; n < problem.node_points().size(); ++n)
       for (int c = 0; c < dim; ++c) u[problem.node_freedoms()[n][c]] = motion(problem.node_points()[n])[c];
-    BOOST_TEST((stiffness * u).cwiseAbs().maxCoeff() < 1e-13 * largest);
+    record.at_most("largest force over the largest stiffness", "", (stiffness * u).cwiseAbs().maxCoeff() / largest,
+                   1e-13, "rounding");
   };
   for (const auto& t : translations) check([&](const dealii::Point<dim>&) { return t; });
   for (int a = 0; a < dim; ++a)
@@ -197,8 +223,9 @@ void check_rigid_motions(int degree) {
 }
 
 BOOST_AUTO_TEST_CASE(rigid_motions_cause_no_force) {
-  for (const int degree : {1, 2, 3}) check_rigid_motions<2>(degree);
-  for (const int degree : {1, 2}) check_rigid_motions<3>(degree);
+  annulus::test::Verification record("Translations and rotations", "theory: a rigid motion causes no force");
+  for (const int degree : {1, 2, 3}) check_rigid_motions<2>(record, degree);
+  for (const int degree : {1, 2}) check_rigid_motions<3>(record, degree);
 }
 
 BOOST_AUTO_TEST_CASE(meshes_of_the_wrong_dimension_are_refused) {
@@ -217,6 +244,8 @@ using annulus::tests::FreeSystem;
 
 constexpr double inside = 1.0, outside = 1.6, height = 0.4, pressure = 0.01;
 const Material ring_material{1.0, 0.3, 1};
+
+const char* const lame = "closed form of Lame: Timoshenko and Goodier, Theory of Elasticity, art. 28";
 
 /// Lame: radial displacement under internal pressure, plane strain.
 double exact_displacement(double r) {
@@ -292,8 +321,12 @@ double displacement_error(int degree, int refinements) {
   return worst;
 }
 
+std::string in_words(int dim, int degree) {
+  return std::to_string(dim) + "D, elements of degree " + std::to_string(degree);
+}
+
 template <int dim>
-void check_convergence(int degree, int finest) {
+void check_convergence(annulus::test::Verification& record, int degree, int finest) {
   std::vector<double> errors;
   for (int refinements = 0; refinements <= finest; ++refinements) {
     errors.push_back(displacement_error<dim>(degree, refinements));
@@ -301,23 +334,34 @@ void check_convergence(int degree, int finest) {
   }
   const double rate = std::log2(errors[finest - 1] / errors[finest]);
   BOOST_TEST_MESSAGE("rate " << rate);
-  BOOST_TEST(rate >= 0.9 * (degree + 1));
+  record.at_least("order of the displacement, " + in_words(dim, degree), "", rate, 0.9 * (degree + 1),
+                  "0.9 of the order " + std::to_string(degree + 1));
   // Ceiling: twice the interpolation errors of the circle (arc pi/4 a cell) and of 1/r (one cell across), both of
   // degree p: max |product of (x - x_i)| is 1/4, 0.0481, 0.0125 for p = 1, 2, 3.
   const double node_product = degree == 1 ? 0.25 : degree == 2 ? 0.0481 : 0.0125;
   const double factorial = degree == 1 ? 2 : degree == 2 ? 6 : 24;
   const double arc = std::ldexp(M_PI / 4, -finest), width = std::ldexp(outside - inside, -finest);
-  BOOST_TEST(errors[finest] <
-             2 * node_product * (std::pow(arc, degree + 1) / factorial + std::pow(width / inside, degree + 1)));
+  record.at_most("relative error of the displacement, finest mesh, " + in_words(dim, degree), "", errors[finest],
+                 2 * node_product * (std::pow(arc, degree + 1) / factorial + std::pow(width / inside, degree + 1)),
+                 "twice the interpolation errors of the circle and of 1/r");
+  std::vector<double> sizes;
+  for (int refinements = 0; refinements <= finest; ++refinements)
+    sizes.push_back(std::ldexp(outside - inside, -refinements));
+  record.convergence("Error of the displacement; dashed: order of theory", "size of a cell over inner radius",
+                     "relative error", "degree " + std::to_string(degree), sizes, errors, degree + 1);
 }
 
 BOOST_AUTO_TEST_CASE(internal_pressure_in_the_plane) {
-  check_convergence<2>(1, 5);
-  check_convergence<2>(2, 4);
-  check_convergence<2>(3, 3);
+  annulus::test::Verification record("Thick ring under internal pressure, plane strain", lame);
+  check_convergence<2>(record, 1, 5);
+  check_convergence<2>(record, 2, 4);
+  check_convergence<2>(record, 3, 3);
 }
 
-BOOST_AUTO_TEST_CASE(internal_pressure_in_space_with_the_ends_held_flat) { check_convergence<3>(2, 3); }
+BOOST_AUTO_TEST_CASE(internal_pressure_in_space_with_the_ends_held_flat) {
+  annulus::test::Verification record("Thick tube under internal pressure, ends held flat", lame);
+  check_convergence<3>(record, 2, 3);
+}
 
 /// Lame: hoop stress under internal pressure.
 double exact_hoop_stress(double r) {
@@ -355,7 +399,7 @@ double stress_error(int degree, int refinements) {
 }
 
 template <int dim>
-void check_stress_convergence(int degree, int finest) {
+void check_stress_convergence(annulus::test::Verification& record, int degree, int finest) {
   std::vector<double> errors;
   for (int refinements = finest - 1; refinements <= finest; ++refinements) {
     errors.push_back(stress_error<dim>(degree, refinements));
@@ -365,20 +409,25 @@ void check_stress_convergence(int degree, int finest) {
   const double rate = std::log2(errors[0] / errors[1]);
   BOOST_TEST_MESSAGE("rate " << rate);
   // A derivative of the displacement: one order less.
-  BOOST_TEST(rate >= 0.9 * degree);
+  record.at_least("order of the surface stress, " + in_words(dim, degree), "", rate, 0.9 * degree,
+                  "0.9 of the order " + std::to_string(degree));
   // Ceiling: the slope of the interpolation of the displacement at an end node, (arc)^p / (p + 1)! x product of the
   // distances of the nodes (1 and 1/2 for p = 1, 2), on arcs of pi/4 refined, twice.
   const double arc = std::ldexp(M_PI / 4, -finest);
-  BOOST_TEST(errors[1] < 2 * (degree == 1 ? arc / 2 : arc * arc / 12));
+  record.at_most("relative error of the surface stress, finest mesh, " + in_words(dim, degree), "", errors[1],
+                 2 * (degree == 1 ? arc / 2 : arc * arc / 12), "twice the slope error of the interpolation");
 }
 
 BOOST_AUTO_TEST_CASE(surface_stress_of_the_pressed_ring_is_that_of_lame) {
-  check_stress_convergence<2>(1, 5);
-  check_stress_convergence<2>(2, 4);
-  check_stress_convergence<3>(2, 3);
+  annulus::test::Verification record("Surface stress of a thick ring under internal pressure", lame);
+  check_stress_convergence<2>(record, 1, 5);
+  check_stress_convergence<2>(record, 2, 4);
+  check_stress_convergence<3>(record, 2, 3);
 }
 
 BOOST_AUTO_TEST_CASE(pressure_on_a_curved_boundary_has_the_resultant_of_its_projection) {
+  annulus::test::Verification record("Resultant of a pressure on a curved boundary",
+                                     "statics: pressure x projection, whatever the curve");
   // Over a quarter circle: pressure x radius in x and in y; geometry of degree 3, twice refined.
   const ElasticProblem<2> problem(quarter<2>(), on_circle, ring_material, 3, 2);
   const auto load =
@@ -389,8 +438,8 @@ BOOST_AUTO_TEST_CASE(pressure_on_a_curved_boundary_has_the_resultant_of_its_proj
     y += load[f[1]];
   }
   // The integral of the normal over a curve depends on its end points alone: round-off.
-  BOOST_TEST(x == pressure * inside, boost::test_tools::tolerance(1e-13));
-  BOOST_TEST(y == pressure * inside, boost::test_tools::tolerance(1e-13));
+  record.close("resultant in x", "N", x, pressure * inside, 1e-13, "rounding");
+  record.close("resultant in y", "N", y, pressure * inside, 1e-13, "rounding");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

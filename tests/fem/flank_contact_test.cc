@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "ring_paper.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(flank_geometry)
 
@@ -77,8 +78,9 @@ BOOST_AUTO_TEST_CASE(the_matched_point_lies_on_the_wheel_flank_at_the_stated_gap
 }
 
 BOOST_AUTO_TEST_CASE(rigid_conjugate_rotation_leaves_the_smallest_gap_zero) {
-  along_the_paths([](const FlankContact& flanks, double contact) {
-    BOOST_TEST(std::abs(flanks.smallest_gap(contact)) < exact);
+  annulus::test::Verification record("Conjugate rotation of rigid involutes", "law of gearing: the gap stays zero");
+  along_the_paths([&](const FlankContact& flanks, double contact) {
+    record.near("smallest gap", "m", flanks.smallest_gap(contact), 0, exact, "rounding");
     BOOST_TEST(std::abs(flanks.match(contact, contact).wheel_roll - flanks.pair().wheel_roll_length(contact)) < exact);
     // Round-off again: the gap is flat at its minimum, so that the place is only known to sqrt(round-off / curvature).
     BOOST_TEST(std::abs(flanks.nearest_roll(contact) - contact) < 1e-6);
@@ -99,11 +101,13 @@ BOOST_AUTO_TEST_CASE(the_gap_is_nowhere_negative) {
 }
 
 BOOST_AUTO_TEST_CASE(the_gap_opens_with_the_relative_curvature) {
-  along_the_paths([](const FlankContact& flanks, double contact) {
+  annulus::test::Verification record("Gap between two involute flanks beside their contact",
+                                     "radii of curvature of involutes are their roll lengths");
+  along_the_paths([&](const FlankContact& flanks, double contact) {
     // Radii of curvature of involutes are their roll lengths: a convex planet in a concave ring, or against a sun.
     const double wheel_radius = flanks.pair().wheel_roll_length(contact);
     const double curvature = 1 / contact + (flanks.pair().internal() ? -1 : 1) / wheel_radius;
-    BOOST_TEST(flanks.relative_curvature(contact) == curvature, boost::test_tools::tolerance(1e-14));
+    record.close("relative curvature", "1/m", flanks.relative_curvature(contact), curvature, 1e-14, "rounding");
     const double step = 0.02 * contact;
     double opening = 0;
     for (const double side : {-1.0, 1.0}) {
@@ -111,7 +115,7 @@ BOOST_AUTO_TEST_CASE(the_gap_opens_with_the_relative_curvature) {
       opening += flanks.match(contact + side * step, contact).gap / (s * s / 2) / 2;
     }
     // The mean of both sides leaves a relative error of order (step / roll)^2 x a factor of the radii's ratio.
-    BOOST_TEST(opening == curvature, boost::test_tools::tolerance(0.005));
+    record.close("curvature of the gap", "1/m", opening, curvature, 0.005, "steps of 2 % of the roll length");
   });
 }
 
@@ -205,6 +209,7 @@ BOOST_AUTO_TEST_CASE(small_gears_are_matched_at_every_position_that_a_solve_look
 }
 
 BOOST_AUTO_TEST_CASE(tip_relief_opens_the_gap_by_what_was_removed) {
+  annulus::test::Verification record("Gap of flanks with tip relief", "what was removed: linear over its length");
   for (const bool on_planet : {true, false}) {
     auto planet = annulus::tests::ring_paper_planet();
     auto ring = annulus::tests::ring_paper_ring();
@@ -219,7 +224,7 @@ BOOST_AUTO_TEST_CASE(tip_relief_opens_the_gap_by_what_was_removed) {
     for (const double before_tip : {0.0, 1e-3, 1.5e-3, 2.9e-3, 3e-3, 4e-3}) {
       const double roll = tip + inwards * before_tip;
       const double removed = 20e-6 * std::max(0.0, 1 - before_tip / 3e-3);
-      BOOST_TEST(std::abs(flanks.match(roll, roll).gap - removed) < 1e-12);
+      record.near("gap", "m", flanks.match(roll, roll).gap, removed, 1e-12, "rounding of radii of 0.3 m");
     }
     BOOST_TEST(std::abs(flanks.smallest_gap(tip + inwards * 4e-3)) < exact);
     // At the tip a place with less relief is nearer, but none is without gap.

@@ -6,6 +6,7 @@
 #include "contact_bench.h"
 #include "core/errors.h"
 #include "ring_paper_problems.h"
+#include "tests/verification_record.h"
 
 /// The loads by which the mesh sees the pressure elements of a flank.
 BOOST_AUTO_TEST_SUITE(flank_loads)
@@ -83,7 +84,8 @@ BOOST_AUTO_TEST_CASE(a_load_has_the_resultant_and_the_centre_of_its_element) {
 }
 
 BOOST_AUTO_TEST_CASE(a_load_presses_with_the_lever_arm_of_the_base_circle) {
-  on_every_flank([](const Flank& flank) {
+  annulus::test::Verification record("Loads on flanks", "geometry of the involute: lever arm of the base circle");
+  on_every_flank([&](const Flank& flank) {
     FlankPatch patch;
     patch.loads = loads_along(flank);
     for (int l = 0; l < static_cast<int>(patch.loads.size()); ++l)
@@ -92,7 +94,9 @@ BOOST_AUTO_TEST_CASE(a_load_presses_with_the_lever_arm_of_the_base_circle) {
     for (const int tooth : {0, 3}) {
       const Eigen::MatrixXd resultants = flank.body.resultants(patch, tooth);
       // Positions carry an error of 1e-16 of the radius, sums of some ten.
-      BOOST_TEST((resultants.col(2).cwiseAbs().array() / flank.base - 1).abs().maxCoeff() < 1e-12);
+      record.at_most("lever arm over base radius - 1", "",
+                     (resultants.col(2).cwiseAbs().array() / flank.base - 1).abs().maxCoeff(), 1e-12,
+                     "rounding of positions, sums of some ten");
       // A load spread along the flank has many directions, whose resultant is shorter: 1 - (turn)^2 / 8. They are
       // interpolated between nodes: a turn of 0.03 to the fourth power.
       const Eigen::VectorXd size = resultants.leftCols(2).rowwise().norm();
@@ -135,7 +139,9 @@ BOOST_AUTO_TEST_CASE(the_spread_follows_the_mesh_and_ends_with_the_flank) {
 }
 
 BOOST_AUTO_TEST_CASE(the_near_field_completes_what_the_mesh_sees) {
-  on_every_flank([](const Flank& flank) {
+  annulus::test::Verification record("Two short pressure elements on a coarse flank",
+                                     "half-plane: a logarithm of distance over length");
+  on_every_flank([&](const Flank& flank) {
     // Two short elements in the middle of the flank, two of their lengths apart.
     const double middle = (flank.low() + flank.high()) / 2, half = 1e-3 * flank.length();
     FlankPatch patch;
@@ -155,7 +161,8 @@ BOOST_AUTO_TEST_CASE(the_near_field_completes_what_the_mesh_sees) {
     const double width = flank.body.slices() > 1 ? 88e-3 / flank.body.slices() : 88e-3;
     const double exact = (plane.strips(0, half, half) - plane.strips(4 * half, half, half)) / width;
     BOOST_TEST_MESSAGE("told apart by the mesh " << told_by_mesh / exact << ", with the near field " << told / exact);
-    BOOST_TEST(std::abs(told / exact - 1) < 0.01);
+    record.near("difference of their compliances over that of the half-plane", "", told / exact, 1, 0.01,
+                "what the coarse mesh adds");
   });
 }
 

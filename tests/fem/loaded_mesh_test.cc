@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "fem/error_estimate.h"
 #include "ring_paper_problems.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(loaded_mesh)
 
@@ -18,11 +19,14 @@ using annulus::fem::OutsideHeld;
 
 BOOST_AUTO_TEST_CASE(balances_hold_at_every_position) {
   const std::vector<double> loads = {nominal_load / 4, nominal_load, 2 * nominal_load};
-  check_invariants(solve_plane(sun_mesh(8, loads)));
-  check_invariants(solve_plane(ring_mesh(OutsideHeld{}, 8, loads)));
+  annulus::test::Verification record("Balances of meshes of plane finite elements", invariants_reference);
+  check_invariants(solve_plane(sun_mesh(8, loads)), &record);
+  check_invariants(solve_plane(ring_mesh(OutsideHeld{}, 8, loads)), &record);
 }
 
 BOOST_AUTO_TEST_CASE(the_tangent_is_the_slope_of_the_load) {
+  annulus::test::Verification record("Tangent stiffness of meshes of plane finite elements",
+                                     "central difference of the load deflection curve");
   const double step = 0.05;
   const std::vector<double> loads = {nominal_load * (1 - step), nominal_load, nominal_load * (1 + step)};
   for (const auto& problem : {ring_mesh(OutsideHeld{}, 8, loads), sun_mesh(8, loads)}) {
@@ -36,7 +40,8 @@ BOOST_AUTO_TEST_CASE(the_tangent_is_the_slope_of_the_load) {
       // enter, the stiffness itself changes by some percent over the step.
       const auto& shares = result.positions[3 * phase + 1].pair_share;
       const bool entering = std::any_of(shares.begin(), shares.end(), [](double s) { return s > 0 && s < 0.1; });
-      BOOST_TEST(std::abs(ratio - 1) < (entering ? 0.06 : 0.02));
+      record.near(entering ? "tangent over slope, a pair entering" : "tangent over slope", "", ratio, 1,
+                  entering ? 0.06 : 0.02, "contact grows by whole elements; a step of 5 %");
     }
   }
 }
@@ -69,6 +74,8 @@ using namespace annulus::tests;
 using annulus::fem::OutsideHeld;
 
 BOOST_AUTO_TEST_CASE(the_estimate_is_of_the_size_of_the_error) {
+  annulus::test::Verification record("Stated error of the stiffness of plane finite elements",
+                                     "true error: against cells 3.4 times smaller");
   const auto problem = ring_mesh(OutsideHeld{}, 16);
   const auto fine = solve_plane(problem, 4);  // cells 3.4 times smaller than at level 1; within 1e-3 of level 7
   BOOST_TEST(fine.worst_error_relative < 2.5e-3);
@@ -87,12 +94,14 @@ BOOST_AUTO_TEST_CASE(the_estimate_is_of_the_size_of_the_error) {
     }
     const double effectivity = result.worst_error_relative / worst;
     BOOST_TEST_MESSAGE("level " << level << ": worst error " << worst << ", effectivity " << effectivity);
-    BOOST_TEST(effectivity > 0.3);
-    BOOST_TEST(effectivity < 5);
+    record.at_least("stated over true error, level " + std::to_string(level), "", effectivity, 0.3, "its size");
+    record.at_most("stated over true error, level " + std::to_string(level), "", effectivity, 5, "its size");
   }
 }
 
 BOOST_AUTO_TEST_CASE(three_levels_tell_how_much_is_left_of_a_series) {
+  annulus::test::Verification record("Error estimate from three levels",
+                                     "geometric series, of which the limit is known");
   // Stiffnesses 1 + q^level, of which the limit is known.
   const auto problem = ring_mesh(OutsideHeld{}, 4);
   const auto series = [](double q, int level) {
@@ -112,7 +121,9 @@ BOOST_AUTO_TEST_CASE(three_levels_tell_how_much_is_left_of_a_series) {
     return errors.worst / error;
   };
   constexpr double rounding = 0.03;  // of differences relative to stiffnesses that differ by 1 %
-  for (const double q : {0.32, 0.4, 0.49}) BOOST_TEST(std::abs(estimate(q, 2, true) - 1) < rounding, q);
+  for (const double q : {0.32, 0.4, 0.49})
+    record.near("estimate over error, three levels", "", estimate(q, 2, true), 1, rounding,
+                "differences relative to stiffnesses that differ by 1 %");
   // Faster than with the cube of the cell size is not believed, slower than with its first power not looked for.
   BOOST_TEST(estimate(0.1, 2, true) > 2);
   BOOST_TEST(std::abs(estimate(0.6, 2, true) - (1 / 0.6 - 1)) < rounding);
@@ -128,17 +139,20 @@ BOOST_AUTO_TEST_SUITE(solid_ring)
 using namespace annulus::tests;
 
 BOOST_AUTO_TEST_CASE(the_thin_walled_ring_keeps_its_balances_and_is_softer_than_a_held_one) {
+  annulus::test::Verification record("Balances of the thin-walled ring, solid elements", invariants_reference);
   const auto thin = solve_solid(ring_mesh(annulus::fem::EndFaceHeld{18e-3, 10.6e-3}, 2));
-  check_invariants(thin);
+  check_invariants(thin, &record);
   const auto held = solve_plane(ring_mesh(annulus::fem::OutsideHeld{}, 2));
   for (std::size_t i = 0; i < held.positions.size(); ++i)
     BOOST_TEST(thin.positions[i].entry.lte > 1.5 * held.positions[i].entry.lte);
 }
 
 BOOST_AUTO_TEST_CASE(a_wide_ring_lies_between_plane_strain_and_plane_stress) {
+  annulus::test::Verification record("A wide ring of solid elements, held outside",
+                                     "bounds: plane strain, and plane stress softer by 1 / (1 - nu^2)");
   const auto problem = ring_mesh(annulus::fem::OutsideHeld{}, 4);
   const auto solid = solve_solid(problem), plane = solve_plane(problem);
-  check_invariants(solid);
+  check_invariants(solid, &record);
   for (std::size_t i = 0; i < plane.positions.size(); ++i) {
     const double ratio = solid.positions[i].entry.lte / plane.positions[i].entry.lte;
     BOOST_TEST_MESSAGE("solid / plane strain: " << ratio);
@@ -147,17 +161,21 @@ BOOST_AUTO_TEST_CASE(a_wide_ring_lies_between_plane_strain_and_plane_stress) {
     const auto &s = solid.positions[i].entry, &p = plane.positions[i].entry;
     const double slack = numeric_error(s) + numeric_error(p);
     BOOST_TEST(s.error_parts.model == 0);
-    BOOST_TEST(ratio > 1 - slack);
-    BOOST_TEST(ratio < 1 / (1 - 0.3 * 0.3) + slack);
+    record.at_least("transmission error over that of plane strain", "", ratio, 1 - slack,
+                    "bound less both stated errors");
+    record.at_most("transmission error over that of plane strain", "", ratio, 1 / (1 - 0.3 * 0.3) + slack,
+                   "bound and both stated errors");
     BOOST_TEST(ratio < 1 + p.error_parts.model + slack);
     BOOST_TEST(p.error_parts.model < 0.02);
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_solid_ring_on_pins_lies_between_plane_strain_and_plane_stress) {
+  annulus::test::Verification record("A ring of solid elements on 18 pins",
+                                     "bounds: plane strain, and plane stress softer by 1 / (1 - nu^2)");
   const auto problem = ring_mesh(paper_pins(18, 0.03), 2);
   const auto solid = solve_solid(problem), plane = solve_plane(problem);
-  check_invariants(solid);
+  check_invariants(solid, &record);
   double worst = 0;
   for (std::size_t i = 0; i < plane.positions.size(); ++i) {
     const auto &p = solid.positions[i], &q = plane.positions[i];
@@ -165,15 +183,18 @@ BOOST_AUTO_TEST_CASE(a_solid_ring_on_pins_lies_between_plane_strain_and_plane_st
     BOOST_TEST_MESSAGE("solid / plane strain on pins: " << ratio);
     // As for the held ring: teeth and rim are free to widen at their ends only.
     const double slack = numeric_error(p.entry) + numeric_error(q.entry);
-    BOOST_TEST(ratio > 1 - slack);
-    BOOST_TEST(ratio < 1 / (1 - 0.3 * 0.3) + slack);
+    record.at_least("transmission error over that of plane strain", "", ratio, 1 - slack,
+                    "bound less both stated errors");
+    record.at_most("transmission error over that of plane strain", "", ratio, 1 / (1 - 0.3 * 0.3) + slack,
+                   "bound and both stated errors");
     for (std::size_t pin = 0; pin < 18; ++pin)
       worst = std::max({worst, std::abs(p.pins[pin].radial_force - q.pins[pin].radial_force) / p.load,
                         std::abs(p.pins[pin].tangential_force - q.pins[pin].tangential_force) / p.load});
   }
   BOOST_TEST_MESSAGE("pin forces differ by " << worst << " of the load");
   // How the pins share the load depends on the ratio of the rim's stiffness to theirs, which changes by as much.
-  BOOST_TEST(worst < 0.03);
+  record.at_most("force on a pin, difference from plane strain over the load", "", worst, 0.03,
+                 "ratio of the stiffnesses of rim and pins, which changes by as much");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -9,6 +9,7 @@
 #include "ring_paper_problems.h"
 #include "small_ring.h"
 #include "structured_mesh.h"
+#include "tests/verification_record.h"
 
 /// Elastic modes of rings.
 BOOST_AUTO_TEST_SUITE(ring_modes)
@@ -79,9 +80,15 @@ const RingMode& first_with(const std::vector<RingMode>& modes, int waves) {
 }
 
 BOOST_AUTO_TEST_CASE(a_free_thin_ring_bends_at_the_frequencies_of_hoppe_and_breathes) {
+  annulus::test::Verification record(
+      "Modes of a free thin ring composed of 48 sectors",
+      "Hoppe 1871 (Love, Mathematical Theory of Elasticity, art. 293) less Timoshenko's shear and rotary inertia");
+  annulus::test::RecordedPlot plot{"Frequency over that of Hoppe", "waves", "", {}};
   const double modulus = 1 / (1 - 0.3 * 0.3), density = 1;  // plane strain
   for (const double height : {0.01, 0.02, 0.04}) {
     const auto modes = held_ring_modes(plain_ring(height, 48, {2, 0}), {all_modes});
+    const auto named = ", h/R = " + std::to_string(height).substr(0, 4);
+    annulus::test::RecordedPlot::Curve curve{"h/R = " + std::to_string(height).substr(0, 4), {}, {}, {}};
     for (const int n : {2, 3, 4, 6}) {
       // omega^2 = E I / (rho A R^4) n^2 (n^2 - 1)^2 / (n^2 + 1) (Hoppe 1871; Love, Mathematical Theory of Elasticity,
       // art. 293).
@@ -92,39 +99,53 @@ BOOST_AUTO_TEST_CASE(a_free_thin_ring_bends_at_the_frequencies_of_hoppe_and_brea
       // Shear and rotary inertia, left out of the thin ring, take (1 + E / kappa G) (n h / R)^2 / 24 off (Timoshenko's
       // beam), and of that an unknown part as much as the curvature counts.
       const double shear = (1 + modulus / (5.0 / 6 / 2.6)) * std::pow(n * height, 2) / 24;
-      BOOST_TEST(std::abs(off + shear) < 0.6 * shear + 1e-5);
+      record.near(std::to_string(n) + " waves: frequency over Hoppe's" + named, "", 1 + off, 1 - shear,
+                  0.6 * shear + 1e-5, "curvature, as large a part as shear");
+      curve.x.push_back(n);
+      curve.computed.push_back(1 + off);
+      curve.reference.push_back(1 - shear);
       const auto& closing = first_with(modes, n).closing;
       // Inextensional, w = cos n theta: unit modal mass is 2 pi rho h (1 + 1 / n^2) / 2 w^2.
-      BOOST_TEST(closing[0] == 1 / std::sqrt(M_PI * density * height * (1 + 1.0 / (n * n))),
-                 boost::test_tools::tolerance(0.01));
+      record.close("radial displacement of a mode of unit mass", "", closing[0],
+                   1 / std::sqrt(M_PI * density * height * (1 + 1.0 / (n * n))), 0.01, "thin ring");
       BOOST_TEST(std::abs(closing[48 / 2] - (n % 2 == 0 ? 1 : -1) * closing[0]) < 1e-6 * closing[0]);
     }
     // omega^2 = E / (rho R^2), purely radial.
     const auto& breathing = first_with(modes, 0);
-    BOOST_TEST(breathing.frequency == std::sqrt(modulus) / (2 * M_PI),
-               boost::test_tools::tolerance(height * height + 1e-5));
+    record.close("breathing: sqrt(E / rho) / (2 pi R)" + named, "Hz", breathing.frequency,
+                 std::sqrt(modulus) / (2 * M_PI), height * height + 1e-5, "(h / R)^2");
     BOOST_TEST(std::abs(breathing.closing[0]) == 1 / std::sqrt(2 * M_PI * density * height),
                boost::test_tools::tolerance(height));
+    plot.curves.push_back(curve);
   }
+  record.plot(plot);
 }
 
 BOOST_AUTO_TEST_CASE(shorter_sectors_and_higher_orders_come_down_to_the_frequency) {
+  annulus::test::Verification record("Frequencies with ever shorter sectors",
+                                     "limit: 96 sectors, motions of fourth order");
   const auto frequency = [](int sectors, int order, int waves) {
     return first_with(held_ring_modes(plain_ring(0.05, sectors, {order, 0}), {all_modes}), waves).frequency;
   };
   for (const int waves : {2, 3}) {
     const double limit = frequency(96, 4, waves);
     double before = 0;
+    std::vector<double> lengths, errors;
     for (const int sectors : {12, 24, 48}) {
       const double above = frequency(sectors, 1, waves) / limit - 1;
       BOOST_TEST_MESSAGE(waves << " waves, " << sectors << " sectors: " << above);
       BOOST_TEST(above > 0);
       // Energies of what linear motions leave: of a wave's shift of the section it is of fourth order in the length of
       // a sector, of its turn of second order, with (h / R)^2.
-      if (before > 0) BOOST_TEST(before / above > std::pow(2, 0.9 * 2));
+      if (before > 0)
+        record.at_least("order of convergence", "", std::log2(before / above), 0.9 * 2, "0.9 of the order 2");
       before = above;
+      lengths.push_back(1.0 / sectors);
+      errors.push_back(above);
     }
-    BOOST_TEST(before < 3e-5);
+    record.at_most("frequency above the limit, 48 sectors, relative", "", before, 3e-5, "ceiling beside the rate");
+    record.convergence("Frequency above the limit; dashed: order 2", "sector over circumference", "relative difference",
+                       std::to_string(waves) + " waves", lengths, errors, 2);
     double lower = 1;
     for (const int order : {1, 2, 3}) {
       const double above = frequency(12, order, waves) / limit - 1;
@@ -136,17 +157,20 @@ BOOST_AUTO_TEST_CASE(shorter_sectors_and_higher_orders_come_down_to_the_frequenc
 }
 
 /// All frequencies above those of the whole mesh, and how much at most of the first `count`.
-double most_above(const std::vector<RingMode>& modes, const Eigen::VectorXd& exact) {
+double most_above(annulus::test::Verification& record, const std::vector<RingMode>& modes,
+                  const Eigen::VectorXd& exact) {
   double most = 0;
   for (Eigen::Index k = 0; k < exact.size(); ++k) {
     const double above = modes[k].frequency / exact[k] - 1;
-    BOOST_TEST(above > -1e-8);  // subspace iteration
+    record.at_least("frequency over that of the whole mesh", "", 1 + above, 1 - 1e-8,
+                    "from above, as by Rayleigh and Ritz; subspace iteration");
     most = std::max(most, above);
   }
   return most;
 }
 
 BOOST_AUTO_TEST_CASE(held_rings_against_the_modes_of_the_whole_mesh) {
+  annulus::test::Verification record("Reduced modes of held rings", "modes of the whole mesh by subspace iteration");
   for (const auto held : {SmallHeld::outside, SmallHeld::sleeve}) {
     const int teeth = held == SmallHeld::outside ? 37 : 29;
     Eigen::VectorXd exact;
@@ -157,18 +181,20 @@ BOOST_AUTO_TEST_CASE(held_rings_against_the_modes_of_the_whole_mesh) {
         const FreeSystem stiffness(ring.whole.stiffness, ring.fixed), mass(ring.whole_mass(), ring.fixed);
         exact = lowest_frequencies(stiffness.matrix, mass.matrix, 7);
       }
-      const double above = most_above(held_ring_modes(ring.flexibility, {20}), exact);
+      const double above = most_above(record, held_ring_modes(ring.flexibility, {20}), exact);
       BOOST_TEST_MESSAGE("motions of order " << motions.section << ", " << motions.axial << ": " << above << " of "
                                              << exact[0] << " Hz");
       BOOST_TEST(above < before);
       before = above;
     }
     // A rim a module high under teeth of two: parts of the section move for themselves.
-    BOOST_TEST(before < 2e-3);
+    record.at_most("first seven frequencies, most above, motions of order 3", "", before, 2e-3,
+                   "a thin rim: parts of the section move for themselves");
   }
 }
 
 BOOST_AUTO_TEST_CASE(rings_on_bolts_against_the_modes_of_the_whole_mesh) {
+  annulus::test::Verification record("Reduced modes of a ring on bolts", "modes of the whole mesh on springs");
   constexpr int teeth = 36;
   const auto plan = small_ring_pins(teeth, {0.1, 1.3, 2.2, 3.5, 4.05, 5.4}, 2e8, 7e7, true);
   const SmallRing ring = small_ring(teeth, SmallHeld::floating, {2, 0}, &plan);
@@ -176,12 +202,13 @@ BOOST_AUTO_TEST_CASE(rings_on_bolts_against_the_modes_of_the_whole_mesh) {
       lowest_frequencies(ring.whole.stiffness + ring.support_stiffness(plan), ring.whole_mass(), 10);
   const RingOnSupports supports(ring.flexibility, plan);
   const auto modes = supported_ring_modes(ring.flexibility, supports, {10});
-  const double above = most_above(modes, exact);
+  const double above = most_above(record, modes, exact);
   BOOST_TEST_MESSAGE("first " << exact[0] << " Hz, above by " << above);
-  BOOST_TEST(above < 1e-3);
+  record.at_most("first ten frequencies, most above", "", above, 1e-3, "motions of order 2 of a sector");
 }
 
 BOOST_AUTO_TEST_CASE(on_soft_bolts_the_first_modes_are_rigid_motions) {
+  annulus::test::Verification record("A ring on soft bolts", "closed form: a rigid body on springs");
   constexpr int teeth = 36, pins = 9;
   const double radial = 3e4, tangential = 2e4;
   const auto plan = small_ring_pins(teeth, annulus::fem::equal_angles(pins, 0.1), radial, tangential, false);
@@ -205,11 +232,12 @@ BOOST_AUTO_TEST_CASE(on_soft_bolts_the_first_modes_are_rigid_motions) {
   for (const auto& mode : modes) {
     const bool turns = std::abs(mode.rotation) > 1e-3;
     // Springs a thousand times softer than the ring.
-    BOOST_TEST(mode.frequency == (turns ? rotation : translation), boost::test_tools::tolerance(1e-3));
+    record.close(turns ? "frequency of rotation" : "frequency of translation", "Hz", mode.frequency,
+                 turns ? rotation : translation, 1e-3, "springs a thousand times softer than the ring");
     BOOST_TEST(mode.waves == (turns ? 0 : 1));
     const double modal_mass = turns ? std::pow(mode.rotation * base, 2) / inertia
                                     : (std::pow(mode.translation_x, 2) + std::pow(mode.translation_y, 2)) / mass;
-    BOOST_TEST(modal_mass == 1, boost::test_tools::tolerance(1e-5));
+    record.close("modal mass", "", modal_mass, 1, 1e-5, "springs a thousand times softer than the ring");
     // Rigid motion of the real ring, whose leading flanks the planets touch: out of the material closes the mesh.
     const Eigen::Vector2d shift = Eigen::Vector2d(mode.translation_x, mode.translation_y) / mass;
     const double turn = mode.rotation * base / inertia;
@@ -225,6 +253,7 @@ BOOST_AUTO_TEST_CASE(on_soft_bolts_the_first_modes_are_rigid_motions) {
 }
 
 BOOST_AUTO_TEST_CASE(all_modes_together_give_the_static_compliance_and_the_mass) {
+  annulus::test::Verification record("All modes of a ring together", "static compliance of the mesh; its mass");
   for (const auto held : {SmallHeld::outside, SmallHeld::sleeve}) {
     const int teeth = held == SmallHeld::outside ? 36 : 29;
     const SmallRing ring = small_ring(teeth, held, {2, 2});
@@ -248,14 +277,20 @@ BOOST_AUTO_TEST_CASE(all_modes_together_give_the_static_compliance_and_the_mass)
                                                   << ", third " << sum[3] / compliance(3));
     BOOST_TEST(sum[0] < compliance(0));
     BOOST_TEST(sum[0] > 0.2 * compliance(0));
-    for (const int d : {2, 3, 5}) BOOST_TEST(std::abs(sum[d] - compliance(d)) < 0.05 * std::abs(compliance(1)));
+    for (const int d : {2, 3, 5})
+      record.at_most("compliance between two teeth, error over that of neighbours", "",
+                     std::abs(sum[d] - compliance(d)) / std::abs(compliance(1)), 0.05,
+                     "what deforms a single tooth is not held in the modes");
     // All mass moves with the modes but what hangs on the held nodes.
     Eigen::Vector3d all = Eigen::Vector3d::Zero();
     for (int s = 0; s < teeth; ++s)
       all += ring.flexibility.resultants_of(s, 1, ring.flexibility.motions).rowwise().squaredNorm();
-    BOOST_TEST(x == all.x(), boost::test_tools::tolerance(round_off));
-    BOOST_TEST(y == all.y(), boost::test_tools::tolerance(round_off));
-    BOOST_TEST(rotation == all.z(), boost::test_tools::tolerance(round_off));
+    record.close("mass that moves in x with all modes, per width", "kg/m", x, all.x(), round_off,
+                 "rounding x condition number");
+    record.close("mass that moves in y with all modes, per width", "kg/m", y, all.y(), round_off,
+                 "rounding x condition number");
+    record.close("moment of inertia of all modes, per width", "kg m", rotation, all.z(), round_off,
+                 "rounding x condition number");
     const double total = ring.whole.nodal_mass.sum() / ring.per_width();
     BOOST_TEST(all.x() < total);
     BOOST_TEST(all.x() > 0.8 * total);
@@ -278,6 +313,8 @@ BOOST_AUTO_TEST_CASE(limits_keep_the_lowest_modes_and_whole_pairs) {
 }
 
 BOOST_AUTO_TEST_CASE(the_rings_of_the_paper) {
+  annulus::test::Verification record("Stated errors of the frequencies of the rings of the paper",
+                                     "finer elements and motions of a higher order");
   // Finer elements and motions of a higher order together stay within the estimated error.
   annulus::fem::RingCouplingSettings settings;
   settings.modes.count = 12;
@@ -296,7 +333,9 @@ BOOST_AUTO_TEST_CASE(the_rings_of_the_paper) {
       worst = std::max(worst, std::abs(coarse.coupling.modes[k].frequency / fine.coupling.modes[k].frequency - 1));
     BOOST_TEST_MESSAGE("first " << fine.coupling.modes[0].frequency << " Hz, error " << worst << ", estimated "
                                 << coarse.frequency_error_relative);
-    BOOST_TEST(worst < coarse.frequency_error_relative);
+    record.at_most(
+        pinned ? "24 pins: largest error of twelve frequencies" : "held: largest error of twelve frequencies", "",
+        worst, coarse.frequency_error_relative, "stated error");
     BOOST_TEST(coarse.frequency_error_relative < 0.01);
   }
 }

@@ -5,6 +5,7 @@
 
 #include "fem/error_estimate.h"
 #include "fem/loaded_mesh.h"
+#include "tests/verification_record.h"
 
 namespace annulus::tests {
 
@@ -29,9 +30,13 @@ fem::LoadedMeshResult solve_solid(const fem::LoadedMeshProblem& problem);
 
 /// What has to hold at every position of unmodified flanks, whatever the structure: balances, load shares, no
 /// penetration.
-void check_positions(const std::vector<fem::LoadedPosition>& positions);
+void check_positions(const std::vector<fem::LoadedPosition>& positions, test::Verification* record = nullptr);
 /// The same of a whole result, and closure.
-void check_invariants(const fem::LoadedMeshResult& result);
+void check_invariants(const fem::LoadedMeshResult& result, test::Verification* record = nullptr);
+inline constexpr const char* invariants_reference =
+    "statics: contact forces x base radius = torque; work of the load = strain energy; Maxwell and Betti; no tension, "
+    "no "
+    "penetration; the cycle closes";
 /// Every figure of two results bit by bit.
 void check_identical(const fem::LoadedMeshResult& a, const fem::LoadedMeshResult& b);
 /// Largest relative difference of the transmission errors of two results at the same positions.

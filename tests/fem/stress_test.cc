@@ -6,6 +6,7 @@
 #include "fem/loaded_mesh.h"
 #include "geometry/profile.h"
 #include "ring_paper_problems.h"
+#include "tests/verification_record.h"
 
 /// Root and rim stresses of the ring paper's gears.
 BOOST_AUTO_TEST_SUITE(root_stress)
@@ -38,6 +39,8 @@ double iso_root_stress(const ToothProfile& tooth, double roll, double line_load)
 }
 
 BOOST_AUTO_TEST_CASE(the_tension_of_a_single_pair_has_the_size_of_iso_6336) {
+  annulus::test::Verification record("Tooth root stress of a single pair",
+                                     "ISO 6336-3, method B: local stress with Y_S");
   // At the pitch point one pair of the sun mesh carries nearly all.
   const auto problem = sun_mesh(4);
   const auto result = solve_plane(problem);
@@ -52,13 +55,16 @@ BOOST_AUTO_TEST_CASE(the_tension_of_a_single_pair_has_the_size_of_iso_6336) {
                                << p.wheel_stress->root_tension << " Pa, ISO " << sun);
   // Y_S is a fit to measurements and plane solutions of standard racks, said to be good to some ten per cent; it leaves
   // out the radial force, which takes off the tension side.
-  BOOST_TEST(p.planet_stress->root_tension / planet > 0.75);
-  BOOST_TEST(p.planet_stress->root_tension / planet < 1.15);
-  BOOST_TEST(p.wheel_stress->root_tension / sun > 0.75);
-  BOOST_TEST(p.wheel_stress->root_tension / sun < 1.15);
+  // Between 0.75 and 1.15.
+  const char* origin = "Y_S is good to some ten per cent and leaves out the radial force, which takes off tension";
+  record.near("root tension of the planet over the standard", "", p.planet_stress->root_tension / planet, 0.95, 0.2,
+              origin);
+  record.near("root tension of the sun over the standard", "", p.wheel_stress->root_tension / sun, 0.95, 0.2, origin);
 }
 
 BOOST_AUTO_TEST_CASE(stresses_settle_under_refinement_and_balance_round_the_cycle) {
+  annulus::test::Verification record("Stresses of a ring on 18 pins under refinement",
+                                     "the next two levels of refinement; plane strain: von Mises of a free surface");
   const auto problem = ring_mesh(paper_pins(18, 0.03), 2);
   const auto coarse = solve_plane(problem, 1), middle = solve_plane(problem, 2), fine = solve_plane(problem, 3);
   double first = 0, second = 0;
@@ -84,15 +90,16 @@ BOOST_AUTO_TEST_CASE(stresses_settle_under_refinement_and_balance_round_the_cycl
     BOOST_TEST(c.planet_stress->rim_von_mises == 0);  // held by its hub
     // In plane strain the von Mises stress of a free surface is sqrt(1 - nu + nu^2) of the tangential one.
     const double largest = std::max(c.wheel_stress->root_tension, -c.wheel_stress->root_compression);
-    BOOST_TEST(c.wheel_stress->root_von_mises == largest * std::sqrt(1 - 0.3 + 0.09),
-               boost::test_tools::tolerance(1e-9));
+    record.close("von Mises stress in the root: sqrt(1 - nu + nu^2) of the tangential one", "Pa",
+                 c.wheel_stress->root_von_mises, largest * std::sqrt(1 - 0.3 + 0.09), 1e-9, "rounding");
   }
   BOOST_TEST_MESSAGE("against level 3: level 1 root " << first << ", rim " << rim_first << "; level 2 root " << second
                                                       << ", rim " << rim_second);
   // Stresses fall by 1.5^2 from level to level. The rim's peaks stand at the edges of the pins.
-  BOOST_TEST(first < 0.03);
-  BOOST_TEST(second < 0.015);
-  BOOST_TEST(rim_second < 0.1);
+  const char* origin = "stresses fall by 1.5^2 from level to level";
+  record.at_most("root stress of level 1 against level 3", "", first, 0.03, origin);
+  record.at_most("root stress of level 2 against level 3", "", second, 0.015, origin);
+  record.at_most("rim stress of level 2 against level 3", "", rim_second, 0.1, "peaks at the edges of the pins");
 }
 
 BOOST_AUTO_TEST_CASE(curves_show_the_largest_stress) {

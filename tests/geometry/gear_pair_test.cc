@@ -6,27 +6,33 @@
 
 #include "gears.h"
 #include "geometry/profile.h"
+#include "tests/verification_record.h"
 
 namespace annulus::geometry::test {
 
 BOOST_AUTO_TEST_SUITE(gear_pair)
 
 BOOST_AUTO_TEST_CASE(ring_paper_pairs) {
+  annulus::test::Verification record("Meshes of the ring paper",
+                                     "gear data of Hu et al. 2021, calculated by hand (docs/ring_types.md)");
   const GearPair sun(paper_planet(), paper_sun(), paper_centre_distance);
   const GearPair ring(paper_planet(), paper_ring(), paper_centre_distance);
   // Half of the last printed digit.
-  BOOST_TEST(std::abs(sun.working_pressure_angle() / units::deg - 25.905148) < 5e-7);
-  BOOST_TEST(std::abs(ring.working_pressure_angle() / units::deg - 20.860323) < 5e-7);
+  record.near("working pressure angle, sun and planet", "deg", sun.working_pressure_angle() / units::deg, 25.905148,
+              5e-7, "half of the last digit");
+  record.near("working pressure angle, planet and ring", "deg", ring.working_pressure_angle() / units::deg, 20.860323,
+              5e-7, "half of the last digit");
   // The printed shifts leave about 0.3 um (four digits of x are worth 0.3 um each).
-  BOOST_TEST(sun.normal_backlash() > 0.2 * units::um);
-  BOOST_TEST(sun.normal_backlash() < 0.4 * units::um);
-  BOOST_TEST(ring.normal_backlash() > 0.2 * units::um);
-  BOOST_TEST(ring.normal_backlash() < 0.4 * units::um);
+  const char* digits = "four digits of the profile shift are worth 0.3 um each";
+  record.near("normal backlash, sun and planet", "um", sun.normal_backlash() / units::um, 0.3, 0.1, digits);
+  record.near("normal backlash, planet and ring", "um", ring.normal_backlash() / units::um, 0.3, 0.1, digits);
 }
 
 // Independent of the tooth thicknesses: normal backlash from the profile shifts and the involute function alone,
 // j = 2 r_b (...) in the form of ISO 21771: m cos(a) [ (z2 +- z1)(inv a_w - inv a) -+ 2 (x2 +- x1) tan a ].
 BOOST_AUTO_TEST_CASE(backlash_agrees_with_the_profile_shift_sum) {
+  annulus::test::Verification record("Normal backlash of external and internal pairs",
+                                     "ISO 21771: profile shift sum and the involute function alone");
   const auto inv = [](double a) { return std::tan(a) - a; };
   const double alpha = 20 * units::deg;
   const double m = 2 * units::mm;
@@ -34,18 +40,21 @@ BOOST_AUTO_TEST_CASE(backlash_agrees_with_the_profile_shift_sum) {
                           55.8 * units::mm);
   double expected =
       m * std::cos(alpha) * (55 * (inv(external.working_pressure_angle()) - inv(alpha)) - 2 * 0.3 * std::tan(alpha));
-  BOOST_TEST(external.normal_backlash() == expected, boost::test_tools::tolerance(1e-10));  // cancellation of 1e-3 m
+  record.close("external, 24 and 31 teeth", "m", external.normal_backlash(), expected, 1e-10, "cancellation of 1e-3 m");
   const GearPair internal(Gear(plain_gear(GearKind::external, 24, 0.1)), Gear(plain_gear(GearKind::internal, 75, 0.4)),
                           51.3 * units::mm);
   expected =
       m * std::cos(alpha) * (2 * 0.3 * std::tan(alpha) - 51 * (inv(internal.working_pressure_angle()) - inv(alpha)));
-  BOOST_TEST(internal.normal_backlash() == expected, boost::test_tools::tolerance(1e-10));
+  record.close("internal, 24 and 75 teeth", "m", internal.normal_backlash(), expected, 1e-10, "cancellation of 1e-3 m");
   BOOST_TEST(internal.normal_backlash() > 0);
 }
 
 // A worked profile shift calculation after ISO 21771:2007 (equations 62 and 63): m_n = 3.5 mm, 20 deg, 31 and 30 teeth,
 // helix angle 21 deg (from the printed reference centre distance), working centre distance 116.5 mm.
 BOOST_AUTO_TEST_CASE(published_helical_pair) {
+  annulus::test::Verification record("Published helical pair",
+                                     "worked profile shift calculation after ISO 21771:2007, "
+                                     "equations 62 and 63");
   const double beta = 21 * units::deg;
   const auto gear = [&](int teeth, double x, double hand) {
     auto p = helical(plain_gear(GearKind::external, teeth, x), hand * beta);
@@ -57,16 +66,23 @@ BOOST_AUTO_TEST_CASE(published_helical_pair) {
     return GearPair(gear(31, x, 1), gear(30, shift_sum - x, -1), 116.5 * units::mm);
   };
   const GearPair tight = pair(0.651877131252);
-  BOOST_TEST(std::abs(tight.planet().transverse_pressure_angle() / units::deg - 21.2990642859) < 1e-10);
-  BOOST_TEST(std::abs(tight.working_pressure_angle() / units::deg - 23.8707609654) < 1e-10);
-  BOOST_TEST(std::abs((tight.planet().reference_radius() + tight.wheel().reference_radius()) / units::mm -
-                      114.3447280708) < 1e-10);
-  BOOST_TEST(std::abs(tight.normal_backlash()) < 1e-11 * units::mm);
+  const char* digits = "printed digits";
+  record.near("transverse pressure angle", "deg", tight.planet().transverse_pressure_angle() / units::deg,
+              21.2990642859, 1e-10, digits);
+  record.near("working pressure angle", "deg", tight.working_pressure_angle() / units::deg, 23.8707609654, 1e-10,
+              digits);
+  record.near("reference centre distance", "mm",
+              (tight.planet().reference_radius() + tight.wheel().reference_radius()) / units::mm, 114.3447280708, 1e-10,
+              digits);
+  record.near("normal backlash with the printed profile shift sum", "mm", tight.normal_backlash() / units::mm, 0, 1e-11,
+              digits);
   // 0.03 mm normal backlash; a unit in the last digit of the printed shift is worth 2 m sin(alpha) 1e-9 = 2.4e-9 mm.
-  BOOST_TEST(std::abs(pair(0.639346541).normal_backlash() / units::mm - 0.03) < 2e-9);
+  record.near("normal backlash with the shift sum printed for 0.03 mm", "mm",
+              pair(0.639346541).normal_backlash() / units::mm, 0.03, 2e-9, "last printed digit of the profile shift");
 }
 
 BOOST_AUTO_TEST_CASE(helical_pairs) {
+  annulus::test::Verification record("Overlap of helical pairs", "ISO 21771: face width over axial pitch");
   const double beta = 20 * units::deg;
   const auto sun = helical(plain_gear(GearKind::external, 31, 0.1), -beta);
   auto planet = helical(plain_gear(GearKind::external, 24, 0.2), beta);
@@ -76,7 +92,7 @@ BOOST_AUTO_TEST_CASE(helical_pairs) {
   for (const auto& pair : {external, internal}) {
     // Face width over axial pitch, the height in which a tooth trace advances by a pitch.
     const double axial_pitch = pair.planet().pitch_angle() / ToothProfile(pair.planet()).twist();
-    BOOST_TEST(pair.overlap_ratio() == 20 * units::mm / axial_pitch, boost::test_tools::tolerance(1e-13));
+    record.close("overlap ratio", "", pair.overlap_ratio(), 20 * units::mm / axial_pitch, 1e-13, "rounding");
     BOOST_TEST(pair.total_contact_ratio() == pair.contact_ratio() + pair.overlap_ratio());
     // The line of contact in the plane of action: both sections advance by the same length per metre of z.
     const double side = pair.internal() ? 1 : -1;
@@ -100,13 +116,16 @@ BOOST_AUTO_TEST_CASE(helical_pairs) {
 }
 
 BOOST_AUTO_TEST_CASE(path_of_contact) {
+  annulus::test::Verification record("Path of contact and contact ratio",
+                                     "textbook: 2 (sqrt(ra^2 - rb^2) - r sin a) / (pi m cos a); rigid geometry");
   // Textbook: two equal standard gears, contact ratio 2 (sqrt(ra^2 - rb^2) - r sin a) / (pi m cos a).
   const Gear g(plain_gear(GearKind::external, 40));
   const GearPair pair(g, g, 80 * units::mm);
   const double rb = 40 * std::cos(20 * units::deg);
   const double expected =
       2 * (std::sqrt(42.0 * 42.0 - rb * rb) - 40 * std::sin(20 * units::deg)) / (2 * std::numbers::pi * rb / 40);
-  BOOST_TEST(pair.contact_ratio() == expected, boost::test_tools::tolerance(1e-12));
+  record.close("contact ratio of two equal standard gears, 40 teeth", "", pair.contact_ratio(), expected, 1e-12,
+               "rounding");
   // A point of contact is one point: both roll lengths give the same place on the line of centres and its distance.
   for (const GearPair& mesh : {GearPair(paper_planet(), paper_sun(), paper_centre_distance),
                                GearPair(paper_planet(), paper_ring(), paper_centre_distance)}) {
@@ -118,7 +137,8 @@ BOOST_AUTO_TEST_CASE(path_of_contact) {
     const Eigen::Vector2d contact(rp * std::cos(aw) + rho * std::sin(aw), rp * std::sin(aw) - rho * std::cos(aw));
     const Eigen::Vector2d wheel_centre(sign * mesh.centre_distance(), 0);
     const double wheel_radius = std::hypot(mesh.wheel().base_radius(), mesh.wheel_roll_length(rho));
-    BOOST_TEST((contact - wheel_centre).norm() == wheel_radius, boost::test_tools::tolerance(1e-12));
+    record.close("point of contact seen from both gears", "m", (contact - wheel_centre).norm(), wheel_radius, 1e-12,
+                 "rounding");
   }
 }
 
@@ -223,6 +243,8 @@ double depth_inside(const ToothProfile& profile, const Eigen::Vector2d& centre, 
 // Turn a pair through one pitch with the drive flanks in contact: no point of the planet's outline enters the wheel,
 // and the drive flanks keep touching (the gap stays zero: involutes are conjugate).
 BOOST_AUTO_TEST_CASE(gears_turn_in_contact_without_overlap) {
+  annulus::test::Verification record("Pairs of outlines turned in contact through a pitch",
+                                     "conjugate flanks touch and never enter each other");
   struct Case {
     Gear planet, wheel;
     double a;
@@ -272,7 +294,8 @@ BOOST_AUTO_TEST_CASE(gears_turn_in_contact_without_overlap) {
       BOOST_TEST(deepest_here > -2e-4 * planet.parameters().module);
       deepest = std::max(deepest, deepest_here);
     }
-    BOOST_TEST(deepest < 1e-12);  // m, rounding of the angles times the radius
+    record.at_most("deepest point of the planet inside the wheel", "m", deepest, 1e-12,
+                   "rounding of the angles x radius");
   }
 }
 

@@ -7,45 +7,56 @@
 
 #include "gears.h"
 #include "geometry/profile.h"
+#include "tests/verification_record.h"
 
 namespace annulus::geometry::test {
 
 BOOST_AUTO_TEST_SUITE(gear)
 
 BOOST_AUTO_TEST_CASE(base_tangent_lengths_of_a_published_pair) {
+  annulus::test::Verification record("Base tangent lengths of a published pair",
+                                     "printed values of a profile-shifted pair, "
+                                     "m = 1.75 mm");
   GearParameters p = plain_gear(GearKind::external, 21, 0.4380);
   p.module = 1.75 * units::mm;
   // Half of the last printed digit (0.05 um), and the printed x may be off by 5e-5: 2 * 5e-5 m sin(alpha) = 0.06 um.
-  const double printed = 0.11 * units::um;
-  BOOST_TEST(std::abs(Gear(p).base_tangent_length(3) - 13.9546 * units::mm) < printed);
+  const double printed = 0.11e-3;  // mm
+  const char* digits = "half of the last digit of the length and of the profile shift";
+  record.near("21 teeth, over 3 teeth", "mm", Gear(p).base_tangent_length(3) / units::mm, 13.9546, printed, digits);
   p.teeth = 43;
   p.profile_shift = 0.0426;
-  BOOST_TEST(std::abs(Gear(p).base_tangent_length(5) - 24.3530 * units::mm) < printed);
+  record.near("43 teeth, over 5 teeth", "mm", Gear(p).base_tangent_length(5) / units::mm, 24.3530, printed, digits);
 }
 
 // Worked example of the span measurement of helical gears in KHK's gear technical reference: module 3 mm, 20 deg, 24
 // teeth, helix angle 25 deg, x = 0.4, five teeth: 42.0085 mm.
 BOOST_AUTO_TEST_CASE(base_tangent_length_of_a_published_helical_gear) {
+  annulus::test::Verification record("Base tangent length of a published helical gear",
+                                     "KHK, gear technical reference: worked example of the span measurement");
   auto p = helical(plain_gear(GearKind::external, 24, 0.4), 25 * units::deg);
   p.module = 3 * units::mm;
-  BOOST_TEST(std::abs(Gear(p).base_tangent_length(5) - 42.0085 * units::mm) < 0.05 * units::um);  // printed digits
+  record.near("24 teeth, over 5 teeth", "mm", Gear(p).base_tangent_length(5) / units::mm, 42.0085, 0.05e-3,
+              "half of the last digit");
 }
 
 // Independent of the formula: W_k is the distance of two parallel tangent planes, that is the base tooth thickness
 // (external) or base space width (internal) and k - 1 base pitches, normal to the teeth on the base cylinder.
 BOOST_AUTO_TEST_CASE(base_tangent_length_agrees_with_the_tooth_on_the_base_circle) {
+  annulus::test::Verification record("Base tangent length of spur and helical, external and internal gears",
+                                     "distance of two tangent planes: base tooth thickness and base pitches");
   for (const auto& [kind, teeth, x] : {std::tuple{GearKind::external, 55, 0.7361}, {GearKind::internal, 162, 0.1516}}) {
     for (const double beta : {0.0, 18.0, -31.0}) {
       const Gear g(helical(paper_gear(kind, teeth, x), beta * units::deg));
       const double tooth = g.tooth_thickness(g.base_radius());
       const double width = kind == GearKind::external ? tooth : g.base_pitch() - tooth;
-      BOOST_TEST(g.base_tangent_length(4) == (width + 3 * g.base_pitch()) * std::cos(g.base_helix_angle()),
-                 boost::test_tools::tolerance(1e-13));  // rounding
+      record.close(std::to_string(teeth) + " teeth, over 4", "m", g.base_tangent_length(4),
+                   (width + 3 * g.base_pitch()) * std::cos(g.base_helix_angle()), 1e-13, "rounding");
     }
   }
 }
 
 BOOST_AUTO_TEST_CASE(normal_and_transverse_sections_of_helical_gears) {
+  annulus::test::Verification record("Normal and transverse section of helical gears", "ISO 21771");
   const auto rounding = boost::test_tools::tolerance(1e-14);
   const double m = 2 * units::mm;
   const double alpha = 20 * units::deg;
@@ -55,14 +66,15 @@ BOOST_AUTO_TEST_CASE(normal_and_transverse_sections_of_helical_gears) {
     for (const double beta : {12 * units::deg, -30 * units::deg}) {
       const Gear g(helical(plain_gear(kind, 60, x), beta));
       // What the two sections share, ISO 21771: the normal base pitch, the normal tooth thickness, the heights.
-      BOOST_TEST(std::sin(g.base_helix_angle()) == std::sin(beta) * std::cos(alpha), rounding);
+      record.close("sine of the base helix angle", "", std::sin(g.base_helix_angle()), std::sin(beta) * std::cos(alpha),
+                   1e-14, "rounding");
       BOOST_TEST(
           std::cos(g.base_helix_angle()) * std::cos(g.transverse_pressure_angle()) == std::cos(beta) * std::cos(alpha),
           rounding);
-      BOOST_TEST(g.base_pitch() * std::cos(g.base_helix_angle()) == std::numbers::pi * m * std::cos(alpha), rounding);
-      BOOST_TEST(g.tooth_thickness(g.reference_radius()) * std::cos(beta) ==
-                     m * (std::numbers::pi / 2 + sign * 2 * x * std::tan(alpha)),
-                 rounding);
+      record.close("normal base pitch", "m", g.base_pitch() * std::cos(g.base_helix_angle()),
+                   std::numbers::pi * m * std::cos(alpha), 1e-14, "rounding");
+      record.close("normal tooth thickness", "m", g.tooth_thickness(g.reference_radius()) * std::cos(beta),
+                   m * (std::numbers::pi / 2 + sign * 2 * x * std::tan(alpha)), 1e-14, "rounding");
       BOOST_TEST(g.reference_radius() == 60 * m / (2 * std::cos(beta)), rounding);
       BOOST_TEST(g.tip_radius() == g.reference_radius() + sign * m * (1 + sign * x), rounding);
       BOOST_TEST(g.root_radius() == g.reference_radius() - sign * m * (1.25 - sign * x), rounding);
@@ -76,20 +88,21 @@ BOOST_AUTO_TEST_CASE(normal_and_transverse_sections_of_helical_gears) {
 }
 
 BOOST_AUTO_TEST_CASE(derived_dimensions_follow_the_sign_rule) {
+  annulus::test::Verification record("Radii and tooth thickness of external and internal gears", "ISO 21771, by hand");
   const double rounding = 1e-14;
   const Gear external(plain_gear(GearKind::external, 30, 0.25));
-  BOOST_TEST(external.tip_radius() == 32.5 * units::mm, boost::test_tools::tolerance(rounding));
-  BOOST_TEST(external.root_radius() == 28.0 * units::mm, boost::test_tools::tolerance(rounding));
+  record.close("external: tip radius", "m", external.tip_radius(), 32.5 * units::mm, rounding, "rounding");
+  record.close("external: root radius", "m", external.root_radius(), 28.0 * units::mm, rounding, "rounding");
   const Gear internal(plain_gear(GearKind::internal, 80, 0.25));
-  BOOST_TEST(internal.tip_radius() == 78.5 * units::mm, boost::test_tools::tolerance(rounding));
-  BOOST_TEST(internal.root_radius() == 83.0 * units::mm, boost::test_tools::tolerance(rounding));
+  record.close("internal: tip radius", "m", internal.tip_radius(), 78.5 * units::mm, rounding, "rounding");
+  record.close("internal: root radius", "m", internal.root_radius(), 83.0 * units::mm, rounding, "rounding");
   // A positive shift makes the external tooth thicker and the internal one thinner by the same amount.
   const double half_pitch = std::numbers::pi * units::mm;
   const double gain = 2 * 0.25 * 2 * units::mm * std::tan(20 * units::deg);
-  BOOST_TEST(external.tooth_thickness(external.reference_radius()) == half_pitch + gain,
-             boost::test_tools::tolerance(rounding));
-  BOOST_TEST(internal.tooth_thickness(internal.reference_radius()) == half_pitch - gain,
-             boost::test_tools::tolerance(rounding));
+  record.close("external: tooth thickness", "m", external.tooth_thickness(external.reference_radius()),
+               half_pitch + gain, rounding, "rounding");
+  record.close("internal: tooth thickness", "m", internal.tooth_thickness(internal.reference_radius()),
+               half_pitch - gain, rounding, "rounding");
 }
 
 BOOST_AUTO_TEST_CASE(inverse_involute_inverts) {
@@ -223,6 +236,8 @@ double generated_gap(const RackTooth& rack, double pitch_radius, double helix_an
 // Flank, fillet and root of an external gear are exactly what the rolling rack leaves: it touches every point and cuts
 // into none.
 BOOST_AUTO_TEST_CASE(external_outline_is_the_envelope_of_the_rack) {
+  annulus::test::Verification record("Outline of generated external gears: fillet and flank",
+                                     "envelope of the rolling rack, searched numerically");
   for (const auto& [teeth, x, beta] : {std::tuple{19, 0.0, 0.0},
                                        {17, 0.6, 0.0},
                                        {40, -0.4, 0.0},
@@ -240,18 +255,20 @@ BOOST_AUTO_TEST_CASE(external_outline_is_the_envelope_of_the_rack) {
     for (int i = 0; i <= 20; ++i) {
       const double t = i / 20.0;
       const double gap = generated_gap(rack, g.reference_radius(), p.helix_angle, profile.fillet_point(t), space);
-      BOOST_TEST(std::abs(gap) < tolerance,
-                 "fillet " << teeth << " " << x << " " << beta << " t " << t << " gap " << gap);
+      const auto name = std::to_string(teeth) + " teeth";
+      record.near("gap between rack and fillet over module, " + name, "", gap / p.module, 0, tolerance / p.module,
+                  "minimum found by comparing values");
       const double roll = profile.roll_length_form() + t * (profile.roll_length_tip() - profile.roll_length_form());
       const double flank_gap =
           generated_gap(rack, g.reference_radius(), p.helix_angle, profile.flank_point(roll), space);
-      BOOST_TEST(std::abs(flank_gap) < tolerance,
-                 "flank " << teeth << " " << x << " " << beta << " t " << t << " gap " << flank_gap);
+      record.near("gap between rack and flank over module, " + name, "", flank_gap / p.module, 0, tolerance / p.module,
+                  "minimum found by comparing values");
     }
   }
 }
 
 BOOST_AUTO_TEST_CASE(internal_fillet_is_the_tangent_arc) {
+  annulus::test::Verification record("Fillet of an internal gear", "circle through three of its points");
   const auto p = plain_gear(GearKind::internal, 80, 0.2);
   const Gear g(p);
   const ToothProfile profile(g);
@@ -261,11 +278,12 @@ BOOST_AUTO_TEST_CASE(internal_fillet_is_the_tangent_arc) {
   const Eigen::Vector2d c = profile.fillet_point(1);
   const double twice_area = std::abs((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x());
   const double radius = (b - a).norm() * (c - b).norm() * (a - c).norm() / (2 * twice_area);
-  BOOST_TEST(radius == p.root_fillet_factor * p.module, boost::test_tools::tolerance(1e-11));  // differences of 1e-3
+  record.close("radius", "m", radius, p.root_fillet_factor * p.module, 1e-11, "rounding, differences of 1e-3");
 }
 
 // Both kinds: the fillet starts on the involute with its tangent and ends on the root circle with its tangent.
 BOOST_AUTO_TEST_CASE(fillets_join_smoothly) {
+  annulus::test::Verification record("Fillets between involute and root circle", "common point and common tangent");
   auto full = plain_gear(GearKind::external, 30, 0.1);
   full.root_fillet_factor = 2;  // limited to the full root rounding
   auto full_internal = plain_gear(GearKind::internal, 80, 0.1);
@@ -276,10 +294,14 @@ BOOST_AUTO_TEST_CASE(fillets_join_smoothly) {
     const ToothProfile profile(g);
     const double form = profile.roll_length_form();
     const double rounding = 1e-13 * g.tip_radius();
-    BOOST_TEST((profile.fillet_point(0) - profile.flank_point(form)).norm() < rounding);
-    BOOST_TEST(std::abs(profile.fillet_tangent(0).dot(profile.flank_normal(form))) < 1e-12);
-    BOOST_TEST(std::abs(profile.fillet_point(1).norm() - g.root_radius()) < rounding);
-    BOOST_TEST(std::abs(profile.fillet_tangent(1).dot(profile.fillet_point(1).normalized())) < 1e-12);
+    record.at_most("distance from the involute's end", "m",
+                   (profile.fillet_point(0) - profile.flank_point(form)).norm(), rounding, "rounding");
+    record.near("fillet's tangent against the involute's normal", "",
+                profile.fillet_tangent(0).dot(profile.flank_normal(form)), 0, 1e-12, "rounding");
+    record.near("end of the fillet less root radius", "m", profile.fillet_point(1).norm() - g.root_radius(), 0,
+                rounding, "rounding");
+    record.near("fillet's tangent against the root circle's normal", "",
+                profile.fillet_tangent(1).dot(profile.fillet_point(1).normalized()), 0, 1e-12, "rounding");
     BOOST_TEST(std::abs(g.form_radius() - profile.fillet_point(0).norm()) < rounding);
     // Half the root land stays 0.02 modules wide on the rack, a little less on the smaller root circle.
     const Eigen::Vector2d end = profile.fillet_point(1);

@@ -6,6 +6,7 @@
 
 #include "gears.h"
 #include "geometry/profile.h"
+#include "tests/verification_record.h"
 
 namespace annulus::geometry::test {
 
@@ -171,6 +172,8 @@ struct Placed {
 // turns counter-clockwise, planet 0 sits at the angle 0, and at time 0 a leading flank of the sun stands at its pitch
 // point.
 BOOST_AUTO_TEST_CASE(lags_agree_with_flank_curves_placed_in_the_carrier_frame) {
+  annulus::test::Verification record("Phases of the meshes of all planets",
+                                     "flank curves of all gears placed in the carrier frame, passing times searched");
   for (const auto& c : phasing_cases()) {
     const PlanetarySet set = c.set();
     const double a = c.centre_distance;
@@ -187,7 +190,8 @@ BOOST_AUTO_TEST_CASE(lags_agree_with_flank_curves_placed_in_the_carrier_frame) {
       // Times are found to the rounding of angles, 1e-15 rad of some 0.1 rad per tooth.
       const double tolerance = 1e-11;
       const double sun_time = sun.passing_time(1, sun_point);
-      BOOST_TEST(cycle_distance(sun_time, set.sun_phase_lag(n)) < tolerance);
+      record.at_most("lag of a sun mesh, difference", "mesh cycles", cycle_distance(sun_time, set.sun_phase_lag(n)),
+                     tolerance, "rounding of angles");
 
       // Turn the planet until one of its flanks meets the sun's flank there. Of its two flanks only the leading one has
       // the opposite normal: that is tangency, the other would be a crossing.
@@ -205,7 +209,8 @@ BOOST_AUTO_TEST_CASE(lags_agree_with_flank_curves_placed_in_the_carrier_frame) {
       BOOST_TEST((normal(sun, sun_point, 1) + normal(planet, sun_point, -1)).norm() > 0.1);
 
       const double ring_time = planet.passing_time(-1, ring_point);
-      BOOST_TEST(cycle_distance(ring_time, set.ring_phase_lag(n)) < tolerance);
+      record.at_most("lag of a ring mesh, difference", "mesh cycles", cycle_distance(ring_time, set.ring_phase_lag(n)),
+                     tolerance, "rounding of angles");
       // Planet 0 places the ring; the other planets have to find one of its leading flanks at their time.
       if (n == 0) ring.start = ring.flank_distance(1, ring_time, ring_point) / ring_pitch;
       BOOST_TEST(std::abs(ring.flank_distance(1, ring_time, ring_point)) < 1e-12);
@@ -216,12 +221,18 @@ BOOST_AUTO_TEST_CASE(lags_agree_with_flank_curves_placed_in_the_carrier_frame) {
 
 // Parker and Lin 2004, planets turning clockwise: gamma_sn = z_s phi_n / 2 pi, gamma_rn = -z_r phi_n / 2 pi.
 BOOST_AUTO_TEST_CASE(lags_agree_with_parker_and_lin) {
+  annulus::test::Verification record(
+      "Phases of the meshes of all planets",
+      "Parker and Lin, J. Mech. Des. 126 (2004): z_s phi_n / 2 pi and -z_r phi_n / 2 pi");
   for (const auto& c : phasing_cases()) {
     const PlanetarySet set = c.set();
     for (int n = 0; n < c.planets; ++n) {
       const double turn = set.planet_angle(n) / (2 * pi);
-      BOOST_TEST(cycle_distance(set.sun_phase_lag(n), c.sun.teeth() * turn) < 1e-12);
-      BOOST_TEST(cycle_distance(set.ring_phase_lag(n) - set.ring_phase_lag(0), -c.ring.teeth() * turn) < 1e-12);
+      record.at_most("lag of a sun mesh, difference", "mesh cycles",
+                     cycle_distance(set.sun_phase_lag(n), c.sun.teeth() * turn), 1e-12, "rounding");
+      record.at_most("lag of a ring mesh, difference", "mesh cycles",
+                     cycle_distance(set.ring_phase_lag(n) - set.ring_phase_lag(0), -c.ring.teeth() * turn), 1e-12,
+                     "rounding");
       BOOST_TEST(set.sun_phase_lag(n) >= 0);
       BOOST_TEST(set.sun_phase_lag(n) < 1);
       BOOST_TEST(set.ring_phase_lag(n) >= 0);
@@ -232,11 +243,14 @@ BOOST_AUTO_TEST_CASE(lags_agree_with_parker_and_lin) {
 
 // Without profile shift the planet's tooth is half a pitch thick: gamma_rs is 0 for odd and 1/2 for even planets.
 BOOST_AUTO_TEST_CASE(lag_between_sun_and_ring_mesh_of_standard_gears) {
+  annulus::test::Verification record(
+      "Lag between sun and ring mesh of standard gears",
+      "Parker and Lin 2004: 0 for planets with an odd number of teeth, 1/2 for an even one");
   const auto cases = phasing_cases();
   const PlanetarySet odd(cases[1].sun, cases[1].planet, cases[1].ring, cases[1].centre_distance, 5);
   const PlanetarySet even(cases[2].sun, cases[2].planet, cases[2].ring, cases[2].centre_distance, 4);
-  BOOST_TEST(cycle_distance(odd.ring_phase_lag(0), 0) < 1e-12);
-  BOOST_TEST(cycle_distance(even.ring_phase_lag(0), 0.5) < 1e-12);
+  record.at_most("odd: difference", "mesh cycles", cycle_distance(odd.ring_phase_lag(0), 0), 1e-12, "rounding");
+  record.at_most("even: difference", "mesh cycles", cycle_distance(even.ring_phase_lag(0), 0.5), 1e-12, "rounding");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

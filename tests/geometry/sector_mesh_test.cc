@@ -10,6 +10,7 @@
 #include <random>
 
 #include "gears.h"
+#include "tests/verification_record.h"
 
 namespace annulus::geometry::test {
 
@@ -176,11 +177,14 @@ BOOST_AUTO_TEST_CASE(no_bad_cells_over_the_range_of_legal_geometry) {
       worst_case = label;
     }
   }
+  annulus::test::Verification record("Cells of 240 random legal gears and rims", "bound on the scaled Jacobian");
   BOOST_TEST_MESSAGE("worst scaled Jacobian of " << legal << " sectors: " << worst << " (" << worst_case << ")");
-  BOOST_TEST(worst > 0.3);  // the usual limit for a well-conditioned quadrilateral
+  record.at_least("worst scaled Jacobian", "", worst, 0.3, "the usual limit for a well-conditioned quadrilateral");
 }
 
 BOOST_AUTO_TEST_CASE(area_converges_to_the_exact_area_with_second_order) {
+  annulus::test::Verification record("Area of the mesh of a tooth sector",
+                                     "exact area of the outline, integrated along its curves");
   for (const Gear& gear : {paper_planet(), paper_ring()}) {
     const double support = gear.kind() == GearKind::external ? 86 * units::mm : 331.8 * units::mm;
     const double exact = exact_area(gear, support);
@@ -196,8 +200,13 @@ BOOST_AUTO_TEST_CASE(area_converges_to_the_exact_area_with_second_order) {
       errors.push_back(std::abs(mesh.area_or_volume() / exact - 1));
     }
     BOOST_TEST_MESSAGE("relative area errors " << errors[0] << " " << errors[1] << " " << errors[2]);
-    BOOST_TEST(std::log2(errors[1] / errors[2]) > 1.8);  // 0.9 of the order 2 of chords
-    BOOST_TEST(errors[2] < 1e-4);
+    const auto* name = gear.kind() == GearKind::external ? "planet" : "ring";
+    record.at_least(std::string("order of convergence, ") + name, "", std::log2(errors[1] / errors[2]), 1.8,
+                    "0.9 of the order 2 of chords");
+    record.at_most(std::string("relative error of the finest mesh, ") + name, "", errors[2], 1e-4,
+                   "ceiling beside the rate");
+    record.convergence("Error of the area; dashed: order 2", "size of a cell, relative", "relative error", name,
+                       {1, 0.5, 0.25}, errors, 2);
   }
 }
 
