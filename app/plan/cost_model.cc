@@ -127,7 +127,7 @@ struct LogFit {
 };
 
 constexpr double free_factor = 3;  // in the logarithm
-constexpr double usual_support_ms = 3;
+constexpr double usual_support_ms = 0.2;
 
 using Runs = std::vector<const CostRun*>;
 
