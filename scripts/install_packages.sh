@@ -5,7 +5,7 @@
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build pkg-config help2man dpkg-dev
+  g++ cmake ninja-build pkg-config help2man dpkg-dev file
   libdeal.ii-dev libgmsh-dev libeigen3-dev libsundials-dev libsuitesparse-dev libfftw3-dev libtbb-dev libpagmo-dev
   libboost-dev libboost-test-dev
   libopenblas-dev libopenblas0-pthread
