@@ -173,25 +173,31 @@ BOOST_AUTO_TEST_CASE(unequal_spacing_mixes_the_kinds) {
 // Vib. 233 (2000): planet modes take no notice of where the planets stand; with planets in opposite pairs rotational
 // modes do not either, and modes that only translate remain, no longer in pairs.
 BOOST_AUTO_TEST_CASE(what_unequal_spacing_leaves_alone) {
-  constexpr double rounding = 1e-9;  // as above
-  const auto same = [&](const std::vector<double>& a, const std::vector<double>& b) {
+  annulus::test::Verification record(
+      "Modes of unequally spaced planets that those of equally spaced ones share",
+      "Lin and Parker, Structured vibration characteristics of planetary gears with unequally spaced planets, J. Sound "
+      "Vib. 233 (2000)");
+  const auto same = [&](const std::string& name, const std::vector<double>& a, const std::vector<double>& b) {
     BOOST_TEST_REQUIRE(a.size() == b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) BOOST_TEST(std::abs(a[i] - b[i]) <= rounding * b[i]);
+    for (std::size_t i = 0; i < a.size(); ++i) record.near(name, "Hz", a[i], b[i], 1e-9 * b[i], "rounding");
   };
   auto five = stages::lin_parker(5);
   const auto equal_five = annulus::dynamics::modes(five);
   five.planet_angles = {0, 1.1, 2.7, 3.9, 5.1};
   const auto unequal_five = annulus::dynamics::modes(five);
   BOOST_TEST(frequencies(unequal_five, ModeKind::planet).size() == 6U);
-  same(frequencies(unequal_five, ModeKind::planet), frequencies(equal_five, ModeKind::planet));
+  same("planet modes, five planets anywhere", frequencies(unequal_five, ModeKind::planet),
+       frequencies(equal_five, ModeKind::planet));
   BOOST_TEST(frequencies(unequal_five, ModeKind::translational).empty());
 
   auto four = stages::lin_parker(4);
   const auto equal_four = annulus::dynamics::modes(four);
   four.planet_angles = {0, 1.2, std::numbers::pi, std::numbers::pi + 1.2};
   const auto opposite = annulus::dynamics::modes(four);
-  same(frequencies(opposite, ModeKind::planet), frequencies(equal_four, ModeKind::planet));
-  same(frequencies(opposite, ModeKind::rotational), frequencies(equal_four, ModeKind::rotational));
+  same("planet modes, two opposite pairs", frequencies(opposite, ModeKind::planet),
+       frequencies(equal_four, ModeKind::planet));
+  same("rotational modes, two opposite pairs", frequencies(opposite, ModeKind::rotational),
+       frequencies(equal_four, ModeKind::rotational));
   const auto translational = frequencies(opposite, ModeKind::translational);
   BOOST_TEST(translational.size() == 12U);
   for (std::size_t i = 0; i < translational.size(); i += 2)
