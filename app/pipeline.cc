@@ -34,20 +34,15 @@ std::vector<geometry::PointData> point_data(const fem::BodyField& field) {
 
 void write_meshes(const MeshModel& model, const fem::LoadedMeshResult& solved, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  const std::string wheel = model.mesh == sun_planet ? "_sun" : model.mesh == pinion_wheel ? "_wheel" : "_ring";
-  for (const auto& [mesh, name] :
-       {std::pair{&solved.planet_sector, model.mesh + (model.mesh == pinion_wheel ? "_pinion" : "_planet")},
-        {&solved.wheel_sector, model.mesh + wheel}}) {
+  const auto name_of = [&](bool planet) { return model.mesh + "_" + model.body_name(planet); };
+  for (const auto& [mesh, planet] : {std::pair{&solved.planet_sector, true}, {&solved.wheel_sector, false}}) {
     if (mesh->cells.empty()) continue;  // a closed form meshes nothing
+    const auto name = name_of(planet);
     geometry::write_msh(*mesh, folder / (name + ".msh"));
     geometry::write_vtu(*mesh, folder / (name + ".vtu"));
   }
-  for (const auto& field : solved.fields) {
-    const bool planet = field.body == "planet";
-    const auto name =
-        model.mesh + (planet ? (model.mesh == pinion_wheel ? "_pinion" : "_planet") : wheel) + "_field.vtu";
-    geometry::write_vtu(field.mesh, folder / name, point_data(field));
-  }
+  for (const auto& field : solved.fields)
+    geometry::write_vtu(field.mesh, folder / (name_of(field.body == "planet") + "_field.vtu"), point_data(field));
 }
 
 /// The sun mesh belongs to all rings: one added later gets its files from the others.

@@ -282,6 +282,11 @@ std::string MeshModel::label() const {
   return ring.empty() ? "sun-planet mesh" : fmt::format("ring-planet mesh of '{}'", ring);
 }
 
+const char* MeshModel::body_name(bool planet) const {
+  if (mesh == pinion_wheel) return planet ? "pinion" : "wheel";
+  return planet ? "planet" : mesh == sun_planet ? "sun" : "ring";
+}
+
 fem::RingStructure ring_structure(const RingInput& ring) {
   switch (ring.structure) {
     case Structure::traditional:

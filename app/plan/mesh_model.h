@@ -50,6 +50,8 @@ struct MeshModel {
   [[nodiscard]] std::string id() const;
   /// For messages: "sun-planet mesh", "planet mesh of ring 'pinned'".
   [[nodiscard]] std::string label() const;
+  /// "planet" or "pinion"; its counterpart "sun", "ring" or "wheel".
+  [[nodiscard]] const char* body_name(bool planet) const;
 };
 
 /// What holds a ring, as its elastic body knows it.

@@ -225,7 +225,7 @@ double exaggeration_of(const View& view) {
 
 }  // namespace
 
-std::string field_view(const fem::BodyField& field, const fem::LoadedPosition& position) {
+std::string field_view(const fem::BodyField& field, const fem::LoadedPosition& position, const std::string& name) {
   if (field.mesh.cells.empty()) return {};
   const View view = near_contact(field);
   const bool solid = field.mesh.dimension == 3;
@@ -238,7 +238,6 @@ std::string field_view(const fem::BodyField& field, const fem::LoadedPosition& p
   }
   const auto axes = camera(solid, contact_radius < mean_radius);
   const double exaggeration = exaggeration_of(view), top = colour_top(view);
-  const std::string name = field.body == "planet" ? "planet" : "wheel";
   std::string bar;
   for (int level = 0; level < colour_levels; level += 4) bar += (level == 0 ? "" : ",") + level_colour(level);
   return fmt::format(

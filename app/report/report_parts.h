@@ -68,9 +68,12 @@ inline constexpr double shown_cycles = 110;
 [[nodiscard]] std::string model_section(const Plan& plan);
 [[nodiscard]] std::string inputs_section(const Plan& plan);
 [[nodiscard]] std::string quality_section(const RunResult& result);  ///< invariants, timings, versions
+// report_fields.cc: deformation and stress; empty where nothing was solved
+[[nodiscard]] std::string fields_section(const RunResult& result);
+/// Of meshes with their titles; those that are null or were given have none.
+[[nodiscard]] std::string fields_section(const std::vector<std::pair<std::string, const MeshResult*>>& meshes);
 // report_stiffness.cc
 [[nodiscard]] std::string meshes_section(const RunResult& result);
-[[nodiscard]] std::string fields_section(const RunResult& result);           ///< empty where nothing was solved
 [[nodiscard]] std::string stiffness_section(const RunResult& result);        ///< transmission error, stiffness, shares
 [[nodiscard]] std::string stiffness_error_section(const RunResult& result);  ///< their errors by cause
 // report_supports.cc

@@ -214,24 +214,6 @@ std::string meshes_section(const RunResult& result) {
   return "<h2 id=\"meshes\">Meshes</h2>\n<figure class=\"meshes\"><div class=\"row\">" + cells + "</div></figure>\n";
 }
 
-std::string fields_section(const RunResult& result) {
-  std::string text;
-  const auto add = [&](const std::string& title, const MeshResult& mesh) {
-    if (mesh.fields.empty()) return;
-    text += "<h3>" + escape(title) + "</h3>\n<figure class=\"fields\"><div class=\"row\">" + mesh.fields +
-            "</div></figure>\n";
-  };
-  for (const auto& ring : result.rings) add("Ring mesh, " + ring.name, ring.mesh);
-  add("Sun mesh", result.sun_mesh);
-  if (text.empty()) return "";
-  const std::string head =
-      "<h2 id=\"fields\">Deformation and stress</h2>\n<p>Planet and wheel near the contact, where the wheel's root is "
-      "stressed most, one planet alone at the nominal load. Displacements are exaggerated; those of the planet are "
-      "relative to its hub. Grey: the outline without load. The <code>_field.vtu</code> files hold more teeth, for "
-      "ParaView.</p>\n";
-  return head + text;
-}
-
 std::string stiffness_section(const RunResult& result) {
   std::string text =
       "<h2 id=\"stiffness\">Transmission error and stiffness</h2>\n<h3>Loaded transmission error of the ring "

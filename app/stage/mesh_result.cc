@@ -180,7 +180,8 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
                     .facts = facts_of(solved),
                     .nominal = model.nominal_load()};
   if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.ring);
-  for (const auto& field : solved.fields) result.fields += field_view(field, solved.positions[field.position]);
+  for (const auto& field : solved.fields)
+    result.fields += field_view(field, solved.positions[field.position], model.body_name(field.body == "planet"));
   if (result.table.mesh() != model.mesh) result.table = renamed(result.table, model.mesh);
   result.table.provenance = {{"annulus_version", version()}, {"inputs_id", model.id()}, {"rung", model.rung}};
   return result;

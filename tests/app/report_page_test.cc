@@ -7,6 +7,7 @@
 #include "app/report/report_files.h"
 #include "core/files.h"
 #include "tests/app/made_up_solution.h"
+#include "tests/app/pair_scenes.h"
 #include "tests/app/run_program.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
@@ -114,6 +115,18 @@ BOOST_AUTO_TEST_CASE(deformed_bodies_can_be_turned) {
     BOOST_TEST(std::stoi(test::text_of(folder.path() / "vtu.txt")) > 1000);
   }
   BOOST_TEST(fields == 4);
+}
+
+BOOST_AUTO_TEST_CASE(deformed_pairs_can_be_turned) {
+  const test::TemporaryFolder folder("report_page_pair_fields");
+  write_file(folder.path() / "scene.toml", test::solved_pair());
+  const auto outcome = test::run_program(folder.path(), "solve scene.toml -o out --threads 2");
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  const auto page = test::text_of(folder.path() / "out" / "report.html");
+  for (const char* name : {"Deformed pinion", "Deformed wheel"}) BOOST_TEST(page.find(name) != std::string::npos, name);
+  const auto used = used_in_browser(folder.path(), page);
+  BOOST_TEST(used["bodies"].get<int>() == 2);
+  for (const char* what : {"shown", "turned", "undeformed"}) BOOST_TEST(used[what].get<int>() == 2, what);
 }
 
 BOOST_AUTO_TEST_CASE(what_a_scene_says_stays_text) {
