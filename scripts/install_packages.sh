@@ -16,7 +16,7 @@ if [ "${1:-}" = --tests ]; then
   packages+=(
     calculix-ccx octave    # what benchmarks compare with
     python3-h5py chromium  # what reads exports and reports
-    clang libclang-rt-dev clang-format clang-tidy valgrind  # sanitizers, fuzzing, analysis
+    clang libclang-rt-dev libomp-dev clang-format clang-tidy valgrind  # sanitizers, fuzzing, analysis
   )
 fi
 
