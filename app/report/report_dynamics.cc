@@ -91,7 +91,7 @@ dynamics::Spectrum spectrum_of(const RingResult& ring, const std::string& branch
 /// "1 − 0.018": an order read as a sideband.
 std::string order_text(const dynamics::SpectralLine& line) {
   if (std::abs(line.sideband) < 1e-9) return fmt::format("{}", line.harmonic);
-  const auto distance = fmt::format("{:.3g}", std::abs(line.sideband));
+  auto distance = fmt::format("{:.3g}", std::abs(line.sideband));
   if (line.harmonic == 0) return distance;
   return fmt::format("{} {} {}", line.harmonic, line.sideband < 0 ? "−" : "+", distance);
 }

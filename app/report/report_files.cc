@@ -72,7 +72,7 @@ std::vector<Picture> pictures_of(const std::string& page) {
   std::vector<Picture> pictures;
   std::string section;
   std::size_t at = 0, heading_at = page.find(heading);
-  for (std::size_t begin; (begin = page.find(opening, at)) != std::string::npos;) {
+  for (std::size_t begin = 0; (begin = page.find(opening, at)) != std::string::npos;) {
     for (; heading_at < begin; heading_at = page.find(heading, heading_at + 1))
       section = between(page, heading, heading_at, begin);
     at = end_of_svg(page, begin);

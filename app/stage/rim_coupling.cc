@@ -37,6 +37,7 @@ std::vector<double> places_on_ring(const GearGeometry& geometry, const RingInput
   const auto found = std::find_if(geometry.rings.begin(), geometry.rings.end(),
                                   [&](const auto& candidate) { return candidate.name == ring.name; });
   std::vector<double> places;
+  places.reserve(static_cast<std::size_t>(found->set.planets()));
   for (int n = 0; n < found->set.planets(); ++n) places.push_back(found->set.ring_teeth_ahead(n));
   return places;
 }
