@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string_view>
@@ -132,5 +133,16 @@ std::string Csv::column_names() const {
   for (std::size_t i = 0; i < std::min(columns.size(), most); ++i) names += (i ? ", " : "") + shown(columns[i]);
   return names;
 }
+
+std::string csv_cell(const std::string& text) {
+  std::string cell;
+  for (const char c : text) {
+    if (c == '"') cell += '"';
+    cell += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return text.find_first_of(",\"") == std::string::npos ? cell : '"' + cell + '"';
+}
+
+std::string csv_cell(double number) { return std::isfinite(number) ? fmt::format("{:.17g}", number) : ""; }
 
 }  // namespace annulus

@@ -24,4 +24,9 @@ struct Csv {
   [[nodiscard]] std::string column_names() const;
 };
 
+/// A cell of a table with text in it, quoted where it has to be (RFC 4180); line ends become blanks.
+[[nodiscard]] std::string csv_cell(const std::string& text);
+/// 17 significant digits; nothing for what is not finite.
+[[nodiscard]] std::string csv_cell(double number);
+
 }  // namespace annulus

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <chrono>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 #include <vector>
 
@@ -53,6 +54,16 @@ void UnfinishedFile::finish() {
 }
 
 bool is_unfinished(const std::filesystem::path& file) { return writer_of(file) != 0; }
+
+std::string read_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InputError(fmt::format("cannot read {}", file.string()));
+  try {
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  } catch (const std::ios_base::failure& error) {  // folders can be opened, but not read
+    throw InputError(fmt::format("cannot read {}: {}", file.string(), error.what()));
+  }
+}
 
 void write_file(const std::filesystem::path& file, const std::string& text) {
   UnfinishedFile unfinished(file);

@@ -30,6 +30,9 @@ class UnfinishedFile {
 /// Writes `text` as a whole or not at all. Throws InputError naming the file when that is not possible.
 void write_file(const std::filesystem::path& file, const std::string& text);
 
+/// The whole file, byte by byte. Throws InputError naming the file when it cannot be read.
+[[nodiscard]] std::string read_file(const std::filesystem::path& file);
+
 /// Removes what killed processes left unfinished in `folder` and below: files of none that still runs here, untouched
 /// for ten minutes (another machine may be at work in the same folder).
 void remove_unfinished_files(const std::filesystem::path& folder);

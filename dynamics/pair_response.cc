@@ -213,7 +213,7 @@ PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& opt
                       evidence.motion(rows.relative, &WindowPeaks::relative_high, &WindowPeaks::relative_low)};
   response.quasi_static = quasi_static_motions(pair, system, options);
 
-  static_cast<SteadyOutcome&>(response) = static_cast<const SteadyOutcome&>(found);
+  static_cast<SteadyOutcome&>(response) = found.outcome();
   if (options.keep_series) response.series = series_of(system, std::move(found.best));
   return response;
 }

@@ -48,7 +48,7 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
                               .stiffness = mean_stiffness(stage.sun_mesh),
                               .start = options.start};
   auto found = steady_response(system, problem, options);
-  static_cast<SteadyOutcome&>(response) = static_cast<const SteadyOutcome&>(found);
+  static_cast<SteadyOutcome&>(response) = found.outcome();
   response.cycle_force = cycle_means(averaging_force(found.best), found.window_cycles);
   response.force_balance_relative =
       force_balance(stage, system, found.best, found.begin, found.end, found.window_cycles);

@@ -16,8 +16,7 @@ namespace annulus::dynamics {
 /// How the periodic steady state is looked for.
 enum class SteadyState {
   /// Exactly where stiffnesses are constant between jumps and no mesh separates, otherwise by harmonic balance;
-  /// marching
-  /// over one window confirms it, or goes on where it does not.
+  /// marching over one window confirms it, or goes on where it does not.
   direct,
   marching,  ///< by time integration from quasi-static equilibrium until windows repeat
 };
@@ -128,6 +127,8 @@ struct SteadyOutcome {
 
 /// The steady state of a system, and the windows that tell how well it is known.
 struct SteadyResponse : SteadyOutcome {
+  [[nodiscard]] const SteadyOutcome& outcome() const { return *this; }
+
   ResponseWindow best;
   /// What `best` should equal: the harmonic balance, with half the samples where nothing was integrated (forces alone),
   /// or the window before. Absent when there is none to compare with.

@@ -9,7 +9,6 @@ namespace annulus::app {
 
 /// A figure of merit that runs of one kind have in common.
 struct ComparedFigure {
-  enum class Error { none, absolute, relative };
   std::string key;     ///< "ring_stiffness"; several figures may be definitions of the same thing
   std::string name;    ///< for people: "mean stiffness of the ring mesh"
   std::string unit{};  ///< for people

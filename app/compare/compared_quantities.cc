@@ -1,8 +1,8 @@
+#include "app/compare/compared_quantities.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
-
-#include "app/compare/comparison_page.h"
 
 namespace annulus::app {
 
@@ -49,14 +49,12 @@ std::vector<std::string> difference_texts(const ComparedQuantity& compared) {
 }
 
 std::vector<DifferingInput> differing_inputs(const std::vector<ComparedRun>& runs) {
-  std::vector<const ComparedVariant*> variants;
   std::set<std::string> keys;
-  for (const auto& run : runs)
-    for (const auto& variant : run.variants) {
-      variants.push_back(&variant);
-      if (!run.inputs_known) continue;
+  for (const auto& run : runs) {
+    if (!run.inputs_known) continue;
+    for (const auto& variant : run.variants)
       for (const auto& [key, value] : variant.inputs) keys.insert(key);
-    }
+  }
   std::vector<DifferingInput> list;
   for (const auto& key : keys) {
     DifferingInput input{key, {}};

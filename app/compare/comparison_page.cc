@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/compare/compared_quantities.h"
 #include "app/content_id.h"
 #include "app/report/report_parts.h"
 
@@ -93,8 +94,7 @@ std::string cost_part(const std::vector<ComparedRun>& runs) {
     table.rows.push_back(std::move(row));
   }
   return "<h2 id=\"cost\">Time and memory</h2>\n<p>Wall time of the last run of each scene; results that were read "
-         "back "
-         "from an earlier run cost none.</p>\n" +
+         "back from an earlier run cost none.</p>\n" +
          html(table);
 }
 

@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "app/compare/compared_quantities.h"
 #include "app/compare/comparison_page.h"
 #include "app/content_id.h"
 #include "app/report/report_parts.h"
+#include "core/csv.h"
 
 namespace annulus::app {
 
@@ -24,16 +25,6 @@ std::string column(const std::string& text, std::size_t width) {
       static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
   return text + std::string(characters < width ? width - characters : 1, ' ');
 }
-
-/// A cell of a CSV file (RFC 4180).
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
-std::string csv_number(double x) { return std::isfinite(x) ? fmt::format("{:.17g}", x) : ""; }
 
 }  // namespace
 
@@ -90,8 +81,8 @@ std::string comparison_csv(const std::vector<ComparedRun>& runs) {
     for (const auto& m : quantity.rings) {
       const bool other = &m != &first;
       text += csv_cell(compared.figure.name) + "," + compared.figure.unit + "," + csv_cell(m.ring) + "," +
-              csv_number(m.value) + "," + csv_number(m.error) + "," + (other ? csv_number(m.value - first.value) : "") +
-              "," + (other ? csv_number(m.error + first.error) : "") + "," +
+              csv_cell(m.value) + "," + csv_cell(m.error) + "," + (other ? csv_cell(m.value - first.value) : "") + "," +
+              (other ? csv_cell(m.error + first.error) : "") + "," +
               (other ? csv_cell(difference_text(first, m, quantity.digits)) : "") + "\n";
     }
   }

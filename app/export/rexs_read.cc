@@ -2,9 +2,11 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <boost/locale/utf.hpp>
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <pugixml.hpp>
 #include <set>
 
@@ -12,6 +14,7 @@
 #include "app/scene/scene_limits.h"
 #include "app/scene/scene_schema.h"
 #include "core/errors.h"
+#include "core/files.h"
 
 namespace annulus::app {
 
@@ -29,12 +32,25 @@ struct StageRelation {
   int planetary = 0, stage = 0, first = 0, second = 0;
 };
 
+/// Where a text stops being UTF-8.
+std::optional<std::size_t> not_utf8(const std::string& text) {
+  namespace utf = boost::locale::utf;
+  for (auto at = text.begin(); at != text.end();) {
+    const auto character = at;
+    if (!utf::is_valid_codepoint(utf::utf_traits<char>::decode(at, text.end()))) return character - text.begin();
+  }
+  return std::nullopt;
+}
+
 /// A file with its components by number.
 class RexsFile {
  public:
   explicit RexsFile(const std::filesystem::path& file) : file_(file.string()) {
-    const auto result = document_.load_file(file.c_str());
+    const std::string text = read_file(file);
+    const auto result = document_.load_buffer(text.data(), text.size());
     if (!result) throw refusal(fmt::format("cannot be read as XML: {} (byte {})", result.description(), result.offset));
+    if (const auto at = result.encoding == pugi::encoding_utf8 ? not_utf8(text) : std::nullopt)
+      throw refusal(fmt::format("is not UTF-8 (byte {}) and declares no other encoding", *at));
     const auto model = document_.child("model");
     if (!model) throw refusal("has no element 'model'; is it a REXS file?");
     if (const std::string version = model.attribute("version").value(); !version.starts_with("1."))

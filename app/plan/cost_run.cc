@@ -5,8 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 #include "core/errors.h"
@@ -121,10 +119,9 @@ std::filesystem::path user_costs_file() {
 }
 
 std::vector<CostRun> read_user_costs(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (file.empty() || !in) return {};
+  if (file.empty() || !std::filesystem::exists(file)) return {};
   try {
-    return parse_cost_runs({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()}, file.string());
+    return parse_cost_runs(read_file(file), file.string());
   } catch (const std::exception& error) {
     log::debug(fmt::format("{}; the list is not used", error.what()));
     return {};

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <vector>
 
 #include "core/errors.h"
@@ -16,12 +14,6 @@
 namespace annulus::app {
 
 namespace {
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 /// "Mean mesh stiffness, N/mm" -> "mean_mesh_stiffness_n_mm"
 std::string slug(const std::string& title) {
@@ -98,7 +90,7 @@ std::string page_scripts(const std::string& page) {
     std::string text;
     bool there = true;
     for (const char* file : part.libraries) {
-      const std::string library = text_of(file);
+      const std::string library = std::filesystem::exists(file) ? read_file(file) : "";
       if (library.empty())
         log::warn(
             fmt::format("pictures of the report stay pictures: {} is not installed (Debian: {})", file, part.package));

@@ -155,9 +155,8 @@ std::vector<Table> declare_tables() {
   stage
       .key("planet_angles_deg", &StageInput::planet_angles,
            "Places of the planets, one per planet, counter-clockwise from the first, which stands at 0; two decimals "
-           "are "
-           "enough. A planet fits between the teeth of sun and ring every 360° / (teeth of the sun + teeth of the "
-           "ring).")
+           "are enough. A planet fits between the teeth of sun and ring every 360° / (teeth of the sun + teeth of "
+           "the ring).")
       .from(0, 360)
       .only(planetary)
       .absent("equally spaced");

@@ -1,12 +1,11 @@
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
 #include "app/content_id.h"
 #include "app/scene/scene_files.h"
 #include "app/stage/mesh_result.h"
 #include "core/errors.h"
+#include "core/files.h"
 
 namespace annulus::app {
 
@@ -28,11 +27,6 @@ std::vector<std::pair<std::string, std::string>> without_stamp(
       own.push_back(line);
   }
   return own;
-}
-
-std::string file_text(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 std::size_t nearest_load(const StiffnessTable& table, double load) {
@@ -120,8 +114,8 @@ std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::pa
       csv.header = without_stamp(csv.header);
       result.*member = std::move(csv);
     }
-    if (std::filesystem::exists(picture_file)) result.picture = file_text(picture_file);
-    if (std::filesystem::exists(fields_file)) result.fields = file_text(fields_file);
+    if (std::filesystem::exists(picture_file)) result.picture = read_file(picture_file);
+    if (std::filesystem::exists(fields_file)) result.fields = read_file(fields_file);
     return result;
   } catch (const std::exception&) {
     return std::nullopt;  // damaged or from another version: solved again and overwritten

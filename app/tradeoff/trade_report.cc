@@ -10,6 +10,7 @@
 #include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 #include "app/scene/overrides.h"
+#include "core/csv.h"
 #include "core/files.h"
 
 namespace annulus::app {
@@ -24,16 +25,6 @@ const char* part_title(TradePart part) { return part == TradePart::mesh ? "Stiff
 std::string percent(double share) { return to_text(100 * share, 2) + " %"; }
 
 std::string setting_text(const TradePoint& p) { return p.rung + ", " + p.settings; }
-
-/// Fields with commas or quotes stand in quotes (RFC 4180).
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c == '\n' ? ' ' : c);
-  return out + '"';
-}
-
-std::string csv_number(double x) { return std::isfinite(x) ? fmt::format("{:.17g}", x) : ""; }
 
 /// "For 1 %: plane, degree 2, level 1, 0.3 s, 240 MB (worst: ...)".
 std::string cheapest_text(const RingTrade& ring, TradePart part, double accuracy) {
@@ -215,16 +206,16 @@ std::string trade_csv(const TradeOff& trade) {
   text += "ring,part,rung,settings,finest,figure,value,error,error_estimate,wall_s,processor_s,peak_MB,failure\n";
   for (const auto& ring : trade.rings) {
     for (const auto& p : ring.points) {
-      const std::string head = fmt::format("{},{},{},{},{:d},", csv_field(ring.ring), part_name(p.part),
-                                           csv_field(p.rung), csv_field(p.settings), p.finest);
+      const std::string head = fmt::format("{},{},{},{},{:d},", csv_cell(ring.ring), part_name(p.part),
+                                           csv_cell(p.rung), csv_cell(p.settings), p.finest);
       const std::string cost = fmt::format("{:.6g},{:.6g},{:.6g},{}\n", p.cost.wall, p.cost.processor,
-                                           p.cost.peak_memory_MB, csv_field(p.failure));
+                                           p.cost.peak_memory_MB, csv_cell(p.failure));
       if (p.values.empty()) text.append(head).append(",,,,").append(cost);
       for (std::size_t i = 0; i < p.values.size(); ++i) {
         const auto& v = p.values[i];
         if (!std::isfinite(v.value)) continue;
-        text += fmt::format("{}{},{},{},{},{}", head, trade_figures()[i].column, csv_number(v.value),
-                            csv_number(v.error), csv_number(v.error_estimate), cost);
+        text += fmt::format("{}{},{},{},{},{}", head, trade_figures()[i].column, csv_cell(v.value), csv_cell(v.error),
+                            csv_cell(v.error_estimate), cost);
       }
     }
   }

@@ -304,7 +304,7 @@ BOOST_AUTO_TEST_CASE(references_that_are_none) {
 }
 
 BOOST_AUTO_TEST_CASE(the_dictionary_of_the_fuzz_target_knows_every_key) {
-  const auto words = test::text_of(std::string(ANNULUS_SOURCE_DIR) + "/tests/fuzz/scene.dict");
+  const auto words = read_file(std::string(ANNULUS_SOURCE_DIR) + "/tests/fuzz/scene.dict");
   for (const auto& table : app::schema())
     for (const auto& p : table.parameters) BOOST_TEST(words.find('"' + p.name + " = \"") != std::string::npos, p.key());
 }

@@ -152,11 +152,11 @@ BOOST_AUTO_TEST_CASE(texts_stay_texts) {
     for (const auto& entry : std::filesystem::directory_iterator(folder.path())) beside.insert(entry.path().filename());
     for (const auto& entry : std::filesystem::directory_iterator(inner)) beside.insert(entry.path().filename());
     BOOST_TEST((beside == std::set<std::string>{"inner", "out", "ref.toml", "scene.toml"}));
-    BOOST_TEST(nlohmann::json::parse(test::text_of(inner / "out/summary.json"))["title"] == shown);
+    BOOST_TEST(nlohmann::json::parse(read_file(inner / "out/summary.json"))["title"] == shown);
     int pages = 0, tables = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(inner / "out")) {
       const auto kind = entry.path().extension();
-      const auto text = entry.is_regular_file() ? test::text_of(entry.path()) : "";
+      const auto text = entry.is_regular_file() ? read_file(entry.path()) : "";
       if (kind == ".html" || kind == ".svg" || kind == ".vtu") {
         ++pages;
         for (const auto* code : {"<script>alert", "<img src=x", "\"'&amp;<"})

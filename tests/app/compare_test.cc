@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "app/compare/compared_run.h"
+#include "app/compare/compared_quantities.h"
 #include "app/compare/comparison_page.h"
 #include "app/finished_run.h"
 #include "core/errors.h"
@@ -216,11 +217,11 @@ BOOST_AUTO_TEST_CASE(finished_runs_of_the_program) {
   BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
   BOOST_TEST(contains(outcome.out, "pages/both.html"));
   BOOST_TEST(contains(outcome.out, "supports.planet_N_per_m"));
-  const auto page = test::text_of(folder.path() / "pages" / "both.html");
-  const auto csv = test::text_of(folder.path() / "pages" / "both.csv");
+  const auto page = read_file(folder.path() / "pages" / "both.html");
+  const auto csv = read_file(folder.path() / "pages" / "both.csv");
   // The numbers are those of the summaries, the only input that differs is the one that was changed.
   for (const std::string name : {"soft", "stiff"}) {
-    const auto summary = json::parse(test::text_of(folder.path() / name / "summary.json"));
+    const auto summary = json::parse(read_file(folder.path() / name / "summary.json"));
     const double sharing = summary["rings"]["held"]["load_sharing"]["sun_planet"]["averaged"]["value"].get<double>();
     bool found = false;
     for (const auto& row : rows_with(csv, "\"load sharing, sun meshes, averaged over a mesh cycle\",," + name + ","))

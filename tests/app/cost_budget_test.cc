@@ -1,13 +1,9 @@
 #include "app/plan/cost_budget.h"
 
-#include <sys/wait.h>
-
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "app/plan/cost_actual.h"
@@ -15,6 +11,7 @@
 #include "app/stage_kinds.h"
 #include "core/files.h"
 #include "tests/app/pair_scenes.h"
+#include "tests/app/run_program.h"
 #include "tests/app/scenes.h"
 #include "tests/app/two_k_v_scenes.h"
 
@@ -30,22 +27,9 @@ std::string computed_scene(const std::string& top = "") {
   return top + text;
 }
 
-struct ProgramResult {
-  int status = -1;
-  std::string out, err;
-};
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 /// The built program, with its own list of costs in `folder`/cache.
-ProgramResult program_with_cache(const std::filesystem::path& folder, const std::string& arguments) {
-  const std::string command = "cd '" + folder.string() + "' && ANNULUS_CACHE='" + (folder / "cache").string() + "' '" +
-                              ANNULUS_PROGRAM "' " + arguments + " >o.txt 2>e.txt";
-  const int raw = std::system(command.c_str());
-  return {WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, content(folder / "o.txt"), content(folder / "e.txt")};
+test::ProgramOutcome program_with_cache(const std::filesystem::path& folder, const std::string& arguments) {
+  return test::run_program(folder, arguments, "ANNULUS_CACHE='" + (folder / "cache").string() + "'");
 }
 
 app::BudgetChoice fitted(const app::Scene& scene, double budget) {
@@ -191,11 +175,11 @@ BOOST_AUTO_TEST_CASE(predicted_and_actual_of_other_kinds) {
     const app::RunOptions options{.out = folder.path() / std::to_string(text.size()), .threads = 2};
     const std::string told = app::run_scene(scene, options);
     BOOST_TEST(told.find("cost    predicted ") != std::string::npos, told);
-    const auto json = nlohmann::json::parse(content(options.out / "summary.json"));
+    const auto json = nlohmann::json::parse(read_file(options.out / "summary.json"));
     BOOST_TEST(json["cost"]["predicted_s"].get<double>() > 0);
     BOOST_TEST(json["cost"]["actual_s"].get<double>() > 0);
     BOOST_TEST(json["cost"]["steps"].size() == (text == test::solved_pair() ? 2U : 1U));
-    BOOST_TEST(content(options.out / "report.html").find("as predicted before the run") != std::string::npos);
+    BOOST_TEST(read_file(options.out / "report.html").find("as predicted before the run") != std::string::npos);
   }
 }
 
@@ -208,7 +192,7 @@ BOOST_AUTO_TEST_CASE(predicted_and_actual_of_small_scenes) {
     BOOST_REQUIRE(result.cost.steps.size() >= 3U);
     // Times are told, never judged.
     BOOST_TEST_MESSAGE(top << "  " << app::cost_sentence(result));
-    auto json = nlohmann::json::parse(content(options.out / "summary.json"));
+    auto json = nlohmann::json::parse(read_file(options.out / "summary.json"));
     BOOST_TEST(json["cost"]["predicted_s"].get<double>() > 0);
     BOOST_TEST(json["cost"]["actual_s"].get<double>() > 0);
     BOOST_TEST(json["cost"]["steps"].size() == result.cost.steps.size());
@@ -216,10 +200,10 @@ BOOST_AUTO_TEST_CASE(predicted_and_actual_of_small_scenes) {
       BOOST_TEST(step.actual->kind == step.size.kind);
       if (step.size.kind == "plane") BOOST_TEST(step.actual->level == step.size.level);
     }
-    BOOST_TEST(content(options.out / "report.html").find("as predicted before the run") != std::string::npos);
+    BOOST_TEST(read_file(options.out / "report.html").find("as predicted before the run") != std::string::npos);
     // All is reused: nothing to compare.
     BOOST_TEST(app::run(scene, options).cost.empty());
-    json = nlohmann::json::parse(content(options.out / "summary.json"));
+    json = nlohmann::json::parse(read_file(options.out / "summary.json"));
     BOOST_TEST(!json.contains("cost"));
   }
 }

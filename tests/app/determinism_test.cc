@@ -1,6 +1,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cstdlib>
 
+#include "core/files.h"
 #include "tests/app/pair_scenes.h"
 #include "tests/app/run_program.h"
 #include "tests/app/run_results.h"
@@ -48,7 +49,7 @@ std::map<std::string, std::string> results_of(const test::TemporaryFolder& folde
                        " '" ANNULUS_PROGRAM "' run scene.toml -o " + out + " --threads " + threads +
                        " --quiet >/dev/null 2>messages.txt";
   const int raw = std::system(command.c_str());
-  BOOST_TEST_REQUIRE(WEXITSTATUS(raw) == 0, test::text_of(folder.path() / "messages.txt"));
+  BOOST_TEST_REQUIRE(WEXITSTATUS(raw) == 0, read_file(folder.path() / "messages.txt"));
   return results_in(folder.path() / out);
 }
 

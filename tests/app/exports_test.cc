@@ -47,8 +47,8 @@ std::string read_with(const std::string& command, const std::filesystem::path& f
   const auto out = folder / "reader.txt";
   const int status =
       std::system(("cd '" + folder.string() + "' && { " + command + "; } >reader.txt 2>reader_errors.txt").c_str());
-  const auto text = test::text_of(out);
-  BOOST_TEST(status == 0, command << ": " << text << test::text_of(folder / "reader_errors.txt"));
+  const auto text = read_file(out);
+  BOOST_TEST(status == 0, command << ": " << text << read_file(folder / "reader_errors.txt"));
   return text;
 }
 
@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(any_table_goes_as_columns) {
                        "s.sun_u_m(2) * 1e6, s.provenance.what)\"",
                        folder.path()) == "0.5 2 a test");
   export_to(folder.path(), "series.csv --to csv");
-  BOOST_TEST(test::text_of(folder.path() / "series.plain.csv").starts_with("time_s,sun_u_m\n"));
+  BOOST_TEST(read_file(folder.path() / "series.plain.csv").starts_with("time_s,sun_u_m\n"));
 }
 
 BOOST_AUTO_TEST_CASE(gear_data_as_rexs_and_back) {
@@ -204,6 +204,7 @@ BOOST_AUTO_TEST_CASE(rexs_of_others) {
     BOOST_TEST(message.find(what) != std::string::npos, message);
   };
   refused("no xml", "cannot be read as XML");
+  refused("<model version=\"1.4\" name=\"caf\xe9\"/>", "is not UTF-8 (byte 31) and declares no other encoding");
   refused("<?xml version=\"1.0\"?><html/>", "no element 'model'");
   refused(text("2.0", ""), "REXS version '2.0'");
   refused(text("1.2", relation(6, "stage", ref(30, "stage") + ref(2, "gear_1") + ref(77, "gear_2"))), "component 77");
@@ -273,7 +274,7 @@ BOOST_AUTO_TEST_CASE(a_stiffness_of_another_program_drives_the_dynamics) {
   const auto figures = [&](const std::string& name) {
     const auto outcome = test::run_program(folder.path(), "run " + name + ".toml -o " + name);
     BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-    const auto ring = nlohmann::json::parse(test::text_of(folder.path() / name / "summary.json"))["rings"]["held"];
+    const auto ring = nlohmann::json::parse(read_file(folder.path() / name / "summary.json"))["rings"]["held"];
     std::vector<double> values = {ring["load_sharing"]["sun_planet"]["averaged"]["value"],
                                   ring["load_sharing"]["ring_planet"]["instantaneous"]["value"]};
     for (const auto& factor : ring["dynamic_factor"]["sun_planet"]) values.push_back(factor);

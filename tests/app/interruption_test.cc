@@ -8,8 +8,6 @@
 #include <boost/test/unit_test.hpp>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <random>
 #include <string>
@@ -28,7 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 using test::check_same;
 using test::results_in;
-using test::text_of;
 
 /// Elements, supports that open, a sweep, random draws and a search: every kind of result that is kept.
 std::string whole_scene() {
@@ -82,10 +79,7 @@ class RunningProgram {
     posix_spawn_file_actions_destroy(&actions);
   }
   /// What it said so far.
-  [[nodiscard]] std::string messages() const {
-    std::ifstream in(messages_);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  }
+  [[nodiscard]] std::string messages() const { return read_file(messages_); }
   void send(int signal) const { ::kill(id_, signal); }
   /// Exit status; minus the signal that ended it.
   [[nodiscard]] int wait() const {
@@ -142,7 +136,7 @@ BOOST_AUTO_TEST_CASE(killed_at_any_moment_the_next_run_goes_on_and_ends_with_the
       }
     }
     check_same(expected, results_in(out));
-    BOOST_TEST(text_of(out / "report.html").find("</html>") != std::string::npos);
+    BOOST_TEST(read_file(out / "report.html").find("</html>") != std::string::npos);
     fs::remove_all(out);
   }
   BOOST_TEST_MESSAGE(kills << " kills in " << finished << " runs, all ended with the same results");
@@ -162,7 +156,7 @@ BOOST_AUTO_TEST_CASE(on_a_full_disk_the_earlier_results_stay_and_the_next_run_go
   std::map<std::string, std::string> before;
   for (const int blocks : {8, 40, 120, 400, 1200}) {
     const int status = run("trap '' XFSZ && ulimit -f " + std::to_string(blocks) + " && ");
-    const auto message = text_of(folder.path() / "stderr.txt");
+    const auto message = read_file(folder.path() / "stderr.txt");
     BOOST_TEST(status == 2, blocks << " blocks: " << message);
     BOOST_TEST(message.find("cannot write") != std::string::npos, message);
     BOOST_TEST(message.find("not full") != std::string::npos, message);
@@ -183,7 +177,7 @@ BOOST_AUTO_TEST_CASE(without_room_for_its_libraries_a_run_is_refused) {
                        "' && ulimit -v 800000 && '" ANNULUS_PROGRAM "' run scene.toml -o out >/dev/null 2>stderr.txt";
   const int raw = std::system(command.c_str());
   BOOST_TEST(WEXITSTATUS(raw) == 3);
-  const auto message = text_of(folder.path() / "stderr.txt");
+  const auto message = read_file(folder.path() / "stderr.txt");
   BOOST_TEST(message.find("refused: predicted to need") != std::string::npos, message);
   BOOST_TEST(!fs::exists(folder.path() / "out"));
 }

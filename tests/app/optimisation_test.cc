@@ -16,11 +16,6 @@ namespace annulus {
 
 namespace {
 
-std::string file_contents(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 /// Planets at fault by what does not turn with them: the windows are short.
 std::string searched_scene(const std::string& optimise) {
   auto text = test::replaced(test::quick_scene(), "planet_eccentricity_um", "planet_installation_um");
@@ -52,7 +47,7 @@ app::RunResult run_search(const std::string& text, const std::filesystem::path& 
 
 /// The 2K-H reducer as shipped, with a short search and no sweeps.
 std::string reducer(const std::string& rpm) {
-  auto text = file_contents(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/backlash_optimisation.toml");
+  auto text = read_file(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/backlash_optimisation.toml");
   const auto begin = text.find("# Figures 2, 4 and 7"), end = text.find("[optimise]\n");
   text.erase(begin, end - begin);
   text = test::replaced(text, "generations = 200", "generations = 4");
@@ -82,7 +77,7 @@ BOOST_AUTO_TEST_CASE(searches_are_the_same_for_any_number_of_threads_and_find_wh
   for (const auto* file :
        {"genetic_1", "genetic_1_history", "cma_es_1", "cma_es_1_history", "differential_evolution_1"}) {
     const auto name = std::string("held/dynamics/optimise/") + file + ".csv";
-    BOOST_TEST(file_contents(folder.path() / "one" / name) == file_contents(folder.path() / "two" / name), file);
+    BOOST_TEST(read_file(folder.path() / "one" / name) == read_file(folder.path() / "two" / name), file);
   }
   BOOST_TEST(!o.range.flat);
   BOOST_TEST(o.best.objective < o.given.objective - o.range.least_meaning);
@@ -99,7 +94,7 @@ BOOST_AUTO_TEST_CASE(searches_are_the_same_for_any_number_of_threads_and_find_wh
   }
   // The best design as a scene of its own, run as any other scene is: marched and confirmed, not a study's answer.
   const auto best =
-      run_search(file_contents(folder.path() / "two/held/dynamics/optimise/best.toml"), folder.path() / "best");
+      run_search(read_file(folder.path() / "two/held/dynamics/optimise/best.toml"), folder.path() / "best");
   const auto& sharing = best.rings.front().response->figures.sun_planet.load_sharing.averaged;
   BOOST_TEST(std::abs(sharing.value - o.best.objective) <= std::max(sharing.error, 1e-4));
   // Softer bearings even out errors of the planets (Lin and Parker): the search goes there.
@@ -126,7 +121,7 @@ BOOST_AUTO_TEST_CASE(an_interrupted_search_goes_on_to_the_same_bytes) {
   for (const auto* file : {"genetic_1.csv", "genetic_1_history.csv", "cma_es_1_history.csv",
                            "differential_evolution_1_history.csv", "best.toml"}) {
     const auto name = std::string("held/dynamics/optimise/") + file;
-    BOOST_TEST(file_contents(folder.path() / "whole" / name) == file_contents(folder.path() / "parts" / name), file);
+    BOOST_TEST(read_file(folder.path() / "whole" / name) == read_file(folder.path() / "parts" / name), file);
   }
 }
 
@@ -138,7 +133,7 @@ BOOST_AUTO_TEST_CASE(a_flat_objective_is_said_to_be_flat) {
   BOOST_TEST(o.range.flat);
   BOOST_TEST(o.range.high - o.range.low <= 1e-10);
   BOOST_TEST(o.range.evaluations > 20);
-  const auto report = file_contents(folder.path() / "report.html");
+  const auto report = read_file(folder.path() / "report.html");
   BOOST_TEST(report.find("Nothing to gain.") != std::string::npos);
   // 7 freedoms: sun x, y, u, three planets and the carrier; the ring is held.
   BOOST_TEST(result.rings.front().response->figures.series.freedoms.size() == 0U);

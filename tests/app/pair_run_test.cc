@@ -10,11 +10,11 @@
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "app/pair/pair_subject.h"
 #include "app/stage_kinds.h"
 #include "app/study/studies.h"
+#include "core/files.h"
 #include "core/log.h"
 #include "core/units.h"
 #include "tests/app/pair_scenes.h"
@@ -23,11 +23,6 @@
 namespace annulus {
 
 namespace {
-
-std::string pair_file(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 app::PairRunResult run_pair_text(const std::string& text, const std::filesystem::path& out, int threads = 2,
                                  bool with_dynamics = true) {
@@ -75,7 +70,7 @@ BOOST_AUTO_TEST_CASE(a_pair_runs_from_scene_to_report) {
         "dynamics/transmission_error_shares.csv", "dynamics/causes_over_speed.csv", "dynamics/grid_1.csv",
         "dynamics/sweep_1.csv", "dynamics/monte_carlo.csv"})
     BOOST_TEST(std::filesystem::exists(folder.path() / file), file);
-  const auto json = nlohmann::json::parse(pair_file(folder.path() / "summary.json"));
+  const auto json = nlohmann::json::parse(read_file(folder.path() / "summary.json"));
   BOOST_TEST(json["kind"] == "helical_pair");
   BOOST_TEST(json["manufacturing_error"]["readings"].size() == 14U);
   BOOST_TEST(json["manufacturing_error"]["taken"] == "pinion_envelope");
@@ -83,7 +78,7 @@ BOOST_AUTO_TEST_CASE(a_pair_runs_from_scene_to_report) {
   BOOST_TEST(json["transmission_error_shares"].size() == 3U);
   BOOST_TEST(json["grids"][0]["mesh_force_max_N"].size() == 6U);
   BOOST_TEST(json["response"]["steady"] == true);
-  const auto report = pair_file(folder.path() / "report.html");
+  const auto report = read_file(folder.path() / "report.html");
   for (const auto* anchor : {"figures", "conclusions", "errors", "maps", "shares", "stiffness", "motion", "modes",
                              "spread", "sweeps", "grids", "sensitivity", "model", "inputs", "quality"})
     BOOST_TEST(report.find("<h2 id=\"" + std::string(anchor) + "\"") != std::string::npos, anchor);
@@ -135,7 +130,7 @@ BOOST_AUTO_TEST_CASE(shares_follow_statics) {
   // The paper's conclusion for the range, and where it fails for the largest value.
   BOOST_TEST(result.shares.back().shares.errors_alone.quasi_static >
              result.shares.back().shares.stiffness_alone.quasi_static);
-  const auto report = pair_file(folder.path() / "report.html");
+  const auto report = read_file(folder.path() / "report.html");
   BOOST_TEST(
       report.find("peak to peak, <b>at all torques up to 50 kN m</b>, and for its largest value <b>up to 0.5 kN m "
                   "only</b>") != std::string::npos);
@@ -152,13 +147,13 @@ BOOST_AUTO_TEST_CASE(the_verdict_follows_the_numbers) {
   }
   (void)run_pair_text(text, folder.path() / "small");
   BOOST_TEST(
-      pair_file(folder.path() / "small/report.html")
+      read_file(folder.path() / "small/report.html")
           .find("peak to peak, <b>up to 0.5 kN m only</b>, and for its largest value <b>at none of the torques</b>") !=
       std::string::npos);
   // Without ripple the stiffness moves nothing.
   (void)run_pair_text(test::replaced(text, "ripple = 0.05\n", ""), folder.path() / "constant");
   BOOST_TEST(
-      pair_file(folder.path() / "constant/report.html").find("peak to peak, <b>at all torques up to 50 kN m</b>") !=
+      read_file(folder.path() / "constant/report.html").find("peak to peak, <b>at all torques up to 50 kN m</b>") !=
       std::string::npos);
 }
 
@@ -169,7 +164,7 @@ BOOST_AUTO_TEST_CASE(threads_change_nothing_and_a_second_run_reads_back) {
   (void)run_pair_text(text, folder.path() / "two", 2);
   for (const auto* file : {"dynamics/grid_1.csv", "dynamics/time_series.csv", "errors/samples.csv", "sensitivity.csv",
                            "dynamics/transmission_error_shares.csv", "dynamics/monte_carlo.csv"})
-    BOOST_TEST((pair_file(folder.path() / "one" / file) == pair_file(folder.path() / "two" / file)), file);
+    BOOST_TEST((read_file(folder.path() / "one" / file) == read_file(folder.path() / "two" / file)), file);
   // Kept points are not written again.
   std::map<std::filesystem::path, std::filesystem::file_time_type> written;
   for (const auto& file : std::filesystem::directory_iterator(folder.path() / "two/dynamics/points"))
@@ -222,7 +217,7 @@ BOOST_AUTO_TEST_CASE(finite_elements_of_a_pair_are_solved_compared_and_reused) {
   const auto again = run_pair_text(text, folder.path());
   BOOST_TEST(again.mesh.computed->reused);
   BOOST_TEST(again.response->figures.force_max.value == result.response->figures.force_max.value);
-  BOOST_TEST(pair_file(folder.path() / "report.html").find("finite elements (plane)") != std::string::npos);
+  BOOST_TEST(read_file(folder.path() / "report.html").find("finite elements (plane)") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(tables_outside_their_loads_fail_their_row_alone) {
@@ -231,7 +226,7 @@ BOOST_AUTO_TEST_CASE(tables_outside_their_loads_fail_their_row_alone) {
       run_pair_text(test::solved_pair() + "[transmission_error]\npinion_torques_Nm = [600, 5000]\n", folder.path());
   BOOST_TEST(result.shares[0].failure.empty());
   BOOST_TEST(!result.shares[1].failure.empty());
-  BOOST_TEST(pair_file(folder.path() / "report.html").find("Left out, for no response was found") != std::string::npos);
+  BOOST_TEST(read_file(folder.path() / "report.html").find("Left out, for no response was found") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_scene_without_dynamics_has_stiffness_and_errors) {
@@ -240,7 +235,7 @@ BOOST_AUTO_TEST_CASE(a_scene_without_dynamics_has_stiffness_and_errors) {
   text.erase(text.find("[dynamics]"));
   const auto result = run_pair_text(text, folder.path());
   BOOST_TEST(!result.response.has_value());
-  const auto report = pair_file(folder.path() / "report.html");
+  const auto report = read_file(folder.path() / "report.html");
   BOOST_TEST(report.find("id=\"stiffness\"") != std::string::npos);
   BOOST_TEST(report.find("id=\"errors\"") != std::string::npos);
   BOOST_TEST(report.find("id=\"motion\"") == std::string::npos);
@@ -285,16 +280,16 @@ BOOST_AUTO_TEST_CASE(the_program_takes_pairs) {
   };
   const auto file = scene.string(), out = " -o " + (folder.path() / "out").string();
   BOOST_TEST(status(test::quick_pair(), "check " + file) == 0);
-  BOOST_TEST(pair_file(log).find("good (helical pair, 21 and 37 teeth)") != std::string::npos);
+  BOOST_TEST(read_file(log).find("good (helical pair, 21 and 37 teeth)") != std::string::npos);
   BOOST_TEST(status(test::quick_pair(), "plan " + file) == 0);
-  BOOST_TEST(pair_file(log).find("ISO 6336-1, method B") != std::string::npos);
+  BOOST_TEST(read_file(log).find("ISO 6336-1, method B") != std::string::npos);
   BOOST_TEST(status(test::quick_pair(), "solve -q " + file + out) == 0);
   BOOST_TEST(status(test::quick_pair(), "dynamics -q " + file + out) == 0);
   BOOST_TEST(status(test::quick_pair(), "run -q " + file + out) == 0);
-  BOOST_TEST(pair_file(log).find("mesh force 137.9 kN") != std::string::npos);
+  BOOST_TEST(read_file(log).find("mesh force 137.9 kN") != std::string::npos);
   BOOST_TEST(status(test::replaced(test::quick_pair(), "teeth = 37", "teeth = 3"), "check " + file) == 2);
-  BOOST_TEST(pair_file(log).find("pair.toml:20:1: wheel.teeth = 3: must be in range") != std::string::npos,
-             pair_file(log));
+  BOOST_TEST(read_file(log).find("pair.toml:20:1: wheel.teeth = 3: must be in range") != std::string::npos,
+             read_file(log));
 }
 
 BOOST_AUTO_TEST_CASE(draws_and_a_grid_meet_their_times) {

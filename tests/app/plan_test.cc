@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "app/plan/cost_model.h"
 #include "app/plan/cost_plan.h"
+#include "core/files.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
 
@@ -74,8 +74,7 @@ BOOST_AUTO_TEST_CASE(rungs_and_positions) {
 }
 
 BOOST_AUTO_TEST_CASE(the_accuracy_decides_how_finely_tables_are_resolved) {
-  std::ifstream in(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string text = read_file(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
   int phases = 0;
   for (const auto& [accuracy, loads] : {std::pair{"0.1", 3U}, {"0.03", 3U}, {"0.01", 5U}, {"0.001", 5U}}) {
     const auto changed = test::replaced(text, "accuracy = 0.01", std::string("accuracy = ") + accuracy);
@@ -101,8 +100,7 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_how_finely_tables_are_resolved) {
 
 BOOST_AUTO_TEST_CASE(solid_meshes_tell_what_of_the_face_they_solve) {
   const std::string file = std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml";
-  std::ifstream in(file);
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string text = read_file(file);
   const auto planned = [&](const std::string& more, const std::string& error = "") {
     auto changed = test::replaced(text, "accuracy = 0.01", "accuracy = 0.01\n" + more);
     changed = test::replaced(changed, "[errors]", "[errors]\n" + error);
@@ -141,8 +139,7 @@ BOOST_AUTO_TEST_CASE(solid_meshes_tell_what_of_the_face_they_solve) {
 }
 
 BOOST_AUTO_TEST_CASE(the_accuracy_decides_rung_elements_and_motion) {
-  std::ifstream in(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string text = read_file(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
   const auto planned = [&](const std::string& top) {
     const auto scene = app::parse_scene(test::replaced(text, "accuracy = 0.01", top),
                                         std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");

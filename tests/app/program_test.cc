@@ -1,5 +1,3 @@
-#include <sys/wait.h>
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -11,29 +9,12 @@
 #include "core/csv.h"
 #include "core/files.h"
 #include "core/stiffness_table.h"
+#include "tests/app/run_program.h"
 #include "tests/app/scenes.h"
 
 namespace annulus {
 
 namespace {
-
-struct Outcome {
-  int status = -1;
-  std::string out, err;
-};
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
-/// Runs the built program in `folder`.
-Outcome annulus_program(const std::filesystem::path& folder, const std::string& arguments) {
-  const std::string command =
-      "cd '" + folder.string() + "' && '" ANNULUS_PROGRAM "' " + arguments + " >stdout.txt 2>stderr.txt";
-  const int raw = std::system(command.c_str());
-  return {WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, text_of(folder / "stdout.txt"), text_of(folder / "stderr.txt")};
-}
 
 std::filesystem::path put_scene(const std::filesystem::path& folder, const std::string& text) {
   write_file(folder / "scene.toml", text);
@@ -46,23 +27,23 @@ BOOST_AUTO_TEST_SUITE(program)
 
 BOOST_AUTO_TEST_CASE(help_version_and_wrong_arguments) {
   const test::TemporaryFolder folder("arguments");
-  BOOST_TEST(annulus_program(folder.path(), "--help").status == 0);
-  BOOST_TEST(annulus_program(folder.path(), "run --help").status == 0);
-  const auto version = annulus_program(folder.path(), "--version");
+  BOOST_TEST(test::run_program(folder.path(), "--help").status == 0);
+  BOOST_TEST(test::run_program(folder.path(), "run --help").status == 0);
+  const auto version = test::run_program(folder.path(), "--version");
   BOOST_TEST(version.status == 0);
   BOOST_TEST(version.out.find("annulus ") == 0U);
-  BOOST_TEST(annulus_program(folder.path(), "").status == 2);
-  BOOST_TEST(annulus_program(folder.path(), "walk scene.toml").status == 2);
-  BOOST_TEST(annulus_program(folder.path(), "run scene.toml --threads 0").status == 2);
+  BOOST_TEST(test::run_program(folder.path(), "").status == 2);
+  BOOST_TEST(test::run_program(folder.path(), "walk scene.toml").status == 2);
+  BOOST_TEST(test::run_program(folder.path(), "run scene.toml --threads 0").status == 2);
   for (const auto* arguments : {"frob", "frob scene.toml", "--quiet frob"}) {
-    const auto unknown = annulus_program(folder.path(), arguments);
+    const auto unknown = test::run_program(folder.path(), arguments);
     BOOST_TEST(unknown.status == 2);
     BOOST_TEST(unknown.err.find("frob: there is no such command") == 0U, unknown.err);
     for (const auto* known : {"run", "solve", "dynamics", "plan", "check", "explain"})
       BOOST_TEST(unknown.err.find(known) != std::string::npos, known);
   }
-  BOOST_TEST(annulus_program(folder.path(), "pln scene.toml").err.find("did you mean plan?") != std::string::npos);
-  const auto missing = annulus_program(folder.path(), "check nowhere.toml");
+  BOOST_TEST(test::run_program(folder.path(), "pln scene.toml").err.find("did you mean plan?") != std::string::npos);
+  const auto missing = test::run_program(folder.path(), "check nowhere.toml");
   BOOST_TEST(missing.status == 2);
   BOOST_TEST(missing.err.find("nowhere.toml") != std::string::npos);
 }
@@ -70,19 +51,19 @@ BOOST_AUTO_TEST_CASE(help_version_and_wrong_arguments) {
 BOOST_AUTO_TEST_CASE(check_plan_and_explain) {
   const test::TemporaryFolder folder("check");
   put_scene(folder.path(), test::quick_scene());
-  BOOST_TEST(annulus_program(folder.path(), "check scene.toml").status == 0);
-  const auto plan = annulus_program(folder.path(), "plan scene.toml");
+  BOOST_TEST(test::run_program(folder.path(), "check scene.toml").status == 0);
+  const auto plan = test::run_program(folder.path(), "plan scene.toml");
   BOOST_TEST(plan.status == 0);
   BOOST_TEST(plan.out.find("696.13714 Hz") != std::string::npos);
-  const auto json = annulus_program(folder.path(), "plan scene.toml --json");
+  const auto json = test::run_program(folder.path(), "plan scene.toml --json");
   BOOST_TEST(nlohmann::json::parse(json.out)["stage"].contains("mesh_frequency_Hz"));
-  BOOST_TEST(annulus_program(folder.path(), "explain ring.pins").out.find("ring.pins") == 0U);
-  const auto unknown = annulus_program(folder.path(), "explain ring.pinz");
+  BOOST_TEST(test::run_program(folder.path(), "explain ring.pins").out.find("ring.pins") == 0U);
+  const auto unknown = test::run_program(folder.path(), "explain ring.pinz");
   BOOST_TEST(unknown.status == 2);
   BOOST_TEST(unknown.err.find("ring.pins") != std::string::npos);
 
   put_scene(folder.path(), test::replaced(test::quick_scene(), "module_mm = 3.8", "module_mm = -3.8"));
-  const auto wrong = annulus_program(folder.path(), "check scene.toml");
+  const auto wrong = test::run_program(folder.path(), "check scene.toml");
   BOOST_TEST(wrong.status == 2);
   BOOST_TEST(wrong.err.find("scene.toml:5:1: stage.module_mm = -3.8") == 0U, wrong.err);
 }
@@ -90,11 +71,11 @@ BOOST_AUTO_TEST_CASE(check_plan_and_explain) {
 BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
   const test::TemporaryFolder folder("run");
   put_scene(folder.path(), test::quick_scene());
-  const auto run = annulus_program(folder.path(), "run scene.toml -o out");
+  const auto run = test::run_program(folder.path(), "run scene.toml -o out");
   BOOST_TEST_REQUIRE(run.status == 0, run.err);
   BOOST_TEST(run.out.find("out/report.html") != std::string::npos);
 
-  const auto json = nlohmann::json::parse(text_of(folder.path() / "out/summary.json"));
+  const auto json = nlohmann::json::parse(read_file(folder.path() / "out/summary.json"));
   BOOST_TEST(json["title"] == "Quick");
   const auto& ring = json["rings"]["held"];
   BOOST_TEST(ring["rung"] == "given");
@@ -124,7 +105,7 @@ BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
   BOOST_CHECK_NO_THROW((void)series.column("planet1_u_m"));
   BOOST_CHECK_NO_THROW((void)series.column("sun_planet1_force_N"));
   BOOST_CHECK_NO_THROW((void)series.column("ring_planet5_force_N"));
-  const auto modes = text_of(dynamics / "modes.csv");
+  const auto modes = read_file(dynamics / "modes.csv");
   BOOST_TEST(modes.find("\nindex,frequency_Hz,kind,damped_frequency_Hz,damping_ratio,strain_sun_planet,") !=
              std::string::npos);
   for (const auto* name : {"load_sharing.csv", "dynamic_factor.csv", "spectrum.csv"})
@@ -188,8 +169,8 @@ BOOST_AUTO_TEST_CASE(report_is_self_contained) {
   const test::TemporaryFolder folder("report");
   put_scene(folder.path(),
             test::replaced(test::quick_scene(), "title = \"Quick\"", "title = \"Quick <&> \\\"one\\\"\""));
-  BOOST_TEST_REQUIRE(annulus_program(folder.path(), "run scene.toml -o out").status == 0);
-  const auto page = text_of(folder.path() / "out/report.html");
+  BOOST_TEST_REQUIRE(test::run_program(folder.path(), "run scene.toml -o out").status == 0);
+  const auto page = read_file(folder.path() / "out/report.html");
   BOOST_TEST(page.find("Quick &lt;&amp;&gt;") != std::string::npos);
   for (const auto* outside : {"src=\"http", "href=\"http", "url(http", "@import", "<script src", "<link"}) {
     BOOST_TEST(page.find(outside) == std::string::npos, outside);
@@ -204,24 +185,24 @@ BOOST_AUTO_TEST_CASE(report_is_self_contained) {
 BOOST_AUTO_TEST_CASE(unchanged_results_are_reused_and_changed_ones_are_not) {
   const test::TemporaryFolder folder("reuse");
   put_scene(folder.path(), test::quick_scene());
-  BOOST_TEST_REQUIRE(annulus_program(folder.path(), "run scene.toml -o out").status == 0);
-  const auto before = text_of(folder.path() / "out/held/dynamics/figures.json");
-  const auto page = text_of(folder.path() / "out/report.html");
+  BOOST_TEST_REQUIRE(test::run_program(folder.path(), "run scene.toml -o out").status == 0);
+  const auto before = read_file(folder.path() / "out/held/dynamics/figures.json");
+  const auto page = read_file(folder.path() / "out/report.html");
   std::filesystem::remove(folder.path() / "out/run.json");  // forget that the whole run is done
-  const auto again = annulus_program(folder.path(), "run scene.toml -o out");
+  const auto again = test::run_program(folder.path(), "run scene.toml -o out");
   BOOST_TEST(again.err.find("dynamics of 'held': unchanged, reused") != std::string::npos, again.err);
-  BOOST_TEST(text_of(folder.path() / "out/held/dynamics/figures.json") == before);
+  BOOST_TEST(read_file(folder.path() / "out/held/dynamics/figures.json") == before);
   // The report of what was read back tells the same as the one of what was computed.
   const auto part = [](const std::string& text) {
     const auto begin = text.find("id=\"dynamics\"");
     return text.substr(begin, text.find("id=\"model\"") - begin);
   };
-  BOOST_TEST((part(text_of(folder.path() / "out/report.html")) == part(page)));
+  BOOST_TEST((part(read_file(folder.path() / "out/report.html")) == part(page)));
   put_scene(folder.path(), test::replaced(test::quick_scene(), "half_backlash_um = 50", "half_backlash_um = 40"));
-  const auto changed = annulus_program(folder.path(), "run scene.toml -o out --quiet");
+  const auto changed = test::run_program(folder.path(), "run scene.toml -o out --quiet");
   BOOST_TEST(changed.status == 0);
   BOOST_TEST(changed.err.empty());
-  BOOST_TEST(text_of(folder.path() / "out/held/dynamics/figures.json") != before);
+  BOOST_TEST(read_file(folder.path() / "out/held/dynamics/figures.json") != before);
 }
 
 BOOST_AUTO_TEST_CASE(an_identical_run_does_nothing_and_what_is_missing_is_made_again) {
@@ -229,7 +210,7 @@ BOOST_AUTO_TEST_CASE(an_identical_run_does_nothing_and_what_is_missing_is_made_a
   put_scene(folder.path(), test::quick_scene());
   const auto out = folder.path() / "out";
   const auto run = [&](const std::string& more = "") {
-    const auto done = annulus_program(folder.path(), "run scene.toml -o out" + more);
+    const auto done = test::run_program(folder.path(), "run scene.toml -o out" + more);
     BOOST_TEST(done.status == 0, done.err);
     return done.out.find("nothing has changed") != std::string::npos;
   };
@@ -240,19 +221,19 @@ BOOST_AUTO_TEST_CASE(an_identical_run_does_nothing_and_what_is_missing_is_made_a
   BOOST_TEST((std::filesystem::last_write_time(report) == written));
   // Threads change no result.
   BOOST_TEST(run(" --threads 1"));
-  const auto text = text_of(figures);
+  const auto text = read_file(figures);
   std::filesystem::remove(figures);
   BOOST_TEST(!run());
-  BOOST_TEST(text_of(figures) == text);
+  BOOST_TEST(read_file(figures) == text);
   BOOST_TEST(run());
   std::ofstream(report, std::ios::app) << "changed by hand";
   BOOST_TEST(!run());
-  BOOST_TEST(text_of(report).find("changed by hand") == std::string::npos);
+  BOOST_TEST(read_file(report).find("changed by hand") == std::string::npos);
   std::ofstream(out / "run.json") << "{\"inputs_id\": 1";
   BOOST_TEST(!run());
   BOOST_TEST(run());
   // Another command on the same folder leaves something else behind.
-  BOOST_TEST(annulus_program(folder.path(), "solve scene.toml -o out").status == 0);
+  BOOST_TEST(test::run_program(folder.path(), "solve scene.toml -o out").status == 0);
   BOOST_TEST(!run());
 }
 
@@ -260,11 +241,11 @@ BOOST_AUTO_TEST_CASE(dynamics_needs_its_table_and_solve_needs_none) {
   const test::TemporaryFolder folder("no_dynamics");
   const auto text = test::quick_scene();
   put_scene(folder.path(), text.substr(0, text.find("[dynamics]")));
-  const auto dynamics = annulus_program(folder.path(), "dynamics scene.toml -o out");
+  const auto dynamics = test::run_program(folder.path(), "dynamics scene.toml -o out");
   BOOST_TEST(dynamics.status == 2);
   BOOST_TEST(dynamics.err.find("[dynamics]") != std::string::npos);
-  BOOST_TEST(annulus_program(folder.path(), "solve scene.toml -o out").status == 0);
-  BOOST_TEST(annulus_program(folder.path(), "run scene.toml -o out").status == 0);
+  BOOST_TEST(test::run_program(folder.path(), "solve scene.toml -o out").status == 0);
+  BOOST_TEST(test::run_program(folder.path(), "run scene.toml -o out").status == 0);
 }
 
 BOOST_AUTO_TEST_CASE(stiffness_from_a_table_file) {
@@ -281,10 +262,10 @@ BOOST_AUTO_TEST_CASE(stiffness_from_a_table_file) {
       test::replaced(test::quick_scene(), "stiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294",
                      "stiffness = \"table\"\nfile = \"ring.csv\"");
   put_scene(folder.path(), text);
-  const auto run = annulus_program(folder.path(), "run scene.toml -o out");
+  const auto run = test::run_program(folder.path(), "run scene.toml -o out");
   BOOST_TEST(run.status == 0, run.err);
   put_scene(folder.path(), test::replaced(text, "ring.csv", "missing.csv"));
-  const auto missing = annulus_program(folder.path(), "run scene.toml -o out");
+  const auto missing = test::run_program(folder.path(), "run scene.toml -o out");
   BOOST_TEST(missing.status == 2);
   BOOST_TEST(missing.err.find("missing.csv") != std::string::npos);
 }

@@ -21,7 +21,7 @@ namespace {
 nlohmann::json used_in_browser(const std::filesystem::path& folder, std::string page) {
   const auto end = page.rfind("</body>");
   BOOST_REQUIRE(end != std::string::npos);
-  page.insert(end, "<script>" + test::text_of(ANNULUS_SOURCE_DIR "/tests/app/report_page.js") + "</script>");
+  page.insert(end, "<script>" + read_file(ANNULUS_SOURCE_DIR "/tests/app/report_page.js") + "</script>");
   write_file(folder / "used.html", page);
   // A profile of its own: tests run side by side.
   const auto command = fmt::format(
@@ -32,7 +32,7 @@ nlohmann::json used_in_browser(const std::filesystem::path& folder, std::string 
       ">dom.html 2>chromium.txt",
       folder.string());
   BOOST_REQUIRE(std::system(command.c_str()) == 0);
-  const auto dom = test::text_of(folder / "dom.html");
+  const auto dom = read_file(folder / "dom.html");
   const std::string head = "<pre id=\"result\">";
   const auto begin = dom.find(head);
   BOOST_REQUIRE_MESSAGE(begin != std::string::npos, dom.substr(0, 500));
@@ -41,6 +41,14 @@ nlohmann::json used_in_browser(const std::filesystem::path& folder, std::string 
   for (const auto& [from, to] : {std::pair{"&gt;", ">"}, {"&amp;", "&"}})
     for (std::size_t at; (at = text.find(from)) != std::string::npos;) text.replace(at, std::string(from).size(), to);
   return nlohmann::json::parse(text);
+}
+
+/// The page that the program writes about a scene.
+std::string written_page(const std::filesystem::path& folder, const std::string& command, const std::string& scene) {
+  write_file(folder / "scene.toml", scene);
+  const auto outcome = test::run_program(folder, command + " scene.toml -o out --threads 2");
+  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
+  return read_file(folder / "out" / "report.html");
 }
 
 void check_used(const nlohmann::json& used, int least_plots) {
@@ -59,11 +67,7 @@ BOOST_AUTO_TEST_SUITE(report_page)
 
 BOOST_AUTO_TEST_CASE(every_plot_of_a_stage_can_be_used) {
   const test::TemporaryFolder folder("report_page");
-  write_file(folder.path() / "scene.toml", test::quick_scene());
-  const auto outcome = test::run_program(folder.path(), "run scene.toml -o out --threads 2");
-  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-  const auto page = test::text_of(folder.path() / "out" / "report.html");
-  const auto used = used_in_browser(folder.path(), page);
+  const auto used = used_in_browser(folder.path(), written_page(folder.path(), "run", test::quick_scene()));
   check_used(used, 15);
 
   // Ring, sun, five planets and as many carrier arms of every mode shape.
@@ -74,12 +78,12 @@ BOOST_AUTO_TEST_CASE(every_plot_of_a_stage_can_be_used) {
   int pictures = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out" / "pictures")) {
     ++pictures;
-    BOOST_TEST(test::text_of(entry.path()).starts_with("<svg xmlns="));
+    BOOST_TEST(read_file(entry.path()).starts_with("<svg xmlns="));
     if (pictures > 3) continue;
     const auto drawn =
         test::run_program(folder.path(), "export '" + entry.path().string() + "' --to png -o picture.png");
     BOOST_TEST(drawn.status == 0, drawn.err);
-    BOOST_TEST(test::text_of(folder.path() / "picture.png").starts_with("\x89PNG"));
+    BOOST_TEST(read_file(folder.path() / "picture.png").starts_with("\x89PNG"));
     BOOST_TEST(std::filesystem::file_size(folder.path() / "picture.png") > 10000U);
   }
   BOOST_TEST(pictures >= used["plots"].get<int>());
@@ -95,10 +99,7 @@ BOOST_AUTO_TEST_CASE(every_plot_of_solved_meshes_can_be_used) {
 
 BOOST_AUTO_TEST_CASE(deformed_bodies_can_be_turned) {
   const test::TemporaryFolder folder("report_page_fields");
-  write_file(folder.path() / "scene.toml", test::small_stage());
-  const auto outcome = test::run_program(folder.path(), "solve scene.toml -o out --threads 2");
-  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-  const auto used = used_in_browser(folder.path(), test::text_of(folder.path() / "out" / "report.html"));
+  const auto used = used_in_browser(folder.path(), written_page(folder.path(), "solve", test::small_stage()));
   check_used(used, 5);
   BOOST_TEST(used["bodies"].get<int>() >= 4);  // planet and wheel of both meshes
   for (const char* what : {"shown", "turned", "undeformed"})
@@ -112,17 +113,14 @@ BOOST_AUTO_TEST_CASE(deformed_bodies_can_be_turned) {
     const auto command = fmt::format("'" ANNULUS_PYTHON "' '" ANNULUS_SOURCE_DIR "/tests/app/read_exports.py' vtu '{}'",
                                      entry.path().string());
     BOOST_TEST(std::system((command + " >'" + (folder.path() / "vtu.txt").string() + "'").c_str()) == 0);
-    BOOST_TEST(std::stoi(test::text_of(folder.path() / "vtu.txt")) > 1000);
+    BOOST_TEST(std::stoi(read_file(folder.path() / "vtu.txt")) > 1000);
   }
   BOOST_TEST(fields == 4);
 }
 
 BOOST_AUTO_TEST_CASE(deformed_pairs_can_be_turned) {
   const test::TemporaryFolder folder("report_page_pair_fields");
-  write_file(folder.path() / "scene.toml", test::solved_pair());
-  const auto outcome = test::run_program(folder.path(), "solve scene.toml -o out --threads 2");
-  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-  const auto page = test::text_of(folder.path() / "out" / "report.html");
+  const auto page = written_page(folder.path(), "solve", test::solved_pair());
   for (const char* name : {"Deformed pinion", "Deformed wheel"}) BOOST_TEST(page.find(name) != std::string::npos, name);
   const auto used = used_in_browser(folder.path(), page);
   BOOST_TEST(used["bodies"].get<int>() == 2);
@@ -133,10 +131,7 @@ BOOST_AUTO_TEST_CASE(what_a_scene_says_stays_text) {
   const test::TemporaryFolder folder("report_page_text");
   const std::string hostile = "</script><script>window.failures.push('ran')</script><!--";
   const auto text = test::replaced(test::quick_scene(), "title = \"Quick\"", "title = \"" + hostile + "\"");
-  write_file(folder.path() / "scene.toml", text);
-  const auto outcome = test::run_program(folder.path(), "run scene.toml -o out --threads 2");
-  BOOST_REQUIRE_MESSAGE(outcome.status == 0, outcome.err);
-  check_used(used_in_browser(folder.path(), test::text_of(folder.path() / "out" / "report.html")), 15);
+  check_used(used_in_browser(folder.path(), written_page(folder.path(), "run", text)), 15);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -4,9 +4,9 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
+
+#include "core/files.h"
 
 namespace annulus::test {
 
@@ -15,18 +15,15 @@ struct ProgramOutcome {
   std::string out, err;
 };
 
-inline std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 /// Runs the built program in `folder`; what it prints is kept beside the folder, which stays as the program leaves it.
-inline ProgramOutcome run_program(const std::filesystem::path& folder, const std::string& arguments) {
+/// `environment`: "NAME='value'", set for it alone.
+inline ProgramOutcome run_program(const std::filesystem::path& folder, const std::string& arguments,
+                                  const std::string& environment = "") {
   const auto out = folder.string() + ".stdout", err = folder.string() + ".stderr";
-  const int raw = std::system(
-      ("cd '" + folder.string() + "' && '" ANNULUS_PROGRAM "' " + arguments + " >'" + out + "' 2>'" + err + "'")
-          .c_str());
-  const ProgramOutcome outcome{WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, text_of(out), text_of(err)};
+  const int raw = std::system(("cd '" + folder.string() + "' && " + environment + " '" ANNULUS_PROGRAM "' " +
+                               arguments + " >'" + out + "' 2>'" + err + "'")
+                                  .c_str());
+  const ProgramOutcome outcome{WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, read_file(out), read_file(err)};
   std::filesystem::remove(out);
   std::filesystem::remove(err);
   return outcome;

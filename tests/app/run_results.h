@@ -36,7 +36,7 @@ inline std::map<std::string, std::string> results_in(const std::filesystem::path
     if (!entry.is_regular_file() || *place.begin() == "condensed" || place == "run.json" || place == "report.html" ||
         is_unfinished(place))
       continue;
-    auto text = text_of(entry.path());
+    auto text = read_file(entry.path());
     if (place.extension() == ".csv") text = std::regex_replace(text, times, "");
     if (place.extension() == ".json") {
       auto json = nlohmann::json::parse(text);

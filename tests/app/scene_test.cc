@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 
 #include "app/scene/scene_schema.h"
+#include "core/files.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
 
@@ -253,8 +253,7 @@ BOOST_AUTO_TEST_CASE(flanges_and_hoops_come_in_pairs) {
 
 BOOST_AUTO_TEST_CASE(plane_models_are_refused_where_the_face_width_matters) {
   const auto paper = [](const std::string& what, const std::string& by) {
-    std::ifstream in(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
-    const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    const std::string text = read_file(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
     return test::replaced(text, what, by);
   };
   for (const std::string rung : {"plane", "closed_form"}) {
@@ -339,8 +338,7 @@ BOOST_AUTO_TEST_CASE(every_key_is_documented) {
 }
 
 BOOST_AUTO_TEST_CASE(the_scene_reference_is_up_to_date) {
-  std::ifstream in(std::string(ANNULUS_SOURCE_DIR) + "/docs/scene.md");
-  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const std::string text = read_file(std::string(ANNULUS_SOURCE_DIR) + "/docs/scene.md");
   BOOST_TEST((text == app::scene_reference()), "run: annulus explain --markdown > docs/scene.md");
 }
 

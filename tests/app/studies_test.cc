@@ -2,7 +2,6 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -16,11 +15,6 @@
 namespace annulus {
 
 namespace {
-
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 /// Installation errors alone: they stand still on the carrier, so the windows are short.
 std::string short_scene() {
@@ -88,9 +82,9 @@ BOOST_AUTO_TEST_CASE(sweep_points_are_the_runs_they_stand_for) {
   BOOST_TEST(column(csv, "sun_planet_load_sharing_averaged")[2] == averaged(result, sweep.variants[1][2]));
   const auto poincare = Csv::read(folder.path() / "all/heavy/dynamics/sweep_1_poincare.csv");
   BOOST_TEST(poincare.rows.size() == 3U * 20);
-  const auto json = nlohmann::json::parse(contents(folder.path() / "all/summary.json"));
+  const auto json = nlohmann::json::parse(read_file(folder.path() / "all/summary.json"));
   BOOST_TEST(json["rings"]["heavy"]["sweeps"][0]["values"].size() == 3U);
-  BOOST_TEST(contents(folder.path() / "all/report.html").find("id=\"sweeps\"") != std::string::npos);
+  BOOST_TEST(read_file(folder.path() / "all/report.html").find("id=\"sweeps\"") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(grid_points_are_the_points_of_sweeps) {
@@ -112,7 +106,7 @@ BOOST_AUTO_TEST_CASE(grid_points_are_the_points_of_sweeps) {
   const auto csv = Csv::read(folder.path() / "held/dynamics/grid_1.csv");
   BOOST_TEST(column(csv, "supports_planet_N_per_m") == (std::vector<double>{5e8, 2e9, 5e8, 2e9, 5e8, 2e9}),
              boost::test_tools::per_element());
-  const auto report = contents(folder.path() / "report.html");
+  const auto report = read_file(folder.path() / "report.html");
   BOOST_TEST(report.find("id=\"grids\"") != std::string::npos);
 }
 
@@ -150,7 +144,7 @@ BOOST_AUTO_TEST_CASE(samples_are_the_same_for_any_number_of_threads_and_samples)
   };
   const auto one = run_text(text + few_samples, folder.path() / "one", 1);
   (void)run_text(text + few_samples, folder.path() / "three", 3);
-  for (const auto* ring : {"held", "heavy"}) BOOST_TEST(contents(file("one", ring)) == contents(file("three", ring)));
+  for (const auto* ring : {"held", "heavy"}) BOOST_TEST(read_file(file("one", ring)) == read_file(file("three", ring)));
   // Fewer samples first: the later ones add to them.
   const auto fewer = test::replaced(text + few_samples, "samples = 45", "samples = 25");
   (void)run_text(fewer, folder.path() / "more");
@@ -160,7 +154,7 @@ BOOST_AUTO_TEST_CASE(samples_are_the_same_for_any_number_of_threads_and_samples)
   const auto written = std::filesystem::last_write_time(kept);
   (void)run_text(text + few_samples, folder.path() / "more");
   BOOST_TEST((std::filesystem::last_write_time(kept) == written));
-  BOOST_TEST(contents(file("more", "held")) == contents(file("one", "held")));
+  BOOST_TEST(read_file(file("more", "held")) == read_file(file("one", "held")));
   // And fewer again are the first of them.
   (void)run_text(fewer, folder.path() / "more");
   BOOST_TEST((Csv::read(file("more", "held")).rows == early.rows));
@@ -187,7 +181,7 @@ BOOST_AUTO_TEST_CASE(interrupted_studies_go_on_to_the_same_bytes) {
   BOOST_TEST((std::filesystem::last_write_time(first) == written));  // taken over, not made again
   for (const auto* file : {"held/dynamics/sweep_1.csv", "held/dynamics/sweep_1_poincare.csv",
                            "held/dynamics/monte_carlo.csv", "sensitivity.csv"})
-    BOOST_TEST(contents(folder.path() / "whole" / file) == contents(folder.path() / "parts" / file), file);
+    BOOST_TEST(read_file(folder.path() / "whole" / file) == read_file(folder.path() / "parts" / file), file);
 }
 
 BOOST_AUTO_TEST_CASE(two_planets_of_unknown_phase_have_a_known_spread) {
@@ -251,13 +245,13 @@ BOOST_AUTO_TEST_CASE(orders_of_the_rings_are_counted_in_pairs) {
   BOOST_TEST(order.above == above);
   BOOST_TEST((order.share.low <= above / 45.0 && above / 45.0 <= order.share.high));
   BOOST_TEST(order.difference.value == difference, boost::test_tools::tolerance(1e-9));
-  const auto json = nlohmann::json::parse(contents(folder.path() / "summary.json"));
+  const auto json = nlohmann::json::parse(read_file(folder.path() / "summary.json"));
   BOOST_TEST(json["monte_carlo"]["orders"][0]["share"]["value"] == order.share.value);
   const auto& statistics = json["rings"]["held"]["monte_carlo"];
   BOOST_TEST(statistics["samples"] == 45);
   BOOST_TEST(statistics["failed"] == 0);
   BOOST_TEST(statistics[ordering_figure]["mean"]["value"].get<double>() > 1);
-  const auto page = contents(folder.path() / "report.html");
+  const auto page = read_file(folder.path() / "report.html");
   BOOST_TEST(page.find("id=\"spread\"") != std::string::npos);
   BOOST_TEST(page.find(">nan<") == std::string::npos);
 }
@@ -295,7 +289,7 @@ BOOST_AUTO_TEST_CASE(failed_samples_are_counted_and_told) {
   BOOST_TEST(std::isfinite(ring.find(ordering_figure)->mean.value));
   const auto csv = Csv::read(folder.path() / "out/held/dynamics/monte_carlo.csv");
   BOOST_TEST(csv.header.size() == 2U + static_cast<std::size_t>(expected));
-  BOOST_TEST(contents(folder.path() / "out/report.html").find("samples failed") != std::string::npos);
+  BOOST_TEST(read_file(folder.path() / "out/report.html").find("samples failed") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(sensitivity_divides_and_multiplies) {
@@ -328,9 +322,9 @@ BOOST_AUTO_TEST_CASE(sensitivity_divides_and_multiplies) {
     BOOST_TEST(row.order_stays ==
                (order(row.divided) == order(s.nominal) && order(row.multiplied) == order(s.nominal)));
   }
-  const auto csv = contents(folder.path() / "all/sensitivity.csv");
+  const auto csv = read_file(folder.path() / "all/sensitivity.csv");
   BOOST_TEST(std::count(csv.begin(), csv.end(), '\n') == 2 + 1 + 6 * 2);
-  const auto json = nlohmann::json::parse(contents(folder.path() / "all/summary.json"));
+  const auto json = nlohmann::json::parse(read_file(folder.path() / "all/summary.json"));
   BOOST_TEST(json["sensitivity"]["inputs"].size() == 6U);
 }
 

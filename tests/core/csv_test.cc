@@ -74,6 +74,19 @@ BOOST_AUTO_TEST_CASE(line_ends_and_blanks_of_other_systems_are_accepted) {
   BOOST_TEST((csv.rows == std::vector<std::vector<double>>{{1, 2}}));
 }
 
+// RFC 4180, section 2: fields with commas or quotes are enclosed in quotes, quotes in them are doubled.
+BOOST_AUTO_TEST_CASE(cells_with_text_are_quoted_where_they_have_to_be) {
+  using annulus::csv_cell;
+  BOOST_TEST(csv_cell("plain text") == "plain text");
+  BOOST_TEST(csv_cell("a,b") == "\"a,b\"");
+  BOOST_TEST(csv_cell("5\" ring") == "\"5\"\" ring\"");
+  BOOST_TEST(csv_cell("two\r\nlines") == "two  lines");
+  BOOST_TEST(csv_cell("").empty());
+  BOOST_TEST(std::stod(csv_cell(0.1 + 0.2)) == 0.1 + 0.2);
+  BOOST_TEST(csv_cell(std::numeric_limits<double>::quiet_NaN()).empty());
+  BOOST_TEST(csv_cell(-std::numeric_limits<double>::infinity()).empty());
+}
+
 BOOST_AUTO_TEST_CASE(a_missing_column_is_named) {
   annulus::Csv csv;
   csv.columns = {"a", "b"};

@@ -7,7 +7,6 @@
 #include <boost/test/unit_test.hpp>
 #include <chrono>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,14 +18,10 @@ BOOST_AUTO_TEST_SUITE(files)
 
 namespace {
 
+using annulus::read_file;
 using annulus::UnfinishedFile;
 using annulus::write_file;
 using annulus::test::TemporaryFolder;
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 std::ptrdiff_t count(const std::filesystem::path& folder) {
   return std::distance(std::filesystem::directory_iterator(folder), {});
@@ -46,8 +41,22 @@ BOOST_AUTO_TEST_CASE(a_replaced_file_leaves_nothing_behind) {
   const TemporaryFolder folder("files");
   write_file(folder.path() / "f", "old and longer");
   write_file(folder.path() / "f", "new");
-  BOOST_TEST(text_of(folder.path() / "f") == "new");
+  BOOST_TEST(read_file(folder.path() / "f") == "new");
   BOOST_TEST(count(folder.path()) == 1);
+}
+
+BOOST_AUTO_TEST_CASE(every_byte_is_read_and_what_cannot_be_is_named) {
+  const TemporaryFolder folder("read_file");
+  const auto file = folder.path() / "f";
+  const std::string bytes("a\r\n\0\xff\x1a end", 10);
+  write_file(file, bytes);
+  BOOST_TEST((read_file(file) == bytes));
+  write_file(file, "");
+  BOOST_TEST(read_file(file).empty());
+  for (const auto& none : {folder.path() / "missing", folder.path()})
+    BOOST_CHECK_EXCEPTION((void)read_file(none), annulus::InputError, [&](const auto& e) {
+      return std::string(e.what()).find("cannot read " + none.string()) == 0;
+    });
 }
 
 BOOST_AUTO_TEST_CASE(nothing_is_seen_of_a_file_that_is_not_finished) {
@@ -57,9 +66,9 @@ BOOST_AUTO_TEST_CASE(nothing_is_seen_of_a_file_that_is_not_finished) {
   {
     const UnfinishedFile given_up(file);
     std::ofstream(given_up.temporary()) << "half of";
-    BOOST_TEST(text_of(file) == "whole");
+    BOOST_TEST(read_file(file) == "whole");
   }
-  BOOST_TEST(text_of(file) == "whole");
+  BOOST_TEST(read_file(file) == "whole");
   BOOST_TEST(count(folder.path()) == 1);
 }
 
@@ -72,7 +81,7 @@ BOOST_AUTO_TEST_CASE(many_writers_of_one_file_leave_one_of_theirs_whole) {
       for (int i = 0; i < 50; ++i) write_file(file, std::string(100'000, letter));
     });
   for (auto& w : writers) w.join();
-  const auto text = text_of(file);
+  const auto text = read_file(file);
   BOOST_TEST(text.size() == 100'000U);
   BOOST_TEST(text.find_first_not_of(text.front()) == std::string::npos);
   BOOST_TEST(count(folder.path()) == 1);

@@ -2,9 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "core/errors.h"
 #include "core/files.h"
@@ -49,9 +47,7 @@ RingCoupling written_and_read(const RingCoupling& coupling) {
 
 std::string message_after_editing(const std::filesystem::path& file, const std::string& from, const std::string& to) {
   sample(2, 6, 3, 2, 2).write_csv(compliance_file, modes_file);
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  auto edited = text.str();
+  auto edited = annulus::read_file(file);
   BOOST_TEST_REQUIRE(edited.find(from) != std::string::npos);
   edited.replace(edited.find(from), from.size(), to);
   annulus::write_file(file, edited);

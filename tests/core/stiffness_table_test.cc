@@ -2,10 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <numbers>
-#include <sstream>
 
 #include "core/errors.h"
 #include "core/files.h"
@@ -42,9 +40,7 @@ const auto file = std::filesystem::temp_directory_path() / "annulus_stiffness_ta
 
 std::string message_after_editing(const StiffnessTable& table, const std::string& from, const std::string& to) {
   table.write_csv(file);
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  auto edited = text.str();
+  auto edited = annulus::read_file(file);
   BOOST_REQUIRE(edited.find(from) != std::string::npos);
   edited.replace(edited.find(from), from.size(), to);
   annulus::write_file(file, edited);

@@ -4,13 +4,13 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <numbers>
 #include <random>
 #include <set>
 #include <sstream>
 
+#include "core/files.h"
 #include "gears.h"
 #include "geometry/sector_mesh.h"
 
@@ -372,10 +372,7 @@ BOOST_AUTO_TEST_CASE(written_vtu_holds_the_cells) {
   const TemporaryFolder folder;
   const Mesh plane = ring_sector();
   write_vtu(plane, folder.path / "sector.vtu");
-  std::ifstream in(folder.path / "sector.vtu");
-  std::stringstream text;
-  text << in.rdbuf();
-  const std::string s = text.str();
+  const std::string s = read_file(folder.path / "sector.vtu");
   BOOST_TEST(s.find("NumberOfPoints=\"" + std::to_string(plane.vertices.size()) + "\" NumberOfCells=\"" +
                     std::to_string(plane.cells.size()) + "\"") != std::string::npos);
   const auto values = [&](const std::string& name) {

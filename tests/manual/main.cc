@@ -8,6 +8,7 @@
 #include <regex>
 #include <sstream>
 
+#include "core/files.h"
 #include "page.h"
 
 namespace {
@@ -18,12 +19,6 @@ namespace fs = std::filesystem;
 struct Arguments {
   fs::path entries, records, introduction, docs;
 };
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file);
-  if (!in) throw std::runtime_error("cannot read " + file.string());
-  return (std::stringstream() << in.rdbuf()).str();
-}
 
 void write(const Arguments& a) {
   const auto cases = list_cases(a.entries);
@@ -38,12 +33,12 @@ void write(const Arguments& a) {
   for (const auto& [name, record] : records)
     for (std::size_t i = 0; i < record.pictures.size(); ++i)
       std::ofstream(pictures / picture_name(name, i)) << picture_svg(record.pictures[i]);
-  std::ofstream(a.docs / "verification.md") << page(text_of(a.introduction), cases, records);
+  std::ofstream(a.docs / "verification.md") << page(annulus::read_file(a.introduction), cases, records);
 }
 
 /// Names of verification test cases that the manual does not tell of.
 int check(const Arguments& a) {
-  const auto manual = text_of(a.docs / "verification.md");
+  const auto manual = annulus::read_file(a.docs / "verification.md");
   int missing = 0;
   for (const auto& c : list_cases(a.entries))
     if (c.label == "verification" && manual.find('`' + c.name.text() + '`') == std::string::npos) {
@@ -82,7 +77,7 @@ std::string without_figures(const std::string& section) {
 
 /// Cases whose section of the manual tells something else than the test that ran last.
 int compare(const Arguments& a) {
-  const auto manual = without_figures(text_of(a.docs / "verification.md"));
+  const auto manual = without_figures(annulus::read_file(a.docs / "verification.md"));
   int compared = 0, different = 0;
   const auto cases = list_cases(a.entries);
   for (const auto& [name, record] : read_records(a.records)) {
