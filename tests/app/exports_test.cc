@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(rexs_of_others) {
     BOOST_TEST(message.find(what) != std::string::npos, message);
   };
   refused("no xml", "cannot be read as XML");
-  refused("<model version=\"1.4\" name=\"caf\xe9\"/>", "is not UTF-8 (byte 31) and declares no other encoding");
+  refused("<model version=\"1.4\" name=\"caf\xe9\"/>", "is not UTF-8 (byte 30) and declares no other encoding");
   refused("<?xml version=\"1.0\"?><html/>", "no element 'model'");
   refused(text("2.0", ""), "REXS version '2.0'");
   refused(text("1.2", relation(6, "stage", ref(30, "stage") + ref(2, "gear_1") + ref(77, "gear_2"))), "component 77");
