@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/compare/compared_run.h"
 #include "app/compare/compared_quantities.h"
+#include "app/compare/compared_run.h"
 #include "app/compare/comparison_page.h"
 #include "app/finished_run.h"
 #include "core/errors.h"
