@@ -103,6 +103,7 @@ CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, const 
 
   const auto m = harmonics.load_low().rows();
   std::vector<Eigen::MatrixXd> cuts;
+  cuts.reserve(offsets);
   for (int d = 0; d < offsets; ++d) cuts.emplace_back(partial.front().col(d).reshaped(m, m));
   return {sectors,          sector.ports, max_offset, std::move(cuts), harmonics.load_low(), harmonics.load_high(),
           sector.compliance};

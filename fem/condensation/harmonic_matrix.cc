@@ -23,7 +23,7 @@ std::vector<Eigen::VectorXcd> harmonic_rigid_motions(const CondensedSector& sect
     Eigen::VectorXcd motion(sector.cut_stiffness.rows() / 2);
     Eigen::Index row = 0;
     for (std::size_t n = 0; n < sector.cut_points.size(); ++n) {
-      const Eigen::Vector3cd u = displacement(sector.cut_points[n]);
+      const Eigen::Vector3cd& u = displacement(sector.cut_points[n]);
       for (int c = 0; c < sector.cut_freedoms[n]; ++c) motion[row++] = u[c];
     }
     motions.push_back(motion);

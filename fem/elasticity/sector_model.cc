@@ -41,6 +41,7 @@ TraceGrid make_trace(const std::vector<int>& nodes, const std::vector<Eigen::Vec
   TraceGrid trace;
   trace.degree = degree;
   std::vector<double> z;
+  z.reserve(nodes.size());
   for (const int n : nodes) z.push_back(points[n].z());
   trace.axial = distinct(z, axial_round_off(points));
   std::vector<std::vector<std::pair<double, int>>> rows(trace.axial.size());
