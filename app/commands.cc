@@ -15,6 +15,7 @@
 #include "app/pipeline.h"
 #include "app/plan/cost_budget.h"
 #include "app/plan/run_limits.h"
+#include "app/report/report_files.h"
 #include "app/scene/new_scene.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/scene_schema.h"
@@ -148,9 +149,11 @@ void compare_command(const Arguments& arguments) {
     if (std::filesystem::is_directory(file)) throw InputError(fmt::format("--out {}: is a folder", file.string()));
   const auto runs = read_finished_runs(arguments.folders);
   if (page.has_parent_path()) std::filesystem::create_directories(page.parent_path());
-  write_file(page, comparison_html(runs));
+  const auto pictures = page.stem().string() + "_pictures";
+  write_report(page, comparison_html(runs), pictures);
   write_file(table, comparison_csv(runs));
-  fmt::print("{}table   {}\npage    {}\n", comparison_text(runs), table.string(), page.string());
+  fmt::print("{}table   {}\npage    {}\npictures {}\n", comparison_text(runs), table.string(), page.string(),
+             (page.parent_path() / pictures).string());
 }
 
 void explain_command(const Arguments& arguments) {

@@ -1,29 +1,16 @@
 #include "app/report/interactive_plot.h"
 
 #include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "app/report/plot_data.h"
 
 namespace annulus::app {
 
 namespace {
 
-/// Six digits are finer than any screen; what is not finite breaks a line.
 nlohmann::json numbers(const std::vector<double>& values, const std::vector<std::size_t>& kept) {
   auto list = nlohmann::json::array();
-  for (const std::size_t i : kept) {
-    const double v = values[i];
-    if (!std::isfinite(v)) {
-      list.push_back(nullptr);
-      continue;
-    }
-    if (v == 0) {
-      list.push_back(0);
-      continue;
-    }
-    const double scale = std::pow(10.0, 5 - std::floor(std::log10(std::abs(v))));
-    list.push_back(std::isfinite(scale) && scale > 0 ? std::round(v * scale) / scale : v);
-  }
+  for (const std::size_t i : kept) list.push_back(plot_number(values[i]));
   return list;
 }
 
@@ -63,7 +50,8 @@ const char* style_name(Series::Style style) {
 }  // namespace
 
 std::string plot_html(const Plot& plot) {
-  nlohmann::json data = {{"title", plot.title},
+  nlohmann::json data = {{"kind", "curves"},
+                         {"title", plot.title},
                          {"x_label", plot.x_label},
                          {"y_label", plot.y_label},
                          {"x_log", plot.x_log},
@@ -84,16 +72,7 @@ std::string plot_html(const Plot& plot) {
     data["series"].push_back(std::move(series));
   }
   for (const auto& [value, label] : plot.levels) data["levels"].push_back({{"value", value}, {"label", label}});
-  // "</script>" and "<!--" within a text would end the element.
-  std::string text = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), safe;
-  safe.reserve(text.size());
-  for (const char c : text) {
-    if (c == '<')
-      safe += "\\u003c";
-    else
-      safe += c;
-  }
-  return "<div class=\"plot\">" + to_svg(plot) + "<script type=\"application/json\">" + safe + "</script></div>";
+  return with_plot_data(to_svg(plot), data);
 }
 
 }  // namespace annulus::app

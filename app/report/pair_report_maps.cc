@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/pair_report_parts.h"
-#include "app/report/svg_map.h"
 #include "app/scene/overrides.h"
 #include "app/study/study_subject.h"
 
@@ -62,16 +62,16 @@ std::string one_map(const GridResult& grid, const StudyFigure& figure, std::size
     }
   }
   if (!any) return "";
-  return to_svg(ColourMap{.title = figure.title,
-                          .x_label = x.label,
-                          .y_label = y.label,
-                          .value_label = figure.label,
-                          .y_range = {y.cells[y.order.front()].low, y.cells[y.order.back()].high},
-                          .values = values.range(0),
-                          .grey = gap ? "failed" : "",
-                          .panels = {panel},
-                          .width = 430,
-                          .height = 300});
+  return plot_html(ColourMap{.title = figure.title,
+                             .x_label = x.label,
+                             .y_label = y.label,
+                             .value_label = figure.label,
+                             .y_range = {y.cells[y.order.front()].low, y.cells[y.order.back()].high},
+                             .values = values.range(0),
+                             .grey = gap ? "failed" : "",
+                             .panels = {panel},
+                             .width = 430,
+                             .height = 300});
 }
 
 /// Where the teeth part, and where the largest acceleration lies.

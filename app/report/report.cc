@@ -54,11 +54,11 @@ details { margin: 10px 0; } summary { cursor: pointer; color: #0072B2; }
 .view3d .tools.shown { display: block; font-size: 12px; color: #777; } .view3d .scale { font-size: 12.5px; color: #555; margin-top: 4px; }
 .view3d .scale i { display: inline-block; width: 120px; height: 9px; vertical-align: middle; }
 figure.fields .row { grid-template-columns: repeat(auto-fit, minmax(430px, 1fr)); align-items: start; }
-.plot { position: relative; outline-offset: 2px; } .plot .live { position: relative; } .plot.awake > svg { display: none; }
+.plot { position: relative; outline-offset: 2px; } .plot .live { display: flex; } .plot .chart { position: relative; flex: 1; min-width: 0; } .plot .scale { font-size: 12.5px; color: #555; } .plot .scale i { display: inline-block; width: 120px; height: 9px; margin: 0 4px; vertical-align: middle; } .plot.awake > svg { display: none; }
 .plot .tools { font-size: 12px; color: #999; opacity: 0; transition: opacity 0.15s; height: 20px; margin-top: -4px; }
 .plot:hover .tools, .plot:focus-within .tools { opacity: 1; }
 .plot .tools button { font: inherit; color: #0072B2; background: none; border: 0; padding: 0 10px 0 0; cursor: pointer; }
-@media print { .view3d canvas, .view3d .turn, .view3d .tools { display: none; } .view3d.awake > svg { display: block; } .plot .tools, .plot .live { display: none; } .plot.awake > svg { display: block; } main { max-width: none; } nav { display: none; } figure { break-inside: avoid; }
+@media print { .view3d canvas, .view3d .turn, .view3d .tools { display: none; } .view3d.awake > svg { display: block; } .plot .tools, .plot .live, .plot .scale { display: none; } .plot.awake > svg { display: block; } main { max-width: none; } nav { display: none; } figure { break-inside: avoid; }
   h2, h3 { break-after: avoid; } figure.fields, figure.meshes { break-inside: auto; } .view3d, figure.meshes .row > div { break-inside: avoid; }
   figure .row:not(.one), figure.fields .row { grid-template-columns: repeat(2, minmax(0, 1fr)); } .wide { overflow: visible; }
   table { font-size: 12px; } table.numbers th { white-space: normal !important; } tr { break-inside: avoid; } }

@@ -9,7 +9,6 @@
 
 #include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
-#include "app/report/svg_map.h"
 
 namespace annulus::app {
 
@@ -166,7 +165,7 @@ std::string pressure_map(const std::string& title, const MeshResult& mesh, const
   }
   map.y_range = z.range(0);
   map.values = pressure.range(0);
-  return to_svg(map);
+  return plot_html(map);
 }
 
 /// Nothing changes along the face width: pressure over the roll length, as steps about the theoretical contact point.

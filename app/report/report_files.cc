@@ -102,9 +102,9 @@ std::string page_scripts(const std::string& page) {
   return scripts;
 }
 
-void write_report(const std::filesystem::path& file, const std::string& page) {
+void write_report(const std::filesystem::path& file, const std::string& page, const std::string& pictures) {
   write_file(file, page);
-  const auto folder = file.parent_path() / "pictures";
+  const auto folder = file.parent_path() / pictures;
   std::set<std::filesystem::path> names;
   for (const auto& p : pictures_of(page)) {
     const auto title = slug(p.title);

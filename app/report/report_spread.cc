@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
-#include "app/report/svg_spread.h"
 
 namespace annulus::app {
 
@@ -40,7 +40,7 @@ std::string spread_picture(const StudyResults& studies, const StudyFigure& figur
     column.values = std::move(values);
     plot.columns.push_back(std::move(column));
   }
-  return to_svg(plot);
+  return plot_html(plot);
 }
 
 std::string percent(const dynamics::Interval& share) {

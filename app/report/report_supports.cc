@@ -6,7 +6,6 @@
 
 #include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
-#include "app/report/svg_map.h"
 
 namespace annulus::app {
 
@@ -144,7 +143,7 @@ std::string state_map(const RingInput& input, const MeshResult& mesh) {
       .grey = lifted ? "lifted off" : "",
       .height = static_cast<int>(std::clamp<std::size_t>(130 + 9 * count, 190, 480))};
   map.panels.push_back(std::move(panel));
-  return to_svg(map);
+  return plot_html(map);
 }
 
 std::string force_plot(const std::string& ring, const MeshResult& mesh) {

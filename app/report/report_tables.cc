@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
-#include "app/report/svg_bars.h"
 #include "app/stage/comparison.h"
 
 namespace annulus::app {
@@ -204,10 +204,9 @@ std::string answer_picture(const std::vector<RingQuantity>& quantities, const st
     }
   }
   if (chart.bars.empty()) return "";
-  return figure({to_svg(chart)}, "",
+  return figure({plot_html(chart)}, "",
                 "Excess of the most loaded planet over its share, and of the largest mesh force over its mean; "
-                "whiskers: estimated "
-                "numerical error.");
+                "whiskers: estimated numerical error.");
 }
 
 std::string verdict_section(const RunResult& result) {

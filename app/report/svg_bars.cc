@@ -9,22 +9,28 @@
 
 namespace annulus::app {
 
-std::string to_svg(const BarChart& chart) {
+Range bar_range(const BarChart& chart) {
   double reach = chart.reach;
-  bool negative = chart.two_sided, positive = chart.two_sided, notes = false;
+  bool negative = chart.two_sided, positive = chart.two_sided;
   for (const auto& bar : chart.bars) {
     if (!(chart.reach > 0))
       reach = std::max(reach, std::abs(bar.value) + (bar.error > 0 && std::isfinite(bar.error) ? bar.error : 0));
     negative = negative || bar.value < 0;
     positive = positive || bar.value > 0;
-    notes = notes || !bar.note.empty();
   }
   if (!(reach > 0)) reach = 1;
+  return {negative ? -reach : 0, positive || !negative ? reach : 0};
+}
+
+std::string to_svg(const BarChart& chart) {
+  const Range range = bar_range(chart);
+  const bool negative = range.low<0, positive = range.high> 0;
+  const bool notes =
+      std::any_of(chart.bars.begin(), chart.bars.end(), [](const auto& bar) { return !bar.note.empty(); });
   const double top = chart.title.empty() ? 8 : 26, left = chart.label_width, note_width = notes ? 62 : 8;
   const double bottom = top + chart.row_height * static_cast<double>(chart.bars.size());
-  const double note_left = negative ? note_width : 0, right = chart.width - (positive || !negative ? note_width : 8);
-  const Frame frame{
-      left + note_left, right, top, bottom, {negative ? -reach : 0, positive || !negative ? reach : 0}, {0, 1}};
+  const double note_left = negative ? note_width : 0, right = chart.width - (positive ? note_width : 8);
+  const Frame frame{left + note_left, right, top, bottom, range, {0, 1}};
   const int height = static_cast<int>(bottom) + (chart.x_label.empty() ? 8 : 44);
   std::string svg = open_svg(chart.title, chart.width, height, 4);
   if (!chart.x_label.empty()) {

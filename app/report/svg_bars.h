@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "app/report/svg_plot.h"
+
 namespace annulus::app {
 
 /// Horizontal bars from a zero line, each with its name.
@@ -22,6 +24,9 @@ struct BarChart {
   int label_width = 130;
   int row_height = 16;
 };
+
+/// What its axis spans.
+[[nodiscard]] Range bar_range(const BarChart& chart);
 
 /// An <svg> element that scales with its container and needs nothing from outside.
 [[nodiscard]] std::string to_svg(const BarChart& chart);

@@ -18,44 +18,29 @@ constexpr const char* grey_fill = "#bcc2c7";
 constexpr int levels = colour_levels;
 constexpr int no_value = -1;
 
-/// Colours in steps, so that equal ones can be drawn together.
-class ColourScale {
- public:
-  explicit ColourScale(Range values) : diverging_(values.low < 0), range_(values) {
-    if (diverging_) {
-      const double most = std::max(std::abs(values.low), std::abs(values.high));
-      range_ = {-most, most};
-    }
-  }
-  [[nodiscard]] int level(const std::optional<double>& value) const {
-    if (!value || !std::isfinite(*value)) return no_value;
-    const double at = (*value - range_.low) / (range_.high - range_.low);
-    return std::clamp(static_cast<int>(at * levels), 0, levels - 1);
-  }
-  [[nodiscard]] std::string colour(int level) const {
-    if (level == no_value) return grey_fill;
-    const double at = static_cast<double>(level) / (levels - 1);
-    return diverging_ ? both_ways_colour(at) : one_way_colour(at);
-  }
-  [[nodiscard]] const Range& range() const { return range_; }
+/// The step of a value on the scale.
+int level_of(const ColourScale& scale, const std::optional<double>& value) {
+  if (!value || !std::isfinite(*value)) return no_value;
+  const double at = (*value - scale.range.low) / (scale.range.high - scale.range.low);
+  return std::clamp(static_cast<int>(at * levels), 0, levels - 1);
+}
 
- private:
-  bool diverging_;
-  Range range_;
-};
+const std::string& colour(const ColourScale& scale, int level) {
+  return level == no_value ? scale.no_value : scale.colours[static_cast<std::size_t>(level)];
+}
 
 /// All cells of one panel, one path per colour; runs of equal neighbours in x joined.
 std::string cells(const Frame& frame, const std::vector<ColourMap::Cell>& list, const ColourScale& scale) {
   std::map<int, std::string> paths;
   for (std::size_t i = 0; i < list.size();) {
     const auto& first = list[i];
-    const int level = scale.level(first.value);
+    const int level = level_of(scale, first.value);
     double end = first.x.high;
     std::size_t next = i + 1;
     for (; next < list.size(); ++next) {
       const auto& cell = list[next];
       if (cell.x.low != end || cell.y.low != first.y.low || cell.y.high != first.y.high ||
-          scale.level(cell.value) != level)
+          level_of(scale, cell.value) != level)
         break;
       end = cell.x.high;
     }
@@ -65,7 +50,7 @@ std::string cells(const Frame& frame, const std::vector<ColourMap::Cell>& list, 
     i = next;
   }
   std::string svg = "<g shape-rendering=\"crispEdges\">";
-  for (const auto& [level, d] : paths) svg += fmt::format("<path fill=\"{}\" d=\"{}\"/>", scale.colour(level), d);
+  for (const auto& [level, d] : paths) svg += fmt::format("<path fill=\"{}\" d=\"{}\"/>", colour(scale, level), d);
   return svg + "</g>";
 }
 
@@ -87,11 +72,11 @@ std::string line(const Frame& frame, const std::vector<std::pair<double, double>
 std::string colour_bar(const ColourMap& map, const ColourScale& scale, double left, double top, double bottom) {
   constexpr double width = 12;
   if (!map.grey.empty()) bottom -= 26;
-  const Frame bar{left, left + width, top, bottom, {0, 1}, scale.range()};
+  const Frame bar{left, left + width, top, bottom, {0, 1}, scale.range};
   std::string svg;
   const double step = (bottom - top) / levels;
   for (int i = 0; i < levels; ++i) {
-    svg += fmt::format("<path fill=\"{}\" d=\"M{:.1f} {:.2f}h{:.1f}v{:.2f}h{:.1f}Z\"/>", scale.colour(i), left,
+    svg += fmt::format("<path fill=\"{}\" d=\"M{:.1f} {:.2f}h{:.1f}v{:.2f}h{:.1f}Z\"/>", colour(scale, i), left,
                        bottom - (i + 1) * step - 0.2, width, step + 0.4, -width);
   }
   const auto ticks = nice_ticks(bar.y.low, bar.y.high, static_cast<int>((bottom - top) / 34));
@@ -112,9 +97,23 @@ std::string colour_bar(const ColourMap& map, const ColourScale& scale, double le
 
 }  // namespace
 
+ColourScale colour_scale(const ColourMap& map) {
+  const bool diverging = map.values.low < 0;
+  ColourScale scale{.range = map.values, .colours = {}, .no_value = grey_fill};
+  if (diverging) {
+    const double most = std::max(std::abs(map.values.low), std::abs(map.values.high));
+    scale.range = {-most, most};
+  }
+  for (int level = 0; level < levels; ++level) {
+    const double at = static_cast<double>(level) / (levels - 1);
+    scale.colours.push_back(diverging ? both_ways_colour(at) : one_way_colour(at));
+  }
+  return scale;
+}
+
 std::string to_svg(const ColourMap& map) {
   constexpr double left = 62, bar_space = 92, between = 16;
-  const ColourScale scale(map.values);
+  const ColourScale scale = colour_scale(map);
   const bool panel_titles =
       std::any_of(map.panels.begin(), map.panels.end(), [](const auto& p) { return !p.title.empty(); });
   const double top = (map.title.empty() ? 22 : 40) + (panel_titles ? 2 : 0), bottom = map.height - 42.0;

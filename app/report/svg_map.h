@@ -31,6 +31,14 @@ struct ColourMap {
   int width = 900, height = 320;
 };
 
+/// Colours in steps from the lower to the upper end of a range, beyond it the last ones.
+struct ColourScale {
+  Range range{};
+  std::vector<std::string> colours{};  ///< "#c7e9b4"
+  std::string no_value{};
+};
+[[nodiscard]] ColourScale colour_scale(const ColourMap& map);
+
 /// An <svg> element like those of `Plot`. Neighbours of the same colour become one rectangle.
 [[nodiscard]] std::string to_svg(const ColourMap& map);
 

@@ -12,16 +12,11 @@ namespace annulus::app {
 
 namespace {
 
-/// Places of the samples around the middle of a column: spread by the golden section, so that neighbours in the list
-/// do not fall on each other, and the picture is the same every time.
-std::string sample_dots(const Frame& frame, const SpreadColumn& column, double middle, double half) {
-  constexpr double golden = 0.6180339887498949;
+std::string sample_dots(const Frame& frame, const SpreadColumn& column, const std::vector<double>& at) {
   std::set<std::string> places;
-  for (std::size_t i = 0; i < column.values.size(); ++i) {
-    if (!std::isfinite(column.values[i])) continue;
-    const double part = std::fmod(golden * static_cast<double>(i + 1), 1.0);
-    places.insert(fmt::format("M{:.1f} {:.1f}h0", middle + (2 * part - 1) * half, frame.at_y(column.values[i])));
-  }
+  for (std::size_t i = 0; i < column.values.size(); ++i)
+    if (std::isfinite(column.values[i]))
+      places.insert(fmt::format("M{:.1f} {:.1f}h0", frame.at_x(at[i]), frame.at_y(column.values[i])));
   std::string d;
   for (const auto& place : places) d += place;
   return fmt::format(
@@ -59,6 +54,16 @@ std::string nominal_mark(const Frame& frame, const SpreadColumn& c, double x) {
 
 }  // namespace
 
+ColumnPlaces places_in_column(std::size_t index, std::size_t samples) {
+  // By the golden section: the picture is the same every time.
+  constexpr double golden = 0.6180339887498949, half = 0.14;
+  const double middle = static_cast<double>(index) + 0.5;
+  ColumnPlaces places{.samples = {}, .box = middle + 0.08, .nominal = middle + 0.24};
+  for (std::size_t i = 0; i < samples; ++i)
+    places.samples.push_back(middle - 0.18 + (2 * std::fmod(golden * static_cast<double>(i + 1), 1.0) - 1) * half);
+  return places;
+}
+
 std::string to_svg(const SpreadPlot& plot) {
   RangeFinder y;
   for (const auto& c : plot.columns) {
@@ -77,10 +82,10 @@ std::string to_svg(const SpreadPlot& plot) {
   for (std::size_t i = 0; i < plot.columns.size(); ++i) {
     const auto& c = plot.columns[i];
     const double middle = frame.at_x(static_cast<double>(i) + 0.5), unit = (frame.right - frame.left) / columns;
-    svg += "<g><title>" + escape(c.label) + "</title>" +
-           sample_dots(frame, c, middle - 0.18 * unit, std::min(0.14 * unit, 40.0)) +
-           box(frame, c, middle + 0.08 * unit, std::min(0.07 * unit, 18.0)) +
-           nominal_mark(frame, c, middle + 0.24 * unit) + "</g>";
+    const auto places = places_in_column(i, c.values.size());
+    svg += "<g><title>" + escape(c.label) + "</title>" + sample_dots(frame, c, places.samples) +
+           box(frame, c, frame.at_x(places.box), std::min(0.07 * unit, 18.0)) +
+           nominal_mark(frame, c, frame.at_x(places.nominal)) + "</g>";
     svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" font-size=\"12\">{}</text>", middle,
                        frame.bottom + 18, escape(c.label));
   }

@@ -23,6 +23,13 @@ struct SpreadPlot {
   int width = 430, height = 290;
 };
 
+/// Where the parts of column `index` stand: x counts the columns.
+struct ColumnPlaces {
+  std::vector<double> samples{};  ///< spread, so that neighbours in the list do not fall on each other
+  double box = 0, nominal = 0;
+};
+[[nodiscard]] ColumnPlaces places_in_column(std::size_t index, std::size_t samples);
+
 [[nodiscard]] std::string to_svg(const SpreadPlot& plot);
 
 }  // namespace annulus::app

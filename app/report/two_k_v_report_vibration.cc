@@ -5,7 +5,6 @@
 
 #include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
-#include "app/report/svg_bars.h"
 #include "app/report/two_k_v_report.h"
 #include "core/units.h"
 
@@ -145,7 +144,7 @@ std::string shape_pictures(const TwoKVVibration& v) {
                             sign * mode.shape[i] / largest,
                             body_colour(v.modes.freedoms[static_cast<std::size_t>(i)]),
                             {}});
-    text += "<div>" + to_svg(chart) + "</div>\n";
+    text += "<div>" + plot_html(chart) + "</div>\n";
   }
   return text +
          "</div><figcaption>Displacements as lengths, the largest 1: turns times base radius (input, sun, planets), "
@@ -233,7 +232,7 @@ std::string first_frequency_section(const TwoKVResult& result) {
     for (const auto& factor : input.reaching) row.push_back(factor_text(factor, "out of reach"));
     table.rows.push_back(std::move(row));
   }
-  return text + figure({to_svg(chart)}, legend_html({{"assumed", 1}, {"given or computed", 0}}), "") + html(table);
+  return text + figure({plot_html(chart)}, legend_html({{"assumed", 1}, {"given or computed", 0}}), "") + html(table);
 }
 
 std::string torsion_section(const TwoKVResult& result) {

@@ -217,6 +217,12 @@ BOOST_AUTO_TEST_CASE(finished_runs_of_the_program) {
   BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
   BOOST_TEST(contains(outcome.out, "pages/both.html"));
   BOOST_TEST(contains(outcome.out, "supports.planet_N_per_m"));
+  int pictures = 0;
+  for (const auto& entry : fs::directory_iterator(folder.path() / "pages" / "both_pictures")) {
+    ++pictures;
+    BOOST_TEST(read_file(entry.path()).starts_with("<svg xmlns="));
+  }
+  BOOST_TEST(pictures == 1);  // the answer
   const auto page = read_file(folder.path() / "pages" / "both.html");
   const auto csv = read_file(folder.path() / "pages" / "both.csv");
   // The numbers are those of the summaries, the only input that differs is the one that was changed.

@@ -2,7 +2,7 @@
 window.failures = [];
 window.addEventListener('error', (event) => window.failures.push('error: ' + event.message));
 const expect = (condition, what) => { if (!condition) window.failures.push(what); };
-const result = {plots: 0, drawn: 0, zoomed: 0, reset: 0, hidden: 0, told: 0, rows: 0, pictures: 0, bands: 0, bodies: 0, shown: 0, turned: 0, undeformed: 0};
+const result = {plots: 0, curves: 0, bars: 0, map: 0, spreads: 0, unusable: [], drawn: 0, zoomed: 0, reset: 0, hidden: 0, told: 0, rows: 0, pictures: 0, bands: 0, bodies: 0, shown: 0, turned: 0, undeformed: 0};
 
 const painted = (canvas) => {
   const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -12,21 +12,13 @@ const painted = (canvas) => {
 };
 const pointer = (type, x, y) => new PointerEvent(type, {clientX: x, clientY: y, bubbles: true});
 
-function usePlot(box) {
-  const plot = JSON.parse(box.querySelector('script').textContent), name = plot.title;
-  ++result.plots;
-  expect(box.querySelector('svg').getBoundingClientRect().height > 50, name + ': no picture before');
-  box.dispatchEvent(new PointerEvent('pointerenter'));
-  const {chart} = box;
-  expect(chart, name + ': no chart');
-  if (!chart) return;
-  result.drawn += painted(chart.canvas) > 500;
+/// Every point of the curves is there, within the axes.
+function checkCurves(plot, chart, name) {
   const datasets = chart.data.datasets;
   for (const s of plot.series) {
     const own = datasets.filter((d) => d.series === plot.series.indexOf(s) && !d.band);
     const finite = s.x.filter((x, i) => x !== null && s.y[i] !== null).length;
     expect(own.length === 1 && own[0].data.filter((p) => p.x !== null && p.y !== null).length >= finite, name + ': points');
-    // The axes show all of it.
     for (const [scale, values] of [[chart.scales.x, s.x], [chart.scales.y, s.y]]) {
       const given = scale === chart.scales.x ? plot.x_range : plot.y_range;
       if (given || plot.y_log) continue;
@@ -35,6 +27,42 @@ function usePlot(box) {
     }
     if (s.low) result.bands += datasets.filter((d) => d.band).length > 0;
   }
+}
+
+/// Cells have the colours of their values, where the canvas shows them.
+function checkCells(plot, chart, name) {
+  const {x, y} = chart.scales, ratio = chart.currentDevicePixelRatio, {ctx} = chart;
+  let seen = 0, right = 0;
+  for (const cell of chart.data.cells) {
+    const [left, end] = cell.x.map((v) => x.getPixelForValue(v)), [low, top] = cell.y.map((v) => y.getPixelForValue(v));
+    if (end - left < 6 || low - top < 6 || cell.value === null) continue;
+    if (left < chart.chartArea.left || end > chart.chartArea.right) continue;
+    ++seen;
+    const at = [left + 2, top + 2].map((v) => Math.round(v * ratio));
+    const [r, g, b] = ctx.getImageData(...at, 1, 1).data;
+    const [least, most] = plot.scale, steps = plot.colours.length;
+    const step = Math.min(steps - 1, Math.max(0, Math.floor((cell.value - least) / (most - least) * steps)));
+    const wanted = [1, 3, 5].map((i) => parseInt(plot.colours[step].slice(i, i + 2), 16));
+    right += Math.abs(r - wanted[0]) + Math.abs(g - wanted[1]) + Math.abs(b - wanted[2]) < 12;
+  }
+  // A line may cross some of them.
+  expect(right >= 0.8 * seen, name + `: ${right} of ${seen} cells have their colour`);
+}
+
+const rowsOf = {
+  curves: (plot) => plot.series.reduce((sum, s) => sum + s.x.length, 0),
+  bars: (plot) => plot.bars.length,
+  map: (plot) => plot.panels.reduce((sum, p) => sum + p.cells.length, 0),
+};
+
+/// How many of its charts can be used in that way.
+const good = {drawn: 0, zoomed: 0, reset: 0, hidden: 0, told: 0};
+
+function useChart(plot, chart, name) {
+  good.drawn += painted(chart.canvas) > 500;
+  const datasets = chart.data.datasets;
+  if (plot.kind === 'curves') checkCurves(plot, chart, name);
+  if (plot.kind === 'map') checkCells(plot, chart, name);
 
   // A rectangle from a quarter to three quarters of the plot.
   const box0 = chart.canvas.getBoundingClientRect(), area = chart.chartArea;
@@ -45,31 +73,56 @@ function usePlot(box) {
   window.dispatchEvent(pointer('pointerup', ...at(0.75)));
   const span = (scale) => plot.x_log ? Math.log(scale.max / scale.min) : scale.max - scale.min;
   const wanted = 0.5 * span({min: before[0], max: before[1]});
-  result.zoomed += Math.abs(span(chart.scales.x) / wanted - 1) < 0.02;
+  good.zoomed += Math.abs(span(chart.scales.x) / wanted - 1) < 0.02;
   chart.canvas.dispatchEvent(new MouseEvent('dblclick'));
-  result.reset += chart.scales.x.min === before[0] && chart.scales.x.max === before[1];
+  good.reset += chart.scales.x.min === before[0] && chart.scales.x.max === before[1];
 
-  const [item] = chart.legend.legendItems;
+  const item = plot.kind === 'curves' && chart.legend.legendItems[0];
   if (item) {
-    const {series} = datasets[item.datasetIndex];
+    const {group} = datasets[item.datasetIndex];
     chart.options.plugins.legend.onClick(null, item, chart.legend);
     const all = datasets.map((d, i) => [d, chart.isDatasetVisible(i)]);
-    result.hidden += all.every(([d, visible]) => visible === (d.series !== series));
+    good.hidden += all.every(([d, visible]) => visible === (d.group !== group));
     chart.options.plugins.legend.onClick(null, item, chart.legend);
     expect(chart.isDatasetVisible(item.datasetIndex), name + ': does not come back');
   } else {
-    ++result.hidden;
+    ++good.hidden;
   }
 
-  // What a reader is told of the first point.
-  const first = datasets.findIndex((d) => !d.band && !d.level), point = datasets[first].data.findIndex((p) => p.y !== null && !Number.isNaN(p.y));
-  chart.tooltip.setActiveElements([{datasetIndex: first, index: point}], {x: 0, y: 0});
+  // What a reader is told of the first point; of a map, of the cell under the pointer.
+  const shown = (p) => (typeof p === 'number' ? true : p.y !== null && !Number.isNaN(p.y));
+  const first = datasets.findIndex((d) => !d.band && !d.level), index = datasets[first].data.findIndex(shown);
+  if (plot.kind === 'map') {
+    const cells = chart.data.cells.map((c, i) => [c, i]).filter(([c]) => (c.x[0] + c.x[1]) / 2 > chart.scales.x.min && (c.x[0] + c.x[1]) / 2 < chart.scales.x.max);
+    const [cell, i] = cells[Math.floor(cells.length / 2)];
+    const event = {x: chart.scales.x.getPixelForValue((cell.x[0] + cell.x[1]) / 2), y: chart.scales.y.getPixelForValue((cell.y[0] + cell.y[1]) / 2)};
+    const found = Chart.Interaction.modes.cell(chart, event);
+    expect(found.length === 1 && found[0].index === i, name + ': not the cell under the pointer');
+  }
+  chart.tooltip.setActiveElements([{datasetIndex: first, index}], {x: 0, y: 0});
   chart.tooltip.update(true);
-  result.told += chart.tooltip.body.length === 1 && chart.tooltip.body[0].lines[0].startsWith(datasets[first].label);
+  const line = chart.tooltip.body.length === 1 ? chart.tooltip.body[0].lines[0] : '';
+  const head = {curves: datasets[first].label, bars: plot.kind === 'bars' && plot.bars[index].label, map: plot.value_label}[plot.kind];
+  good.told += line.startsWith(head + ': ') && line.length > head.length + 2;
+}
+
+function usePlot(box) {
+  const plot = JSON.parse(box.querySelector('script').textContent), name = plot.title || plot.kind;
+  ++result.plots;
+  ++result[plot.names ? 'spreads' : plot.kind];
+  expect(box.querySelector('svg').getBoundingClientRect().height > 30, name + ': no picture before');
+  box.dispatchEvent(new PointerEvent('pointerenter'));
+  const charts = box.charts || [];
+  expect(charts.length === (plot.kind === 'map' ? plot.panels.length : 1), name + `: ${charts.length} charts`);
+  for (const what in good) good[what] = 0;
+  for (const chart of charts) useChart(plot, chart, name);
+  for (const what in good) {
+    result[what] += charts.length > 0 && good[what] === charts.length;
+    if (good[what] !== charts.length) result.unusable.push(`${name}: ${what}`);
+  }
 
   const lines = box.plotCsv().trim().split('\n');
-  const points = plot.series.reduce((sum, s) => sum + s.x.length, 0);
-  expect(lines.length === points + 1, name + ': CSV of ' + lines.length + ' lines');
+  expect(lines.length === rowsOf[plot.kind](plot) + 1, name + ': CSV of ' + lines.length + ' lines');
   result.rows += lines.length - 1;
 }
 
