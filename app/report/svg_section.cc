@@ -27,6 +27,8 @@ Eigen::AlignedBox2d bodies(const TransverseSection& section) {
   for (const auto& gears : section.gears)
     for (const auto& place : gears.places)
       extend(box, place.centre, std::max(gears.gear.gear.tip_radius(), gears.gear.outside_radius));
+  for (const auto& body : section.bodies)
+    for (const auto& point : body.outline) box.extend(point);
   for (const auto& circle : section.circles) extend(box, circle.centre, circle.radius);
   if (section.ring) {
     double reach = section.ring->outside_radius + support_margin(section.ring->structure);
@@ -77,6 +79,8 @@ std::string to_svg(const TransverseSection& section) {
     svg += edges(page, ring);
     svg += drawn_supports(page, ring.structure, ring.outside_radius, ring.angle, std::numbers::pi);
   }
+  for (const auto& body : section.bodies)
+    svg += fmt::format("<path d=\"{}Z\" {}/>", path_through(page, body.outline), body.style);
   for (const auto& circle : section.circles) svg += drawn_circle(page, circle.centre, circle.radius, circle.style);
   for (const auto& gears : section.gears)
     for (const auto& place : gears.places) svg += axis_cross(page, place.centre);

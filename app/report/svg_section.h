@@ -37,9 +37,15 @@ struct TransverseSection {
     double radius = 0;       ///< m
     std::string style{};     ///< SVG attributes
   };
+  /// A body with an outline of its own.
+  struct Body {
+    std::vector<Eigen::Vector2d> outline;  ///< m, closed
+    std::string style{};                   ///< SVG attributes
+  };
   std::string title{}, label{};  ///< `label`: what those hear who cannot see it
   std::vector<Gears> gears{};
   std::optional<Ring> ring{};
+  std::vector<Body> bodies{};
   std::vector<Circle> circles{};
   std::vector<Length> lengths{};
   std::optional<double> outside_radius{};  ///< m, of what is dimensioned below the drawing

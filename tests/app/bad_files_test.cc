@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <boost/test/unit_test.hpp>
-#include <ctime>
 #include <cmath>
+#include <ctime>
 #include <numbers>
 
 #include "app/scene/scene_files.h"
