@@ -27,10 +27,10 @@ std::string percent(double share) { return to_text(100 * share, 2) + " %"; }
 std::string setting_text(const TradePoint& p) { return p.rung + ", " + p.settings; }
 
 /// "For 1 %: plane, degree 2, level 1, 0.3 s, 240 MB (worst: ...)".
-std::string cheapest_text(const RingTrade& ring, TradePart part, double accuracy) {
-  const auto* p = ring.cheapest(part, accuracy);
+std::string cheapest_text(const VariantTrade& variant, TradePart part, double accuracy) {
+  const auto* p = variant.cheapest(part, accuracy);
   if (!p) return fmt::format("For {}: no setting but the finest.", percent(accuracy));
-  const auto& worst = trade_figures()[*p->worst_figure()];
+  const auto& worst = trade_figures(p->kind)[*p->worst_figure()];
   return fmt::format("For {}: {}; {}, {:.0f} MB; errors up to {} ({}).", percent(accuracy), setting_text(*p),
                      duration_text(p->cost.wall), p->cost.peak_memory_MB, percent(p->error()), worst.title);
 }
@@ -41,27 +41,27 @@ std::string planned_text(const TradePoint& p) {
   if (!p.failure.empty()) return text + p.failure;
   std::optional<std::size_t> worst;
   for (std::size_t i = 0; i < p.values.size(); ++i)
-    if (trade_figures()[i].promised && p.values[i].error == p.promised_error()) worst = i;
+    if (trade_figures(p.kind)[i].promised && p.values[i].error == p.promised_error()) worst = i;
   return text + fmt::format("{}, {:.0f} MB; errors up to {}{}.", duration_text(p.cost.wall), p.cost.peak_memory_MB,
                             percent(p.promised_error()),
-                            worst ? std::string(" (") + trade_figures()[*worst].title + ")" : "");
+                            worst ? std::string(" (") + trade_figures(p.kind)[*worst].title + ")" : "");
 }
 
-const TradePoint* finest_of(const RingTrade& ring, TradePart part) {
-  const auto found = std::find_if(ring.points.begin(), ring.points.end(),
+const TradePoint* finest_of(const VariantTrade& variant, TradePart part) {
+  const auto found = std::find_if(variant.points.begin(), variant.points.end(),
                                   [part](const TradePoint& p) { return p.part == part && p.finest; });
-  return found == ring.points.end() ? nullptr : &*found;
+  return found == variant.points.end() ? nullptr : &*found;
 }
 
 /// The cheapest setting for every figure and accuracy: what a user asks who wants one thing.
-HtmlTable cheapest_table(const RingTrade& ring, TradePart part) {
+HtmlTable cheapest_table(const VariantTrade& variant, TradePart part) {
   HtmlTable table{.head = {"figure"}, .rows = {}};
   for (const double accuracy : wanted_accuracies) table.head.push_back(percent(accuracy));
-  for (std::size_t f = 0; f < trade_figures().size(); ++f) {
-    if (ring.front(part, f).empty()) continue;
-    std::vector<std::string> row = {trade_figures()[f].title};
+  for (std::size_t f = 0; f < variant.figures().size(); ++f) {
+    if (variant.front(part, f).empty()) continue;
+    std::vector<std::string> row = {variant.figures()[f].title};
     for (const double accuracy : wanted_accuracies) {
-      const auto* p = ring.cheapest(part, accuracy, f);
+      const auto* p = variant.cheapest(part, accuracy, f);
       row.push_back(p ? escape(setting_text(*p)) + " <span class=\"muted\">" + duration_text(p->cost.wall) + "</span>"
                       : std::string("the finest alone"));
     }
@@ -71,14 +71,14 @@ HtmlTable cheapest_table(const RingTrade& ring, TradePart part) {
 }
 
 /// The front of every figure.
-Plot fronts_plot(const RingTrade& ring, TradePart part) {
+Plot fronts_plot(const VariantTrade& variant, TradePart part) {
   Plot plot{.title = "The front of every figure", .x_label = "wall time, s", .y_label = "error"};
   plot.x_log = plot.y_log = plot.legend = true;
   plot.width = 640;
   plot.height = 460;
-  for (std::size_t f = 0; f < trade_figures().size(); ++f) {
-    Series series{.label = trade_figures()[f].title, .colour = f};
-    for (const auto* p : ring.front(part, f)) {
+  for (std::size_t f = 0; f < variant.figures().size(); ++f) {
+    Series series{.label = variant.figures()[f].title, .colour = f};
+    for (const auto* p : variant.front(part, f)) {
       if (!(p->error(f) > 0)) continue;
       series.x.push_back(p->cost.wall);
       series.y.push_back(p->error(f));
@@ -89,9 +89,9 @@ Plot fronts_plot(const RingTrade& ring, TradePart part) {
 }
 
 /// How far the program's own estimates are from the errors, over all figures with both.
-std::string estimates_text(const RingTrade& ring, TradePart part) {
+std::string estimates_text(const VariantTrade& variant, TradePart part) {
   int kept = 0, all = 0;
-  for (const auto& p : ring.points) {
+  for (const auto& p : variant.points) {
     if (p.part != part || p.finest || p.changes_model || !p.failure.empty()) continue;
     for (const auto& v : p.values) {
       if (!std::isfinite(v.error) || !std::isfinite(v.error_estimate)) continue;
@@ -103,12 +103,12 @@ std::string estimates_text(const RingTrade& ring, TradePart part) {
   return fmt::format("<p>{} of {} errors lie within their own estimates.</p>\n", kept, all);
 }
 
-HtmlTable points_table(const RingTrade& ring, TradePart part) {
+HtmlTable points_table(const VariantTrade& variant, TradePart part) {
   HtmlTable table{.head = {"how", "setting", "wall", "processor", "memory", "largest error", "in"},
                   .rows = {},
                   .css_class = "numbers"};
-  const auto front = ring.front(part);
-  for (const auto& p : ring.points) {
+  const auto front = variant.front(part);
+  for (const auto& p : variant.points) {
     if (p.part != part) continue;
     const bool best = std::find(front.begin(), front.end(), &p) != front.end();
     const auto bold = [&](const std::string& text) { return best ? "<b>" + text + "</b>" : text; };
@@ -119,7 +119,7 @@ HtmlTable points_table(const RingTrade& ring, TradePart part) {
     } else if (p.finest) {
       row.insert(row.end(), {"finest", ""});
     } else if (const auto worst = p.worst_figure()) {
-      row.insert(row.end(), {percent(p.error()), escape(trade_figures()[*worst].title)});
+      row.insert(row.end(), {percent(p.error()), escape(trade_figures(p.kind)[*worst].title)});
     } else {
       row.insert(row.end(), {"", ""});
     }
@@ -129,10 +129,10 @@ HtmlTable points_table(const RingTrade& ring, TradePart part) {
 }
 
 /// Error of every figure, one column each.
-HtmlTable errors_table(const RingTrade& ring, TradePart part) {
+HtmlTable errors_table(const VariantTrade& variant, TradePart part) {
   HtmlTable table{.head = {"setting"}, .rows = {}, .css_class = "numbers"};
-  for (const auto& f : trade_figures()) table.head.emplace_back(f.title);
-  for (const auto& p : ring.points) {
+  for (const auto& f : variant.figures()) table.head.emplace_back(f.title);
+  for (const auto& p : variant.points) {
     if (p.part != part || !p.failure.empty() || p.finest) continue;
     std::vector<std::string> row = {escape(setting_text(p))};
     for (const auto& v : p.values) {
@@ -146,8 +146,8 @@ HtmlTable errors_table(const RingTrade& ring, TradePart part) {
   return table;
 }
 
-std::string part_section(const RingTrade& ring, TradePart part) {
-  const auto* finest = finest_of(ring, part);
+std::string part_section(const VariantTrade& variant, TradePart part) {
+  const auto* finest = finest_of(variant, part);
   if (!finest) return "";
   std::string text = fmt::format("<h3>{}</h3>\n", part_title(part));
   if (!finest->failure.empty())
@@ -155,37 +155,38 @@ std::string part_section(const RingTrade& ring, TradePart part) {
   text += fmt::format("<p>Held against: {}; {}, {:.0f} MB.</p>\n<ul>", escape(setting_text(*finest)),
                       duration_text(finest->cost.wall), finest->cost.peak_memory_MB);
   for (const double accuracy : wanted_accuracies)
-    text += "<li>" + escape(cheapest_text(ring, part, accuracy)) + "</li>";
-  for (const auto& p : ring.points)
+    text += "<li>" + escape(cheapest_text(variant, part, accuracy)) + "</li>";
+  for (const auto& p : variant.points)
     if (p.part == part && p.planned_for) text += "<li>" + escape(planned_text(p)) + "</li>";
-  text += "</ul>\n" + figure({plot_html(trade_plot(ring, part)), plot_html(fronts_plot(ring, part))}, "",
+  text += "</ul>\n" + figure({plot_html(trade_plot(variant, part)), plot_html(fronts_plot(variant, part))}, "",
                              "Largest error over all figures against wall time. The line joins the settings that no "
                              "other beats in both; what leaves parts of the model out is marked apart.");
-  text += "<p>The cheapest setting for one figure alone:</p>\n<div class=\"wide\">" + html(cheapest_table(ring, part)) +
+  text += "<p>The cheapest setting for one figure alone:</p>\n<div class=\"wide\">" +
+          html(cheapest_table(variant, part)) +
           "</div>\n<p>All settings (bold: on the front of the largest error):</p>\n";
-  text += "<div class=\"wide\">" + html(points_table(ring, part)) + "</div>\n" + estimates_text(ring, part);
+  text += "<div class=\"wide\">" + html(points_table(variant, part)) + "</div>\n" + estimates_text(variant, part);
   return text +
          "<details><summary>Error of every figure (in brackets: the program's own estimate)</summary><div "
          "class=\"wide\">" +
-         html(errors_table(ring, part)) + "</div></details>\n";
+         html(errors_table(variant, part)) + "</div></details>\n";
 }
 
 }  // namespace
 
-Plot trade_plot(const RingTrade& ring, TradePart part) {
-  Plot plot{.title = fmt::format("{}, {}", ring.ring, part == TradePart::mesh ? "stiffness tables" : "dynamics"),
+Plot trade_plot(const VariantTrade& variant, TradePart part) {
+  Plot plot{.title = fmt::format("{}, {}", variant.name, part == TradePart::mesh ? "stiffness tables" : "dynamics"),
             .x_label = "wall time, s",
             .y_label = "largest error"};
   plot.x_log = plot.y_log = plot.legend = true;
   plot.width = 640;
   plot.height = 400;
   Series front{.label = "front", .colour = 6};
-  for (const auto* p : ring.front(part)) {
+  for (const auto* p : variant.front(part)) {
     front.x.push_back(p->cost.wall);
     front.y.push_back(p->error());
   }
   plot.series.push_back(std::move(front));
-  for (const auto& p : ring.points) {
+  for (const auto& p : variant.points) {
     if (p.part != part || p.finest || !(p.error() > 0)) continue;
     auto same =
         std::find_if(plot.series.begin(), plot.series.end(), [&](const Series& s) { return s.label == p.rung; });
@@ -203,10 +204,10 @@ Plot trade_plot(const RingTrade& ring, TradePart part) {
 std::string trade_csv(const TradeOff& trade) {
   std::string text =
       fmt::format("# annulus_version: {}\n# scene: {}\n", version(), trade.scene.file.filename().string());
-  text += "ring,part,rung,settings,finest,figure,value,error,error_estimate,wall_s,processor_s,peak_MB,failure\n";
-  for (const auto& ring : trade.rings) {
-    for (const auto& p : ring.points) {
-      const std::string head = fmt::format("{},{},{},{},{:d},", csv_cell(ring.ring), part_name(p.part),
+  text += "variant,part,rung,settings,finest,figure,value,error,error_estimate,wall_s,processor_s,peak_MB,failure\n";
+  for (const auto& variant : trade.variants) {
+    for (const auto& p : variant.points) {
+      const std::string head = fmt::format("{},{},{},{},{:d},", csv_cell(variant.name), part_name(p.part),
                                            csv_cell(p.rung), csv_cell(p.settings), p.finest);
       const std::string cost = fmt::format("{:.6g},{:.6g},{:.6g},{}\n", p.cost.wall, p.cost.processor,
                                            p.cost.peak_memory_MB, csv_cell(p.failure));
@@ -214,8 +215,8 @@ std::string trade_csv(const TradeOff& trade) {
       for (std::size_t i = 0; i < p.values.size(); ++i) {
         const auto& v = p.values[i];
         if (!std::isfinite(v.value)) continue;
-        text += fmt::format("{}{},{},{},{},{}", head, trade_figures()[i].column, csv_cell(v.value), csv_cell(v.error),
-                            csv_cell(v.error_estimate), cost);
+        text += fmt::format("{}{},{},{},{},{}", head, trade_figures(p.kind)[i].column, csv_cell(v.value),
+                            csv_cell(v.error), csv_cell(v.error_estimate), cost);
       }
     }
   }
@@ -224,15 +225,15 @@ std::string trade_csv(const TradeOff& trade) {
 
 std::string trade_text(const TradeOff& trade) {
   std::string text;
-  for (const auto& ring : trade.rings) {
+  for (const auto& variant : trade.variants) {
     for (const auto part : {TradePart::mesh, TradePart::dynamics}) {
-      if (!finest_of(ring, part)) continue;
-      text += fmt::format("{}{}, {}\n", text.empty() ? "" : "\n", ring.ring, part_title(part));
-      for (const auto* p : ring.front(part))
+      if (!finest_of(variant, part)) continue;
+      text += fmt::format("{}{}, {}\n", text.empty() ? "" : "\n", variant.name, part_title(part));
+      for (const auto* p : variant.front(part))
         text += fmt::format("  {:>9}  {:>6.0f} MB  error {:>8}  {}\n", duration_text(p->cost.wall),
                             p->cost.peak_memory_MB, percent(p->error()), setting_text(*p));
-      for (const double accuracy : wanted_accuracies) text += "  " + cheapest_text(ring, part, accuracy) + "\n";
-      for (const auto& p : ring.points)
+      for (const double accuracy : wanted_accuracies) text += "  " + cheapest_text(variant, part, accuracy) + "\n";
+      for (const auto& p : variant.points)
         if (p.part == part && p.planned_for) text += "  " + planned_text(p) + "\n";
     }
   }
@@ -242,15 +243,16 @@ std::string trade_text(const TradeOff& trade) {
 std::string trade_html(const TradeOff& trade) {
   std::vector<Section> sections;
   std::string verdict;
-  for (const auto& ring : trade.rings) {
-    sections.push_back({.anchor = file_name(ring.ring),
-                        .name = ring.ring,
-                        .text = fmt::format("<h2 id=\"{}\">{}</h2>\n", file_name(ring.ring), escape(ring.ring)) +
-                                part_section(ring, TradePart::mesh) + part_section(ring, TradePart::dynamics)});
+  for (const auto& variant : trade.variants) {
+    sections.push_back({.anchor = file_name(variant.name),
+                        .name = variant.name,
+                        .text = fmt::format("<h2 id=\"{}\">{}</h2>\n", file_name(variant.name), escape(variant.name)) +
+                                part_section(variant, TradePart::mesh) + part_section(variant, TradePart::dynamics)});
     for (const auto part : {TradePart::mesh, TradePart::dynamics}) {
-      if (finest_of(ring, part) && !finest_of(ring, part)->values.empty())
-        verdict += "<p><b>" + escape(ring.ring) + ", " + (part == TradePart::mesh ? "stiffness tables" : "dynamics") +
-                   "</b>. " + escape(cheapest_text(ring, part, 0.01)) + "</p>\n";
+      if (finest_of(variant, part) && !finest_of(variant, part)->values.empty())
+        verdict += "<p><b>" + escape(variant.name) + ", " +
+                   (part == TradePart::mesh ? "stiffness tables" : "dynamics") + "</b>. " +
+                   escape(cheapest_text(variant, part, 0.01)) + "</p>\n";
     }
   }
   return report_page(
@@ -264,11 +266,11 @@ void write_tradeoff(const TradeOff& trade, const std::filesystem::path& folder) 
   std::filesystem::create_directories(folder);
   write_file(folder / "tradeoff.csv", trade_csv(trade));
   write_file(folder / "tradeoff.html", trade_html(trade));
-  for (const auto& ring : trade.rings) {
+  for (const auto& variant : trade.variants) {
     for (const auto part : {TradePart::mesh, TradePart::dynamics}) {
-      if (!ring.front(part).empty())
-        write_file(folder / fmt::format("tradeoff_{}_{}.svg", file_name(ring.ring), part_name(part)),
-                   to_svg(trade_plot(ring, part)));
+      if (!variant.front(part).empty())
+        write_file(folder / fmt::format("tradeoff_{}_{}.svg", file_name(variant.name), part_name(part)),
+                   to_svg(trade_plot(variant, part)));
     }
   }
 }

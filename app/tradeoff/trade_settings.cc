@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -82,33 +80,31 @@ std::vector<MeshSetting> mesh_settings(const MeshModel& planned, bool needs_soli
   return list;
 }
 
-std::vector<DynamicsSetting> dynamics_settings(const dynamics::PlanetaryStage& stage,
-                                               const std::shared_ptr<const RingCoupling>& elastic) {
+std::vector<MotionSetting> motion_settings(double mesh_frequency, int period) {
   using dynamics::Integrator;
-  using Stage = dynamics::PlanetaryStage;
   using Options = dynamics::SimulationOptions;
-  constexpr int fine_samples = 128;
-  std::vector<DynamicsSetting> list;
-  const auto directly = [](int samples) {
-    return [samples](Stage&, Options& o) {
-      o.confirm = false;
-      o.samples_per_cycle = samples;
-    };
+  std::vector<MotionSetting> list;
+  const auto directly = [&](int samples, bool finest = false) {
+    list.push_back({"direct", fmt::format("{} samples per mesh cycle", samples),
+                    [samples](Options& o) {
+                      o.confirm = false;
+                      o.samples_per_cycle = samples;
+                    },
+                    finest});
   };
-  for (const int samples : {8, 16, 32, 64})
-    list.push_back({"direct", fmt::format("{} samples per mesh cycle", samples), directly(samples)});
-  list.push_back({"direct", "64 samples, confirmed by marching", [](Stage&, Options&) {}});
+  for (const int samples : {8, 16, 32, 64}) directly(samples);
+  list.push_back({"direct", "64 samples, confirmed by marching", [](Options&) {}});
 
   const auto marching = [&](const char* name, Integrator method, double tolerance) {
-    list.push_back({"marching", fmt::format("{}, relative tolerance {:.0e}", name, tolerance),
-                    [method, tolerance](Stage&, Options& o) {
-                      o.steady_state = dynamics::SteadyState::marching;
-                      o.integrator.method = method;
-                      o.integrator.relative_tolerance = tolerance;
-                    }});
+    list.push_back(
+        {"marching", fmt::format("{}, relative tolerance {:.0e}", name, tolerance), [method, tolerance](Options& o) {
+           o.steady_state = dynamics::SteadyState::marching;
+           o.integrator.method = method;
+           o.integrator.relative_tolerance = tolerance;
+         }});
   };
   // A long period (pins, hunting teeth) is marched through many times: two tolerances tell what that costs.
-  const bool long_period = stage.error_period() > dynamics::long_window;
+  const bool long_period = period > dynamics::long_window;
   for (const double tolerance : long_period ? std::vector{1e-4, 1e-6} : std::vector{1e-3, 1e-4, 1e-5, 1e-6, 1e-8})
     marching("Cash-Karp 5(4)", Integrator::arkode_explicit, tolerance);
   if (!long_period) {
@@ -117,49 +113,13 @@ std::vector<DynamicsSetting> dynamics_settings(const dynamics::PlanetaryStage& s
   }
   for (const int steps : long_period ? std::vector{64} : std::vector{32, 64, 128, 256}) {
     list.push_back(
-        {"marching", fmt::format("Runge-Kutta 4, {} steps per mesh cycle", steps), [steps](Stage& s, Options& o) {
+        {"marching", fmt::format("Runge-Kutta 4, {} steps per mesh cycle", steps), [steps, mesh_frequency](Options& o) {
            o.steady_state = dynamics::SteadyState::marching;
            o.integrator.method = Integrator::runge_kutta_4;
-           o.integrator.fixed_step = 1 / (s.mesh_frequency() * steps);
+           o.integrator.fixed_step = 1 / (mesh_frequency * steps);
          }});
   }
-
-  const auto without = [&](const char* what, auto drop) {
-    list.push_back({"fewer freedoms", what,
-                    [drop, fine = directly(fine_samples)](Stage& s, Options& o) {
-                      drop(s);
-                      fine(s, o);
-                    },
-                    false, true});
-  };
-  if (std::isfinite(stage.sun.support)) without("sun held in place", [](Stage& s) { s.sun.support = dynamics::rigid; });
-  if (std::isfinite(stage.ring.support))
-    without("ring held in place", [](Stage& s) { s.ring.support = dynamics::rigid; });
-  if (std::isfinite(stage.ring.torsional_support) && stage.ring.torsional_support > 0)
-    without("ring held against rotation", [](Stage& s) { s.ring.torsional_support = dynamics::rigid; });
-  if (std::isfinite(stage.carrier.support))
-    without("carrier held in place", [](Stage& s) { s.carrier.support = dynamics::rigid; });
-  if (std::isfinite(stage.planet.bearing_radial))
-    without("planet bearings rigid",
-            [](Stage& s) { s.planet.bearing_radial = s.planet.bearing_tangential = dynamics::rigid; });
-  if (stage.ring_coupling) {
-    list.push_back({"coupling", "planets not coupled through the ring",
-                    [fine = directly(fine_samples)](Stage& s, Options& o) {
-                      s.ring_coupling = nullptr;
-                      fine(s, o);
-                    },
-                    false, true});
-  }
-  if (elastic) {
-    list.push_back({"coupling", "ring with its elastic modes",
-                    [elastic](Stage& s, Options& o) {
-                      s.ring_coupling = elastic;
-                      o.confirm = false;
-                      o.samples_per_cycle = 64;
-                    },
-                    false, true});
-  }
-  list.push_back({"direct", fmt::format("{} samples per mesh cycle", fine_samples), directly(fine_samples), true});
+  directly(finest_samples, true);
   return list;
 }
 

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "app/plan/mesh_model.h"
-#include "dynamics/response.h"
+#include "dynamics/steady_response.h"
 
 namespace annulus::app {
 
@@ -31,18 +30,18 @@ struct MeshSetting {
 /// the finest of all.
 [[nodiscard]] std::vector<MeshSetting> mesh_settings(const MeshModel& planned, bool needs_solid);
 
-/// How the lumped model is made and solved.
-struct DynamicsSetting {
-  std::string rung;      ///< "direct", "marching" or "fewer freedoms", "coupling"
-  std::string settings;  ///< "64 samples per cycle", "ARKODE, tolerance 1e-6"
-  std::function<void(dynamics::PlanetaryStage& stage, dynamics::SimulationOptions& options)> apply;
+/// Samples per mesh cycle of the finest direct solution.
+inline constexpr int finest_samples = 128;
+
+/// How a periodic motion is found.
+struct MotionSetting {
+  std::string rung;      ///< "direct", "marching"
+  std::string settings;  ///< "64 samples per mesh cycle", "BDF, relative tolerance 1e-06"
+  std::function<void(dynamics::SimulationOptions& options)> apply;
   bool finest = false;
-  bool changes_model = false;  ///< its error is not one of numbers
 };
 
-/// Ways to solve `stage` as it stands, its static coupling included, and what leaving things out does. `elastic`: the
-/// coupling with the modes of the ring (null: there are none).
-[[nodiscard]] std::vector<DynamicsSetting> dynamics_settings(const dynamics::PlanetaryStage& stage,
-                                                             const std::shared_ptr<const RingCoupling>& elastic);
+/// Of a motion that repeats after `period` mesh cycles; the finest last.
+[[nodiscard]] std::vector<MotionSetting> motion_settings(double mesh_frequency, int period);
 
 }  // namespace annulus::app

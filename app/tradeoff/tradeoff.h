@@ -1,30 +1,17 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/pipeline.h"
 #include "app/tradeoff/measured_work.h"
+#include "app/tradeoff/trade_figures.h"
 #include "app/tradeoff/trade_settings.h"
 
 /// Every rung and setting measured: what it costs and how wrong it is (`annulus tradeoff`).
 namespace annulus::app {
-
-/// A figure users decide by.
-struct TradeFigure {
-  const char* column;  ///< sun_planet_mean_stiffness_N_per_m
-  const char* title;   ///< for people
-  /// Whether the wanted accuracy of a scene covers it. It is one of the stiffness; a range of the transmission error is
-  /// a small difference of large values and carries a bar of its own.
-  bool promised = true;
-  /// Covered only while the teeth stay in contact: where they part and meet again, the motion follows small changes of
-  /// the stiffness by more than they are.
-  bool while_teeth_touch = false;
-};
-[[nodiscard]] const std::vector<TradeFigure>& trade_figures();
 
 /// A figure as one setting gives it.
 struct TradeValue {
@@ -40,8 +27,9 @@ struct StiffnessCycle {
   int phases = 0;               ///< entries per mesh cycle
 };
 
-/// One setting on one ring.
+/// One setting of a ring or a pair.
 struct TradePoint {
+  StageKind kind = StageKind::planetary;
   TradePart part = TradePart::mesh;
   std::string rung;      ///< "plane"; of the dynamics: how the motion is found, "marching"
   std::string settings;  ///< "degree 2, level 1, 32 phases, 5 loads"
@@ -49,13 +37,13 @@ struct TradePoint {
   bool changes_model = false;
   std::optional<MeshSetting> mesh{};    ///< of a fixed setting of the meshes
   std::optional<double> planned_for{};  ///< the wanted accuracy for which the planner chose it; absent: a fixed setting
-  Cost cost{};            ///< meshes: of both tables, the memory of the larger one; dynamics: of the response
+  Cost cost{};            ///< meshes: of all tables, the memory of the largest one; dynamics: of the response
   Cost response{};        ///< meshes: of the response on these tables and its errors
   std::string failure{};  ///< why there are no figures
-  std::vector<TradeValue> values{};  ///< in the order of trade_figures()
+  std::vector<TradeValue> values{};  ///< in the order of trade_figures(kind)
   double contact_loss = 0;           ///< largest fraction of the time that a mesh spends without contact
-  /// Secant stiffness at the nominal load of the sun mesh and of the ring mesh; empty for the dynamics.
-  StiffnessCycle sun_cycle{}, ring_cycle{};
+  /// Secant stiffness at the nominal load of every mesh; empty for the dynamics.
+  std::vector<StiffnessCycle> cycles{};
 
   /// Of one figure; without a figure, the largest over all that both settings give. NaN for a failure.
   [[nodiscard]] double error(std::optional<std::size_t> figure = {}) const;
@@ -66,10 +54,14 @@ struct TradePoint {
   [[nodiscard]] double stiffness_estimate() const;
 };
 
-struct RingTrade {
-  std::string ring;
+/// A ring, or a pair.
+struct VariantTrade {
+  std::string name;
   std::vector<TradePoint> points;  ///< those of the meshes, then those of the dynamics
 
+  [[nodiscard]] const std::vector<TradeFigure>& figures() const {
+    return trade_figures(points.empty() ? StageKind::planetary : points.front().kind);
+  }
   /// The cheapest fixed setting of a part by wall time whose error (of one figure, or the largest) is within the
   /// accuracy; the finest itself does not count. nullptr: none.
   [[nodiscard]] const TradePoint* cheapest(TradePart part, double accuracy,
@@ -82,7 +74,7 @@ struct RingTrade {
 
 struct TradeOff {
   Scene scene;
-  std::vector<RingTrade> rings;
+  std::vector<VariantTrade> variants;
   double total_seconds = 0;  ///< wall time of all settings
 };
 
@@ -90,15 +82,13 @@ struct TradeOff {
 struct TradeLists {
   std::vector<double> accuracies = {0.1, 0.03, 0.01, 0.003};  ///< for which the planner is asked
   std::function<std::vector<MeshSetting>(const MeshModel& planned, bool needs_solid)> mesh = mesh_settings;
-  std::function<std::vector<DynamicsSetting>(const dynamics::PlanetaryStage& stage,
-                                             const std::shared_ptr<const RingCoupling>& elastic)>
-      dynamics = dynamics_settings;
+  bool motions = true;  ///< the ways to find the motion, too
 };
 
 /// Runs everything, each setting in a process of its own, one after the other with options.threads threads, below
 /// OUT/tradeoff; what an earlier run measured there is taken over; what the planner chooses for several accuracies is
-/// measured beside them. Throws InputError for a stage that is not planetary
-/// or whose stiffness is given, and what making its geometry throws.
+/// measured beside them. Where a stiffness is given, the motion alone is traded. Throws InputError for 2K-V stages and
+/// where there is nothing to trade, and what making the geometry throws.
 [[nodiscard]] TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options, const TradeLists& lists = {});
 
 }  // namespace annulus::app

@@ -5,12 +5,15 @@
 #include <csignal>
 #include <iterator>
 #include <limits>
+#include <map>
 
 #include "app/tradeoff/measured_work.h"
 #include "app/tradeoff/trade_report.h"
 #include "core/errors.h"
 #include "core/log.h"
+#include "tests/app/pair_scenes.h"
 #include "tests/app/scenes.h"
+#include "tests/app/two_k_v_scenes.h"
 
 namespace annulus {
 
@@ -23,8 +26,8 @@ app::TradePoint made_up(const std::string& settings, double wall, double error) 
   return p;
 }
 
-app::RingTrade made_up_ring() {
-  app::RingTrade ring{.ring = "held", .points = {}};
+app::VariantTrade made_up_ring() {
+  app::VariantTrade ring{.name = "held", .points = {}};
   ring.points = {made_up("a", 1, 0.05), made_up("b", 2, 0.2), made_up("c", 4, 0.008), made_up("d", 3, 0.009),
                  made_up("finest", 50, 0)};
   ring.points.back().finest = true;
@@ -35,7 +38,8 @@ app::RingTrade made_up_ring() {
   auto planned = made_up("for 1 %", 2, 0);
   planned.planned_for = 0.01;
   planned.rung = "planned";
-  planned.values.assign(app::trade_figures().size(), {std::nan(""), std::nan(""), std::nan("")});
+  planned.values.assign(app::trade_figures(app::StageKind::planetary).size(),
+                        {std::nan(""), std::nan(""), std::nan("")});
   planned.values[0] = {1e9, 0.007, 0.01};
   planned.values[4] = {1e-6, 0.2, 0.01};
   ring.points.push_back(planned);
@@ -115,7 +119,7 @@ BOOST_AUTO_TEST_CASE(the_front_and_the_cheapest) {
   BOOST_TEST(ring.front(app::TradePart::mesh, 2).empty());
 
   app::TradeOff trade{
-      .scene = app::parse_scene(test::quick_scene(), "scene.toml"), .rings = {ring}, .total_seconds = 60};
+      .scene = app::parse_scene(test::quick_scene(), "scene.toml"), .variants = {ring}, .total_seconds = 60};
   const auto text = app::trade_text(trade);
   BOOST_TEST(text.find("For 1 %: plane, d; 3.0 s, 100 MB; errors up to 0.9 % (mean stiffness of the ring mesh).") !=
                  std::string::npos,
@@ -142,7 +146,7 @@ BOOST_AUTO_TEST_CASE(the_front_and_the_cheapest) {
 }
 
 BOOST_AUTO_TEST_CASE(a_ring_on_which_everything_fails_is_reported) {
-  app::RingTrade ring{.ring = "held", .points = {}};
+  app::VariantTrade ring{.name = "held", .points = {}};
   for (const char* name : {"a", "finest"}) {
     app::TradePoint p{.rung = "solid", .settings = name, .finest = std::string(name) == "finest"};
     p.failure = "the rim is too thin";
@@ -150,7 +154,7 @@ BOOST_AUTO_TEST_CASE(a_ring_on_which_everything_fails_is_reported) {
   }
   ring.points.push_back({.rung = "planned", .settings = "for 1 %", .planned_for = 0.01, .failure = "refused"});
   const app::TradeOff trade{
-      .scene = app::parse_scene(test::quick_scene(), "scene.toml"), .rings = {ring}, .total_seconds = 1};
+      .scene = app::parse_scene(test::quick_scene(), "scene.toml"), .variants = {ring}, .total_seconds = 1};
   BOOST_TEST(app::trade_text(trade).find("refused") != std::string::npos);
   BOOST_TEST(app::trade_csv(trade).find("the rim is too thin") != std::string::npos);
   BOOST_TEST(app::trade_html(trade).find("The finest setting failed") != std::string::npos);
@@ -194,8 +198,8 @@ BOOST_AUTO_TEST_CASE(errors_fall_toward_the_finest_and_measurements_are_kept, *i
         {.rung = Rung::plane, .degree = 2, .level = 2, .phases = 16, .loads = 1, .finest = true}};
   };
   const auto trade = app::measure_tradeoff(scene, options, lists);
-  BOOST_TEST_REQUIRE(trade.rings.size() == 1U);
-  const auto& points = trade.rings.front().points;
+  BOOST_TEST_REQUIRE(trade.variants.size() == 1U);
+  const auto& points = trade.variants.front().points;
   for (const auto& p : points) BOOST_TEST(p.failure == "", p.settings << ": " << p.failure);
   // Mean stiffness of the ring mesh: the closed form is not controlled, linear elements approach the quadratic ones.
   const auto error = [&](std::size_t point) { return points[point].values[1].error; };
@@ -227,11 +231,88 @@ BOOST_AUTO_TEST_CASE(errors_fall_toward_the_finest_and_measurements_are_kept, *i
     BOOST_TEST(std::filesystem::exists(folder.path() / file), file);
 }
 
+/// Every setting of the motion by its name, errors of it with those of other models left out.
+std::map<std::string, double> motion_errors(const app::VariantTrade& variant) {
+  std::map<std::string, double> errors;
+  for (const auto& p : variant.points) {
+    BOOST_TEST(p.failure == "", p.settings << ": " << p.failure);
+    BOOST_TEST((p.part == app::TradePart::dynamics));
+    if (!p.changes_model) errors[p.settings] = p.error();
+  }
+  return errors;
+}
+
+// Where the stiffness is given there is one table, and the motion on it is what can be traded.
+BOOST_AUTO_TEST_CASE(given_stiffness_leaves_the_motion, *in_a_process_of_its_own) {
+  log::set_level(log::Level::quiet);
+  const test::TemporaryFolder folder("tradeoff_given");
+  const auto text = test::replaced(test::quick_scene(), "mesh_cycles = 110\n", "");
+  const auto scene =
+      app::parse_scene(test::replaced(text, "planet_eccentricity_um", "planet_installation_um"), "s.toml");
+  const auto trade = app::measure_tradeoff(scene, {.out = folder.path() / "planetary", .threads = 1});
+  BOOST_TEST_REQUIRE(trade.variants.size() == 1U);
+  const auto errors = motion_errors(trade.variants.front());
+  BOOST_TEST(errors.at("8 samples per mesh cycle") > errors.at("64 samples per mesh cycle"));
+  BOOST_TEST(errors.at("64 samples per mesh cycle") <= 1e-3);
+  BOOST_TEST(errors.at("128 samples per mesh cycle") == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_pair_is_traded_too, *in_a_process_of_its_own) {
+  log::set_level(log::Level::quiet);
+  const test::TemporaryFolder folder("tradeoff_pair");
+  // Its motion on a given stiffness.
+  const auto given = app::measure_tradeoff(app::parse_scene(test::quick_pair(), "s.toml"),
+                                           {.out = folder.path() / "given", .threads = 1});
+  BOOST_TEST_REQUIRE(given.variants.size() == 1U);
+  const auto errors = motion_errors(given.variants.front());
+  BOOST_TEST(errors.at("8 samples per mesh cycle") >= errors.at("64 samples per mesh cycle"));
+  BOOST_TEST(errors.at("64 samples per mesh cycle") <= 1e-3);
+  BOOST_TEST(errors.at("Cash-Karp 5(4), relative tolerance 1e-08") <= 1e-3);
+
+  // Its mesh by elements.
+  app::TradeLists lists;
+  lists.accuracies = {0.1};
+  lists.motions = false;
+  lists.mesh = [](const app::MeshModel&, bool needs_solid) {
+    const auto rung = needs_solid ? fem::Rung::solid : fem::Rung::plane;
+    return std::vector<app::MeshSetting>{
+        {.rung = rung, .degree = 1, .level = 1, .phases = 8, .loads = 1},
+        {.rung = rung, .degree = 2, .level = 1, .phases = 8, .loads = 1, .finest = true}};
+  };
+  const auto solved = app::measure_tradeoff(app::parse_scene(test::solved_pair(), "s.toml"),
+                                            {.out = folder.path() / "solved", .threads = 1}, lists);
+  const auto& points = solved.variants.front().points;
+  BOOST_TEST_REQUIRE(points.size() == 3U);
+  for (const auto& p : points) {
+    BOOST_TEST(p.failure == "", p.settings << ": " << p.failure);
+    BOOST_TEST(p.cost.wall > 0);
+    BOOST_TEST_REQUIRE(p.values.size() == app::trade_figures(app::StageKind::helical_pair).size());
+    BOOST_TEST(p.values[0].error <= 3 * p.values[0].error_estimate);
+  }
+  // Linear elements are too stiff; of the entries those count that stand at the same positions.
+  BOOST_TEST(points[0].values[1].error <= 3 * points[0].values[1].error_estimate);
+  BOOST_TEST(points[0].values[0].value > points[1].values[0].value);
+  BOOST_TEST(points[0].values[1].error > 0);
+  BOOST_TEST(points[1].values[1].error == 0);
+  BOOST_TEST(points[0].stiffness_estimate() == points[0].values[1].error_estimate);
+  app::write_tradeoff(solved, folder.path());
+  BOOST_TEST(std::filesystem::exists(folder.path() / "tradeoff_pinion_and_wheel_mesh.svg"));
+  BOOST_TEST(app::trade_csv(solved).find("\npinion and wheel,mesh,") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(nothing_to_trade_is_said_so) {
-  const auto given = app::parse_scene(test::quick_scene(), "scene.toml");
-  BOOST_CHECK_EXCEPTION((void)app::measure_tradeoff(given, {}), InputError, [](const InputError& e) {
-    return std::string(e.what()).find("given stiffness") != std::string::npos;
-  });
+  const auto refusal = [](const std::string& text) {
+    try {
+      (void)app::measure_tradeoff(app::parse_scene(text, "scene.toml"), {});
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const auto text = test::quick_scene();
+  const auto without_motion = text.substr(0, text.find("[dynamics]"));
+  BOOST_TEST(refusal(without_motion).find("nothing to trade") != std::string::npos, refusal(without_motion));
+  BOOST_TEST(refusal(test::reducer_scene()).find("not of 2K-V") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

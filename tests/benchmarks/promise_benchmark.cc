@@ -68,7 +68,7 @@ struct Row {
   [[nodiscard]] bool kept() const { return planned->promised_error() <= accuracy; }
 };
 
-const app::TradePoint* cheapest(const app::RingTrade& ring, double accuracy, bool known) {
+const app::TradePoint* cheapest(const app::VariantTrade& ring, double accuracy, bool known) {
   const app::TradePoint* best = nullptr;
   for (const auto& p : ring.points) {
     if (!p.mesh || p.finest || !(p.promised_error() <= accuracy)) continue;
@@ -96,7 +96,7 @@ double run_time(const app::Scene& scene, const std::filesystem::path& folder, co
   return done.failure.empty() ? done.cost.processor : std::nan("");
 }
 
-void print_points(const std::string& scene, const app::RingTrade& ring) {
+void print_points(const std::string& scene, const app::VariantTrade& ring) {
   for (const auto& p : ring.points) {
     if (p.part != app::TradePart::mesh) continue;
     fmt::print("{:12} {:12} {:40} {:7.2f} s {:.5f} |", scene, p.rung, p.settings, p.cost.processor, p.promised_error());
@@ -151,7 +151,7 @@ int main(int argc, char** argv) {
       if (errors_only) list.erase(list.begin(), list.end() - 1);
       return list;
     };
-    lists.dynamics = [](const auto&, const auto&) { return std::vector<app::DynamicsSetting>(); };
+    lists.motions = false;
     int cases = 0, kept = 0, refused = 0, priced = 0, cheap = 0, known = 0, known_cheap = 0;
     fmt::print(
         "wanted and true error (largest of stiffness entries, mean stiffness, load sharing, natural frequencies and,\n"
@@ -162,7 +162,7 @@ int main(int argc, char** argv) {
       const auto scene = app::parse_scene(s.text, s.name + ".toml");
       const auto trade = app::measure_tradeoff(scene, {.out = out / s.name, .threads = 1}, lists);
       app::write_tradeoff(trade, out / s.name);
-      const auto& ring = trade.rings.front();
+      const auto& ring = trade.variants.front();
       if (verbose) benchmark::print_points(s.name, ring);
       for (const double accuracy : benchmark::accuracies) {
         benchmark::Row row{.scene = s.name, .accuracy = accuracy, .planned = ring.planned(accuracy)};

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/pipeline.h"
+#include "app/tradeoff/trade_figures.h"
+#include "dynamics/modes.h"
+
+/// What is measured: meshes that are solved into tables, and a lumped model that takes them.
+namespace annulus::app {
+
+/// A mesh that can be solved in several ways.
+struct TradeMesh {
+  MeshModel planned;
+  bool needs_solid = false;
+  std::string folder;  ///< of its measurements
+};
+
+/// One way to make and solve the lumped model.
+struct TradeMotion {
+  std::string rung;      ///< "direct", "marching" or "fewer freedoms", "coupling"
+  std::string settings;  ///< "64 samples per cycle", "ARKODE, tolerance 1e-6"
+  std::string id;        ///< identity of everything the figures depend on
+  bool finest = false;
+  bool changes_model = false;  ///< its error is not one of numbers
+  /// Those of the motion, the largest fraction of the time without contact behind them. Throws when there is no
+  /// periodic motion.
+  std::function<Figures()> figures;
+};
+
+class TradeSubject {
+ public:
+  TradeSubject() = default;
+  TradeSubject(const TradeSubject&) = delete;
+  TradeSubject& operator=(const TradeSubject&) = delete;
+  virtual ~TradeSubject() = default;
+
+  [[nodiscard]] virtual std::string name() const = 0;
+  /// In the order of the tables below; none where a stiffness is given: then the motion alone is traded.
+  [[nodiscard]] virtual std::vector<TradeMesh> meshes() const = 0;
+  /// As a run with this wanted accuracy solves them. Throws InputError where it would.
+  [[nodiscard]] virtual std::vector<MeshModel> planned(double accuracy) const = 0;
+  /// The tables where there are no meshes to be traded: given, read or solved as planned.
+  [[nodiscard]] virtual std::vector<MeshResult> tables_as_they_are(const RunOptions& options) const = 0;
+
+  [[nodiscard]] virtual bool has_motion() const = 0;
+  /// What these tables make of the stage, with their errors carried through.
+  [[nodiscard]] virtual TradeMotion motion_on(const std::vector<MeshResult>& tables) const = 0;
+  /// All ways, on the finest tables; `folder` keeps what they need besides.
+  [[nodiscard]] virtual std::vector<TradeMotion> motions(const std::vector<MeshResult>& tables,
+                                                         const RunOptions& options,
+                                                         const std::filesystem::path& folder) const = 0;
+};
+
+/// One per ring, or the pair. Throws InputError for 2K-V stages, and what making the geometry throws.
+[[nodiscard]] std::vector<std::unique_ptr<TradeSubject>> trade_subjects(const Scene& scene);
+[[nodiscard]] std::unique_ptr<TradeSubject> pair_trade_subject(const Scene& scene);  ///< pair_trade.cc
+[[nodiscard]] std::unique_ptr<TradeSubject> planetary_trade_subject(const Scene& scene, std::size_t ring);
+
+/// A figure with its error relative to it.
+[[nodiscard]] inline Estimate relative(const dynamics::Figure& f) { return {f.value, f.error / std::abs(f.value)}; }
+
+}  // namespace annulus::app
