@@ -124,19 +124,4 @@ class PairTrade : public TradeSubject {
 
 std::unique_ptr<TradeSubject> pair_trade_subject(const Scene& scene) { return std::make_unique<PairTrade>(scene); }
 
-std::vector<std::unique_ptr<TradeSubject>> trade_subjects(const Scene& scene) {
-  std::vector<std::unique_ptr<TradeSubject>> list;
-  switch (scene.stage.kind) {
-    case StageKind::planetary:
-      for (std::size_t i = 0; i < scene.rings.size(); ++i) list.push_back(planetary_trade_subject(scene, i));
-      return list;
-    case StageKind::helical_pair:
-      list.push_back(pair_trade_subject(scene));
-      return list;
-    case StageKind::two_k_v:
-      break;
-  }
-  throw InputError(scene.file.string() + ": a tradeoff is measured of planetary stages and helical pairs, not of 2K-V");
-}
-
 }  // namespace annulus::app

@@ -1,7 +1,5 @@
 #include "app/tradeoff/trade_figures.h"
 
-#include "core/errors.h"
-
 namespace annulus::app {
 
 const std::vector<TradeFigure>& trade_figures(StageKind kind) {
@@ -29,6 +27,16 @@ const std::vector<TradeFigure>& trade_figures(StageKind kind) {
       {"frequency_1_Hz", "first natural frequency"},
       {"frequency_2_Hz", "second natural frequency"},
       {"frequency_3_Hz", "third natural frequency"}};
+  static const std::vector<TradeFigure> reducer = {
+      {"sun_planet_mean_stiffness_N_per_m", "mean stiffness of the sun mesh"},
+      {"sun_planet_stiffness_entries_N_per_m", "stiffness of the sun mesh, every entry of its table", true, false, 0},
+      {"sun_planet_lte_peak_to_peak_m", "transmission error of the sun mesh, peak to peak", false},
+      {"sun_planet_dynamic_factor", "dynamic factor of the sun meshes", true, true},
+      {"arc_pins_dynamic_factor", "dynamic factor of the arc meshes", true, true},
+      {"output_error_peak_to_peak_rad", "error of the output, peak to peak", false},
+      {"frequency_1_Hz", "first natural frequency"},
+      {"frequency_2_Hz", "second natural frequency"},
+      {"frequency_3_Hz", "third natural frequency"}};
   switch (kind) {
     case StageKind::planetary:
       return planetary;
@@ -37,7 +45,7 @@ const std::vector<TradeFigure>& trade_figures(StageKind kind) {
     case StageKind::two_k_v:
       break;
   }
-  throw InternalError("internal error: no figures are traded of 2K-V stages");
+  return reducer;
 }
 
 }  // namespace annulus::app

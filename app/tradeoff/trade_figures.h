@@ -23,7 +23,7 @@ struct TradeFigure {
   /// It stands for every entry of the table of that mesh.
   std::optional<std::size_t> entries_of{};
 };
-/// Those of the meshes, then those of the motion. Throws InternalError for a kind of stage without any.
+/// Those of the meshes, then those of the motion.
 [[nodiscard]] const std::vector<TradeFigure>& trade_figures(StageKind kind);
 
 /// Value and relative estimate of some of them in their order.

@@ -25,6 +25,34 @@ std::vector<double> load_factors(int loads) {
   throw InternalError("internal error: no such number of loads");
 }
 
+MotionSetting with_tolerance(const char* rung, const char* name, dynamics::Integrator method, double tolerance) {
+  return {rung, fmt::format("{}, relative tolerance {:.0e}", name, tolerance),
+          [method, tolerance](dynamics::SimulationOptions& o) {
+            o.integrator.method = method;
+            o.integrator.relative_tolerance = tolerance;
+          }};
+}
+
+/// `few`: where each is dear.
+std::vector<MotionSetting> integrators(const char* rung, double mesh_frequency, bool few) {
+  using dynamics::Integrator;
+  std::vector<MotionSetting> list;
+  for (const double tolerance : few ? std::vector{1e-4, 1e-6} : std::vector{1e-3, 1e-4, 1e-5, 1e-6, 1e-8})
+    list.push_back(with_tolerance(rung, "Cash-Karp 5(4)", Integrator::arkode_explicit, tolerance));
+  if (!few) {
+    for (const double tolerance : {1e-4, 1e-6})
+      list.push_back(with_tolerance(rung, "BDF", Integrator::cvode_bdf, tolerance));
+    list.push_back(with_tolerance(rung, "Adams", Integrator::cvode_adams, 1e-6));
+  }
+  for (const int steps : few ? std::vector{64} : std::vector{32, 64, 128, 256})
+    list.push_back({rung, fmt::format("Runge-Kutta 4, {} steps per mesh cycle", steps),
+                    [steps, mesh_frequency](dynamics::SimulationOptions& o) {
+                      o.integrator.method = Integrator::runge_kutta_4;
+                      o.integrator.fixed_step = 1 / (mesh_frequency * steps);
+                    }});
+  return list;
+}
+
 }  // namespace
 
 std::string MeshSetting::text() const {
@@ -81,7 +109,6 @@ std::vector<MeshSetting> mesh_settings(const MeshModel& planned, bool needs_soli
 }
 
 std::vector<MotionSetting> motion_settings(double mesh_frequency, int period) {
-  using dynamics::Integrator;
   using Options = dynamics::SimulationOptions;
   std::vector<MotionSetting> list;
   const auto directly = [&](int samples, bool finest = false) {
@@ -95,31 +122,23 @@ std::vector<MotionSetting> motion_settings(double mesh_frequency, int period) {
   for (const int samples : {8, 16, 32, 64}) directly(samples);
   list.push_back({"direct", "64 samples, confirmed by marching", [](Options&) {}});
 
-  const auto marching = [&](const char* name, Integrator method, double tolerance) {
-    list.push_back(
-        {"marching", fmt::format("{}, relative tolerance {:.0e}", name, tolerance), [method, tolerance](Options& o) {
-           o.steady_state = dynamics::SteadyState::marching;
-           o.integrator.method = method;
-           o.integrator.relative_tolerance = tolerance;
-         }});
-  };
   // A long period (pins, hunting teeth) is marched through many times: two tolerances tell what that costs.
   const bool long_period = period > dynamics::long_window;
-  for (const double tolerance : long_period ? std::vector{1e-4, 1e-6} : std::vector{1e-3, 1e-4, 1e-5, 1e-6, 1e-8})
-    marching("Cash-Karp 5(4)", Integrator::arkode_explicit, tolerance);
-  if (!long_period) {
-    for (const double tolerance : {1e-4, 1e-6}) marching("BDF", Integrator::cvode_bdf, tolerance);
-    marching("Adams", Integrator::cvode_adams, 1e-6);
-  }
-  for (const int steps : long_period ? std::vector{64} : std::vector{32, 64, 128, 256}) {
-    list.push_back(
-        {"marching", fmt::format("Runge-Kutta 4, {} steps per mesh cycle", steps), [steps, mesh_frequency](Options& o) {
-           o.steady_state = dynamics::SteadyState::marching;
-           o.integrator.method = Integrator::runge_kutta_4;
-           o.integrator.fixed_step = 1 / (mesh_frequency * steps);
-         }});
+  for (auto& setting : integrators("marching", mesh_frequency, long_period)) {
+    setting.apply = [how = std::move(setting.apply)](Options& o) {
+      o.steady_state = dynamics::SteadyState::marching;
+      how(o);
+    };
+    list.push_back(std::move(setting));
   }
   directly(finest_samples, true);
+  return list;
+}
+
+std::vector<MotionSetting> shooting_settings(double mesh_frequency) {
+  auto list = integrators("shooting", mesh_frequency, false);
+  list.push_back(with_tolerance("shooting", "Cash-Karp 5(4)", dynamics::Integrator::arkode_explicit, 1e-9));
+  list.back().finest = true;
   return list;
 }
 

@@ -43,5 +43,7 @@ struct MotionSetting {
 
 /// Of a motion that repeats after `period` mesh cycles; the finest last.
 [[nodiscard]] std::vector<MotionSetting> motion_settings(double mesh_frequency, int period);
+/// Of one found by shooting; the finest last.
+[[nodiscard]] std::vector<MotionSetting> shooting_settings(double mesh_frequency);
 
 }  // namespace annulus::app

@@ -56,10 +56,11 @@ class TradeSubject {
                                                          const std::filesystem::path& folder) const = 0;
 };
 
-/// One per ring, or the pair. Throws InputError for 2K-V stages, and what making the geometry throws.
+/// One per ring, or the pair or reducer. Throws what making the geometry throws.
 [[nodiscard]] std::vector<std::unique_ptr<TradeSubject>> trade_subjects(const Scene& scene);
 [[nodiscard]] std::unique_ptr<TradeSubject> pair_trade_subject(const Scene& scene);  ///< pair_trade.cc
 [[nodiscard]] std::unique_ptr<TradeSubject> planetary_trade_subject(const Scene& scene, std::size_t ring);
+[[nodiscard]] std::unique_ptr<TradeSubject> two_k_v_trade_subject(const Scene& scene);  ///< two_k_v_trade.cc
 
 /// A figure with its error relative to it.
 [[nodiscard]] inline Estimate relative(const dynamics::Figure& f) { return {f.value, f.error / std::abs(f.value)}; }

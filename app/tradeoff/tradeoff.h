@@ -27,7 +27,7 @@ struct StiffnessCycle {
   int phases = 0;               ///< entries per mesh cycle
 };
 
-/// One setting of a ring or a pair.
+/// One setting of a ring, a pair or a reducer.
 struct TradePoint {
   StageKind kind = StageKind::planetary;
   TradePart part = TradePart::mesh;
@@ -54,7 +54,7 @@ struct TradePoint {
   [[nodiscard]] double stiffness_estimate() const;
 };
 
-/// A ring, or a pair.
+/// A ring, a pair or a reducer.
 struct VariantTrade {
   std::string name;
   std::vector<TradePoint> points;  ///< those of the meshes, then those of the dynamics
@@ -87,8 +87,8 @@ struct TradeLists {
 
 /// Runs everything, each setting in a process of its own, one after the other with options.threads threads, below
 /// OUT/tradeoff; what an earlier run measured there is taken over; what the planner chooses for several accuracies is
-/// measured beside them. Where a stiffness is given, the motion alone is traded. Throws InputError for 2K-V stages and
-/// where there is nothing to trade, and what making the geometry throws.
+/// measured beside them. Where a stiffness is given, the motion alone is traded. Throws InputError where there
+/// is nothing to trade, and what making the geometry throws.
 [[nodiscard]] TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options, const TradeLists& lists = {});
 
 }  // namespace annulus::app

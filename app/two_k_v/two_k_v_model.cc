@@ -124,6 +124,11 @@ MeshModel arc_pins_model(const Scene& scene) {
   return model;
 }
 
+MeshResult given_sun_result(const Scene& scene, const MeshModel& model) {
+  return given_stiffness(model, scene.sun_planet, scene, sun_planet_pair(scene).contact_ratio(),
+                         two_k_v_kinematics(scene).mean_sun_mesh_force());
+}
+
 MeshResult arc_pins_result(const Scene& scene) {
   const auto stage = two_k_v_kinematics(scene);
   const auto model = arc_pins_model(scene);

@@ -34,6 +34,8 @@ void check_two_k_v(const Scene& scene);
 /// Of the contact formulas; `rung` "line_contact" where it is computed.
 [[nodiscard]] MeshModel arc_pins_model(const Scene& scene);
 
+/// The sun mesh where its stiffness is given.
+[[nodiscard]] MeshResult given_sun_result(const Scene& scene, const MeshModel& model);
 /// The arc mesh from the contact formulas or as given. Quick.
 [[nodiscard]] MeshResult arc_pins_result(const Scene& scene);
 

@@ -29,8 +29,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 MeshResult sun_result(const Scene& scene, const std::string& folder, const RunOptions& options) {
   const auto model = two_k_v_sun_model(scene);
   if (model.computed()) return computed_stiffness(model, {folder}, options);
-  return given_stiffness(model, scene.sun_planet, scene, sun_planet_pair(scene).contact_ratio(),
-                         two_k_v_kinematics(scene).mean_sun_mesh_force());
+  return given_sun_result(scene, model);
 }
 
 void write_arc_table(const Scene& scene, const MeshResult& arc, const std::filesystem::path& folder) {
