@@ -33,23 +33,16 @@ MotionSetting with_tolerance(const char* rung, const char* name, dynamics::Integ
           }};
 }
 
-/// `few`: where each is dear.
-std::vector<MotionSetting> integrators(const char* rung, double mesh_frequency, bool few) {
+/// With a step of their own choice. `few`: where each is dear.
+std::vector<MotionSetting> integrators(const char* rung, bool few) {
   using dynamics::Integrator;
   std::vector<MotionSetting> list;
   for (const double tolerance : few ? std::vector{1e-4, 1e-6} : std::vector{1e-3, 1e-4, 1e-5, 1e-6, 1e-8})
     list.push_back(with_tolerance(rung, "Cash-Karp 5(4)", Integrator::arkode_explicit, tolerance));
-  if (!few) {
-    for (const double tolerance : {1e-4, 1e-6})
-      list.push_back(with_tolerance(rung, "BDF", Integrator::cvode_bdf, tolerance));
-    list.push_back(with_tolerance(rung, "Adams", Integrator::cvode_adams, 1e-6));
-  }
-  for (const int steps : few ? std::vector{64} : std::vector{32, 64, 128, 256})
-    list.push_back({rung, fmt::format("Runge-Kutta 4, {} steps per mesh cycle", steps),
-                    [steps, mesh_frequency](dynamics::SimulationOptions& o) {
-                      o.integrator.method = Integrator::runge_kutta_4;
-                      o.integrator.fixed_step = 1 / (mesh_frequency * steps);
-                    }});
+  if (few) return list;
+  for (const double tolerance : {1e-4, 1e-6})
+    list.push_back(with_tolerance(rung, "BDF", Integrator::cvode_bdf, tolerance));
+  list.push_back(with_tolerance(rung, "Adams", Integrator::cvode_adams, 1e-6));
   return list;
 }
 
@@ -124,7 +117,14 @@ std::vector<MotionSetting> motion_settings(double mesh_frequency, int period) {
 
   // A long period (pins, hunting teeth) is marched through many times: two tolerances tell what that costs.
   const bool long_period = period > dynamics::long_window;
-  for (auto& setting : integrators("marching", mesh_frequency, long_period)) {
+  auto marching = integrators("marching", long_period);
+  for (const int steps : long_period ? std::vector{64} : std::vector{32, 64, 128, 256})
+    marching.push_back(
+        {"marching", fmt::format("Runge-Kutta 4, {} steps per mesh cycle", steps), [steps, mesh_frequency](Options& o) {
+           o.integrator.method = dynamics::Integrator::runge_kutta_4;
+           o.integrator.fixed_step = 1 / (mesh_frequency * steps);
+         }});
+  for (auto& setting : marching) {
     setting.apply = [how = std::move(setting.apply)](Options& o) {
       o.steady_state = dynamics::SteadyState::marching;
       how(o);
@@ -135,8 +135,8 @@ std::vector<MotionSetting> motion_settings(double mesh_frequency, int period) {
   return list;
 }
 
-std::vector<MotionSetting> shooting_settings(double mesh_frequency) {
-  auto list = integrators("shooting", mesh_frequency, false);
+std::vector<MotionSetting> shooting_settings() {
+  auto list = integrators("shooting", false);
   list.push_back(with_tolerance("shooting", "Cash-Karp 5(4)", dynamics::Integrator::arkode_explicit, 1e-9));
   list.back().finest = true;
   return list;

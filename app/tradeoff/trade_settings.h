@@ -43,7 +43,8 @@ struct MotionSetting {
 
 /// Of a motion that repeats after `period` mesh cycles; the finest last.
 [[nodiscard]] std::vector<MotionSetting> motion_settings(double mesh_frequency, int period);
-/// Of one found by shooting; the finest last.
-[[nodiscard]] std::vector<MotionSetting> shooting_settings(double mesh_frequency);
+/// Of one found by shooting; the finest last. Steps of one length are not among them: stiff bearings would need
+/// thousands per mesh cycle.
+[[nodiscard]] std::vector<MotionSetting> shooting_settings();
 
 }  // namespace annulus::app

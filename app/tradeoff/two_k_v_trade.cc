@@ -5,6 +5,7 @@
 #include "app/tradeoff/trade_settings.h"
 #include "app/tradeoff/trade_subject.h"
 #include "app/two_k_v/two_k_v_model.h"
+#include "app/two_k_v/two_k_v_motion.h"
 #include "core/errors.h"
 #include "dynamics/two_k_v_modes.h"
 #include "dynamics/two_k_v_response.h"
@@ -21,8 +22,10 @@ dynamics::Figure largest_factor(const std::vector<dynamics::TwoKVMeshResult>& me
 }
 
 Figures figures_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVResponse& response) {
-  Figures figures = {relative(largest_factor(response.sun_planet)), relative(largest_factor(response.arc_pins)),
-                     relative(response.dynamic.peak_to_peak)};
+  Figures figures = {relative(largest_factor(response.sun_planet)), relative(largest_factor(response.arc_pins))};
+  // Of a range that is rounding alone no setting is wrong.
+  figures.push_back(motion_of(stage, response).output_moves() ? relative(response.dynamic.peak_to_peak)
+                                                              : Estimate{not_known, not_known});
   Figures frequencies;
   for (const auto& mode : dynamics::modes(stage).modes)
     if (mode.frequency > 0) frequencies.push_back({mode.frequency, not_known});
@@ -69,7 +72,7 @@ class TwoKVTrade : public TradeSubject {
     given.integrator.method = dynamics::Integrator::automatic;
     given.integrator.fixed_step = 0;
     std::vector<TradeMotion> list;
-    for (const auto& way : shooting_settings(stage.sun_mesh_frequency())) {
+    for (const auto& way : shooting_settings()) {
       auto simulation = given;
       way.apply(simulation);
       list.push_back(motion(stage, simulation, tables));
