@@ -1,5 +1,5 @@
+#include "app/report/interactive/plot_data.h"
 #include "app/report/interactive_plot.h"
-#include "app/report/plot_data.h"
 
 namespace annulus::app {
 

@@ -1,4 +1,4 @@
-#include "app/report/plot_data.h"
+#include "app/report/interactive/plot_data.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/report/plot_data.h"
+#include "app/report/interactive/plot_data.h"
 
 namespace annulus::app {
 
