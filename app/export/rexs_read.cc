@@ -112,7 +112,7 @@ class RexsFile {
     const std::string text = node.text().get();
     double value = 0;
     const auto* first = text.data() + std::min(text.find_first_not_of(" \t\r\n"), text.size());
-    const auto* last = text.data() + text.find_last_not_of(" \t\r\n") + 1;
+    const auto* last = text.data() + (text.find_last_not_of(" \t\r\n") + 1);  // of blanks alone: the begin
     const auto [end, error] = std::from_chars(first, std::max(first, last), value);
     if (error != std::errc{} || end != last || !std::isfinite(value))
       throw refusal(fmt::format("component {}: {} = '{}' is not a number", c.id, name, shown(text)));

@@ -212,6 +212,11 @@ BOOST_AUTO_TEST_CASE(rexs_of_others) {
   auto spoilt = text("1.2", "");
   spoilt.replace(spoilt.find(">20<"), 4, ">two<");
   refused(spoilt, "number_of_teeth = 'two' is not a number");
+  for (const char* blank : {"", "  "}) {
+    spoilt = text("1.2", "");
+    spoilt.replace(spoilt.find(">20<"), 4, std::string(">") + blank + "<");
+    refused(spoilt, "is not a number");
+  }
   spoilt = text("1.2", "");
   spoilt.replace(spoilt.find("unit=\"m\""), 8, "unit=\"inch\"");
   refused(spoilt, "normal_module is in 'inch'");
