@@ -119,8 +119,9 @@ std::filesystem::path user_costs_file() {
 }
 
 std::vector<CostRun> read_user_costs(const std::filesystem::path& file) {
-  if (file.empty() || !std::filesystem::exists(file)) return {};
+  if (file.empty()) return {};
   try {
+    if (!std::filesystem::exists(file)) return {};
     return parse_cost_runs(read_file(file), file.string());
   } catch (const std::exception& error) {
     log::debug(fmt::format("{}; the list is not used", error.what()));

@@ -90,12 +90,13 @@ std::string page_scripts(const std::string& page) {
     std::string text;
     bool there = true;
     for (const char* file : part.libraries) {
-      const std::string library = std::filesystem::exists(file) ? read_file(file) : "";
-      if (library.empty())
+      try {
+        text += "<script>" + read_file(file) + "</script>\n";
+      } catch (const InputError&) {
+        there = false;
         log::warn(
             fmt::format("pictures of the report stay pictures: {} is not installed (Debian: {})", file, part.package));
-      there = there && !library.empty();
-      text += "<script>" + library + "</script>\n";
+      }
     }
     if (there) scripts += text + "<script>" + part.script + "</script>\n";
   }

@@ -24,7 +24,8 @@ Range bar_range(const BarChart& chart) {
 
 std::string to_svg(const BarChart& chart) {
   const Range range = bar_range(chart);
-  const bool negative = range.low<0, positive = range.high> 0;
+  const bool negative = range.low < 0;
+  const bool positive = range.high > 0;
   const bool notes =
       std::any_of(chart.bars.begin(), chart.bars.end(), [](const auto& bar) { return !bar.note.empty(); });
   const double top = chart.title.empty() ? 8 : 26, left = chart.label_width, note_width = notes ? 62 : 8;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -8,7 +9,7 @@
 
 #include "app/pipeline.h"
 #include "app/tradeoff/trade_figures.h"
-#include "dynamics/modes.h"
+#include "dynamics/figures.h"
 
 /// What is measured: meshes that are solved into tables, and a lumped model that takes them.
 namespace annulus::app {
@@ -22,8 +23,8 @@ struct TradeMesh {
 
 /// One way to make and solve the lumped model.
 struct TradeMotion {
-  std::string rung;      ///< "direct", "marching" or "fewer freedoms", "coupling"
-  std::string settings;  ///< "64 samples per cycle", "ARKODE, tolerance 1e-6"
+  std::string rung;      ///< "direct", "marching", "shooting", "fewer freedoms", "coupling"; empty: as a run finds it
+  std::string settings;  ///< "64 samples per mesh cycle", "sun held in place"
   std::string id;        ///< identity of everything the figures depend on
   bool finest = false;
   bool changes_model = false;  ///< its error is not one of numbers

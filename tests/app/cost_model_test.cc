@@ -204,6 +204,8 @@ BOOST_AUTO_TEST_CASE(the_list_of_own_costs_does_no_harm) {
   const test::TemporaryFolder folder("own_costs");
   const auto file = folder.path() / "cache" / "costs.csv";
   BOOST_TEST(app::read_user_costs(file).empty());
+  // A place that cannot be looked at is none: here a name that no file system takes.
+  BOOST_TEST(app::read_user_costs(folder.path() / std::string(5000, 'x')).empty());
   auto run = plane_size();
   run.body_s = 1.5;
   run.contact_s = 0.25;
