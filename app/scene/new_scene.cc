@@ -19,7 +19,7 @@ std::string quoted(const std::string& text) {
   for (const char c : text) {
     if (c == '"' || c == '\\')
       result += std::string("\\") + c;
-    else if (static_cast<unsigned char>(c) < ' ')
+    else if (static_cast<unsigned char>(c) < ' ' || c == '\x7f')
       result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
     else
       result += c;

@@ -197,6 +197,10 @@ BOOST_AUTO_TEST_CASE(rexs_of_others) {
   BOOST_TEST(outcome.out.find("power_kW =      <- to be filled in") != std::string::npos);
   // 20 degrees, but for rounding of the unit.
   BOOST_TEST(outcome.out.find("\npressure_angle_deg = 20") != std::string::npos);
+  // A character that TOML wants escaped, in the title.
+  write_file(folder.path() / "dele\x7fte.rexs", text("1.2", ""));
+  const auto odd = test::run_program(folder.path(), "new --rexs dele\x7fte.rexs");
+  BOOST_TEST(odd.out.find(R"(title = "dele\u007fte")") != std::string::npos, odd.err);
 
   const auto refused = [&](const std::string& content, const std::string& what) {
     write_file(folder.path() / "bad.rexs", content);
