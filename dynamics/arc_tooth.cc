@@ -102,9 +102,10 @@ double pin_deflection(const ArcToothMesh& mesh, double force) {
   if (force == 0) return 0;
   const double x = length_per_force(mesh) * force;
   if (!(x > 0 && x <= largest_length(mesh)))
-    throw SolverError(
+    throw InputError(
         fmt::format("arc-tooth mesh: the line contact formula does not hold at a pin force of {:g} N: pin "
-                    "and arc (radii {:g} and {:g} m) conform",
+                    "and arc (radii {:g} and {:g} m) conform; reduce the torque, or make the arc gear wider or the "
+                    "radius of its arc larger",
                     force, mesh.pin_radius, mesh.arc_radius));
   return x * approach_factor(mesh, x);
 }

@@ -53,6 +53,7 @@ inline constexpr double uneven_share = 0.55;
 ///   w = 2(1 - nu^2)/E F/(pi b) (2/3 + ln(16 r_z r/c^2)),  c^2 = (16/pi) 2(1 - nu^2)/E F/b rho
 /// (c: Hertz width of the contact; 1.60 sqrt(...) in Roark, 4.99e-3 sqrt(...) in mixed units in the handbooks). With
 /// x = 2(1 - nu^2)/E F/(pi b) this is x (kappa + ln((r - r_z)/x)): only the difference of the radii counts.
+/// Throws InputError for a force beyond the range of the formula (conforming surfaces).
 [[nodiscard]] double pin_deflection(const ArcToothMesh& mesh, double force);
 /// dF/dw at F, N/m; infinite at 0.
 [[nodiscard]] double pin_tangent(const ArcToothMesh& mesh, double force);

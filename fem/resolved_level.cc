@@ -142,7 +142,7 @@ ResolvedMesh::Places ResolvedMesh::places(const std::vector<std::pair<int, doubl
     PlaceOfContact planet_place;
     planet_place.half_width = ContactSystem::half_width(flanks, roll, load / problem.face_width, problem.material);
     planet_place.roll = roll;
-    const double centre = flanks.nearest_roll(roll);
+    const double centre = flanks.nearest_roll(roll, flanks.domain(roll));
     const auto opposite = flanks.match(centre, roll);
     planet_place.gap = opposite.gap;
     planet_place.arc = planet_arc(centre);

@@ -91,6 +91,9 @@ double inverse_involute(double value) {
 
 Gear::Gear(const GearParameters& parameters) : p_(parameters) {
   check_inputs(p_);
+  transverse_module_ = p_.module / std::cos(p_.helix_angle);
+  transverse_pressure_angle_ = std::atan(std::tan(p_.pressure_angle) / std::cos(p_.helix_angle));
+  base_radius_ = reference_radius() * std::cos(transverse_pressure_angle_);
   check_tip(*this);
   form_radius_ = std::hypot(base_radius(), RootFillet(*this).form_roll());
   const double sign = kind() == GearKind::external ? 1 : -1;
@@ -112,12 +115,6 @@ double Gear::helix_angle_at(double radius) const {
   return std::atan(std::tan(p_.helix_angle) * radius / reference_radius());
 }
 double Gear::base_helix_angle() const { return helix_angle_at(base_radius()); }
-double Gear::transverse_module() const { return p_.module / std::cos(p_.helix_angle); }
-double Gear::transverse_pressure_angle() const {
-  return std::atan(std::tan(p_.pressure_angle) / std::cos(p_.helix_angle));
-}
-double Gear::reference_radius() const { return transverse_module() * p_.teeth / 2; }
-double Gear::base_radius() const { return reference_radius() * std::cos(transverse_pressure_angle()); }
 double Gear::base_pitch() const { return pitch_angle() * base_radius(); }
 
 double Gear::tip_radius() const {

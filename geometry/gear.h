@@ -44,11 +44,12 @@ class Gear {
   [[nodiscard]] double helix_angle() const { return p_.helix_angle; }
   [[nodiscard]] double helix_angle_at(double radius) const;  ///< tan(beta_y) = tan(beta) r_y / r, with the sign of beta
   [[nodiscard]] double base_helix_angle() const;             ///< beta_b, rad, with the sign of beta
-  [[nodiscard]] double transverse_module() const;            ///< m_t = m_n / cos(beta)
-  [[nodiscard]] double transverse_pressure_angle() const;    ///< tan(alpha_t) = tan(alpha_n) / cos(beta)
-  [[nodiscard]] double reference_radius() const;             ///< m_t z / 2
-  [[nodiscard]] double base_radius() const;                  ///< r_b
-  [[nodiscard]] double tip_radius() const;                   ///< internal: smaller than the root radius
+  [[nodiscard]] double transverse_module() const { return transverse_module_; }  ///< m_t = m_n / cos(beta)
+  /// tan(alpha_t) = tan(alpha_n) / cos(beta)
+  [[nodiscard]] double transverse_pressure_angle() const { return transverse_pressure_angle_; }
+  [[nodiscard]] double reference_radius() const { return transverse_module_ * p_.teeth / 2; }  ///< m_t z / 2
+  [[nodiscard]] double base_radius() const { return base_radius_; }                            ///< r_b
+  [[nodiscard]] double tip_radius() const;  ///< internal: smaller than the root radius
   [[nodiscard]] double root_radius() const;
   /// p_bt = 2 pi r_b / z, distance of teeth along the line of action in the transverse section.
   [[nodiscard]] double base_pitch() const;
@@ -64,6 +65,7 @@ class Gear {
 
  private:
   GearParameters p_;
+  double transverse_module_ = 0, transverse_pressure_angle_ = 0, base_radius_ = 0;  // asked for in inner loops
   double form_radius_ = 0;
 };
 

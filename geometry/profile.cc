@@ -29,20 +29,17 @@ double ToothProfile::roll_length_at(double radius) const {
 
 // The flank is the end of a string of length rho that leaves the base circle at the polar angle `tangent`; the external
 // string turns clockwise with growing rho (towards the tooth centre), the internal one counter-clockwise.
-Eigen::Vector2d ToothProfile::flank_point(double roll_length) const {
+ToothProfile::FlankPlace ToothProfile::flank_place(double roll_length) const {
   const double base = gear_.base_radius();
   const double sign = gear_.kind() == GearKind::external ? 1 : -1;
   const double tangent = base_angle_ - sign * roll_length / base;
   const double c = std::cos(tangent);
   const double s = std::sin(tangent);
-  return {base * c - sign * roll_length * s, base * s + sign * roll_length * c};
+  return {{base * c - sign * roll_length * s, base * s + sign * roll_length * c}, {-s, c}};
 }
 
-Eigen::Vector2d ToothProfile::flank_normal(double roll_length) const {
-  const double sign = gear_.kind() == GearKind::external ? 1 : -1;
-  const double tangent = base_angle_ - sign * roll_length / gear_.base_radius();
-  return {-std::sin(tangent), std::cos(tangent)};
-}
+Eigen::Vector2d ToothProfile::flank_point(double roll_length) const { return flank_place(roll_length).point; }
+Eigen::Vector2d ToothProfile::flank_normal(double roll_length) const { return flank_place(roll_length).normal; }
 
 double ToothProfile::modification(double roll_length) const {
   const auto& p = gear_.parameters();

@@ -50,9 +50,18 @@ class ToothProfile {
   /// Unit normal there in the transverse section, pointing out of the material. The normal of a helical flank leans out
   /// of this section by the base helix angle: a thickness normal to the flank is 1 / cos(beta_b) times as long in it.
   [[nodiscard]] Eigen::Vector2d flank_normal(double roll_length) const;
+  struct FlankPlace {
+    Eigen::Vector2d point, normal;
+  };
+  /// Both at once.
+  [[nodiscard]] FlankPlace flank_place(double roll_length) const;
   /// Material removed normal to the flank, m, >= 0: tip relief rising linearly over the last `tip_relief_length` before
   /// the tip, and a parabola of height `profile_crowning` at the tip and form circles. Beyond them the end value holds.
   [[nodiscard]] double modification(double roll_length) const;
+  /// Whether there is any.
+  [[nodiscard]] bool modified() const {
+    return gear_.parameters().tip_relief > 0 || gear_.parameters().profile_crowning > 0;
+  }
   /// Material removed normal to the flank along the face width b, m, >= 0, z from 0 to b (ISO 21771 lead crowning and
   /// helix slope): the parabola lead_crowning (2 z / b - 1)^2, plus lead_slope z / b when the slope is positive and
   /// |lead_slope| (1 - z / b) when it is negative. Beyond the ends the end value holds.

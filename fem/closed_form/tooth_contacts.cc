@@ -73,8 +73,8 @@ double tip_corner(const geometry::ToothProfile& profile) {
 ToothContact make_contact(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
                           const Material& material, double width, int index, double roll) {
   const auto& pair = flanks.pair();
-  const double nearest = flanks.nearest_roll(roll);
   const auto domain = flanks.domain(roll);
+  const double nearest = flanks.nearest_roll(roll, domain);
   const auto match = flanks.match(nearest, roll);
   const auto on_planet = planet.tooth().load(nearest), on_wheel = wheel.tooth().load(match.wheel_roll);
   const FlankGap gap = gap_around(flanks, nearest, match.wheel_roll, roll, domain);

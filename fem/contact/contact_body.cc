@@ -10,13 +10,28 @@
 namespace annulus::fem {
 namespace {
 
-/// Columns (station, slice) of `matrix` summed with the weights of every element of a patch.
-Eigen::MatrixXd gather_columns(const Eigen::MatrixXd& matrix, const FlankPatch& patch, int slices) {
+/// Stations of a flank that a patch loads.
+struct StationRange {
+  Eigen::Index first = 0, count = 0;
+};
+
+StationRange loaded_stations(const FlankPatch& patch) {
+  const Eigen::Index stations = patch.weights.rows();
+  Eigen::Index first = 0, end = stations;
+  while (first < end && (patch.weights.row(first).array() == 0).all()) ++first;
+  while (end > first && (patch.weights.row(end - 1).array() == 0).all()) --end;
+  return {first, end - first};
+}
+
+/// Columns (station, slice) of `matrix` summed with the weights of every element of a patch; the first of them is that
+/// of the first station of `loaded`.
+Eigen::MatrixXd gather_columns(const Eigen::Ref<const Eigen::MatrixXd>& matrix, const FlankPatch& patch,
+                               StationRange loaded, int slices) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(matrix.rows(), static_cast<Eigen::Index>(patch.elements.size()));
   for (std::size_t e = 0; e < patch.elements.size(); ++e) {
     const auto [load, slice] = patch.elements[e];
-    for (Eigen::Index u = 0; u < patch.weights.rows(); ++u)
-      if (const double w = patch.weights(u, load); w != 0)
+    for (Eigen::Index u = 0; u < loaded.count; ++u)
+      if (const double w = patch.weights(loaded.first + u, load); w != 0)
         result.col(static_cast<Eigen::Index>(e)) += w * matrix.col(u * slices + slice);
   }
   return result;
@@ -87,8 +102,11 @@ Eigen::MatrixXd ContactBody::compliance(const FlankPatch& a, int tooth_a, const 
   const auto [matrix, transposed] = block(tooth_a, tooth_b);
   const auto& first = transposed ? a : b;
   const auto& second = transposed ? b : a;
-  const Eigen::MatrixXd columns = gather_columns(matrix, first, slices_).transpose();
-  const Eigen::MatrixXd both = gather_columns(columns, second, slices_);
+  const auto of_first = loaded_stations(first), of_second = loaded_stations(second);
+  const auto part = matrix.block(of_second.first * slices_, of_first.first * slices_, of_second.count * slices_,
+                                 of_first.count * slices_);
+  const Eigen::MatrixXd columns = gather_columns(part, first, of_first, slices_).transpose();
+  const Eigen::MatrixXd both = gather_columns(columns, second, of_second, slices_);
   return transposed ? both : Eigen::MatrixXd(both.transpose());
 }
 
@@ -102,7 +120,7 @@ Eigen::MatrixXd ContactBody::resultants(const FlankPatch& patch, int tooth) cons
       for (int z = 0; z < stations; ++z) sum += axial_(z, s) * body.rigid_motion(u * stations + z, number);
       of_station.col(u * slices_ + s) = sum.transpose();
     }
-  return gather_columns(of_station, patch, slices_).transpose();
+  return gather_columns(of_station, patch, {0, body.flank.size()}, slices_).transpose();
 }
 
 Eigen::MatrixXd ContactBody::port_weights(const FlankPatch& patch) const {

@@ -116,7 +116,7 @@ void ContactSystem::add_elements(Pair& pair, double roll, const std::vector<int>
   if (domain.empty()) return;
   const double width = slice_edges_.back() - slice_edges_.front();
   const double base = flanks_.pair().planet().base_radius(), wheel_base = flanks_.pair().wheel().base_radius();
-  const double centre_roll = flanks_.nearest_roll(roll);
+  const double centre_roll = flanks_.nearest_roll(roll, domain);
   const double half_width = ContactSystem::half_width(flanks_, roll, load / width, material_);
   const auto arc_of = [&](double planet_roll) { return planet_roll * planet_roll / (2 * base); };
   const auto roll_of = [&](double arc) {

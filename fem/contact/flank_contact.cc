@@ -47,17 +47,19 @@ std::pair<double, double> FlankContact::opposite(double planet_roll, double cont
   const Eigen::Vector2d wheel_axis = -(Eigen::Rotation2Dd(-planet_angle) * Eigen::Vector2d(pair_.centre_distance(), 0));
   const double side = pair_.internal() ? -1 : 1;  // trailing flank: the mirror image of the leading one
   const double base = pair_.wheel().base_radius();
-  const Eigen::Vector2d point = planet_.flank_point(planet_roll), normal = planet_.flank_normal(planet_roll);
+  const auto [point, normal] = planet_.flank_place(planet_roll);
 
-  const auto distance = [&](double roll) -> Eigen::Vector2d {
-    Eigen::Vector2d on_wheel = wheel_.flank_point(roll);
-    on_wheel.y() *= side;
-    return turn * on_wheel + wheel_axis - point;
+  /// A point of the wheel's flank, seen from the planet's: distance, and the slope of its part across the normal.
+  struct Seen {
+    Eigen::Vector2d distance;
+    double across, slope;
   };
-  // Unit tangent of the wheel flank across the planet's normal.
-  const auto slope = [&](double roll) {
-    const Eigen::Vector2d out = wheel_.flank_normal(roll);
-    return cross(turn * Eigen::Vector2d(out.y(), -side * out.x()), normal);
+  const auto seen = [&, &origin = point, &along = normal](double roll) -> Seen {
+    const auto place = wheel_.flank_place(roll);
+    const Eigen::Vector2d on_wheel(place.point.x(), side * place.point.y());
+    const Eigen::Vector2d distance = turn * on_wheel + wheel_axis - origin;
+    const Eigen::Vector2d tangent = turn * Eigen::Vector2d(place.normal.y(), -side * place.normal.x());
+    return {distance, cross(distance, along), cross(tangent, along)};
   };
   // Both normals turn by roll / base radius. While they are less than a right angle from being opposed, the distance
   // from the planet's normal grows (or falls) with the wheel's roll: that brackets the opposite point.
@@ -65,21 +67,21 @@ std::pair<double, double> FlankContact::opposite(double planet_roll, double cont
       pair_.wheel_roll_length(contact_roll) + (planet_roll - contact_roll) * base / pair_.planet().base_radius();
   double low = std::max(0.0, opposed - 1.5 * base), high = opposed + 1.5 * base;
   if (high <= low) return {0, 0};
-  const double sense = slope(high) > 0 ? 1 : -1;
-  const auto offset = [&](double roll) { return sense * cross(distance(roll), normal); };
-  if (offset(low) >= 0) return {0, 0};
-  if (offset(high) <= 0) return {std::numeric_limits<double>::infinity(), 0};
+  const auto at_high = seen(high);
+  const double sense = at_high.slope > 0 ? 1 : -1;
+  if (sense * seen(low).across >= 0) return {0, 0};
+  if (sense * at_high.across <= 0) return {std::numeric_limits<double>::infinity(), 0};
   double roll = std::clamp(pair_.wheel_roll_length(planet_roll), low, high);
   for (int step = 0; step < 200; ++step) {
-    const double off = offset(roll);
-    (off > 0 ? high : low) = roll;
-    double next = roll - off * sense / (slope(roll) * roll / base);
+    const auto here = seen(roll);
+    (sense * here.across > 0 ? high : low) = roll;
+    double next = roll - here.across / (here.slope * roll / base);
     if (!(next > low && next < high)) next = (low + high) / 2;
     const double change = std::abs(next - roll);
     roll = next;
     if (change < 1e-15 * base) break;
   }
-  return {roll, distance(roll).dot(normal)};
+  return {roll, seen(roll).distance.dot(normal)};
 }
 
 FlankContact::Match FlankContact::match(double planet_roll, double contact_roll) const {
@@ -118,24 +120,27 @@ FlankContact::Interval FlankContact::domain(double contact_roll) const {
   return interval;
 }
 
-double FlankContact::nearest_roll(double contact_roll) const {
-  const Interval d = domain(contact_roll);
-  require(!d.empty(), "flanks that do not face each other have no smallest gap");
+double FlankContact::nearest_roll(double contact_roll, const Interval& domain) const {
+  require(!domain.empty(), "flanks that do not face each other have no smallest gap");
+  // Two involutes open to both sides of their contact as long as both have one.
+  if (!planet_.modified() && !wheel_.modified() && contact_roll > 0 && pair_.wheel_roll_length(contact_roll) > 0)
+    return std::clamp(contact_roll, domain.low, domain.high);
   const auto gap = [&](double roll) { return match(roll, contact_roll).gap; };
   // Modifications can make several dents; look at a raster first.
   constexpr int raster = 64;
   int best = 0;
-  double least = gap(d.low);
+  double least = gap(domain.low);
   for (int i = 1; i <= raster; ++i) {
-    const double g = gap(d.low + (d.high - d.low) * i / raster);
+    const double g = gap(domain.low + (domain.high - domain.low) * i / raster);
     if (g < least) least = g, best = i;
   }
-  const double step = (d.high - d.low) / raster;
-  const double a = std::max(d.low, d.low + (best - 1) * step), b = std::min(d.high, d.low + (best + 1) * step);
+  const double step = (domain.high - domain.low) / raster;
+  const double a = std::max(domain.low, domain.low + (best - 1) * step),
+               b = std::min(domain.high, domain.low + (best + 1) * step);
   // In parts of the interval: the tolerance has an absolute share.
   const auto [part, value] =
       boost::math::tools::brent_find_minima([&](double t) { return gap(a + t * (b - a)); }, 0.0, 1.0, 40);
-  const double clamped = std::clamp(contact_roll, d.low, d.high);  // exact for unmodified flanks
+  const double clamped = std::clamp(contact_roll, domain.low, domain.high);
   // Gaps are differences of places and know no less than their round-off, which must not choose the point: over so
   // flat a minimum it would move it far.
   const double round_off = 16 * std::numeric_limits<double>::epsilon() * pair_.centre_distance();
@@ -143,7 +148,7 @@ double FlankContact::nearest_roll(double contact_roll) const {
 }
 
 double FlankContact::smallest_gap(double contact_roll) const {
-  return match(nearest_roll(contact_roll), contact_roll).gap;
+  return match(nearest_roll(contact_roll, domain(contact_roll)), contact_roll).gap;
 }
 
 double FlankContact::relative_curvature(double contact_roll) const {

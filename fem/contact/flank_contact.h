@@ -35,8 +35,8 @@ class FlankContact {
   [[nodiscard]] Interval domain(double contact_roll) const;
   /// Smallest gap over the domain: zero for an unmodified pair within the theoretical line of action.
   [[nodiscard]] double smallest_gap(double contact_roll) const;
-  /// Planet roll length in the domain where the gap is smallest.
-  [[nodiscard]] double nearest_roll(double contact_roll) const;
+  /// Planet roll length in the domain (that of the contact) where the gap is smallest.
+  [[nodiscard]] double nearest_roll(double contact_roll, const Interval& domain) const;
   /// 1/rho_planet +- 1/rho_wheel at a planet roll length of the theoretical contact, 1/m.
   [[nodiscard]] double relative_curvature(double contact_roll) const;
 

@@ -25,11 +25,16 @@ std::vector<double> lobatto(int degree) {
   }
 }
 
-double lagrange(const std::vector<double>& nodes, std::size_t i, double x) {
-  double value = 1;
-  for (std::size_t j = 0; j < nodes.size(); ++j)
-    if (j != i) value *= (x - nodes[j]) / (nodes[i] - nodes[j]);
-  return value;
+/// Adds `factor` times the product of (x - node) over all nodes but `i` to the coefficients of 1, x, x^2, ...
+void add_product(const std::vector<double>& nodes, std::size_t i, double factor, std::vector<double>& coefficients) {
+  std::vector<double> product = {factor};
+  for (std::size_t j = 0; j < nodes.size(); ++j) {
+    if (j == i) continue;
+    product.push_back(0);
+    for (std::size_t k = product.size() - 1; k > 0; --k) product[k] = product[k - 1] - nodes[j] * product[k];
+    product[0] *= -nodes[j];
+  }
+  for (std::size_t k = 0; k < product.size(); ++k) coefficients[k] += product[k];
 }
 
 }  // namespace
@@ -37,6 +42,18 @@ double lagrange(const std::vector<double>& nodes, std::size_t i, double x) {
 TraceBasis::TraceBasis(std::vector<double> stations, int degree)
     : stations_(std::move(stations)), degree_(degree), unit_(lobatto(degree)) {
   require(stations_.size() > 1 && (stations_.size() - 1) % degree_ == 0, "a trace with a broken element");
+  for (std::size_t i = 0; i < unit_.size(); ++i) {
+    double product = 1;
+    for (std::size_t j = 0; j < unit_.size(); ++j)
+      if (j != i) product *= unit_[i] - unit_[j];
+    scale_.push_back(1 / product);
+  }
+  for (int e = 0; e < elements(); ++e) {
+    std::vector<double> coefficients(unit_.size(), 0.0);
+    const double* u = stations_.data() + static_cast<std::ptrdiff_t>(e) * degree_;
+    for (std::size_t i = 1; i < unit_.size(); ++i) add_product(unit_, i, (u[i] - u[0]) * scale_[i], coefficients);
+    map_.insert(map_.end(), coefficients.begin() + 1, coefficients.end());  // the first node is at xi = 0
+  }
 }
 
 TraceBasis::Values TraceBasis::operator()(double coordinate) const {
@@ -48,26 +65,27 @@ TraceBasis::Values TraceBasis::operator()(double coordinate) const {
   const double* u = stations_.data() + static_cast<std::ptrdiff_t>(element) * degree_;
 
   // Invert the isoparametric map of the coordinate; it is nearly linear, so Newton needs a few steps.
-  double xi = (coordinate - u[0]) / (u[degree_] - u[0]);
+  const double* map = map_.data() + static_cast<std::ptrdiff_t>(element) * degree_;
+  const double wanted = coordinate - u[0];
+  double xi = wanted / (u[degree_] - u[0]);
   for (int step = 0; step < 20; ++step) {
-    double value = -coordinate, slope = 0;
-    for (int i = 0; i <= degree_; ++i) {
-      value += u[i] * lagrange(unit_, i, xi);
-      for (int k = 0; k <= degree_; ++k) {
-        if (k == i) continue;
-        double term = 1 / (unit_[i] - unit_[k]);
-        for (int j = 0; j <= degree_; ++j)
-          if (j != i && j != k) term *= (xi - unit_[j]) / (unit_[i] - unit_[j]);
-        slope += u[i] * term;
-      }
+    double value = 0, slope = 0;
+    for (int k = degree_ - 1; k >= 0; --k) {
+      slope = slope * xi + (k + 1) * map[k];
+      value = (value + map[k]) * xi;
     }
-    const double change = value / slope;
+    const double change = (value - wanted) / slope;
     xi -= change;
     if (std::abs(change) < 1e-14) break;
   }
   Values result;
   result.first = element * degree_;
-  for (int i = 0; i <= degree_; ++i) result.weights.push_back(lagrange(unit_, i, xi));
+  for (int i = 0; i <= degree_; ++i) {
+    double weight = scale_[i];
+    for (int j = 0; j <= degree_; ++j)
+      if (j != i) weight *= xi - unit_[j];
+    result.weights.push_back(weight);
+  }
   return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/container/static_vector.hpp>
 #include <vector>
 
 namespace annulus::fem {
@@ -8,13 +9,15 @@ namespace annulus::fem {
 /// line (roll length, polar angle): the isoparametric coordinate is found from the coordinate of the nodes.
 class TraceBasis {
  public:
+  static constexpr int largest_degree = 4;
   TraceBasis() = default;
   /// `stations`: coordinates of the nodes, ascending, elements * degree + 1 of them.
   TraceBasis(std::vector<double> stations, int degree);
 
   struct Values {
-    int first = 0;                ///< node of values[0]
-    std::vector<double> weights;  ///< degree + 1 shape functions, sum 1
+    int first = 0;  ///< node of values[0]
+    /// degree + 1 shape functions, sum 1
+    boost::container::static_vector<double, largest_degree + 1> weights;
   };
   /// Throws InternalError outside the line (beyond a relative 1e-9).
   [[nodiscard]] Values operator()(double coordinate) const;
@@ -31,7 +34,10 @@ class TraceBasis {
  private:
   std::vector<double> stations_;
   int degree_ = 0;
-  std::vector<double> unit_;  // reference coordinates of the nodes of one element
+  std::vector<double> unit_;   // reference coordinates of the nodes of one element
+  std::vector<double> scale_;  // of every shape function: it is this times the product of distances to other nodes
+  /// The isoparametric map of every element, from its first node on: coefficients of xi, xi^2, ...
+  std::vector<double> map_;
 };
 
 }  // namespace annulus::fem

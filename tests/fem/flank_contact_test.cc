@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(rigid_conjugate_rotation_leaves_the_smallest_gap_zero) {
     record.near("smallest gap", "m", flanks.smallest_gap(contact), 0, exact, "rounding");
     BOOST_TEST(std::abs(flanks.match(contact, contact).wheel_roll - flanks.pair().wheel_roll_length(contact)) < exact);
     // Round-off again: the gap is flat at its minimum, so that the place is only known to sqrt(round-off / curvature).
-    BOOST_TEST(std::abs(flanks.nearest_roll(contact) - contact) < 1e-6);
+    BOOST_TEST(std::abs(flanks.nearest_roll(contact, flanks.domain(contact)) - contact) < 1e-6);
   });
 }
 
@@ -132,6 +132,25 @@ BOOST_AUTO_TEST_CASE(beyond_the_path_the_flanks_do_not_touch) {
       before = gap_low;
       after = gap_high;
     }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_nearer_than_the_nearest_point_within_and_beyond_the_path) {
+  for (const bool internal : {true, false}) {
+    const FlankContact flanks(ring_paper_pair(internal));
+    const double low = flanks.pair().roll_length_low(), high = flanks.pair().roll_length_high();
+    const double beyond = flanks.pair().planet().base_pitch();
+    int clipped = 0;
+    for (int i = 0; i <= 60; ++i) {
+      const double contact = low - beyond + (high - low + 2 * beyond) * i / 60;
+      const auto domain = flanks.domain(contact);
+      if (contact <= 0 || domain.empty()) continue;
+      const double nearest = flanks.nearest_roll(contact, domain), least = flanks.match(nearest, contact).gap;
+      clipped += nearest != contact;
+      for (int k = 0; k <= 100; ++k)
+        BOOST_TEST(flanks.match(domain.low + (domain.high - domain.low) * k / 100, contact).gap > least - exact);
+    }
+    BOOST_TEST(clipped > 0);
   }
 }
 
