@@ -11,8 +11,8 @@
 
 namespace {
 
-/// Whether the scene itself is: "not valid TOML ...", or "KEY: unknown key ...". Texts of the scene stand in messages too,
-/// but not there.
+/// Whether the scene itself is: "not valid TOML ...", or "KEY: unknown key ...". Texts of the scene stand in messages
+/// too, but not there.
 bool is_broken(const std::string& message) {
   const auto space = message.find(' ');
   return message.starts_with("not valid TOML") ||
