@@ -56,11 +56,12 @@ void copy_meshes(const MeshModel& model, const std::filesystem::path& from, cons
   }
 }
 
-/// Read back if unchanged, else computed and saved; nothing for a ring whose coupling was not solved.
+/// Read back if unchanged, else computed and saved; nothing for a ring whose coupling was not solved, or changes
+/// nothing.
 std::optional<CouplingEffect> effect_of_coupling(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                                  const MeshResult& sun_mesh, const MeshResult& ring_mesh,
                                                  const RunOptions& options) {
-  if (!ring_mesh.coupling) return std::nullopt;
+  if (!ring_mesh.coupling || is_negligible(scene, *ring_mesh.coupling)) return std::nullopt;
   const auto folder = options.out / scene.rings.at(ring).name / "dynamics";
   auto stage = make_stage(scene, geometry, ring, sun_mesh, ring_mesh);
   stage.ring_coupling = taken_coupling(*ring_mesh.coupling, RimCoupling::elastic);

@@ -33,6 +33,7 @@ std::string coupling_section(const RunResult& result) {
                  "dynamic factor, sun meshes",
                  "dynamic factor, ring meshes"};
   int cycles = 0;
+  std::vector<std::string> negligible;
   for (const auto& ring : result.rings) {
     if (!ring.mesh.coupling) continue;
     const auto& solved = *ring.mesh.coupling;
@@ -44,6 +45,7 @@ std::string coupling_section(const RunResult& result) {
                          modes.empty() ? fmt::format("none below {:.0f}", solved.highest_frequency)
                                        : fmt::format("{:.0f} ({})", modes.front().frequency, modes.front().waves),
                          name_of(choice.taken), escape(choice.reason)});
+    if (is_negligible(result.scene, solved)) negligible.push_back(ring.name);
     if (!ring.coupling_effect) continue;
     cycles = ring.coupling_effect->cycles;
     for (const auto& row : ring.coupling_effect->rows)
@@ -64,6 +66,9 @@ std::string coupling_section(const RunResult& result) {
             "whole period: they compare with each other, not with the key figures.</p>\n",
             cycles) +
         html(effect);
+  if (!negligible.empty())
+    text += fmt::format("<p>What it changes was not looked at for {}: less than a tenth of the wanted accuracy.</p>\n",
+                        escape(fmt::format("'{}'", fmt::join(negligible, "', '"))));
   return text + "</section>\n";
 }
 

@@ -122,6 +122,12 @@ CouplingChoice coupling_choice(const Scene& scene, const SolvedCoupling& solved)
                       percent(share), small ? "less" : "more", percent(scene.accuracy))};
 }
 
+bool is_negligible(const Scene& scene, const SolvedCoupling& solved) {
+  constexpr double part_of_accuracy = 0.1;
+  return scene.dynamics->rim_coupling == RimCoupling::automatic && solved.coupling.modes.empty() &&
+         solved.largest() <= part_of_accuracy * scene.accuracy * solved.path_compliance;
+}
+
 std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved, RimCoupling taken) {
   if (taken == RimCoupling::none) return nullptr;
   auto coupling = std::make_shared<RingCoupling>(solved.coupling);

@@ -36,6 +36,9 @@ struct CouplingChoice {
   std::string reason;
 };
 [[nodiscard]] CouplingChoice coupling_choice(const Scene& scene, const SolvedCoupling& solved);
+/// Whether it is left out and so far below the wanted accuracy that what it changes need not be looked at: a tenth of
+/// it, and no mode of the ring within reach.
+[[nodiscard]] bool is_negligible(const Scene& scene, const SolvedCoupling& solved);
 /// The coupling as a stage takes it: without modes for `statical`; nothing for `none`.
 [[nodiscard]] std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved, RimCoupling taken);
 

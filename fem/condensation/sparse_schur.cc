@@ -173,10 +173,13 @@ SchurComplement schur_complement(const Eigen::SparseMatrix<double>& matrix, cons
   inside = {};
   cholmod_sparse interior_view = lower_view(interior_matrix);
   std::vector<int> interior_order(interior.size());
-  // Nested dissection pays for itself in three dimensions and on large plane sectors.
+  // Nested dissection pays for itself in three dimensions and on large plane sectors. Rows of plane elements up to
+  // cubic ones have 50 entries at most, those of linear hexahedra 81.
+  constexpr int most_entries_in_the_plane = 60;
+  const std::size_t small = matrix.nonZeros() < static_cast<Eigen::Index>(most_entries_in_the_plane) * n ? 60000 : 3000;
   const bool ordered = [&] {
     if (interior.empty()) return true;
-    if (interior.size() <= 3000) return cholmod_amd(&interior_view, nullptr, 0, interior_order.data(), &common) != 0;
+    if (interior.size() <= small) return cholmod_amd(&interior_view, nullptr, 0, interior_order.data(), &common) != 0;
     // METIS seeds and draws from the C library's one random generator: side by side, two calls would disturb each
     // other's orderings and with them the last digits of the result.
     static std::mutex one_at_a_time;
