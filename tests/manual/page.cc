@@ -141,7 +141,7 @@ std::string page(const std::string& introduction, const std::vector<ListedCase>&
       part += fmt::format("\n### {}\n", sentence(suite)) + recorded;
       if (!others.empty()) part += "\nChecked without a figure of its own:\n\n" + others;
     }
-    if (!part.empty()) body += fmt::format("\n## {}\n", layer.title) + part;
+    if (!part.empty()) body += fmt::format("\n<a id=\"{}\"></a>\n\n## {}\n", anchor(layer.title), layer.title) + part;
   }
   std::string overview =
       "\n| layer | suites | test cases | of these with figures | quantities | comparisons | plots |\n"
@@ -154,7 +154,7 @@ std::string page(const std::string& introduction, const std::vector<ListedCase>&
   for (const auto& layer : layers) {
     const auto& c = counts[layer.folder];
     if (c.cases == 0) continue;
-    overview += line(fmt::format("[{}](#{})", layer.title, anchor(layer.title)), c);
+    overview += line(fmt::format("<a href=\"#{}\">{}</a>", anchor(layer.title), layer.title), c);
     all.suites += c.suites;
     all.cases += c.cases;
     all.recorded += c.recorded;
