@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@
 BOOST_AUTO_TEST_SUITE(condensed_store)
 
 using namespace annulus::tests;
+using annulus::fem::BodyStress;
 using annulus::fem::CondensedStore;
 using annulus::fem::LoadedMeshProblem;
 using annulus::fem::LoadedMeshResult;
@@ -48,15 +50,20 @@ LoadedMeshResult solve(const LoadedMeshProblem& problem, std::shared_ptr<Condens
   return solve_loaded_mesh(problem, settings);
 }
 
+/// Stresses are told at the nominal load alone.
+bool differ(const std::optional<BodyStress>& a, const std::optional<BodyStress>& b) {
+  if (!a || !b) return a.has_value() != b.has_value();
+  return a->root_von_mises != b->root_von_mises || a->rim_von_mises != b->rim_von_mises;
+}
+
 /// Stresses and supports too, which take other ways than the flanks.
 void check_the_same(const LoadedMeshResult& a, const LoadedMeshResult& b) {
   check_identical(a, b);
   int different = 0;
   for (std::size_t i = 0; i < a.positions.size(); ++i) {
     const auto &p = a.positions[i], &q = b.positions[i];
-    different += p.wheel_stress->root_von_mises != q.wheel_stress->root_von_mises ||
-                 p.wheel_stress->rim_von_mises != q.wheel_stress->rim_von_mises ||
-                 p.planet_stress->root_von_mises != q.planet_stress->root_von_mises || p.pins.size() != q.pins.size();
+    different += differ(p.wheel_stress, q.wheel_stress) || differ(p.planet_stress, q.planet_stress) ||
+                 p.pins.size() != q.pins.size();
     for (std::size_t pin = 0; pin < p.pins.size(); ++pin)
       different += p.pins[pin].radial_force != q.pins[pin].radial_force ||
                    p.pins[pin].tangential_force != q.pins[pin].tangential_force;
