@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <string>
@@ -60,13 +61,22 @@ fem::LoadedMeshResult solve(const fem::LoadedMeshProblem& problem, fem::Rung run
 
 /// Gaps are differences of places some 0.1 m apart, known to 2e-17 m; deflections are micrometres: five digits less.
 constexpr double same = 1e-10;
-/// The shortest pressure elements, cut by tip edges, are micrometres long and differences of the same places.
+/// The shortest pressure elements, cut by tip edges, are micrometres long and differences of the same places. Where
+/// units change by powers of two, and nothing is rounded anew, that does not count.
 constexpr double same_pressure = 1e-8;
+const double million = std::ldexp(1.0, 20);
+
+bool is_power_of_two(double factor) {
+  int exponent = 0;
+  return std::frexp(factor, &exponent) == 0.5;
+}
 
 template <class Structure>
 void check_scaling(const Structure& structure, fem::Rung rung) {
   const auto nominal = solve(ring_problem(structure(Units{}), Units{}), rung);
-  for (const Units units : {Units{1e6, 1}, Units{1e-6, 1}, Units{1, 1e6}, Units{1, 1e-6}}) {
+  for (const Units units : {Units{1e6, 1}, Units{1e-6, 1}, Units{1, 1e6}, Units{1, 1e-6}, Units{million, 1},
+                            Units{1 / million, 1}, Units{1, million}, Units{1, 1 / million}}) {
+    const bool exact = is_power_of_two(units.length) && is_power_of_two(units.pressure);
     BOOST_TEST_CONTEXT("lengths x " << units.length << ", pressures x " << units.pressure) {
       const auto scaled = solve(ring_problem(structure(units), units), rung);
       BOOST_TEST_REQUIRE(scaled.positions.size() == nominal.positions.size());
@@ -87,7 +97,9 @@ void check_scaling(const Structure& structure, fem::Rung rung) {
           worst = std::max(worst, std::abs(a.pair_share[p] - b.pair_share[p]));
       }
       BOOST_TEST(worst < same);
-      BOOST_TEST(worst_pressure < same_pressure);
+      BOOST_TEST(worst_pressure < (exact ? same : same_pressure));
+      BOOST_TEST_MESSAGE("lengths x " << units.length << ", pressures x " << units.pressure << ": " << worst
+                                      << ", peak pressures " << worst_pressure);
       BOOST_TEST(scaled.worst_error_relative == nominal.worst_error_relative, boost::test_tools::tolerance(1e-6));
     }
   }
