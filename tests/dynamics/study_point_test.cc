@@ -64,6 +64,8 @@ BOOST_AUTO_TEST_CASE(held_centres_share_after_the_closed_form) {
 }
 
 BOOST_AUTO_TEST_CASE(motion_is_that_of_the_time_series) {
+  annulus::test::Verification record("Motion of the sun at a point of a study",
+                                     "the time series of the same stage, evaluated anew");
   auto stage = stages::ring_paper();
   SimulationOptions options;
   options.mesh_cycles = 70;
@@ -73,13 +75,13 @@ BOOST_AUTO_TEST_CASE(motion_is_that_of_the_time_series) {
   const auto& s = response.series;
   const auto x = s.displacement.row(0), y = s.displacement.row(1);
   const double rms = std::sqrt(((x.array() - x.mean()).square() + (y.array() - y.mean()).square()).mean());
-  BOOST_TEST(point.sun.rms == rms, boost::test_tools::tolerance(1e-12));
+  record.close("root mean square of the orbit", "m", point.sun.rms, rms, 1e-12, "rounding of sums");
   BOOST_TEST(point.sun_planet.averaged == response.sun_planet.load_sharing.averaged.value);
   BOOST_TEST(point.poincare.size() == 10U);
   BOOST_TEST(point.poincare[3].force == s.force(0, 3 * options.samples_per_cycle));
   // In contact F = k (delta - b/2) + c delta', the damper's part being small: delta is near b/2 + F / k(0).
-  BOOST_TEST(point.poincare[3].deflection == 50e-6 + point.poincare[3].force / (1.364e9 * 1.2258),
-             boost::test_tools::tolerance(0.02));
+  record.close("deflection of a Poincare point", "m", point.poincare[3].deflection,
+               50e-6 + point.poincare[3].force / (1.364e9 * 1.2258), 0.02, "the damper's part of the force");
   // Frequencies: distinct and rising, those of the modes.
   BOOST_TEST_REQUIRE(point.frequencies.size() == 6U);
   const auto all = modes(stage).modes;

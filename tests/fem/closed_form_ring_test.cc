@@ -161,23 +161,27 @@ BOOST_AUTO_TEST_CASE(compliances_are_symmetric_and_held_circles_do_not_move) {
 }
 
 BOOST_AUTO_TEST_CASE(loads_have_the_resultants_they_are_named_for) {
+  annulus::test::Verification record("Harmonics of loads on an arc",
+                                     "their work on unit translations and rotations is their resultant");
   // The first harmonics of a load are its resultants: radial and tangential parts of a unit translation and rotation.
   const double beta = 0.1, radius = 2;
   for (const auto spread : {Spread::uniform, Spread::parabolic}) {
     const auto radial = radial_force(Circle::inner, beta, spread, 1),
                tangential = tangential_force(Circle::inner, beta, spread, 1);
     // u_r = cos, u_theta = -sin does the work pi (f_r - f_theta).
-    BOOST_TEST(M_PI * (radial.terms[1][0] - radial.terms[1][1]) == 1.0, boost::test_tools::tolerance(round_off));
+    record.close("resultant of a radial load", "", M_PI * (radial.terms[1][0] - radial.terms[1][1]), 1.0, round_off,
+                 "rounding");
     // u_r = sin, u_theta = cos: V = -1.
-    BOOST_TEST(M_PI * (tangential.terms[1][0] - tangential.terms[1][1]) == 1.0,
-               boost::test_tools::tolerance(round_off));
+    record.close("resultant of a tangential load", "", M_PI * (tangential.terms[1][0] - tangential.terms[1][1]), 1.0,
+                 round_off, "rounding");
     // Rotation about the axis: u_theta = r, V = -r.
-    BOOST_TEST(-2 * M_PI * radius * tangential.terms[0][1] == centroid_radius(radius, beta, spread),
-               boost::test_tools::tolerance(round_off));
+    record.close("moment of a tangential load", "m", -2 * M_PI * radius * tangential.terms[0][1],
+                 centroid_radius(radius, beta, spread), round_off, "rounding");
   }
   const auto couple = moment(Circle::inner, radius, beta, 1);
-  BOOST_TEST(std::abs(couple.terms[1][0] - couple.terms[1][1]) < round_off);
-  BOOST_TEST(-2 * M_PI * radius * couple.terms[0][1] == 1.0, boost::test_tools::tolerance(1e-10));  // 1e-16 / beta^3
+  record.at_most("resultant of a couple", "1/m", std::abs(couple.terms[1][0] - couple.terms[1][1]), round_off,
+                 "rounding");
+  record.close("moment of a couple", "", -2 * M_PI * radius * couple.terms[0][1], 1.0, 1e-10, "rounding over beta^3");
 }
 
 /// Foundation of an external tooth: constants of Sainsot, Velex and Duverger (J. Mech. Des. 126, 2004), table 1:

@@ -136,13 +136,16 @@ BOOST_AUTO_TEST_SUITE(bolted_ring)
 using namespace annulus::tests;
 
 BOOST_AUTO_TEST_CASE(lift_off_only_ever_softens) {
+  annulus::test::Verification record("Pins that lift off against bolts",
+                                     "least work: a ring that may leave its supports gives way no less");
   auto pins = paper_pins(24, 0);
   const auto loose = solve_plane(ring_mesh(pins, 2));
   pins.unilateral = false;
   const auto bolted = solve_plane(ring_mesh(pins, 2));
   check_invariants(bolted);
   for (std::size_t i = 0; i < loose.positions.size(); ++i)
-    BOOST_TEST(loose.positions[i].entry.lte >= bolted.positions[i].entry.lte);
+    record.at_least("transmission error on pins over that on bolts", "",
+                    loose.positions[i].entry.lte / bolted.positions[i].entry.lte, 1, "least work");
   BOOST_TEST(largest_lte_difference(loose, bolted) > 1e-3);
 }
 

@@ -251,6 +251,8 @@ BOOST_AUTO_TEST_CASE(the_resolution_is_what_was_asked_for) {
 }
 
 BOOST_AUTO_TEST_CASE(flank_vertices_lie_where_they_are_wanted) {
+  annulus::test::Verification record("Vertices of refined flanks",
+                                     "squares of roll lengths at the wanted fractions of the arc");
   struct Body {
     Gear gear;
     double support;
@@ -276,7 +278,8 @@ BOOST_AUTO_TEST_CASE(flank_vertices_lie_where_they_are_wanted) {
             const double form = std::pow(profile.roll_length_form(), 2);
             const double wanted = form + fractions[i] * (std::pow(profile.roll_length_tip(), 2) - form);
             // rho^2 = r^2 - r_b^2 carries the rounding of r^2.
-            BOOST_TEST(std::abs(found[i] * found[i] - wanted) < 1e-15 * gear.tip_radius());
+            record.at_most("squared roll length over the tip radius, difference", "m",
+                           std::abs(found[i] * found[i] - wanted) / gear.tip_radius(), 1e-15, "rounding of r^2");
           }
         }
         if (cells != 20) continue;
@@ -291,7 +294,9 @@ BOOST_AUTO_TEST_CASE(flank_vertices_lie_where_they_are_wanted) {
     }
   }
   BOOST_TEST_MESSAGE("worst scaled Jacobian with refined flanks: " << worst);
-  BOOST_TEST(worst > 0.8);  // only the tip corner and the middle of the fillets are far from right angles
+  record.at_least("worst scaled Jacobian", "", worst, 0.8,
+                  "tip corner and middle of the fillets");  // only the tip corner and the middle of the fillets are far
+                                                            // from right angles
 
   SectorResolution wrong;
   for (const auto& fractions : {std::vector<double>{0, 0.5, 0.5, 1}, {0.1, 1}, {0, 0.9}, {0, 0.6, 0.4, 1}, {0}}) {
@@ -301,6 +306,8 @@ BOOST_AUTO_TEST_CASE(flank_vertices_lie_where_they_are_wanted) {
 }
 
 BOOST_AUTO_TEST_CASE(layers_grow_geometrically_from_both_flanks) {
+  annulus::test::Verification record("Thin layers of cells under the flanks",
+                                     "geometric progression from the wanted layer, alike on both sides");
   const Gear gear = paper_planet();
   for (const auto& [cells, layer] : {std::pair{20, 0.02}, {21, 0.1}, {40, 0.001}, {3, 0.5}}) {
     const Mesh mesh =
@@ -312,10 +319,13 @@ BOOST_AUTO_TEST_CASE(layers_grow_geometrically_from_both_flanks) {
     const auto size = [&](int i) { return angles[i + 1] - angles[i]; };
     const double whole = 2 * gear.tooth_half_angle(gear.tip_radius());
     const double rounding = 1e-9;  // differences of angles, 1e-17, against the thinnest layer, 1e-6
-    BOOST_TEST(size(0) == layer * whole / cells, boost::test_tools::tolerance(rounding));
+    record.close("angle of the first layer", "rad", size(0), layer * whole / cells, rounding, "rounding of angles");
     for (int i = 0; i < cells / 2; ++i) {
-      BOOST_TEST(size(i) == size(cells - 1 - i), boost::test_tools::tolerance(rounding));
-      if (i > 0) BOOST_TEST(size(i) / size(i - 1) == size(1) / size(0), boost::test_tools::tolerance(rounding));
+      record.close("layer over the one on the other side", "", size(i) / size(cells - 1 - i), 1, rounding,
+                   "rounding of angles");
+      if (i > 0)
+        record.close("growth over that of the first layer", "", size(i) / size(i - 1) / (size(1) / size(0)), 1,
+                     rounding, "rounding of angles");
     }
   }
 }

@@ -7,6 +7,7 @@
 #include "gears.h"
 #include "geometry/gear_places.h"
 #include "polygons.h"
+#include "tests/verification_record.h"
 
 namespace annulus::geometry::test {
 
@@ -92,6 +93,8 @@ BOOST_AUTO_TEST_SUITE(gear_places)
 
 // Every planet of every set, in both meshes: no corner of an outline lies in the mate, and the driving flanks touch.
 BOOST_AUTO_TEST_CASE(gears_of_a_stage_touch_and_do_not_overlap) {
+  annulus::test::Verification record("Gears of a stage in their places",
+                                     "outlines, exact to a tenth of a micrometre: they touch and do not overlap");
   struct Case {
     Gear sun, planet, ring;
     double distance;
@@ -120,8 +123,10 @@ BOOST_AUTO_TEST_CASE(gears_of_a_stage_touch_and_do_not_overlap) {
         const auto found = annulus::test::fit(planet, inner ? ring : sun, inner, wheel_pitch * out, 8 * module);
         // Printed profile shifts leave as much rounding as a negative backlash as GearPair accepts.
         const double slack = 2 * tolerance + std::max(0.0, -pair.normal_backlash());
-        BOOST_TEST(found.overlap < slack, "planet " << n << (inner ? ", ring: " : ", sun: ") << found.overlap);
-        BOOST_TEST(found.gap < slack, "planet " << n << (inner ? ", ring: " : ", sun: ") << found.gap);
+        record.at_most("overlap beyond the negative backlash", "m", found.overlap - (slack - 2 * tolerance),
+                       2 * tolerance, "sagitta of the outlines' chords");
+        record.at_most("gap beyond the negative backlash", "m", found.gap - (slack - 2 * tolerance), 2 * tolerance,
+                       "sagitta of the outlines' chords");
         // A turn by a tenth of a pitch is told: the test can fail.
         const auto turned = whole(c.planet, c.distance * out,
                                   stand.planets[static_cast<std::size_t>(n)] + 0.1 * c.planet.pitch_angle(), tolerance);
@@ -134,20 +139,24 @@ BOOST_AUTO_TEST_CASE(gears_of_a_stage_touch_and_do_not_overlap) {
 
 // The line of action is a common tangent of both base circles through the pitch point; points on it lie on both flanks.
 BOOST_AUTO_TEST_CASE(contact_points_lie_on_both_flanks) {
+  annulus::test::Verification record("Line of action of the papers' stage",
+                                     "tangents of base circles, gearing law, outlines of the gears");
   for (const auto& pair : {GearPair(paper_planet(), paper_sun(), paper_centre_distance),
                            GearPair(paper_planet(), paper_ring(), paper_centre_distance)}) {
     const auto line = action_line(pair);
     const auto stand = pair_places(pair);
     const Eigen::Vector2d centre(pair.centre_distance(), 0);
     const double rb = pair.planet().base_radius(), rw = pair.wheel().base_radius();
-    BOOST_TEST(std::abs((line.tangent - centre).norm() - rb) < 1e-15);
+    record.at_most("distance of the line of action from the planet's base circle", "m",
+                   std::abs((line.tangent - centre).norm() - rb), 1e-15, "rounding");
     BOOST_TEST(std::abs((line.tangent - centre).dot(line.along)) < 1e-15);
-    BOOST_TEST(std::abs(std::abs(annulus::test::cross(line.tangent, line.along)) - rw) < 1e-12);
+    record.at_most("distance of the line of action from the wheel's base circle", "m",
+                   std::abs(std::abs(annulus::test::cross(line.tangent, line.along)) - rw), 1e-12, "rounding");
     // Pitch point: centre distance parted as the numbers of teeth.
     const double ratio = static_cast<double>(pair.wheel().teeth()) / pair.planet().teeth();
     const double pitch = pair.centre_distance() * ratio / (pair.internal() ? ratio - 1 : ratio + 1);
     const Eigen::Vector2d c = line.tangent + pair.roll_length_pitch() * line.along;
-    BOOST_TEST((c - Eigen::Vector2d(pitch, 0)).norm() < 1e-12);
+    record.at_most("distance from the pitch point", "m", (c - Eigen::Vector2d(pitch, 0)).norm(), 1e-12, "rounding");
     const auto planet = whole(pair.planet(), centre, stand.planet, fine);
     const auto wheel = whole(pair.wheel(), {0, 0}, stand.wheel, fine);
     // One base pitch further the next pair touches.
@@ -155,8 +164,10 @@ BOOST_AUTO_TEST_CASE(contact_points_lie_on_both_flanks) {
       const double roll = pair.roll_length_pitch() + k * pair.planet().base_pitch();
       if (roll < pair.roll_length_low() || roll > pair.roll_length_high()) continue;
       const Eigen::Vector2d p = line.tangent + roll * line.along;
-      BOOST_TEST(annulus::test::distance(planet, p) < 5 * fine);
-      BOOST_TEST(annulus::test::distance(wheel, p) < 5 * fine);
+      record.at_most("distance of contacts from the planet's outline", "m", annulus::test::distance(planet, p),
+                     5 * fine, "sagitta of the outlines' chords");
+      record.at_most("distance of contacts from the wheel's outline", "m", annulus::test::distance(wheel, p), 5 * fine,
+                     "sagitta of the outlines' chords");
     }
   }
 }
