@@ -12,6 +12,7 @@
 #include <random>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/files.h"
@@ -61,15 +62,12 @@ scale = "logarithmic"
 )";
 }
 
-/// `annulus run scene.toml -o <out>` in a folder.
 class RunningProgram {
  public:
-  RunningProgram(const fs::path& folder, const std::string& out, int threads = 2)
-      : messages_(folder / (out + "." + std::to_string(threads) + ".err")) {
-    const auto scene = (folder / "scene.toml").string(), results = (folder / out).string();
-    const auto threads_text = std::to_string(threads);
-    std::vector<const char*> words = {ANNULUS_PROGRAM, "run",       scene.c_str(),        "-o",
-                                      results.c_str(), "--threads", threads_text.c_str(), nullptr};
+  RunningProgram(const std::vector<std::string>& arguments, fs::path messages) : messages_(std::move(messages)) {
+    std::vector<const char*> words = {ANNULUS_PROGRAM};
+    for (const auto& argument : arguments) words.push_back(argument.c_str());
+    words.push_back(nullptr);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
@@ -78,6 +76,11 @@ class RunningProgram {
                   0);
     posix_spawn_file_actions_destroy(&actions);
   }
+  /// `annulus run scene.toml -o <out>` in a folder.
+  RunningProgram(const fs::path& folder, const std::string& out, int threads = 2)
+      : RunningProgram({"run", (folder / "scene.toml").string(), "-o", (folder / out).string(), "--threads",
+                        std::to_string(threads)},
+                       folder / (out + "." + std::to_string(threads) + ".err")) {}
   /// What it said so far.
   [[nodiscard]] std::string messages() const { return read_file(messages_); }
   void send(int signal) const { ::kill(id_, signal); }
@@ -140,6 +143,45 @@ BOOST_AUTO_TEST_CASE(killed_at_any_moment_the_next_run_goes_on_and_ends_with_the
     fs::remove_all(out);
   }
   BOOST_TEST_MESSAGE(kills << " kills in " << finished << " runs, all ended with the same results");
+}
+
+BOOST_AUTO_TEST_CASE(exports_killed_at_any_moment_leave_whole_files_or_none) {
+  ::setenv("ANNULUS_CACHE", "", 1);
+  const test::TemporaryFolder folder("killed_exports");
+  write_file(folder.path() / "scene.toml", "accuracy = 0.1\nrung = \"closed_form\"\n" + test::small_stage());
+  BOOST_REQUIRE(RunningProgram(folder.path(), "out").wait() == 0);
+  const auto table = folder.path() / "table.csv";
+  fs::copy_file(folder.path() / "out" / "ring" / "stiffness_ring_planet.csv", table);
+  const auto export_to = [&](const char* format) {
+    return RunningProgram({"export", table.string(), "--to", format}, folder.path() / "export.err");
+  };
+  std::mt19937 random(11);
+  int kills = 0, whole_files = 0;
+  for (const auto& [format, file] :
+       {std::pair{"hdf5", "table.h5"}, {"matlab", "table.mat"}, {"modelica", "table.txt"}}) {
+    const auto written = folder.path() / file;
+    const auto start = std::chrono::steady_clock::now();
+    BOOST_REQUIRE(export_to(format).wait() == 0);
+    const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    BOOST_REQUIRE(fs::exists(written));
+    const auto size = fs::file_size(written);  // headers may tell the time, in as many bytes
+    // Most of its time the program only loads its libraries.
+    std::uniform_real_distribution<double> moment(0.5, 1.1);
+    for (int i = 0; i < 20; ++i) {
+      fs::remove(written);
+      const auto run = export_to(format);
+      std::this_thread::sleep_for(std::chrono::duration<double>(moment(random) * whole));
+      run.send(SIGKILL);
+      kills += run.wait() == -SIGKILL;
+      if (!fs::exists(written)) continue;
+      ++whole_files;
+      BOOST_TEST(fs::file_size(written) == size, file);
+    }
+    BOOST_REQUIRE(export_to(format).wait() == 0);
+    BOOST_TEST(fs::file_size(written) == size, file);
+  }
+  BOOST_TEST_MESSAGE(kills << " kills of 60 exports, " << whole_files << " files, all whole");
+  BOOST_TEST(kills > 0);
 }
 
 BOOST_AUTO_TEST_CASE(on_a_full_disk_the_earlier_results_stay_and_the_next_run_goes_on) {
