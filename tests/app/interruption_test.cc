@@ -62,6 +62,7 @@ scale = "logarithmic"
 )";
 }
 
+/// The program, started; its messages go to a file.
 class RunningProgram {
  public:
   RunningProgram(const std::vector<std::string>& arguments, fs::path messages) : messages_(std::move(messages)) {
