@@ -107,7 +107,8 @@ double contact_error(const LoadedMeshProblem& problem, const FlankContact& flank
 }  // namespace
 
 SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
-                                  const FlankContact& flanks, int level, const ProgressFunction& progress) {
+                                  const FlankContact& flanks, int level, LevelUse use,
+                                  const ProgressFunction& progress) {
   MeshBodies bodies = build_bodies(problem, flanks, settings, level);
   const Stopwatch watch;
   const double elements = settings.rung == Rung::solid ? 6 : 10;  // in a solid, every slice has as many
@@ -120,20 +121,22 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   const auto solve = [&](int cycle, int phase, int load, ContactSystem::PairsCache& cache,
                          ContactSystem::WarmStart& warm) {
     ContactForces forces;
-    const bool nominal = load == static_cast<int>(problem.loads.size() / 2);
+    const bool stresses = use == LevelUse::table && load == static_cast<int>(problem.loads.size() / 2);
     LoadedPosition position = system.solve(cycle, static_cast<double>(phase) / problem.phases, problem.loads[load],
-                                           cache, warm, nominal ? &forces : nullptr);
-    if (!nominal) return position;
+                                           cache, warm, stresses ? &forces : nullptr);
+    if (!stresses) return position;
     position.planet_stress = bodies.planet_stress->stresses(forces.planet, {}).largest;
     position.wheel_stress = bodies.wheel_stress->stresses(forces.wheel, forces.supports).largest;
     return position;
   };
   SolvedLevel result;
   const bool one_cycle = repeating_teeth(problem.structure, problem.pair.wheel().teeth()) == 1;
-  result.positions = solve_positions(problem, settings, one_cycle, solve, progress);
-  result.contact_error = contact_error(problem, flanks, bodies, options, result.positions);
-  result.stress_curves = worst_curves(problem, bodies, system, result.positions);
-  if (settings.want_fields && level > 0) result.fields = worst_fields(problem, bodies, system, result.positions);
+  result.positions = solve_positions(problem, settings, use, one_cycle, solve, progress);
+  if (use == LevelUse::table) {
+    result.contact_error = contact_error(problem, flanks, bodies, options, result.positions);
+    result.stress_curves = worst_curves(problem, bodies, system, result.positions);
+    if (settings.want_fields) result.fields = worst_fields(problem, bodies, system, result.positions);
+  }
   result.planet_sector = std::move(bodies.planet_sector);
   result.wheel_sector = std::move(bodies.wheel_sector);
   result.half_face = bodies.face.half;

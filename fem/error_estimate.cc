@@ -30,6 +30,26 @@ double left_over(int degree, double difference, std::optional<double> before) {
   return ratio < 0.5 ? std::max(least, ratio / (1 - ratio)) : most;
 }
 
+/// Relative, of the stiffness; zero at phases that the coarser level left out, at loads that it left out the larger one
+/// of the loads to either side.
+std::vector<double> differences(const std::vector<LoadedPosition>& coarser,
+                                const std::vector<LoadedPosition>& positions, std::size_t loads) {
+  const auto solved = [&](std::size_t i) { return coarser[i].entry.stiffness_secant != 0; };
+  std::vector<double> result(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (solved(i)) result[i] = std::abs(coarser[i].entry.stiffness_secant / positions[i].entry.stiffness_secant - 1);
+  for (std::size_t first = 0; first < positions.size(); first += loads) {
+    if (!solved(first)) continue;
+    for (std::size_t low = 0, high = 1; high < loads; ++high) {
+      if (!solved(first + high)) continue;
+      for (std::size_t load = low + 1; load < high; ++load)
+        result[first + load] = std::max(result[first + low], result[first + high]);
+      low = high;
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 LevelErrors estimate_errors(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, double contact,
@@ -37,11 +57,9 @@ LevelErrors estimate_errors(const LoadedMeshProblem& problem, const LoadedMeshSe
                             std::optional<double> before) {
   const std::size_t loads = problem.loads.size();
   LevelErrors result;
-  std::vector<double> difference(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    difference[i] = std::abs(coarser[i].entry.stiffness_secant / positions[i].entry.stiffness_secant - 1);
-    if (i % loads == loads / 2) result.difference = std::max(result.difference, difference[i]);
-  }
+  std::vector<double> difference = differences(coarser, positions, loads);
+  for (std::size_t i = loads / 2; i < positions.size(); i += loads)
+    result.difference = std::max(result.difference, difference[i]);
   const double left = left_over(settings.degree, result.difference, before);
   for (double& d : difference) d *= left;
   const bool plane = settings.rung == Rung::plane || settings.rung == Rung::resolved_plane;

@@ -10,10 +10,20 @@
 
 namespace annulus::fem {
 
+/// What a level is solved for.
+enum class LevelUse {
+  table,       ///< everything that is told of it
+  comparison,  ///< the estimate of the level after it alone: some of the positions, without stresses
+};
+
+/// Whether a position is among those by which levels are compared: 32 or a few more phases of a mesh cycle, and of more
+/// than three loads the smallest, the middle and the largest one.
+[[nodiscard]] bool is_compared(const LoadedMeshProblem& problem, int phase, int load);
+
 /// What one level of resolution of a loaded mesh gives.
 struct SolvedLevel {
   /// [cycle][phase 0 ... phases][load]: the last phase of the last cycle is the closure, inner ends of cycles are not
-  /// solved twice.
+  /// solved twice. Solved for comparison, a stiffness of 0 says that the position was left out.
   std::vector<LoadedPosition> positions;
   std::vector<StressCurve> stress_curves;
   std::vector<BodyField> fields;
@@ -32,20 +42,22 @@ using ProgressFunction = std::function<void(double fraction)>;
 
 /// Condensed gears whose meshes do not follow the contact: the plane and solid rungs.
 [[nodiscard]] SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
-                                                const FlankContact& flanks, int level,
+                                                const FlankContact& flanks, int level, LevelUse use,
                                                 const ProgressFunction& progress);
 /// Teeth meshed anew for every contact: the resolved rungs.
 [[nodiscard]] SolvedLevel solve_resolved_level(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
-                                               const FlankContact& flanks, int level, const ProgressFunction& progress);
+                                               const FlankContact& flanks, int level, LevelUse use,
+                                               const ProgressFunction& progress);
 
 /// Solves one position: mesh cycle, number of the phase, number of the load. Cache and warm start are those of the task
 /// that the position belongs to.
 using SolvePosition = std::function<LoadedPosition(int cycle, int phase, int load, ContactSystem::PairsCache& cache,
                                                    ContactSystem::WarmStart& warm)>;
-/// All positions of one level on the threads of the settings: never dependent on their number.
+/// The positions of one level on the threads of the settings: never dependent on their number.
 [[nodiscard]] std::vector<LoadedPosition> solve_positions(const LoadedMeshProblem& problem,
-                                                          const LoadedMeshSettings& settings, bool chained,
-                                                          const SolvePosition& solve, const ProgressFunction& progress);
+                                                          const LoadedMeshSettings& settings, LevelUse use,
+                                                          bool chained, const SolvePosition& solve,
+                                                          const ProgressFunction& progress);
 
 /// Wall seconds since the construction.
 class Stopwatch {

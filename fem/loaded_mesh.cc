@@ -15,6 +15,9 @@
 namespace annulus::fem {
 namespace {
 
+/// Refined, linear elements cost as much as quadratic ones of the first level, which are better by far.
+constexpr int last_linear_level = 1;
+
 /// Teeth after which the structure of the wheel repeats.
 int repeating_teeth(const LoadedMeshProblem& problem) {
   return repeating_teeth(problem.structure, problem.pair.wheel().teeth());
@@ -33,9 +36,10 @@ geometry::GearPair solved_pair(const geometry::GearPair& pair) {
 
 }  // namespace
 
-LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings) {
-  check_problem(problem, settings.rung);
-  if (settings.rung == Rung::closed_form) return solve_closed_form(problem, settings);
+LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const LoadedMeshSettings& asked) {
+  check_problem(problem, asked.rung);
+  if (asked.rung == Rung::closed_form) return solve_closed_form(problem, asked);
+  LoadedMeshSettings settings = asked;
   const FlankContact flanks(solved_pair(problem.pair));
   const bool resolved = settings.rung == Rung::resolved_plane || settings.rung == Rung::resolved_solid;
   const bool solid = settings.rung == Rung::solid || settings.rung == Rung::resolved_solid;
@@ -46,9 +50,9 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
 
   double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0, saved_seconds = 0, worst = 0;
   int condensed_teeth = 0, reused_teeth = 0;
-  const auto solve_level = [&](int level) {
+  const auto solve_level = [&](int level, LevelUse use) {
     auto solved =
-        (resolved ? solve_resolved_level : solve_condensed_level)(problem, settings, flanks, level, [&](double f) {
+        (resolved ? solve_resolved_level : solve_condensed_level)(problem, settings, flanks, level, use, [&](double f) {
           if (!settings.progress) return;
           // The work grows with the number of cells, and at least the first level is solved after the one before it; a
           // further one makes the finished part smaller again.
@@ -70,15 +74,21 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
     return solved;
   };
 
-  SolvedLevel coarser = solve_level(first_level - 1), solved;
+  SolvedLevel coarser = solve_level(first_level - 1, LevelUse::comparison), solved;
   int level = first_level;
   std::optional<double> difference;  // of the last two levels
   for (;; ++level) {
-    solved = solve_level(level);
+    solved = solve_level(level, LevelUse::table);
     const auto errors =
         estimate_errors(problem, settings, solved.contact_error, coarser.positions, solved.positions, difference);
     worst = errors.worst, difference = errors.difference;
     if (settings.level || worst <= settings.accuracy) break;
+    if (settings.degree == 1 && level >= last_linear_level) {
+      settings.degree = 2;
+      coarser = solve_level(0, LevelUse::comparison);
+      level = 0, difference.reset();
+      continue;
+    }
     if (level == last_level)
       throw SolverError(
           fmt::format("the mesh stiffness reached a relative accuracy of {:.2g} at the finest resolution, not "
@@ -111,6 +121,7 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
   result.planet_sector = std::move(solved.planet_sector);
   result.wheel_sector = std::move(solved.wheel_sector);
   result.level = level;
+  result.degree = settings.degree;
   result.worst_error_relative = worst;
   result.half_face = solved.half_face;
   result.unknowns = solved.unknowns;

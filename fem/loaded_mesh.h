@@ -38,7 +38,9 @@ struct LoadedMeshSettings {
   /// Wanted relative accuracy of the stiffness at the middle load of the table: the mesh is refined until the estimate
   /// of every position meets it. Entries at other loads carry their own estimate.
   double accuracy = 0.01;
-  int degree = 2;  ///< polynomial degree of the elements
+  /// Polynomial degree of the elements. Linear ones give way to quadratic ones where the first level does not do,
+  /// unless a level is forced.
+  int degree = 2;
   /// Forces one level of resolution (1, 2, ...; its error estimated from the level before) instead of refining.
   std::optional<int> level{};
   /// Solid rungs solve half of the face width where the problem is its own mirror image about the middle: the same
@@ -131,6 +133,7 @@ struct LoadedMeshResult {
   double reciprocity_relative = 0;        ///< largest over the positions
   geometry::Mesh planet_sector{}, wheel_sector{};  ///< as solved
   int level = 1;                                   ///< level of resolution reached
+  int degree = 2;                                  ///< of the elements of that level
   /// Largest estimated error at the middle load, plane strain not counted: what the accuracy is about.
   double worst_error_relative = 0;
   bool half_face = false;             ///< solved on half of the face width; all figures are those of the whole

@@ -39,8 +39,10 @@ struct ElementChoice {
   int degree = 2;
   std::string reason{};
 };
-/// `unfit_for_linear`: why elements of the first degree would be too stiff for the body, empty where they are not.
-[[nodiscard]] ElementChoice element_choice(fem::Rung rung, double accuracy, const std::string& unfit_for_linear = "");
+/// `single_supports`: of a ring. `unfit_for_linear`: why elements of the first degree would be too stiff for the body,
+/// empty where they are not.
+[[nodiscard]] ElementChoice element_choice(fem::Rung rung, double accuracy, bool single_supports = false,
+                                           const std::string& unfit_for_linear = "");
 
 /// How the motion is found in time.
 struct MotionChoice {

@@ -92,7 +92,9 @@ void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
     }
   }
   if (model.settings.rung == fem::Rung::closed_form) return;
-  auto elements = element_choice(model.settings.rung, scene.accuracy, unfit_for_linear(*model.problem));
+  const bool single_supports = model.problem->pair.internal() && fem::on_single_supports(model.problem->structure);
+  auto elements =
+      element_choice(model.settings.rung, scene.accuracy, single_supports, unfit_for_linear(*model.problem));
   model.settings.degree = elements.degree;
   model.elements = std::move(elements.reason);
 }
