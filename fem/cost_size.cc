@@ -89,7 +89,8 @@ double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSett
     const auto& gear = wheel ? problem.pair.wheel() : problem.pair.planet();
     const auto of_solid = settings.rung == Rung::resolved_solid ? resolved_solid_resolution : solid_resolution;
     unknowns += solid ? solid_unknowns(problem, of_solid(level), gear, wheel, settings.degree, face)
-                      : 2 * nodes_of_section(section_counts(plane_resolution(gear, level).section), settings.degree);
+                      : 2 * nodes_of_section(section_counts(plane_resolution(gear, level, settings.degree).section),
+                                             settings.degree);
   }
   return unknowns;
 }

@@ -94,7 +94,8 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
 
   std::vector<Task> tasks;
   const auto add_body = [&](const BodyPlan& plan) {
-    const BodyResolution counts = solid ? solid_counts : plane_resolution(plan.profile().gear(), level);
+    const BodyResolution counts =
+        solid ? solid_counts : plane_resolution(plan.profile().gear(), level, settings.degree);
     Task task{plan.sector(counts), &plan.profile(), plan.support_radius(), {}};
     task.options.sector = plan.model();
     task.options.store = settings.store.get();

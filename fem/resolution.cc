@@ -65,9 +65,12 @@ std::vector<double> sized_fractions(double length, const Size& size) {
 
 }  // namespace
 
-BodyResolution plane_resolution(const geometry::Gear& gear, int level) {
+BodyResolution plane_resolution(const geometry::Gear& gear, int level, int degree) {
   require(level >= 0 && level <= last_plane_level, "no such level of plane resolution");
-  const double refine = std::pow(level_ratio, level - 1);
+  // Linear elements of the size that does for quadratic ones are estimated to 0.7 to 1.05 % at level 1 (gears of 18 to
+  // 40 teeth, rims from 1.4 modules): a little smaller ones are within 1 %.
+  const double smaller = degree == 1 ? 1.2 : 1;
+  const double refine = smaller * std::pow(level_ratio, level - 1);
   const double length = flank_length(gear), thickness = gear.tooth_thickness(gear.reference_radius());
   const double cell = length / (20 * refine), at_tip = cell / 30, at_form = cell / 6;
 

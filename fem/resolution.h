@@ -22,7 +22,7 @@ inline constexpr int last_solid_level = 2;
 /// Plane cross-section. The load does not enter: what the flank's cells cannot resolve of a contact comes from the
 /// half-plane (see ContactBody). That needs smaller cells only near the ends of the flank, where the half-plane is no
 /// model: they shrink in proportion to the distance from the end, down to a thirtieth at the tip.
-[[nodiscard]] BodyResolution plane_resolution(const geometry::Gear& gear, int level);
+[[nodiscard]] BodyResolution plane_resolution(const geometry::Gear& gear, int level, int degree = 2);
 /// Where and how finely a flank is meshed for one contact, arc lengths from the involute's start on the base circle,
 /// s = rho^2 / (2 r_b).
 struct ContactCells {

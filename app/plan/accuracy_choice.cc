@@ -48,9 +48,10 @@ ElementChoice element_choice(fem::Rung rung, double accuracy, bool single_suppor
     return {
         1,
         "linear elements are within 1 % at once, at half the cost of quadratic ones, which follow where they are not"};
-  // Linear solids converge too slowly beside hoops and sleeves to be refined until they reach 3 %.
-  if (rung == fem::Rung::solid && accuracy >= very_rough_accuracy)
-    return {1, "linear elements are within 10 % at once, at a third of the cost of quadratic ones"};
+  if (rung == fem::Rung::solid && accuracy >= rough_accuracy)
+    return {1,
+            "linear elements are within 3 % at once, at an eighth of the cost of quadratic ones, which follow where "
+            "they are not"};
   if (rung == fem::Rung::solid) return {2, "quadratic elements are within 1 % at once, and their stresses can be used"};
   return {2, "quadratic elements are within 0.3 % at once, and their stresses can be used"};
 }
