@@ -48,6 +48,7 @@ CostRun coupling_size(const MeshModel& model, int threads) {
   size.cycles = model.positions;
   size.threads = threads;
   auto settings = model.settings;
+  if (settings.rung == fem::Rung::closed_form) settings.rung = fem::Rung::plane;
   settings.degree = 2;
   settings.symmetry = false;  // a ring's modes need not be symmetric
   // On single supports every ring position is a system of its own.
@@ -72,11 +73,13 @@ struct CostSteps {
   }
   void add_mesh(const MeshModel& model) {
     const auto size = mesh_size(model, cost.threads, costs);
-    const bool formulas = model.settings.rung == fem::Rung::closed_form;
-    const double error =
-        formulas ? fem::closed_form_error(*model.problem) : costs.expected_error(size.kind, size.degree, size.level);
-    add(CostKind::mesh, model.label(), model.ring, size, error);
+    add(CostKind::mesh, model.label(), model.ring, size, expected_error(model, size));
     longest_table = std::max(longest_table, cost.steps.back().predicted.seconds);
+  }
+  [[nodiscard]] double expected_error(const MeshModel& model, const CostRun& size) const {
+    if (model.settings.rung != fem::Rung::closed_form) return costs.expected_error(size.kind, size.degree, size.level);
+    const double error = model.formula_error ? *model.formula_error : fem::closed_form_error(*model.problem);
+    return std::isfinite(error) ? error : unknown_cost;
   }
   void add_responses(const std::vector<PlannedResponse>& responses) {
     for (const auto& response : responses)

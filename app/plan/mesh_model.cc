@@ -50,12 +50,15 @@ void set_rung(MeshModel& model, const Scene& scene, const std::string& why_solid
   }
 }
 
-/// Formulas do where their error, known beforehand, is within the accuracy. Rings on single supports are left to
-/// elements unless the accuracy is very rough: these also tell how their meshes act on each other through the ring.
-bool formulas_do(const MeshModel& model, const Scene& scene, double error) {
-  return scene.rung == Rung::automatic && model.settings.rung == fem::Rung::plane && error <= scene.accuracy &&
-         (scene.accuracy >= very_rough_accuracy || !model.problem->pair.internal() ||
-          !fem::on_single_supports(model.problem->structure));
+/// Formulas do where their error, known beforehand, is within the accuracy.
+void prefer_formulas(MeshModel& model, const Scene& scene) {
+  if (scene.rung != Rung::automatic || model.settings.rung != fem::Rung::plane) return;
+  if (scene.accuracy < fem::least_closed_form_error) return;
+  const double error = fem::closed_form_error(*model.problem);
+  if (error > scene.accuracy) return;
+  use(model, fem::Rung::closed_form);
+  model.reason += fmt::format("; formulas are within {:.2g} %", 100 * error);
+  model.formula_error = error;
 }
 
 /// Why linear elements would be too stiff, by more than their error estimate tells: they lock where the volume hardly
@@ -84,13 +87,7 @@ void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
   for (const double factor : table.load_factors) model.problem->loads.push_back(factor * mean_force);
   model.phases = std::move(table.phases_reason);
   model.loads = std::move(table.loads_reason);
-  if (model.settings.rung == fem::Rung::plane) {
-    const double error = fem::closed_form_error(*model.problem);
-    if (formulas_do(model, scene, error)) {
-      use(model, fem::Rung::closed_form);
-      model.reason += fmt::format("; formulas are within {:.1g} %", 100 * error);
-    }
-  }
+  prefer_formulas(model, scene);
   if (model.settings.rung == fem::Rung::closed_form) return;
   const bool single_supports = model.problem->pair.internal() && fem::on_single_supports(model.problem->structure);
   auto elements =

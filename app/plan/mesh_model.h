@@ -42,6 +42,8 @@ struct MeshModel {
   std::string loads{};                              ///< why so many loads
   std::optional<fem::LoadedMeshProblem> problem{};  ///< absent when the stiffness is given
   fem::LoadedMeshSettings settings{};
+  /// Of formulas, as far as it is known beforehand: relative, of the stiffness, what accuracy cannot reduce left out.
+  std::optional<double> formula_error{};
 
   [[nodiscard]] bool computed() const { return problem.has_value(); }
   /// Index of the nominal load among those of a computed mesh: the middle one, at which the accuracy is met.

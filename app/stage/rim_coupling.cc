@@ -8,6 +8,7 @@
 
 #include "app/content_id.h"
 #include "app/pipeline.h"
+#include "app/plan/accuracy_choice.h"
 #include "core/csv.h"
 #include "core/log.h"
 #include "fem/ring_coupling.h"
@@ -136,9 +137,11 @@ std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved,
 }
 
 bool may_be_coupled(const Scene& scene, const MeshModel& model) {
-  return scene.dynamics && scene.dynamics->rim_coupling != RimCoupling::none && scene.stage.planets > 1 &&
-         model.mesh == ring_planet && model.computed() && model.settings.rung != fem::Rung::closed_form &&
-         !rests_in_bore(model.problem->structure);
+  if (!scene.dynamics || scene.dynamics->rim_coupling == RimCoupling::none || scene.stage.planets == 1) return false;
+  if (model.mesh != ring_planet || !model.computed() || rests_in_bore(model.problem->structure)) return false;
+  if (model.settings.rung != fem::Rung::closed_form) return true;
+  return scene.rung == Rung::automatic && scene.accuracy < very_rough_accuracy &&
+         fem::on_single_supports(model.problem->structure);
 }
 
 std::optional<SolvedCoupling> load_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,

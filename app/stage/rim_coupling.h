@@ -43,7 +43,8 @@ struct CouplingChoice {
 [[nodiscard]] std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved, RimCoupling taken);
 
 /// Whether the scene lets this mesh be coupled: dynamics wanted, a computed ring, several planets, coupling not ruled
-/// out.
+/// out. It takes elements: with formulas it is solved where the planner chose these for a ring on single supports, and
+/// the accuracy is not very rough.
 [[nodiscard]] bool may_be_coupled(const Scene& scene, const MeshModel& model);
 /// Read back from `folder` (OUT/<ring>) if unchanged, else solved and saved there as ring_coupling.csv and
 /// ring_modes.csv. `mesh_compliance` (m/N) is that of the mesh by its table.

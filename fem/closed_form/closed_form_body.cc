@@ -15,11 +15,6 @@ namespace {
 /// 1 / (2 (n beta)^2) of a term of order one.
 constexpr double waves_per_arc = 60;
 
-/// Teeth stiffen a bending rim as a layer on its inside would, whatever the thickness of the rim: what they add decays
-/// within a pitch (a boundary layer). Its thickness in root pitches, measured, not derived: plane finite elements of
-/// the ring paper's ring with rims of 5 to 35 mm give 0.06 to 0.09, the thinnest most (docs/methods.md).
-constexpr double tooth_band = 0.07;
-
 int harmonics_for(double half_angle) { return static_cast<int>(std::ceil(waves_per_arc / half_angle)); }
 
 using RootLoads = std::array<RingHarmonics, 3>;
@@ -48,8 +43,8 @@ void add_between_roots(std::vector<Eigen::Matrix3d>& result, const RingSeries& r
 }  // namespace
 
 ClosedFormBody::ClosedFormBody(const geometry::ToothProfile& profile, double support_radius, double width,
-                               const Material& material, const std::vector<RingSupport>& supports, RimTheory theory,
-                               int neighbours)
+                               const Material& material, const std::vector<RingSupport>& supports,
+                               const RimModel& model, int neighbours)
     : tooth_(profile, plane_strain(material)),
       pitch_angle_(profile.gear().pitch_angle()),
       teeth_(profile.gear().teeth()) {
@@ -67,8 +62,8 @@ ClosedFormBody::ClosedFormBody(const geometry::ToothProfile& profile, double sup
   add_between_roots(root_, foundation, roots, pitch_angle_, identity / width, identity);
   foundation_ = root_[neighbours];
   if (floats)
-    let_yield({root_radius - tooth_band * pitch_angle_ * root_radius, support_radius, moduli}, width, theory, supports,
-              terms);
+    let_yield({root_radius - model.tooth_band * pitch_angle_ * root_radius, support_radius, moduli}, width,
+              model.theory, supports, terms);
 }
 
 void ClosedFormBody::let_yield(const PlainRing& rim, double width, RimTheory theory,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "core/errors.h"
 #include "fem/closed_form/tooth_contacts.h"
@@ -12,29 +13,33 @@
 namespace annulus::fem {
 namespace {
 
-/// Relative error of the stiffness, from differences to converged plane finite elements (docs/methods.md): 2.5 % for
-/// teeth, foundation and contacts; for a ring on its own supports what an uncertainty of 0.025 root pitches in the
-/// layer that stands for the teeth makes of the bending stiffness, which goes with the cube of the thickness.
-double estimated_error(const LoadedMeshProblem& problem) {
-  double error = 0.025;
+bool on_own_supports(const LoadedMeshProblem& problem) {
+  return problem.pair.internal() && on_single_supports(problem.structure);
+}
+
+/// A ring on its own supports is solved twice: what 0.025 root pitches less in the layer that stands for the teeth make
+/// of an entry is its error by the bending rim.
+RimModel softer(const RimModel& rim) { return {rim.theory, rim.tooth_band - 0.025}; }
+
+/// By how much that error is larger than what the layer makes of it: a rim thinner than its teeth is no beam.
+double thin_rim_factor(const LoadedMeshProblem& problem) {
   const auto& gear = problem.pair.wheel();
-  if (problem.pair.internal() && on_single_supports(problem.structure))
-    error += 3 * 0.025 * gear.pitch_angle() * gear.root_radius() / (problem.wheel_support_radius - gear.root_radius());
-  return error;
+  const double rim = problem.wheel_support_radius - gear.root_radius();
+  return std::max(1.0, std::pow(gear.parameters().module / rim, 2));
 }
 
 /// Both bodies and all positions.
 class ClosedFormRun {
  public:
-  ClosedFormRun(const LoadedMeshProblem& problem, const ClosedFormOptions& options)
+  ClosedFormRun(const LoadedMeshProblem& problem, const RimModel& rim)
       : problem_(problem),
         flanks_(problem.pair),
         supports_(ring_supports(problem.structure, problem.wheel_support_radius, problem.face_width,
                                 problem.pair.wheel().teeth(), problem.material)),
-        planet_(flanks_.planet(), problem.planet_bore_radius, problem.face_width, problem.material, {}, options.rim,
+        planet_(flanks_.planet(), problem.planet_bore_radius, problem.face_width, problem.material, {}, rim,
                 neighbours),
-        wheel_(flanks_.wheel(), problem.wheel_support_radius, problem.face_width, problem.material, supports_,
-               options.rim, neighbours) {}
+        wheel_(flanks_.wheel(), problem.wheel_support_radius, problem.face_width, problem.material, supports_, rim,
+               neighbours) {}
 
   [[nodiscard]] const std::vector<RingSupport>& supports() const { return supports_; }
 
@@ -113,8 +118,6 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
   if (!(position.entry.lte > unloaded)) throw SolverError("the loaded transmission error is not positive");
   position.entry.stiffness_secant = load / (position.entry.lte - unloaded);
   position.entry.stiffness_tangent = 1 / solution.tangent(0, 0);
-  position.entry.error_parts.model = estimated_error(problem_) + plane_strain_error(problem_);
-  position.entry.error_relative = position.entry.error_parts.total();
 
   const double torque = load * problem_.pair.planet().base_radius();
   position.force_balance_relative = std::abs(std::abs(moment) - torque) / torque;
@@ -159,18 +162,39 @@ void ClosedFormRun::add_supports(const Eigen::VectorXd& force, LoadedPosition& p
   }
 }
 
+/// Of the stiffness at every position, by the bending rim of a ring on its own supports.
+std::vector<double> bending_errors(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
+                                   const RimModel& rim, int cycles, const std::vector<LoadedPosition>& positions) {
+  std::vector<double> errors(positions.size(), 0.0);
+  if (!on_own_supports(problem)) return errors;
+  LoadedMeshSettings unlimited = settings;
+  unlimited.progress = nullptr;
+  unlimited.largest_deflection = std::numeric_limits<double>::infinity();
+  const auto others = ClosedFormRun(problem, softer(rim)).solve(cycles, unlimited);
+  const double factor = thin_rim_factor(problem);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    errors[i] = factor * std::abs(others[i].entry.stiffness_secant / positions[i].entry.stiffness_secant - 1);
+  return errors;
+}
+
 }  // namespace
 
 LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
-                                   const ClosedFormOptions& options) {
+                                   const RimModel& rim) {
   check_problem(problem, Rung::closed_form);
   const auto start = std::chrono::steady_clock::now();
   const auto since = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const int cycles = repeating_teeth(problem.structure, problem.pair.wheel().teeth());
   const int loads = static_cast<int>(problem.loads.size());
-  const ClosedFormRun run(problem, options);
+  const ClosedFormRun run(problem, rim);
   const double condensed = since();
   auto positions = run.solve(cycles, settings);
+  const auto yielding = bending_errors(problem, settings, rim, cycles, positions);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    StiffnessEntry& entry = positions[i].entry;
+    entry.error_parts.model = least_closed_form_error + yielding[i] + plane_strain_error(problem);
+    entry.error_relative = entry.error_parts.total();
+  }
 
   const std::size_t table_size = static_cast<std::size_t>(cycles) * problem.phases * loads;
   std::vector<StiffnessEntry> entries;
@@ -204,7 +228,17 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
   return result;
 }
 
-double closed_form_error(const LoadedMeshProblem& problem) { return estimated_error(problem); }
+double closed_form_error(const LoadedMeshProblem& problem) {
+  if (!on_own_supports(problem)) return least_closed_form_error;
+  LoadedMeshProblem coarse = problem;
+  coarse.phases = std::min(problem.phases, 16);
+  coarse.loads = {problem.loads[problem.loads.size() / 2]};
+  try {
+    return solve_closed_form(coarse, {}).worst_error_relative;
+  } catch (const Error&) {
+    return std::numeric_limits<double>::infinity();
+  }
+}
 
 LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings) {
   return solve_closed_form(problem, settings, {});

@@ -5,10 +5,6 @@
 
 namespace annulus::fem {
 
-struct ClosedFormOptions {
-  RimTheory rim = RimTheory::elastic_ring;
-};
-
 /// A loaded mesh without finite elements: energy method for the teeth, plane ring theory for what carries them, line
 /// contact that depends on the load, one unknown force per tooth pair. Same table, positions, load shares and pin
 /// states as solve_loaded_mesh(); no meshes, no stresses, level 0.
@@ -18,6 +14,6 @@ struct ClosedFormOptions {
 /// reduced, it is estimated from the differences to the plane finite elements (docs/methods.md).
 [[nodiscard]] LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings);
 [[nodiscard]] LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
-                                                 const ClosedFormOptions& options);
+                                                 const RimModel& rim);
 
 }  // namespace annulus::fem

@@ -431,7 +431,7 @@ BOOST_AUTO_TEST_CASE(elastic_ring_and_curved_beam_over_the_thickness_of_the_rim)
     const auto problem = ring_with_rim(rim, paper_pins(24, first_pin));
     const auto exact = solve_plane(problem, 1, 1);
     const auto elastic = solve_closed_form(problem, {});
-    const auto beam = solve_closed_form(problem, {}, {RimTheory::curved_beam});
+    const auto beam = solve_closed_form(problem, {}, {.theory = RimTheory::curved_beam});
     const double k = mean_stiffness(exact), elastic_lte = largest_lte_difference(elastic, exact);
     const double beam_lte = largest_lte_difference(beam, exact);
     const double elastic_difference = mean_stiffness(elastic) / k - 1;
