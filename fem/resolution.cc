@@ -67,8 +67,8 @@ std::vector<double> sized_fractions(double length, const Size& size) {
 
 BodyResolution plane_resolution(const geometry::Gear& gear, int level, int degree) {
   require(level >= 0 && level <= last_plane_level, "no such level of plane resolution");
-  // Linear elements of the size that does for quadratic ones are estimated to 0.7 to 1.05 % at level 1 (gears of 18 to
-  // 40 teeth, rims from 1.4 modules): a little smaller ones are within 1 %.
+  // Linear elements of the size that does for quadratic ones are estimated to about 1 % at level 1, now a little less,
+  // now a little more: somewhat smaller ones are within it.
   const double smaller = degree == 1 ? 1.2 : 1;
   const double refine = smaller * std::pow(level_ratio, level - 1);
   const double length = flank_length(gear), thickness = gear.tooth_thickness(gear.reference_radius());

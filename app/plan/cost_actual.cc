@@ -20,6 +20,7 @@ std::optional<CostRun> actual_mesh(CostRun size, const MeshResult& mesh) {
     return std::isfinite(value) ? value : 0.0;
   };
   size.level = static_cast<int>(fact("level"));
+  size.degree = static_cast<int>(fact("degree"));  // quadratic elements may have followed linear ones
   size.levels = mesh.model.settings.level ? 2 : size.level + 1;
   size.unknowns = fact("unknowns");
   if (size.level > 0 && mesh.model.problem)

@@ -157,10 +157,13 @@ std::string cost_kind(const MeshModel& model) {
 }
 
 CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs) {
-  const auto& settings = model.settings;
+  auto settings = model.settings;
   const int last = fem::last_level(settings.rung);
   CostRun size;
   size.kind = cost_kind(model);
+  // Quadratic elements follow where the first level of linear ones does not do.
+  if (settings.degree == 1 && !settings.level && costs.expected_error(size.kind, 1, 1) > settings.accuracy)
+    settings.degree = 2;
   size.degree = settings.degree;
   size.level = std::clamp(
       settings.level.value_or(costs.expected_level(size.kind, size.degree, settings.accuracy, last)), 0, last);

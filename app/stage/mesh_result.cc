@@ -25,6 +25,7 @@ std::map<std::string, double> facts_of(const fem::LoadedMeshResult& solved) {
   std::map<std::string, double> facts = {{"closure_relative", solved.closure_relative},
                                          {"reciprocity_relative", solved.reciprocity_relative},
                                          {"level", solved.level},
+                                         {"degree", solved.degree},
                                          {"worst_error_relative", solved.worst_error_relative},
                                          {"unknowns", static_cast<double>(solved.unknowns)},
                                          {"mesh_seconds", solved.mesh_seconds},
