@@ -87,7 +87,8 @@ double contact_seconds(const CostLaw& law, const CostRun& run) {
 }
 
 double peak_memory(const CostLaw& law, const CostRun& run) {
-  return law.base_MB + law.per_unknown_MB * run.unknowns / 1e4;
+  constexpr double bodies = 2;
+  return law.base_MB + law.per_unknown_MB * run.unknowns / 1e4 * speed_up(law.memory_overlap, run.threads, bodies);
 }
 
 /// Least squares of the logarithms of predictions to measurements, and of parameters to what they usually are.
@@ -179,10 +180,11 @@ void fit_contact(CostLaw& law, const UsualLaw& usual, const Runs& runs) {
 void fit_memory(CostLaw& law, const Runs& runs) {
   const auto with = [&](const Eigen::VectorXd& x) {
     CostLaw l;
-    l.base_MB = std::exp(x[0]), l.per_unknown_MB = std::exp(x[1]);
+    l.base_MB = std::exp(x[0]), l.per_unknown_MB = std::exp(x[1]), l.memory_overlap = x[2];
     return l;
   };
-  LogFit fit{.usual = {{std::log(200.0), 0.5}, {std::log(50.0), free_factor}}, .measured = {}, .predicted = {}};
+  LogFit fit{
+      .usual = {{std::log(200.0), 0.5}, {std::log(50.0), free_factor}, {0.6, 0.2}}, .measured = {}, .predicted = {}};
   Runs used;
   for (const auto* run : runs)
     if (run->peak_MB > 0) used.push_back(run), fit.measured.push_back(run->peak_MB);
@@ -192,6 +194,7 @@ void fit_memory(CostLaw& law, const Runs& runs) {
   const auto l = with(fit.solve());
   law.base_MB = l.base_MB;
   law.per_unknown_MB = l.per_unknown_MB;
+  law.memory_overlap = std::clamp(l.memory_overlap, 0.0, 1.0);
 }
 
 void fit_error(CostLaw& law, const Runs& runs, int degree) {

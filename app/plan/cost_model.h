@@ -20,15 +20,16 @@ struct PredictedCost {
 ///     bodies    a sum_levels N^b / speed-up                               s
 ///     contact   (sum_levels N^c (first_ms first + each_ms all) + support_ms (S / 100)^2 all) / speed-up
 ///               ms, `first` and `all` being contact problems, S the forces of supports in each of them
-///     peak      base_MB + per_unknown_MB N                                MB, N of the last level
+///     peak      base_MB + per_unknown_MB N (bodies at once)               MB, N of the last level
 ///     error     first ratio^(level - 1)                           by degree of the elements
 ///
-/// A speed-up on t threads is 1 + efficiency (t - 1), at most as many threads as there are tasks.
+/// A speed-up on t threads is 1 + efficiency (t - 1), at most as many threads as there are tasks. So is the memory that
+/// two bodies take which are condensed at once.
 struct CostLaw {
   double body = 0, body_exponent = 1, body_efficiency = 0;
   double first_ms = 0, each_ms = 0, contact_exponent = 0, contact_efficiency = 0;
   double support_ms = 0;
-  double base_MB = 0, per_unknown_MB = 0;
+  double base_MB = 0, per_unknown_MB = 0, memory_overlap = 0;
   struct Error {
     double first = 0, ratio = 1;
   };
