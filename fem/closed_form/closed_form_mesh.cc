@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "fem/closed_form/tooth_contacts.h"
+#include "fem/condensation/lapack.h"
 #include "fem/error_estimate.h"
 #include "fem/problem_check.h"
 
@@ -182,6 +183,7 @@ std::vector<double> bending_errors(const LoadedMeshProblem& problem, const Loade
 LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
                                    const RimModel& rim) {
   check_problem(problem, Rung::closed_form);
+  lapack::use_one_thread();  // thousands of small systems: threads would wait for each other more than they work
   const auto start = std::chrono::steady_clock::now();
   const auto since = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const int cycles = repeating_teeth(problem.structure, problem.pair.wheel().teeth());
