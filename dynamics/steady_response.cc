@@ -44,17 +44,45 @@ bool hopeless(const std::vector<double>& differences, int left, double tolerance
   return now * std::pow(std::min(now / then, 1.0), static_cast<double>(left) / stretch) > tolerance;
 }
 
-/// Integrates until successive windows agree; leaves the last one in `window`.
-bool reach_steady_state(ResponseRun& run, int cycles, const SimulationOptions& options, double mean_force,
-                        ResponseWindow& window) {
-  ResponseWindow before;
+/// A run marched window by window, of which the last two are kept.
+class March {
+ public:
+  March(ResponseRun run, int cycles_per_window) : run_(std::move(run)), cycles_(cycles_per_window) {}
+
+  /// On its way without a window.
+  void pass(int cycles) { run_.advance(cycles, nullptr); }
+  void advance() {
+    std::swap(before_, last_);
+    begin_ = run_.state();
+    run_.pass_jump();
+    at_begin_.emplace(run_);
+    run_.advance(cycles_, &last_, true);
+    ++windows_;
+  }
+  [[nodiscard]] int windows() const { return windows_; }
+  [[nodiscard]] const ResponseWindow& last() const { return last_; }
+  [[nodiscard]] double difference_to_before(double force_scale) const {
+    return largest_difference(last_, before_, force_scale);
+  }
+  /// The last window and what belongs to it; the run is at its end then.
+  void finish(const SteadyProblem& problem, const SimulationOptions& options, SteadyResponse& response);
+
+ private:
+  ResponseRun run_;
+  std::optional<ResponseRun> at_begin_;  ///< of the last window
+  SystemState begin_;
+  ResponseWindow before_, last_;
+  int cycles_ = 0, windows_ = 0;
+};
+
+/// Marches on until successive windows agree.
+bool reach_steady_state(March& march, const SimulationOptions& options, double mean_force) {
   double previous = 0;
   std::vector<double> differences;
-  run.advance(cycles, &window);
+  if (march.windows() == 0) march.advance();
   for (int i = 1; i < options.max_windows; ++i) {
-    std::swap(before, window);
-    run.advance(cycles, &window);
-    const double difference = largest_difference(window, before, mean_force);
+    march.advance();
+    const double difference = march.difference_to_before(mean_force);
     // What a geometric decay at the observed ratio still has ahead; the first difference knows no ratio and has to be
     // clearly smaller by itself.
     const double ratio = i > 1 ? difference / previous : 0.9;
@@ -190,17 +218,14 @@ double resolved_energy(const LumpedSystem& system, const Eigen::VectorXd& displa
   return resolved * resolved / (2 * problem.stiffness) + rounding;
 }
 
-/// The last window of a march, its energies booked, and the same window with a looser integration.
-void march_last_window(ResponseRun& run, int cycles, const SteadyProblem& problem, const SimulationOptions& options,
-                       SteadyResponse& response) {
-  response.begin = run.state();
-  run.pass_jump();
-  const double before = run.energy();
-  ResponseRun loose_run = run;
-  run.advance(cycles, &response.best, true);
-  response.end = run.state();
-  const double resolved = resolved_energy(run.system(), response.end.q, problem, options.integrator.relative_tolerance);
-  set_energy(response.begin, response.end, before, run.energy(), resolved, response.energy);
+/// The energies of the last window are booked, and it is marched once more with a looser integration.
+void March::finish(const SteadyProblem& problem, const SimulationOptions& options, SteadyResponse& response) {
+  require(at_begin_.has_value(), "a march ends with a window");
+  response.begin = begin_;
+  response.end = run_.state();
+  const double resolved =
+      resolved_energy(run_.system(), response.end.q, problem, options.integrator.relative_tolerance);
+  set_energy(response.begin, response.end, at_begin_->energy(), run_.energy(), resolved, response.energy);
   // Adaptive steps keep it near their tolerance whatever happens; fixed ones may be far too long for what does.
   constexpr double hopeless = 0.05;
   if (!(response.energy.relative <= hopeless))
@@ -209,10 +234,14 @@ void march_last_window(ResponseRun& run, int cycles, const SteadyProblem& proble
                                       ? "its fixed steps are too long (dynamics.steps_per_cycle)"
                                       : "its tolerance is too loose (dynamics.relative_tolerance)"));
   if (options.estimate_error) {
-    loose_run.loosen(10);
+    at_begin_->loosen(10);
     response.loose.emplace();
-    loose_run.advance(cycles, &*response.loose);
+    at_begin_->advance(cycles_, &*response.loose);
   }
+  response.best = std::move(last_);
+  if (windows_ > 1) response.before = std::move(before_);
+  response.total_cycles = run_.cycles();
+  response.statistics = run_.statistics();
 }
 
 }  // namespace
@@ -275,38 +304,32 @@ SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& 
           fmt::format("a start of the time integration needs {} displacements and velocities", system.freedoms()));
     run.start_from(problem.start->q, problem.start->v);
   }
+  if (direct) run.start_from(direct->fine.displacement.col(0), direct->fine.velocity.col(0));
+  March march(std::move(run), cycles);
   if (direct) {
-    run.start_from(direct->fine.displacement.col(0), direct->fine.velocity.col(0));
-    march_last_window(run, cycles, problem, options, response);
-    response.steady_difference = largest_difference(response.best, direct->fine, problem.force_scale);
+    march.advance();
+    response.steady_difference = largest_difference(march.last(), direct->fine, problem.force_scale);
     response.steady = response.confirmed = *response.steady_difference <= options.steady_tolerance;
-    if (response.confirmed) response.before = std::move(direct->fine);
   }
   if (!response.confirmed) {
-    ResponseWindow before;
-    bool compared = false;
     if (!options.mesh_cycles && whole) {
-      response.steady = reach_steady_state(run, cycles, options, problem.force_scale, before);
-      compared = true;
+      response.steady = reach_steady_state(march, options, problem.force_scale);
+      response.steady_difference = march.difference_to_before(problem.force_scale);
     } else {
       // A given length, or windows that do not repeat: no search for the steady state.
       const int lead = options.mesh_cycles ? *options.mesh_cycles - cycles : cycles;
-      if (lead > cycles) run.advance(lead - cycles, nullptr);
-      if (lead >= cycles) run.advance(cycles, &before);
-      if (lead > 0 && lead < cycles) run.advance(lead, nullptr);
-      compared = whole && lead >= cycles;
-    }
-    march_last_window(run, cycles, problem, options, response);
-    if (compared) {
-      response.steady_difference = largest_difference(response.best, before, problem.force_scale);
-      if (options.mesh_cycles) response.steady = *response.steady_difference <= options.steady_tolerance;
-      response.before = std::move(before);
+      const bool compared = whole && lead >= cycles;
+      if (const int passed = compared ? lead - cycles : lead; passed > 0) march.pass(passed);
+      if (compared) march.advance();
+      march.advance();
+      if (compared) response.steady_difference = march.difference_to_before(problem.force_scale);
+      if (compared && options.mesh_cycles) response.steady = *response.steady_difference <= options.steady_tolerance;
     }
   }
+  march.finish(problem, options, response);
+  if (response.confirmed) response.before = std::move(direct->fine);
   // As long as no teeth part, nothing but an unstable motion is there: what grows slowly has not grown yet.
   if (unstable && response.best.open.maxCoeff() == 0) response.steady = false;
-  response.total_cycles = run.cycles();
-  response.statistics = run.statistics();
   return response;
 }
 

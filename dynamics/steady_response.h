@@ -123,6 +123,8 @@ struct SteadyOutcome {
   std::optional<IntegratorChoice> integrator;  ///< present when it was left to the program and something was integrated
   EnergyBalance energy;
   IntegratorStatistics statistics;
+  /// Of the evaluated window where it was integrated; otherwise both the state at its first sample.
+  SystemState begin, end;
 };
 
 /// The steady state of a system, and the windows that tell how well it is known.
@@ -134,7 +136,6 @@ struct SteadyResponse : SteadyOutcome {
   /// or the window before. Absent when there is none to compare with.
   std::optional<ResponseWindow> before;
   std::optional<ResponseWindow> loose;  ///< `best` under a ten times looser integration
-  SystemState begin, end;  ///< of `best` where it was integrated; otherwise both the state at its first sample
 };
 
 /// Periodic steady state of any system: solved for directly (exactly or by harmonic balance, see SteadyState) and

@@ -68,9 +68,10 @@ MotionChoice motion_choice(double accuracy) {
     choice.samples_reason = "64 samples per mesh cycle are within 0.1 % of any number";
     choice.confirm_reason = "marching through a period must confirm the direct solution";
   }
-  choice.relative_tolerance = std::clamp(1e-4 * accuracy, 1e-8, 1e-5);
+  choice.relative_tolerance = std::clamp(1e-3 * accuracy, 1e-8, 1e-4);
   choice.tolerance_reason =
-      "a ten-thousandth of the accuracy: the errors of all steps add up over a period, and lie far below it";
+      "a thousandth of the accuracy: the errors of all steps add up over a period, and lie far below it";
+  choice.steady_tolerance = std::clamp(0.1 * accuracy, 1e-3, 1e-2);
   return choice;
 }
 

@@ -47,7 +47,8 @@ struct ElementChoice {
 /// How the motion is found in time.
 struct MotionChoice {
   int samples_per_cycle = 64;
-  double relative_tolerance = 1e-6;  ///< of the time integration
+  double relative_tolerance = 1e-5;  ///< of the time integration
+  double steady_tolerance = 1e-3;    ///< see dynamics::SimulationOptions
   bool confirm = true;               ///< the direct solution by marching, though no contact is lost
   std::string samples_reason{}, tolerance_reason{}, confirm_reason{};
 };

@@ -60,6 +60,11 @@ MeshResult with_table(const MeshResult& mesh, TableChange change) {
   return result;
 }
 
+/// The harmonic balance is the motion to compare where it alone was asked, and where marching stayed on it.
+bool taken_directly(const DynamicResponse& nominal) {
+  return nominal.direct && nominal.direct->converged && (nominal.confirmed || nominal.total_cycles == 0);
+}
+
 /// How all stages of the comparison are solved.
 dynamics::SimulationOptions comparing_options(const DynamicResponse& nominal, dynamics::SimulationOptions options) {
   if (nominal.direct)
@@ -73,9 +78,12 @@ dynamics::SimulationOptions comparing_options(const DynamicResponse& nominal, dy
     options.max_window_cycles = evaluated;
     return options;
   }
-  // Where marching did not arrive at the solution of the harmonic balance, that one is not the motion to compare.
-  const bool taken_directly = nominal.direct && nominal.direct->converged && nominal.total_cycles == 0;
-  options.confirm = !(nominal.confirmed || taken_directly);
+  options.confirm = !taken_directly(nominal);
+  // A small change leads from the nominal motion to the one beside it within a few windows, and to no other.
+  if (options.confirm && !options.mesh_cycles) {
+    options.steady_state = dynamics::SteadyState::marching;
+    options.start = nominal.begin;
+  }
   return options;
 }
 
@@ -83,21 +91,30 @@ dynamics::SimulationOptions comparing_options(const DynamicResponse& nominal, dy
 class Comparison {
  public:
   Comparison(const DynamicResponse& nominal, const dynamics::SimulationOptions& options, const StageTables& tables)
-      : options_(comparing_options(nominal, options)), tables_(tables), figures_(values_of(nominal).size()) {}
+      : options_(comparing_options(nominal, options)), tables_(tables), figures_(values_of(nominal).size()) {
+    // Where the nominal motion was solved like those of the changed tables, it is what they are compared with.
+    const bool marched = options_.steady_state == dynamics::SteadyState::marching;
+    if (!options_.mesh_cycles && options_.samples_per_cycle == options.samples_per_cycle &&
+        (marched || nominal.total_cycles == 0))
+      base_ = Base{values_of(nominal), nominal.steady};
+  }
   [[nodiscard]] std::size_t figures() const { return figures_; }
 
   /// |difference| of every figure to the unchanged tables.
   std::vector<double> differences(TableChange sun, TableChange ring, const std::string& what) {
     std::vector<double> result(figures_, std::numeric_limits<double>::quiet_NaN());
     try {
-      if (!base_) base_ = solve(unchanged, unchanged);
+      if (!base_) {
+        const auto response = solve(unchanged, unchanged);
+        base_ = Base{values_of(response), response.steady};
+      }
       const auto response = solve(sun, ring);
       if (!options_.mesh_cycles && base_->steady && !response.steady) {
         log::warn(fmt::format("no steady state with {}: what it does to the figures is not known", what));
         return result;
       }
-      const auto values = values_of(response), reference = values_of(*base_);
-      for (std::size_t i = 0; i < figures_; ++i) result[i] = std::abs(values[i] - reference[i]);
+      const auto values = values_of(response);
+      for (std::size_t i = 0; i < figures_; ++i) result[i] = std::abs(values[i] - base_->values[i]);
     } catch (const Error& error) {  // no solution, or a changed table from which no law follows
       log::warn(fmt::format("{}: {}: what it does to the figures is not known", what, error.what()));
     }
@@ -105,6 +122,10 @@ class Comparison {
   }
 
  private:
+  struct Base {
+    std::vector<double> values;
+    bool steady = false;
+  };
   DynamicResponse solve(TableChange sun, TableChange ring) const {
     return dynamics::simulate(tables_.make(with_table(tables_.sun_mesh, sun), with_table(tables_.ring_mesh, ring)),
                               options_);
@@ -113,7 +134,7 @@ class Comparison {
   dynamics::SimulationOptions options_;
   const StageTables& tables_;
   std::size_t figures_;
-  std::optional<DynamicResponse> base_;
+  std::optional<Base> base_;
 };
 
 /// The larger one; NaN when one is.

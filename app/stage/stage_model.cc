@@ -147,6 +147,7 @@ dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamic
   options.samples_per_cycle = choice.samples_per_cycle;
   options.confirm = choice.confirm;
   options.confirm_where_teeth_part = true;
+  options.steady_tolerance = choice.steady_tolerance;
   if (!scene.dynamics->relative_tolerance) options.integrator.relative_tolerance = choice.relative_tolerance;
   // A ring on p pins repeats only after z_r / gcd(z_r, p) teeth, and with the planets after hundreds of mesh cycles:
   // the window covers them all up to a time series of some hundred megabytes.

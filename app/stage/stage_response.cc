@@ -132,13 +132,13 @@ void save(StageResponse& result, const std::string& id, const std::filesystem::p
 
 /// What repeats has to carry the torque; teeth that errors hold apart for longer than was looked at carry nothing, and
 /// repeat as well.
-void check_power(const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response) {
+void check_power(const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response,
+                 double steady_tolerance) {
   if (!response.steady || stage.sun.torsional_support != 0) return;
   double carried = 0;
   for (const auto& branch : response.sun_planet.branches) carried += branch.mean_force;
   carried /= stage.planets() * stage.mean_mesh_force();
-  constexpr double most = 0.01;  // ten times the tolerance of a steady state
-  if (std::abs(carried - 1) <= most) return;
+  if (std::abs(carried - 1) <= 10 * steady_tolerance) return;
   throw SolverError(
       fmt::format("the teeth carry only {:.3g} of the sun's torque: it is too small to close the gaps that the errors "
                   "open within the motion that was solved; raise stage.power_kW, or reduce [errors]",
@@ -153,7 +153,7 @@ StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage, const dyn
   StageResponse result;
   result.modes = stage_modes(stage, stiffness_errors(tables.sun_mesh, tables.ring_mesh));
   auto response = dynamics::simulate(stage, options);
-  check_power(stage, response);
+  check_power(stage, response, options.steady_tolerance);
   tabulate(result, response, stage.planets());
   result.motion = stage_motion(stage, response);
   write(time_series_table(response.series, response.window_cycles), {{"annulus_version", version()}, {"inputs_id", id}},
