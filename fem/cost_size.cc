@@ -87,8 +87,11 @@ double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSett
   double unknowns = 0;
   for (const bool wheel : {false, true}) {
     const auto& gear = wheel ? problem.pair.wheel() : problem.pair.planet();
-    const auto of_solid = settings.rung == Rung::resolved_solid ? resolved_solid_resolution : solid_resolution;
-    unknowns += solid ? solid_unknowns(problem, of_solid(level), gear, wheel, settings.degree, face)
+    const auto of_solid = [&] {
+      return settings.rung == Rung::resolved_solid ? resolved_solid_resolution(level)
+                                                   : solid_resolution(level, settings.degree);
+    };
+    unknowns += solid ? solid_unknowns(problem, of_solid(), gear, wheel, settings.degree, face)
                       : 2 * nodes_of_section(section_counts(plane_resolution(gear, level, settings.degree).section),
                                              settings.degree);
   }
@@ -102,7 +105,8 @@ double support_forces(const LoadedMeshProblem& problem, const LoadedMeshSettings
   SupportSites sites;
   if (const auto* pinned = std::get_if<PinHeld>(&problem.structure)) sites = pin_sites(*pinned, ring);
   if (const auto* splined = std::get_if<SplineHeld>(&problem.structure)) sites = spline_sites(*splined, ring);
-  const auto slices = solved_face(problem, settings).edges(2 * solid_resolution(level).face_cells).size() - 1;
+  const auto slices =
+      solved_face(problem, settings).edges(2 * solid_resolution(level, settings.degree).face_cells).size() - 1;
   double forces = 0;
   for (const auto& site : sites.sites) forces += static_cast<double>(site.directions.size() * slices);
   return forces;

@@ -86,7 +86,7 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   const BodyPlan planet(problem, flanks.planet(), false, geometry::Boundary::leading_flank, settings.degree, solid,
                         face);
   const BodyPlan wheel(problem, flanks.wheel(), true, flanks.wheel_flank(), settings.degree, solid, face);
-  const BodyResolution solid_counts = solid ? solid_resolution(level) : BodyResolution{};
+  const BodyResolution solid_counts = solid ? solid_resolution(level, settings.degree) : BodyResolution{};
   std::optional<SupportPlan> supports;
   if (const auto sites = support_sites(problem))
     // A slice per layer of elements: unilateral on its own.
@@ -129,7 +129,8 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   for (const auto& task : tasks) ++(task.reused ? bodies.reused_teeth : bodies.condensed_teeth);
   bodies.saved_seconds = saved_seconds(tasks, settings.threads);
   bodies.face = face;
-  bodies.slice_edges = face.edges(solid ? 2 * solid_counts.face_cells : 1);
+  bodies.slice_edges =
+      face.edges(solid ? slices_per_cell(flanks.planet().gear(), settings.degree) * solid_counts.face_cells : 1);
   const auto near_field = [&](std::size_t fine, std::size_t coarse) {
     const auto compliance = [&](std::size_t index) -> Eigen::MatrixXd {
       const GearBody& body = tasks[index].body;

@@ -12,7 +12,8 @@ struct BodyResolution {
   int sleeve_cells = 0;  ///< along the free length of a sleeve
 };
 
-/// Levels of resolution: every level has cells 1.5 times smaller than the one before, and grades them more gently;
+/// Levels of resolution: every level has cells 1.5 times smaller than the one before, and grades them more gently (of
+/// quadratic solids 1.25 to 1.5 times, where results hang on their number least to most);
 /// results come from one level, their error estimate from the difference to the level before. The plane starts at level
 /// 0 and ends at `last_plane_level`.
 inline constexpr double level_ratio = 1.5;
@@ -39,7 +40,9 @@ struct ContactCells {
                                                            const geometry::SectorResolution& regular,
                                                            const ContactCells& contact);
 /// Solid body: the flank is coarse, its near field is corrected from the plane.
-[[nodiscard]] BodyResolution solid_resolution(int level);
+[[nodiscard]] BodyResolution solid_resolution(int level, int degree);
+/// In how many slices, along the face, of constant pressure a cell of a solid is divided.
+[[nodiscard]] int slices_per_cell(const geometry::Gear& gear, int degree);
 /// Solid body of the resolved rung, away from its contacts.
 [[nodiscard]] BodyResolution resolved_solid_resolution(int level);
 

@@ -103,7 +103,8 @@ Level solve_level(const LoadedMeshProblem& problem, const std::vector<double>& t
   options.store = settings.store.get();
   if (plan) options.arcs = plan->arcs();
   const RingFlexibility ring = make_ring_flexibility(
-      body, solid ? solid_resolution(level) : plane_resolution(profile.gear(), level), problem.material, options);
+      body, solid ? solid_resolution(level, settings.degree) : plane_resolution(profile.gear(), level),
+      problem.material, options);
 
   Level result;
   result.unknowns = ring.unknowns;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -64,9 +65,12 @@ ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& plan
       return flanks_.planet().lead_modification(z) + flanks_.wheel().lead_modification(z) +
              options_.misalignment * (z / width - 0.5);
     };
-    lead_gap_.push_back(
-        boost::math::quadrature::gauss<double, 7>::integrate(gap, slice_edges_[s], slice_edges_[s + 1]) /
-        (slice_edges_[s + 1] - slice_edges_[s]));
+    // Without load the flanks touch where the gap is smallest, not where its mean is: a convex curve has one such
+    // place.
+    const double low = slice_edges_[s], high = slice_edges_[s + 1];
+    const double inside = boost::math::tools::brent_find_minima(gap, low, high, 30).second;
+    smallest_lead_gap_.push_back(std::min({gap(low), gap(high), inside}));
+    lead_gap_.push_back(boost::math::quadrature::gauss<double, 7>::integrate(gap, low, high) / (high - low));
   }
 }
 
@@ -180,7 +184,7 @@ void ContactSystem::add_elements(Pair& pair, double roll, const std::vector<int>
   }
   const double profile_gap = normal_factor_ * flanks_.match(centre_roll, roll).gap;
   for (const int s : slices)
-    pair.smallest_gap = std::min(pair.smallest_gap, (profile_gap + lead_gap_[s]) / normal_factor_);
+    pair.smallest_gap = std::min(pair.smallest_gap, (profile_gap + smallest_lead_gap_[s]) / normal_factor_);
 }
 
 std::vector<std::pair<int, double>> ContactSystem::possible_pairs(const FlankContact& flanks, double phase) {

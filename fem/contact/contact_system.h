@@ -91,7 +91,7 @@ class ContactSystem {
   const SupportRow* supports_;
   Material material_;
   std::vector<double> slice_edges_;
-  std::vector<double> lead_gap_;  // mean over every slice, m
+  std::vector<double> lead_gap_, smallest_lead_gap_;  // of every slice, the mean and the least, m
   ContactOptions options_;
   double normal_factor_;  // cos(base helix angle): normal approach of the flanks per transmission error
   double roll_per_z_;

@@ -7,19 +7,20 @@
 namespace annulus::tests {
 namespace {
 
-fem::LoadedMeshSettings settings_for(fem::Rung rung, bool symmetry) {
+fem::LoadedMeshSettings settings_for(fem::Rung rung, bool symmetry, int degree) {
   fem::LoadedMeshSettings settings;
   settings.rung = rung;
   settings.symmetry = symmetry;
+  settings.degree = degree;
   return settings;
 }
 
 }  // namespace
 
-ContactBench::ContactBench(const fem::LoadedMeshProblem& problem, int level, fem::Rung rung, bool symmetry)
+ContactBench::ContactBench(const fem::LoadedMeshProblem& problem, int level, fem::Rung rung, bool symmetry, int degree)
     : problem_(problem),
       flanks_(problem.pair),
-      bodies_(build_bodies(problem, flanks_, settings_for(rung, symmetry), level)) {
+      bodies_(build_bodies(problem, flanks_, settings_for(rung, symmetry, degree), level)) {
   options_.half_face = bodies_.face.half;
   // As many pressure elements as solve_loaded_mesh takes at this level.
   options_.elements = static_cast<int>(std::lround((rung == fem::Rung::solid ? 6 : 10) * std::pow(1.25, level - 1)));

@@ -10,7 +10,7 @@ class ContactBench {
  public:
   /// `symmetry` as in LoadedMeshSettings: off, so that bodies serve misalignments too.
   ContactBench(const fem::LoadedMeshProblem& problem, int level, fem::Rung rung = fem::Rung::plane,
-               bool symmetry = false);
+               bool symmetry = false, int degree = 2);
   ContactBench(const ContactBench&) = delete;
   ContactBench& operator=(const ContactBench&) = delete;
 

@@ -157,7 +157,7 @@ BOOST_AUTO_TEST_CASE(a_misalignment_of_the_other_sign_is_the_mirror_image) {
 }
 
 BOOST_AUTO_TEST_CASE(crowned_teeth_carry_symmetrically_and_in_their_middle) {
-  annulus::test::Verification record("Crowned teeth", "symmetry; closed form of the gap in the middle slices");
+  annulus::test::Verification record("Crowned teeth", "symmetry; without load crowns touch where nothing is missing");
   constexpr double crowning = 20e-6;
   ContactBench bench(modified(true, crowning, 0), 0, Rung::solid);
   ContactBench straight(modified(true, 0, 0), 0, Rung::solid);
@@ -169,10 +169,9 @@ BOOST_AUTO_TEST_CASE(crowned_teeth_carry_symmetrically_and_in_their_middle) {
     BOOST_TEST(position.face_load_factor > plain.face_load_factor);
     BOOST_TEST(position.entry.lte > plain.entry.lte);  // material is missing
     BOOST_TEST(position.entry.lte < plain.entry.lte + crowning);
-    // Mean gap of the two middle slices of n: the mean of (2 z / b - 1)^2 over 2 / n is 4 / (3 n^2).
-    const double slices = static_cast<double>(q.size());
-    record.close("unloaded transmission error: mean gap of the middle slices", "m", position.entry.unloaded_te,
-                 crowning * 4 / (3 * slices * slices), 1e-9, "rounding");
+    // Nothing is missing in the middle of the face, although a slice has a gap of its own there.
+    record.at_most("unloaded transmission error: the crowns touch", "m", std::abs(position.entry.unloaded_te), 1e-15,
+                   "rounding of the flanks' coordinates");
     BOOST_TEST_MESSAGE("crowned, load " << load << ": K_H_beta " << position.face_load_factor);
     BOOST_TEST(position.energy_balance_relative < 1e-9);
   }
@@ -180,6 +179,13 @@ BOOST_AUTO_TEST_CASE(crowned_teeth_carry_symmetrically_and_in_their_middle) {
   const auto light = bench.solve(0.3, 1e-3 * nominal_load);
   BOOST_TEST(light.line_load.front() == 0);
   BOOST_TEST(light.face_load_factor > 3);
+
+  // A slice's mean gap is larger than what is missing in its middle: counted as part of the deflection that would make
+  // few slices stiffer, twelve by 0.3 % than sixteen.
+  ContactBench finer(modified(true, crowning, 0), 1, Rung::solid);
+  const double coarse = bench.solve(0.3, nominal_load).entry.stiffness_secant,
+               fine = finer.solve(0.3, nominal_load).entry.stiffness_secant;
+  record.near("stiffness, 12 slices against 16", "N/m", coarse, fine, 2e-3 * fine, "two levels of a solid");
 }
 
 BOOST_AUTO_TEST_CASE(a_slope_and_the_opposite_misalignment_cancel) {

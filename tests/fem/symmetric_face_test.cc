@@ -217,16 +217,16 @@ BOOST_AUTO_TEST_CASE(a_result_on_half_of_the_face_is_one_of_the_whole) {
 }
 
 BOOST_AUTO_TEST_CASE(an_odd_number_of_cells_is_as_good_halved) {
-  // Five cells: the one in the middle is cut in two, which can only make the bodies a little softer.
+  // Five linear cells: the one in the middle is cut in two. What that changes lies far below the error of the level, of
+  // the deflection some per cent, of the load of a slice twice that.
   const auto problem = crowned_ring(annulus::fem::OutsideHeld{});
-  ContactBench half(problem, 0, Rung::solid, true), whole(problem, 0, Rung::solid, false);
+  ContactBench half(problem, 0, Rung::solid, true, 1), whole(problem, 0, Rung::solid, false, 1);
   BOOST_TEST(half.bodies().slice_edges.size() == 6U);
   const auto a = half.solve(0.3, nominal_load), b = whole.solve(0.3, nominal_load);
   const double softer = a.entry.lte / b.entry.lte - 1;
   BOOST_TEST_MESSAGE("odd cells: softer by " << softer);
-  BOOST_TEST(softer > -round_off);
-  BOOST_TEST(softer < 1e-4);  // a hundredth of what the level is in error by
-  BOOST_TEST(difference(a.line_load, b.line_load) < 1e-3);
+  BOOST_TEST(std::abs(softer) < 1e-4);
+  BOOST_TEST(difference(a.line_load, b.line_load) < 2e-2);
 }
 
 BOOST_AUTO_TEST_CASE(what_differs_along_the_face_is_solved_whole) {

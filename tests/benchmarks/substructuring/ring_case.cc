@@ -48,7 +48,7 @@ geometry::Gear ring_gear(int teeth) {
 }
 
 fem::BodyResolution resolution(const RingCase& ring) {
-  if (ring.level) return fem::solid_resolution(*ring.level);
+  if (ring.level) return fem::solid_resolution(*ring.level, 2);
   if (ring.dimension == 2) return {{24, 4, 12, 2, 6, 0.5}, 0, 0};
   return {{6, 2, 4, 1, 2, 1.0}, 4, 2};
 }
