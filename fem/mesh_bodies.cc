@@ -129,8 +129,7 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   for (const auto& task : tasks) ++(task.reused ? bodies.reused_teeth : bodies.condensed_teeth);
   bodies.saved_seconds = saved_seconds(tasks, settings.threads);
   bodies.face = face;
-  bodies.slice_edges =
-      face.edges(solid ? slices_per_cell(flanks.planet().gear(), settings.degree) * solid_counts.face_cells : 1);
+  bodies.slice_edges = face.edges(solid ? slices_per_cell(problem, settings.degree) * solid_counts.face_cells : 1);
   const auto near_field = [&](std::size_t fine, std::size_t coarse) {
     const auto compliance = [&](std::size_t index) -> Eigen::MatrixXd {
       const GearBody& body = tasks[index].body;

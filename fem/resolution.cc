@@ -158,10 +158,15 @@ BodyResolution solid_resolution(int level, int degree) {
   return (degree == 1 ? linear : quadratic)[level];
 }
 
-int slices_per_cell(const geometry::Gear& gear, int degree) {
-  // A slice carries its load on a line along the axis, where the contact of helical teeth is a slanted one: what that
-  // leaves falls with the square of their number.
-  return degree > 1 && gear.parameters().helix_angle != 0 ? 3 : 2;
+int slices_per_cell(const LoadedMeshProblem& problem, int degree) {
+  const auto uneven = [](const geometry::Gear& gear) {
+    const auto& p = gear.parameters();
+    return p.helix_angle != 0 || p.lead_crowning != 0 || p.lead_slope != 0;
+  };
+  // A slice carries a constant load on a line along the axis: what that leaves of an uneven load, or of the slanted
+  // contact of helical teeth, falls with the square of their number.
+  const bool more = uneven(problem.pair.planet()) || uneven(problem.pair.wheel()) || problem.misalignment != 0;
+  return degree > 1 && more ? 3 : 2;
 }
 
 BodyResolution resolved_solid_resolution(int level) {

@@ -42,7 +42,7 @@ struct ContactCells {
 /// Solid body: the flank is coarse, its near field is corrected from the plane.
 [[nodiscard]] BodyResolution solid_resolution(int level, int degree);
 /// In how many slices, along the face, of constant pressure a cell of a solid is divided.
-[[nodiscard]] int slices_per_cell(const geometry::Gear& gear, int degree);
+[[nodiscard]] int slices_per_cell(const LoadedMeshProblem& problem, int degree);
 /// Solid body of the resolved rung, away from its contacts.
 [[nodiscard]] BodyResolution resolved_solid_resolution(int level);
 

@@ -122,8 +122,8 @@ struct ResolvedMesh {
                solid, level, settings.threads),
         wheel({p, f.wheel(), true, f.wheel_flank(), settings.degree, solid, face}, p.material, solid, level,
               settings.threads),
-        slice_edges(face.edges(
-            solid ? slices_per_cell(f.planet().gear(), settings.degree) * planet.resolution.regular.face_cells : 1)) {}
+        slice_edges(
+            face.edges(solid ? slices_per_cell(p, settings.degree) * planet.resolution.regular.face_cells : 1)) {}
 
   [[nodiscard]] LoadedPosition solve(double phase, double load) const;
 

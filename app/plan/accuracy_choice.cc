@@ -39,20 +39,17 @@ TableResolution table_resolution(double accuracy, double uptake) {
   return choice;
 }
 
-ElementChoice element_choice(fem::Rung rung, double accuracy, bool single_supports,
+ElementChoice element_choice(fem::Rung rung, double accuracy, bool hard_for_linear,
                              const std::string& unfit_for_linear) {
   if (!unfit_for_linear.empty()) return {2, "quadratic elements: " + unfit_for_linear};
-  // The edges of single supports leave linear elements an error above that at the first level.
   constexpr double linear_accuracy = 0.01;
-  if (rung == fem::Rung::plane && accuracy >= (single_supports ? rough_accuracy : linear_accuracy))
-    return {
-        1,
-        "linear elements are within 1 % at once, at half the cost of quadratic ones, which follow where they are not"};
-  if (rung == fem::Rung::solid && accuracy >= rough_accuracy)
-    return {1,
-            "linear elements are within 3 % at once, at an eighth of the cost of quadratic ones, which follow where "
-            "they are not"};
-  if (rung == fem::Rung::solid) return {2, "quadratic elements are within 1 % at once, and their stresses can be used"};
+  const double enough = hard_for_linear ? rough_accuracy : linear_accuracy;
+  if (accuracy >= enough && (rung == fem::Rung::plane || rung == fem::Rung::solid))
+    return {1, fmt::format("linear elements are within {:.0f} % at once, at {} of the cost of quadratic ones, which "
+                           "follow where they are not",
+                           100 * enough, rung == fem::Rung::plane ? "half" : "an eighth")};
+  if (rung == fem::Rung::solid)
+    return {2, "quadratic elements are within 0.3 to 1 % at once, and their stresses can be used"};
   return {2, "quadratic elements are within 0.3 % at once, and their stresses can be used"};
 }
 

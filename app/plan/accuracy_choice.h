@@ -39,9 +39,9 @@ struct ElementChoice {
   int degree = 2;
   std::string reason{};
 };
-/// `single_supports`: of a ring. `unfit_for_linear`: why elements of the first degree would be too stiff for the body,
-/// empty where they are not.
-[[nodiscard]] ElementChoice element_choice(fem::Rung rung, double accuracy, bool single_supports = false,
+/// `hard_for_linear`: elements of the first degree need more than their first level for 1 %. `unfit_for_linear`: why
+/// they would be too stiff for the body, empty where they are not.
+[[nodiscard]] ElementChoice element_choice(fem::Rung rung, double accuracy, bool hard_for_linear = false,
                                            const std::string& unfit_for_linear = "");
 
 /// How the motion is found in time.

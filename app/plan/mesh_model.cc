@@ -76,6 +76,13 @@ std::string unfit_for_linear(const fem::LoadedMeshProblem& problem) {
   return "";
 }
 
+/// Edges of single supports, sleeves and flanges that bend, and contacts slanted over the cells leave linear elements
+/// more than 1 % at their first level.
+bool hard_for_linear(const fem::LoadedMeshProblem& problem) {
+  if (problem.pair.planet().helix_angle() != 0) return true;
+  return problem.pair.internal() && !std::holds_alternative<fem::OutsideHeld>(problem.structure);
+}
+
 /// What the wanted accuracy asks of a mesh whose problem is complete but for phases and loads.
 void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
   model.settings.accuracy = scene.accuracy;
@@ -89,9 +96,8 @@ void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
   model.loads = std::move(table.loads_reason);
   prefer_formulas(model, scene);
   if (model.settings.rung == fem::Rung::closed_form) return;
-  const bool single_supports = model.problem->pair.internal() && fem::on_single_supports(model.problem->structure);
-  auto elements =
-      element_choice(model.settings.rung, scene.accuracy, single_supports, unfit_for_linear(*model.problem));
+  auto elements = element_choice(model.settings.rung, scene.accuracy, hard_for_linear(*model.problem),
+                                 unfit_for_linear(*model.problem));
   model.settings.degree = elements.degree;
   model.elements = std::move(elements.reason);
 }
