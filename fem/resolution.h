@@ -13,7 +13,7 @@ struct BodyResolution {
 };
 
 /// Levels of resolution: every level has cells 1.5 times smaller than the one before, and grades them more gently (of
-/// quadratic solids 1.25 to 1.5 times, where results hang on their number least to most);
+/// quadratic solids 1.2 times across the rim, where the error falls fastest, up to 1.7 times along a sleeve);
 /// results come from one level, their error estimate from the difference to the level before. The plane starts at level
 /// 0 and ends at `last_plane_level`.
 inline constexpr double level_ratio = 1.5;

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Builds the program and its tests with the address and undefined-behaviour sanitizers (clang) and runs tests of it:
 #   scripts/sanitize.sh [options of ctest]    default: unit and pipeline tests, but for what says nothing more there:
-#                                             the whole scene of three rings (half an hour), packages, the browser, the
-#                                             verification manual
+#                                             the whole scene of three rings (half an hour), what repeats the runs of
+#                                             other tests (reuse, tradeoff, optimisation: another quarter), packages, the
+#                                             browser, the verification manual
 set -euo pipefail
 cd "$(dirname "$0")/.."
 command -v clang++ >/dev/null || { echo "sanitize.sh: needs clang (scripts/install_packages.sh --tests)" >&2; exit 2; }
@@ -10,5 +11,5 @@ mkdir -p build
 cmake --preset checked >build/checked.log 2>&1 || { cat build/checked.log >&2; exit 1; }
 cmake --build --preset checked --target annulus_cli test_core test_geometry test_fem test_dynamics test_app test_verification
 [ $# -gt 0 ] || set -- --label-regex '^(unit|pipeline)$' \
-  --exclude-regex '^(verification\.ring_types|package\.debian|app\.report_page|manual\..*)$'
+  --exclude-regex '^(verification\.ring_types|package\.debian|app\.(report_page|reuse|tradeoff|optimisation)|manual\..*)$'
 ctest --preset checked --parallel "$(nproc)" "$@"
