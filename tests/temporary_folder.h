@@ -1,15 +1,17 @@
 #pragma once
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <string>
 
 namespace annulus::test {
 
-/// An empty folder of its own for each test, removed at the end.
+/// An empty folder of its own for each test, of the process too (CTest runs several at once), removed at the end.
 class TemporaryFolder {
  public:
   explicit TemporaryFolder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / ("annulus_test_" + name)) {
+      : path_(std::filesystem::temp_directory_path() / ("annulus_test_" + name + "_" + std::to_string(getpid()))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

@@ -62,9 +62,10 @@ void prefer_formulas(MeshModel& model, const Scene& scene) {
 }
 
 /// Why linear elements would be too stiff, by more than their error estimate tells: they lock where the volume hardly
-/// changes, and where thin parts bend.
+/// changes, and where thin parts bend (a rim of two modules on a sleeve four times as long as thick: off by 10.2 %
+/// where they say 9.3 %).
 std::string unfit_for_linear(const fem::LoadedMeshProblem& problem) {
-  constexpr double nearly_incompressible = 0.4, thin_rim = 2, slender_sleeve = 0.1;
+  constexpr double nearly_incompressible = 0.4, thin_rim = 2.5, slender_sleeve = 0.3;
   if (problem.material.poisson_ratio > nearly_incompressible)
     return fmt::format("linear ones are too stiff where Poisson's ratio exceeds {}", nearly_incompressible);
   const auto* sleeve = std::get_if<fem::EndFaceHeld>(&problem.structure);
