@@ -63,6 +63,11 @@ std::string cost_lines(const Plan& plan) {
       text += fmt::format(
           "   level {}, about {:.0f} thousand unknowns, expected error {}", step.size.level, step.size.unknowns / 1e3,
           std::isfinite(step.expected_error) ? fmt::format("{:.2g} %", 100 * step.expected_error) : "not known");
+    // Known before minutes are spent on a result that is refused in the end.
+    if (step.kind == CostKind::mesh && !plan.meshes.empty() && !plan.meshes.front().settings.level &&
+        step.expected_error > plan.meshes.front().settings.accuracy)
+      text += fmt::format(", more than the {:g} % asked: the run may be refused at the end",
+                          100 * plan.meshes.front().settings.accuracy);
     text += "\n";
   }
   text += "  " + pad("in all", 34) +

@@ -10,6 +10,7 @@
 
 #include "app/plan/cost_model.h"
 #include "app/plan/cost_plan.h"
+#include "app/scene/overrides.h"
 #include "core/files.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
@@ -139,6 +140,16 @@ BOOST_AUTO_TEST_CASE(solid_meshes_tell_what_of_the_face_they_solve) {
   // Of 8 quadratic cells: 9 of 17 layers of nodes, the last one without axial freedoms.
   BOOST_TEST(half_size.unknowns / whole_size.unknowns == 26.0 / 51, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(costs.predict(half_size).seconds < costs.predict(whole_size).seconds);
+}
+
+BOOST_AUTO_TEST_CASE(more_than_the_finest_solid_gives_is_told_beforehand) {
+  const std::string text = read_file(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/helical_set.toml");
+  const auto cost_of = [&](double accuracy) {
+    const auto scene = app::with_accuracy(app::parse_scene(text, "scene.toml"), accuracy, "asked here");
+    return app::to_text(app::make_plan(scene, app::make_geometry(scene)));
+  };
+  BOOST_TEST(cost_of(0.02).find("may be refused") == std::string::npos);
+  BOOST_TEST(cost_of(0.002).find("more than the 0.2 % asked: the run may be refused at the end") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(the_accuracy_decides_rung_elements_and_motion) {
