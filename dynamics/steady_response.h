@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <string>
@@ -53,6 +54,13 @@ struct SimulationOptions {
   int max_window_cycles = 2000;
   /// Integrates the last window again with a tolerance ten times looser to estimate the integrator's part of the error.
   bool estimate_error = true;
+
+  /// Windows of a loose integration repeat no better than to some of its steps' errors: `steady_tolerance` is made ten
+  /// times this where it was less.
+  void integrate_within(double relative_tolerance) {
+    integrator.relative_tolerance = relative_tolerance;
+    steady_tolerance = std::max(steady_tolerance, 10 * relative_tolerance);
+  }
 };
 
 struct WindowLength {

@@ -134,7 +134,7 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
 
 dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double mesh_frequency) {
   dynamics::SimulationOptions options;
-  options.integrator.relative_tolerance = input.relative_tolerance.value_or(options.integrator.relative_tolerance);
+  if (input.relative_tolerance) options.integrate_within(*input.relative_tolerance);
   options.integrator.method = input.integrator;
   if (input.steps_per_cycle) options.integrator.fixed_step = 1 / (mesh_frequency * *input.steps_per_cycle);
   options.mesh_cycles = input.mesh_cycles;
@@ -147,7 +147,7 @@ dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamic
   options.samples_per_cycle = choice.samples_per_cycle;
   options.confirm = choice.confirm;
   options.confirm_where_teeth_part = true;
-  options.steady_tolerance = choice.steady_tolerance;
+  options.steady_tolerance = std::max(options.steady_tolerance, choice.steady_tolerance);
   if (!scene.dynamics->relative_tolerance) options.integrator.relative_tolerance = choice.relative_tolerance;
   // A ring on p pins repeats only after z_r / gcd(z_r, p) teeth, and with the planets after hundreds of mesh cycles:
   // the window covers them all up to a time series of some hundred megabytes.

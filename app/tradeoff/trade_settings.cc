@@ -29,7 +29,7 @@ MotionSetting with_tolerance(const char* rung, const char* name, dynamics::Integ
   return {rung, fmt::format("{}, relative tolerance {:.0e}", name, tolerance),
           [method, tolerance](dynamics::SimulationOptions& o) {
             o.integrator.method = method;
-            o.integrator.relative_tolerance = tolerance;
+            o.integrate_within(tolerance);
           }};
 }
 
