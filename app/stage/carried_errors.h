@@ -29,8 +29,8 @@ struct StageTables {
 
 /// The parts of the error of every figure of `nominal`, which was simulated with `options` on `tables`. The stage is
 /// solved again on changed tables (core/table_variants.h), without time integration where the nominal response agreed
-/// with the harmonic balance (marched for 330 mesh cycles where it has no periodic steady state within the longest
-/// window), and compared with the unchanged tables solved the very same way:
+/// with the harmonic balance, otherwise marched from the nominal motion (for 330 mesh cycles where it has no periodic
+/// steady state within the longest window), and compared with the unchanged tables solved the very same way:
 /// - discretisation, contact, condensation, model: largest |difference| with the stiffness or its ripple raised by its
 ///   error estimate, divided in the proportions of the stiffness' own parts (all discretisation where a table does not
 ///   tell them), sun mesh plus ring mesh;
