@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
+#include <algorithm>
 #include <bit>
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
@@ -105,19 +106,30 @@ void write_msh(const Mesh& mesh, const std::filesystem::path& file) {
 namespace {
 
 /// As VTK reads it: the number of bytes, then the bytes, in base 64.
-std::string base64(const std::vector<float>& values) {
+template <class Number>
+std::string base64(const std::vector<Number>& values) {
   static_assert(std::endian::native == std::endian::little, "the header of the file says so");
-  const auto bytes = static_cast<std::uint32_t>(values.size() * sizeof(float));
-  std::string raw(sizeof(bytes) + bytes, '\0');
+  const std::size_t size = values.size() * sizeof(Number);
+  const auto bytes = static_cast<std::uint32_t>(size);
+  require(bytes == size, "an array of a VTU file below 4 GiB");
+  std::string raw(sizeof(bytes) + size, '\0');
   std::memcpy(raw.data(), &bytes, sizeof(bytes));
-  if (bytes > 0) std::memcpy(raw.data() + sizeof(bytes), values.data(), bytes);
-  const std::string padding((3 - raw.size() % 3) % 3, '=');
-  raw.append(padding.size(), '\0');
+  if (size > 0) std::memcpy(raw.data() + sizeof(bytes), values.data(), size);
+  const std::size_t padding = (3 - raw.size() % 3) % 3;
+  raw.append(padding, '\0');
   using Digits = boost::archive::iterators::base64_from_binary<
       boost::archive::iterators::transform_width<std::string::const_iterator, 6, 8>>;
-  std::string text(Digits(raw.begin()), Digits(raw.end()));
-  text.replace(text.size() - padding.size(), padding.size(), padding);
+  std::string text(raw.size() / 3 * 4, '=');
+  std::copy_n(Digits(raw.begin()), text.size() - padding, text.begin());
   return text;
+}
+
+template <class Number>
+void add_array(std::string& text, std::string_view type, std::string_view name, int components,
+               const std::vector<Number>& values) {
+  fmt::format_to(std::back_inserter(text),
+                 "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n{}\n</DataArray>\n",
+                 type, name, components, base64(values));
 }
 
 }  // namespace
@@ -127,33 +139,34 @@ void write_vtu(const Mesh& mesh, const std::filesystem::path& file, const std::v
   const int corners = solid ? 8 : 4;
   constexpr int vtk_quad = 9;
   constexpr int vtk_hexahedron = 12;
-  std::string text;
-  auto out = std::back_inserter(text);
-  fmt::format_to(out,
-                 "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" "
-                 "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n"
-                 "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n"
-                 "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n",
-                 mesh.vertices.size(), mesh.cells.size());
-  for (const auto& v : mesh.vertices) fmt::format_to(out, "{:.17g} {:.17g} {:.17g}\n", v.x(), v.y(), v.z());
-  text += "</DataArray>\n</Points>\n<Cells>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
+  std::vector<double> points;
+  points.reserve(3 * mesh.vertices.size());
+  for (const auto& v : mesh.vertices) points.insert(points.end(), v.begin(), v.end());
+  std::vector<std::int64_t> connectivity, offsets;
   for (const auto& cell : mesh.cells) {
-    for (int i = 0; i < corners; ++i) fmt::format_to(out, "{}{}", cell[i], i + 1 < corners ? ' ' : '\n');
+    connectivity.insert(connectivity.end(), cell.begin(), cell.begin() + corners);
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
   }
-  text += "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
-  for (std::size_t c = 1; c <= mesh.cells.size(); ++c) fmt::format_to(out, "{}\n", corners * c);
-  text += "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n";
-  for (std::size_t c = 0; c < mesh.cells.size(); ++c) fmt::format_to(out, "{}\n", solid ? vtk_hexahedron : vtk_quad);
-  text +=
-      "</DataArray>\n</Cells>\n<CellData Scalars=\"region\">\n"
-      "<DataArray type=\"Int32\" Name=\"region\" format=\"ascii\">\n";
-  for (const auto region : mesh.regions) fmt::format_to(out, "{}\n", static_cast<int>(region));
-  text += "</DataArray>\n</CellData>\n<PointData>\n";
+  const std::vector<std::uint8_t> types(mesh.cells.size(), solid ? vtk_hexahedron : vtk_quad);
+  std::vector<std::int32_t> regions;
+  for (const auto region : mesh.regions) regions.push_back(static_cast<std::int32_t>(region));
+
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+      mesh.vertices.size(), mesh.cells.size());
+  text += "<Points>\n";
+  add_array(text, "Float64", "Points", 3, points);
+  text += "</Points>\n<Cells>\n";
+  add_array(text, "Int64", "connectivity", 1, connectivity);
+  add_array(text, "Int64", "offsets", 1, offsets);
+  add_array(text, "UInt8", "types", 1, types);
+  text += "</Cells>\n<CellData Scalars=\"region\">\n";
+  add_array(text, "Int32", "region", 1, regions);
+  text += "</CellData>\n<PointData>\n";
   for (const auto& d : data) {
     require(d.values.size() == mesh.vertices.size() * static_cast<std::size_t>(d.components), "values at every vertex");
-    fmt::format_to(
-        out, "<DataArray type=\"Float32\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n{}\n</DataArray>\n",
-        d.name, d.components, base64(d.values));
+    add_array(text, "Float32", d.name, d.components, d.values);
   }
   text += "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   write_file(file, text);

@@ -1,11 +1,14 @@
 #include "app/report/field_view.h"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -74,13 +77,15 @@ View near_contact(const fem::BodyField& field) {
   const std::size_t first = middle - std::min(middle, each_side), last = std::min(middle + each_side, sectors - 1);
   View view;
   const Eigen::AngleAxisd turn(-contact, Eigen::Vector3d::UnitZ());
-  std::map<std::uint32_t, std::uint32_t> number;
+  constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number(mesh.vertices.size(), unseen);
   Eigen::AlignedBox3d box;
   for (const auto& face : faces_of(mesh, first * cells, (last - first + 1) * cells)) {
     auto& kept = view.faces.emplace_back();
     for (std::size_t i = 0; i < 4; ++i) {
-      const auto [at, fresh] = number.try_emplace(face[i], static_cast<std::uint32_t>(view.place.size()));
-      kept[i] = at->second;
+      const bool fresh = number[face[i]] == unseen;
+      if (fresh) number[face[i]] = static_cast<std::uint32_t>(view.place.size());
+      kept[i] = number[face[i]];
       if (!fresh) continue;
       view.place.emplace_back(turn * mesh.vertices[face[i]]);
       view.moved.emplace_back(turn * field.displacement[face[i]]);
@@ -126,7 +131,7 @@ std::string picture(const View& view, const Eigen::Matrix3d& axes, bool solid, d
   struct Facet {
     double depth;
     int level;
-    std::string path;
+    std::array<Eigen::Vector2d, 4> corners;  // y downwards
   };
   std::vector<Facet> facets;
   Eigen::AlignedBox2d box;
@@ -140,12 +145,12 @@ std::string picture(const View& view, const Eigen::Matrix3d& axes, bool solid, d
     }
     // Seen from behind.
     if (solid && (p[2] - p[0]).cross(p[3] - p[1]).z() <= 0) continue;
-    std::string path;
+    Facet facet{depth, colour_level(stress / top), {}};
     for (std::size_t i = 0; i < 4; ++i) {
-      path += fmt::format("{}{:.2f} {:.2f}", i == 0 ? "M" : "L", p[i].x(), -p[i].y());
-      box.extend(Eigen::Vector2d(p[i].x(), -p[i].y()));
+      facet.corners[i] = {p[i].x(), -p[i].y()};
+      box.extend(facet.corners[i]);
     }
-    facets.push_back({depth, colour_level(stress / top), path + "Z"});
+    facets.push_back(facet);
   }
   if (solid)
     std::stable_sort(facets.begin(), facets.end(), [](const auto& a, const auto& b) { return a.depth < b.depth; });
@@ -158,36 +163,46 @@ std::string picture(const View& view, const Eigen::Matrix3d& axes, bool solid, d
       "aria-label=\"{}\">"
       "<g stroke-width=\"{:.3g}\" stroke-linejoin=\"round\">",
       low.x(), low.y(), size.x(), size.y(), escape(title), 0.0006 * size.x());
+  auto out = std::back_inserter(svg);
   // Neighbours of one colour in one path.
   for (std::size_t i = 0; i < facets.size();) {
-    std::string d;
     const int level = facets[i].level;
-    for (; i < facets.size() && facets[i].level == level; ++i) d += facets[i].path;
-    const auto colour = level_colour(level);
-    svg += fmt::format("<path fill=\"{0}\" stroke=\"{0}\" d=\"{1}\"/>", colour, d);
+    fmt::format_to(out, "<path fill=\"{0}\" stroke=\"{0}\" d=\"", level_colour(level));
+    for (; i < facets.size() && facets[i].level == level; ++i) {
+      const auto& [a, b, c, d] = facets[i].corners;
+      fmt::format_to(out, FMT_COMPILE("M{:.2f} {:.2f}L{:.2f} {:.2f}L{:.2f} {:.2f}L{:.2f} {:.2f}Z"), a.x(), a.y(), b.x(),
+                     b.y(), c.x(), c.y(), d.x(), d.y());
+    }
+    svg += "\"/>";
   }
   // Where the body was: the outline of a plane one.
   if (!solid) {
-    std::map<std::pair<std::array<long, 2>, std::array<long, 2>>, int> edges;
-    const auto key = [&](std::uint32_t v) {
-      return std::array<long, 2>{std::lround(view.place[v].x() * 1e8), std::lround(view.place[v].y() * 1e8)};
+    using Place = std::array<long, 2>;
+    struct Edge {
+      std::array<Place, 2> ends;  // in order
+      std::size_t number;         // of its first corner, face by face
     };
-    for (const auto& face : view.faces)
+    const auto key = [&](std::uint32_t v) {
+      return Place{std::lround(view.place[v].x() * 1e8), std::lround(view.place[v].y() * 1e8)};
+    };
+    std::vector<Edge> edges;
+    for (std::size_t f = 0; f < view.faces.size(); ++f)
       for (std::size_t i = 0; i < 4; ++i) {
-        const auto a = key(face[i]), b = key(face[(i + 1) % 4]);
-        ++edges[{std::min(a, b), std::max(a, b)}];
+        const auto a = key(view.faces[f][i]), b = key(view.faces[f][(i + 1) % 4]);
+        edges.push_back({{std::min(a, b), std::max(a, b)}, 4 * f + i});
       }
-    std::string d;
-    for (const auto& face : view.faces)
-      for (std::size_t i = 0; i < 4; ++i) {
-        const auto v = face[i], w = face[(i + 1) % 4];
-        const auto a = key(v), b = key(w);
-        if (edges[{std::min(a, b), std::max(a, b)}] != 1) continue;
-        const Eigen::Vector3d p = axes * view.place[v] / units::mm, q = axes * view.place[w] / units::mm;
-        d += fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", p.x(), -p.y(), q.x(), -q.y());
-      }
-    svg += fmt::format("<path fill=\"none\" stroke=\"#555\" stroke-opacity=\"0.55\" stroke-width=\"{:.3g}\" d=\"{}\"/>",
-                       0.0016 * size.x(), d);
+    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
+    fmt::format_to(out, "<path fill=\"none\" stroke=\"#555\" stroke-opacity=\"0.55\" stroke-width=\"{:.3g}\" d=\"",
+                   0.0016 * size.x());
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      if ((e > 0 && edges[e - 1].ends == edges[e].ends) || (e + 1 < edges.size() && edges[e + 1].ends == edges[e].ends))
+        continue;  // between two faces
+      const auto& face = view.faces[edges[e].number / 4];
+      const std::size_t i = edges[e].number % 4;
+      const Eigen::Vector3d p = axes * view.place[face[i]] / units::mm, q = axes * view.place[face[(i + 1) % 4]] / units::mm;
+      fmt::format_to(out, FMT_COMPILE("M{:.2f} {:.2f}L{:.2f} {:.2f}"), p.x(), -p.y(), q.x(), -q.y());
+    }
+    svg += "\"/>";
   }
   return svg + "</g></svg>";
 }
@@ -196,15 +211,14 @@ std::string numbers_of(const View& view, const Eigen::Matrix3d& axes, double exa
   std::string place, moved, stress, faces;
   for (std::size_t v = 0; v < view.place.size(); ++v) {
     const Eigen::Vector3d p = axes * view.place[v] / units::mm, u = axes * view.moved[v] / units::mm;
-    const char* comma = v == 0 ? "" : ",";
-    place += fmt::format("{}{:.3f},{:.3f},{:.3f}", comma, p.x(), p.y(), p.z());
-    moved += fmt::format("{}{:.4g},{:.4g},{:.4g}", comma, u.x(), u.y(), u.z());
-    stress += fmt::format("{}{:.4g}", comma, view.stress[v] / MPa);
+    fmt::format_to(std::back_inserter(place), FMT_COMPILE("{:.3f},{:.3f},{:.3f},"), p.x(), p.y(), p.z());
+    fmt::format_to(std::back_inserter(moved), FMT_COMPILE("{:.4g},{:.4g},{:.4g},"), u.x(), u.y(), u.z());
+    fmt::format_to(std::back_inserter(stress), FMT_COMPILE("{:.4g},"), view.stress[v] / MPa);
   }
-  for (std::size_t f = 0; f < view.faces.size(); ++f) {
-    const auto& q = view.faces[f];
-    faces += fmt::format("{}{},{},{},{}", f == 0 ? "" : ",", q[0], q[1], q[2], q[3]);
-  }
+  for (const auto& q : view.faces)
+    fmt::format_to(std::back_inserter(faces), FMT_COMPILE("{},{},{},{},"), q[0], q[1], q[2], q[3]);
+  for (auto* list : {&place, &moved, &stress, &faces})
+    if (!list->empty()) list->pop_back();  // the last comma
   std::string colours;
   for (int level = 0; level < colour_levels; ++level)
     colours += fmt::format("{}\"{}\"", level == 0 ? "" : ",", level_colour(level));

@@ -41,6 +41,16 @@ double FlankContact::wheel_tooth_angle(double contact_roll) const {
   return turned - alpha + (pair_.internal() ? wheel_base_half_angle_ : -wheel_base_half_angle_);
 }
 
+double FlankContact::guessed_opposite(double planet_roll, double contact_roll) const {
+  // As far from the contact along the flank as on the planet; arcs of involutes are roll^2 / (2 base radius).
+  const double wheel_contact = pair_.wheel_roll_length(contact_roll), sense = pair_.internal() ? 1 : -1;
+  const double squared =
+      wheel_contact * wheel_contact + sense * pair_.wheel().base_radius() / pair_.planet().base_radius() *
+                                          (planet_roll * planet_roll - contact_roll * contact_roll);
+  if (contact_roll <= 0 || wheel_contact <= 0 || squared <= 0) return pair_.wheel_roll_length(planet_roll);
+  return std::sqrt(squared);
+}
+
 std::pair<double, double> FlankContact::opposite(double planet_roll, double contact_roll) const {
   const double planet_angle = planet_tooth_angle(contact_roll);
   const Eigen::Rotation2Dd turn(wheel_tooth_angle(contact_roll) - planet_angle);
@@ -61,25 +71,37 @@ std::pair<double, double> FlankContact::opposite(double planet_roll, double cont
     const Eigen::Vector2d tangent = turn * Eigen::Vector2d(place.normal.y(), -side * place.normal.x());
     return {distance, cross(distance, along), cross(tangent, along)};
   };
+  const auto newton = [&](double roll) {
+    const auto here = seen(roll);
+    return std::pair(roll - here.across / (here.slope * roll / base), here.across);
+  };
+  constexpr double same = 1e-15;  // of the base radius
   // Both normals turn by roll / base radius. While they are less than a right angle from being opposed, the distance
-  // from the planet's normal grows (or falls) with the wheel's roll: that brackets the opposite point.
+  // from the planet's normal grows (or falls) with the wheel's roll: that brackets the opposite point, and there is one.
   const double opposed =
       pair_.wheel_roll_length(contact_roll) + (planet_roll - contact_roll) * base / pair_.planet().base_radius();
   double low = std::max(0.0, opposed - 1.5 * base), high = opposed + 1.5 * base;
   if (high <= low) return {0, 0};
+  double roll = std::clamp(guessed_opposite(planet_roll, contact_roll), low, high);
+  // Mostly the first steps find it, without looking at the ends.
+  constexpr int quick_steps = 8;
+  for (int step = 0; step < quick_steps && roll > low && roll < high; ++step) {
+    const double next = newton(roll).first, change = std::abs(next - roll);
+    roll = next;
+    if (change < same * base && roll > low && roll < high) return {roll, seen(roll).distance.dot(normal)};
+  }
   const auto at_high = seen(high);
   const double sense = at_high.slope > 0 ? 1 : -1;
   if (sense * seen(low).across >= 0) return {0, 0};
   if (sense * at_high.across <= 0) return {std::numeric_limits<double>::infinity(), 0};
-  double roll = std::clamp(pair_.wheel_roll_length(planet_roll), low, high);
+  if (!(roll > low && roll < high)) roll = (low + high) / 2;
   for (int step = 0; step < 200; ++step) {
-    const auto here = seen(roll);
-    (sense * here.across > 0 ? high : low) = roll;
-    double next = roll - here.across / (here.slope * roll / base);
+    auto [next, across] = newton(roll);
+    (sense * across > 0 ? high : low) = roll;
     if (!(next > low && next < high)) next = (low + high) / 2;
     const double change = std::abs(next - roll);
     roll = next;
-    if (change < 1e-15 * base) break;
+    if (change < same * base) break;
   }
   return {roll, seen(roll).distance.dot(normal)};
 }

@@ -54,6 +54,8 @@ class FlankContact {
  private:
   /// Wheel roll and distance of the unmodified flanks; roll 0 (below the base circle) or infinity: no opposite point.
   [[nodiscard]] std::pair<double, double> opposite(double planet_roll, double contact_roll) const;
+  /// Where to begin looking for it.
+  [[nodiscard]] double guessed_opposite(double planet_roll, double contact_roll) const;
 
   geometry::GearPair pair_;
   geometry::ToothProfile planet_, wheel_;

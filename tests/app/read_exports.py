@@ -186,14 +186,23 @@ def check_vtu(path):
     """A field: sizes, and von Mises' stress of the tensor that stands beside it."""
     piece = xml.etree.ElementTree.parse(path).getroot().find("UnstructuredGrid/Piece")
     points, cells = int(piece.get("NumberOfPoints")), int(piece.get("NumberOfCells"))
-    data = {}
-    for array in piece.find("PointData"):
-        assert array.get("type") == "Float32" and array.get("format") == "binary"
+    kinds = {"Float64": "<f8", "Float32": "<f4", "Int64": "<i8", "Int32": "<i4", "UInt8": "u1"}
+
+    def read(array):
+        assert array.get("format") == "binary"
         raw = base64.b64decode(array.text.strip(), validate=True)
         assert int.from_bytes(raw[:4], "little") == len(raw) - 4
-        data[array.get("Name")] = numpy.frombuffer(raw[4:], dtype="<f4").reshape(points, -1).astype(float)
-    connectivity = numpy.array(piece.find("Cells/DataArray[@Name='connectivity']").text.split(), dtype=int)
-    assert connectivity.size % cells == 0 and connectivity.min() == 0 and connectivity.max() == points - 1
+        return numpy.frombuffer(raw[4:], dtype=kinds[array.get("type")])
+
+    data = {a.get("Name"): read(a).reshape(points, -1).astype(float) for a in piece.find("PointData")}
+    places = read(piece.find("Points/DataArray")).reshape(points, 3)
+    assert numpy.isfinite(places).all() and 1e-3 < numpy.linalg.norm(places, axis=1).max() < 1
+    connectivity, offsets, types = (read(piece.find(f"Cells/DataArray[@Name='{n}']")) for n in ("connectivity", "offsets", "types"))
+    corners = {9: 4, 12: 8}[int(types[0])]  # quadrilaterals or hexahedra
+    assert len(types) == cells and (types == types[0]).all()
+    assert (offsets == corners * numpy.arange(1, cells + 1)).all()
+    assert connectivity.size == corners * cells and connectivity.min() == 0 and connectivity.max() == points - 1
+    assert len(read(piece.find("CellData/DataArray[@Name='region']"))) == cells
     xx, yy, zz, xy, yz, zx = data["stress_xx_yy_zz_xy_yz_zx_Pa"].T
     mises = numpy.sqrt(((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) / 2 + 3 * (xy**2 + yz**2 + zx**2))
     assert numpy.allclose(mises, data["von_mises_Pa"][:, 0], rtol=1e-5, atol=1e-5 * mises.max())

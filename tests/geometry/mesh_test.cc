@@ -3,7 +3,9 @@
 #include <gmsh.h>
 
 #include <Eigen/Geometry>
+#include <boost/beast/core/detail/base64.hpp>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <numbers>
 #include <random>
@@ -368,6 +370,22 @@ BOOST_AUTO_TEST_CASE(written_msh_reads_back) {
   BOOST_TEST(files == 1);  // no temporary file is left behind
 }
 
+/// The numbers of an array of a VTU file, decoded by Boost.Beast.
+template <class Number>
+std::vector<Number> array_of(const std::string& text, const std::string& name) {
+  namespace base64 = boost::beast::detail::base64;
+  const auto begin = text.find('>', text.find("Name=\"" + name + "\"")) + 2;
+  const auto digits = text.substr(begin, text.find('\n', begin) - begin);
+  std::string raw(base64::decoded_size(digits.size()), '\0');
+  raw.resize(base64::decode(raw.data(), digits.data(), digits.size()).first);
+  std::uint32_t bytes = 0;
+  std::memcpy(&bytes, raw.data(), sizeof(bytes));
+  BOOST_REQUIRE(bytes == raw.size() - sizeof(bytes));
+  std::vector<Number> values(bytes / sizeof(Number));
+  std::memcpy(values.data(), raw.data() + sizeof(bytes), bytes);
+  return values;
+}
+
 BOOST_AUTO_TEST_CASE(written_vtu_holds_the_cells) {
   const TemporaryFolder folder;
   const Mesh plane = ring_sector();
@@ -375,18 +393,18 @@ BOOST_AUTO_TEST_CASE(written_vtu_holds_the_cells) {
   const std::string s = read_file(folder.path / "sector.vtu");
   BOOST_TEST(s.find("NumberOfPoints=\"" + std::to_string(plane.vertices.size()) + "\" NumberOfCells=\"" +
                     std::to_string(plane.cells.size()) + "\"") != std::string::npos);
-  const auto values = [&](const std::string& name) {
-    const auto begin = s.find('>', s.find("Name=\"" + name + "\"")) + 1;
-    std::istringstream data(s.substr(begin, s.find('<', begin) - begin));
-    std::vector<long> result;
-    for (long v = 0; data >> v;) result.push_back(v);
-    return result;
-  };
-  BOOST_TEST(values("connectivity").size() == 4 * plane.cells.size());
-  BOOST_TEST(values("offsets").back() == static_cast<long>(4 * plane.cells.size()));
-  BOOST_TEST(values("types").front() == 9);  // VTK_QUAD
-  BOOST_TEST(values("region").size() == plane.cells.size());
-  BOOST_TEST(values("region").front() == static_cast<long>(plane.regions.front()));
+  const auto connectivity = array_of<std::int64_t>(s, "connectivity"), offsets = array_of<std::int64_t>(s, "offsets");
+  BOOST_TEST(connectivity.size() == 4 * plane.cells.size());
+  BOOST_TEST(offsets.back() == static_cast<long>(4 * plane.cells.size()));
+  BOOST_TEST(static_cast<int>(array_of<std::uint8_t>(s, "types").front()) == 9);  // VTK_QUAD
+  const auto points = array_of<double>(s, "Points");
+  const std::size_t last = plane.vertices.size() - 1;
+  BOOST_TEST(points.size() == 3 * plane.vertices.size());
+  for (std::size_t i = 0; i < 3; ++i) BOOST_TEST(points[3 * last + i] == plane.vertices[last][static_cast<long>(i)]);
+  BOOST_TEST(connectivity.back() == static_cast<long>(plane.cells.back()[3]));
+  const auto regions = array_of<std::int32_t>(s, "region");
+  BOOST_TEST(regions.size() == plane.cells.size());
+  BOOST_TEST(regions.front() == static_cast<int>(plane.regions.front()));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
