@@ -13,18 +13,20 @@ double plane_strain_error(const LoadedMeshProblem& problem) {
   return 0.65 * nu * nu / (1 - nu * nu) / (1 + width / 10);
 }
 
+double most_left_over(int degree) {
+  // Linear elements approach their limit with the first power of the cell size: what is left of them at a ratio of 1.5
+  // is twice the difference. Near singular edges of a support the error of others falls little faster than that, and
+  // the difference is about the error itself; where the contact dominates it falls at least with the square.
+  return degree == 1 ? 1 / (level_ratio - 1) : 1;
+}
+
 namespace {
 
 /// The error of the finer of two levels over their difference.
 double left_over(int degree, double difference, std::optional<double> before) {
-  // Linear elements approach their limit with the first power of the cell size: what is left of them at a ratio of 1.5
-  // is twice the difference.
-  if (degree == 1) return 1 / (level_ratio - 1);
-  // Near singular edges of a support the error falls little faster than that, and the difference is about the error
-  // itself; where the contact dominates it falls at least with the square. Two differences tell: the next ones are
-  // taken to shrink as these did, and no faster than with the cube.
-  constexpr double most = 1;
-  if (!before) return most;
+  const double most = most_left_over(degree);
+  // Two differences tell: the next ones are taken to shrink as these did, and no faster than with the cube.
+  if (degree == 1 || !before) return most;
   const double least = 1 / (std::pow(level_ratio, 3) - 1);
   const double ratio = difference / *before;
   return ratio < 0.5 ? std::max(least, ratio / (1 - ratio)) : most;

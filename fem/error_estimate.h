@@ -13,6 +13,9 @@ namespace annulus::fem {
 /// by nu^2 / (1 - nu^2) = 9.9 %. 0.65 of that, falling with the width in units of ten modules, lies above.
 [[nodiscard]] double plane_strain_error(const LoadedMeshProblem& problem);
 
+/// The error of the finer of two levels is at most about so much of their difference.
+[[nodiscard]] double most_left_over(int degree);
+
 /// What two successive levels tell; relative to the stiffness, the largest of all positions at the middle load.
 struct LevelErrors {
   double worst = 0;       ///< estimated error, without what the rung leaves out: what the wanted accuracy is about

@@ -63,14 +63,16 @@ FieldRecovery::FieldRecovery(const GearBody& body, const BodySource& source, con
     for (const int row : *side) in.place[row] = -1;
   for (auto& p : in.place)
     if (p == 0) p = in.size++;
-  std::vector<Eigen::Triplet<double>> entries;
+  // Rows keep their order: every column is copied without those on the cuts.
+  Eigen::SparseMatrix<double> inner(in.size, in.size);
+  inner.reserve(model_.stiffness.nonZeros());
   for (int column = 0; column < model_.stiffness.outerSize(); ++column) {
     if (in.place[column] < 0) continue;
+    inner.startVec(in.place[column]);
     for (Eigen::SparseMatrix<double>::InnerIterator it(model_.stiffness, column); it; ++it)
-      if (in.place[it.row()] >= 0) entries.emplace_back(in.place[it.row()], in.place[column], it.value());
+      if (in.place[it.row()] >= 0) inner.insertBack(in.place[it.row()], in.place[column]) = it.value();
   }
-  Eigen::SparseMatrix<double> inner(in.size, in.size);
-  inner.setFromTriplets(entries.begin(), entries.end());
+  inner.finalize();
   in.factor.compute(inner);
   if (in.factor.info() != Eigen::Success) throw SolverError("the stiffness of a tooth is not positive definite");
 }

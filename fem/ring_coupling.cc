@@ -9,6 +9,7 @@
 #include "core/errors.h"
 #include "fem/body_plan.h"
 #include "fem/contact/flank_contact.h"
+#include "fem/error_estimate.h"
 #include "fem/resolution.h"
 #include "fem/ring_flexibility.h"
 #include "fem/ring_on_supports.h"
@@ -103,7 +104,7 @@ Level solve_level(const LoadedMeshProblem& problem, const std::vector<double>& t
   options.store = settings.store.get();
   if (plan) options.arcs = plan->arcs();
   const RingFlexibility ring = make_ring_flexibility(
-      body, solid ? solid_resolution(level, settings.degree) : plane_resolution(profile.gear(), level),
+      body, solid ? solid_resolution(level, settings.degree) : plane_resolution(profile.gear(), level, settings.degree),
       problem.material, options);
 
   Level result;
@@ -202,16 +203,16 @@ SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, const s
   Level level = solve_level(problem, teeth_ahead, load, settings, settings.level);
 
   SolvedRingCoupling result;
-  // As for the stiffness: the error falls with at least the first power of the cell size, so that the difference of two
-  // levels is about the error or more.
+  const double left = most_left_over(settings.degree);
   for (std::size_t i = 0; i < level.compliance.size(); ++i)
     result.compliance_error =
-        std::max(result.compliance_error, (level.compliance[i] - coarser.compliance[i]).cwiseAbs().maxCoeff());
+        std::max(result.compliance_error, left * (level.compliance[i] - coarser.compliance[i]).cwiseAbs().maxCoeff());
   for (std::size_t k = 0; k < std::min(level.modes.size(), coarser.modes.size()); ++k)
     result.frequency_error_relative =
-        std::max(result.frequency_error_relative, std::abs(coarser.modes[k].frequency / level.modes[k].frequency - 1));
+        std::max(result.frequency_error_relative,
+                 left * std::abs(coarser.modes[k].frequency / level.modes[k].frequency - 1));
   result.own_compliance = level.own;
-  result.teeth_compliance_error = (level.teeth - coarser.teeth).cwiseAbs().maxCoeff();
+  result.teeth_compliance_error = left * (level.teeth - coarser.teeth).cwiseAbs().maxCoeff();
   result.teeth_compliance = std::move(level.teeth);
   result.unknowns = level.unknowns;
   result.reused_teeth = (coarser.reused ? 1 : 0) + (level.reused ? 1 : 0);

@@ -49,7 +49,7 @@ CostRun coupling_size(const MeshModel& model, int threads) {
   size.threads = threads;
   auto settings = model.settings;
   if (settings.rung == fem::Rung::closed_form) settings.rung = fem::Rung::plane;
-  settings.degree = 2;
+  size.degree = settings.degree = model.coupling_degree;
   settings.symmetry = false;  // a ring's modes need not be symmetric
   // On single supports every ring position is a system of its own.
   size.unknowns = fem::estimated_unknowns(*model.problem, settings, 1) * (supported ? model.positions : 1);

@@ -96,9 +96,11 @@ void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
   model.phases = std::move(table.phases_reason);
   model.loads = std::move(table.loads_reason);
   prefer_formulas(model, scene);
-  if (model.settings.rung == fem::Rung::closed_form) return;
-  auto elements = element_choice(model.settings.rung, scene.accuracy, hard_for_linear(*model.problem),
-                                 unfit_for_linear(*model.problem));
+  const bool formulas = model.settings.rung == fem::Rung::closed_form;
+  auto elements = element_choice(formulas ? fem::Rung::plane : model.settings.rung, scene.accuracy,
+                                 hard_for_linear(*model.problem), unfit_for_linear(*model.problem));
+  model.coupling_degree = elements.degree;
+  if (formulas) return;
   model.settings.degree = elements.degree;
   model.elements = std::move(elements.reason);
 }

@@ -38,6 +38,7 @@ struct MeshModel {
   int positions = 1;                                ///< ring positions after which the mesh repeats
   std::string repeats{};                            ///< why so many
   std::string elements{};                           ///< why elements of this degree
+  int coupling_degree = 2;                          ///< of the elements that tell how ring meshes act on each other
   std::string phases{};                             ///< why so many positions per mesh cycle
   std::string loads{};                              ///< why so many loads
   std::optional<fem::LoadedMeshProblem> problem{};  ///< absent when the stiffness is given

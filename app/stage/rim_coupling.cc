@@ -46,7 +46,7 @@ std::vector<double> places_on_ring(const GearGeometry& geometry, const RingInput
 std::string coupling_id(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
                         const RingInput& ring) {
   ContentId id;
-  id.add("mesh", model.id()).add("level", coupling_level);
+  id.add("mesh", model.id()).add("level", coupling_level).add("degree", model.coupling_degree);
   for (const double teeth : places_on_ring(geometry, ring)) id.add("planet", teeth);
   id.add("load", geometry.operating_point.mean_mesh_force).add("highest", highest_frequency(geometry, ring));
   id.add("density", scene.material.density);
@@ -176,6 +176,7 @@ SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, 
   const auto& ring = ring_of(scene, model);
   fem::RingCouplingSettings settings;
   settings.level = coupling_level;
+  settings.degree = model.coupling_degree;
   settings.threads = options.threads;
   settings.store = options.store;
   settings.modes.highest_frequency = highest_frequency(geometry, ring);
