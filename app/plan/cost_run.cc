@@ -60,8 +60,8 @@ CostRun cost_run(const std::vector<std::string>& cells) {
   run.contact_s = cost_number(cells[11]);
   run.peak_MB = cost_number(cells[12]);
   run.supports = cost_number(cells[13]);
-  if (run.threads < 1 || run.levels < 1 || run.levels > 20 || run.seconds() <= 0)
-    throw InputError("threads, levels and time must be above zero");
+  if (run.threads < 1 || run.levels < 1 || run.levels > 20 || (run.seconds() <= 0 && run.peak_MB <= 0))
+    throw InputError("threads and levels, and time or memory, must be above zero");
   return run;
 }
 

@@ -70,10 +70,11 @@ dynamics::TwoKVStage rough_two_k_v(const Scene& scene) {
     mesh->stiffness = StiffnessShape::constant;
     mesh->mean = mean;
   }
-  const MeshResult none{
-      .model = {},
-      .table = StiffnessTable("sun_planet", 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
-  return make_two_k_v(rough, {none, none}, dynamics::LoadDependence::nominal);
+  const auto none = [](const char* mesh) {
+    return MeshResult{.model = {},
+                      .table = StiffnessTable(mesh, 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
+  };
+  return make_two_k_v(rough, {none("sun_planet"), none("arc_pins")}, dynamics::LoadDependence::nominal);
 }
 
 std::vector<std::string> stiff_parts(const Scene& scene) {

@@ -56,6 +56,12 @@ BOOST_AUTO_TEST_CASE(the_laws_reproduce_the_kept_runs) {
   std::map<std::string, double> worst_kind;
   for (const auto& run : app::kept_cost_runs()) {
     const auto predicted = model.predict(run);
+    if (run.peak_MB > 0) {
+      const double memory = std::abs(std::log(predicted.peak_MB / run.peak_MB));
+      BOOST_TEST(memory < std::log(1.6), run.kind << " " << run.unknowns << " unknowns: " << predicted.peak_MB);
+      worst_memory = std::max(worst_memory, std::exp(memory));
+    }
+    if (run.seconds() == 0) continue;  // only its memory was measured
     const double miss = std::abs(std::log(predicted.seconds / run.seconds()));
     // The same step took up to 1.7 times as long when the machine was busy: 2 for a single run.
     BOOST_TEST(miss < std::log(2.0), run.kind << " level " << run.level << " of " << run.unknowns
@@ -64,11 +70,6 @@ BOOST_AUTO_TEST_CASE(the_laws_reproduce_the_kept_runs) {
     misses.push_back(miss);
     auto& worst_of_kind = worst_kind.try_emplace(run.kind, 1.0).first->second;
     worst_of_kind = std::max(worst_of_kind, std::exp(miss));
-    if (run.peak_MB > 0) {
-      const double memory = std::abs(std::log(predicted.peak_MB / run.peak_MB));
-      BOOST_TEST(memory < std::log(1.6), run.kind << " " << run.unknowns << " unknowns: " << predicted.peak_MB);
-      worst_memory = std::max(worst_memory, std::exp(memory));
-    }
   }
   BOOST_REQUIRE(misses.size() > 50);
   std::ranges::sort(misses);

@@ -40,7 +40,7 @@ bool has(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-const std::string mesh = "ring-planet mesh of 'held'", dynamics_of = "dynamics of 'held'";
+const std::string mesh_of_ring = "ring-planet mesh of 'held'", dynamics_of = "dynamics of 'held'";
 
 }  // namespace
 
@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(a_second_run_computes_nothing) {
   const test::TemporaryFolder folder("reuse_second");
   const auto text = pinned_scene() + "[[sweep]]\ninput = \"supports.sun_N_per_m\"\nvalues = [1e7, 2e7]\n";
   const auto first = run_text(text, folder.path());
-  BOOST_TEST(has(first.reuse->computed(), mesh));
+  BOOST_TEST(has(first.reuse->computed(), mesh_of_ring));
   BOOST_TEST(has(first.reuse->computed(), dynamics_of));
   BOOST_TEST(first.reuse->reused().empty());
   BOOST_TEST(first.reuse->counted(app::condensed_teeth).computed > 0);
@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(a_second_run_computes_nothing) {
 
   std::ifstream in(folder.path() / "summary.json");
   const auto json = nlohmann::json::parse(in)["reuse"];
-  BOOST_TEST(has(json["reused"].get<Names>(), mesh));
+  BOOST_TEST(has(json["reused"].get<Names>(), mesh_of_ring));
   BOOST_TEST(json["computed"].empty());
   BOOST_TEST(json["counts"][app::study_responses]["reused"] == 2);
 }
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(an_input_of_the_dynamics_solves_no_mesh) {
                                  {"sun_N_per_m = 1e7", "sun_N_per_m = 3e7"},
                                  {"planet_installation_um = [15", "planet_installation_um = [25"}}) {
     const auto changed = run_text(test::replaced(pinned_scene(), what, by), folder.path());
-    BOOST_TEST(has(changed.reuse->reused(), mesh), by);
+    BOOST_TEST(has(changed.reuse->reused(), mesh_of_ring), by);
     BOOST_TEST(has(changed.reuse->computed(), dynamics_of), by);
     BOOST_TEST(changed.reuse->counted(app::condensed_teeth).computed == 0, by);
     BOOST_TEST(changed.reuse->counted(app::condensed_teeth).reused == 0, by);  // not even asked for
@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(other_pins_condense_no_tooth) {
         {"structure = \"pinned\"", "structure = \"bolted\"\npin_radial_stiffness_N_per_m = 4e9"}}) {
     const auto text = test::replaced(pinned_scene(), what, by);
     const auto changed = run_text(text, folder.path());
-    BOOST_TEST(has(changed.reuse->computed(), mesh), by);
+    BOOST_TEST(has(changed.reuse->computed(), mesh_of_ring), by);
     BOOST_TEST(changed.reuse->counted(app::condensed_teeth).computed == 0, by);
     BOOST_TEST(changed.reuse->counted(app::condensed_teeth).reused > 0, by);
     const auto alone_in = fresh.path() / std::to_string(case_number++);
