@@ -208,9 +208,8 @@ SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, const s
     result.compliance_error =
         std::max(result.compliance_error, left * (level.compliance[i] - coarser.compliance[i]).cwiseAbs().maxCoeff());
   for (std::size_t k = 0; k < std::min(level.modes.size(), coarser.modes.size()); ++k)
-    result.frequency_error_relative =
-        std::max(result.frequency_error_relative,
-                 left * std::abs(coarser.modes[k].frequency / level.modes[k].frequency - 1));
+    result.frequency_error_relative = std::max(
+        result.frequency_error_relative, left * std::abs(coarser.modes[k].frequency / level.modes[k].frequency - 1));
   result.own_compliance = level.own;
   result.teeth_compliance_error = left * (level.teeth - coarser.teeth).cwiseAbs().maxCoeff();
   result.teeth_compliance = std::move(level.teeth);

@@ -199,7 +199,8 @@ std::string picture(const View& view, const Eigen::Matrix3d& axes, bool solid, d
         continue;  // between two faces
       const auto& face = view.faces[edges[e].number / 4];
       const std::size_t i = edges[e].number % 4;
-      const Eigen::Vector3d p = axes * view.place[face[i]] / units::mm, q = axes * view.place[face[(i + 1) % 4]] / units::mm;
+      const Eigen::Vector3d p = axes * view.place[face[i]] / units::mm,
+                            q = axes * view.place[face[(i + 1) % 4]] / units::mm;
       fmt::format_to(out, FMT_COMPILE("M{:.2f} {:.2f}L{:.2f} {:.2f}"), p.x(), -p.y(), q.x(), -q.y());
     }
     svg += "\"/>";

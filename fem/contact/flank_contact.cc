@@ -44,9 +44,9 @@ double FlankContact::wheel_tooth_angle(double contact_roll) const {
 double FlankContact::guessed_opposite(double planet_roll, double contact_roll) const {
   // As far from the contact along the flank as on the planet; arcs of involutes are roll^2 / (2 base radius).
   const double wheel_contact = pair_.wheel_roll_length(contact_roll), sense = pair_.internal() ? 1 : -1;
-  const double squared =
-      wheel_contact * wheel_contact + sense * pair_.wheel().base_radius() / pair_.planet().base_radius() *
-                                          (planet_roll * planet_roll - contact_roll * contact_roll);
+  const double squared = wheel_contact * wheel_contact + sense * pair_.wheel().base_radius() /
+                                                             pair_.planet().base_radius() *
+                                                             (planet_roll * planet_roll - contact_roll * contact_roll);
   if (contact_roll <= 0 || wheel_contact <= 0 || squared <= 0) return pair_.wheel_roll_length(planet_roll);
   return std::sqrt(squared);
 }
@@ -77,7 +77,8 @@ std::pair<double, double> FlankContact::opposite(double planet_roll, double cont
   };
   constexpr double same = 1e-15;  // of the base radius
   // Both normals turn by roll / base radius. While they are less than a right angle from being opposed, the distance
-  // from the planet's normal grows (or falls) with the wheel's roll: that brackets the opposite point, and there is one.
+  // from the planet's normal grows (or falls) with the wheel's roll: that brackets the opposite point, and there is
+  // one.
   const double opposed =
       pair_.wheel_roll_length(contact_roll) + (planet_roll - contact_roll) * base / pair_.planet().base_radius();
   double low = std::max(0.0, opposed - 1.5 * base), high = opposed + 1.5 * base;

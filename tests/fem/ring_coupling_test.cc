@@ -538,8 +538,8 @@ BOOST_AUTO_TEST_CASE(the_error_estimate_covers_the_error) {
       }
       const double teeth = largest(coarse.teeth_compliance - fine.teeth_compliance);
       BOOST_TEST_MESSAGE("degree " << degree << ": error " << worst << ", estimate " << coarse.compliance_error
-                                   << ", largest entry " << scale << ", own " << fine.own_compliance << ", teeth " << teeth
-                                   << ", estimate " << coarse.teeth_compliance_error);
+                                   << ", largest entry " << scale << ", own " << fine.own_compliance << ", teeth "
+                                   << teeth << ", estimate " << coarse.teeth_compliance_error);
       record.at_most(degree == 1 ? "true over stated error, linear" : "true over stated error", "",
                      worst / coarse.compliance_error, 1, "stated error");
       BOOST_TEST(teeth < coarse.teeth_compliance_error);
