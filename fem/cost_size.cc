@@ -80,6 +80,8 @@ int last_level(Rung rung) {
   return last_solid_level;
 }
 
+int last_linear_level(const LoadedMeshProblem& problem) { return problem.pair.planet().helix_angle() != 0 ? 2 : 1; }
+
 double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
   if (settings.rung == Rung::closed_form) return 0;
   const bool solid = settings.rung == Rung::solid || settings.rung == Rung::resolved_solid;

@@ -7,6 +7,10 @@ namespace annulus::fem {
 
 /// Finest level of resolution a rung has; 0 for the closed form.
 [[nodiscard]] int last_level(Rung rung);
+/// Finest level of linear elements, after which quadratic ones follow. In the plane refined linear elements cost as
+/// much as quadratic ones of the first level, which are better by far; of helical teeth quadratic solids cost ten times
+/// as much.
+[[nodiscard]] int last_linear_level(const LoadedMeshProblem& problem);
 
 /// Freedoms of the two sectors at a level (LoadedMeshResult::unknowns): exact to a per cent in the plane, an estimate
 /// for solid bodies, whose sleeves, hoops and flanges are counted by their share of the section. Of the

@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "fem/closed_form/closed_form_mesh.h"
+#include "fem/cost_size.h"
 #include "fem/error_estimate.h"
 #include "fem/level.h"
 #include "fem/problem_check.h"
@@ -14,9 +15,6 @@
 
 namespace annulus::fem {
 namespace {
-
-/// Refined, linear elements cost as much as quadratic ones of the first level, which are better by far.
-constexpr int last_linear_level = 1;
 
 /// Teeth after which the structure of the wheel repeats.
 int repeating_teeth(const LoadedMeshProblem& problem) {
@@ -83,7 +81,7 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
         estimate_errors(problem, settings, solved.contact_error, coarser.positions, solved.positions, difference);
     worst = errors.worst, difference = errors.difference;
     if (settings.level || worst <= settings.accuracy) break;
-    if (settings.degree == 1 && level >= last_linear_level) {
+    if (settings.degree == 1 && level >= last_linear_level(problem)) {
       settings.degree = 2;
       coarser = solve_level(0, LevelUse::comparison);
       level = 0, difference.reset();

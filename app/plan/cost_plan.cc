@@ -158,12 +158,16 @@ std::string cost_kind(const MeshModel& model) {
 
 CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs) {
   auto settings = model.settings;
-  const int last = fem::last_level(settings.rung);
+  int last = fem::last_level(settings.rung);
   CostRun size;
   size.kind = cost_kind(model);
-  // Quadratic elements follow where the first level of linear ones does not do.
-  if (settings.degree == 1 && !settings.level && costs.expected_error(size.kind, 1, 1) > settings.accuracy)
-    settings.degree = 2;
+  if (settings.degree == 1 && !settings.level) {
+    const int last_linear = fem::last_linear_level(*model.problem);
+    if (costs.expected_error(size.kind, 1, last_linear) > settings.accuracy)
+      settings.degree = 2;  // they follow where linear ones do not do
+    else
+      last = last_linear;
+  }
   size.degree = settings.degree;
   size.level = std::clamp(
       settings.level.value_or(costs.expected_level(size.kind, size.degree, settings.accuracy, last)), 0, last);
