@@ -88,9 +88,9 @@ BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const Co
       if (cheapest.empty() || cost.seconds() <= cheapest.seconds()) cheapest = cost, cheapest_accuracy = accuracy;
       continue;
     }
-    auto sentence =
-        fmt::format("budget {}: buys a mesh stiffness within {:g} % (expected error {:.2g} %); predicted {}",
-                    duration_text(budget), 100 * accuracy, 100 * cost.expected_error(), figures_text(cost));
+    auto sentence = fmt::format(
+        "budget {}: buys a mesh stiffness within {:g} % of its model (expected error {:.2g} %); predicted {}",
+        duration_text(budget), 100 * accuracy, 100 * cost.expected_error(), figures_text(cost));
     return {std::move(fitted), std::move(cost), std::move(sentence)};
   }
   require(!cheapest.empty(), "no accuracy is within reach of the finest level");

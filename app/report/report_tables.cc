@@ -71,7 +71,8 @@ std::string factor_sentence(const RingQuantity& q) {
   const auto rings = sorted(q);
   std::vector<std::string> words;
   words.reserve(rings.size());
-  for (const auto& r : rings) words.push_back(fmt::format("{} with <b>{}</b>", to_text(r.value, 4), escape(r.ring)));
+  for (const auto& r : rings)
+    words.push_back(measured(r.value, r.error) + (rings.size() > 1 ? " with <b>" + escape(r.ring) + "</b>" : ""));
   return fmt::format("<p>Dynamic factor ({}): {}.</p>\n", q.name.substr(q.name.find(',') + 2), enumerate(words));
 }
 
@@ -255,8 +256,7 @@ std::string key_figures_section(const RunResult& result) {
 }
 
 std::string comparison_section(const RunResult& result) {
-  if (!result.reference)
-    return "<h2 id=\"comparison\">Comparison with the source</h2>\n<p>The scene names no published results.</p>\n";
+  if (!result.reference) return {};
   const auto& reference = *result.reference;
   std::string text = "<h2 id=\"comparison\">Comparison with the source</h2>\n<p>" + escape(reference.source);
   if (!reference.doi.empty()) text += ", doi:" + escape(reference.doi);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
@@ -107,6 +108,24 @@ BOOST_AUTO_TEST_CASE(deformed_bodies_can_be_turned) {
   BOOST_TEST(used["bodies"].get<int>() >= 4);  // planet and wheel of both meshes
   for (const char* what : {"shown", "turned", "undeformed"})
     BOOST_TEST(used[what].get<int>() == used["bodies"].get<int>(), what << ": " << used.dump());
+
+  // In pixels, whatever the unit of the picture: width and height stand behind the signature of a PNG file.
+  int bodies = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out" / "pictures")) {
+    if (entry.path().string().find("_fields_") == std::string::npos) continue;
+    ++bodies;
+    const auto drawn =
+        test::run_program(folder.path(), "export '" + entry.path().string() + "' --to png -o picture.png");
+    BOOST_TEST(drawn.status == 0, drawn.err);
+    const std::string png = read_file(folder.path() / "picture.png");
+    const auto pixels = [&](std::size_t at) {
+      int value = 0;
+      for (std::size_t i = 0; i < 4; ++i) value = 256 * value + static_cast<unsigned char>(png.at(at + i));
+      return value;
+    };
+    BOOST_TEST(std::max(pixels(16), pixels(20)) >= 1600);
+  }
+  BOOST_TEST(bodies == 4);
 
   // Their files, read by Python.
   int fields = 0;
