@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iostream>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "core/files.h"
@@ -33,6 +34,11 @@ void write(const Arguments& a) {
   for (const auto& [name, record] : records)
     for (std::size_t i = 0; i < record.pictures.size(); ++i)
       std::ofstream(pictures / picture_name(name, i)) << picture_svg(record.pictures[i]);
+  std::set<std::pair<std::string, std::string>> suites;
+  for (const auto& c : cases) suites.emplace(c.name.layer, c.name.suite);
+  for (const auto& [layer, suite] : suites)
+    if (const auto found = records_of(layer, suite, cases, records); !found.empty())
+      std::ofstream(pictures / tolerances_name(layer, suite)) << tolerances_svg(found);
   std::ofstream(a.docs / "verification.md") << page(annulus::read_file(a.introduction), cases, records);
 }
 

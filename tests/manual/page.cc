@@ -94,6 +94,21 @@ std::string picture_name(const CaseName& name, std::size_t number) {
                      number == 0 ? "" : fmt::format("_{}", number + 1));
 }
 
+std::string tolerances_name(const std::string& layer, const std::string& suite) {
+  return fmt::format("{}.{}.tolerances.svg", layer, suite);
+}
+
+std::vector<const Record*> records_of(const std::string& layer, const std::string& suite,
+                                      const std::vector<ListedCase>& cases, const Records& records) {
+  std::vector<const Record*> found;
+  for (const auto& c : cases) {
+    const auto record = records.find(c.name);
+    if (c.name.layer == layer && c.name.suite == suite && record != records.end() && !record->second.rows.empty())
+      found.push_back(&record->second);
+  }
+  return found;
+}
+
 std::string case_section(const CaseName& name, const Record& record) {
   std::string text = fmt::format("**{}** (`{}`)  \nReference: {}\n", record.title, name.text(), record.reference);
   if (!record.rows.empty()) {
@@ -138,7 +153,11 @@ std::string page(const std::string& introduction, const std::vector<ListedCase>&
       }
       if (recorded.empty() && others.empty()) continue;
       ++count.suites;
-      part += fmt::format("\n### {}\n", sentence(suite)) + recorded;
+      part += fmt::format("\n### {}\n", sentence(suite));
+      if (!records_of(layer.folder, suite, cases, records).empty())
+        part += fmt::format("\n![{}: share of the tolerance that each comparison takes](verification/{})\n",
+                            sentence(suite), tolerances_name(layer.folder, suite));
+      part += recorded;
       if (!others.empty()) part += "\nChecked without a figure of its own:\n\n" + others;
     }
     if (!part.empty()) body += fmt::format("\n<a id=\"{}\"></a>\n\n## {}\n", anchor(layer.title), layer.title) + part;

@@ -19,4 +19,11 @@ namespace annulus::manual {
 [[nodiscard]] std::string picture_name(const CaseName& name, std::size_t number);
 [[nodiscard]] std::string picture_svg(const Picture& picture);
 
+/// What the cases of a suite recorded, in their order; without those that recorded no figures.
+[[nodiscard]] std::vector<const Record*> records_of(const std::string& layer, const std::string& suite,
+                                                    const std::vector<ListedCase>& cases, const Records& records);
+/// Picture of a suite: what part of its tolerance every quantity takes (the worst comparison of each).
+[[nodiscard]] std::string tolerances_name(const std::string& layer, const std::string& suite);
+[[nodiscard]] std::string tolerances_svg(const std::vector<const Record*>& cases);
+
 }  // namespace annulus::manual

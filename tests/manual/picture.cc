@@ -64,4 +64,31 @@ std::string picture_svg(const Picture& picture) {
   return app::to_svg(plot) + '\n';
 }
 
+std::string tolerances_svg(const std::vector<const Record*>& cases) {
+  constexpr double lowest = 1e-5, highest = 8;
+  app::Plot plot;
+  plot.title = "Share of the tolerance that each comparison takes";
+  plot.x_label = "quantities, in the order below; a colour per test case";
+  plot.y_label = "difference / tolerance";
+  plot.y_log = true;
+  plot.y_range = app::Range{lowest / 1.5, highest};
+  plot.levels.emplace_back(1.0, "tolerance");
+  plot.width = 520;
+  plot.height = 200;
+  double number = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    app::Series dots;
+    dots.style = app::Series::Style::dots;
+    dots.size = 5;
+    dots.colour = i;
+    for (const auto& row : cases[i]->rows) {
+      dots.x.push_back(++number);
+      dots.y.push_back(std::max(row.used, lowest));
+    }
+    if (!dots.x.empty()) plot.series.push_back(std::move(dots));
+  }
+  plot.x_range = app::Range{0, number + 1};
+  return app::to_svg(plot) + '\n';
+}
+
 }  // namespace annulus::manual
