@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "app/content_id.h"
 #include "app/report/report_drawings.h"
@@ -35,7 +36,7 @@ table.numbers td.group { text-align: left; font-weight: 600; padding-top: 12px; 
 .wide { overflow-x: auto; }
 figure { margin: 14px 0 26px; }
 figure .row { display: grid; grid-template-columns: repeat(auto-fit, minmax(360px, 1fr)); gap: 10px 14px; align-items: end; }
-figure .row.one { grid-template-columns: minmax(360px, 900px); }
+figure .row.one { grid-template-columns: minmax(360px, 900px); } figure .row.one.narrow { grid-template-columns: minmax(360px, 560px); }
 figure .row > div { min-width: 0; } figure svg { width: 100%; height: auto; display: block; }
 figure.meshes .row { align-items: start; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 24px; } figure.meshes svg { max-height: 470px; } figure.meshes h3 { margin-top: 0; }
 figure.shapes .row { grid-template-columns: repeat(auto-fill, minmax(190px, 1fr)); max-width: 1320px; }
@@ -98,8 +99,22 @@ std::string html(const HtmlTable& table) {
   return text + "</table></div>\n";
 }
 
+namespace {
+
+/// Drawn to stand beside others; alone and as wide as the page its letters would be those of a headline.
+bool is_narrow(const std::string& picture) {
+  constexpr double usual_width = 500;
+  const std::string box = "viewBox=\"0 0 ";
+  const auto at = picture.find(box);
+  return at != std::string::npos && std::strtod(picture.c_str() + at + box.size(), nullptr) < usual_width;
+}
+
+}  // namespace
+
 std::string figure(const std::vector<std::string>& pictures, const std::string& legend, const std::string& caption) {
-  std::string text = "<figure>" + legend + "<div class=\"row" + (pictures.size() == 1 ? " one" : "") + "\">";
+  const bool one = pictures.size() == 1;
+  std::string text = "<figure>" + legend + "<div class=\"row" + (one ? " one" : "") +
+                     (one && is_narrow(pictures.front()) ? " narrow" : "") + "\">";
   for (const auto& picture : pictures) text += "<div>" + picture + "</div>\n";
   return text + "</div><figcaption>" + caption + "</figcaption></figure>\n";
 }

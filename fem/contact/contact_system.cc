@@ -269,8 +269,9 @@ ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, doub
       // Both directions are formed on their own: what they differ by measures reciprocity (Betti).
       const Eigen::MatrixXd block =
           planet_.compliance(p.planet, p.index, o.planet, o.index) + wheel_.compliance(p.wheel, tooth, o.wheel, other);
-      const Eigen::MatrixXd opposite =
-          planet_.compliance(o.planet, o.index, p.planet, p.index) + wheel_.compliance(o.wheel, other, p.wheel, tooth);
+      const Eigen::MatrixXd opposite = i == j ? block
+                                              : planet_.compliance(o.planet, o.index, p.planet, p.index) +
+                                                    wheel_.compliance(o.wheel, other, p.wheel, tooth);
       result->asymmetry = std::max(result->asymmetry,
                                    (block - opposite.transpose()).cwiseAbs().maxCoeff() / block.cwiseAbs().maxCoeff());
       const Eigen::MatrixXd mean = (block + opposite.transpose()) / 2;
