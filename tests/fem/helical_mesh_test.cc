@@ -197,6 +197,22 @@ BOOST_AUTO_TEST_CASE(the_hand_does_not_matter) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(linear_elements_are_refined_once_before_quadratic_ones_follow) {
+  const auto problem = helical_sun_mesh(12 * degree);
+  annulus::fem::LoadedMeshSettings settings;
+  settings.rung = annulus::fem::Rung::solid;
+  settings.degree = 1;
+  settings.level = 1;
+  const double first = solve_loaded_mesh(problem, settings).worst_error_relative;
+  // Cells 1.5 times smaller leave two thirds of an error of first order.
+  settings.level.reset();
+  settings.accuracy = 0.75 * first;
+  const auto refined = solve_loaded_mesh(problem, settings);
+  BOOST_TEST(refined.degree == 1);
+  BOOST_TEST(refined.level == 2);
+  BOOST_TEST(refined.worst_error_relative <= settings.accuracy);
+}
+
 BOOST_AUTO_TEST_CASE(the_plane_rung_is_refused) {
   BOOST_CHECK_THROW((void)annulus::tests::solve_plane(helical_sun_mesh(12 * degree), 1), annulus::InputError);
 }
