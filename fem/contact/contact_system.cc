@@ -266,7 +266,8 @@ ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, doub
     for (std::size_t j = 0; j <= i; ++j) {
       const auto& o = pairs[j];
       const int other = wheel_tooth(o.index, 0);
-      // Both directions are formed on their own: what they differ by measures reciprocity (Betti).
+      // Both directions are formed on their own: what they differ by measures reciprocity (Betti). Of a pair with
+      // itself they are the same.
       const Eigen::MatrixXd block =
           planet_.compliance(p.planet, p.index, o.planet, o.index) + wheel_.compliance(p.wheel, tooth, o.wheel, other);
       const Eigen::MatrixXd opposite = i == j ? block
