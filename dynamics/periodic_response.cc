@@ -167,6 +167,20 @@ void fill(PeriodicResponse& response, HarmonicBalance& balance, const Eigen::Mat
         static_cast<double>(samples);
 }
 
+void set_sampling_difference(PeriodicResponse& response, int samples_per_cycle) {
+  response.samples_per_cycle = samples_per_cycle;
+  response.sampling_difference = 0;
+  for (Eigen::Index i = 0; i < response.coarse_force.cols(); ++i)
+    response.sampling_difference = std::max(
+        response.sampling_difference, (response.force.col(2 * i) - response.coarse_force.col(i)).cwiseAbs().maxCoeff());
+}
+
+bool wants_more_samples(const PeriodicResponse& response, const PeriodicOptions& options) {
+  return response.converged && options.sampling_tolerance &&
+         response.sampling_difference > *options.sampling_tolerance &&
+         2 * response.samples_per_cycle <= options.max_samples_per_cycle;
+}
+
 }  // namespace
 
 PeriodicResponse periodic_response(const LumpedSystem& system, double period, int cycles,
@@ -228,9 +242,20 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
     if (2 * level >= samples) fill(response, balance, closing);
     if (level == samples && options.motion) balance.motion(response.displacement, response.velocity);
   }
-  for (Eigen::Index i = 0; i < samples / 2; ++i)
-    response.sampling_difference = std::max(
-        response.sampling_difference, (response.force.col(2 * i) - response.coarse_force.col(i)).cwiseAbs().maxCoeff());
+  set_sampling_difference(response, options.samples_per_cycle);
+  while (wants_more_samples(response, options)) {
+    const Eigen::Index level = 2 * response.time.size();
+    problem.transfer = linear.mesh_transfer(spacing, level / 2 - 1);
+    HarmonicBalance balance(problem, period, level);
+    closing = HarmonicBalance::refined(closing, 2);
+    auto finer = response;
+    closing = BalanceSolver(balance, closing, reference.scale, options).solve(finer);
+    if (!finer.converged) break;
+    fill(finer, balance, closing);
+    if (options.motion) balance.motion(finer.displacement, finer.velocity);
+    set_sampling_difference(finer, 2 * response.samples_per_cycle);
+    response = std::move(finer);
+  }
   return response;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 
 #include "dynamics/lumped_system.h"
@@ -11,6 +12,10 @@ namespace annulus::dynamics {
 struct PeriodicOptions {
   /// Power of two times anything: samples per mesh cycle; harmonics of the mesh frequency up to half of it are solved.
   int samples_per_cycle = 32;
+  /// Samples are doubled from there, up to `max_samples_per_cycle`, until that changed no force by more than this (N).
+  /// Without: as many as said.
+  std::optional<double> sampling_tolerance{};
+  int max_samples_per_cycle = 256;
   /// Largest residual of a closing at any sample / largest quasi-static mesh deflection at time 0.
   double tolerance = 1e-5;
   int max_iterations = 20;  ///< Newton iterations, per level of sampling
@@ -23,6 +28,7 @@ struct PeriodicResponse {
   std::string trouble;                               ///< why it did not converge, empty otherwise
   double residual = 0;                               ///< as `tolerance`
   int newton_iterations = 0, linear_iterations = 0;  ///< over all levels of sampling
+  int samples_per_cycle = 0;                         ///< of the answer
 
   Eigen::VectorXd time;                    ///< s, equidistant over one period from 0, its end not included
   Eigen::MatrixXd force;                   ///< N, meshes x times; just after a jump where a stiffness jumps
@@ -38,8 +44,8 @@ struct PeriodicResponse {
 /// (alternating frequency-time): the closings z = b^T q at the samples satisfy
 ///   z + H N(z) = H_0 f,  N = F(t, z, z') - k z - c z',  H(w) = B^T D(w)^-1 B (FrequencyResponse, mean tangents k),
 /// by Newton's method with GMRES and the exact derivative (KINSOL), first with few samples, then with twice as many
-/// each time. Cameron and Griffin, J. Appl. Mech. 56 (1989); Krack and Gross, Harmonic Balance for Nonlinear Vibration
-/// Problems (2019).
+/// each time; a finer sampling than asked for that does not converge is dropped. Cameron and Griffin, J. Appl. Mech. 56
+/// (1989); Krack and Gross, Harmonic Balance for Nonlinear Vibration Problems (2019).
 ///
 /// The excitation must repeat after `period` (s), which spans `cycles` mesh cycles. Stable and unstable solutions alike
 /// are found; the start is the response with constant mesh stiffness. Rigid motions are fixed by nu^T M q = 0 in the

@@ -151,6 +151,12 @@ std::optional<DirectWindows> solve_exactly(const LumpedSystem& system, const Ste
   return windows;
 }
 
+/// Of a harmonic balance: more where the period is short.
+int most_samples_per_cycle(int period) {
+  constexpr int most = 512, most_of_a_period = 1 << 13;
+  return std::min(most, most_of_a_period / period);
+}
+
 /// Absent when the harmonic balance did not converge; `direct` says so.
 std::optional<DirectWindows> solve_directly(const LumpedSystem& system, const SteadyProblem& problem, int cycles,
                                             const SimulationOptions& options, std::optional<DirectSolution>& direct) {
@@ -158,10 +164,16 @@ std::optional<DirectWindows> solve_directly(const LumpedSystem& system, const St
   // to second order only.
   if (std::isfinite(system.next_jump(0)) && why_not_piecewise(system, cycles / problem.mesh_frequency).empty())
     return solve_exactly(system, problem, cycles, options, direct);
+  const int period = problem.period_in_cycles;
   PeriodicOptions periodic_options = options.periodic;
   periodic_options.samples_per_cycle = options.samples_per_cycle;
   periodic_options.motion = true;
-  auto periodic = periodic_response(system, cycles / problem.mesh_frequency, cycles, periodic_options);
+  if (options.confirm) {
+    // The error of a sampling is about a third of what halving it changes.
+    periodic_options.sampling_tolerance = 3 * options.steady_tolerance * problem.force_scale;
+    periodic_options.max_samples_per_cycle = most_samples_per_cycle(period);
+  }
+  auto periodic = periodic_response(system, period / problem.mesh_frequency, period, periodic_options);
   direct = DirectSolution{
       .converged = periodic.converged,
       .trouble = periodic.trouble,
@@ -172,12 +184,22 @@ std::optional<DirectWindows> solve_directly(const LumpedSystem& system, const St
       // step is taken and only the residual is known of what is left.
       .sampling_difference = std::max(periodic.sampling_difference / problem.force_scale, periodic.residual)};
   if (!periodic.converged) return std::nullopt;
+  // Of the samples that it took those that were asked for, over all periods of the window.
+  const Eigen::Index step = periodic.samples_per_cycle / options.samples_per_cycle;
+  const auto in_window = [&](const Eigen::MatrixXd& values) -> Eigen::MatrixXd {
+    return values(Eigen::all, Eigen::seq(0, Eigen::last, step)).replicate(1, cycles / period);
+  };
   DirectWindows windows;
-  windows.fine = {options.samples_per_cycle,        std::move(periodic.time),     std::move(periodic.force),
-                  std::move(periodic.displacement), std::move(periodic.velocity), std::move(periodic.open)};
+  const Eigen::Index samples = static_cast<Eigen::Index>(cycles) * options.samples_per_cycle;
+  windows.fine.samples_per_cycle = options.samples_per_cycle;
+  windows.fine.time = Eigen::VectorXd::LinSpaced(samples + 1, 0, cycles / problem.mesh_frequency).head(samples);
+  windows.fine.force = in_window(periodic.force);
+  windows.fine.displacement = in_window(periodic.displacement);
+  windows.fine.velocity = in_window(periodic.velocity);
+  windows.fine.open = std::move(periodic.open);
   windows.coarse.emplace();
   windows.coarse->samples_per_cycle = options.samples_per_cycle / 2;
-  windows.coarse->force = std::move(periodic.coarse_force);
+  windows.coarse->force = in_window(periodic.coarse_force);
   return windows;
 }
 

@@ -43,8 +43,8 @@ struct SimulationOptions {
   /// up to no more.
   double steady_tolerance = 1e-3;
   int max_windows = 40;  ///< gives up after so many windows (chaos, nearly undamped): `steady` is then false
-  /// Of the time series and the harmonic balance (a multiple of 8 there); the highest excited frequency needs at least
-  /// four samples.
+  /// Of the time series and the harmonic balance (a multiple of 8 there, which takes more for itself where marching
+  /// would not confirm so few); the highest excited frequency needs at least four samples.
   int samples_per_cycle = 64;
   /// The window is the error period, or as many error periods as reach this many mesh cycles: differences between
   /// short windows say little about slow transients.

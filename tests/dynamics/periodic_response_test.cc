@@ -171,6 +171,39 @@ BOOST_AUTO_TEST_CASE(jumping_stiffness_agrees_with_marching_to_second_order) {
   check_second_order(record, system, marched(system, 1 / frequency, 60, 1024, 1e-14));
 }
 
+BOOST_AUTO_TEST_CASE(samples_are_doubled_until_they_do) {
+  annulus::test::Verification record("Teeth that part, samples doubled until they do",
+                                     "time integration by ARKODE, tolerance 1e-10");
+  MeshedMass mass;
+  mass.mesh.damping = 200;
+  mass.mesh.errors = {{8e-4, 2 * std::numbers::pi * frequency, 0.3}};
+  mass.mesh.half_backlash = 5e-3;
+  const auto system = mass.system();
+  PeriodicOptions options;
+  options.samples_per_cycle = 16;
+  options.tolerance = 1e-8;
+  options.sampling_tolerance = 0.01 * load;
+  options.max_samples_per_cycle = 1024;
+  const auto response = periodic_response(system, 1 / frequency, 1, options);
+  BOOST_TEST(response.converged);
+  BOOST_TEST(response.samples_per_cycle > 32);
+  BOOST_TEST(response.samples_per_cycle < 1024);
+  BOOST_REQUIRE(response.time.size() == response.samples_per_cycle);
+  BOOST_REQUIRE(response.displacement.cols() == response.samples_per_cycle);
+  BOOST_TEST(response.sampling_difference <= *options.sampling_tolerance);
+  record.at_most("largest error of a displacement over the static deflection", "",
+                 motion_error(response, marched(system, 1 / frequency, 80, 1024, 1e-14)) / (load / 5e4), 0.01,
+                 "what doubling the samples may change");
+  // As many as allowed, where that is not enough: the solution of that sampling.
+  options.max_samples_per_cycle = 32;
+  const auto stopped = periodic_response(system, 1 / frequency, 1, options);
+  BOOST_TEST(stopped.converged);
+  BOOST_TEST(stopped.samples_per_cycle == 32);
+  BOOST_TEST(stopped.sampling_difference > *options.sampling_tolerance);
+  // Both solved to 1e-8 of the deflection.
+  BOOST_TEST(largest(stopped.force - solve(system, 32, 1e-8).force) <= 1e-6 * load);
+}
+
 BOOST_AUTO_TEST_CASE(stages_agree_with_marching) {
   annulus::test::Verification record("Harmonic balance of planetary stages over an error period",
                                      "time integration from the same state, tolerance 1e-9");

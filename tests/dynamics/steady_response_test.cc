@@ -89,6 +89,50 @@ BOOST_AUTO_TEST_CASE(windows_tell_what_they_compare_with) {
   BOOST_TEST(given.loose.has_value());
 }
 
+constexpr double slow = 20;  // Hz
+
+/// A mass that lifts off its mesh in every cycle.
+LumpedSystem lifting() {
+  LumpedSystemBuilder builder;
+  MeshElement mesh;
+  mesh.name = "mesh";
+  mesh.b = builder.add_freedom("x");
+  mesh.excitation = ConstantStiffness{5e4};
+  mesh.frequency = slow;
+  mesh.damping = 200;
+  mesh.half_backlash = 5e-3;
+  mesh.errors = {{8e-4, 2 * std::numbers::pi * slow, 0.3}};
+  builder.add_mass(mesh.b, mass);
+  builder.add_load(mesh.b, 30);
+  builder.add_mesh(mesh);
+  return builder.build();
+}
+
+// What 16 samples miss where teeth part is far more than marching is held to: the balance takes more for itself.
+BOOST_AUTO_TEST_CASE(balances_are_sampled_as_finely_as_marching_confirms) {
+  const auto system = lifting();
+  const SteadyProblem lifted{slow, 1, 30, 5e4};
+  SimulationOptions options;
+  options.samples_per_cycle = 16;
+  const auto r = dynamics::steady_response(system, lifted, options);
+  BOOST_TEST(r.best.open[0] > 0.1);
+  BOOST_TEST(r.confirmed);
+  BOOST_TEST(r.window_cycles == 20);
+  BOOST_REQUIRE(r.before.has_value());
+  const auto& direct = *r.before;
+  BOOST_REQUIRE(direct.force.cols() == 20 * 16);
+  BOOST_REQUIRE(direct.time.size() == 20 * 16);
+  BOOST_TEST(direct.time[16] == 1 / slow, boost::test_tools::tolerance(1e-12));
+  // One period was solved and stands in the window twenty times.
+  BOOST_TEST((direct.force.rightCols(16).array() == direct.force.leftCols(16).array()).all());
+  BOOST_TEST((direct.force - r.best.force).cwiseAbs().maxCoeff() <= options.steady_tolerance * lifted.force_scale);
+  // The samples asked for alone are far off.
+  options.confirm = false;
+  const auto rough = dynamics::steady_response(system, lifted, options);
+  BOOST_TEST((rough.best.force - r.best.force).cwiseAbs().maxCoeff() >
+             20 * options.steady_tolerance * lifted.force_scale);
+}
+
 BOOST_AUTO_TEST_CASE(unusable_problems_are_refused) {
   const auto system = swinging(0, 1000);
   const auto refused = [&](const SteadyProblem& p) {
