@@ -212,22 +212,24 @@ BOOST_AUTO_TEST_CASE(value_and_slope_are_continuous_over_knots_and_seam) {
 }
 
 BOOST_AUTO_TEST_CASE(constants_are_exact_for_any_number_of_values) {
+  annulus::test::Verification record("Interpolation of 1 to 16 equal values", "the constant");
   for (const int n : {1, 2, 3, 4, 5, 16}) {
     const PeriodicCurve curve(std::vector<double>(n, 1.87e9), n);
     for (const double x : {-7.3, 0.0, 0.2, 0.5, 0.999999, 41.7}) {
-      BOOST_TEST(curve(x) == 1.87e9);
-      BOOST_TEST(curve.derivative(x) == 0.0);
+      record.near("value", "", curve(x), 1.87e9, 0, "exact");
+      record.near("derivative", "", curve.derivative(x), 0, 0, "exact");
     }
-    BOOST_TEST(curve.mean() == 1.87e9);
+    record.near("mean", "", curve.mean(), 1.87e9, 0, "exact");
   }
-  BOOST_TEST(PeriodicCurve()(0.3) == 0.0);
+  record.near("value of a curve without values", "", PeriodicCurve()(0.3), 0, 0, "exact");
 }
 
 BOOST_AUTO_TEST_CASE(does_not_ring_beside_a_plateau) {
   // A stiffness that steps between one and two tooth pairs: Akima's reason to weight slopes.
   const PeriodicCurve curve({1, 1, 1, 1, 2, 2, 2, 2}, 8);
-  for (double x = 0; x < 0.375; x += 0.003) BOOST_TEST(curve(x) == 1.0);
-  for (double x = 0.5; x < 0.875; x += 0.003) BOOST_TEST(curve(x) == 2.0);
+  annulus::test::Verification record("Interpolation of a curve that steps between two plateaus", "the plateaus");
+  for (double x = 0; x < 0.375; x += 0.003) record.near("value on the lower plateau", "", curve(x), 1, 0, "exact");
+  for (double x = 0.5; x < 0.875; x += 0.003) record.near("value on the upper plateau", "", curve(x), 2, 0, "exact");
 }
 
 BOOST_AUTO_TEST_CASE(mean_is_the_integral) {

@@ -114,21 +114,26 @@ BOOST_AUTO_TEST_CASE(sum_of_pins_against_the_printed_formula) {
 }
 
 BOOST_AUTO_TEST_CASE(clearance_leaves_few_pins) {
+  annulus::test::Verification record("Pins that carry with clearances of 0, 5 um and 1 mm",
+                                     "half of 30 pins, fewer, one alone under its lever");
   auto mesh = stages::arc_mesh();
   const auto tight = arc_position(mesh, 29, 0.3);
-  BOOST_TEST(tight.loaded == 15);
-  BOOST_TEST(tight.touch == 0.0);
+  record.near("pins that carry, no clearance", "", tight.loaded, 15, 0, "half of 30");
+  record.near("displacement at which the first touches, no clearance", "m", tight.touch, 0, 0, "all touch at once");
   mesh.clearance = 5e-6;
   const auto loose = arc_position(mesh, 29, 0.3);
-  BOOST_TEST(loose.loaded < 10);
-  BOOST_TEST(loose.touch >= mesh.clearance);
+  record.at_most("pins that carry, 5 um", "", loose.loaded, 9, "fewer than ten");
+  record.at_least("displacement at which the first touches over the clearance, 5 um", "", loose.touch / mesh.clearance,
+                  1, "the clearance along the normal of a flank");
+  record.at_most("stiffness with 5 um over that without", "", loose.secant / tight.secant, 1, "fewer pins are softer");
   BOOST_TEST(loose.secant < tight.secant);
   mesh.clearance = 1e-3;  // one pin alone: its own law under the lever
   const auto single = arc_position(mesh, 1, 0.3);
-  BOOST_TEST(single.loaded == 1);
+  record.near("pins that carry, 1 mm", "", single.loaded, 1, 0, "one alone");
   const double sine = single.lever.maxCoeff() / mesh.pitch_radius();
   const double force = 1 / (mesh.pitch_radius() * sine);
-  BOOST_TEST(std::abs(single.force.maxCoeff() - force) <= 1e-9 * force);
+  record.near("force on the one pin: torque over its lever", "N", single.force.maxCoeff(), force, 1e-9 * force,
+              "rounding of the solve");
 }
 
 BOOST_AUTO_TEST_CASE(table_repeats_with_every_pin) {

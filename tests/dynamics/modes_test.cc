@@ -162,11 +162,13 @@ BOOST_AUTO_TEST_CASE(rigid_bearings_are_the_limit_of_stiff_ones) {
 }
 
 BOOST_AUTO_TEST_CASE(unequal_spacing_mixes_the_kinds) {
+  annulus::test::Verification record("Modes of four planets of which one is displaced",
+                                     "symmetry is lost, and with it the kinds; turning as a whole stays free");
   auto stage = stages::lin_parker(4);
   stage.planet_angles[1] += 0.3;
   const auto found = annulus::dynamics::modes(stage);
-  BOOST_TEST(!frequencies(found, ModeKind::mixed).empty());
-  BOOST_TEST(found.modes.front().frequency == 0.0);  // turning stays free
+  record.at_least("mixed modes", "", static_cast<double>(frequencies(found, ModeKind::mixed).size()), 1, "some");
+  record.near("lowest frequency", "Hz", found.modes.front().frequency, 0, 0, "turning stays free");
 }
 
 // Lin and Parker, "Structured vibration characteristics of planetary gears with unequally spaced planets", J. Sound
@@ -207,12 +209,17 @@ BOOST_AUTO_TEST_CASE(what_unequal_spacing_leaves_alone) {
 // One and two planets have less symmetry: two planets leave modes that are alike (6) and unlike (9) under half a turn,
 // one planet leaves none.
 BOOST_AUTO_TEST_CASE(one_and_two_planets) {
+  annulus::test::Verification record("Numbers of modes with one and with two planets",
+                                     "symmetry: alike and unlike under half a turn; none with one planet");
+  const auto counted = [&](const char* which, std::size_t found, int expected) {
+    record.near(which, "", static_cast<double>(found), expected, 0, "counted by hand");
+  };
   const auto two = annulus::dynamics::modes(stages::lin_parker(2));
-  BOOST_TEST(frequencies(two, ModeKind::rotational).size() == 6U);
-  BOOST_TEST(frequencies(two, ModeKind::translational).size() == 9U);
+  counted("modes alike under half a turn, two planets", frequencies(two, ModeKind::rotational).size(), 6);
+  counted("modes unlike under half a turn, two planets", frequencies(two, ModeKind::translational).size(), 9);
   const auto one = annulus::dynamics::modes(stages::lin_parker(1));
-  BOOST_TEST(one.modes.size() == 12U);
-  BOOST_TEST(one.modes.front().frequency == 0.0);
+  counted("modes, one planet", one.modes.size(), 12);
+  record.near("lowest frequency, one planet", "Hz", one.modes.front().frequency, 0, 0, "turning stays free");
   BOOST_TEST((one.modes.front().kind == ModeKind::rotational));
   BOOST_TEST(one.modes[1].frequency > 1.0);
 }
@@ -247,22 +254,29 @@ BOOST_AUTO_TEST_CASE(held_centres) {
 // Three planets between floating bodies: 18 freedoms, 13 springs, so one rotation and two pairs of translations cost
 // nothing. They share a frequency and are told apart.
 BOOST_AUTO_TEST_CASE(rigid_motions_are_told_apart) {
+  annulus::test::Verification record("Motions of three planets between floating bodies that cost nothing",
+                                     "counted by hand: 18 freedoms, 13 springs");
   auto stage = stages::lin_parker(3);
   stage.sun.support = stage.ring.support = stage.carrier.support = 0;
   const auto found = annulus::dynamics::modes(stage);
-  for (int i = 0; i < 5; ++i) BOOST_TEST(found.modes[i].frequency == 0.0);
+  for (int i = 0; i < 5; ++i) record.near("frequency of a rigid motion", "Hz", found.modes[i].frequency, 0, 0, "exact");
+  record.at_least("lowest frequency that is none", "Hz", found.modes[5].frequency, 1, "far above rounding");
   BOOST_TEST(found.modes[5].frequency > 1.0);
-  BOOST_TEST(frequencies(found, ModeKind::rotational).size() == 6U);
-  BOOST_TEST(frequencies(found, ModeKind::translational).size() == 12U);
+  record.near("rotational modes", "", static_cast<double>(frequencies(found, ModeKind::rotational).size()), 6, 0,
+              "counted by hand");
+  record.near("translational modes", "", static_cast<double>(frequencies(found, ModeKind::translational).size()), 12, 0,
+              "counted by hand");
 }
 
 BOOST_AUTO_TEST_CASE(tables_enter_with_their_mean_tangent) {
+  annulus::test::Verification record("Natural frequencies with a table of tangents of 4e8 and 6e8 N/m",
+                                     "the stage with constant meshes of 5e8 N/m");
   auto stage = stages::lin_parker(4);
   const annulus::PeriodicCurve secant({9e8}, 1), tangent({4e8, 6e8}, 2), zero({0.0}, 1);
   stage.sun_mesh = stage.ring_mesh = TableStiffness{secant, tangent, zero, 0};
   const auto found = annulus::dynamics::modes(stage), reference = annulus::dynamics::modes(stages::lin_parker(4));
   for (std::size_t i = 0; i < found.modes.size(); ++i)
-    BOOST_TEST(found.modes[i].frequency == reference.modes[i].frequency);
+    record.near("frequency", "Hz", found.modes[i].frequency, reference.modes[i].frequency, 0, "the same matrix");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -98,6 +98,8 @@ BOOST_AUTO_TEST_CASE(single_mass_in_the_turning_frame) {
 
 // The symmetry of equal planets outlives the rotation: kinds and their numbers stay, pairs part.
 BOOST_AUTO_TEST_CASE(structure_at_speed) {
+  annulus::test::Verification record("Modes of three to seven planets at speed, with and without dampers",
+                                     "symmetry: 6 rotational, 12 translational and 3 (N - 3) planet modes, as at rest");
   for (int planets = 3; planets <= 7; ++planets)
     for (const bool damped : {false, true}) {
       auto stage = turning(planets);
@@ -110,11 +112,13 @@ BOOST_AUTO_TEST_CASE(structure_at_speed) {
         ++count[mode.kind];
         if (damped && mode.frequency > 0) BOOST_TEST(mode.damping_ratio > 0.0);
       }
-      BOOST_TEST(found.modes.front().frequency == 0.0);  // turning as a whole stays free
+      record.near("lowest frequency", "Hz", found.modes.front().frequency, 0, 0, "turning as a whole stays free");
+      record.at_least("second frequency", "Hz", found.modes[1].frequency, 1, "far above rounding");
       BOOST_TEST(found.modes[1].frequency > 1.0);
-      BOOST_TEST(count[ModeKind::rotational] == 6);
-      BOOST_TEST(count[ModeKind::translational] == 12);
-      BOOST_TEST(count[ModeKind::planet] == 3 * (planets - 3));
+      record.near("rotational modes", "", count[ModeKind::rotational], 6, 0, "symmetry");
+      record.near("translational modes", "", count[ModeKind::translational], 12, 0, "symmetry");
+      record.near("planet modes of " + std::to_string(planets) + " planets", "", count[ModeKind::planet],
+                  3 * (planets - 3), 0, "symmetry");
     }
 }
 
@@ -181,16 +185,24 @@ BOOST_AUTO_TEST_CASE(campbell_of_a_single_mass) {
 }
 
 BOOST_AUTO_TEST_CASE(campbell_follows_curves_through_crossings) {
+  annulus::test::Verification record("Curves of a Campbell diagram through their crossings",
+                                     "modes of the last speed; continuity; the line of each order");
   auto stage = turning(5);
   std::vector<double> speeds;
   for (int i = 0; i <= 60; ++i) speeds.push_back(i * 20.0);  // pairs part by some 380 Hz and cross others
   const auto diagram = campbell(stage, speeds);
   BOOST_REQUIRE(diagram.curves.size() == 24U);
   for (const auto& curve : diagram.curves) {
-    for (std::size_t i = 1; i < speeds.size(); ++i) BOOST_TEST(curve.likeness[i] > 0.5);
+    for (std::size_t i = 1; i < speeds.size(); ++i) {
+      record.at_least("likeness of the shapes of two speeds", "", curve.likeness[i], 0.5, "no other curve is as like");
+      BOOST_TEST(curve.likeness[i] > 0.5);
+    }
     // Continuous in slope: the second difference stays below what a jump to a neighbour would make of it.
-    for (std::size_t i = 2; i < speeds.size(); ++i)
-      BOOST_TEST(std::abs(curve.frequency[i] - 2 * curve.frequency[i - 1] + curve.frequency[i - 2]) < 3.0);
+    for (std::size_t i = 2; i < speeds.size(); ++i) {
+      const double bend = std::abs(curve.frequency[i] - 2 * curve.frequency[i - 1] + curve.frequency[i - 2]);
+      record.at_most("second difference along a curve", "Hz", bend, 3, "far below a jump to a neighbour");
+      BOOST_TEST(bend < 3.0);
+    }
   }
   // At each speed the curves are all modes of that speed, whatever their order.
   stage.carrier_speed = speeds.back();
@@ -198,11 +210,12 @@ BOOST_AUTO_TEST_CASE(campbell_follows_curves_through_crossings) {
   for (const auto& curve : diagram.curves) last.push_back(curve.frequency.back());
   std::sort(last.begin(), last.end());
   const auto found = annulus::dynamics::rotating_modes(stage, false);
-  for (std::size_t i = 0; i < last.size(); ++i) BOOST_TEST(last[i] == found.modes[i].frequency);
+  for (std::size_t i = 0; i < last.size(); ++i)
+    record.near("frequency at the last speed", "Hz", last[i], found.modes[i].frequency, 0, "the same modes");
   // Each crossing lies on its curve and its line.
   for (const auto& crossing : diagram.crossings)
-    BOOST_TEST(std::abs(crossing.frequency - crossing.order * 162 * crossing.carrier_speed / turn) <=
-               1e-9 * crossing.frequency);
+    record.near("frequency of a crossing on the line of its order", "Hz", crossing.frequency,
+                crossing.order * 162 * crossing.carrier_speed / turn, 1e-9 * crossing.frequency, "rounding");
   BOOST_TEST(!diagram.crossings.empty());
 }
 

@@ -416,13 +416,17 @@ BOOST_AUTO_TEST_CASE(nodes_of_a_solid_flank_lie_on_the_exact_involute_at_every_h
 }
 
 BOOST_AUTO_TEST_CASE(the_number_of_threads_changes_nothing) {
+  annulus::test::Verification record("A gear condensed on several threads", "the same on one thread");
   auto c = plane_case(GearKind::external, 19);
   const GearBody one = condensed(c);
   for (const int threads : {2, 5, 16}) {
     c.options.threads = threads;
     const GearBody many = condensed(c);
     for (int d = 0; d <= one.compliance.max_offset(); ++d)
-      BOOST_TEST((one.compliance.block(d).array() == many.compliance.block(d).array()).all());  // bitwise
+      record.at_most("compliance, largest difference over the largest entry", "",
+                     (one.compliance.block(d) - many.compliance.block(d)).cwiseAbs().maxCoeff() /
+                         one.compliance.block(0).cwiseAbs().maxCoeff(),
+                     0, "equal to the last bit");
   }
 }
 

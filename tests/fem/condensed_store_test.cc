@@ -15,6 +15,7 @@
 #include "fem/ring_coupling.h"
 #include "ring_paper_problems.h"
 #include "tests/temporary_folder.h"
+#include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(condensed_store)
 
@@ -56,9 +57,12 @@ bool differ(const std::optional<BodyStress>& a, const std::optional<BodyStress>&
   return a->root_von_mises != b->root_von_mises || a->rim_von_mises != b->rim_von_mises;
 }
 
+const char* const same_bits = "equal to the last bit";
+
 /// Stresses and supports too, which take other ways than the flanks.
-void check_the_same(const LoadedMeshResult& a, const LoadedMeshResult& b) {
+void check_the_same(annulus::test::Verification& record, const LoadedMeshResult& a, const LoadedMeshResult& b) {
   check_identical(a, b);
+  record.at_most("transmission error, largest relative difference", "", largest_lte_difference(a, b), 0, same_bits);
   int different = 0;
   for (std::size_t i = 0; i < a.positions.size(); ++i) {
     const auto &p = a.positions[i], &q = b.positions[i];
@@ -68,39 +72,49 @@ void check_the_same(const LoadedMeshResult& a, const LoadedMeshResult& b) {
       different += p.pins[pin].radial_force != q.pins[pin].radial_force ||
                    p.pins[pin].tangential_force != q.pins[pin].tangential_force;
   }
-  BOOST_TEST(different == 0);
+  record.at_most("stresses and forces on supports that differ", "", different, 0, same_bits);
+}
+
+/// Teeth that were condensed or read from the store: one of each body on each of two levels.
+void count_teeth(annulus::test::Verification& record, const std::string& which, int found, int expected) {
+  record.near(which, "", found, expected, 0, "counted by hand");
 }
 
 BOOST_AUTO_TEST_CASE(a_kept_tooth_changes_not_a_single_bit) {
   const Folder folder("bits");
+  annulus::test::Verification record("Results with teeth that were kept", "the same without a store");
   for (const auto& problem : {ring_mesh(OutsideHeld{}, 2), ring_mesh(paper_pins(81, 0.01), 2)}) {
     const auto without = solve(problem, nullptr);
-    BOOST_TEST(without.condensed_teeth == 4);  // two bodies, two levels
-    BOOST_TEST(without.reused_teeth == 0);
+    count_teeth(record, "teeth condensed without a store", without.condensed_teeth, 4);
+    count_teeth(record, "teeth read without a store", without.reused_teeth, 0);
     const auto making = solve(problem, folder.store());
     const auto reading = solve(problem, folder.store());
-    BOOST_TEST(making.condensed_teeth + making.reused_teeth == 4);
-    BOOST_TEST(reading.condensed_teeth == 0);
-    BOOST_TEST(reading.reused_teeth == 4);
-    check_the_same(without, making);
-    check_the_same(without, reading);
+    count_teeth(record, "teeth condensed or read at first", making.condensed_teeth + making.reused_teeth, 4);
+    count_teeth(record, "teeth condensed the second time", reading.condensed_teeth, 0);
+    count_teeth(record, "teeth read the second time", reading.reused_teeth, 4);
+    check_the_same(record, without, making);
+    check_the_same(record, without, reading);
   }
 }
 
 BOOST_AUTO_TEST_CASE(the_planet_of_all_meshes_is_one_tooth) {
   const Folder folder("planet");
   const auto store = folder.store();
-  BOOST_TEST(solve(sun_mesh(2), store).condensed_teeth == 4);
+  annulus::test::Verification record("Teeth kept for the meshes of a stage",
+                                     "counted by hand: sun, planet, ring held outside, ring that floats");
+  count_teeth(record, "teeth condensed for the sun mesh", solve(sun_mesh(2), store).condensed_teeth, 4);
   const auto held = solve(ring_mesh(OutsideHeld{}, 2), store);
-  BOOST_TEST(held.condensed_teeth == 2);  // the ring
-  BOOST_TEST(held.reused_teeth == 2);     // the planet
+  count_teeth(record, "teeth condensed for the ring mesh: the ring", held.condensed_teeth, 2);
+  count_teeth(record, "teeth read for the ring mesh: the planet", held.reused_teeth, 2);
   const auto pinned = solve(ring_mesh(paper_pins(81, 0), 2), store);
-  BOOST_TEST(pinned.condensed_teeth == 2);  // a ring that floats is another body
-  BOOST_TEST(folder.files().size() == 8U);
+  count_teeth(record, "teeth condensed for pins: a ring that floats is another body", pinned.condensed_teeth, 2);
+  record.near("files kept", "", static_cast<double>(folder.files().size()), 8, 0, "one for each tooth");
 }
 
 BOOST_AUTO_TEST_CASE(other_supports_condense_nothing) {
   const Folder folder("pins");
+  annulus::test::Verification record("Other pins, bolts, a housing and splines on a ring that was kept",
+                                     "the same without a store");
   const auto store = folder.store();
   (void)solve(ring_mesh(paper_pins(81, 0), 2), store);
   auto stiffer = paper_pins(54, 0.013);
@@ -118,18 +132,20 @@ BOOST_AUTO_TEST_CASE(other_supports_condense_nothing) {
        std::vector<annulus::fem::RingStructure>{stiffer, bolted, housed, spline}) {
     const auto problem = ring_mesh(structure, 2);
     const auto reused = solve(problem, store);
-    BOOST_TEST(reused.condensed_teeth == 0);
-    BOOST_TEST(reused.reused_teeth == 4);
-    check_the_same(solve(problem, nullptr), reused);
+    count_teeth(record, "teeth condensed", reused.condensed_teeth, 0);
+    count_teeth(record, "teeth read", reused.reused_teeth, 4);
+    check_the_same(record, solve(problem, nullptr), reused);
   }
 }
 
 BOOST_AUTO_TEST_CASE(loads_positions_and_modifications_condense_nothing) {
   const Folder folder("loads");
+  annulus::test::Verification record("Other loads, positions and a tip relief on teeth that were kept",
+                                     "the same without a store");
   const auto store = folder.store();
   (void)solve(ring_mesh(OutsideHeld{}, 2), store);
   auto problem = ring_mesh(OutsideHeld{}, 3, {nominal_load / 2, nominal_load});
-  BOOST_TEST(solve(problem, store).condensed_teeth == 0);
+  count_teeth(record, "teeth condensed for other loads and positions", solve(problem, store).condensed_teeth, 0);
   const auto relieved = [](const annulus::geometry::Gear& gear) {
     auto parameters = gear.parameters();
     parameters.tip_relief = 20e-6;
@@ -138,28 +154,30 @@ BOOST_AUTO_TEST_CASE(loads_positions_and_modifications_condense_nothing) {
   };
   problem.pair = {relieved(problem.pair.planet()), problem.pair.wheel(), problem.pair.centre_distance()};
   const auto reused = solve(problem, store);
-  BOOST_TEST(reused.condensed_teeth == 0);
-  check_the_same(solve(problem, nullptr), reused);
+  count_teeth(record, "teeth condensed for a tip relief", reused.condensed_teeth, 0);
+  check_the_same(record, solve(problem, nullptr), reused);
 }
 
 BOOST_AUTO_TEST_CASE(what_a_tooth_depends_on_condenses_it_again) {
   const Folder folder("depends");
+  annulus::test::Verification record("What a kept tooth depends on",
+                                     "counted by hand: the teeth that a change concerns");
   const auto problem = ring_mesh(OutsideHeld{}, 2);
   (void)solve(problem, folder.store());
   auto changed = problem;
   changed.material.youngs_modulus *= 1.01;
-  BOOST_TEST(solve(changed, folder.store()).condensed_teeth == 4);
+  count_teeth(record, "teeth condensed for another material", solve(changed, folder.store()).condensed_teeth, 4);
   changed = problem;
   changed.wheel_support_radius += 1e-3;
-  BOOST_TEST(solve(changed, folder.store()).condensed_teeth == 2);
+  count_teeth(record, "teeth condensed for another ring", solve(changed, folder.store()).condensed_teeth, 2);
   changed = problem;
   changed.planet_bore_radius -= 1e-3;
-  BOOST_TEST(solve(changed, folder.store()).condensed_teeth == 2);
+  count_teeth(record, "teeth condensed for another planet", solve(changed, folder.store()).condensed_teeth, 2);
   LoadedMeshSettings cubic;
   cubic.level = 1;
   cubic.degree = 3;
   cubic.store = folder.store();
-  BOOST_TEST(solve_loaded_mesh(problem, cubic).condensed_teeth == 4);
+  count_teeth(record, "teeth condensed for cubic elements", solve_loaded_mesh(problem, cubic).condensed_teeth, 4);
 }
 
 BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
@@ -180,6 +198,10 @@ BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
   options.sector.held = annulus::fem::HeldBoundary::none;
   options.sector.flank = annulus::geometry::Boundary::trailing_flank;
   options.sector.want_outside = options.sector.want_stress = true;
+  annulus::test::Verification record("A solid tooth kept for 81, 54 and 24 pins", "the same condensed afresh");
+  const auto same = [&](const char* quantity, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    record.at_most(quantity, "", static_cast<double>((a.array() != b.array()).count()), 0, same_bits);
+  };
   bool first = true;
   for (const auto& [pins, slices] : {std::pair{81, 2}, {54, 2}, {24, 2}, {24, 1}}) {
     std::vector<double> edges = {0, width};
@@ -193,9 +215,9 @@ BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
     BOOST_TEST(kept.reused == (!first && slices == 2));  // other slices are other unit loads
     first = false;
     BOOST_TEST(kept.body.arc_wrenches.size() == options.arcs.size());
-    BOOST_TEST((kept.sector.cut_stiffness == fresh.sector.cut_stiffness));
-    BOOST_TEST((kept.sector.cut_load == fresh.sector.cut_load));
-    BOOST_TEST((kept.sector.compliance == fresh.sector.compliance));
+    same("entries of the stiffness of the cuts that differ", kept.sector.cut_stiffness, fresh.sector.cut_stiffness);
+    same("entries of the loads on the cuts that differ", kept.sector.cut_load, fresh.sector.cut_load);
+    same("entries of the compliance that differ", kept.sector.compliance, fresh.sector.compliance);
     BOOST_TEST(kept.body.rim.first_load == fresh.body.rim.first_load);
     BOOST_TEST(kept.sector.compliance.rows() == fresh.body.rim.first_load + fresh.body.rim.loads());
     for (std::size_t arc = 0; arc < options.arcs.size(); ++arc)
@@ -225,8 +247,10 @@ BOOST_AUTO_TEST_CASE(damaged_files_are_made_again) {
   BOOST_TEST(keep(*store, key, values));
   const auto file = folder.files().front();
   const auto size = std::filesystem::file_size(file);
+  int damages = 0, noticed = 0;
   const auto made_again = [&] {
-    BOOST_TEST(!keep(*store, key, values));
+    ++damages;
+    noticed += !keep(*store, key, values);
     BOOST_TEST(keep(*store, key, values));
   };
   // Any bit, be it in the name, in a size, among the numbers or in the checksum; cut off anywhere.
@@ -247,23 +271,29 @@ BOOST_AUTO_TEST_CASE(damaged_files_are_made_again) {
   const std::string other = store->key("other inputs");
   std::filesystem::copy_file(file, folder.path() / (other + ".tooth"));
   BOOST_TEST(!keep(*store, other, values));
-  BOOST_TEST(folder.files().size() == 2U);  // nothing unfinished is left
+  annulus::test::Verification record("Damaged files of a store",
+                                     "damages made: a bit of each byte turned, cut off behind each, another text");
+  record.near("damages that were noticed", "", noticed, damages, 0, "all of them");
+  record.near("files left", "", static_cast<double>(folder.files().size()), 2, 0, "nothing unfinished");
 }
 
 BOOST_AUTO_TEST_CASE(a_damaged_tooth_is_condensed_again) {
   const Folder folder("tooth");
+  annulus::test::Verification record("A kept tooth whose file was cut off", "the result before the damage");
   const auto problem = ring_mesh(OutsideHeld{}, 2);
   const auto first = solve(problem, folder.store());
   const auto damaged = folder.files().front();
   std::filesystem::resize_file(damaged, std::filesystem::file_size(damaged) * 2 / 3);
   const auto again = solve(problem, folder.store());
-  BOOST_TEST(again.condensed_teeth == 1);
-  BOOST_TEST(again.reused_teeth == 3);
-  check_the_same(first, again);
+  count_teeth(record, "teeth condensed again", again.condensed_teeth, 1);
+  count_teeth(record, "teeth read", again.reused_teeth, 3);
+  check_the_same(record, first, again);
 }
 
 BOOST_AUTO_TEST_CASE(the_folder_keeps_to_its_size) {
   const Folder folder("size");
+  annulus::test::Verification record("A store that is full, has no room or no folder",
+                                     "its limit; the result without a store");
   const auto bytes = [&] {
     std::uintmax_t sum = 0;
     for (const auto& file : folder.files()) sum += std::filesystem::file_size(file);
@@ -276,35 +306,43 @@ BOOST_AUTO_TEST_CASE(the_folder_keeps_to_its_size) {
   auto changed = problem;
   changed.material.poisson_ratio = 0.28;
   const auto tight = std::make_shared<CondensedStore>(folder.path(), "1", all);
-  BOOST_TEST(solve(changed, tight).condensed_teeth == 4);
-  BOOST_TEST(bytes() <= all);
-  BOOST_TEST(solve(changed, tight).condensed_teeth == 0);  // what was used last stays
+  count_teeth(record, "teeth condensed for another material", solve(changed, tight).condensed_teeth, 4);
+  record.at_most("size of the folder over its limit", "", static_cast<double>(bytes()) / static_cast<double>(all), 1,
+                 "the limit");
+  count_teeth(record, "teeth condensed the second time: what was used last stays",
+              solve(changed, tight).condensed_teeth, 0);
   // No room at all, or no folder: nothing is kept, and nothing fails.
-  BOOST_TEST(solve(problem, std::make_shared<CondensedStore>(folder.path(), "1", 10)).condensed_teeth == 4);
+  const auto no_room = std::make_shared<CondensedStore>(folder.path(), "1", 10);
+  count_teeth(record, "teeth condensed without room", solve(problem, no_room).condensed_teeth, 4);
   BOOST_TEST(folder.files().empty());
   std::ofstream(folder.path() / "file") << "no folder";
   const auto nowhere = std::make_shared<CondensedStore>(folder.path() / "file", "1");
-  check_the_same(solve(problem, nowhere), solve(problem, nullptr));
+  check_the_same(record, solve(problem, nowhere), solve(problem, nullptr));
 }
 
 BOOST_AUTO_TEST_CASE(the_coupling_of_a_ring_on_other_pins_condenses_nothing) {
   const Folder folder("coupling");
+  annulus::test::Verification record("Coupling and modes of a ring that was kept, on other pins",
+                                     "the same without a store");
   annulus::fem::RingCouplingSettings settings;
   settings.store = folder.store();
   const auto first = solve_ring_coupling(ring_mesh(paper_pins(81, 0), 2), equal_places(5), nominal_load, settings);
-  BOOST_TEST(first.condensed_teeth == 2);
+  count_teeth(record, "teeth condensed at first", first.condensed_teeth, 2);
   const auto problem = ring_mesh(paper_pins(54, 0.01), 2);
   const auto reused = solve_ring_coupling(problem, equal_places(5), nominal_load, settings);
-  BOOST_TEST(reused.condensed_teeth == 0);
-  BOOST_TEST(reused.reused_teeth == 2);
+  count_teeth(record, "teeth condensed for other pins", reused.condensed_teeth, 0);
+  count_teeth(record, "teeth read for other pins", reused.reused_teeth, 2);
   settings.store = nullptr;
   const auto without = solve_ring_coupling(problem, equal_places(5), nominal_load, settings);
   BOOST_TEST_REQUIRE(reused.coupling.compliance.size() == without.coupling.compliance.size());
   for (std::size_t i = 0; i < without.coupling.compliance.size(); ++i)
-    BOOST_TEST((reused.coupling.compliance[i] == without.coupling.compliance[i]));
+    record.at_most("compliance, largest difference", "m/N",
+                   (reused.coupling.compliance[i] - without.coupling.compliance[i]).cwiseAbs().maxCoeff(), 0,
+                   same_bits);
   BOOST_TEST_REQUIRE(reused.coupling.modes.size() == without.coupling.modes.size());
   for (std::size_t i = 0; i < without.coupling.modes.size(); ++i)
-    BOOST_TEST(reused.coupling.modes[i].frequency == without.coupling.modes[i].frequency);
+    record.near("frequency of a mode", "Hz", reused.coupling.modes[i].frequency, without.coupling.modes[i].frequency, 0,
+                same_bits);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

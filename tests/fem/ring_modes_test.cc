@@ -298,17 +298,29 @@ BOOST_AUTO_TEST_CASE(all_modes_together_give_the_static_compliance_and_the_mass)
 }
 
 BOOST_AUTO_TEST_CASE(limits_keep_the_lowest_modes_and_whole_pairs) {
+  annulus::test::Verification record("Some of the modes of a held ring",
+                                     "all of its modes: the lowest are kept, and pairs as a whole");
   const SmallRing ring = small_ring(30, SmallHeld::outside, {1, 0});
   const auto all = held_ring_modes(ring.flexibility, {all_modes});
-  for (std::size_t k = 1; k < all.size(); ++k) BOOST_TEST(all[k].frequency >= all[k - 1].frequency);
+  for (std::size_t k = 1; k < all.size(); ++k)
+    record.at_least("frequency over the one before", "", all[k].frequency / all[k - 1].frequency, 1, "rising order");
   for (const int count : {1, 2, 3, 4, 5}) {
     const auto some = held_ring_modes(ring.flexibility, {count});
-    BOOST_TEST((some.size() == std::size_t(count) || some.size() == count + 1U));
+    const double beyond = static_cast<double>(some.size()) - count;
+    record.at_least("modes beyond the wanted number", "", beyond, 0, "as many as wanted");
+    record.at_most("modes beyond the wanted number", "", beyond, 1, "one more where a pair would be parted");
+    record.at_least("first frequency left out over the last one kept", "",
+                    all[some.size()].frequency / some.back().frequency, 1, "a pair is not parted");
     BOOST_TEST(some.back().frequency < all[some.size()].frequency);
-    for (std::size_t k = 0; k < some.size(); ++k) BOOST_TEST(some[k].closing == all[k].closing);
+    int different = 0;
+    for (std::size_t k = 0; k < some.size(); ++k) different += some[k].closing != all[k].closing;
+    record.at_most("kept modes that differ", "", different, 0, "equal to the last bit");
   }
   const auto low = held_ring_modes(ring.flexibility, {all_modes, all[6].frequency});
-  BOOST_TEST(low.back().frequency <= all[6].frequency);
+  record.at_most("last frequency kept over the highest wanted", "", low.back().frequency / all[6].frequency, 1,
+                 "the limit");
+  record.at_least("first frequency left out over the highest wanted", "", all[low.size()].frequency / all[6].frequency,
+                  1, "the limit");
   BOOST_TEST(all[low.size()].frequency > all[6].frequency);
 }
 

@@ -211,23 +211,28 @@ BOOST_AUTO_TEST_CASE(area_converges_to_the_exact_area_with_second_order) {
 }
 
 BOOST_AUTO_TEST_CASE(the_resolution_is_what_was_asked_for) {
+  annulus::test::Verification record("Numbers and sizes of the cells of a tooth sector",
+                                     "counted by hand from the wanted resolution; arc length of the involute");
   const Gear gear = paper_ring();
   const SectorResolution n{
       .flank_cells = 12, .fillet_cells = 4, .thickness_cells = 7, .root_cells = 2, .rim_cells = 5, .flank_layer = 0.25};
   const Mesh mesh = make_sector_mesh(gear, {.support_radius = 0.3318, .circles = {0.322}}, n);
   std::map<Boundary, int> faces;
   for (const auto& face : mesh.faces) ++faces[face.boundary];
-  BOOST_TEST(faces[Boundary::leading_flank] == 12);
-  BOOST_TEST(faces[Boundary::trailing_flank] == 12);
-  BOOST_TEST(faces[Boundary::leading_fillet] == 4);
-  BOOST_TEST(faces[Boundary::trailing_fillet] == 4);
-  BOOST_TEST(faces[Boundary::tip] == 7);
-  BOOST_TEST(faces[Boundary::root] == 4);
-  BOOST_TEST(faces[Boundary::side_low] == 5);
-  BOOST_TEST(faces[Boundary::side_high] == 5);
-  BOOST_TEST(faces[Boundary::support] == 7 + 4 + 4);
-  BOOST_TEST(mesh.cells.size() == 7u * (12 + 2) + 5u * 15);
-  BOOST_TEST(std::ranges::count(mesh.regions, Mesh::Region::tooth) == 7 * 14);
+  const auto counted = [&](const std::string& what, double found, double wanted) {
+    record.near(what, "", found, wanted, 0, "counted by hand");
+  };
+  counted("faces of a flank", faces[Boundary::leading_flank], 12);
+  counted("faces of a flank", faces[Boundary::trailing_flank], 12);
+  counted("faces of a fillet", faces[Boundary::leading_fillet], 4);
+  counted("faces of a fillet", faces[Boundary::trailing_fillet], 4);
+  counted("faces of the tip", faces[Boundary::tip], 7);
+  counted("faces of the root", faces[Boundary::root], 4);
+  counted("faces of a side", faces[Boundary::side_low], 5);
+  counted("faces of a side", faces[Boundary::side_high], 5);
+  counted("faces of the support", faces[Boundary::support], 7 + 4 + 4);
+  counted("cells", static_cast<double>(mesh.cells.size()), 7 * (12 + 2) + 5 * 15);
+  counted("cells of the tooth", static_cast<double>(std::ranges::count(mesh.regions, Mesh::Region::tooth)), 7 * 14);
 
   // Flank cells are uniform in arc length rho^2 / 2 r_b, the layer under the flanks is a quarter of a uniform cell.
   const ToothProfile profile(gear);
@@ -244,10 +249,13 @@ BOOST_AUTO_TEST_CASE(the_resolution_is_what_was_asked_for) {
     }
     if (face.boundary == Boundary::tip) tip_cell = std::min(tip_cell, (a - b).norm());
   }
-  BOOST_TEST(longest / shortest < 1 + 1e-9);  // rounding of r^2 differences
+  record.near("longest over shortest cell of a flank", "", longest / shortest, 1, 1e-9,
+              "rounding of differences of r^2");
+  BOOST_TEST(longest / shortest < 1 + 1e-9);
   // The chord of the first cell is shorter than its arc by 1e-7 of it.
   const double uniform_cell = gear.tooth_thickness(gear.tip_radius()) / 7;
-  BOOST_TEST(tip_cell == 0.25 * uniform_cell, boost::test_tools::tolerance(1e-6));
+  record.close("first cell under a flank at the tip", "m", tip_cell, 0.25 * uniform_cell, 1e-6,
+               "chord against arc: 1e-7 of it");
 }
 
 BOOST_AUTO_TEST_CASE(flank_vertices_lie_where_they_are_wanted) {
@@ -334,8 +342,14 @@ BOOST_AUTO_TEST_CASE(meshing_twice_gives_the_same_mesh) {
   const Rim rim{.support_radius = 0.3318};
   const Mesh first = make_sector_mesh(paper_ring(), rim, {});
   const Mesh second = make_sector_mesh(paper_ring(), rim, {});
-  BOOST_TEST((first.vertices == second.vertices));
-  BOOST_TEST((first.cells == second.cells));
+  BOOST_REQUIRE(first.vertices.size() == second.vertices.size());
+  BOOST_REQUIRE(first.cells.size() == second.cells.size());
+  int vertices = 0, cells = 0;
+  for (std::size_t i = 0; i < first.vertices.size(); ++i) vertices += first.vertices[i] != second.vertices[i];
+  for (std::size_t i = 0; i < first.cells.size(); ++i) cells += first.cells[i] != second.cells[i];
+  annulus::test::Verification record("A tooth sector meshed twice", "each other");
+  record.at_most("vertices that differ", "", vertices, 0, "equal to the last bit");
+  record.at_most("cells that differ", "", cells, 0, "equal");
 }
 
 BOOST_AUTO_TEST_CASE(impossible_rims_are_refused_with_the_reason) {

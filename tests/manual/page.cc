@@ -158,7 +158,7 @@ std::string page(const std::string& introduction, const std::vector<ListedCase>&
         part += fmt::format("\n![{}: share of the tolerance that each comparison takes](verification/{})\n",
                             sentence(suite), tolerances_name(layer.folder, suite));
       part += recorded;
-      if (!others.empty()) part += "\nChecked without a figure of its own:\n\n" + others;
+      if (!others.empty()) part += "\nNothing to measure (what is refused, said or named):\n\n" + others;
     }
     if (!part.empty()) body += fmt::format("\n<a id=\"{}\"></a>\n\n## {}\n", anchor(layer.title), layer.title) + part;
   }
