@@ -34,15 +34,16 @@ class Draw {
 
 /// The angle with tan(angle) - angle = `involute`.
 double angle_of(double involute) {
+  if (!(involute > 1e-4)) throw GeometryError("no working pressure angle");
   const auto difference = [&](double angle) { return std::tan(angle) - angle - involute; };
   std::uintmax_t iterations = 100;
-  const auto [low, high] =
-      boost::math::tools::toms748_solve(difference, 1e-3, 1.2, boost::math::tools::eps_tolerance<double>(50), iterations);
+  const auto [low, high] = boost::math::tools::toms748_solve(difference, 1e-3, 1.2,
+                                                             boost::math::tools::eps_tolerance<double>(50), iterations);
   return (low + high) / 2;
 }
 
-/// 17.5 to 27.5 degrees (half of them 20), 14 to 190 teeth, rims of 1 to 8 modules; three in ten with tip relief. Throws
-/// GeometryError where such gears cannot mesh.
+/// 17.5 to 27.5 degrees (half of them 20), 14 to 190 teeth, rims of 1 to 8 modules; three in ten with tip relief.
+/// Throws GeometryError where such gears cannot mesh.
 fem::LoadedMeshProblem drawn_mesh(Draw& draw, bool internal) {
   const double module = std::exp(draw.between(std::log(1e-3), std::log(8e-3)));
   geometry::GearParameters planet;
@@ -71,7 +72,10 @@ fem::LoadedMeshProblem drawn_mesh(Draw& draw, bool internal) {
   const double bore = draw.between(0.3, 0.75), rim = draw.between(1, 8), sun_bore = draw.between(0.2, 0.7);
   const geometry::GearPair pair(Gear(planet), Gear(wheel), centre_distance);
   const double root = pair.wheel().root_radius();
-  fem::LoadedMeshProblem problem{pair, {}, planet.face_width, bore * pair.planet().root_radius(),
+  fem::LoadedMeshProblem problem{pair,
+                                 {},
+                                 planet.face_width,
+                                 bore * pair.planet().root_radius(),
                                  internal ? root + rim * module : sun_bore * root};
   const double usual = 30e6 * planet.face_width * module;
   problem.loads = {0.1 * usual, usual, 3 * usual};
