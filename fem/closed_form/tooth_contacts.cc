@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <utility>
 
 #include "core/errors.h"
 
@@ -14,8 +12,6 @@ namespace {
 
 /// Of flanks, in base pitches: those that overlap less have no place for a contact.
 constexpr double shortest_overlap = 1e-9;
-/// In modules: wider than loads close it, which would make teeth fold before.
-constexpr double out_of_reach = 0.02;
 
 /// Root load of a unit force on the trailing flank from that on the leading one.
 Eigen::Vector3d mirrored_root(const Eigen::Vector3d& root) { return {root.x(), -root.y(), -root.z()}; }
@@ -69,34 +65,25 @@ FlankGap gap_around(const FlankContact& flanks, double planet_roll, double wheel
   return gap;
 }
 
-/// Behind the path of contact the tip of a planet may pass that of a ring, against which it is the flatter one: the gap
-/// is not convex there, and so wide that teeth do not touch.
-bool tips_pass(const geometry::GearPair& pair, const FlankGap& gap, double distance) {
-  if (gap.curvature > 0) return false;
-  if (distance < out_of_reach * pair.planet().parameters().module)
-    throw SolverError(
-        fmt::format("two tips meet behind the path of contact, {:.3g} mm from each other, which formulas "
-                    "do not cover: use rung = \"plane\"",
-                    1e3 * distance));
-  return true;
-}
-
 /// Angle of the material at the tip edge: the flank leans against the radius by the pressure angle.
 double tip_corner(const geometry::ToothProfile& profile) {
   return M_PI / 2 + std::atan(profile.roll_length_tip() / profile.gear().base_radius());
 }
 
-/// Absent when the flanks are out of reach.
-std::optional<ToothContact> make_contact(const FlankContact& flanks, const ClosedFormBody& planet,
-                                         const ClosedFormBody& wheel, const Material& material, double width, int index,
-                                         double roll) {
+/// Adds the pair to the contacts. Behind the path of contact the tip of a planet may pass that of a ring, against which
+/// it is the flatter one: the gap is not convex there, and its distance is all that is kept.
+void add_contact(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
+                 const Material& material, double width, int index, double roll, ToothContacts& contacts) {
   const auto& pair = flanks.pair();
   const auto domain = flanks.domain(roll);
   const double nearest = flanks.nearest_roll(roll, domain);
   const auto match = flanks.match(nearest, roll);
   const auto on_planet = planet.tooth().load(nearest), on_wheel = wheel.tooth().load(match.wheel_roll);
   const FlankGap gap = gap_around(flanks, nearest, match.wheel_roll, roll, domain);
-  if (tips_pass(pair, gap, match.gap)) return std::nullopt;
+  if (!(gap.curvature > 0)) {
+    contacts.tips_apart = std::min(contacts.tips_apart, match.gap);
+    return;
+  }
   const double planet_edge = distance_to_tip(flanks.planet(), nearest);
   // The patch and the edge have to agree where the wheel's tip cuts the gap.
   const bool wheel_tip_cuts = domain.low > flanks.planet().roll_length_form();
@@ -116,15 +103,11 @@ std::optional<ToothContact> make_contact(const FlankContact& flanks, const Close
   const double from = std::max(gap.low, -step), to = std::min(gap.high, step);
   // Flanks that hardly overlap have no room to tilt.
   const double tilt = to - from > step / 2 ? (compliance(to) - compliance(from)) / (to - from) / 2 * width : 0;
-  return ToothContact{index,
-                      roll,
-                      nearest,
-                      match.gap,
-                      on_planet.root,
-                      pair.internal() ? mirrored_root(on_wheel.root) : on_wheel.root,
-                      (on_planet.compliance + on_wheel.compliance) / width,
-                      LineContact(gap, {on_planet.depth, planet_edge, tip_corner(flanks.planet())},
-                                  {on_wheel.depth, wheel_edge, tip_corner(flanks.wheel())}, tilt, material, width)};
+  contacts.pairs.push_back(
+      {index, roll, nearest, match.gap, on_planet.root, pair.internal() ? mirrored_root(on_wheel.root) : on_wheel.root,
+       (on_planet.compliance + on_wheel.compliance) / width,
+       LineContact(gap, {on_planet.depth, planet_edge, tip_corner(flanks.planet())},
+                   {on_wheel.depth, wheel_edge, tip_corner(flanks.wheel())}, tilt, material, width)});
 }
 
 }  // namespace
@@ -148,8 +131,7 @@ ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& pl
     if (roll <= 0) continue;
     const auto domain = flanks.domain(roll);
     if (domain.high - domain.low < shortest_overlap * pitch) continue;
-    if (auto contact = make_contact(flanks, planet, wheel, material, width, k, roll))
-      contacts.pairs.push_back(std::move(*contact));
+    add_contact(flanks, planet, wheel, material, width, k, roll, contacts);
   }
   require(!contacts.pairs.empty(), "no tooth pair faces another");
 
@@ -221,6 +203,11 @@ ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothConta
     change = (next - force).cwiseAbs().maxCoeff();
     force = next;
     if (change > wanted) continue;
+    if (const double closing = result.solution.rigid[0]; closing > contacts.tips_apart)
+      throw SolverError(
+          fmt::format("mesh phase {:.4f}: {:.4g} N close the {:.3g} mm between two tips behind the path of "
+                      "contact, which formulas do not cover: use rung = \"plane\"",
+                      contacts.phase, load, 1e3 * contacts.tips_apart));
     for (Eigen::Index i = 0; i < pairs; ++i)
       result.lines.push_back(force[i] > 0 ? contacts.pairs[i].line.at(force[i]) : LineContact::State{});
     return result;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct ToothContacts {
   std::vector<ToothContact> pairs;
   Eigen::MatrixXd compliance;  ///< m/N
   double asymmetry = 0;        ///< of the compliance, formed in both directions
+  /// Least distance of tips that pass each other behind the path of contact, which formulas do not cover, m.
+  double tips_apart = std::numeric_limits<double>::infinity();
 };
 
 /// Pairs up to one base pitch before and after the theoretical path, as in the finite-element rungs.

@@ -2,6 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -165,6 +166,7 @@ BOOST_AUTO_TEST_CASE(tip_edges_of_other_gears_and_with_tip_relief) {
     double module, pressure_angle, planet_shift, wheel_shift, centre_distance, ring_tip, bore, support, load;
     double planet_crowning = 0;
   };
+  std::optional<LoadedMeshProblem> passing_tips;
   // On the first six the reach of a tip edge was measured; two were the worst of 57 drawn at random; of the last one
   // two tips pass each other behind the path of contact.
   for (const Set& set :
@@ -200,7 +202,13 @@ BOOST_AUTO_TEST_CASE(tip_edges_of_other_gears_and_with_tip_relief) {
     problem.loads = loads(set.load);
     problem.phases = 16;
     check_estimate(record, std::to_string(set.planet) + " and " + std::to_string(set.wheel) + " teeth", problem, 1);
+    passing_tips = problem;
   }
+  // A load that closes even the gap between those tips.
+  passing_tips->loads = {500e3};
+  BOOST_CHECK_EXCEPTION((void)solve_closed_form(*passing_tips, {}), annulus::SolverError, [](const auto& error) {
+    return std::string(error.what()).find("between two tips") != std::string::npos;
+  });
 }
 
 BOOST_AUTO_TEST_CASE(other_gears_than_those_the_layer_of_teeth_was_measured_on) {
