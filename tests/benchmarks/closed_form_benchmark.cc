@@ -3,10 +3,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <numbers>
 #include <random>
 #include <string>
@@ -32,16 +30,6 @@ class Draw {
   std::mt19937 random_;
 };
 
-/// The angle with tan(angle) - angle = `involute`.
-double angle_of(double involute) {
-  if (!(involute > 1e-4)) throw GeometryError("no working pressure angle");
-  const auto difference = [&](double angle) { return std::tan(angle) - angle - involute; };
-  std::uintmax_t iterations = 100;
-  const auto [low, high] = boost::math::tools::toms748_solve(difference, 1e-3, 1.2,
-                                                             boost::math::tools::eps_tolerance<double>(50), iterations);
-  return (low + high) / 2;
-}
-
 /// 17.5 to 27.5 degrees (half of them 20), 14 to 190 teeth, rims of 1 to 8 modules; three in ten with tip relief.
 /// Throws GeometryError where such gears cannot mesh.
 fem::LoadedMeshProblem drawn_mesh(Draw& draw, bool internal) {
@@ -65,7 +53,9 @@ fem::LoadedMeshProblem drawn_mesh(Draw& draw, bool internal) {
   // Centre distance of the shifts, and some backlash.
   const double sign = internal ? -1 : 1, alpha = planet.pressure_angle, teeth = wheel.teeth + sign * planet.teeth;
   const double shift = wheel.profile_shift + sign * planet.profile_shift;
-  const double working = angle_of(std::tan(alpha) - alpha + 2 * std::tan(alpha) * shift / teeth);
+  const double involute = geometry::involute(alpha) + 2 * std::tan(alpha) * shift / teeth;
+  if (!(involute > 1e-4)) throw GeometryError("a working pressure angle below four degrees");
+  const double working = geometry::inverse_involute(involute);
   const double centre_distance =
       module * (teeth / 2 * std::cos(alpha) / std::cos(working) + sign * draw.between(0, 0.03));
   if (internal) wheel.tip_diameter = module * (wheel.teeth + 2 * wheel.profile_shift - draw.between(1.6, 2));
