@@ -95,7 +95,8 @@ double contact_error(const LoadedMeshProblem& problem, const FlankContact& flank
   const std::size_t loads = problem.loads.size();
   double largest = 0;
   for (int i = 0; i < std::min(places, problem.phases); ++i) {
-    const auto& position = positions[static_cast<std::size_t>(i * problem.phases / places) * loads + loads / 2];
+    const int phase = i * problem.phases / places, compared = phase - phase % compared_stride(problem);
+    const auto& position = positions[static_cast<std::size_t>(compared) * loads + loads / 2];
     ContactSystem::PairsCache cache;
     ContactSystem::WarmStart warm;
     const auto fine = finer.solve(position.ring_tooth, position.mesh_phase, position.load, cache, warm, nullptr);
@@ -107,13 +108,12 @@ double contact_error(const LoadedMeshProblem& problem, const FlankContact& flank
 }  // namespace
 
 SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
-                                  const FlankContact& flanks, int level, LevelUse use,
+                                  const FlankContact& flanks, int level, const AcceptLevel& accept,
                                   const ProgressFunction& progress) {
   MeshBodies bodies = build_bodies(problem, flanks, settings, level);
   const Stopwatch watch;
-  const double elements = settings.rung == Rung::solid ? 6 : 10;  // in a solid, every slice has as many
   ContactOptions options;
-  options.elements = static_cast<int>(std::lround(elements * std::pow(1.25, level - 1)));
+  options.elements = pressure_elements(settings.rung == Rung::solid, settings.degree, level);
   options.misalignment = problem.misalignment;
   options.half_face = bodies.face.half;
   const ContactSystem system(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.material,
@@ -121,7 +121,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   const auto solve = [&](int cycle, int phase, int load, ContactSystem::PairsCache& cache,
                          ContactSystem::WarmStart& warm) {
     ContactForces forces;
-    const bool stresses = use == LevelUse::table && load == static_cast<int>(problem.loads.size() / 2);
+    const bool stresses = accept && load == static_cast<int>(problem.loads.size() / 2);
     LoadedPosition position = system.solve(cycle, static_cast<double>(phase) / problem.phases, problem.loads[load],
                                            cache, warm, stresses ? &forces : nullptr);
     if (!stresses) return position;
@@ -131,9 +131,10 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   };
   SolvedLevel result;
   const bool one_cycle = repeating_teeth(problem.structure, problem.pair.wheel().teeth()) == 1;
-  result.positions = solve_positions(problem, settings, use, one_cycle, solve, progress);
-  if (use == LevelUse::table) {
-    result.contact_error = contact_error(problem, flanks, bodies, options, result.positions);
+  solve_positions(problem, settings, false, one_cycle, solve, progress, result.positions);
+  if (accept) result.contact_error = contact_error(problem, flanks, bodies, options, result.positions);
+  if (accept && accept(result)) {
+    solve_positions(problem, settings, true, one_cycle, solve, progress, result.positions);
     result.stress_curves = worst_curves(problem, bodies, system, result.positions);
     if (settings.want_fields) result.fields = worst_fields(problem, bodies, system, result.positions);
   }

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/errors.h"
+#include "fem/condensation/lapack.h"
 
 namespace annulus::fem {
 
@@ -73,6 +74,7 @@ FieldRecovery::FieldRecovery(const GearBody& body, const BodySource& source, con
       if (in.place[it.row()] >= 0) inner.insertBack(in.place[it.row()], in.place[column]) = it.value();
   }
   inner.finalize();
+  lapack::use_one_thread();
   in.factor.compute(inner);
   if (in.factor.info() != Eigen::Success) throw SolverError("the stiffness of a tooth is not positive definite");
 }

@@ -10,19 +10,24 @@
 
 namespace annulus::fem {
 
+int compared_stride(const LoadedMeshProblem& problem) {
+  constexpr int enough_phases = 16;
+  return std::max(1, problem.phases / enough_phases);
+}
+
 bool is_compared(const LoadedMeshProblem& problem, int phase, int load) {
-  constexpr int enough_phases = 32, enough_loads = 3;
+  constexpr int enough_loads = 3;
   const int loads = static_cast<int>(problem.loads.size());
-  if (phase % std::max(1, problem.phases / enough_phases) != 0) return false;
+  if (phase % compared_stride(problem) != 0) return false;
   return loads <= enough_loads || load == 0 || load == loads / 2 || load == loads - 1;
 }
 
-std::vector<LoadedPosition> solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
-                                            LevelUse use, bool chained, const SolvePosition& solve,
-                                            const ProgressFunction& progress) {
+void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, bool table, bool chained,
+                     const SolvePosition& solve, const ProgressFunction& progress,
+                     std::vector<LoadedPosition>& positions) {
   const int loads = static_cast<int>(problem.loads.size()), phases = problem.phases;
   const int cycles = repeating_teeth(problem.structure, problem.pair.wheel().teeth());
-  std::vector<LoadedPosition> positions(static_cast<std::size_t>(cycles * phases + 1) * loads);
+  positions.resize(static_cast<std::size_t>(cycles * phases + 1) * loads);
   // Chained: one task per load, neighbouring phases warm-start each other. Otherwise one task per load and phase, in
   // which the pins move on from cycle to cycle.
   const int tasks = chained ? loads : loads * (phases + 1);
@@ -36,9 +41,10 @@ std::vector<LoadedPosition> solve_positions(const LoadedMeshProblem& problem, co
         ContactSystem::PairsCache cache;
         ContactSystem::WarmStart warm;
         for (int phase = first_phase; phase <= last_phase; ++phase) {
-          if (use == LevelUse::comparison && !is_compared(problem, phase, load)) continue;
+          if (!table && !is_compared(problem, phase, load)) continue;
           for (int cycle = phase == phases ? cycles - 1 : 0; cycle < cycles; ++cycle) {
             auto& position = positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load];
+            if (position.entry.stiffness_secant != 0) continue;
             position = solve(cycle, phase, load, cache, warm);
             check_deflection(problem, settings, position);
             if (load != loads / 2) position.pressure.clear();
@@ -60,7 +66,6 @@ std::vector<LoadedPosition> solve_positions(const LoadedMeshProblem& problem, co
   worker();
   for (auto& t : pool) t.join();
   if (failure) std::rethrow_exception(failure);
-  return positions;
 }
 
 }  // namespace annulus::fem

@@ -10,20 +10,16 @@
 
 namespace annulus::fem {
 
-/// What a level is solved for.
-enum class LevelUse {
-  table,       ///< everything that is told of it
-  comparison,  ///< the estimate of the level after it alone: some of the positions, without stresses
-};
-
-/// Whether a position is among those by which levels are compared: 32 or a few more phases of a mesh cycle, and of more
-/// than three loads the smallest, the middle and the largest one.
+/// How many phases lie between those at which levels are compared: they are 16 or a few more in a mesh cycle.
+[[nodiscard]] int compared_stride(const LoadedMeshProblem& problem);
+/// Whether a position is among those by which levels are compared: at the phases above, and of more than three loads the
+/// smallest, the middle and the largest one.
 [[nodiscard]] bool is_compared(const LoadedMeshProblem& problem, int phase, int load);
 
 /// What one level of resolution of a loaded mesh gives.
 struct SolvedLevel {
   /// [cycle][phase 0 ... phases][load]: the last phase of the last cycle is the closure, inner ends of cycles are not
-  /// solved twice. Solved for comparison, a stiffness of 0 says that the position was left out.
+  /// solved twice. A stiffness of 0 says that the position was left out.
   std::vector<LoadedPosition> positions;
   std::vector<StressCurve> stress_curves;
   std::vector<BodyField> fields;
@@ -39,25 +35,28 @@ struct SolvedLevel {
 };
 
 using ProgressFunction = std::function<void(double fraction)>;
+/// Asked when the compared positions of a level are solved: whether it becomes the table. Then the others follow, with
+/// stresses and fields; else what is there is enough to estimate the error of the next level. Empty: it does not.
+using AcceptLevel = std::function<bool(SolvedLevel& compared)>;
 
 /// Condensed gears whose meshes do not follow the contact: the plane and solid rungs.
 [[nodiscard]] SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
-                                                const FlankContact& flanks, int level, LevelUse use,
+                                                const FlankContact& flanks, int level, const AcceptLevel& accept,
                                                 const ProgressFunction& progress);
 /// Teeth meshed anew for every contact: the resolved rungs.
 [[nodiscard]] SolvedLevel solve_resolved_level(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
-                                               const FlankContact& flanks, int level, LevelUse use,
+                                               const FlankContact& flanks, int level, const AcceptLevel& accept,
                                                const ProgressFunction& progress);
 
 /// Solves one position: mesh cycle, number of the phase, number of the load. Cache and warm start are those of the task
 /// that the position belongs to.
 using SolvePosition = std::function<LoadedPosition(int cycle, int phase, int load, ContactSystem::PairsCache& cache,
                                                    ContactSystem::WarmStart& warm)>;
-/// The positions of one level on the threads of the settings: never dependent on their number.
-[[nodiscard]] std::vector<LoadedPosition> solve_positions(const LoadedMeshProblem& problem,
-                                                          const LoadedMeshSettings& settings, LevelUse use,
-                                                          bool chained, const SolvePosition& solve,
-                                                          const ProgressFunction& progress);
+/// The positions of one level on the threads of the settings: never dependent on their number. `table`: all that
+/// `positions` does not hold yet, else the compared ones alone.
+void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, bool table, bool chained,
+                     const SolvePosition& solve, const ProgressFunction& progress,
+                     std::vector<LoadedPosition>& positions);
 
 /// Wall seconds since the construction.
 class Stopwatch {

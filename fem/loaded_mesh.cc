@@ -48,9 +48,9 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
 
   double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0, saved_seconds = 0, worst = 0;
   int condensed_teeth = 0, reused_teeth = 0;
-  const auto solve_level = [&](int level, LevelUse use) {
-    auto solved =
-        (resolved ? solve_resolved_level : solve_condensed_level)(problem, settings, flanks, level, use, [&](double f) {
+  const auto solve_level = [&](int level, const AcceptLevel& accept) {
+    auto solved = (resolved ? solve_resolved_level : solve_condensed_level)(
+        problem, settings, flanks, level, accept, [&](double f) {
           if (!settings.progress) return;
           // The work grows with the number of cells, and at least the first level is solved after the one before it; a
           // further one makes the finished part smaller again.
@@ -72,18 +72,27 @@ LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const Loade
     return solved;
   };
 
-  SolvedLevel coarser = solve_level(first_level - 1, LevelUse::comparison), solved;
+  SolvedLevel coarser = solve_level(first_level - 1, {}), solved;
   int level = first_level;
   std::optional<double> difference;  // of the last two levels
   for (;; ++level) {
-    solved = solve_level(level, LevelUse::table);
-    const auto errors =
-        estimate_errors(problem, settings, solved.contact_error, coarser.positions, solved.positions, difference);
-    worst = errors.worst, difference = errors.difference;
-    if (settings.level || worst <= settings.accuracy) break;
+    bool accepted = false;
+    std::optional<double> next_difference;
+    const auto estimate = [&](SolvedLevel& finer) {
+      const auto errors =
+          estimate_errors(problem, settings, finer.contact_error, coarser.positions, finer.positions, difference);
+      worst = errors.worst, next_difference = errors.difference;
+      return accepted = settings.level || worst <= settings.accuracy;
+    };
+    solved = solve_level(level, estimate);
+    if (accepted) {
+      estimate(solved);  // of all positions
+      break;
+    }
+    difference = next_difference;
     if (settings.degree == 1 && level >= last_linear_level(problem)) {
       settings.degree = 2;
-      coarser = solve_level(0, LevelUse::comparison);
+      coarser = solve_level(0, {});
       level = 0, difference.reset();
       continue;
     }

@@ -171,6 +171,12 @@ int slices_per_cell(const LoadedMeshProblem& problem, int degree) {
   return degree > 1 && more ? 3 : 2;
 }
 
+int pressure_elements(bool solid, int degree, int level) {
+  double first = solid ? 6 : 10;
+  if (degree == 1) first = solid ? 3 : 7;
+  return static_cast<int>(std::lround(first * std::pow(1.25, level - 1)));
+}
+
 BodyResolution resolved_solid_resolution(int level) {
   const double refine = std::pow(level_ratio, level - 1);
   BodyResolution r = solid_resolution(level, 2);

@@ -201,7 +201,7 @@ LoadedPosition ResolvedMesh::solve(double phase, double load) const {
 }  // namespace
 
 SolvedLevel solve_resolved_level(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
-                                 const FlankContact& flanks, int level, LevelUse use,
+                                 const FlankContact& flanks, int level, const AcceptLevel& accept,
                                  const ProgressFunction& progress) {
   refuse_what_is_not_resolved(problem);
   lapack::use_one_thread();
@@ -213,7 +213,8 @@ SolvedLevel solve_resolved_level(const LoadedMeshProblem& problem, const LoadedM
   const auto solve = [&](int, int phase, int load, ContactSystem::PairsCache&, ContactSystem::WarmStart&) {
     return mesh.solve(static_cast<double>(phase) / problem.phases, problem.loads[load]);
   };
-  result.positions = solve_positions(problem, settings, use, false, solve, progress);
+  solve_positions(problem, settings, false, false, solve, progress, result.positions);
+  if (accept && accept(result)) solve_positions(problem, settings, true, false, solve, progress, result.positions);
   result.contact_seconds = solving.seconds();
   result.unknowns = mesh.planet.regular.body.unknowns + mesh.wheel.regular.body.unknowns;
   result.half_face = mesh.face.half;

@@ -125,9 +125,14 @@ std::pair<Eigen::VectorXd, Eigen::MatrixXd> largest_eigenpairs(Eigen::MatrixXd m
 }
 
 void use_one_thread() {
-  // Resolved at run time so that any other BLAS works as well.
-  using SetThreads = void (*)(int);
-  if (auto* set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) set(1);
+  // Resolved at run time so that any other BLAS, and a CHOLMOD without OpenMP, work as well.
+  using Set = void (*)(int);
+  const auto call = [](const char* name, int value) {
+    if (auto* set = reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, name))) set(value);
+  };
+  call("openblas_set_num_threads", 1);
+  // CHOLMOD asks for a number of threads fixed when it was compiled; OpenMP keeps this limit for every thread.
+  call("omp_set_max_active_levels", 0);
 }
 
 }  // namespace annulus::fem::lapack

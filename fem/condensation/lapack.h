@@ -27,7 +27,8 @@ void add_product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::Matr
 /// The `count` largest eigenvalues, falling, and their eigenvectors (orthonormal columns) of a symmetric matrix. Throws
 /// SolverError when they do not converge.
 [[nodiscard]] std::pair<Eigen::VectorXd, Eigen::MatrixXd> largest_eigenpairs(Eigen::MatrixXd matrix, int count);
-/// One BLAS thread: annulus runs its own threads over independent tasks.
+/// One thread for what this thread calls of BLAS and CHOLMOD: annulus runs its own threads over independent tasks, and
+/// starting threads for the small loops of a factorisation costs more than they do.
 void use_one_thread();
 
 }  // namespace annulus::fem::lapack

@@ -15,6 +15,7 @@ namespace annulus::fem {
 struct CholmodWorkspace {
   cholmod_common common{};
   CholmodWorkspace() {
+    lapack::use_one_thread();
     cholmod_start(&common);
     common.print = 0;
     common.supernodal = CHOLMOD_SUPERNODAL;
