@@ -34,10 +34,12 @@ double largest_difference(const ResponseWindow& a, const ResponseWindow& b, doub
   return (a.force - b.force).cwiseAbs().maxCoeff() / mean_force;
 }
 
+/// Windows over which a decay shows.
+constexpr int stretch = 8;
+
 /// Is the tolerance out of reach in `left` more windows at the pace at which the largest differences of eight windows
 /// went down from the eight before? (Chaos: they do not.)
 bool hopeless(const std::vector<double>& differences, int left, double tolerance) {
-  constexpr std::ptrdiff_t stretch = 8;
   if (static_cast<std::ptrdiff_t>(differences.size()) < 2 * stretch) return false;
   const auto end = differences.end();
   const double now = *std::max_element(end - stretch, end), then = *std::max_element(end - 2 * stretch, end - stretch);
@@ -79,6 +81,7 @@ class March {
 bool reach_steady_state(March& march, const SimulationOptions& options, double mean_force) {
   double previous = 0;
   std::vector<double> differences;
+  bool agreed = false;
   if (march.windows() == 0) march.advance();
   for (int i = 1; i < options.max_windows; ++i) {
     march.advance();
@@ -86,15 +89,17 @@ bool reach_steady_state(March& march, const SimulationOptions& options, double m
     // What a geometric decay at the observed ratio still has ahead; the first difference knows no ratio and has to be
     // clearly smaller by itself.
     const double ratio = i > 1 ? difference / previous : 0.9;
-    if (difference <= options.steady_tolerance &&
-        (ratio < 1 ? difference * ratio / (1 - ratio) <= options.steady_tolerance
-                   // No decay left to see: the differences are the integrator's own.
-                   : difference <= 0.5 * options.steady_tolerance))
-      return true;
+    const bool agrees = difference <= options.steady_tolerance &&
+                        (ratio < 1 ? difference * ratio / (1 - ratio) <= options.steady_tolerance
+                                   // No decay left to see: the differences are the integrator's own.
+                                   : difference <= 0.5 * options.steady_tolerance);
+    // A chaotic motion comes by an unstable periodic one now and then, and leaves it again: once differences have gone
+    // on for so long, one that is small tells nothing.
+    if (agrees && (i < stretch || agreed)) return true;
+    agreed = agrees;
     previous = difference;
-    // One response among many is not worth every effort.
     differences.push_back(difference);
-    if (!options.confirm && hopeless(differences, options.max_windows - i, options.steady_tolerance)) return false;
+    if (hopeless(differences, options.max_windows - i, options.steady_tolerance)) return false;
   }
   return false;
 }

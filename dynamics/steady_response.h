@@ -25,8 +25,7 @@ enum class SteadyState {
 struct SimulationOptions {
   SteadyState steady_state = SteadyState::direct;
   /// `direct` only. false: where the harmonic balance converges, its solution is taken without any time integration
-  /// (sweeps, Monte Carlo); the errors then compare with half the samples, and there is no energy balance. Marching
-  /// gives up where windows come closer so slowly (chaos: not at all) that `max_windows` will not do.
+  /// (sweeps, Monte Carlo); the errors then compare with half the samples, and there is no energy balance.
   bool confirm = true;
   /// Without `confirm`: confirmed nevertheless where a mesh loses contact, beside which other motions may exist.
   bool confirm_where_teeth_part = false;
@@ -42,7 +41,9 @@ struct SimulationOptions {
   /// from the harmonic balance; or from one evaluated window earlier, and the differences, continued geometrically, add
   /// up to no more.
   double steady_tolerance = 1e-3;
-  int max_windows = 40;  ///< gives up after so many windows (chaos, nearly undamped): `steady` is then false
+  /// Marching gives up after so many windows, or where they come closer so slowly (chaos: not at all) that so many will
+  /// not do: `steady` is then false.
+  int max_windows = 40;
   /// Of the time series and the harmonic balance (a multiple of 8 there, which takes more for itself where marching
   /// would not confirm so few); the highest excited frequency needs at least four samples.
   int samples_per_cycle = 64;
