@@ -37,9 +37,21 @@ struct ContactSystem::Pair {
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(elements.size()); }
 };
 
+/// Two flanks facing each other over some slices, in which the theoretical contact stands at the same place.
+struct ContactSystem::Facing {
+  int pair = 0;
+  double pair_roll = 0, roll = 0;  ///< theoretical contact on the planet: of the pair, and in these slices
+  FlankContact::Interval domain;
+  double centre_roll = 0;   ///< where the flanks are nearest
+  double gap = 0;           ///< m, there, along the normal; without the lead's
+  std::vector<int> slices;  ///< all of a spur gear, one of a helical one
+};
+
 /// All pairs of one phase and load, and what they have in common in every mesh cycle.
 struct ContactSystem::Pairs {
   double phase = 0, load = 0, window = 0;
+  double reach = 0;  ///< m, transmission error: flanks further apart than the nearest ones by more are left out
+  double nearest_left_out = std::numeric_limits<double>::infinity();  ///< m, further apart than the nearest ones
   std::vector<Pair> pairs;
   std::vector<Eigen::Index> start;  ///< first unknown of every pair
   Eigen::Index contacts = 0;        ///< number of unknown contact forces
@@ -114,13 +126,11 @@ std::vector<double> ContactSystem::element_edges(const Pair& pair, double centre
   return edges;
 }
 
-void ContactSystem::add_elements(Pair& pair, double roll, const std::vector<int>& slices, double load,
-                                 double window) const {
-  const auto domain = flanks_.domain(roll);
-  if (domain.empty()) return;
+void ContactSystem::add_elements(Pair& pair, const Facing& facing, double load, double window) const {
+  const auto& domain = facing.domain;
+  const double roll = facing.roll, centre_roll = facing.centre_roll;
   const double width = slice_edges_.back() - slice_edges_.front();
   const double base = flanks_.pair().planet().base_radius(), wheel_base = flanks_.pair().wheel().base_radius();
-  const double centre_roll = flanks_.nearest_roll(roll, domain);
   const double half_width = ContactSystem::half_width(flanks_, roll, load / width, material_);
   const auto arc_of = [&](double planet_roll) { return planet_roll * planet_roll / (2 * base); };
   const auto roll_of = [&](double arc) {
@@ -173,7 +183,7 @@ void ContactSystem::add_elements(Pair& pair, double roll, const std::vector<int>
     pair.planet.loads.push_back(planet_.make_load(pair.index, (low + high) / 2, (high - low) / 2));
     pair.wheel.loads.push_back(wheel_.make_load(wheel_tooth(pair.index, 0), wheel_arc,
                                                 std::abs(wheel_high - wheel_low) / 2 / Rule::abscissa().back()));
-    for (const int s : slices) {
+    for (const int s : facing.slices) {
       element.gap = normal_factor_ * gap + lead_gap_[s];
       element.area = (high - low) * (slice_edges_[s + 1] - slice_edges_[s]) / normal_factor_;
       pair.elements.push_back(element);
@@ -182,9 +192,7 @@ void ContactSystem::add_elements(Pair& pair, double roll, const std::vector<int>
       pair.wheel.elements.push_back(of_patch);
     }
   }
-  const double profile_gap = normal_factor_ * flanks_.match(centre_roll, roll).gap;
-  for (const int s : slices)
-    pair.smallest_gap = std::min(pair.smallest_gap, (profile_gap + smallest_lead_gap_[s]) / normal_factor_);
+  for (const int s : facing.slices) pair.smallest_gap = std::min(pair.smallest_gap, gap_without_load(facing, s));
 }
 
 std::vector<std::pair<int, double>> ContactSystem::possible_pairs(const FlankContact& flanks, double phase) {
@@ -217,26 +225,61 @@ double ContactSystem::slice_roll(int slice) const {
   return roll_per_z_ * ((slice_edges_[slice] + slice_edges_[slice + 1]) / 2 - middle);
 }
 
-std::vector<ContactSystem::Pair> ContactSystem::find_pairs(double phase, double load, double window) const {
-  std::vector<Pair> pairs;
+double ContactSystem::gap_without_load(const Facing& facing, int slice) const {
+  return (facing.gap + smallest_lead_gap_[slice]) / normal_factor_;
+}
+
+std::vector<ContactSystem::Facing> ContactSystem::find_facing(double phase) const {
+  std::vector<Facing> result;
+  const auto add = [&](int pair, double pair_roll, double roll, std::vector<int> slices) {
+    const auto domain = flanks_.domain(roll);
+    if (domain.empty()) return;
+    const double centre = flanks_.nearest_roll(roll, domain);
+    result.push_back({pair, pair_roll, roll, domain, centre, normal_factor_ * flanks_.match(centre, roll).gap,
+                      std::move(slices)});
+  };
   for (const auto& [index, roll] : possible_pairs(flanks_, phase)) {
-    Pair p;
-    p.index = index;
-    p.roll = roll;
     // The section of a helical gear turns along the face width, and the contact moves with it.
     if (roll_per_z_ == 0) {
       std::vector<int> all(planet_.slices());
       std::iota(all.begin(), all.end(), 0);
-      add_elements(p, roll, all, load, window);
+      add(index, roll, roll, std::move(all));
     } else {
-      for (int s = 0; s < planet_.slices(); ++s) add_elements(p, roll + slice_roll(s), {s}, load, window);
+      for (int s = 0; s < planet_.slices(); ++s) add(index, roll, roll + slice_roll(s), {s});
     }
-    if (p.elements.empty()) continue;
+  }
+  return result;
+}
+
+void ContactSystem::find_pairs(Pairs& setup) const {
+  auto all = find_facing(setup.phase);
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& f : all)
+    for (const int s : f.slices) least = std::min(least, gap_without_load(f, s));
+  for (auto& f : all) {
+    std::vector<int> near;
+    for (const int s : f.slices) {
+      const double further = gap_without_load(f, s) - least;
+      if (further <= setup.reach)
+        near.push_back(s);
+      else
+        setup.nearest_left_out = std::min(setup.nearest_left_out, further);
+    }
+    if (near.empty()) continue;
+    f.slices = std::move(near);
+    if (setup.pairs.empty() || setup.pairs.back().index != f.pair) {
+      setup.pairs.emplace_back();
+      setup.pairs.back().index = f.pair;
+      setup.pairs.back().roll = f.pair_roll;
+    }
+    add_elements(setup.pairs.back(), f, setup.load, setup.window);
+  }
+  const auto empty = [](const Pair& p) { return p.elements.empty(); };
+  setup.pairs.erase(std::remove_if(setup.pairs.begin(), setup.pairs.end(), empty), setup.pairs.end());
+  for (auto& p : setup.pairs) {
     planet_.find_weights(p.planet, p.index);
     wheel_.find_weights(p.wheel, wheel_tooth(p.index, 0));
-    pairs.push_back(std::move(p));
   }
-  return pairs;
 }
 
 int ContactSystem::wheel_tooth(const FlankContact& flanks, int index, int cycle) {
@@ -245,12 +288,13 @@ int ContactSystem::wheel_tooth(const FlankContact& flanks, int index, int cycle)
 
 int ContactSystem::wheel_tooth(int index, int cycle) const { return wheel_tooth(flanks_, index, cycle); }
 
-ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, double window) const {
+ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, double window, double reach) const {
   auto result = std::make_shared<Pairs>();
   result->phase = phase;
   result->load = load;
   result->window = window;
-  result->pairs = find_pairs(phase, load, window);
+  result->reach = reach;
+  find_pairs(*result);
   const auto& pairs = result->pairs;
   auto& start = result->start;
   for (const auto& p : pairs) {
@@ -333,7 +377,13 @@ Eigen::MatrixXd ContactSystem::wheel_resultants(const Pair& pair, int tooth) con
 LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, PairsCache& cache, WarmStart& warm,
                                     ContactForces* forces) const {
   const double load = options_.half_face ? whole_load / 2 : whole_load;
-  if (!cache || cache->phase != phase || cache->load != load) cache = prepare(phase, load, options_.window);
+  if (!cache || cache->phase != phase || cache->load != load) {
+    // A softer mesh than most; where it is too stiff still, pairs are looked for again.
+    const double width = slice_edges_.back() - slice_edges_.front();
+    const double soft_mesh = 0.02 * material_.youngs_modulus;  // N/m per m of face width
+    const bool same_load = cache && cache->load == load;
+    cache = prepare(phase, load, options_.window, same_load ? cache->reach : load / width / soft_mesh);
+  }
   // Pairs whose flanks all but touch without load: the first guess of what carries, no more.
   const double touching = 2.5e-7 * flanks_.pair().planet().parameters().module;
   constexpr double largest_window = 12;  // in Hertz half-widths: longer than any flank at a sensible load
@@ -375,7 +425,15 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
             "they give way by more than small displacements; reduce the load, or make teeth, rim, supports or "
             "material stiffer",
             phase, whole_load, largest_window));
-      cache = prepare(phase, load, 1.5 * setup.window);
+      cache = prepare(phase, load, 1.5 * setup.window, setup.reach);
+      continue;
+    }
+    // What is further apart than the nearest flanks give way stays so; the tenth is for forces that pull it nearer.
+    double least_gap = std::numeric_limits<double>::infinity();
+    for (const auto& p : setup.pairs) least_gap = std::min(least_gap, p.smallest_gap);
+    const double given_way = solution.rigid[0] - least_gap;
+    if (1.1 * given_way > setup.nearest_left_out) {
+      cache = prepare(phase, load, setup.window, 1.5 * given_way);
       continue;
     }
     LoadedPosition position = evaluate(setup, problem, solution);

@@ -63,9 +63,14 @@ class ContactSystem {
 
  private:
   struct Pair;
-  [[nodiscard]] std::vector<Pair> find_pairs(double phase, double load, double window) const;
-  /// Elements of the given slices, in which the theoretical contact stands at planet roll `roll`.
-  void add_elements(Pair& pair, double roll, const std::vector<int>& slices, double load, double window) const;
+  struct Facing;
+  /// Wherever flanks face each other at a phase, near or not.
+  [[nodiscard]] std::vector<Facing> find_facing(double phase) const;
+  /// m, transmission error at which they touch in a slice.
+  [[nodiscard]] double gap_without_load(const Facing& facing, int slice) const;
+  /// Those that load may close: the pairs of `setup`, from its phase, load, window and reach.
+  void find_pairs(Pairs& setup) const;
+  void add_elements(Pair& pair, const Facing& facing, double load, double window) const;
   /// Distances of the elements' edges from the centre of a window towards one of its ends, `half` away, from 0 on. Arc
   /// lengths on the planet: `centre`, and `direction` 1 or -1.
   [[nodiscard]] std::vector<double> element_edges(const Pair& pair, double centre, double direction, double half,
@@ -75,7 +80,7 @@ class ContactSystem {
   /// Change of the planet's roll at the contact along the face width: tan(base helix angle), signed.
   [[nodiscard]] static double roll_per_z(const FlankContact& flanks);
   [[nodiscard]] double slice_roll(int slice) const;
-  [[nodiscard]] PairsCache prepare(double phase, double load, double window) const;
+  [[nodiscard]] PairsCache prepare(double phase, double load, double window, double reach) const;
   [[nodiscard]] int wheel_tooth(int index, int cycle) const;
   [[nodiscard]] ComplementarityProblem assemble(const Pairs& pairs, int cycle) const;
   /// Resultants on the wheel (x, y, moments about z, x, y) of unit (element, slice) forces of a pair.
