@@ -72,10 +72,12 @@ dynamics::SimulationOptions comparing_options(const DynamicResponse& nominal, dy
   options.estimate_error = false;
   options.keep_series = false;
   if (!options.mesh_cycles && (!nominal.direct || !nominal.steady)) {
-    // No steady state to compare, or one too long to march through again and again: all marched alike for a while.
-    constexpr int lead = 220, evaluated = 110;
+    // No steady state to compare, or one too long to march through again and again: all marched alike for a while,
+    // from the nominal motion on, so that only what the change does has to settle.
+    constexpr int lead = 60, evaluated = 110;
     options.mesh_cycles = lead + evaluated;
     options.max_window_cycles = evaluated;
+    options.start = nominal.begin;
     return options;
   }
   options.confirm = !taken_directly(nominal);
