@@ -11,7 +11,7 @@
 namespace annulus::fem {
 
 int compared_stride(const LoadedMeshProblem& problem) {
-  constexpr int enough_phases = 16;
+  constexpr int enough_phases = 32;
   return std::max(1, problem.phases / enough_phases);
 }
 

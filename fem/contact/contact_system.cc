@@ -195,7 +195,7 @@ void ContactSystem::add_elements(Pair& pair, const Facing& facing, double load, 
   for (const int s : facing.slices) pair.smallest_gap = std::min(pair.smallest_gap, gap_without_load(facing, s));
 }
 
-std::vector<std::pair<int, double>> ContactSystem::possible_pairs(const FlankContact& flanks, double phase) {
+std::vector<std::pair<int, double>> ContactSystem::candidate_pairs(const FlankContact& flanks, double phase) {
   const auto& pair = flanks.pair();
   const double pitch = pair.planet().base_pitch();
   // Along the path the contact of a tooth moves from the planet's root to its tip in the ring mesh (planet drives) and
@@ -210,8 +210,15 @@ std::vector<std::pair<int, double>> ContactSystem::possible_pairs(const FlankCon
   std::vector<std::pair<int, double>> pairs;
   for (int k = first; k <= last; ++k) {
     const double roll = reference + k * pitch;
-    if (ahead > 0 || (roll > 0 && !flanks.domain(roll).empty())) pairs.emplace_back(k, roll);
+    if (ahead > 0 || roll > 0) pairs.emplace_back(k, roll);
   }
+  return pairs;
+}
+
+std::vector<std::pair<int, double>> ContactSystem::possible_pairs(const FlankContact& flanks, double phase) {
+  auto pairs = candidate_pairs(flanks, phase);
+  const auto apart = [&](const auto& pair) { return roll_per_z(flanks) == 0 && flanks.domain(pair.second).empty(); };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), apart), pairs.end());
   require(!pairs.empty(), "no tooth pair faces another");
   return pairs;
 }
@@ -229,23 +236,28 @@ double ContactSystem::gap_without_load(const Facing& facing, int slice) const {
   return (facing.gap + smallest_lead_gap_[slice]) / normal_factor_;
 }
 
+double ContactSystem::beyond_path(double roll) const {
+  const auto& pair = flanks_.pair();
+  return roll < pair.roll_length_low() ? roll - pair.roll_length_low() : std::max(0.0, roll - pair.roll_length_high());
+}
+
 std::vector<ContactSystem::Facing> ContactSystem::find_facing(double phase) const {
   std::vector<Facing> result;
-  const auto add = [&](int pair, double pair_roll, double roll, std::vector<int> slices) {
-    const auto domain = flanks_.domain(roll);
-    if (domain.empty()) return;
-    const double centre = flanks_.nearest_roll(roll, domain);
-    result.push_back({pair, pair_roll, roll, domain, centre, normal_factor_ * flanks_.match(centre, roll).gap,
-                      std::move(slices)});
-  };
-  for (const auto& [index, roll] : possible_pairs(flanks_, phase)) {
+  for (const auto& [index, roll] : candidate_pairs(flanks_, phase)) {
+    Facing facing;
+    facing.pair = index;
+    facing.pair_roll = facing.roll = roll;
     // The section of a helical gear turns along the face width, and the contact moves with it.
     if (roll_per_z_ == 0) {
-      std::vector<int> all(planet_.slices());
-      std::iota(all.begin(), all.end(), 0);
-      add(index, roll, roll, std::move(all));
+      facing.slices.resize(planet_.slices());
+      std::iota(facing.slices.begin(), facing.slices.end(), 0);
+      result.push_back(std::move(facing));
     } else {
-      for (int s = 0; s < planet_.slices(); ++s) add(index, roll, roll + slice_roll(s), {s});
+      for (int s = 0; s < planet_.slices(); ++s) {
+        facing.roll = roll + slice_roll(s);
+        facing.slices = {s};
+        result.push_back(facing);
+      }
     }
   }
   return result;
@@ -253,10 +265,32 @@ std::vector<ContactSystem::Facing> ContactSystem::find_facing(double phase) cons
 
 void ContactSystem::find_pairs(Pairs& setup) const {
   auto all = find_facing(setup.phase);
+  std::vector<std::size_t> outwards(all.size());
+  std::iota(outwards.begin(), outwards.end(), std::size_t{0});
+  std::stable_sort(outwards.begin(), outwards.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(beyond_path(all[a].roll)) < std::abs(beyond_path(all[b].roll));
+  });
+  const double least_lead_gap = *std::min_element(smallest_lead_gap_.begin(), smallest_lead_gap_.end());
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& f : all)
+  bool apart_before = false, apart_behind = false;
+  for (const std::size_t i : outwards) {
+    auto& f = all[i];
+    // Beyond either end of the path flanks get further apart all the way.
+    const double beyond = beyond_path(f.roll);
+    if (beyond < 0 ? apart_before : beyond > 0 && apart_behind) continue;
+    f.domain = flanks_.domain(f.roll);
+    if (f.domain.empty()) continue;
+    f.centre_roll = flanks_.nearest_roll(f.roll, f.domain);
+    f.gap = normal_factor_ * flanks_.match(f.centre_roll, f.roll).gap;
     for (const int s : f.slices) least = std::min(least, gap_without_load(f, s));
+    const double further = (f.gap + least_lead_gap) / normal_factor_ - least;
+    if (beyond == 0 || further <= setup.reach) continue;
+    (beyond < 0 ? apart_before : apart_behind) = true;
+    setup.nearest_left_out = std::min(setup.nearest_left_out, further);
+  }
+  require(std::isfinite(least), "no tooth pair faces another");
   for (auto& f : all) {
+    if (f.domain.empty()) continue;
     std::vector<int> near;
     for (const int s : f.slices) {
       const double further = gap_without_load(f, s) - least;

@@ -64,8 +64,12 @@ class ContactSystem {
  private:
   struct Pair;
   struct Facing;
-  /// Wherever flanks face each other at a phase, near or not.
+  /// Number and planet roll length of the pairs within the path of contact and a base pitch beyond.
+  [[nodiscard]] static std::vector<std::pair<int, double>> candidate_pairs(const FlankContact& flanks, double phase);
+  /// Wherever flanks may face each other at a phase; places, domains and gaps are not looked for.
   [[nodiscard]] std::vector<Facing> find_facing(double phase) const;
+  /// m, how far a theoretical contact stands before (negative) or behind the path of contact.
+  [[nodiscard]] double beyond_path(double roll) const;
   /// m, transmission error at which they touch in a slice.
   [[nodiscard]] double gap_without_load(const Facing& facing, int slice) const;
   /// Those that load may close: the pairs of `setup`, from its phase, load, window and reach.
