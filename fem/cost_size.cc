@@ -91,7 +91,7 @@ double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSett
     const auto& gear = wheel ? problem.pair.wheel() : problem.pair.planet();
     const auto of_solid = [&] {
       return settings.rung == Rung::resolved_solid ? resolved_solid_resolution(level)
-                                                   : solid_resolution(level, settings.degree);
+                                                   : solid_resolution(level, settings.degree, problem.pair.overlap_ratio());
     };
     unknowns += solid ? solid_unknowns(problem, of_solid(), gear, wheel, settings.degree, face)
                       : 2 * nodes_of_section(section_counts(plane_resolution(gear, level, settings.degree).section),
@@ -107,8 +107,8 @@ double support_forces(const LoadedMeshProblem& problem, const LoadedMeshSettings
   SupportSites sites;
   if (const auto* pinned = std::get_if<PinHeld>(&problem.structure)) sites = pin_sites(*pinned, ring);
   if (const auto* splined = std::get_if<SplineHeld>(&problem.structure)) sites = spline_sites(*splined, ring);
-  const auto slices =
-      solved_face(problem, settings).edges(2 * solid_resolution(level, settings.degree).face_cells).size() - 1;
+  const int cells = solid_resolution(level, settings.degree, problem.pair.overlap_ratio()).face_cells;
+  const auto slices = solved_face(problem, settings).edges(2 * cells).size() - 1;
   double forces = 0;
   for (const auto& site : sites.sites) forces += static_cast<double>(site.directions.size() * slices);
   return forces;

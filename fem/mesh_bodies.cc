@@ -86,7 +86,8 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   const BodyPlan planet(problem, flanks.planet(), false, geometry::Boundary::leading_flank, settings.degree, solid,
                         face);
   const BodyPlan wheel(problem, flanks.wheel(), true, flanks.wheel_flank(), settings.degree, solid, face);
-  const BodyResolution solid_counts = solid ? solid_resolution(level, settings.degree) : BodyResolution{};
+  const BodyResolution solid_counts =
+      solid ? solid_resolution(level, settings.degree, pair.overlap_ratio()) : BodyResolution{};
   std::optional<SupportPlan> supports;
   if (const auto sites = support_sites(problem))
     // A slice per layer of elements: unilateral on its own.

@@ -140,7 +140,7 @@ geometry::SectorResolution resolving_section(const geometry::Gear& gear, const g
   return s;
 }
 
-BodyResolution solid_resolution(int level, int degree) {
+BodyResolution solid_resolution(int level, int degree, double overlap_ratio) {
   require(level >= 0 && level <= last_solid_level, "no such level of solid resolution");
   using Levels = std::array<BodyResolution, last_solid_level + 1>;
   static const Levels linear = {{
@@ -157,7 +157,11 @@ BodyResolution solid_resolution(int level, int degree) {
       {{10, 2, 6, 1, 5, 0.8}, 8, 5},
       {{15, 4, 8, 1, 6, 0.8}, 12, 7},
   }};
-  return (degree == 1 ? linear : quadratic)[level];
+  BodyResolution r = (degree == 1 ? linear : quadratic)[level];
+  // Linear cells along the face leave nearly all of the error of helical teeth: with eight of them 2 %, with twelve
+  // less than 1 % (overlap ratio 1), whatever the section.
+  if (degree == 1) r.face_cells = static_cast<int>(std::lround(r.face_cells * (1 + overlap_ratio / 2)));
+  return r;
 }
 
 int slices_per_cell(const LoadedMeshProblem& problem, int degree) {

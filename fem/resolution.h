@@ -39,8 +39,9 @@ struct ContactCells {
 [[nodiscard]] geometry::SectorResolution resolving_section(const geometry::Gear& gear,
                                                            const geometry::SectorResolution& regular,
                                                            const ContactCells& contact);
-/// Solid body: the flank is coarse, its near field is corrected from the plane.
-[[nodiscard]] BodyResolution solid_resolution(int level, int degree);
+/// Solid body: the flank is coarse, its near field is corrected from the plane. `overlap_ratio` of helical teeth, along
+/// which the contact moves over their height.
+[[nodiscard]] BodyResolution solid_resolution(int level, int degree, double overlap_ratio = 0);
 /// In how many slices, along the face, of constant pressure a cell of a solid is divided.
 [[nodiscard]] int slices_per_cell(const LoadedMeshProblem& problem, int degree);
 /// Pressure elements of a contact to either side of its centre; in a solid, in every slice. Linear elements leave so much

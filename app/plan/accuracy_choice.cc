@@ -13,9 +13,19 @@ double load_uptake(double force, double face_width, double module, double youngs
   return std::sqrt(force / face_width / stiffness_per_width / module);
 }
 
-TableResolution table_resolution(double accuracy, double uptake) {
+namespace {
+
+/// The smallest one that linear plane elements reach at their first level.
+constexpr double linear_accuracy = 0.01;
+
+}  // namespace
+
+TableResolution table_resolution(double accuracy, double uptake, double overlap_ratio) {
   TableResolution choice;
-  if (accuracy >= very_rough_accuracy) {
+  if (overlap_ratio >= 1 && accuracy >= linear_accuracy) {
+    choice.phases = table_phases;
+    choice.phases_reason = "helical teeth that overlap by a pitch pass their load on slowly: 64 positions tell no more";
+  } else if (accuracy >= very_rough_accuracy) {
     choice.phases = table_phases;
     choice.phases_reason = "between 32 positions dynamic factors are missed by 2 %, by 6 % under light loads";
   } else {
@@ -42,7 +52,6 @@ TableResolution table_resolution(double accuracy, double uptake) {
 ElementChoice element_choice(fem::Rung rung, double accuracy, bool hard_for_linear,
                              const std::string& unfit_for_linear) {
   if (!unfit_for_linear.empty()) return {2, "quadratic elements: " + unfit_for_linear};
-  constexpr double linear_accuracy = 0.01;
   const double enough = hard_for_linear ? rough_accuracy : linear_accuracy;
   if (accuracy >= enough && (rung == fem::Rung::plane || rung == fem::Rung::solid))
     return {1, fmt::format("linear elements are within {:.0f} % at once, at {} of the cost of quadratic ones, which "

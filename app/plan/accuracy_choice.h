@@ -27,7 +27,8 @@ struct TableResolution {
   std::string phases_reason{}, loads_reason{};
 };
 /// `uptake`: share of a mesh cycle within which a pair takes up its load, which positions must not step over.
-[[nodiscard]] TableResolution table_resolution(double accuracy, double uptake);
+/// `overlap_ratio`: teeth that overlap by one and more take it up over a mesh cycle and longer.
+[[nodiscard]] TableResolution table_resolution(double accuracy, double uptake, double overlap_ratio);
 /// From the deflection under the nominal force (N) on a face (m) and the module (m): beyond its path of contact the gap
 /// of a pair opens with the square of the way, so that the way it is closed over goes with the root of the deflection.
 /// The stiffness is that of ISO 6336-1, about 14 N/(mm um) for steel, whatever the rim: a soft one only makes it

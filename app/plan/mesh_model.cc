@@ -88,9 +88,10 @@ bool hard_for_linear(const fem::LoadedMeshProblem& problem) {
 void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
   model.settings.accuracy = scene.accuracy;
   model.settings.largest_deflection = 0.25;  // small displacements; what is known beforehand: displacement_checks.h
-  auto table = table_resolution(scene.accuracy, load_uptake(mean_force, model.problem->face_width,
-                                                            model.problem->pair.planet().parameters().module,
-                                                            model.problem->material.youngs_modulus));
+  const auto& pair = model.problem->pair;
+  const double uptake = load_uptake(mean_force, model.problem->face_width, pair.planet().parameters().module,
+                                    model.problem->material.youngs_modulus);
+  auto table = table_resolution(scene.accuracy, uptake, pair.overlap_ratio());
   model.problem->phases = table.phases;
   for (const double factor : table.load_factors) model.problem->loads.push_back(factor * mean_force);
   model.phases = std::move(table.phases_reason);
