@@ -34,7 +34,8 @@ TableResolution table_resolution(double accuracy, double uptake, double overlap_
         "between 64 positions dynamic factors are missed by 0.1 %; between 32 by 2 %, 6 % under light loads";
     constexpr int most = 8 * table_phases;
     if (choice.phases * uptake < 1) {
-      while (choice.phases < most && choice.phases * uptake < 1) choice.phases *= 2;
+      const double within = accuracy < linear_accuracy ? 2 : 1;  // positions within which it is taken up
+      while (choice.phases < most && choice.phases * uptake < within) choice.phases *= 2;
       choice.phases_reason =
           fmt::format("the load is so light that a pair takes it up within {:.1g} of a mesh cycle", uptake);
     }

@@ -100,6 +100,8 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_how_finely_tables_are_resolved) {
   BOOST_TEST(app::table_resolution(0.01, 1.0 / 64, 0).phases == 64);
   BOOST_TEST(app::table_resolution(0.01, 1.0 / 65, 0.9).phases == 128);
   BOOST_TEST(app::table_resolution(0.01, 1e-9, 0).phases == 256);
+  BOOST_TEST(app::table_resolution(0.003, 1.0 / 65, 0).phases == 256);
+  BOOST_TEST(app::table_resolution(0.003, 1.0 / 64, 0).phases == 64);
   BOOST_TEST(app::table_resolution(0.01, 1e-9, 1).phases == 32);  // helical teeth
   BOOST_TEST(app::table_resolution(0.003, 1.0 / 64, 1).phases == 64);
 }
