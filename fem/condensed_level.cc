@@ -113,7 +113,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   MeshBodies bodies = build_bodies(problem, flanks, settings, level);
   const Stopwatch watch;
   ContactOptions options;
-  options.elements = pressure_elements(settings.rung == Rung::solid, settings.degree, level);
+  options.elements = pressure_elements(problem, settings, level);
   options.misalignment = problem.misalignment;
   options.half_face = bodies.face.half;
   const ContactSystem system(flanks, *bodies.planet, *bodies.wheel, bodies.supports.get(), problem.material,
@@ -131,10 +131,11 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   };
   SolvedLevel result;
   const bool one_cycle = repeating_teeth(problem.structure, problem.pair.wheel().teeth()) == 1;
-  solve_positions(problem, settings, false, one_cycle, solve, progress, result.positions);
+  const double compared = accept ? compared_share(problem) : 1;
+  solve_positions(problem, settings, false, one_cycle, solve, part_of(progress, 0, compared), result.positions);
   if (accept) result.contact_error = contact_error(problem, flanks, bodies, options, result.positions);
   if (accept && accept(result)) {
-    solve_positions(problem, settings, true, one_cycle, solve, progress, result.positions);
+    solve_positions(problem, settings, true, one_cycle, solve, part_of(progress, compared, 1), result.positions);
     result.stress_curves = worst_curves(problem, bodies, system, result.positions);
     if (settings.want_fields) result.fields = worst_fields(problem, bodies, system, result.positions);
   }

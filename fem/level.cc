@@ -22,6 +22,19 @@ bool is_compared(const LoadedMeshProblem& problem, int phase, int load) {
   return loads <= enough_loads || load == 0 || load == loads / 2 || load == loads - 1;
 }
 
+ProgressFunction part_of(const ProgressFunction& progress, double from, double to) {
+  if (!progress) return {};
+  return [=](double fraction) { progress(from + fraction * (to - from)); };
+}
+
+double compared_share(const LoadedMeshProblem& problem) {
+  const int loads = static_cast<int>(problem.loads.size());
+  int compared = 0;
+  for (int phase = 0; phase < problem.phases; ++phase)
+    for (int load = 0; load < loads; ++load) compared += is_compared(problem, phase, load);
+  return static_cast<double>(compared) / (problem.phases * loads);
+}
+
 void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, bool table, bool chained,
                      const SolvePosition& solve, const ProgressFunction& progress,
                      std::vector<LoadedPosition>& positions) {

@@ -52,6 +52,10 @@ using AcceptLevel = std::function<bool(SolvedLevel& compared)>;
 /// that the position belongs to.
 using SolvePosition = std::function<LoadedPosition(int cycle, int phase, int load, ContactSystem::PairsCache& cache,
                                                    ContactSystem::WarmStart& warm)>;
+/// Tells `progress` of a part of its work, from one fraction to another.
+[[nodiscard]] ProgressFunction part_of(const ProgressFunction& progress, double from, double to);
+/// The compared positions over all.
+[[nodiscard]] double compared_share(const LoadedMeshProblem& problem);
 /// The positions of one level on the threads of the settings: never dependent on their number. `table`: all that
 /// `positions` does not hold yet, else the compared ones alone.
 void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, bool table, bool chained,

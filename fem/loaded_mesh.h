@@ -85,7 +85,8 @@ struct LoadedPosition {
   double ring_angle = 0;  ///< rad, of the pitch point in the wheel's own frame
   double load = 0;        ///< N
   StiffnessEntry entry;
-  std::vector<double> pair_share;  ///< load share of the tooth pairs, in order of rising planet roll length
+  /// Load share of the tooth pairs near enough to touch, in order of rising planet roll length.
+  std::vector<double> pair_share;
   std::vector<double> pair_roll;   ///< m, planet roll length of each pair's theoretical contact point
   double max_pressure = 0;         ///< Pa
   bool tip_edge_contact = false;   ///< the peak pressure stands at a tip edge: singular, not to be compared

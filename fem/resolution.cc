@@ -175,9 +175,11 @@ int slices_per_cell(const LoadedMeshProblem& problem, int degree) {
   return degree > 1 && more ? 3 : 2;
 }
 
-int pressure_elements(bool solid, int degree, int level) {
+int pressure_elements(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
+  const bool solid = settings.rung == Rung::solid, helical = problem.pair.planet().helix_angle() != 0;
   double first = solid ? 6 : 10;
-  if (degree == 1) first = solid ? 3 : 7;
+  if (settings.degree == 1 && !solid) first = 7;
+  if (settings.degree == 1 && helical) first = 3;
   return static_cast<int>(std::lround(first * std::pow(1.25, level - 1)));
 }
 

@@ -213,8 +213,10 @@ SolvedLevel solve_resolved_level(const LoadedMeshProblem& problem, const LoadedM
   const auto solve = [&](int, int phase, int load, ContactSystem::PairsCache&, ContactSystem::WarmStart&) {
     return mesh.solve(static_cast<double>(phase) / problem.phases, problem.loads[load]);
   };
-  solve_positions(problem, settings, false, false, solve, progress, result.positions);
-  if (accept && accept(result)) solve_positions(problem, settings, true, false, solve, progress, result.positions);
+  const double compared = accept ? compared_share(problem) : 1;
+  solve_positions(problem, settings, false, false, solve, part_of(progress, 0, compared), result.positions);
+  if (accept && accept(result))
+    solve_positions(problem, settings, true, false, solve, part_of(progress, compared, 1), result.positions);
   result.contact_seconds = solving.seconds();
   result.unknowns = mesh.planet.regular.body.unknowns + mesh.wheel.regular.body.unknowns;
   result.half_face = mesh.face.half;
