@@ -90,8 +90,9 @@ double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSett
   for (const bool wheel : {false, true}) {
     const auto& gear = wheel ? problem.pair.wheel() : problem.pair.planet();
     const auto of_solid = [&] {
-      return settings.rung == Rung::resolved_solid ? resolved_solid_resolution(level)
-                                                   : solid_resolution(level, settings.degree, problem.pair.overlap_ratio());
+      return settings.rung == Rung::resolved_solid
+                 ? resolved_solid_resolution(level)
+                 : solid_resolution(level, settings.degree, problem.pair.overlap_ratio());
     };
     unknowns += solid ? solid_unknowns(problem, of_solid(), gear, wheel, settings.degree, face)
                       : 2 * nodes_of_section(section_counts(plane_resolution(gear, level, settings.degree).section),

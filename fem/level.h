@@ -12,8 +12,8 @@ namespace annulus::fem {
 
 /// How many phases lie between those at which levels are compared: they are 32 or a few more in a mesh cycle.
 [[nodiscard]] int compared_stride(const LoadedMeshProblem& problem);
-/// Whether a position is among those by which levels are compared: at the phases above, and of more than three loads the
-/// smallest, the middle and the largest one.
+/// Whether a position is among those by which levels are compared: at the phases above, and of more than three loads
+/// the smallest, the middle and the largest one.
 [[nodiscard]] bool is_compared(const LoadedMeshProblem& problem, int phase, int load);
 
 /// What one level of resolution of a loaded mesh gives.

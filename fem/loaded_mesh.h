@@ -87,9 +87,9 @@ struct LoadedPosition {
   StiffnessEntry entry;
   /// Load share of the tooth pairs near enough to touch, in order of rising planet roll length.
   std::vector<double> pair_share;
-  std::vector<double> pair_roll;   ///< m, planet roll length of each pair's theoretical contact point
-  double max_pressure = 0;         ///< Pa
-  bool tip_edge_contact = false;   ///< the peak pressure stands at a tip edge: singular, not to be compared
+  std::vector<double> pair_roll;  ///< m, planet roll length of each pair's theoretical contact point
+  double max_pressure = 0;        ///< Pa
+  bool tip_edge_contact = false;  ///< the peak pressure stands at a tip edge: singular, not to be compared
   std::vector<PinState> pins;
   std::vector<PinState> housing;        ///< patches of the housing bore, one behind every tooth; empty without
   std::vector<double> line_load;        ///< N/m, of all pairs together, per slice of the face width from low to high z
