@@ -177,9 +177,7 @@ int slices_per_cell(const LoadedMeshProblem& problem, int degree) {
 
 int pressure_elements(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
   const bool solid = settings.rung == Rung::solid, helical = problem.pair.planet().helix_angle() != 0;
-  double first = solid ? 6 : 10;
-  if (settings.degree == 1 && !solid) first = 7;
-  if (settings.degree == 1 && helical) first = 3;
+  const double first = !solid ? 10 : settings.degree == 1 && helical ? 3 : 6;
   return static_cast<int>(std::lround(first * std::pow(1.25, level - 1)));
 }
 

@@ -44,8 +44,8 @@ struct ContactCells {
 [[nodiscard]] BodyResolution solid_resolution(int level, int degree, double overlap_ratio = 0);
 /// In how many slices, along the face, of constant pressure a cell of a solid is divided.
 [[nodiscard]] int slices_per_cell(const LoadedMeshProblem& problem, int degree);
-/// Pressure elements of a contact to either side of its centre; in a solid, in every slice. Linear plane elements, and
-/// those of helical teeth with their many slices, leave so much that fewer of them do.
+/// Pressure elements of a contact to either side of its centre; in a solid, in every slice. Linear helical teeth, with
+/// their many slices, leave so much that fewer of them do.
 [[nodiscard]] int pressure_elements(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level);
 /// Solid body of the resolved rung, away from its contacts.
 [[nodiscard]] BodyResolution resolved_solid_resolution(int level);

@@ -227,6 +227,21 @@ BOOST_AUTO_TEST_CASE(two_planets_feel_the_error_of_their_path) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_motion_that_does_not_repeat_is_given_up_and_has_errors) {
+  // Teeth part under a twentieth of the load: successive windows differ by a third of the load and more, without end.
+  auto text = test::replaced(test::small_stage(), "power_kW = 200", "power_kW = 10");
+  text = test::replaced(text, "[stage]", "rung = \"closed_form\"\naccuracy = 0.03\n[stage]");
+  const test::TemporaryFolder folder("chaos");
+  log::set_level(log::Level::quiet);
+  const auto run = app::run(app::parse_scene(text, "chaos.toml"), {.out = folder.path() / "out"});
+  const auto& response = *run.rings.front().response;
+  BOOST_TEST(!response.figures.steady);
+  BOOST_TEST(response.figures.total_cycles < 20 * 20);  // windows of 20 cycles, at most 40 of them
+  const auto& sharing = response.figures.sun_planet.load_sharing.instantaneous;
+  BOOST_TEST(std::isfinite(sharing.error));
+  BOOST_TEST(sharing.error > 0.01 * sharing.value);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace annulus
