@@ -77,8 +77,8 @@ class March {
   int cycles_ = 0, windows_ = 0;
 };
 
-/// Marches on until successive windows agree.
-bool reach_steady_state(March& march, const SimulationOptions& options, double mean_force) {
+/// Marches on until successive windows agree. `patient`: as far as `max_windows` even where that will not do.
+bool reach_steady_state(March& march, const SimulationOptions& options, double mean_force, bool patient) {
   double previous = 0;
   std::vector<double> differences;
   bool agreed = false;
@@ -99,10 +99,7 @@ bool reach_steady_state(March& march, const SimulationOptions& options, double m
     agreed = agrees;
     previous = difference;
     differences.push_back(difference);
-    // One response among many is not worth every effort; where no teeth part, motions do not go on without end.
-    const bool parting = march.last().open.size() > 0 && march.last().open.maxCoeff() > 0;
-    if ((!options.confirm || parting) && hopeless(differences, options.max_windows - i, options.steady_tolerance))
-      return false;
+    if (!patient && hopeless(differences, options.max_windows - i, options.steady_tolerance)) return false;
   }
   return false;
 }
@@ -343,7 +340,9 @@ SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& 
   }
   if (!response.confirmed) {
     if (!options.mesh_cycles && whole) {
-      response.steady = reach_steady_state(march, options, problem.force_scale);
+      // One response among many is not worth every effort, nor is one of which the harmonic balance found none either.
+      const bool patient = options.confirm && (!response.direct || direct || unstable);
+      response.steady = reach_steady_state(march, options, problem.force_scale, patient);
       response.steady_difference = march.difference_to_before(problem.force_scale);
     } else {
       // A given length, or windows that do not repeat: no search for the steady state.

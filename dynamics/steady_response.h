@@ -41,8 +41,8 @@ struct SimulationOptions {
   /// from the harmonic balance; or from one evaluated window earlier, and the differences, continued geometrically, add
   /// up to no more.
   double steady_tolerance = 1e-3;
-  /// Marching gives up after so many windows; where teeth part, or without `confirm`, as soon as they come closer so
-  /// slowly (chaos: not at all) that so many will not do. `steady` is then false.
+  /// Marching gives up after so many windows; without `confirm`, or where the harmonic balance found no motion either,
+  /// as soon as they come closer so slowly (chaos: not at all) that so many will not do. `steady` is then false.
   int max_windows = 40;
   /// Of the time series and the harmonic balance (a multiple of 8 there, which takes more for itself where marching
   /// would not confirm so few); the highest excited frequency needs at least four samples.
