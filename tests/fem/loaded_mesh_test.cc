@@ -50,9 +50,9 @@ BOOST_AUTO_TEST_CASE(the_tangent_is_the_slope_of_the_load) {
 
 BOOST_AUTO_TEST_CASE(pairs_left_out_are_out_of_reach) {
   annulus::test::Verification record("Tooth pairs left out of contact problems", "their gaps by the exact involutes");
-  // On three pins the ring gives way by more than is looked for at first.
+  // On nine pins the ring gives way more than teeth do.
   for (const auto& problem : {sun_mesh(16, {nominal_load / 20, nominal_load, 20 * nominal_load}),
-                              ring_mesh(paper_pins(3, 0), 4, {nominal_load})}) {
+                              ring_mesh(paper_pins(9, 0), 2, {nominal_load / 20})}) {
     const auto result = solve_plane(problem);
     const annulus::fem::FlankContact flanks(problem.pair);
     int left_out = 0;
