@@ -83,8 +83,10 @@ dynamics::SimulationOptions comparing_options(const DynamicResponse& nominal, dy
   options.confirm = !taken_directly(nominal);
   // A small change leads from the nominal motion to the one beside it within a few windows, and to no other.
   if (options.confirm && !options.mesh_cycles) {
+    constexpr int few = 8;
     options.steady_state = dynamics::SteadyState::marching;
     options.start = nominal.begin;
+    options.max_windows = std::min(options.max_windows, few);
   }
   return options;
 }
