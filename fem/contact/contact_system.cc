@@ -412,7 +412,8 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
                                     ContactForces* forces) const {
   const double load = options_.half_face ? whole_load / 2 : whole_load;
   if (!cache || cache->phase != phase || cache->load != load) {
-    // A softer mesh than most; where it is too stiff still, pairs are looked for again.
+    // Softer than most meshes (steel: 4 N/(mm um), a third of what ISO 6336-1 gives teeth); where one gives way more
+    // still, pairs are looked for again.
     const double width = slice_edges_.back() - slice_edges_.front();
     const double soft_mesh = 0.02 * material_.youngs_modulus;  // N/m per m of face width
     const bool same_load = cache && cache->load == load;
