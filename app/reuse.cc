@@ -6,7 +6,7 @@
 
 #include "app/content_id.h"
 #include "app/pipeline.h"
-#include "fem/condensed_store.h"
+#include "fem/problem/condensed_store.h"
 
 namespace annulus::app {
 

@@ -1,8 +1,11 @@
 include(GNUInstallDirs)
 
-# One library per layer: annulus_add_layer(core [SHARED] SOURCES a.cc b.cc PUBLIC ... PRIVATE ...)
+# One library per layer, of all sources in its folder and below, but for main.cc:
+#   annulus_add_layer(core [SHARED] PUBLIC ... PRIVATE ...)
 function(annulus_add_layer name)
-  cmake_parse_arguments(ARG "SHARED" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "SHARED" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB_RECURSE ARG_SOURCES CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
+  list(FILTER ARG_SOURCES EXCLUDE REGEX "/main\\.cc$")
   if(ARG_SHARED AND NOT ANNULUS_CHECKED)
     add_library(annulus_${name} SHARED ${ARG_SOURCES})
   else()

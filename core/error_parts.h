@@ -13,7 +13,7 @@ struct ErrorParts {
   double condensation = 0;    ///< bodies reduced to what their contacts see
   double interpolation = 0;   ///< between the positions and loads of a stiffness table
   double integration = 0;     ///< of the motion in time: sampling, steady state, integrator
-  double model = 0;           ///< what the rung leaves out: plane strain, formulas for teeth
+  double model = 0;           ///< what the model leaves out: plane strain, formulas for teeth
 
   [[nodiscard]] double total() const {
     return discretisation + contact + condensation + interpolation + integration + model;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/contact/support_sites.h"
-#include "fem/resolution.h"
-#include "fem/solved_face.h"
+#include "fem/body/resolution.h"
+#include "fem/problem/solved_face.h"
+#include "fem/problem/support_sites.h"
 
 namespace annulus::fem {
 namespace {
@@ -66,15 +66,15 @@ double solid_unknowns(const LoadedMeshProblem& problem, const BodyResolution& r,
 
 }  // namespace
 
-int last_level(Rung rung) {
-  switch (rung) {
-    case Rung::closed_form:
+int last_level(Fidelity fidelity) {
+  switch (fidelity) {
+    case Fidelity::closed_form:
       return 0;
-    case Rung::plane:
-    case Rung::resolved_plane:
+    case Fidelity::plane:
+    case Fidelity::resolved_plane:
       return last_plane_level;
-    case Rung::solid:
-    case Rung::resolved_solid:
+    case Fidelity::solid:
+    case Fidelity::resolved_solid:
       break;
   }
   return last_solid_level;
@@ -83,14 +83,14 @@ int last_level(Rung rung) {
 int last_linear_level(const LoadedMeshProblem& problem) { return problem.pair.planet().helix_angle() != 0 ? 2 : 1; }
 
 double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
-  if (settings.rung == Rung::closed_form) return 0;
-  const bool solid = settings.rung == Rung::solid || settings.rung == Rung::resolved_solid;
+  if (settings.fidelity == Fidelity::closed_form) return 0;
+  const bool solid = settings.fidelity == Fidelity::solid || settings.fidelity == Fidelity::resolved_solid;
   const SolvedFace face = solved_face(problem, settings);
   double unknowns = 0;
   for (const bool wheel : {false, true}) {
     const auto& gear = wheel ? problem.pair.wheel() : problem.pair.planet();
     const auto of_solid = [&] {
-      return settings.rung == Rung::resolved_solid
+      return settings.fidelity == Fidelity::resolved_solid
                  ? resolved_solid_resolution(level)
                  : solid_resolution(level, settings.degree, problem.pair.overlap_ratio());
     };
@@ -102,7 +102,7 @@ double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSett
 }
 
 double support_forces(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
-  if (settings.rung != Rung::solid) return 0;
+  if (settings.fidelity != Fidelity::solid) return 0;
   const SupportedRing ring{problem.pair.wheel().teeth(), problem.wheel_support_radius, problem.face_width,
                            problem.material};
   SupportSites sites;

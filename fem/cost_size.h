@@ -1,25 +1,26 @@
 #pragma once
 
-#include "fem/loaded_mesh.h"
+#include "fem/problem/loaded_mesh_problem.h"
+#include "fem/problem/loaded_mesh_result.h"
 
 /// How large the solve of a loaded mesh will be, counted without meshing or solving anything.
 namespace annulus::fem {
 
-/// Finest level of resolution a rung has; 0 for the closed form.
-[[nodiscard]] int last_level(Rung rung);
+/// Finest level of resolution a model has; 0 for the closed form.
+[[nodiscard]] int last_level(Fidelity fidelity);
 /// Finest level of linear elements, after which quadratic ones follow. In the plane refined linear elements cost as
 /// much as quadratic ones of the first level, which are better by far; of helical teeth quadratic solids cost ten times
 /// as much.
 [[nodiscard]] int last_linear_level(const LoadedMeshProblem& problem);
 
-/// Freedoms of the two sectors at a level (LoadedMeshResult::unknowns): exact to a per cent in the plane, an estimate
+/// DOFs of the two sectors at a level (LoadedMeshResult::unknowns): exact to a per cent in the plane, an estimate
 /// for solid bodies, whose sleeves, hoops and flanges are counted by their share of the section. Of the
-/// resolved rungs the regular teeth, which their patches are about as large as. 0 for the closed form.
+/// resolved models the regular teeth, which their patches are about as large as. 0 for the closed form.
 [[nodiscard]] double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
                                         int level);
 
 /// Forces of pins or splines that take part in every contact problem of a solid ring at a level, every slice of the
-/// face counted; 0 for other rungs and structures, where they cost nothing to speak of.
+/// face counted; 0 for other models and structures, where they cost nothing to speak of.
 [[nodiscard]] double support_forces(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level);
 
 }  // namespace annulus::fem

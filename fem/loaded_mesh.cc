@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "fem/body/resolution.h"
 #include "fem/closed_form/closed_form_mesh.h"
 #include "fem/cost_size.h"
-#include "fem/error_estimate.h"
-#include "fem/level.h"
-#include "fem/problem_check.h"
-#include "fem/resolution.h"
+#include "fem/levels/error_estimate.h"
+#include "fem/levels/level.h"
+#include "fem/problem/problem_check.h"
 
 namespace annulus::fem {
 namespace {
@@ -35,12 +35,12 @@ geometry::GearPair solved_pair(const geometry::GearPair& pair) {
 }  // namespace
 
 LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const LoadedMeshSettings& asked) {
-  check_problem(problem, asked.rung);
-  if (asked.rung == Rung::closed_form) return solve_closed_form(problem, asked);
+  check_problem(problem, asked.fidelity);
+  if (asked.fidelity == Fidelity::closed_form) return solve_closed_form(problem, asked);
   LoadedMeshSettings settings = asked;
   const FlankContact flanks(solved_pair(problem.pair));
-  const bool resolved = settings.rung == Rung::resolved_plane || settings.rung == Rung::resolved_solid;
-  const bool solid = settings.rung == Rung::solid || settings.rung == Rung::resolved_solid;
+  const bool resolved = settings.fidelity == Fidelity::resolved_plane || settings.fidelity == Fidelity::resolved_solid;
+  const bool solid = settings.fidelity == Fidelity::solid || settings.fidelity == Fidelity::resolved_solid;
   const int last_level = solid ? last_solid_level : last_plane_level;
   const int first_level = settings.level.value_or(1);
   if (first_level < 1 || first_level > last_level)

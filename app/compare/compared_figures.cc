@@ -13,19 +13,19 @@ namespace {
 
 using FigureJson = nlohmann::ordered_json;
 using Form = ComparedFigure::Form;
-using Figures = std::vector<ComparedFigure>;
+using FigureList = std::vector<ComparedFigure>;
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t shown_frequencies = 5;
 
-void add_frequencies(Figures& list, const std::vector<std::string>& path) {
+void add_frequencies(FigureList& list, const std::vector<std::string>& path) {
   for (std::size_t i = 0; i < shown_frequencies; ++i)
     list.push_back({fmt::format("natural_frequency_{}", i + 1), fmt::format("natural frequency {}", i + 1), "Hz", 1, 5,
                     path, Form::list_entry, i});
 }
 
-Figures planetary() {
-  Figures list;
+FigureList planetary() {
+  FigureList list;
   for (const std::string mesh : {"ring", "sun"}) {
     const auto in = mesh + "_planet";
     list.push_back({mesh + "_stiffness",
@@ -65,8 +65,8 @@ Figures planetary() {
   return list;
 }
 
-Figures helical_pair() {
-  Figures list = {
+FigureList helical_pair() {
+  FigureList list = {
       {"mean_stiffness",
        "mean stiffness, normal, as taken",
        "N/µm",
@@ -94,8 +94,8 @@ Figures helical_pair() {
   return list;
 }
 
-Figures two_k_v() {
-  Figures list = {
+FigureList two_k_v() {
+  FigureList list = {
       {"sun_stiffness",
        "mean stiffness, sun mesh",
        "N/µm",
@@ -208,9 +208,9 @@ std::pair<double, double> read_figure(const ComparedFigure& figure, const Figure
 }  // namespace
 
 const std::vector<ComparedFigure>& compared_figures(const std::string& kind) {
-  static const std::map<std::string, Figures> figures = {
+  static const std::map<std::string, FigureList> figures = {
       {"planetary", planetary()}, {"helical_pair", helical_pair()}, {"two_k_v", two_k_v()}};
-  static const Figures none;
+  static const FigureList none;
   const auto found = figures.find(kind);
   return found == figures.end() ? none : found->second;
 }

@@ -87,7 +87,7 @@ class Rexs {
 bool known_to_rexs(const std::string& key) {
   static const char* const known[] = {"title",
                                       "accuracy",
-                                      "rung",
+                                      "model",
                                       "reference",
                                       "stage.kind",
                                       "stage.planets",

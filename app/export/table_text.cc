@@ -9,11 +9,11 @@ namespace annulus::app {
 
 namespace {
 
-struct Quantity {
+struct TableColumn {
   const char *name, *unit, *what;
   double StiffnessEntry::*value;
 };
-constexpr std::array<Quantity, 4> quantities = {
+constexpr std::array<TableColumn, 4> quantities = {
     {{"unloaded_te_m", "m", "unloaded transmission error", &StiffnessEntry::unloaded_te},
      {"lte_m", "m", "loaded transmission error", &StiffnessEntry::lte},
      {"stiffness_secant_N_per_m", "N/m", "force over deflection", &StiffnessEntry::stiffness_secant},

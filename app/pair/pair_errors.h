@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "app/scene/scene.h"
-#include "dynamics/manufacturing_error.h"
+#include "dynamics/systems/helical_pair/manufacturing_error.h"
 
 namespace annulus::app {
 

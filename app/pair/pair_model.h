@@ -5,8 +5,8 @@
 
 #include "app/scene/scene.h"
 #include "core/stiffness_table.h"
-#include "dynamics/helical_pair.h"
-#include "dynamics/steady_response.h"
+#include "dynamics/steady_state/steady_response.h"
+#include "dynamics/systems/helical_pair/helical_pair.h"
 #include "geometry/gear_pair.h"
 
 /// A helical pair as geometry and as lumped masses.

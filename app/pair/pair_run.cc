@@ -17,6 +17,7 @@
 #include "core/files.h"
 #include "core/log.h"
 #include "core/units.h"
+#include "dynamics/figures/spectrum.h"
 
 namespace annulus::app {
 
@@ -28,10 +29,10 @@ Csv series_table(const dynamics::HelicalPair& pair, const dynamics::PairResponse
   Csv csv;
   csv.columns.emplace_back("time_s");
   Eigen::Index pinion = -1, wheel = -1;
-  for (std::size_t i = 0; i < s.freedoms.size(); ++i) {
-    csv.columns.push_back(s.freedoms[i] + "_m");
-    if (s.freedoms[i] == "pinion_u") pinion = static_cast<Eigen::Index>(i);
-    if (s.freedoms[i] == "wheel_u") wheel = static_cast<Eigen::Index>(i);
+  for (std::size_t i = 0; i < s.dofs.size(); ++i) {
+    csv.columns.push_back(s.dofs[i] + "_m");
+    if (s.dofs[i] == "pinion_u") pinion = static_cast<Eigen::Index>(i);
+    if (s.dofs[i] == "wheel_u") wheel = static_cast<Eigen::Index>(i);
   }
   csv.columns.insert(csv.columns.end(), {"mesh_force_N", "transmission_error_m"});
   // Half the backlash is no error of a loaded mesh (PairMotions).
@@ -58,7 +59,7 @@ Csv spectrum_table(const dynamics::PairResponse& response) {
 
 Csv modes_table_of(const dynamics::Modes& modes) {
   Csv csv{.header = {}, .columns = {"index", "frequency_Hz"}, .rows = {}};
-  for (const auto& freedom : modes.freedoms) csv.columns.push_back(freedom);
+  for (const auto& dof : modes.dofs) csv.columns.push_back(dof);
   for (std::size_t i = 0; i < modes.modes.size(); ++i) {
     auto& row = csv.rows.emplace_back(std::vector{static_cast<double>(i + 1), modes.modes[i].frequency});
     row.insert(row.end(), modes.modes[i].shape.begin(), modes.modes[i].shape.end());

@@ -10,8 +10,8 @@
 #include "app/plan/plan.h"
 #include "app/study/study_result.h"
 #include "core/csv.h"
-#include "dynamics/modes.h"
-#include "dynamics/pair_response.h"
+#include "dynamics/modes/modes.h"
+#include "dynamics/systems/helical_pair/pair_response.h"
 
 /// Scenes of kind helical_pair from the scene to the report:
 ///
@@ -41,14 +41,14 @@ struct SpeedRow {
 
 /// Largest and smallest mesh force in the direction of the load (that of the driving flanks without a torque), N.
 struct LoadedForce {
-  dynamics::Figure largest, smallest;
+  Figure largest, smallest;
 };
 [[nodiscard]] LoadedForce loaded_force(const dynamics::PairResponse& response);
 
 struct PairResponseResult {
   dynamics::PairResponse figures;  ///< without the series
   dynamics::Modes modes;
-  Csv series;    ///< one row per sample: time, freedoms, force, transmission error
+  Csv series;    ///< one row per sample: time, DOFs, force, transmission error
   Csv spectrum;  ///< of the mesh force
 };
 

@@ -53,8 +53,8 @@ double mean_secant(const StiffnessTable& table, double load) {
 
 MeshModel pair_mesh_model(const Scene& scene, const PairGeometry& geometry) {
   auto model = external_mesh_model(scene, external_pair(scene, geometry));
-  const auto asked = [&](const char* rung, const char* what, const char* shape) {
-    model.rung = rung;
+  const auto asked = [&](const char* fidelity, const char* what, const char* shape) {
+    model.fidelity = fidelity;
     model.reason = fmt::format("{} (stiffness = \"{}\")", what, shape);
   };
   if (scene.pinion_wheel.stiffness == StiffnessShape::iso_6336) asked("formula", "ISO 6336-1, method B", "iso_6336");
@@ -94,7 +94,7 @@ StiffnessTable closed_form_pair_table(const Scene& scene, const PairGeometry& ge
       .phases = phases};
   for (const double factor : table_load_factors) problem.loads.push_back(factor * transverse_force);
   fem::LoadedMeshSettings settings;
-  settings.rung = fem::Rung::closed_form;
+  settings.fidelity = fem::Fidelity::closed_form;
   const auto spur = fem::solve_loaded_mesh(problem, settings).table;
   const double overlap = geometry.gears.overlap_ratio();
   const auto loads = static_cast<int>(spur.loads().size());
@@ -218,7 +218,7 @@ std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeomet
     computed.value = geometry.to_normal() * mean.value;
     computed.error_relative = mean.error_relative;
     computed.note =
-        fmt::format("finite elements ({}), mean over {} phases", mesh.model.rung, mesh.computed->table.phases());
+        fmt::format("finite elements ({}), mean over {} phases", mesh.model.fidelity, mesh.computed->table.phases());
   }
   list.push_back(computed);
   if (std::none_of(list.begin(), list.end(), [](const auto& s) { return s.taken; })) {

@@ -7,7 +7,7 @@
 #include "app/pair/pair_model.h"
 #include "app/pipeline.h"
 #include "app/stage/mesh_result.h"
-#include "dynamics/mesh_excitation.h"
+#include "dynamics/system/mesh_excitation.h"
 
 /// Where the stiffness of a helical pair's mesh comes from.
 ///
@@ -17,7 +17,7 @@ namespace annulus::app {
 
 /// The mesh as a solid finite-element model, or "given" where something else is asked for.
 [[nodiscard]] MeshModel pair_mesh_model(const Scene& scene, const PairGeometry& geometry);
-/// Why the plane and closed-form rungs cannot represent it; empty when they can.
+/// Why the plane and closed-form models cannot represent it; empty when they can.
 [[nodiscard]] std::string pair_solid_reason(const Scene& scene, const PairGeometry& geometry);
 
 /// N/m along the normal: ISO 6336-1, method B.
@@ -25,7 +25,7 @@ namespace annulus::app {
 
 /// Why there is no closed form of this pair; empty when there is.
 [[nodiscard]] std::string no_closed_form(const Scene& scene);
-/// The closed form of the transverse section (rung closed_form, flanks without modifications), its slices staggered
+/// The closed form of the transverse section (model closed_form, flanks without modifications), its slices staggered
 /// along the helix: at one phase they stand at phases spread over the overlap ratio and share one deflection along the
 /// transverse line of action. Loads around `transverse_force` as in every table. The error of a closed form is not
 /// controlled. Throws InputError where there is none.

@@ -14,7 +14,7 @@ namespace annulus::app {
 
 namespace {
 
-constexpr std::size_t listed_pair_frequencies = 5;  // six freedoms turn freely together
+constexpr std::size_t listed_pair_frequencies = 5;  // six DOFs turn freely together
 
 /// How responses of studies are found; enters the identity of kept results.
 constexpr const char* pair_point_method = "harmonic balance, marching where teeth part; 1";

@@ -5,7 +5,7 @@
 
 #include "app/pair/pair_run.h"
 #include "app/study/study_subject.h"
-#include "dynamics/pair_response.h"
+#include "dynamics/systems/helical_pair/pair_response.h"
 
 namespace annulus::app {
 

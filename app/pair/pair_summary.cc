@@ -20,9 +20,7 @@ using PairJson = nlohmann::ordered_json;
 
 PairJson pair_number(double x) { return std::isfinite(x) ? PairJson(x) : PairJson(nullptr); }
 
-PairJson pair_figure(const dynamics::Figure& f) {
-  return {{"value", pair_number(f.value)}, {"error", pair_number(f.error)}};
-}
+PairJson pair_figure(const Figure& f) { return {{"value", pair_number(f.value)}, {"error", pair_number(f.error)}}; }
 
 PairJson motion_json(const dynamics::MotionFigures& m) {
   return {{"mean_m", m.mean}, {"peak_to_peak_m", pair_figure(m.peak_to_peak)}, {"largest_m", pair_figure(m.largest)}};
@@ -100,7 +98,7 @@ std::string pair_summary_json(const PairRunResult& result) {
         {"value", pair_number(s.value)}, {"error_relative", pair_number(s.error_relative)}, {"taken", s.taken}};
   if (const auto& computed = result.mesh.computed) {
     auto& mesh = json["pinion_wheel"] = {
-        {"rung", computed->model.rung},
+        {"model", computed->model.fidelity},
         {"contact_ratio", computed->contact_ratio},
         {"transverse_mean_stiffness_N_per_m", computed->mean_stiffness().value},
         {"lte_mean_m", computed->lte_mean().value},

@@ -13,7 +13,7 @@ namespace annulus::app {
 
 namespace {
 
-using PairFigures = std::vector<dynamics::Figure*>;
+using PairFigures = std::vector<Figure*>;
 
 PairFigures figures_of(dynamics::PairResponse& r) {
   auto& a = r.acceleration;

@@ -50,15 +50,15 @@ TableResolution table_resolution(double accuracy, double uptake, double overlap_
   return choice;
 }
 
-ElementChoice element_choice(fem::Rung rung, double accuracy, bool hard_for_linear,
+ElementChoice element_choice(fem::Fidelity fidelity, double accuracy, bool hard_for_linear,
                              const std::string& unfit_for_linear) {
   if (!unfit_for_linear.empty()) return {2, "quadratic elements: " + unfit_for_linear};
   const double enough = hard_for_linear ? rough_accuracy : linear_accuracy;
-  if (accuracy >= enough && (rung == fem::Rung::plane || rung == fem::Rung::solid))
+  if (accuracy >= enough && (fidelity == fem::Fidelity::plane || fidelity == fem::Fidelity::solid))
     return {1, fmt::format("linear elements are within {:.0f} % at once, at {} of the cost of quadratic ones, which "
                            "follow where they are not",
-                           100 * enough, rung == fem::Rung::plane ? "half" : "an eighth")};
-  if (rung == fem::Rung::solid)
+                           100 * enough, fidelity == fem::Fidelity::plane ? "half" : "an eighth")};
+  if (fidelity == fem::Fidelity::solid)
     return {2, "quadratic elements are within 0.3 to 1 % at once, and their stresses can be used"};
   return {2, "quadratic elements are within 0.3 % at once, and their stresses can be used"};
 }

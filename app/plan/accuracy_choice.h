@@ -6,8 +6,8 @@
 
 #include "fem/loaded_mesh.h"
 
-/// What a wanted accuracy asks for, beside the rung: the measured trade turned into rules (docs/tradeoff.md, which also
-/// tells how well they keep what they promise).
+/// What a wanted accuracy asks for, beside the model: the measured trade turned into rules (docs/tradeoff.md, which
+/// also tells how well they keep what they promise).
 namespace annulus::app {
 
 /// Loads of a table, as multiples of the nominal mean mesh force: around it, so that the table can be interpolated, and
@@ -42,7 +42,7 @@ struct ElementChoice {
 };
 /// `hard_for_linear`: elements of the first degree need more than their first level for 1 %. `unfit_for_linear`: why
 /// they would be too stiff for the body, empty where they are not.
-[[nodiscard]] ElementChoice element_choice(fem::Rung rung, double accuracy, bool hard_for_linear = false,
+[[nodiscard]] ElementChoice element_choice(fem::Fidelity fidelity, double accuracy, bool hard_for_linear = false,
                                            const std::string& unfit_for_linear = "");
 
 /// How the motion is found in time.

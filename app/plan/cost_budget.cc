@@ -19,14 +19,14 @@ constexpr double accuracy_ladder[] = {0.001, 0.003, 0.01, 0.03, 0.1};
 
 /// Whether the accuracy decides how a mesh is solved.
 bool refines(const MeshModel& model) {
-  return model.computed() && model.settings.rung != fem::Rung::closed_form && !model.settings.level;
+  return model.computed() && model.settings.fidelity != fem::Fidelity::closed_form && !model.settings.level;
 }
 
 /// Whether the scene's meshes are expected to reach its accuracy.
 bool within_reach(const Scene& scene, const CostModel& costs) {
   for (const auto& model : stage_meshes(scene)) {
     if (refines(model) && costs.expected_error(cost_kind(model), model.settings.degree,
-                                               fem::last_level(model.settings.rung)) > scene.accuracy)
+                                               fem::last_level(model.settings.fidelity)) > scene.accuracy)
       return false;
   }
   return true;

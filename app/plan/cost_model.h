@@ -47,7 +47,7 @@ class CostModel {
   [[nodiscard]] static CostModel of_this_machine();
 
   [[nodiscard]] PredictedCost predict(const CostRun& size) const;
-  /// Estimated relative error of a rung's table at a level with elements of a degree (that of quadratic ones where
+  /// Estimated relative error of a model's table at a level with elements of a degree (that of quadratic ones where
   /// nothing is known of the degree); NaN where nothing is known.
   [[nodiscard]] double expected_error(const std::string& kind, int degree, int level) const;
   /// Level at which refining until `accuracy` is met will end.

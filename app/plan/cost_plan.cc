@@ -11,10 +11,11 @@
 #include "app/stage/rim_coupling.h"
 #include "app/stage/stage_response.h"
 #include "app/study/planetary_subject.h"
-#include "dynamics/marching_cost.h"
-#include "dynamics/study_point.h"
+#include "dynamics/steady_state/marching_cost.h"
+#include "dynamics/systems/planetary/study_point.h"
 #include "fem/cost_size.h"
-#include "fem/solved_face.h"
+#include "fem/loaded_mesh.h"
+#include "fem/problem/solved_face.h"
 
 namespace annulus::app {
 
@@ -40,7 +41,8 @@ double wall_time(const std::vector<CostStep>& steps, int threads, TimeOf time_of
 CostRun coupling_size(const MeshModel& model, int threads) {
   // Solved at the first level, whatever the mesh needs (rim_coupling.cc).
   CostRun size;
-  const bool solid = model.settings.rung == fem::Rung::solid || model.settings.rung == fem::Rung::resolved_solid;
+  const bool solid =
+      model.settings.fidelity == fem::Fidelity::solid || model.settings.fidelity == fem::Fidelity::resolved_solid;
   const bool supported = std::holds_alternative<fem::PinHeld>(model.problem->structure) ||
                          std::holds_alternative<fem::SplineHeld>(model.problem->structure);
   size.kind = solid ? "coupling_solid" : supported ? "coupling_pins" : "coupling_plane";
@@ -48,7 +50,7 @@ CostRun coupling_size(const MeshModel& model, int threads) {
   size.cycles = model.positions;
   size.threads = threads;
   auto settings = model.settings;
-  if (settings.rung == fem::Rung::closed_form) settings.rung = fem::Rung::plane;
+  if (settings.fidelity == fem::Fidelity::closed_form) settings.fidelity = fem::Fidelity::plane;
   size.degree = settings.degree = model.coupling_degree;
   settings.symmetry = false;  // a ring's modes need not be symmetric
   // On single supports every ring position is a system of its own.
@@ -77,7 +79,8 @@ struct CostSteps {
     longest_table = std::max(longest_table, cost.steps.back().predicted.seconds);
   }
   [[nodiscard]] double expected_error(const MeshModel& model, const CostRun& size) const {
-    if (model.settings.rung != fem::Rung::closed_form) return costs.expected_error(size.kind, size.degree, size.level);
+    if (model.settings.fidelity != fem::Fidelity::closed_form)
+      return costs.expected_error(size.kind, size.degree, size.level);
     const double error = model.formula_error ? *model.formula_error : fem::closed_form_error(*model.problem);
     return std::isfinite(error) ? error : unknown_cost;
   }
@@ -149,16 +152,16 @@ double PlanCost::actual_seconds() const {
 }
 
 std::string cost_kind(const MeshModel& model) {
-  if (!model.computed() || model.settings.rung != fem::Rung::solid) return model.rung;
+  if (!model.computed() || model.settings.fidelity != fem::Fidelity::solid) return model.fidelity;
   // The contact of helical teeth moves along the face width: every slice has elements of its own.
   if (model.problem->pair.planet().helix_angle() != 0) return "solid_helical";
   // Fewer slices with the same section: the contact falls with them faster than with a coarser section.
-  return fem::solved_face(*model.problem, model.settings).half ? "solid_half" : model.rung;
+  return fem::solved_face(*model.problem, model.settings).half ? "solid_half" : model.fidelity;
 }
 
 CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs) {
   auto settings = model.settings;
-  int last = fem::last_level(settings.rung);
+  int last = fem::last_level(settings.fidelity);
   CostRun size;
   size.kind = cost_kind(model);
   if (settings.degree == 1 && !settings.level) {
@@ -184,7 +187,7 @@ CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs) {
 
 namespace {
 
-/// The stages with rough stiffness: what periods, steps and freedoms follow from before anything is solved.
+/// The stages with rough stiffness: what periods, steps and DOFs follow from before anything is solved.
 std::vector<dynamics::PlanetaryStage> rough_stages(const Scene& scene, const GearGeometry& geometry) {
   Scene rough = scene;
   for (auto* mesh : {&rough.sun_planet, &rough.ring_planet}) {

@@ -8,7 +8,7 @@ namespace annulus::app {
 
 /// The size of one step of a run, and what it cost where it was measured.
 struct CostRun {
-  /// A mesh by its rung ("closed_form", "plane", "solid", "resolved_plane", "resolved_solid"), "solid_half" on half of
+  /// A mesh by its model ("closed_form", "plane", "solid", "resolved_plane", "resolved_solid"), "solid_half" on half of
   /// a symmetric face or "solid_helical",
   /// "coupling_plane", "coupling_pins" (on pins or splines) and "coupling_solid", or the "response" of one ring:
   /// "response_elastic" where its elastic modes may take part, "response_given" with stiffness that is given, where no

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include "app/content_id.h"
-#include "fem/solved_face.h"
+#include "fem/loaded_mesh.h"
+#include "fem/problem/solved_face.h"
 
 namespace annulus::app {
 
@@ -16,35 +17,35 @@ fem::LoadedMeshProblem problem_of(const Scene& scene, const geometry::GearPair& 
           .planet_bore_radius = planet.bore_diameter.value_or(0) / 2};
 }
 
-void use(MeshModel& model, fem::Rung rung) {
-  model.settings.rung = rung;
-  model.rung = rung_name(rung);
+void use(MeshModel& model, fem::Fidelity fidelity) {
+  model.settings.fidelity = fidelity;
+  model.fidelity = fidelity_name(fidelity);
 }
 
-/// The cheapest rung the mesh permits, unless the scene asks for another.
-void set_rung(MeshModel& model, const Scene& scene, const std::string& why_solid, const std::string& why_plane) {
+/// The cheapest model the mesh permits, unless the scene asks for another.
+void set_fidelity(MeshModel& model, const Scene& scene, const std::string& why_solid, const std::string& why_plane) {
   const bool needs_solid = !why_solid.empty();
   const std::string& why = needs_solid ? why_solid : why_plane;
-  constexpr const char* asked = "the scene asks for it (rung)";
-  switch (scene.rung) {
-    case Rung::automatic:
-      use(model, needs_solid ? fem::Rung::solid : fem::Rung::plane);
+  constexpr const char* asked = "the scene asks for it (model)";
+  switch (scene.fidelity) {
+    case Fidelity::automatic:
+      use(model, needs_solid ? fem::Fidelity::solid : fem::Fidelity::plane);
       model.reason = why;
       break;
-    case Rung::closed_form:
-      use(model, fem::Rung::closed_form);
+    case Fidelity::closed_form:
+      use(model, fem::Fidelity::closed_form);
       model.reason = asked;
       break;
-    case Rung::plane:
-      use(model, fem::Rung::plane);
+    case Fidelity::plane:
+      use(model, fem::Fidelity::plane);
       model.reason = asked;
       break;
-    case Rung::solid:
-      use(model, fem::Rung::solid);
+    case Fidelity::solid:
+      use(model, fem::Fidelity::solid);
       model.reason = needs_solid ? why_solid : asked;
       break;
-    case Rung::resolved:
-      use(model, needs_solid ? fem::Rung::resolved_solid : fem::Rung::resolved_plane);
+    case Fidelity::resolved:
+      use(model, needs_solid ? fem::Fidelity::resolved_solid : fem::Fidelity::resolved_plane);
       model.reason = std::string(asked) + "; " + why;
       break;
   }
@@ -52,11 +53,11 @@ void set_rung(MeshModel& model, const Scene& scene, const std::string& why_solid
 
 /// Formulas do where their error, known beforehand, is within the accuracy.
 void prefer_formulas(MeshModel& model, const Scene& scene) {
-  if (scene.rung != Rung::automatic || model.settings.rung != fem::Rung::plane) return;
+  if (scene.fidelity != Fidelity::automatic || model.settings.fidelity != fem::Fidelity::plane) return;
   if (scene.accuracy < fem::least_closed_form_error) return;
   const double error = fem::closed_form_error(*model.problem);
   if (error > scene.accuracy) return;
-  use(model, fem::Rung::closed_form);
+  use(model, fem::Fidelity::closed_form);
   model.reason += fmt::format("; formulas are within {:.2g} %", 100 * error);
   model.formula_error = error;
 }
@@ -97,8 +98,8 @@ void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
   model.phases = std::move(table.phases_reason);
   model.loads = std::move(table.loads_reason);
   prefer_formulas(model, scene);
-  const bool formulas = model.settings.rung == fem::Rung::closed_form;
-  auto elements = element_choice(formulas ? fem::Rung::plane : model.settings.rung, scene.accuracy,
+  const bool formulas = model.settings.fidelity == fem::Fidelity::closed_form;
+  auto elements = element_choice(formulas ? fem::Fidelity::plane : model.settings.fidelity, scene.accuracy,
                                  hard_for_linear(*model.problem), unfit_for_linear(*model.problem));
   // Modes of the ring that take part need their frequencies: of linear elements they are 2 % too high where a mesh is
   // within 3 %.
@@ -156,7 +157,7 @@ std::string tooth_reasons(const Scene& scene, const GearInput& planet, const std
 }
 
 void set_given(MeshModel& model, const std::string& shape) {
-  model.rung = "given";
+  model.fidelity = "given";
   model.reason = fmt::format("the scene gives the stiffness (mesh.{}: {})", model.mesh, shape);
   model.repeats = "as given";
 }
@@ -221,29 +222,29 @@ Decision symmetry_decision(const fem::LoadedMeshProblem& problem, const fem::Loa
 
 }  // namespace
 
-const char* rung_name(fem::Rung rung) {
-  switch (rung) {
-    case fem::Rung::closed_form:
+const char* fidelity_name(fem::Fidelity fidelity) {
+  switch (fidelity) {
+    case fem::Fidelity::closed_form:
       return "closed_form";
-    case fem::Rung::plane:
+    case fem::Fidelity::plane:
       return "plane";
-    case fem::Rung::solid:
+    case fem::Fidelity::solid:
       return "solid";
-    case fem::Rung::resolved_plane:
+    case fem::Fidelity::resolved_plane:
       return "resolved_plane";
-    case fem::Rung::resolved_solid:
+    case fem::Fidelity::resolved_solid:
       break;
   }
   return "resolved_solid";
 }
 
 std::vector<Decision> decisions(const MeshModel& model) {
-  std::vector<Decision> list = {{"rung", model.rung, model.reason}};
+  std::vector<Decision> list = {{"model", model.fidelity, model.reason}};
   if (!model.computed()) return list;
   const auto& settings = model.settings;
   const auto& problem = *model.problem;
-  const bool elements = settings.rung != fem::Rung::closed_form;
-  const bool solid = settings.rung == fem::Rung::solid || settings.rung == fem::Rung::resolved_solid;
+  const bool elements = settings.fidelity != fem::Fidelity::closed_form;
+  const bool solid = settings.fidelity == fem::Fidelity::solid || settings.fidelity == fem::Fidelity::resolved_solid;
   list.push_back({"dimension", solid ? "3D" : "2D, plane strain",
                   solid ? "the face width is meshed" : "one section stands for the whole face width"});
   if (solid) list.push_back(symmetry_decision(problem, settings));
@@ -272,7 +273,7 @@ std::vector<Decision> decisions(const MeshModel& model) {
 
 std::string MeshModel::id() const {
   ContentId id;
-  id.add("mesh", mesh).add("rung", rung);
+  id.add("mesh", mesh).add("model", fidelity);
   if (problem) {
     add_gear(id, "planet", problem->pair.planet());
     add_gear(id, "wheel", problem->pair.wheel());
@@ -357,8 +358,9 @@ MeshModel external_mesh_model(const Scene& scene, const ExternalMesh& mesh) {
     set_given(model, shape_text(mesh.input.stiffness));
     return model;
   }
-  set_rung(model, scene, solid_reason(scene, mesh),
-           "spur gears without lead modifications on hubs over the full width: nothing changes along the face width");
+  set_fidelity(
+      model, scene, solid_reason(scene, mesh),
+      "spur gears without lead modifications on hubs over the full width: nothing changes along the face width");
   model.repeats = "equal teeth on concentric hubs: one mesh cycle tells all";
   model.problem = problem_of(scene, mesh.pair, mesh.planet);
   model.problem->wheel_support_radius = mesh.wheel.bore_diameter.value_or(0) / 2;
@@ -387,7 +389,7 @@ MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std:
     set_given(model, shape_text(scene.ring_planet.stiffness));
     return model;
   }
-  set_rung(model, scene, solid_reason(scene, input), plane_reason(input));
+  set_fidelity(model, scene, solid_reason(scene, input), plane_reason(input));
   const auto structure = ring_structure(input);
   model.positions = fem::repeating_teeth(structure, input.teeth);
   model.repeats = input.has_pins() || input.structure == Structure::splined

@@ -27,14 +27,15 @@ struct MeshModel;
 [[nodiscard]] std::vector<Decision> decisions(const MeshModel& model);
 
 /// "plane", "resolved_solid" ...
-[[nodiscard]] const char* rung_name(fem::Rung rung);
+[[nodiscard]] const char* fidelity_name(fem::Fidelity fidelity);
 
 /// How the stiffness of one mesh is found, and why so: the decision of the planner, carried out by the pipeline.
 struct MeshModel {
   std::string mesh{};  ///< "sun_planet", "ring_planet", "pinion_wheel" or "arc_pins"
   std::string ring{};  ///< empty for the sun mesh, which all rings share
-  std::string rung{};  ///< "closed_form", "plane", "solid", "resolved_plane", "resolved_solid", or "given" by the scene
-  std::string reason{};                             ///< why this rung
+  std::string
+      fidelity{};  ///< "closed_form", "plane", "solid", "resolved_plane", "resolved_solid", or "given" by the scene
+  std::string reason{};                             ///< why this model
   int positions = 1;                                ///< ring positions after which the mesh repeats
   std::string repeats{};                            ///< why so many
   std::string elements{};                           ///< why elements of this degree

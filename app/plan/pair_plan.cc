@@ -9,7 +9,7 @@
 #include "app/plan/cost_plan.h"
 #include "app/stage/stiff_supports.h"
 #include "core/units.h"
-#include "dynamics/marching_cost.h"
+#include "dynamics/steady_state/marching_cost.h"
 
 namespace annulus::app {
 
@@ -41,8 +41,8 @@ std::vector<Quantity> pair_quantities(const Scene& scene, const PairGeometry& ge
            "mean mesh stiffness after ISO 6336-1, along the normal"}};
 }
 
-std::vector<FreedomPlan> pair_freedoms(const Scene& scene) {
-  std::vector<FreedomPlan> list;
+std::vector<DofPlan> pair_dofs(const Scene& scene) {
+  std::vector<DofPlan> list;
   for (const auto& [name, gear] : {std::pair{"pinion", &scene.pinion}, {"wheel", &scene.wheel}}) {
     const std::string of = name;
     const auto bearing = [&](const char* axis, double stiffness, const char* what) {
@@ -154,7 +154,7 @@ Plan make_pair_plan(const Scene& scene, const PairGeometry& geometry, int thread
   plan.inputs = pair_inputs(scene, geometry);
   plan.quantities = pair_quantities(scene, geometry);
   plan.meshes.push_back(pair_mesh_model(scene, geometry));
-  if (scene.dynamics) plan.freedoms = pair_freedoms(scene);
+  if (scene.dynamics) plan.dofs = pair_dofs(scene);
   plan.studies = plan_studies(scene);
   plan.cost =
       plan_cost(plan.meshes, pair_responses(scene, threads), plan.studies, threads, CostModel::of_this_machine());

@@ -69,19 +69,19 @@ std::vector<Quantity> ring_quantities(const RingGeometry& ring) {
   return list;
 }
 
-/// Why a support leaves no freedom.
+/// Why a support leaves no DOF.
 std::string rigid_text(double given, const char* what) {
   return std::isfinite(given) ? fmt::format("{} of {} N/m gives way by less than a thousandth of the accuracy: dropped",
                                             what, to_text(given))
                               : fmt::format("rigid {}: dropped", what);
 }
 
-std::vector<FreedomPlan> freedoms(const Scene& scene) {
+std::vector<DofPlan> dofs(const Scene& scene) {
   const SupportInput& given = scene.supports;
   const int planets = scene.stage.planets;
   const auto supports =
       effective_supports(scene, rough_stiffness(scene, scene.sun_planet), rough_stiffness(scene, scene.ring_planet));
-  std::vector<FreedomPlan> list;
+  std::vector<DofPlan> list;
   const auto plane = [&](const std::string& name, double SupportInput::*member) {
     const bool kept = std::isfinite(supports.*member);
     list.push_back(
@@ -137,7 +137,7 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
                                    "misalignments enter the contact solve."
                                  : "The given planet errors enter the dynamics; the contact solve itself is free of "
                                    "errors.");
-    if (scene.rung == Rung::closed_form) {
+    if (scene.fidelity == Fidelity::closed_form) {
       list.emplace_back(
           "The error of the closed-form stiffness is not controlled: the wanted accuracy is not checked.");
     }
@@ -226,7 +226,7 @@ Plan make_plan(const Scene& scene, const GearGeometry& geometry, int threads) {
     plan.meshes.push_back(ring_mesh_model(scene, geometry, i));
   }
   if (scene.dynamics) {
-    plan.freedoms = freedoms(scene);
+    plan.dofs = dofs(scene);
     plan.motion = motion_decisions(scene, plan.meshes);
   }
   plan.studies = plan_studies(scene);

@@ -19,8 +19,8 @@ struct Quantity {
   std::string meaning;  ///< what it is, and from what it follows
 };
 
-/// A freedom of the lumped model, or a group of equal ones.
-struct FreedomPlan {
+/// A DOF of the lumped model, or a group of equal ones.
+struct DofPlan {
   std::string name;  ///< "sun x, y"
   bool kept = true;
   std::string reason;
@@ -33,7 +33,7 @@ struct Plan {
   std::vector<Quantity> quantities;  ///< of the stage and the sun mesh
   std::vector<std::pair<std::string, std::vector<Quantity>>> rings;  ///< per ring
   std::vector<MeshModel> meshes;                                     ///< sun mesh first, then one per ring
-  std::vector<FreedomPlan> freedoms;
+  std::vector<DofPlan> dofs;
   std::vector<Decision> motion;      ///< how the motion is found in time
   std::vector<StudyPlan> studies;    ///< sweeps, samples, sensitivity
   std::vector<std::string> remarks;  ///< simplifications and warnings

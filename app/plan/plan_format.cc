@@ -96,8 +96,8 @@ std::string to_text(const Plan& plan) {
   text += fmt::format("  {} contact problems per level of resolution\n", plan.contact_problems());
   text += cost_lines(plan);
 
-  if (!plan.freedoms.empty()) text += "\nLumped model\n" + decision_lines(plan.motion);
-  for (const auto& f : plan.freedoms)
+  if (!plan.dofs.empty()) text += "\nLumped model\n" + decision_lines(plan.motion);
+  for (const auto& f : plan.dofs)
     text += fmt::format("  {} {} {}\n", f.kept ? "kept   " : "dropped", pad(f.name, 18), f.reason);
 
   if (!plan.studies.empty()) text += "\nStudies\n";
@@ -129,14 +129,14 @@ std::string to_json(const Plan& plan) {
   json["stage"] = quantities_json(plan.quantities);
   for (const auto& [name, quantities] : plan.rings) json["rings"][name] = quantities_json(quantities);
   for (const auto& mesh : plan.meshes) {
-    Json item = {{"mesh", mesh.mesh}, {"rung", mesh.rung}, {"reason", mesh.reason}};
+    Json item = {{"mesh", mesh.mesh}, {"model", mesh.fidelity}, {"reason", mesh.reason}};
     if (!mesh.ring.empty()) item["ring"] = mesh.ring;
     item["decisions"] = decisions_json(decisions(mesh));
     if (mesh.computed()) {
       item["phases"] = mesh.problem->phases;
       item["ring_positions"] = mesh.positions;
       item["loads_N"] = mesh.problem->loads;
-      if (mesh.settings.rung != fem::Rung::closed_form) item["degree"] = mesh.settings.degree;
+      if (mesh.settings.fidelity != fem::Fidelity::closed_form) item["degree"] = mesh.settings.degree;
       for (const auto& step : plan.cost.steps) {
         if (step.kind != CostKind::mesh || step.label != mesh.label()) continue;
         item["predicted_s"] = finite(step.predicted.seconds);
@@ -146,9 +146,9 @@ std::string to_json(const Plan& plan) {
     json["meshes"].push_back(std::move(item));
   }
   json["motion"] = decisions_json(plan.motion);
-  json["freedoms"] = Json::array();
-  for (const auto& f : plan.freedoms)
-    json["freedoms"].push_back({{"name", f.name}, {"kept", f.kept}, {"reason", f.reason}});
+  json["degrees_of_freedom"] = Json::array();
+  for (const auto& f : plan.dofs)
+    json["degrees_of_freedom"].push_back({{"name", f.name}, {"kept", f.kept}, {"reason", f.reason}});
   for (const auto& s : plan.studies)
     json["studies"].push_back({{"name", s.name},
                                {"what", s.what},

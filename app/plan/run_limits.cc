@@ -57,7 +57,7 @@ struct Need {
 
 std::string mesh_cure(const CostStep& step) {
   return fmt::format(
-      "its size follows from `accuracy` and `rung` (here {}, {:.3g} unknowns per pair of sectors, {} ring "
+      "its size follows from `accuracy` and `model` (here {}, {:.3g} unknowns per pair of sectors, {} ring "
       "positions)",
       step.size.kind, step.size.unknowns, step.size.cycles);
 }

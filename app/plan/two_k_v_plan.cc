@@ -6,7 +6,7 @@
 #include "app/plan/cost_plan.h"
 #include "app/two_k_v/two_k_v_run.h"
 #include "core/units.h"
-#include "dynamics/marching_cost.h"
+#include "dynamics/steady_state/marching_cost.h"
 
 namespace annulus::app {
 
@@ -40,13 +40,13 @@ std::vector<Quantity> two_k_v_quantities(const Scene& scene, const geometry::Gea
   return list;
 }
 
-std::vector<FreedomPlan> two_k_v_freedoms(const Scene& scene) {
+std::vector<DofPlan> two_k_v_dofs(const Scene& scene) {
   const auto held = [](const std::string& name, double support) {
     const bool kept = std::isfinite(support);
-    return FreedomPlan{name, kept,
-                       !kept          ? "held: dropped"
-                       : support == 0 ? "free to turn: carries the power"
-                                      : fmt::format("torsional support of {} N m/rad", to_text(support))};
+    return DofPlan{name, kept,
+                   !kept          ? "held: dropped"
+                   : support == 0 ? "free to turn: carries the power"
+                                  : fmt::format("torsional support of {} N m/rad", to_text(support))};
   };
   const std::string planets = fmt::format("planet 1 ... {}", scene.stage.planets),
                     cranks = fmt::format("crank 1 ... {}", scene.stage.planets),
@@ -146,7 +146,7 @@ double two_k_v_marching_seconds(const Scene& scene) {
   const auto stage = rough_two_k_v(scene);
   const auto system = assemble(stage);
   // Shooting integrates a turn of the crank once per state, then twice more.
-  const double turns = 2.0 * system.freedoms() + 2;
+  const double turns = 2.0 * system.dofs() + 2;
   const double cycles =
       scene.dynamics->mesh_cycles.value_or(1) * (scene.dynamics->mesh_cycles ? 1.0 : turns * scene.planet.teeth);
   return dynamics::marching_seconds(system, stage.sun_mesh_frequency(), cycles,
@@ -161,7 +161,7 @@ Plan make_two_k_v_plan(const Scene& scene, int threads) {
     if (!std::holds_alternative<std::monostate>(input.value)) plan.inputs.push_back(input);
   plan.quantities = two_k_v_quantities(scene, pair);
   plan.meshes = two_k_v_meshes(scene);
-  if (scene.dynamics) plan.freedoms = two_k_v_freedoms(scene);
+  if (scene.dynamics) plan.dofs = two_k_v_dofs(scene);
   plan.studies = plan_studies(scene);
   plan.cost = plan_cost(plan.meshes, two_k_v_responses(scene), plan.studies, threads, CostModel::of_this_machine());
   plan.remarks = two_k_v_remarks(scene, plan.meshes);

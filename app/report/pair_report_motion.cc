@@ -29,7 +29,7 @@ std::string pair_figures_section(const PairRunResult& result) {
   if (!result.response) return "";
   const auto& f = result.response->figures;
   HtmlTable table{.head = {"", "value"}, .rows = {}, .css_class = "numbers"};
-  const auto row = [&](const std::string& name, const dynamics::Figure& figure, double scale, const char* unit) {
+  const auto row = [&](const std::string& name, const Figure& figure, double scale, const char* unit) {
     table.rows.push_back({name, measured(scale * figure.value, scale * figure.error) + " " + unit});
   };
   const auto plain = [&](const std::string& name, double value, const std::string& unit) {
@@ -129,9 +129,9 @@ std::string pair_modes_section(const PairRunResult& result) {
   HtmlTable table{.head = {"mode", "frequency, Hz", "speed at which the mesh meets it, r/min", "strain in the mesh"},
                   .rows = {},
                   .css_class = "numbers"};
-  for (auto freedom : modes.freedoms) {
-    std::replace(freedom.begin(), freedom.end(), '_', ' ');
-    table.head.push_back(freedom);
+  for (auto dof : modes.dofs) {
+    std::replace(dof.begin(), dof.end(), '_', ' ');
+    table.head.push_back(dof);
   }
   for (std::size_t i = 0; i < modes.modes.size(); ++i) {
     const auto& mode = modes.modes[i];

@@ -142,7 +142,7 @@ std::string part_text(double part) { return std::isfinite(part) ? fmt::format("{
 
 struct NamedFigure {
   const char* name;
-  const dynamics::Figure& figure;
+  const Figure& figure;
   const ErrorParts& errors;
 };
 

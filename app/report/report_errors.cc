@@ -41,7 +41,7 @@ std::string stiffness_error_section(const RunResult& result) {
          "twice as many pieces. Condensation: asymmetry of the compliance between tooth pairs. Model choice: plane "
          "strain for a face of finite width, formulas for teeth; the wanted accuracy does not count plane strain, "
          "which "
-         "solid elements (rung = \"solid\") do without.</p>\n";
+         "solid elements (model = \"solid\") do without.</p>\n";
 }
 
 }  // namespace annulus::app

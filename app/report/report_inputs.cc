@@ -91,16 +91,16 @@ std::string model_section(const Plan& plan) {
   std::string text = "<h2 id=\"model\">What was modelled, and why</h2>\n";
   HtmlTable meshes{.head = {"mesh", "model", "why", "positions", "why so many"}, .rows = {}};
   for (const auto& m : plan.meshes) {
-    meshes.rows.push_back({escape(m.label()), m.rung, escape(m.reason),
+    meshes.rows.push_back({escape(m.label()), m.fidelity, escape(m.reason),
                            m.computed() ? fmt::format("{} × {}", m.problem->phases, m.positions) : "–",
                            escape(m.repeats)});
   }
   text += html(meshes);
-  if (!plan.freedoms.empty()) {
-    HtmlTable freedoms{.head = {"freedom of the lumped model", "", "why"}, .rows = {}};
-    for (const auto& f : plan.freedoms)
-      freedoms.rows.push_back({escape(f.name), f.kept ? "kept" : "dropped", escape(f.reason)});
-    text += html(freedoms);
+  if (!plan.dofs.empty()) {
+    HtmlTable dofs{.head = {"degree of freedom of the lumped model", "", "why"}, .rows = {}};
+    for (const auto& f : plan.dofs)
+      dofs.rows.push_back({escape(f.name), f.kept ? "kept" : "dropped", escape(f.reason)});
+    text += html(dofs);
   }
   text += "<ul>";
   for (const auto& remark : plan.remarks) text += "<li>" + escape(remark) + "</li>";

@@ -182,12 +182,12 @@ std::string campbell_part(const RunResult& result) {
 ModeDrawing drawing(const RingResult& ring, const geometry::PlanetarySet& set, const Multiple& m) {
   const auto& csv = ring.response->modes.shapes;
   const auto& row = csv.rows[m.index];
-  const auto value = [&](const std::string& freedom) {
-    const auto found = std::find(csv.columns.begin(), csv.columns.end(), freedom);
+  const auto value = [&](const std::string& dof) {
+    const auto found = std::find(csv.columns.begin(), csv.columns.end(), dof);
     return found == csv.columns.end() ? 0.0 : row[static_cast<std::size_t>(found - csv.columns.begin())];
   };
-  const auto exists = [&](const std::string& freedom) {
-    return std::find(csv.columns.begin(), csv.columns.end(), freedom) != csv.columns.end();
+  const auto exists = [&](const std::string& dof) {
+    return std::find(csv.columns.begin(), csv.columns.end(), dof) != csv.columns.end();
   };
   const auto motion = [&](const std::string& body) {
     return ModeDrawing::Motion{value(body + "_x"), value(body + "_y"), value(body + "_u")};

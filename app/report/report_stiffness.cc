@@ -204,7 +204,7 @@ std::string meshes_section(const RunResult& result) {
     if (mesh.picture.empty()) return;
     cells += "<div><h3>" + escape(title) + "</h3>" + mesh.picture +
              fmt::format("<figcaption>{}</figcaption></div>\n",
-                         mesh.model.rung.ends_with("solid")
+                         mesh.model.fidelity.ends_with("solid")
                              ? "Held faces orange, driven flanks blue."
                              : "Planet blue; what is held is orange; the circle marks the pitch point.");
   };

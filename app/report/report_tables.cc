@@ -14,7 +14,7 @@ namespace {
 std::string estimate_text(const Estimate& e, double scale) {
   return measured(e.value * scale, e.error_relative * e.value * scale);
 }
-std::string figure_text(const dynamics::Figure& f) { return measured(f.value, f.error); }
+std::string figure_text(const Figure& f) { return measured(f.value, f.error); }
 
 /// "a", "a and b", "a, b and c"
 std::string enumerate(const std::vector<std::string>& words) {
@@ -116,7 +116,7 @@ std::vector<std::pair<std::string, std::string>> peak_rows(bool sun) {
 void add_mesh_rows(HtmlTable& table, const RunResult& result, bool sun) {
   const auto mesh = [&](const RingResult& ring) -> const MeshResult& { return sun ? result.sun_mesh : ring.mesh; };
   table.rows.push_back({sun ? "Sun mesh (the same for all rings)" : "Ring mesh"});
-  add_row(table, "model", result, [&](const auto& r) { return mesh(r).model.rung; });
+  add_row(table, "model", result, [&](const auto& r) { return mesh(r).model.fidelity; });
   add_row(table, "contact ratio", result, [&](const auto& r) { return fmt::format("{:.4f}", mesh(r).contact_ratio); });
   add_row(table, "mean stiffness, secant, N/µm", result,
           [&](const auto& r) { return estimate_text(mesh(r).mean_stiffness(), 1e-6); });

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "fem/ring_structure.h"
+#include "fem/problem/ring_structure.h"
 #include "geometry/gear.h"
 
 namespace annulus::app {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/report/svg_gear.h"
-#include "fem/ring_structure.h"
+#include "fem/problem/ring_structure.h"
 
 namespace annulus::app {
 

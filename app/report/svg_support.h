@@ -3,7 +3,7 @@
 #include <string>
 
 #include "app/report/drawing_page.h"
-#include "fem/ring_structure.h"
+#include "fem/problem/ring_structure.h"
 
 namespace annulus::app {
 

@@ -13,7 +13,7 @@ namespace annulus::app {
 
 namespace {
 
-bool made(const MeshResult& mesh) { return mesh.model.rung != "given"; }
+bool made(const MeshResult& mesh) { return mesh.model.fidelity != "given"; }
 
 /// Secant at the nominal load over one cycle, N/µm; closed.
 Series stiffness_curve(const MeshResult& mesh, const ShownCase& shown) {
@@ -65,7 +65,7 @@ std::string mesh_table_html(const TwoKVResult& result) {
       const auto mean = mesh->mean_stiffness();
       std::string name = mesh->model.label();
       table.rows.push_back(
-          {name, escape(shown.name), mesh->model.rung,
+          {name, escape(shown.name), mesh->model.fidelity,
            measured(mean.value / 1e6, mesh->model.computed() ? mean.error_relative * mean.value / 1e6 : 0),
            fmt::format("{:.1f}", 100e6 * (*high - *low) / mean.value)});
     }

@@ -28,19 +28,19 @@ std::vector<double> closed(const Row& row, double scale) {
   return list;
 }
 
-std::size_t body_colour(const std::string& freedom) {
+std::size_t body_colour(const std::string& dof) {
   const std::pair<const char*, std::size_t> colours[] = {{"input", 4}, {"sun", 0}, {"planet", 1},
                                                          {"crank", 3}, {"arc", 2}, {"output", 6}};
   for (const auto& [body, colour] : colours)
-    if (freedom.starts_with(body)) return colour;
+    if (dof.starts_with(body)) return colour;
   return 7;
 }
 
-std::string freedom_words(const std::string& freedom) {
+std::string dof_words(const std::string& dof) {
   std::string text;
-  for (const char c : freedom) {
+  for (const char c : dof) {
     if (c == '_') {
-      text += freedom.ends_with("_u") ? " turn" : " centre";
+      text += dof.ends_with("_u") ? " turn" : " centre";
       break;
     }
     if (c >= '0' && c <= '9' && !text.empty() && text.back() != ' ' && !(text.back() >= '0' && text.back() <= '9'))
@@ -140,9 +140,9 @@ std::string shape_pictures(const TwoKVVibration& v) {
                    .label_width = 112,
                    .row_height = 14};
     for (Eigen::Index i = 0; i < mode.shape.size(); ++i)
-      chart.bars.push_back({freedom_words(v.modes.freedoms[static_cast<std::size_t>(i)]),
+      chart.bars.push_back({dof_words(v.modes.dofs[static_cast<std::size_t>(i)]),
                             sign * mode.shape[i] / largest,
-                            body_colour(v.modes.freedoms[static_cast<std::size_t>(i)]),
+                            body_colour(v.modes.dofs[static_cast<std::size_t>(i)]),
                             {}});
     text += "<div>" + plot_html(chart) + "</div>\n";
   }
@@ -169,12 +169,12 @@ std::string shapes_over_crank(const TwoKVVibration& v) {
               .x_range = Range{0, 360},
               .y_range = Range{-1.05, 1.05}};
     for (Eigen::Index f = 0; f < shape.rows(); ++f) {
-      const auto& name = v.modes.freedoms[static_cast<std::size_t>(f)];
+      const auto& name = v.modes.dofs[static_cast<std::size_t>(f)];
       auto y = closed(shape.row(f), 1);
       // A shape may come back the other way round after a turn: that is no jump of the shape.
       y.back() =
           std::abs(y.front() - y[y.size() - 2]) <= std::abs(y.front() + y[y.size() - 2]) ? y.front() : -y.front();
-      plot.series.push_back({.label = freedom_words(name),
+      plot.series.push_back({.label = dof_words(name),
                              .x = x,
                              .y = std::move(y),
                              .colour = body_colour(name),

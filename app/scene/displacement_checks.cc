@@ -10,7 +10,7 @@
 #include "app/two_k_v/two_k_v_model.h"
 #include "core/errors.h"
 #include "core/units.h"
-#include "fem/problem_check.h"
+#include "fem/problem/problem_check.h"
 
 namespace annulus::app {
 

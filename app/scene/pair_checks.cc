@@ -178,13 +178,13 @@ class PairChecker : KeyChecks {
     }
     if (scene_.pinion_wheel.stiffness != StiffnessShape::computed) return;
     const auto solid = pair_solid_reason(scene_, *pair);
-    if (scene_.rung == Rung::resolved && scene_.stage.helix_angle != 0)
-      problem("rung", "cannot represent helical gears: use \"automatic\" or \"solid\"");
-    if ((scene_.rung == Rung::plane || scene_.rung == Rung::closed_form) && !solid.empty())
-      problem("rung",
-              fmt::format(
-                  "cannot represent the mesh: {}; use \"automatic\" or \"solid\"{}", solid,
-                  scene_.rung == Rung::closed_form ? ", or stiffness = \"closed_form\" in [mesh.pinion_wheel]" : ""));
+    if (scene_.fidelity == Fidelity::resolved && scene_.stage.helix_angle != 0)
+      problem("model", "cannot represent helical gears: use \"automatic\" or \"solid\"");
+    if ((scene_.fidelity == Fidelity::plane || scene_.fidelity == Fidelity::closed_form) && !solid.empty())
+      problem("model", fmt::format("cannot represent the mesh: {}; use \"automatic\" or \"solid\"{}", solid,
+                                   scene_.fidelity == Fidelity::closed_form
+                                       ? ", or stiffness = \"closed_form\" in [mesh.pinion_wheel]"
+                                       : ""));
   }
 };
 

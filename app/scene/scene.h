@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "app/scene/scene_value.h"
-#include "dynamics/arc_tooth.h"
-#include "dynamics/integrate.h"
-#include "dynamics/mesh_excitation.h"
+#include "dynamics/system/mesh_excitation.h"
+#include "dynamics/systems/two_k_v/arc_tooth.h"
+#include "dynamics/time_integration/integrate.h"
 
 namespace annulus::app {
 
@@ -19,7 +19,7 @@ namespace annulus::app {
 
 enum class Compare { none, computed };
 enum class StageKind { planetary, helical_pair, two_k_v };
-enum class Rung { automatic, closed_form, plane, solid, resolved };
+enum class Fidelity { automatic, closed_form, plane, solid, resolved };
 enum class Structure { traditional, thin_walled, pinned, bolted, splined };
 enum class StiffnessShape { computed, constant, harmonic, rectangular, table, iso_6336, closed_form };
 enum class MeshDamping { in_contact, always };
@@ -62,7 +62,7 @@ struct HubGearInput : GearInput {
   std::optional<double> bore_diameter;
 };
 
-/// A gear of a helical pair; its bearings: `rigid` drops the freedom.
+/// A gear of a helical pair; its bearings: `rigid` drops the DOF.
 struct PairGearInput : HubGearInput {
   double bearing_transverse = rigid, bearing_axial = rigid;
 };
@@ -120,7 +120,7 @@ struct TransmissionErrorInput {
   std::vector<double> pinion_torques, pinion_speeds;
 };
 
-/// N/m; `rigid` drops the freedom. Torsional values are in the coordinate u = base radius x angle.
+/// N/m; `rigid` drops the DOF. Torsional values are in the coordinate u = base radius x angle.
 struct SupportInput {
   double sun = rigid, ring = rigid, carrier = rigid, planet = rigid;
   double sun_torsional = 0, ring_torsional = rigid, carrier_torsional = 0;
@@ -230,7 +230,7 @@ struct Scene {
   std::filesystem::path file;
   std::string title;
   double accuracy = 0;
-  Rung rung = Rung::automatic;
+  Fidelity fidelity = Fidelity::automatic;
   std::optional<std::string> reference;
   StageInput stage;
   MaterialInput material;

@@ -39,7 +39,7 @@ class Checker : KeyChecks {
     mesh(scene_.sun_planet, "mesh.sun_planet");
     mesh(scene_.ring_planet, "mesh.ring_planet");
     computed_meshes();
-    rung();
+    fidelity();
     dynamics();
   }
 
@@ -250,17 +250,17 @@ class Checker : KeyChecks {
   }
 
   /// Models in which nothing changes along the face width are refused where something does.
-  void rung() {
-    if (scene_.rung == Rung::resolved && scene_.ring_planet.stiffness == StiffnessShape::computed)
+  void fidelity() {
+    if (scene_.fidelity == Fidelity::resolved && scene_.ring_planet.stiffness == StiffnessShape::computed)
       for (const auto& ring : scene_.rings)
         if (ring.structure != Structure::traditional && ring.structure != Structure::thin_walled)
           problem(
-              "rung", "",
-              fmt::format("cannot represent the ring-planet mesh of '{}': the resolved rung does not model rings on "
+              "model", "",
+              fmt::format("cannot represent the ring-planet mesh of '{}': the resolved model does not cover rings on "
                           "pins, bolts or splines; use \"automatic\"",
                           ring.name));
-    if (scene_.rung == Rung::resolved && scene_.stage.helix_angle != 0)
-      problem("rung", "", "cannot represent helical gears: use \"automatic\" or \"solid\"");
+    if (scene_.fidelity == Fidelity::resolved && scene_.stage.helix_angle != 0)
+      problem("model", "", "cannot represent helical gears: use \"automatic\" or \"solid\"");
     if (scene_.stage.helix_angle != 0 && scene_.ring_planet.stiffness == StiffnessShape::computed)
       for (const auto& ring : scene_.rings)
         if (ring.structure != Structure::traditional && ring.structure != Structure::thin_walled)
@@ -268,10 +268,10 @@ class Checker : KeyChecks {
                   fmt::format("is not modelled for the ring '{}' on pins, bolts or splines: nothing there takes the "
                               "axial force",
                               ring.name));
-    if (scene_.rung != Rung::plane && scene_.rung != Rung::closed_form) return;
+    if (scene_.fidelity != Fidelity::plane && scene_.fidelity != Fidelity::closed_form) return;
     const auto refuse = [&](const std::string& mesh, const std::string& why) {
       if (why.empty()) return;
-      problem("rung", "",
+      problem("model", "",
               fmt::format("cannot represent the {}: {}; use \"automatic\", \"solid\" or \"resolved\"", mesh, why));
     };
     if (scene_.sun_planet.stiffness == StiffnessShape::computed) refuse("sun-planet mesh", solid_reason(scene_));

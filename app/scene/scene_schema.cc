@@ -128,12 +128,12 @@ std::vector<Table> declare_tables() {
       .fallback(0.01, "well below the spread of unknown inputs such as support stiffnesses")
       .from(1e-5, 0.2);
   top.choice(
-         "rung", &Scene::rung,
-         {{"automatic", Rung::automatic},
-          {"closed_form", Rung::closed_form},
-          {"plane", Rung::plane},
-          {"solid", Rung::solid},
-          {"resolved", Rung::resolved}},
+         "model", &Scene::fidelity,
+         {{"automatic", Fidelity::automatic},
+          {"closed_form", Fidelity::closed_form},
+          {"plane", Fidelity::plane},
+          {"solid", Fidelity::solid},
+          {"resolved", Fidelity::resolved}},
          "Kind of model of the elastic bodies: closed_form, tooth and curved-beam formulas, seconds, its error is "
          "not controlled; plane or solid, finite elements with condensed flanks; resolved, the contact patch itself "
          "is meshed, plane or solid as the scene requires.")
@@ -390,11 +390,11 @@ std::vector<Table> declare_tables() {
   Declarations<SupportInput> supports(
       "supports",
       "Stiffness of the bearings; 0 is none (planets need one). Absent or inf means rigid, and the "
-      "freedom is dropped; so does a stiffness of a thousand meshes over the wanted accuracy.",
+      "degree of freedom is dropped; so does a stiffness of a thousand meshes over the wanted accuracy.",
       [](Scene& s, std::size_t) -> SupportInput& { return s.supports; });
   supports.optional().only(planetary);
   const auto bearing = [&](const char* name, double SupportInput::*member, const char* meaning) {
-    return supports.key(name, member, meaning).fallback(rigid, "rigid: the freedom is dropped").infinite();
+    return supports.key(name, member, meaning).fallback(rigid, "rigid: the degree of freedom is dropped").infinite();
   };
   bearing("sun_N_per_m", &SupportInput::sun, "Support of the sun's axis, any direction.").from(0, 1e15);
   bearing("ring_N_per_m", &SupportInput::ring, "Support of the ring's axis, any direction.").from(0, 1e15);

@@ -15,7 +15,10 @@ Table pair_gear_table(const char* path, const char* meaning, HubGearInput& (*gea
   }
   Declarations<PairGearInput> bearings(path, meaning, section);
   const auto bearing = [&](const char* name, double PairGearInput::*member, const char* what) {
-    bearings.key(name, member, what).fallback(rigid, "rigid: the freedom is dropped").above(0, 1e15).infinite();
+    bearings.key(name, member, what)
+        .fallback(rigid, "rigid: the degree of freedom is dropped")
+        .above(0, 1e15)
+        .infinite();
   };
   bearing("bearing_transverse_N_per_m", &PairGearInput::bearing_transverse,
           "Bearings and shaft along the transverse line of action.");
@@ -27,7 +30,7 @@ Table pair_gear_table(const char* path, const char* meaning, HubGearInput& (*gea
 Table stiffness_table_of_pairs() {
   Table table = mesh_table(
       "mesh.pinion_wheel",
-      "Stiffness of the mesh along the normal of the flanks. computed: finite elements (`rung`); iso_6336: mean after "
+      "Stiffness of the mesh along the normal of the flanks. computed: finite elements (`model`); iso_6336: mean after "
       "ISO 6336-1 method B, with `ripple` if one is given; closed_form: tooth formulas of the transverse section, "
       "staggered along the helix.",
       of_pairs, [](Scene& s, std::size_t) -> MeshInput& { return s.pinion_wheel; });

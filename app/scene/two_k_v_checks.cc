@@ -35,7 +35,7 @@ class TwoKVChecker : KeyChecks {
         {"arc_gear.pin_circle_diameter_mm", "arc_gear.pin_diameter_mm", "arc_gear.arc_radius_mm", "arc_gear.width_mm"},
         why);
     arc_teeth();
-    rung(sun);
+    fidelity(sun);
     dynamics();
   }
 
@@ -99,11 +99,12 @@ class TwoKVChecker : KeyChecks {
               "has a meaning only with a computed mesh of arc teeth and pins; a given stiffness has half_backlash_um");
   }
 
-  void rung(bool sun_computed) {
-    if (!sun_computed || (scene_.rung != Rung::plane && scene_.rung != Rung::closed_form)) return;
+  void fidelity(bool sun_computed) {
+    if (!sun_computed || (scene_.fidelity != Fidelity::plane && scene_.fidelity != Fidelity::closed_form)) return;
     const std::string why = solid_reason(scene_);
     if (!why.empty())
-      problem("rung", "", fmt::format("cannot represent the sun-planet mesh: {}; use \"automatic\" or \"solid\"", why));
+      problem("model", "",
+              fmt::format("cannot represent the sun-planet mesh: {}; use \"automatic\" or \"solid\"", why));
   }
 
   void dynamics() {

@@ -200,7 +200,7 @@ ResponseErrors carried_errors(const DynamicResponse& nominal, const dynamics::Si
   std::size_t i = 0;
   const auto put = [&](const MeshKindResult& kind, MeshKindErrors& into) {
     into.dynamic_factor_max.resize(kind.branches.size());
-    for_each_figure(kind, into, [&](const dynamics::Figure& f, ErrorParts& e) {
+    for_each_figure(kind, into, [&](const Figure& f, ErrorParts& e) {
       e = {};
       e.integration = f.error;
       e.interpolation = interpolation[i];
@@ -215,7 +215,7 @@ ResponseErrors carried_errors(const DynamicResponse& nominal, const dynamics::Si
 }
 
 void set_errors(const ResponseErrors& errors, DynamicResponse& response) {
-  const auto set = [](dynamics::Figure& f, const ErrorParts& e) { f.error = e.total(); };
+  const auto set = [](Figure& f, const ErrorParts& e) { f.error = e.total(); };
   for_each_figure(response.sun_planet, errors.sun_planet, set);
   for_each_figure(response.ring_planet, errors.ring_planet, set);
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/stage/mesh_result.h"
-#include "dynamics/response.h"
+#include "dynamics/systems/planetary/response.h"
 
 namespace annulus::app {
 

@@ -230,7 +230,7 @@ std::vector<RingQuantity> ring_quantities(const RunResult& result) {
   const auto sharing = [&](const char* name, auto pick) {
     add("load_sharing", name, 5, [&](const RingResult& r) {
       if (!r.response) return Measured{{}, NAN, 0};
-      const dynamics::Figure f = pick(r.response->figures);
+      const Figure f = pick(r.response->figures);
       return Measured{{}, f.value, f.error};
     });
   };

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/stage/rim_coupling.h"
-#include "dynamics/response.h"
+#include "dynamics/systems/planetary/response.h"
 
 namespace annulus::app {
 

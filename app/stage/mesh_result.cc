@@ -184,7 +184,7 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   for (const auto& field : solved.fields)
     result.fields += field_view(field, solved.positions[field.position], model.body_name(field.body == "planet"));
   if (result.table.mesh() != model.mesh) result.table = renamed(result.table, model.mesh);
-  result.table.provenance = {{"annulus_version", version()}, {"inputs_id", model.id()}, {"rung", model.rung}};
+  result.table.provenance = {{"annulus_version", version()}, {"inputs_id", model.id()}, {"model", model.fidelity}};
   return result;
 }
 
@@ -196,8 +196,9 @@ void save(const MeshResult& result, const std::filesystem::path& folder) {
   const auto keep = [&](const std::string& name, Csv csv) {
     const auto file = folder / (name + "_" + mesh + ".csv");
     if (csv.rows.empty()) return std::filesystem::remove(file), void();
-    csv.header.insert(csv.header.begin(),
-                      {{"annulus_version", version()}, {"inputs_id", id}, {"mesh", mesh}, {"rung", result.model.rung}});
+    csv.header.insert(
+        csv.header.begin(),
+        {{"annulus_version", version()}, {"inputs_id", id}, {"mesh", mesh}, {"model", result.model.fidelity}});
     csv.write(file);
   };
   Csv positions = result.positions;

@@ -23,7 +23,7 @@ std::vector<std::pair<std::string, std::string>> without_stamp(
     const std::vector<std::pair<std::string, std::string>>& header) {
   std::vector<std::pair<std::string, std::string>> own;
   for (const auto& line : header) {
-    if (line.first != "annulus_version" && line.first != "inputs_id" && line.first != "mesh" && line.first != "rung")
+    if (line.first != "annulus_version" && line.first != "inputs_id" && line.first != "mesh" && line.first != "model")
       own.push_back(line);
   }
   return own;
@@ -87,7 +87,7 @@ std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::pa
   const auto picture_file = folder / "mesh" / (model.mesh + ".svg"),
              fields_file = folder / "mesh" / (model.mesh + "_fields.html");
   for (const auto& file : {table_file, positions_file, picture_file}) {
-    const bool needed = file != picture_file || model.settings.rung != fem::Rung::closed_form;
+    const bool needed = file != picture_file || model.settings.fidelity != fem::Fidelity::closed_form;
     if (needed && !std::filesystem::exists(file)) return std::nullopt;
   }
   const std::string id = model.id();

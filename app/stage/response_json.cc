@@ -20,12 +20,12 @@ double number(const ResponseJson& json) {
   return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
-ResponseJson to_json_value(const dynamics::Figure& f, const ErrorParts& parts) {
+ResponseJson to_json_value(const Figure& f, const ErrorParts& parts) {
   return {{"value", number(f.value)},
           {"error", number(f.error)},
           {"error_parts", ResponseJson::parse(error_parts_json(parts))}};
 }
-dynamics::Figure figure(const ResponseJson& json) { return {number(json.at("value")), number(json.at("error"))}; }
+Figure figure(const ResponseJson& json) { return {number(json.at("value")), number(json.at("error"))}; }
 
 ResponseJson kind_json(const dynamics::MeshKindResult& kind, const MeshKindErrors& errors) {
   ResponseJson json;

@@ -11,7 +11,7 @@
 #include "app/plan/accuracy_choice.h"
 #include "core/csv.h"
 #include "core/log.h"
-#include "fem/ring_coupling.h"
+#include "fem/ring/ring_coupling.h"
 
 namespace annulus::app {
 
@@ -139,8 +139,8 @@ std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved,
 bool may_be_coupled(const Scene& scene, const MeshModel& model) {
   if (!scene.dynamics || scene.dynamics->rim_coupling == RimCoupling::none || scene.stage.planets == 1) return false;
   if (model.mesh != ring_planet || !model.computed() || rests_in_bore(model.problem->structure)) return false;
-  if (model.settings.rung != fem::Rung::closed_form) return true;
-  return scene.rung == Rung::automatic && scene.accuracy < very_rough_accuracy &&
+  if (model.settings.fidelity != fem::Fidelity::closed_form) return true;
+  return scene.fidelity == Fidelity::automatic && scene.accuracy < very_rough_accuracy &&
          fem::on_single_supports(model.problem->structure);
 }
 

@@ -5,9 +5,8 @@
 #include <algorithm>
 
 #include "core/units.h"
-#include "dynamics/campbell.h"
-#include "dynamics/modal_energy.h"
-#include "dynamics/modes.h"
+#include "dynamics/systems/planetary/campbell.h"
+#include "dynamics/systems/planetary/planetary_modes.h"
 
 namespace annulus::app {
 
@@ -90,10 +89,11 @@ StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnes
   const auto modes = dynamics::modes(stage);
   StageModes result;
   result.shapes.columns = {"mode", "frequency_Hz"};
-  result.shapes.columns.insert(result.shapes.columns.end(), modes.freedoms.begin(), modes.freedoms.end());
-  for (const auto& mode : modes.modes) {
+  result.shapes.columns.insert(result.shapes.columns.end(), modes.dofs.begin(), modes.dofs.end());
+  for (std::size_t i = 0; i < modes.modes.size(); ++i) {
+    const auto& mode = modes.modes[i];
     result.list.push_back(
-        {.frequency = mode.frequency, .kind = dynamics::to_string(mode.kind), .strain = {}, .kinetic = {}});
+        {.frequency = mode.frequency, .kind = dynamics::to_string(modes.kinds[i]), .strain = {}, .kinetic = {}});
     auto& row = result.shapes.rows.emplace_back(std::vector{static_cast<double>(result.list.size()), mode.frequency});
     // The largest amplitude is 1: only the shape means something.
     Eigen::Index top = 0;

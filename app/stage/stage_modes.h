@@ -5,7 +5,7 @@
 
 #include "app/stage/mesh_result.h"
 #include "core/csv.h"
-#include "dynamics/planetary_stage.h"
+#include "dynamics/systems/planetary/planetary_stage.h"
 
 namespace annulus::app {
 
@@ -24,7 +24,7 @@ struct StageModes {
   std::vector<std::string> groups;  ///< sun_planet, ring_planet, planet_bearing, sun_support, ...
   std::vector<std::string> bodies;  ///< sun, ring, carrier, planets
   std::vector<Mode> list;           ///< rising frequency
-  Csv shapes;                       ///< one row per mode, one column per freedom
+  Csv shapes;                       ///< one row per mode, one column per DOF
   Csv campbell;                     ///< natural frequency of every mode over speed, undamped
   Csv critical_speeds;              ///< where mesh orders meet them
 };

@@ -1,8 +1,8 @@
 #include "app/stage/stage_motion.h"
 
-#include "dynamics/bearing_forces.h"
-#include "dynamics/orbit.h"
-#include "dynamics/poincare.h"
+#include "dynamics/systems/planetary/bearing_forces.h"
+#include "dynamics/systems/planetary/orbit.h"
+#include "dynamics/systems/planetary/poincare.h"
 
 namespace annulus::app {
 

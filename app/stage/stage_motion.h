@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/csv.h"
-#include "dynamics/response.h"
+#include "dynamics/systems/planetary/response.h"
 
 namespace annulus::app {
 

@@ -9,6 +9,7 @@
 #include "app/stage/response_json.h"
 #include "core/errors.h"
 #include "core/files.h"
+#include "dynamics/figures/spectrum.h"
 
 namespace annulus::app {
 
@@ -24,7 +25,7 @@ Csv time_series_table(const dynamics::TimeSeries& series, int window_cycles) {
   const Eigen::Index stride = window_cycles > dynamics::long_window ? 2 : 1;
   Csv csv;
   csv.columns.emplace_back("time_s");
-  for (const auto& name : series.freedoms) csv.columns.push_back(name + "_m");
+  for (const auto& name : series.dofs) csv.columns.push_back(name + "_m");
   for (const auto& name : series.meshes) csv.columns.push_back(name + "_force_N");
   csv.rows.reserve(static_cast<std::size_t>(series.time.size() / stride + 1));
   for (Eigen::Index i = 0; i < series.time.size(); i += stride) {

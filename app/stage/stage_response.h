@@ -13,7 +13,7 @@
 #include "app/stage/stage_modes.h"
 #include "app/stage/stage_motion.h"
 #include "core/csv.h"
-#include "dynamics/response.h"
+#include "dynamics/systems/planetary/response.h"
 
 namespace annulus::app {
 

@@ -5,7 +5,7 @@
 namespace annulus::app {
 
 /// A support that gives way by less than a thousandth of the wanted accuracy of what acts on it (`neighbours`, N/m)
-/// counts as rigid: its freedom would cost steps of its own pace and change nothing.
+/// counts as rigid: its DOF would cost steps of its own pace and change nothing.
 [[nodiscard]] double rigid_if_stiff(double support, double neighbours, double accuracy);
 
 /// A stiffness between two bodies, bounded by the same rule: more of it changes nothing but the pace.

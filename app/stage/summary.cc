@@ -26,7 +26,7 @@ SummaryJson estimate_json(const Estimate& e) {
           {"error_relative", known(e.error_relative)},
           {"error_parts_relative", SummaryJson::parse(error_parts_json(e.parts))}};
 }
-SummaryJson figure_json(const dynamics::Figure& f, const ErrorParts& e) {
+SummaryJson figure_json(const Figure& f, const ErrorParts& e) {
   return {
       {"value", known(f.value)}, {"error", known(f.error)}, {"error_parts", SummaryJson::parse(error_parts_json(e))}};
 }
@@ -36,7 +36,7 @@ SummaryJson peak_json(const Peak& peak, double unit) {
 }
 
 SummaryJson mesh_json(const MeshResult& mesh) {
-  SummaryJson json = {{"rung", mesh.model.rung},
+  SummaryJson json = {{"model", mesh.model.fidelity},
                       {"contact_ratio", mesh.contact_ratio},
                       {"nominal_load_N", mesh.table.loads()[mesh.nominal]},
                       {"mean_stiffness_N_per_m", estimate_json(mesh.mean_stiffness())},
@@ -84,7 +84,7 @@ double worst(const MeshResult& a, const MeshResult& b, const std::string& fact) 
 
 SummaryJson ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
   SummaryJson json = {
-      {"rung", ring.mesh.model.rung}, {"ring_planet", mesh_json(ring.mesh)}, {"sun_planet", mesh_json(sun_mesh)}};
+      {"model", ring.mesh.model.fidelity}, {"ring_planet", mesh_json(ring.mesh)}, {"sun_planet", mesh_json(sun_mesh)}};
   json["invariants"] = {{"force_balance_relative", known(worst(ring.mesh, sun_mesh, "force_balance_relative"))},
                         {"energy_balance_relative", known(worst(ring.mesh, sun_mesh, "energy_balance_relative"))},
                         {"max_penetration_m", known(worst(ring.mesh, sun_mesh, "max_penetration_m"))},

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/optimise.h"
+#include "dynamics/optimisation/optimise.h"
 
 namespace annulus::app {
 

@@ -8,7 +8,7 @@
 #include "app/content_id.h"
 #include "app/study/study_cases.h"
 #include "core/log.h"
-#include "dynamics/initial_spread.h"
+#include "dynamics/systems/planetary/initial_spread.h"
 
 namespace annulus::app {
 
@@ -52,7 +52,7 @@ StudyPoint point_of(const ChangedStage& changed, bool quick) {
 }
 
 /// The one of the branch with the largest dynamic factor.
-dynamics::Figure largest_factor(const dynamics::MeshKindResult& kind) {
+Figure largest_factor(const dynamics::MeshKindResult& kind) {
   return std::max_element(
              kind.branches.begin(), kind.branches.end(),
              [](const auto& a, const auto& b) { return a.dynamic_factor_max.value < b.dynamic_factor_max.value; })

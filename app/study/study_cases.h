@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/scene/overrides.h"
-#include "dynamics/sampling.h"
+#include "dynamics/statistics/sampling.h"
 
 /// What the studies of a scene consist of: lists of changed scenes, made without computing anything.
 namespace annulus::app {

@@ -7,10 +7,10 @@
 
 #include "app/scene/scene.h"
 #include "core/csv.h"
-#include "dynamics/figures.h"
-#include "dynamics/optimise.h"
-#include "dynamics/statistics.h"
-#include "dynamics/study_point.h"
+#include "core/figure.h"
+#include "dynamics/optimisation/optimise.h"
+#include "dynamics/statistics/statistics.h"
+#include "dynamics/systems/planetary/study_point.h"
 
 /// What studies find: named figures of many responses to changed inputs, whatever the kind of the stage.
 namespace annulus::app {
@@ -37,7 +37,7 @@ struct StudyPoint {
   [[nodiscard]] double value(std::size_t figure) const;
 };
 
-using NominalFigures = std::map<std::string, dynamics::Figure>;  ///< by column, with their errors
+using NominalFigures = std::map<std::string, Figure>;  ///< by column, with their errors
 
 struct SweepResult {
   SweepInput sweep;

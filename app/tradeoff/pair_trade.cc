@@ -50,7 +50,7 @@ class PairTrade : public TradeSubject {
     simulation.keep_series = false;
     simulation.confirm = false;
     const auto result = lumped(tables);
-    return {.rung = {}, .settings = {}, .id = id_of(result, simulation), .figures = [result, simulation] {
+    return {.fidelity = {}, .settings = {}, .id = id_of(result, simulation), .figures = [result, simulation] {
               auto response = dynamics::evaluate_pair(*result.pair, simulation);
               add_table_errors(result, response);
               return figures_of(*result.pair, response);
@@ -65,12 +65,12 @@ class PairTrade : public TradeSubject {
     given.integrator.method = dynamics::Integrator::automatic;
     given.integrator.fixed_step = 0;
     std::vector<TradeMotion> list;
-    const auto add = [&](const std::string& rung, const std::string& settings, const dynamics::HelicalPair& pair,
+    const auto add = [&](const std::string& fidelity, const std::string& settings, const dynamics::HelicalPair& pair,
                          const dynamics::SimulationOptions& simulation) -> TradeMotion& {
       auto changed = result;
       changed.pair = pair;
       list.push_back(
-          {.rung = rung, .settings = settings, .id = id_of(changed, simulation), .figures = [pair, simulation] {
+          {.fidelity = fidelity, .settings = settings, .id = id_of(changed, simulation), .figures = [pair, simulation] {
              const auto response = dynamics::evaluate_pair(pair, simulation);
              if (!response.steady) throw SolverError("the motion does not become periodic");
              return figures_of(pair, response);
@@ -81,7 +81,7 @@ class PairTrade : public TradeSubject {
     for (const auto& way : motion_settings(pair.mesh_frequency(), pair.error_period())) {
       auto simulation = given;
       way.apply(simulation);
-      add(way.rung, way.settings, pair, simulation).finest = way.finest;
+      add(way.fidelity, way.settings, pair, simulation).finest = way.finest;
     }
     auto fine = given;
     fine.confirm = false;
@@ -93,7 +93,7 @@ class PairTrade : public TradeSubject {
         changed = changed || std::isfinite(gear->*bearing);
         gear->*bearing = dynamics::rigid;
       }
-      if (changed) add("fewer freedoms", what, stiff, fine).changes_model = true;
+      if (changed) add("fewer degrees of freedom", what, stiff, fine).changes_model = true;
     };
     without("shafts and bearings rigid across the axis", &dynamics::PairGear::bearing_transverse);
     without("shafts and bearings rigid along the axis", &dynamics::PairGear::bearing_axial);

@@ -13,8 +13,8 @@ namespace annulus::app {
 
 namespace {
 
-dynamics::Figure largest_factor(const dynamics::MeshKindResult& kind) {
-  dynamics::Figure largest{-1, 0};
+Figure largest_factor(const dynamics::MeshKindResult& kind) {
+  Figure largest{-1, 0};
   for (const auto& branch : kind.branches) {
     if (branch.dynamic_factor_max.value > largest.value) largest = branch.dynamic_factor_max;
   }
@@ -44,7 +44,7 @@ Figures figures_of(const dynamics::PlanetaryStage& stage, const dynamics::Dynami
 
 /// A model with something left out or added.
 struct StageChange {
-  std::string rung, settings;
+  std::string fidelity, settings;
   std::function<void(dynamics::PlanetaryStage& stage)> change;
   int samples = finest_samples;
 };
@@ -53,7 +53,7 @@ std::vector<StageChange> stage_changes(const dynamics::PlanetaryStage& stage,
                                        const std::shared_ptr<const RingCoupling>& elastic) {
   using Stage = dynamics::PlanetaryStage;
   std::vector<StageChange> list;
-  const auto without = [&](const char* what, auto drop) { list.push_back({"fewer freedoms", what, drop}); };
+  const auto without = [&](const char* what, auto drop) { list.push_back({"fewer degrees of freedom", what, drop}); };
   if (std::isfinite(stage.sun.support)) without("sun held in place", [](Stage& s) { s.sun.support = dynamics::rigid; });
   if (std::isfinite(stage.ring.support))
     without("ring held in place", [](Stage& s) { s.ring.support = dynamics::rigid; });
@@ -115,7 +115,7 @@ class PlanetaryTrade : public TradeSubject {
     auto simulation = simulation_options(scene_, stage);
     simulation.keep_series = false;
     simulation.confirm = false;
-    TradeMotion motion{.rung = {}, .settings = {}, .id = response_id(stage, simulation, sun, wheel), .figures = {}};
+    TradeMotion motion{.fidelity = {}, .settings = {}, .id = response_id(stage, simulation, sun, wheel), .figures = {}};
     motion.figures = [this, stage = std::move(stage), simulation, &sun, &wheel] {
       auto response = dynamics::simulate(stage, simulation);
       const auto make = [&](const MeshResult& s, const MeshResult& w) {
@@ -139,9 +139,10 @@ class PlanetaryTrade : public TradeSubject {
     given.integrator.method = dynamics::Integrator::automatic;
     given.integrator.fixed_step = 0;
     std::vector<TradeMotion> list;
-    const auto add = [&](const std::string& rung, const std::string& settings, const dynamics::PlanetaryStage& model,
+    const auto add = [&](const std::string& fidelity, const std::string& settings,
+                         const dynamics::PlanetaryStage& model,
                          const dynamics::SimulationOptions& simulation) -> TradeMotion& {
-      list.push_back({.rung = rung,
+      list.push_back({.fidelity = fidelity,
                       .settings = settings,
                       .id = response_id(model, simulation, sun, wheel),
                       .figures = [model, simulation] {
@@ -161,12 +162,12 @@ class PlanetaryTrade : public TradeSubject {
     for (const auto& way : ways) {
       auto simulation = given;
       way.apply(simulation);
-      add(way.rung, way.settings, stage, simulation).finest = way.finest;
+      add(way.fidelity, way.settings, stage, simulation).finest = way.finest;
     }
-    for (const auto& [rung, settings, change, samples] : stage_changes(stage, coupling.elastic)) {
+    for (const auto& [fidelity, settings, change, samples] : stage_changes(stage, coupling.elastic)) {
       auto changed = stage;
       change(changed);
-      add(rung, settings, changed, directly(samples)).changes_model = true;
+      add(fidelity, settings, changed, directly(samples)).changes_model = true;
     }
     return list;
   }

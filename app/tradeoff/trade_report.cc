@@ -24,7 +24,7 @@ const char* part_title(TradePart part) { return part == TradePart::mesh ? "Stiff
 
 std::string percent(double share) { return to_text(100 * share, 2) + " %"; }
 
-std::string setting_text(const TradePoint& p) { return p.rung + ", " + p.settings; }
+std::string setting_text(const TradePoint& p) { return p.fidelity + ", " + p.settings; }
 
 /// "For 1 %: plane, degree 2, level 1, 0.3 s, 240 MB (worst: ...)".
 std::string cheapest_text(const VariantTrade& variant, TradePart part, double accuracy) {
@@ -112,7 +112,7 @@ HtmlTable points_table(const VariantTrade& variant, TradePart part) {
     if (p.part != part) continue;
     const bool best = std::find(front.begin(), front.end(), &p) != front.end();
     const auto bold = [&](const std::string& text) { return best ? "<b>" + text + "</b>" : text; };
-    std::vector<std::string> row = {bold(escape(p.rung)), bold(escape(p.settings)), duration_text(p.cost.wall),
+    std::vector<std::string> row = {bold(escape(p.fidelity)), bold(escape(p.settings)), duration_text(p.cost.wall),
                                     duration_text(p.cost.processor), fmt::format("{:.0f} MB", p.cost.peak_memory_MB)};
     if (!p.failure.empty()) {
       row.insert(row.end(), {"failed", escape(p.failure)});
@@ -189,10 +189,10 @@ Plot trade_plot(const VariantTrade& variant, TradePart part) {
   for (const auto& p : variant.points) {
     if (p.part != part || p.finest || !(p.error() > 0)) continue;
     auto same =
-        std::find_if(plot.series.begin(), plot.series.end(), [&](const Series& s) { return s.label == p.rung; });
+        std::find_if(plot.series.begin(), plot.series.end(), [&](const Series& s) { return s.label == p.fidelity; });
     if (same == plot.series.end()) {
       plot.series.push_back(
-          {.label = p.rung, .colour = plot.series.size() - 1, .style = Series::Style::dots, .size = 7});
+          {.label = p.fidelity, .colour = plot.series.size() - 1, .style = Series::Style::dots, .size = 7});
       same = plot.series.end() - 1;
     }
     same->x.push_back(p.cost.wall);
@@ -204,11 +204,11 @@ Plot trade_plot(const VariantTrade& variant, TradePart part) {
 std::string trade_csv(const TradeOff& trade) {
   std::string text =
       fmt::format("# annulus_version: {}\n# scene: {}\n", version(), trade.scene.file.filename().string());
-  text += "variant,part,rung,settings,finest,figure,value,error,error_estimate,wall_s,processor_s,peak_MB,failure\n";
+  text += "variant,part,model,settings,finest,figure,value,error,error_estimate,wall_s,processor_s,peak_MB,failure\n";
   for (const auto& variant : trade.variants) {
     for (const auto& p : variant.points) {
       const std::string head = fmt::format("{},{},{},{},{:d},", csv_cell(variant.name), part_name(p.part),
-                                           csv_cell(p.rung), csv_cell(p.settings), p.finest);
+                                           csv_cell(p.fidelity), csv_cell(p.settings), p.finest);
       const std::string cost = fmt::format("{:.6g},{:.6g},{:.6g},{}\n", p.cost.wall, p.cost.processor,
                                            p.cost.peak_memory_MB, csv_cell(p.failure));
       if (p.values.empty()) text.append(head).append(",,,,").append(cost);

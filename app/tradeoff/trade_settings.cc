@@ -25,8 +25,8 @@ std::vector<double> load_factors(int loads) {
   throw InternalError("internal error: no such number of loads");
 }
 
-MotionSetting with_tolerance(const char* rung, const char* name, dynamics::Integrator method, double tolerance) {
-  return {rung, fmt::format("{}, relative tolerance {:.0e}", name, tolerance),
+MotionSetting with_tolerance(const char* fidelity, const char* name, dynamics::Integrator method, double tolerance) {
+  return {fidelity, fmt::format("{}, relative tolerance {:.0e}", name, tolerance),
           [method, tolerance](dynamics::SimulationOptions& o) {
             o.integrator.method = method;
             o.integrate_within(tolerance);
@@ -34,15 +34,15 @@ MotionSetting with_tolerance(const char* rung, const char* name, dynamics::Integ
 }
 
 /// With a step of their own choice. `few`: where each is dear.
-std::vector<MotionSetting> integrators(const char* rung, bool few) {
+std::vector<MotionSetting> integrators(const char* fidelity, bool few) {
   using dynamics::Integrator;
   std::vector<MotionSetting> list;
   for (const double tolerance : few ? std::vector{1e-4, 1e-6} : std::vector{1e-3, 1e-4, 1e-5, 1e-6, 1e-8})
-    list.push_back(with_tolerance(rung, "Cash-Karp 5(4)", Integrator::arkode_explicit, tolerance));
+    list.push_back(with_tolerance(fidelity, "Cash-Karp 5(4)", Integrator::arkode_explicit, tolerance));
   if (few) return list;
   for (const double tolerance : {1e-4, 1e-6})
-    list.push_back(with_tolerance(rung, "BDF", Integrator::cvode_bdf, tolerance));
-  list.push_back(with_tolerance(rung, "Adams", Integrator::cvode_adams, 1e-6));
+    list.push_back(with_tolerance(fidelity, "BDF", Integrator::cvode_bdf, tolerance));
+  list.push_back(with_tolerance(fidelity, "Adams", Integrator::cvode_adams, 1e-6));
   return list;
 }
 
@@ -50,20 +50,20 @@ std::vector<MotionSetting> integrators(const char* rung, bool few) {
 
 std::string MeshSetting::text() const {
   std::string text;
-  if (rung != fem::Rung::closed_form) text = fmt::format("degree {}, level {}, ", degree, level);
+  if (fidelity != fem::Fidelity::closed_form) text = fmt::format("degree {}, level {}, ", degree, level);
   return text + fmt::format("{} phases, {} load{}", phases, loads, loads == 1 ? "" : "s");
 }
 
 std::string MeshSetting::folder() const {
-  return fmt::format("{}_d{}_l{}_p{}_n{}", rung_name(rung), degree, level, phases, loads);
+  return fmt::format("{}_d{}_l{}_p{}_n{}", fidelity_name(fidelity), degree, level, phases, loads);
 }
 
 MeshModel MeshSetting::applied(const MeshModel& planned, bool needs_solid) const {
   MeshModel model = planned;
-  const auto used = rung == fem::Rung::solid && !needs_solid ? fem::Rung::plane : rung;
+  const auto used = fidelity == fem::Fidelity::solid && !needs_solid ? fem::Fidelity::plane : fidelity;
   const double nominal = planned.problem->loads[planned.nominal_load()];
-  model.rung = rung_name(used);
-  model.settings.rung = used;
+  model.fidelity = fidelity_name(used);
+  model.settings.fidelity = used;
   model.settings.degree = degree;
   model.settings.level = level;
   model.problem->phases = phases;
@@ -73,31 +73,31 @@ MeshModel MeshSetting::applied(const MeshModel& planned, bool needs_solid) const
 }
 
 std::vector<MeshSetting> mesh_settings(const MeshModel& planned, bool needs_solid) {
-  using fem::Rung;
+  using fem::Fidelity;
   std::vector<MeshSetting> list;
-  const auto add = [&](Rung rung, const std::vector<int>& degrees, const std::vector<int>& levels) {
+  const auto add = [&](Fidelity fidelity, const std::vector<int>& degrees, const std::vector<int>& levels) {
     for (const int degree : degrees) {
-      for (const int level : levels) list.push_back({.rung = rung, .degree = degree, .level = level});
+      for (const int level : levels) list.push_back({.fidelity = fidelity, .degree = degree, .level = level});
     }
   };
   if (needs_solid) {
-    add(Rung::solid, {1, 2}, {1});
-    add(Rung::solid, {1}, {2});
-    for (const int phases : {8, 16}) list.push_back({.rung = Rung::solid, .phases = phases});
-    for (const int loads : {1, 3}) list.push_back({.rung = Rung::solid, .loads = loads});
-    list.push_back({.rung = Rung::solid, .degree = 2, .level = 2, .finest = true});
+    add(Fidelity::solid, {1, 2}, {1});
+    add(Fidelity::solid, {1}, {2});
+    for (const int phases : {8, 16}) list.push_back({.fidelity = Fidelity::solid, .phases = phases});
+    for (const int loads : {1, 3}) list.push_back({.fidelity = Fidelity::solid, .loads = loads});
+    list.push_back({.fidelity = Fidelity::solid, .degree = 2, .level = 2, .finest = true});
     return list;
   }
-  add(Rung::closed_form, {2}, {1});
-  add(Rung::plane, {1}, {1, 2, 3, 4});
-  add(Rung::plane, {2}, {1, 2, 3, 4});
-  add(Rung::plane, {3}, {1, 2});
-  for (const int phases : {8, 16, 64}) list.push_back({.rung = Rung::plane, .level = 2, .phases = phases});
-  for (const int loads : {1, 3, 9}) list.push_back({.rung = Rung::plane, .level = 2, .loads = loads});
-  // The resolved rung knows no pins, and every position of it has a mesh of its own.
+  add(Fidelity::closed_form, {2}, {1});
+  add(Fidelity::plane, {1}, {1, 2, 3, 4});
+  add(Fidelity::plane, {2}, {1, 2, 3, 4});
+  add(Fidelity::plane, {3}, {1, 2});
+  for (const int phases : {8, 16, 64}) list.push_back({.fidelity = Fidelity::plane, .level = 2, .phases = phases});
+  for (const int loads : {1, 3, 9}) list.push_back({.fidelity = Fidelity::plane, .level = 2, .loads = loads});
+  // The resolved model knows no pins, and every position of it has a mesh of its own.
   if (!fem::on_single_supports(planned.problem->structure))
-    list.push_back({.rung = Rung::resolved_plane, .degree = 2, .level = 1, .phases = 16, .loads = 1});
-  list.push_back({.rung = Rung::plane, .degree = 3, .level = 3, .phases = 64, .loads = 9, .finest = true});
+    list.push_back({.fidelity = Fidelity::resolved_plane, .degree = 2, .level = 1, .phases = 16, .loads = 1});
+  list.push_back({.fidelity = Fidelity::plane, .degree = 3, .level = 3, .phases = 64, .loads = 9, .finest = true});
   return list;
 }
 

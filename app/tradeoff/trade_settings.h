@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/plan/mesh_model.h"
-#include "dynamics/steady_response.h"
+#include "dynamics/steady_state/steady_response.h"
 
 namespace annulus::app {
 
@@ -14,7 +14,7 @@ enum class TradePart { mesh, dynamics };
 
 /// How stiffness tables are computed.
 struct MeshSetting {
-  fem::Rung rung = fem::Rung::plane;
+  fem::Fidelity fidelity = fem::Fidelity::plane;
   int degree = 2, level = 1;  ///< without meaning for the closed form
   int phases = table_phases;
   int loads = 5;  ///< 1, 3, 5 or 9 of them around the nominal one
@@ -26,7 +26,7 @@ struct MeshSetting {
   [[nodiscard]] MeshModel applied(const MeshModel& planned, bool needs_solid) const;
 };
 
-/// All that can represent a mesh: rungs, degrees and levels with the usual table, tables of other resolution, and last
+/// All that can represent a mesh: models, degrees and levels with the usual table, tables of other resolution, and last
 /// the finest of all.
 [[nodiscard]] std::vector<MeshSetting> mesh_settings(const MeshModel& planned, bool needs_solid);
 
@@ -35,7 +35,7 @@ inline constexpr int finest_samples = 128;
 
 /// How a periodic motion is found.
 struct MotionSetting {
-  std::string rung;      ///< "direct", "marching"
+  std::string fidelity;  ///< "direct", "marching"
   std::string settings;  ///< "64 samples per mesh cycle", "BDF, relative tolerance 1e-06"
   std::function<void(dynamics::SimulationOptions& options)> apply;
   bool finest = false;

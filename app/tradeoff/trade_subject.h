@@ -9,7 +9,7 @@
 
 #include "app/pipeline.h"
 #include "app/tradeoff/trade_figures.h"
-#include "dynamics/figures.h"
+#include "core/figure.h"
 
 /// What is measured: meshes that are solved into tables, and a lumped model that takes them.
 namespace annulus::app {
@@ -23,7 +23,7 @@ struct TradeMesh {
 
 /// One way to make and solve the lumped model.
 struct TradeMotion {
-  std::string rung;      ///< "direct", "marching", "shooting", "fewer freedoms", "coupling"; empty: as a run finds it
+  std::string fidelity;  ///< "direct", "marching", "shooting", "fewer DOFs", "coupling"; empty: as a run finds it
   std::string settings;  ///< "64 samples per mesh cycle", "sun held in place"
   std::string id;        ///< identity of everything the figures depend on
   bool finest = false;
@@ -64,6 +64,6 @@ class TradeSubject {
 [[nodiscard]] std::unique_ptr<TradeSubject> two_k_v_trade_subject(const Scene& scene);  ///< two_k_v_trade.cc
 
 /// A figure with its error relative to it.
-[[nodiscard]] inline Estimate relative(const dynamics::Figure& f) { return {f.value, f.error / std::abs(f.value)}; }
+[[nodiscard]] inline Estimate relative(const Figure& f) { return {f.value, f.error / std::abs(f.value)}; }
 
 }  // namespace annulus::app

@@ -13,7 +13,7 @@
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/log.h"
-#include "fem/error_estimate.h"
+#include "fem/problem/plane_strain_error.h"
 
 namespace annulus::app {
 
@@ -37,9 +37,10 @@ Figures parse_figures(const std::string& text) {
 
 /// All settings of a ring in the plane share plane strain, also the one they are held against.
 double common_error(const MeshResult& mesh) {
-  const auto rung = mesh.model.settings.rung;
-  return rung == fem::Rung::solid || rung == fem::Rung::resolved_solid ? 0
-                                                                       : fem::plane_strain_error(*mesh.model.problem);
+  const auto fidelity = mesh.model.settings.fidelity;
+  return fidelity == fem::Fidelity::solid || fidelity == fem::Fidelity::resolved_solid
+             ? 0
+             : fem::plane_strain_error(*mesh.model.problem);
 }
 
 Estimate mean_stiffness(const MeshResult& mesh) {
@@ -128,7 +129,7 @@ class Measurement {
     } else {
       const bool solid = std::any_of(meshes_.begin(), meshes_.end(), [](const auto& m) { return m.needs_solid; });
       for (const auto& setting : lists_.mesh(meshes_.back().planned, solid)) {
-        tell(fmt::format("{}, {}", rung_name(setting.rung), setting.text()));
+        tell(fmt::format("{}, {}", fidelity_name(setting.fidelity), setting.text()));
         trade.points.push_back(mesh_point(setting));
       }
       for (const double accuracy : lists_.accuracies) {
@@ -139,7 +140,7 @@ class Measurement {
     }
     if (!lists_.motions || !subject_.has_motion() || !finest_) return trade;
     for (const auto& motion : subject_.motions(*finest_, options_, root() / trade.name)) {
-      tell(motion.rung + ", " + motion.settings);
+      tell(motion.fidelity + ", " + motion.settings);
       trade.points.push_back(motion_point(motion));
     }
     compare(trade.points, TradePart::dynamics);
@@ -177,7 +178,7 @@ class Measurement {
 
   TradePoint mesh_point(const MeshSetting& setting) {
     TradePoint point{.kind = kind_,
-                     .rung = rung_name(setting.rung),
+                     .fidelity = fidelity_name(setting.fidelity),
                      .settings = setting.text(),
                      .finest = setting.finest,
                      .mesh = setting};
@@ -190,7 +191,7 @@ class Measurement {
   /// As a run with this wanted accuracy solves it.
   TradePoint planned_point(double accuracy) {
     TradePoint point{.kind = kind_,
-                     .rung = "planned",
+                     .fidelity = "planned",
                      .settings = fmt::format("for {:g} %", 100 * accuracy),
                      .planned_for = accuracy};
     try {
@@ -234,12 +235,12 @@ class Measurement {
   [[nodiscard]] TradePoint motion_point(TradeMotion motion) const {
     TradePoint point{.kind = kind_,
                      .part = TradePart::dynamics,
-                     .rung = motion.rung,
+                     .fidelity = motion.fidelity,
                      .settings = motion.settings,
                      .finest = motion.finest,
                      .changes_model = motion.changes_model};
-    motion.id = ContentId().add("response", motion.id).add("how", motion.rung + motion.settings).id();
-    const auto name = plain_name(motion.rung + " " + motion.settings);
+    motion.id = ContentId().add("response", motion.id).add("how", motion.fidelity + motion.settings).id();
+    const auto name = plain_name(motion.fidelity + " " + motion.settings);
     const auto done = kept_figures(root() / subject_.name() / "dynamics" / (name + ".json"), motion);
     point.cost = done.cost;
     point.failure = done.failure;

@@ -10,7 +10,7 @@
 #include "app/tradeoff/trade_figures.h"
 #include "app/tradeoff/trade_settings.h"
 
-/// Every rung and setting measured: what it costs and how wrong it is (`annulus tradeoff`).
+/// Every model and setting measured: what it costs and how wrong it is (`annulus tradeoff`).
 namespace annulus::app {
 
 /// A figure as one setting gives it.
@@ -31,7 +31,7 @@ struct StiffnessCycle {
 struct TradePoint {
   StageKind kind = StageKind::planetary;
   TradePart part = TradePart::mesh;
-  std::string rung;      ///< "plane"; of the dynamics: how the motion is found, "marching"
+  std::string fidelity;  ///< "plane"; of the dynamics: how the motion is found, "marching"
   std::string settings;  ///< "degree 2, level 1, 32 phases, 5 loads"
   bool finest = false;   ///< the others are held against it
   bool changes_model = false;

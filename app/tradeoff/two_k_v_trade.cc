@@ -7,15 +7,15 @@
 #include "app/two_k_v/two_k_v_model.h"
 #include "app/two_k_v/two_k_v_motion.h"
 #include "core/errors.h"
-#include "dynamics/two_k_v_modes.h"
-#include "dynamics/two_k_v_response.h"
+#include "dynamics/systems/two_k_v/two_k_v_modes.h"
+#include "dynamics/systems/two_k_v/two_k_v_response.h"
 
 namespace annulus::app {
 
 namespace {
 
-dynamics::Figure largest_factor(const std::vector<dynamics::TwoKVMeshResult>& meshes) {
-  dynamics::Figure largest{-1, 0};
+Figure largest_factor(const std::vector<dynamics::TwoKVMeshResult>& meshes) {
+  Figure largest{-1, 0};
   for (const auto& mesh : meshes)
     if (mesh.dynamic_factor_max.value > largest.value) largest = mesh.dynamic_factor_max;
   return largest;
@@ -47,7 +47,7 @@ class TwoKVTrade : public TradeSubject {
 
   [[nodiscard]] std::vector<TradeMesh> meshes() const override {
     if (!model_.computed()) return {};
-    return {{model_, model_.settings.rung == fem::Rung::solid, "sun_planet"}};
+    return {{model_, model_.settings.fidelity == fem::Fidelity::solid, "sun_planet"}};
   }
 
   [[nodiscard]] std::vector<MeshModel> planned(double accuracy) const override {
@@ -76,7 +76,7 @@ class TwoKVTrade : public TradeSubject {
       auto simulation = given;
       way.apply(simulation);
       list.push_back(motion(stage, simulation, tables));
-      list.back().rung = way.rung;
+      list.back().fidelity = way.fidelity;
       list.back().settings = way.settings;
       list.back().finest = way.finest;
     }
@@ -96,7 +96,7 @@ class TwoKVTrade : public TradeSubject {
 
   [[nodiscard]] TradeMotion motion(const dynamics::TwoKVStage& stage, const dynamics::SimulationOptions& simulation,
                                    const std::vector<MeshResult>& tables) const {
-    return {.rung = {},
+    return {.fidelity = {},
             .settings = {},
             .id = two_k_v_id(stage, simulation, {tables.front(), arc_pins_result(scene_)}),
             .figures = [stage, simulation] {

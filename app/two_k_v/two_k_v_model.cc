@@ -113,11 +113,11 @@ MeshModel two_k_v_sun_model(const Scene& scene) {
 MeshModel arc_pins_model(const Scene& scene) {
   MeshModel model{.mesh = arc_pins};
   if (is_computed(scene.arc_pins)) {
-    model.rung = "line_contact";
+    model.fidelity = "line_contact";
     model.reason = "line contact of pins and concave arcs, shared by all pins on the loaded side";
     model.repeats = "equal teeth on equal pins: one mesh cycle tells all";
   } else {
-    model.rung = "given";
+    model.fidelity = "given";
     model.reason = "the scene gives the stiffness (mesh.arc_pins)";
     model.repeats = "as given";
   }
@@ -147,7 +147,7 @@ MeshResult arc_pins_result(const Scene& scene) {
                          mesh->arc_radius, mesh->width, mesh->youngs_modulus, mesh->poisson_ratio, mesh->clearance,
                          double(mesh->approach), stage.arc_torque()})
     id.add("arc", x);
-  table.provenance = {{"annulus_version", version()}, {"inputs_id", id.id()}, {"rung", model.rung}};
+  table.provenance = {{"annulus_version", version()}, {"inputs_id", id.id()}, {"model", model.fidelity}};
   return {
       .model = model, .contact_ratio = loaded / table_phases, .table = std::move(table), .nominal = nominal_load_index};
 }

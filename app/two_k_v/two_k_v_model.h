@@ -6,9 +6,9 @@
 #include "app/pipeline.h"
 #include "app/scene/scene.h"
 #include "app/stage/mesh_result.h"
-#include "dynamics/arc_tooth.h"
-#include "dynamics/steady_response.h"
-#include "dynamics/two_k_v.h"
+#include "dynamics/steady_state/steady_response.h"
+#include "dynamics/systems/two_k_v/arc_tooth.h"
+#include "dynamics/systems/two_k_v/two_k_v.h"
 #include "geometry/gear_pair.h"
 
 /// A 2K-V scene as the stage of the lumped model, and what that stands on.
@@ -31,7 +31,7 @@ void check_two_k_v(const Scene& scene);
 [[nodiscard]] std::optional<Scene> compared_scene(const Scene& scene);
 
 [[nodiscard]] MeshModel two_k_v_sun_model(const Scene& scene);
-/// Of the contact formulas; `rung` "line_contact" where it is computed.
+/// Of the contact formulas; `model` "line_contact" where it is computed.
 [[nodiscard]] MeshModel arc_pins_model(const Scene& scene);
 
 /// The sun mesh where its stiffness is given.

@@ -109,7 +109,7 @@ std::vector<std::pair<const char*, Csv*>> motion_tables(TwoKVMotion& m) {
 Csv motion_series(const dynamics::TimeSeries& series) {
   Csv csv;
   csv.columns.emplace_back("time_s");
-  for (const auto& name : series.freedoms) csv.columns.push_back(name + "_m");
+  for (const auto& name : series.dofs) csv.columns.push_back(name + "_m");
   for (const auto& name : series.meshes) csv.columns.push_back(name + "_force_N");
   for (Eigen::Index i = 0; i < series.time.size(); ++i) {
     auto& row = csv.rows.emplace_back(1, series.time[i]);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/csv.h"
-#include "dynamics/two_k_v_response.h"
+#include "dynamics/systems/two_k_v/two_k_v_response.h"
 
 namespace annulus::app {
 
@@ -18,7 +18,7 @@ struct TwoKVMotion {
   bool steady = false;
   std::optional<double> steady_difference, torque_balance_relative, largest_multiplier;
   double energy_relative = 0;
-  dynamics::Figure error_peak_to_peak;  ///< of the output against the input
+  Figure error_peak_to_peak;  ///< of the output against the input
   double error_mean = 0, static_error_mean = 0, static_error_peak_to_peak = 0;
   std::vector<dynamics::TwoKVMeshResult> sun_planet, arc_pins;
   std::vector<dynamics::ArcBearingResult> arc_bearings;

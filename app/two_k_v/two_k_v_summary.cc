@@ -24,7 +24,7 @@ ReducerJson finite(const std::optional<double>& x) { return x ? finite(*x) : Red
 
 ReducerJson mesh_json_of(const MeshResult& mesh) {
   const auto k = mesh.mean_stiffness();
-  ReducerJson json = {{"rung", mesh.model.rung},
+  ReducerJson json = {{"model", mesh.model.fidelity},
                       {"mean_stiffness_N_per_m",
                        {{"value", finite(k.value)},
                         {"error_relative", finite(k.error_relative)},
@@ -49,11 +49,11 @@ ReducerJson vibration_json(const TwoKVVibration& v) {
                              {"largest_over_crank_Hz", row.maxCoeff()}});
   }
   json["torsional_stiffness"] = {{"mean_Nm_per_rad", v.torsion.mean()}, {"ripple", v.torsion.ripple()}};
-  json["one_freedom"] = {{"stiffness_Nm_per_rad", v.estimate.stiffness},
-                         {"input_inertia_at_output_kg_m2", v.estimate.input_inertia},
-                         {"train_inertia_at_output_kg_m2", v.estimate.train_inertia},
-                         {"frequency_of_input_Hz", v.estimate.input_frequency},
-                         {"frequency_of_train_Hz", v.estimate.train_frequency}};
+  json["one_degree_of_freedom"] = {{"stiffness_Nm_per_rad", v.estimate.stiffness},
+                                   {"input_inertia_at_output_kg_m2", v.estimate.input_inertia},
+                                   {"train_inertia_at_output_kg_m2", v.estimate.train_inertia},
+                                   {"frequency_of_input_Hz", v.estimate.input_frequency},
+                                   {"frequency_of_train_Hz", v.estimate.train_frequency}};
   json["lost_motion"] = {
       {"backlash_rad", v.lost.backlash}, {"elastic_rad", v.lost.elastic}, {"wind_up_rad", v.lost.wind_up}};
   for (const auto& input : v.inputs)

@@ -121,8 +121,8 @@ int crank_positions(const dynamics::TwoKVStage& stage) {
   return constant_stiffness(stage) ? least : std::max(least, per_cycle * std::max(stage.planet_teeth, stage.arc_teeth));
 }
 
-OneFreedom one_freedom(const dynamics::TwoKVStage& stage) {
-  OneFreedom one;
+OneDof one_dof(const dynamics::TwoKVStage& stage) {
+  OneDof one;
   one.stiffness = dynamics::torsional_stiffness(stage, 1, dynamics::FrozenStiffness::mean).from_output[0];
   one.input_inertia = stage.input_inertia * stage.ratio() * stage.ratio();
   auto free = stage;
@@ -169,7 +169,7 @@ TwoKVVibration vibration_of(const dynamics::TwoKVStage& stage, double arc_cleara
   v.seconds_per_position = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / positions;
   align_shapes(v.over_crank);
   v.torsion = dynamics::torsional_stiffness(stage, positions);
-  v.estimate = one_freedom(stage);
+  v.estimate = one_dof(stage);
   v.lost = lost_motion(stage, v.torsion.mean(), arc_clearance);
   v.inputs = frequency_inputs_of(stage, v.first_frequency(), targets);
   return v;
@@ -189,7 +189,7 @@ void write_vibration(const TwoKVVibration& v, const std::filesystem::path& folde
   Csv shapes{.header = {{"shapes", "displacements in m, mass-normalised; angle = displacement / radius"}},
              .columns = {"mode", "frequency_Hz"},
              .rows = {}};
-  for (const auto& freedom : v.modes.freedoms) shapes.columns.push_back(freedom);
+  for (const auto& dof : v.modes.dofs) shapes.columns.push_back(dof);
   for (Eigen::Index m = 0; m < modes; ++m) {
     const auto& mode = v.modes.modes[static_cast<std::size_t>(m)];
     auto& row = list.rows.emplace_back(std::vector{static_cast<double>(m + 1), mode.frequency});

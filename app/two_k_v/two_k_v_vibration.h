@@ -6,22 +6,22 @@
 #include <vector>
 
 #include "app/scene/scene.h"
-#include "dynamics/two_k_v_modes.h"
-#include "dynamics/two_k_v_sensitivity.h"
+#include "dynamics/systems/two_k_v/two_k_v_modes.h"
+#include "dynamics/systems/two_k_v/two_k_v_sensitivity.h"
 
 /// What a 2K-V stage answers without time: modes over the crank angle, torsional stiffness, sensitivities.
 namespace annulus::app {
 
 /// The reducer as one mass on one spring, seen from the output held still: the bodies turn as the train without
 /// deformation, against the static torsional stiffness.
-struct OneFreedom {
+struct OneDof {
   double stiffness = 0;        ///< N m/rad
   double input_inertia = 0;    ///< kg m^2, input alone, times ratio^2
   double train_inertia = 0;    ///< kg m^2, all bodies but the output
   double input_frequency = 0;  ///< Hz, of the input alone
   double train_frequency = 0;  ///< Hz
 };
-[[nodiscard]] OneFreedom one_freedom(const dynamics::TwoKVStage& stage);
+[[nodiscard]] OneDof one_dof(const dynamics::TwoKVStage& stage);
 
 /// Turn of the output with the input held, rad.
 struct LostMotion {
@@ -57,7 +57,7 @@ struct TwoKVVibration {
   dynamics::ModalEnergy energy;
   dynamics::CrankModes over_crank;       ///< stiffness at each position; shapes go on without changes of sign
   dynamics::TorsionalStiffness torsion;  ///< likewise
-  OneFreedom estimate;
+  OneDof estimate;
   LostMotion lost;
   std::vector<double> targets;         ///< published first frequencies, Hz
   std::vector<FrequencyInput> inputs;  ///< largest sensitivity first

@@ -1,4 +1,5 @@
 #include "fem/closed_form/closed_form_mesh.h"
+#include "fem/closed_form/closed_form_error.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,8 +9,8 @@
 #include "core/errors.h"
 #include "fem/closed_form/tooth_contacts.h"
 #include "fem/condensation/lapack.h"
-#include "fem/error_estimate.h"
-#include "fem/problem_check.h"
+#include "fem/problem/plane_strain_error.h"
+#include "fem/problem/problem_check.h"
 
 namespace annulus::fem {
 namespace {
@@ -182,7 +183,7 @@ std::vector<double> bending_errors(const LoadedMeshProblem& problem, const Loade
 
 LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
                                    const RimModel& rim) {
-  check_problem(problem, Rung::closed_form);
+  check_problem(problem, Fidelity::closed_form);
   lapack::use_one_thread();  // thousands of small systems: threads would wait for each other more than they work
   const auto start = std::chrono::steady_clock::now();
   const auto since = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };

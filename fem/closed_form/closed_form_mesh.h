@@ -1,7 +1,8 @@
 #pragma once
 
 #include "fem/closed_form/closed_form_body.h"
-#include "fem/loaded_mesh.h"
+#include "fem/problem/loaded_mesh_problem.h"
+#include "fem/problem/loaded_mesh_result.h"
 
 namespace annulus::fem {
 

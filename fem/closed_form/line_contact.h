@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "fem/closed_form/contact_patch.h"
-#include "fem/material.h"
+#include "fem/problem/material.h"
 
 namespace annulus::fem {
 

@@ -1,7 +1,7 @@
 #include "fem/closed_form/ring_supports.h"
 
 #include "core/errors.h"
-#include "fem/contact/support_sites.h"
+#include "fem/problem/support_sites.h"
 
 namespace annulus::fem {
 
@@ -17,7 +17,7 @@ std::vector<RingSupport> ring_supports(const RingStructure& structure, double ou
   else
     throw InputError(
         "a ring held at an end face or a flange bends along its width, for which the closed form has no honest "
-        "formula: use rung = \"solid\"");
+        "formula: use model = \"solid\"");
   std::vector<RingSupport> supports;
   for (const auto& site : sites.sites)
     for (const auto& direction : site.directions)

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "fem/closed_form/ring_loads.h"
-#include "fem/material.h"
-#include "fem/ring_structure.h"
+#include "fem/problem/material.h"
+#include "fem/problem/ring_structure.h"
 
 namespace annulus::fem {
 
@@ -20,10 +20,10 @@ struct RingSupport {
   bool unilateral = true;
 };
 
-/// The supports of a ring, those of the finite-element rungs (pin_sites(), spline_sites()): pins give two each (radial,
-/// tangential), spline teeth two each (their flanks), in that order; a housing bore adds one per tooth of the ring
-/// after them. Angles are those of the frame of the solve. `outside_radius` and `width` in m. Empty when the outside is
-/// held.
+/// The supports of a ring, those of the finite-element models (pin_sites(), spline_sites()): pins give two each
+/// (radial, tangential), spline teeth two each (their flanks), in that order; a housing bore adds one per tooth of the
+/// ring after them. Angles are those of the frame of the solve. `outside_radius` and `width` in m. Empty when the
+/// outside is held.
 ///
 /// Throws InputError for structures that no set of supports describes, and when equilibrium is out of reach.
 [[nodiscard]] std::vector<RingSupport> ring_supports(const RingStructure& structure, double outside_radius,

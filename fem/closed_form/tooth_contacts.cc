@@ -206,7 +206,7 @@ ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothConta
     if (const double closing = result.solution.rigid[0]; closing > contacts.tips_apart)
       throw SolverError(
           fmt::format("mesh phase {:.4f}: {:.4g} N close the {:.3g} mm between two tips behind the path of "
-                      "contact, which formulas do not cover: use rung = \"plane\"",
+                      "contact, which formulas do not cover: use model = \"plane\"",
                       contacts.phase, load, 1e3 * contacts.tips_apart));
     for (Eigen::Index i = 0; i < pairs; ++i)
       result.lines.push_back(force[i] > 0 ? contacts.pairs[i].line.at(force[i]) : LineContact::State{});

@@ -33,7 +33,7 @@ struct ToothContacts {
   double tips_apart = std::numeric_limits<double>::infinity();
 };
 
-/// Pairs up to one base pitch before and after the theoretical path, as in the finite-element rungs.
+/// Pairs up to one base pitch before and after the theoretical path, as in the finite-element models.
 [[nodiscard]] ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& planet,
                                           const ClosedFormBody& wheel, const Material& material, double width,
                                           double phase);

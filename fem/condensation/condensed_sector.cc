@@ -12,7 +12,7 @@
 namespace annulus::fem {
 namespace {
 
-/// Loads as columns over the freedoms that are not held.
+/// Loads as columns over the DOFs that are not held.
 Eigen::SparseMatrix<double> load_columns(const SectorModel& model, const SectorLoads& loads) {
   std::vector<Eigen::Triplet<double>> entries;
   int column = 0;
@@ -20,7 +20,7 @@ Eigen::SparseMatrix<double> load_columns(const SectorModel& model, const SectorL
     for (const auto& load : *group) {
       for (const auto& f : load)
         for (int c = 0; c < model.dimension; ++c) {
-          const int row = model.freedom[f.node * model.dimension + c];
+          const int row = model.dof[f.node * model.dimension + c];
           if (row >= 0 && f.force[c] != 0) entries.emplace_back(row, column, f.force[c]);
         }
       ++column;
@@ -33,12 +33,12 @@ Eigen::SparseMatrix<double> load_columns(const SectorModel& model, const SectorL
 }  // namespace
 
 bool CondensedSector::symmetric() const {
-  return std::any_of(cut_freedoms.begin(), cut_freedoms.end(), [this](int free) { return free < dimension; });
+  return std::any_of(cut_dofs.begin(), cut_dofs.end(), [this](int free) { return free < dimension; });
 }
 
 void CondensedSector::turn_columns(Eigen::MatrixXd& matrix, Eigen::Index first) const {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(pitch_angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  for (const int free : cut_freedoms) {
+  for (const int free : cut_dofs) {
     matrix.middleCols(first, free) = (matrix.middleCols(first, free) * turn.topLeftCorner(free, free)).eval();
     first += free;
   }
@@ -51,7 +51,7 @@ CondensedSector condense(const SectorModel& model, const SectorLoads& loads, boo
   sector.pitch_angle = model.pitch_angle;
   sector.ports = static_cast<int>(loads.ports.size());
 
-  // Retained: the freedoms of both cuts first, then what only the ports touch.
+  // Retained: the DOFs of both cuts first, then what only the ports touch.
   std::vector<int> retained;
   std::map<int, int> place;
   const auto keep = [&](int row) {
@@ -59,24 +59,24 @@ CondensedSector condense(const SectorModel& model, const SectorLoads& loads, boo
   };
   for (const auto* side : {&model.low_nodes, &model.high_nodes})
     for (const int node : *side)
-      for (int c = 0; c < dim; ++c) keep(model.freedom[node * dim + c]);
+      for (int c = 0; c < dim; ++c) keep(model.dof[node * dim + c]);
   const int cuts = static_cast<int>(retained.size());
   const auto free_components = [&](int node) {
     int count = 0;
-    while (count < dim && model.freedom[node * dim + count] >= 0) ++count;
+    while (count < dim && model.dof[node * dim + count] >= 0) ++count;
     return count;
   };
   for (const int node : model.low_nodes) {
     sector.cut_points.push_back(model.nodes[node]);
-    sector.cut_freedoms.push_back(free_components(node));
+    sector.cut_dofs.push_back(free_components(node));
   }
-  bool matching = cuts == 2 * std::accumulate(sector.cut_freedoms.begin(), sector.cut_freedoms.end(), 0);
+  bool matching = cuts == 2 * std::accumulate(sector.cut_dofs.begin(), sector.cut_dofs.end(), 0);
   for (std::size_t i = 0; i < model.high_nodes.size(); ++i)
-    matching &= sector.cut_freedoms[i] >= 2 && free_components(model.high_nodes[i]) == sector.cut_freedoms[i];
-  require(matching, "the radial cuts have unequal freedoms");
+    matching &= sector.cut_dofs[i] >= 2 && free_components(model.high_nodes[i]) == sector.cut_dofs[i];
+  require(matching, "the radial cuts have unequal degrees of freedom");
   for (const auto& port : loads.ports)
     for (int c = 0; c < dim; ++c)
-      if (port.direction[c] != 0) keep(model.freedom[port.node * dim + c]);
+      if (port.direction[c] != 0) keep(model.dof[port.node * dim + c]);
   const int kept = static_cast<int>(retained.size()), inner = kept - cuts;
 
   // A floating sector can move rigidly: its complement is singular and needs the shift, of the size of its entries.
@@ -88,7 +88,7 @@ CondensedSector condense(const SectorModel& model, const SectorLoads& loads, boo
   Eigen::MatrixXd on_retained = Eigen::MatrixXd::Zero(kept, loads.columns());
   for (int p = 0; p < ports; ++p)
     for (int c = 0; c < dim; ++c) {
-      const int row = model.freedom[loads.ports[p].node * dim + c];
+      const int row = model.dof[loads.ports[p].node * dim + c];
       if (loads.ports[p].direction[c] != 0 && row >= 0) on_retained(place.at(row), p) = loads.ports[p].direction[c];
     }
   if (others > 0) on_retained.rightCols(others) = s.loads;

@@ -29,8 +29,8 @@ struct CondensedSector {
   int dimension = 2;
   double pitch_angle = 0;
   std::vector<Eigen::Vector3d> cut_points;  ///< of the low cut
-  std::vector<int> cut_freedoms;            ///< of every cut point: its first displacements, x and y, mostly z; sum m
-  Eigen::MatrixXd cut_stiffness;            ///< 2m x 2m, low freedoms then high ones
+  std::vector<int> cut_dofs;                ///< of every cut point: its first displacements, x and y, mostly z; sum m
+  Eigen::MatrixXd cut_stiffness;            ///< 2m x 2m, low DOFs then high ones
   Eigen::MatrixXd cut_load;                 ///< 2m x loads: load on the cuts equivalent to a unit load
   Eigen::MatrixXd compliance;               ///< loads x (ports and acting), with both cuts held
   int ports = 0;

@@ -26,7 +26,7 @@ class CyclicCompliance {
                    Eigen::MatrixXd high, Eigen::MatrixXd within);
 
   [[nodiscard]] int sectors() const { return sectors_; }
-  [[nodiscard]] int cut_size() const { return static_cast<int>(low_.rows()); }  ///< m, freedoms of a cut
+  [[nodiscard]] int cut_size() const { return static_cast<int>(low_.rows()); }  ///< m, DOFs of a cut
   /// Farthest sectors between which ports are coupled, and farthest cuts.
   [[nodiscard]] int max_offset() const { return static_cast<int>(blocks_.size()) - 1; }
   [[nodiscard]] int max_cut_offset() const { return static_cast<int>(cuts_.size()) - 1; }

@@ -24,7 +24,7 @@ std::vector<Eigen::VectorXcd> harmonic_rigid_motions(const CondensedSector& sect
     Eigen::Index row = 0;
     for (std::size_t n = 0; n < sector.cut_points.size(); ++n) {
       const Eigen::Vector3cd& u = displacement(sector.cut_points[n]);
-      for (int c = 0; c < sector.cut_freedoms[n]; ++c) motion[row++] = u[c];
+      for (int c = 0; c < sector.cut_dofs[n]; ++c) motion[row++] = u[c];
     }
     motions.push_back(motion);
   };

@@ -78,7 +78,7 @@ Eigen::MatrixXd solve_with(cholmod_factor* factor, int system, const Eigen::Matr
 }
 
 /// Forward solves L y = P b of loads a few at a time: y of the interior enters the compliance, y of the retained
-/// freedoms times their own factor is the load that they see.
+/// DOFs times their own factor is the load that they see.
 /// `rank`: place of a row of L among the retained ones in order of elimination, -1 inside.
 void condense_loads(cholmod_factor* factor, const Eigen::MatrixXd& retained_factor, const std::vector<int>& rank,
                     const Eigen::SparseMatrix<double>& loads, int acting, cholmod_common& common,
@@ -145,9 +145,9 @@ Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_hand_sides) c
 SchurComplement schur_complement(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& retained,
                                  double shift_retained, const Eigen::SparseMatrix<double>& loads, int acting) {
   const int n = static_cast<int>(matrix.rows()), kept = static_cast<int>(retained.size());
-  std::vector<int> position(n, -1);  // place of a freedom among the retained ones
+  std::vector<int> position(n, -1);  // place of a DOF among the retained ones
   for (int k = 0; k < kept; ++k) {
-    require(position[retained[k]] < 0, "a freedom is retained twice");
+    require(position[retained[k]] < 0, "a degree of freedom is retained twice");
     position[retained[k]] = k;
   }
   std::vector<int> interior;
@@ -162,7 +162,7 @@ SchurComplement schur_complement(const Eigen::SparseMatrix<double>& matrix, cons
   CholmodWorkspace workspace;
   auto& common = workspace.common;
 
-  // A fill-reducing ordering of the interior alone, the retained freedoms appended.
+  // A fill-reducing ordering of the interior alone, the retained DOFs appended.
   std::vector<Eigen::Triplet<double>> inside;
   inside.reserve(static_cast<std::size_t>(matrix.nonZeros()) / 2 + n);
   for (int column = 0; column < n; ++column)
@@ -204,9 +204,9 @@ SchurComplement schur_complement(const Eigen::SparseMatrix<double>& matrix, cons
   if (factor != nullptr) cholmod_factorize(&view, factor, &common);
   check_factor(workspace, factor, "stiffness matrix of the sector");
 
-  // Read the columns of the retained freedoms out of the supernodes. CHOLMOD postorders the elimination tree: columns
+  // Read the columns of the retained DOFs out of the supernodes. CHOLMOD postorders the elimination tree: columns
   // of independent interior branches may stand between the retained ones, and where the interior falls into pieces the
-  // retained freedoms change their own order.
+  // retained DOFs change their own order.
   const auto* order = static_cast<const int*>(factor->Perm);
   std::vector<int> rank(kept), rank_of_row(n, -1);
   int ranks = 0;
@@ -226,7 +226,8 @@ SchurComplement schur_complement(const Eigen::SparseMatrix<double>& matrix, cons
       const int local = column - first_column[s];
       for (int r = local; r < height; ++r) {
         const int retained_row = position[order[rows[row_start[s] + r]]];
-        require(retained_row >= 0 && rank[retained_row] >= k, "the retained freedoms were not eliminated last");
+        require(retained_row >= 0 && rank[retained_row] >= k,
+                "the retained degrees of freedom were not eliminated last");
         trailing(rank[retained_row], k) =
             values[static_cast<std::ptrdiff_t>(value_start[s]) + static_cast<std::ptrdiff_t>(local) * height + r];
       }

@@ -23,14 +23,14 @@ class SparseCholesky {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A stiffness matrix and loads condensed to some of the freedoms, r; the others, i, are eliminated.
+/// A stiffness matrix and loads condensed to some of the DOFs, r; the others, i, are eliminated.
 struct SchurComplement {
   Eigen::MatrixXd matrix;      ///< K_rr - K_ri K_ii^-1 K_ir
   Eigen::MatrixXd loads;       ///< b_r - K_ri K_ii^-1 b_i, one column per load
-  Eigen::MatrixXd compliance;  ///< b_i^T K_ii^-1 b_i, loads x acting loads: the retained freedoms are held
+  Eigen::MatrixXd compliance;  ///< b_i^T K_ii^-1 b_i, loads x acting loads: the retained DOFs are held
 };
 
-/// Condenses to the retained freedoms, in the order given.
+/// Condenses to the retained DOFs, in the order given.
 ///
 /// They are eliminated last, so that the trailing block of one sparse factorisation is the Cholesky factor of the
 /// complement: exact, and cheaper than solving for every retained column. Loads take part through forward solves with

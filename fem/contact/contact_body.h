@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "fem/body/gear_body.h"
 #include "fem/contact/flank_patch.h"
 #include "fem/contact/half_plane.h"
-#include "fem/gear_body.h"
 
 namespace annulus::fem {
 

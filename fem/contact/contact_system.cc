@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "core/errors.h"
-#include "fem/solved_face.h"
+#include "fem/problem/solved_face.h"
 
 namespace annulus::fem {
 

@@ -10,7 +10,8 @@
 #include "fem/contact/contact_forces.h"
 #include "fem/contact/flank_contact.h"
 #include "fem/contact/support_row.h"
-#include "fem/loaded_mesh.h"
+#include "fem/problem/loaded_mesh_problem.h"
+#include "fem/problem/loaded_mesh_result.h"
 
 namespace annulus::fem {
 

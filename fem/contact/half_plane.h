@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fem/material.h"
+#include "fem/problem/material.h"
 
 namespace annulus::fem {
 

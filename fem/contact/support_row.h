@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "fem/contact/support_sites.h"
-#include "fem/gear_body.h"
-#include "fem/loaded_mesh.h"
+#include "fem/body/gear_body.h"
+#include "fem/problem/loaded_mesh_result.h"
+#include "fem/problem/support_sites.h"
 
 namespace annulus::fem {
 

@@ -124,24 +124,24 @@ ElasticProblem<dim>::ElasticProblem(const geometry::Mesh& mesh, const BoundaryPr
   dealii::DoFTools::map_dofs_to_support_points(mapping_, dofs_, points);
   std::vector<int> component(dofs_.n_dofs(), -1), node_key(dofs_.n_dofs(), -1);
   std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
-  // Lagrange freedoms of one node share the base index on every cell that sees the node.
+  // Lagrange DOFs of one node share the base index on every cell that sees the node.
   std::vector<std::vector<int>> base_to_system(element_.dofs_per_cell / dim, std::vector<int>(dim));
   for (unsigned int i = 0; i < element_.dofs_per_cell; ++i) {
     const auto [c, base] = element_.system_to_component_index(i);
     base_to_system[base][c] = static_cast<int>(i);
   }
-  node_of_freedom_.assign(dofs_.n_dofs(), -1);
+  node_of_dof_.assign(dofs_.n_dofs(), -1);
   for (const auto& cell : dofs_.active_cell_iterators()) {
     cell->get_dof_indices(indices);
     for (const auto& system : base_to_system) {
-      if (node_of_freedom_[indices[system[0]]] >= 0) continue;
-      std::array<int, dim> freedoms{};
+      if (node_of_dof_[indices[system[0]]] >= 0) continue;
+      std::array<int, dim> dofs{};
       for (int c = 0; c < dim; ++c) {
-        freedoms[c] = static_cast<int>(indices[system[c]]);
-        node_of_freedom_[freedoms[c]] = static_cast<int>(node_freedoms_.size());
+        dofs[c] = static_cast<int>(indices[system[c]]);
+        node_of_dof_[dofs[c]] = static_cast<int>(node_dofs_.size());
       }
-      node_freedoms_.push_back(freedoms);
-      node_points_.push_back(points[freedoms[0]]);
+      node_dofs_.push_back(dofs);
+      node_points_.push_back(points[dofs[0]]);
     }
   }
 }
@@ -186,7 +186,7 @@ Eigen::SparseMatrix<double> ElasticProblem<dim>::stiffness() const {
         triplets.emplace_back(static_cast<int>(indices[i]), static_cast<int>(indices[j]), k);
       }
   }
-  Eigen::SparseMatrix<double> matrix(freedoms(), freedoms());
+  Eigen::SparseMatrix<double> matrix(dofs(), dofs());
   matrix.setFromTriplets(triplets.begin(), triplets.end());
   return matrix;
 }
@@ -196,7 +196,7 @@ Eigen::SparseMatrix<double> ElasticProblem<dim>::nodal_mass() const {
   const dealii::QGauss<dim> quadrature(degree_ + 1);
   dealii::FEValues<dim> values(mapping_, element_, quadrature, dealii::update_values | dealii::update_JxW_values);
   const unsigned int nodes = element_.dofs_per_cell / dim;
-  std::vector<unsigned int> first;  // freedoms of the first component, one per node
+  std::vector<unsigned int> first;  // DOFs of the first component, one per node
   for (unsigned int i = 0; i < element_.dofs_per_cell; ++i)
     if (element_.system_to_component_index(i).first == 0) first.push_back(i);
   Eigen::MatrixXd shape(nodes, quadrature.size()), weighted(nodes, quadrature.size());
@@ -214,7 +214,7 @@ Eigen::SparseMatrix<double> ElasticProblem<dim>::nodal_mass() const {
     const Eigen::MatrixXd products = shape * weighted.transpose();
     for (unsigned int a = 0; a < nodes; ++a)
       for (unsigned int b = 0; b < nodes; ++b)
-        triplets.emplace_back(node_of_freedom_[indices[first[a]]], node_of_freedom_[indices[first[b]]], products(a, b));
+        triplets.emplace_back(node_of_dof_[indices[first[a]]], node_of_dof_[indices[first[b]]], products(a, b));
   }
   const auto size = static_cast<Eigen::Index>(node_points_.size());
   Eigen::SparseMatrix<double> matrix(size, size);
@@ -228,7 +228,7 @@ Eigen::VectorXd ElasticProblem<dim>::body_load(
   const dealii::QGauss<dim> quadrature(degree_ + 3);
   dealii::FEValues<dim> values(mapping_, element_, quadrature,
                                dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(freedoms());
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(dofs());
   std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
   for (const auto& cell : dofs_.active_cell_iterators()) {
     values.reinit(cell);
@@ -252,7 +252,7 @@ Eigen::VectorXd ElasticProblem<dim>::surface_load(
   dealii::FEFaceValues<dim> values(mapping_, element_, quadrature,
                                    dealii::update_values | dealii::update_quadrature_points |
                                        dealii::update_normal_vectors | dealii::update_JxW_values);
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(freedoms());
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(dofs());
   std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
   for (const auto& cell : dofs_.active_cell_iterators())
     for (const auto face : cell->face_indices()) {
@@ -301,7 +301,7 @@ std::vector<SurfaceStress> ElasticProblem<dim>::surface_stress(
         int node = -1;
         for (unsigned int i = 0; i < element_.dofs_per_cell; ++i) {
           if (element_.system_to_component_index(i).first != 0) continue;
-          const int other = node_of_freedom_[indices[i]];
+          const int other = node_of_dof_[indices[i]];
           if (values.shape_value(i, q) > 0.9) node = other;  // of all nodes one has 1, the others 0
           const auto gradient = values.shape_grad(i, q);
           const double d_along = gradient[0] * along.x() + gradient[1] * along.y();
@@ -354,7 +354,7 @@ VertexField ElasticProblem<dim>::vertex_field() const {
     auto& corners_of_cell = field.cells.emplace_back();
     corners_of_cell.fill(0);
     for (int v = 0; v < corners; ++v) {
-      const int node = node_of_freedom_[cell->vertex_dof_index(v, 0)];
+      const int node = node_of_dof_[cell->vertex_dof_index(v, 0)];
       const auto [found, fresh] = vertex_of_node.try_emplace(node, static_cast<std::uint32_t>(field.nodes.size()));
       if (fresh) {
         field.nodes.push_back(node);
@@ -366,7 +366,7 @@ VertexField ElasticProblem<dim>::vertex_field() const {
       const int row = static_cast<int>(vertex) * stresses;
       for (unsigned int i = 0; i < element_.dofs_per_cell; ++i) {
         if (element_.system_to_component_index(i).first != 0) continue;
-        const int column = node_of_freedom_[indices[i]] * dim;
+        const int column = node_of_dof_[indices[i]] * dim;
         const auto g = values.shape_grad(i, v);
         for (int c = 0; c < dim; ++c) {
           if (g[c] == 0) continue;
@@ -421,14 +421,14 @@ std::pair<double, double> ElasticProblem<dim>::errors(
 
 template <int dim>
 std::vector<int> ElasticProblem<dim>::boundary_nodes(geometry::Boundary boundary) const {
-  std::vector<bool> on(node_freedoms_.size(), false);
+  std::vector<bool> on(node_dofs_.size(), false);
   std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_face);
   for (const auto& cell : dofs_.active_cell_iterators())
     for (const auto face : cell->face_indices())
       if (cell->face(face)->at_boundary() &&
           cell->face(face)->boundary_id() == static_cast<dealii::types::boundary_id>(boundary)) {
         cell->face(face)->get_dof_indices(indices);
-        for (const auto i : indices) on[node_of_freedom_[i]] = true;
+        for (const auto i : indices) on[node_of_dof_[i]] = true;
       }
   std::vector<int> nodes;
   for (std::size_t i = 0; i < on.size(); ++i)

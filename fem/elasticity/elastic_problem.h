@@ -17,7 +17,7 @@
 
 #include "fem/elasticity/nodal_load.h"
 #include "fem/elasticity/sector_model.h"
-#include "fem/material.h"
+#include "fem/problem/material.h"
 #include "geometry/mesh.h"
 
 namespace annulus::fem {
@@ -34,7 +34,7 @@ class ElasticProblem {
   ElasticProblem(const geometry::Mesh& mesh, const BoundaryProjection& project, const Material& material, int degree,
                  int refinements = 0);
 
-  /// Symmetric stiffness matrix over all freedoms, held or not (N/m; in 2D per metre of width: N/m^2).
+  /// Symmetric stiffness matrix over all DOFs, held or not (N/m; in 2D per metre of width: N/m^2).
   [[nodiscard]] Eigen::SparseMatrix<double> stiffness() const;
   /// Consistent mass of one displacement component over the nodes (kg; in 2D per metre of width: kg/m).
   [[nodiscard]] Eigen::SparseMatrix<double> nodal_mass() const;
@@ -54,9 +54,9 @@ class ElasticProblem {
       const Eigen::VectorXd& solution, const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& exact,
       const std::function<dealii::Tensor<2, dim>(const dealii::Point<dim>&)>& exact_gradient) const;
 
-  [[nodiscard]] int freedoms() const { return static_cast<int>(dofs_.n_dofs()); }
-  /// Freedoms of every node: [node][component]; nodes are numbered in order of their first freedom.
-  [[nodiscard]] const std::vector<std::array<int, dim>>& node_freedoms() const { return node_freedoms_; }
+  [[nodiscard]] int dofs() const { return static_cast<int>(dofs_.n_dofs()); }
+  /// DOFs of every node: [node][component]; nodes are numbered in order of their first DOF.
+  [[nodiscard]] const std::vector<std::array<int, dim>>& node_dofs() const { return node_dofs_; }
   [[nodiscard]] const std::vector<dealii::Point<dim>>& node_points() const { return node_points_; }
   /// Nodes lying on a boundary, each once, ascending.
   [[nodiscard]] std::vector<int> boundary_nodes(geometry::Boundary boundary) const;
@@ -69,9 +69,9 @@ class ElasticProblem {
   dealii::MappingQ<dim> mapping_;
   dealii::FESystem<dim> element_;
   dealii::DoFHandler<dim> dofs_;
-  std::vector<std::array<int, dim>> node_freedoms_;
+  std::vector<std::array<int, dim>> node_dofs_;
   std::vector<dealii::Point<dim>> node_points_;
-  std::vector<int> node_of_freedom_;
+  std::vector<int> node_of_dof_;
 };
 
 extern template class ElasticProblem<2>;

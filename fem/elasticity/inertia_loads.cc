@@ -24,7 +24,7 @@ Eigen::MatrixXd polynomials(const SectorModel& model, const MotionOrder& order) 
   const auto nodes = static_cast<Eigen::Index>(model.nodes.size());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(nodes, (axial + 1) * (order.section + 1) * (order.section + 2) / 2);
   for (Eigen::Index n = 0; n < nodes; ++n) {
-    if (model.freedom[n * model.dimension] < 0) continue;
+    if (model.dof[n * model.dimension] < 0) continue;
     const Eigen::Vector3d x = (model.nodes[n] - middle).cwiseQuotient(half);
     Eigen::Index column = 0;
     for (int k = 0; k <= axial; ++k)
@@ -51,7 +51,7 @@ std::vector<NodalLoad> inertia_loads(const SectorModel& model, double width, con
     for (int c = 0; c < model.dimension; ++c) {
       NodalLoad load;
       for (Eigen::Index n = 0; n < inertia.rows(); ++n)
-        if (model.freedom[n * model.dimension] >= 0)
+        if (model.dof[n * model.dimension] >= 0)
           load.push_back({static_cast<int>(n), inertia(n, k) * Eigen::Vector3d::Unit(c)});
       loads.push_back(std::move(load));
     }

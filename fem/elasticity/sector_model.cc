@@ -122,23 +122,22 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
   std::vector<bool> in_symmetry(model.nodes.size(), false);
   if (options.symmetric_end)
     for (const int n : problem.boundary_nodes(geometry::Boundary::end_high)) in_symmetry[n] = true;
-  std::vector<int> row_of_freedom(problem.freedoms(), -1);
-  model.freedom.assign(model.nodes.size() * dim, -1);
+  std::vector<int> row_of_dof(problem.dofs(), -1);
+  model.dof.assign(model.nodes.size() * dim, -1);
   int rows = 0;
   for (std::size_t n = 0; n < model.nodes.size(); ++n)
     for (int c = 0; c < dim; ++c)
       if (!held[n] && !(in_symmetry[n] && c == 2)) {
-        row_of_freedom[problem.node_freedoms()[n][c]] = rows;
-        model.freedom[n * dim + c] = rows++;
+        row_of_dof[problem.node_dofs()[n][c]] = rows;
+        model.dof[n * dim + c] = rows++;
       }
   const Eigen::SparseMatrix<double> full = problem.stiffness();
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(static_cast<std::size_t>(full.nonZeros()));
   for (int column = 0; column < full.outerSize(); ++column)
-    if (row_of_freedom[column] >= 0)
+    if (row_of_dof[column] >= 0)
       for (Eigen::SparseMatrix<double>::InnerIterator it(full, column); it; ++it)
-        if (row_of_freedom[it.row()] >= 0)
-          entries.emplace_back(row_of_freedom[it.row()], row_of_freedom[column], it.value());
+        if (row_of_dof[it.row()] >= 0) entries.emplace_back(row_of_dof[it.row()], row_of_dof[column], it.value());
   model.stiffness.resize(rows, rows);
   model.stiffness.setFromTriplets(entries.begin(), entries.end());
 

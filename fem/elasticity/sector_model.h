@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fem/elasticity/nodal_load.h"
-#include "fem/material.h"
+#include "fem/problem/material.h"
 #include "geometry/mesh.h"
 #include "geometry/profile.h"
 
@@ -41,14 +41,14 @@ struct VertexField {
 /// Which boundary of a sector is held.
 enum class HeldBoundary { none, support, end_low, flange_face };
 
-/// One discretised tooth sector, free of deal.II: stiffness over the freedoms that are not held, and the nodes that
+/// One discretised tooth sector, free of deal.II: stiffness over the DOFs that are not held, and the nodes that
 /// matter to the outside.
 struct SectorModel {
   int dimension = 2;
   double pitch_angle = 0;
   Eigen::SparseMatrix<double> stiffness;
   std::vector<Eigen::Vector3d> nodes;
-  std::vector<int> freedom;                ///< [node * dimension + component] -> row of `stiffness`, or -1 when held
+  std::vector<int> dof;                    ///< [node * dimension + component] -> row of `stiffness`, or -1 when held
   std::vector<int> low_nodes, high_nodes;  ///< matched pairs on the two radial cuts, wholly held nodes left out
   TraceGrid flank;                         ///< of the contact flank
   TraceGrid outside;                       ///< of the support circle (empty when held)

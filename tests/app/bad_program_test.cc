@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(too_much_is_refused_with_the_figures) {
          {"of memory, the limit is 200 MB (--max-memory)", "[monte_carlo]: it asks for 1000000 responses"});
   // A mesh: the keys that make it so large.
   const auto finest = test::replaced(test::computed_set(), "title = \"Quick\"", "accuracy = 0.00001");
-  refuse(finest, " --max-memory 100MB", {"of memory, the limit is 100 MB", "follows from `accuracy` and `rung`"});
+  refuse(finest, " --max-memory 100MB", {"of memory, the limit is 100 MB", "follows from `accuracy` and `model`"});
   refuse(finest, " --max-time 1s", {"the limit is 1.0 s (--max-time)"});
 }
 

@@ -62,7 +62,7 @@ struct TableScene {
 double of_stiffness(const ErrorParts& e) { return e.discretisation + e.contact + e.condensation + e.model; }
 
 struct Pair {
-  dynamics::Figure figure;
+  Figure figure;
   ErrorParts errors;
 };
 
@@ -230,7 +230,7 @@ BOOST_AUTO_TEST_CASE(two_planets_feel_the_error_of_their_path) {
 BOOST_AUTO_TEST_CASE(a_motion_that_does_not_repeat_is_given_up_and_has_errors) {
   // Teeth part under a twentieth of the load: successive windows differ by a third of the load and more, without end.
   auto text = test::replaced(test::small_stage(), "power_kW = 200", "power_kW = 10");
-  text = test::replaced(text, "[stage]", "rung = \"closed_form\"\naccuracy = 0.03\n[stage]");
+  text = test::replaced(text, "[stage]", "model = \"closed_form\"\naccuracy = 0.03\n[stage]");
   const test::TemporaryFolder folder("chaos");
   log::set_level(log::Level::quiet);
   const auto run = app::run(app::parse_scene(text, "chaos.toml"), {.out = folder.path() / "out"});

@@ -93,8 +93,8 @@ BOOST_AUTO_TEST_CASE(a_budget_too_small_is_refused_with_the_figures) {
   BOOST_CHECK_THROW((void)fitted(given, 0.01), SolverError);
 }
 
-BOOST_AUTO_TEST_CASE(every_kind_and_rung_has_a_budget) {
-  for (const auto& text : {computed_scene("rung = \"resolved\"\n"), test::solved_pair(), test::reducer_scene()}) {
+BOOST_AUTO_TEST_CASE(every_kind_and_fidelity_has_a_budget) {
+  for (const auto& text : {computed_scene("model = \"resolved\"\n"), test::solved_pair(), test::reducer_scene()}) {
     const auto scene = app::parse_scene(text, "s.toml");
     const auto cost = app::stage_cost(scene, 2, app::CostModel(app::kept_cost_runs()));
     BOOST_TEST(cost.seconds() > 0);
@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(every_kind_and_rung_has_a_budget) {
     const auto scene = app::parse_scene(computed_scene(top), "s.toml");
     return app::stage_cost(scene, 2, app::CostModel(app::kept_cost_runs())).seconds();
   };
-  BOOST_TEST(seconds("rung = \"resolved\"\naccuracy = 0.01\n") > 10 * seconds("rung = \"plane\"\naccuracy = 0.01\n"));
+  BOOST_TEST(seconds("model = \"resolved\"\naccuracy = 0.01\n") > 10 * seconds("model = \"plane\"\naccuracy = 0.01\n"));
 }
 
 BOOST_AUTO_TEST_CASE(the_rest_of_the_scene_stays) {
@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(predicted_and_actual_of_other_kinds) {
 
 BOOST_AUTO_TEST_CASE(predicted_and_actual_of_small_scenes) {
   const test::TemporaryFolder folder("cost_of_a_run");
-  for (const std::string top : {"rung = \"closed_form\"\n", "accuracy = 0.1\n"}) {
+  for (const std::string top : {"model = \"closed_form\"\n", "accuracy = 0.1\n"}) {
     const auto scene = app::parse_scene(computed_scene(top), folder.path() / "s.toml");
     const app::RunOptions options{.out = folder.path() / ("out" + std::to_string(top.size())), .threads = 2};
     const auto result = app::run(scene, options);
@@ -227,7 +227,7 @@ BOOST_AUTO_TEST_CASE(progress_of_a_solve_rises_from_nothing_to_all) {
 
 BOOST_AUTO_TEST_CASE(the_program_keeps_costs_and_budgets) {
   const test::TemporaryFolder folder("budget_program");
-  write_file(folder.path() / "s.toml", computed_scene("rung = \"closed_form\"\n"));
+  write_file(folder.path() / "s.toml", computed_scene("model = \"closed_form\"\n"));
   const auto first = program_with_cache(folder.path(), "run s.toml -q -o out");
   BOOST_TEST(first.status == 0, first.err);
   BOOST_TEST(first.out.find("cost    predicted ") != std::string::npos);

@@ -154,7 +154,7 @@ BOOST_AUTO_TEST_CASE(unknowns_are_counted_without_meshing) {
   };
   const auto sun = app::sun_mesh_model(scene, geometry), ring = app::ring_mesh_model(scene, geometry, 0),
              sleeve = app::ring_mesh_model(scene, geometry, 1), pins = app::ring_mesh_model(scene, geometry, 2);
-  // Freedoms on held boundaries are not taken off: 3 % in the plane; a solid has more of them, and its sleeve is
+  // DOFs on held boundaries are not taken off: 3 % in the plane; a solid has more of them, and its sleeve is
   // counted roughly: 8 %.
   const auto plane = boost::test_tools::tolerance(0.03), solid = boost::test_tools::tolerance(0.08);
   BOOST_TEST(counted(sun, 1, 1) == 12924.0, plane);
@@ -165,20 +165,20 @@ BOOST_AUTO_TEST_CASE(unknowns_are_counted_without_meshing) {
   BOOST_TEST(counted(pins, 2, 1) == 36794.0, plane);
   BOOST_TEST(counted(sleeve, 2, 1) == 55632.0, solid);
   auto resolved = ring;
-  resolved.settings.rung = fem::Rung::resolved_plane;
+  resolved.settings.fidelity = fem::Fidelity::resolved_plane;
   BOOST_TEST(counted(resolved, 2, 2) == 73200.0, plane);
-  resolved.settings.rung = fem::Rung::resolved_solid;
+  resolved.settings.fidelity = fem::Fidelity::resolved_solid;
   resolved.settings.symmetry = false;
   BOOST_TEST(counted(resolved, 2, 1) == 64872.0, solid);
   // Half of the face.
   auto half_sun = sun, half_pins = pins;
-  half_sun.settings.rung = half_pins.settings.rung = fem::Rung::solid;
+  half_sun.settings.fidelity = half_pins.settings.fidelity = fem::Fidelity::solid;
   BOOST_TEST(app::cost_kind(half_sun) == "solid_half");
   BOOST_TEST(counted(half_sun, 2, 1) == 25792.0, solid);
   BOOST_TEST(counted(half_sun, 2, 2) == 70376.0, solid);
   BOOST_TEST(counted(half_pins, 2, 1) == 26338.0, solid);
   half_sun.settings.symmetry = false;
-  half_sun.rung = "solid";
+  half_sun.fidelity = "solid";
   BOOST_TEST(app::cost_kind(half_sun) == "solid");
   BOOST_TEST(counted(half_sun, 2, 1) == 50592.0, solid);
 }

@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(any_number_of_threads_gives_the_same_bits) {
 BOOST_AUTO_TEST_CASE(libraries_with_threads_of_their_own_change_nothing) {
   ::setenv("ANNULUS_CACHE", "", 1);
   const test::TemporaryFolder folder("library_threads");
-  const auto scene = "accuracy = 0.1\nrung = \"plane\"\n" + test::small_stage();
+  const auto scene = "accuracy = 0.1\nmodel = \"plane\"\n" + test::small_stage();
   const auto plain = results_of(folder, scene, "plain", "2");
   check_same(plain, results_of(folder, scene, "one_core", "3", "taskset -c 0"));
   check_same(plain,

@@ -38,7 +38,7 @@ StiffnessTable some_table(int positions, int phases, const std::vector<double>& 
       }
   }
   StiffnessTable table("ring_planet", phases, std::move(angles), loads, std::move(entries));
-  table.provenance = {{"annulus_version", "test"}, {"rung", "plane"}};
+  table.provenance = {{"annulus_version", "test"}, {"model", "plane"}};
   return table;
 }
 

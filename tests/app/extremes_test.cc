@@ -46,15 +46,15 @@ constexpr const char* solid = "\"solid\"";
 constexpr const char* automatic = "\"automatic\"";
 
 /// A held ring of 72 teeth; its mesh alone is computed.
-std::string ring_scene(const std::string& rung) {
-  return edited(small_stage(), {{"", "rung", rung},
+std::string ring_scene(const std::string& fidelity) {
+  return edited(small_stage(), {{"", "model", fidelity},
                                 {"", "accuracy", "0.1"},
                                 {"mesh.sun_planet", "stiffness", "\"constant\""},
                                 {"mesh.sun_planet", "mean_N_per_m", "1e9"}});
 }
 
-std::string pair_scene(const std::string& rung) {
-  return edited(solved_pair(), {{"", "rung", rung}, {"", "accuracy", "0.1"}});
+std::string pair_scene(const std::string& fidelity) {
+  return edited(solved_pair(), {{"", "model", fidelity}, {"", "accuracy", "0.1"}});
 }
 
 Edits pinned() {
@@ -311,8 +311,8 @@ BOOST_AUTO_TEST_CASE(materials) {
   // Nothing locks: the plane elements stay with the formulas, which know no elements, within both estimates.
   for (const double nu : {0.0, 0.3, 0.45, 0.49, 0.4999}) {
     BOOST_TEST_CONTEXT("Poisson's ratio " << nu) {
-      const auto at = [&](const char* rung) {
-        return solve_scene(edited(ring_scene(rung), {{"material", "poisson_ratio", number(nu)}}));
+      const auto at = [&](const char* fidelity) {
+        return solve_scene(edited(ring_scene(fidelity), {{"material", "poisson_ratio", number(nu)}}));
       };
       const auto simple = at(formulas), elements = at(plane);
       BOOST_TEST_REQUIRE((simple.result && elements.result), simple.refusal + elements.refusal + elements.failure);

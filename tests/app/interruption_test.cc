@@ -30,7 +30,7 @@ using test::results_in;
 
 /// Elements, supports that open, a sweep, random draws and a search: every kind of result that is kept.
 std::string whole_scene() {
-  return "accuracy = 0.1\nrung = \"plane\"\n" + test::small_stage() + R"([[ring]]
+  return "accuracy = 0.1\nmodel = \"plane\"\n" + test::small_stage() + R"([[ring]]
 name = "pinned"
 structure = "pinned"
 pins = 12
@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(killed_at_any_moment_the_next_run_goes_on_and_ends_with_the
 BOOST_AUTO_TEST_CASE(exports_killed_at_any_moment_leave_whole_files_or_none) {
   ::setenv("ANNULUS_CACHE", "", 1);
   const test::TemporaryFolder folder("killed_exports");
-  write_file(folder.path() / "scene.toml", "accuracy = 0.1\nrung = \"closed_form\"\n" + test::small_stage());
+  write_file(folder.path() / "scene.toml", "accuracy = 0.1\nmodel = \"closed_form\"\n" + test::small_stage());
   BOOST_REQUIRE(RunningProgram(folder.path(), "out").wait() == 0);
   const auto table = folder.path() / "table.csv";
   fs::copy_file(folder.path() / "out" / "ring" / "stiffness_ring_planet.csv", table);

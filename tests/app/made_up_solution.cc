@@ -13,7 +13,7 @@ namespace {
 using std::numbers::pi;
 
 bool over_face_width(const app::MeshModel& model) {
-  return model.settings.rung == fem::Rung::solid || model.settings.rung == fem::Rung::resolved_solid;
+  return model.settings.fidelity == fem::Fidelity::solid || model.settings.fidelity == fem::Fidelity::resolved_solid;
 }
 
 std::vector<double> angles_of(const fem::RingStructure& structure) {

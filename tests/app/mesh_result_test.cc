@@ -174,14 +174,14 @@ BOOST_AUTO_TEST_CASE(pins_and_splines_carry_their_angle) {
   BOOST_TEST(angle("splined", 1) == 360.0 / 54, tolerance);
   BOOST_TEST(angle("one-pin", 5) == 0, tolerance);
   for (const auto& ring : run.rings) {
-    BOOST_TEST(ring.mesh.line_load.rows.empty() == (ring.mesh.model.rung == "plane"), ring.name);
-    BOOST_TEST(ring.mesh.peak("face_load_factor").has_value() == (ring.mesh.model.rung == "solid"), ring.name);
+    BOOST_TEST(ring.mesh.line_load.rows.empty() == (ring.mesh.model.fidelity == "plane"), ring.name);
+    BOOST_TEST(ring.mesh.peak("face_load_factor").has_value() == (ring.mesh.model.fidelity == "solid"), ring.name);
   }
 }
 
 BOOST_AUTO_TEST_CASE(a_closed_form_has_no_mesh) {
   auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
-  scene.rung = app::Rung::closed_form;
+  scene.fidelity = app::Fidelity::closed_form;
   const auto model = app::ring_mesh_model(scene, app::make_geometry(scene), 0);
   const auto result = app::pack(model, fem::solve_loaded_mesh(*model.problem, model.settings));
   BOOST_TEST(result.picture.empty());

@@ -135,8 +135,8 @@ BOOST_AUTO_TEST_CASE(a_flat_objective_is_said_to_be_flat) {
   BOOST_TEST(o.range.evaluations > 20);
   const auto report = read_file(folder.path() / "report.html");
   BOOST_TEST(report.find("Nothing to gain.") != std::string::npos);
-  // 7 freedoms: sun x, y, u, three planets and the carrier; the ring is held.
-  BOOST_TEST(result.rings.front().response->figures.series.freedoms.size() == 0U);
+  // 7 DOFs: sun x, y, u, three planets and the carrier; the ring is held.
+  BOOST_TEST(result.rings.front().response->figures.series.dofs.size() == 0U);
   std::ifstream modes(folder.path() / "held/dynamics/modes.csv");
   int count = 0;
   for (std::string line; std::getline(modes, line);) count += line[0] != '#' && line.find(',') != std::string::npos;

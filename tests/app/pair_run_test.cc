@@ -264,7 +264,7 @@ BOOST_AUTO_TEST_CASE(scenes_of_the_paper_are_good) {
     const auto scene = app::read_scene(std::filesystem::path(ANNULUS_SOURCE_DIR) / "data/scenes" / name);
     app::check_stage(scene);
     BOOST_TEST(app::plan_scene(scene, false).find("pinion y") != std::string::npos);
-    BOOST_TEST(nlohmann::json::parse(app::plan_scene(scene, true))["freedoms"].size() == 6U);
+    BOOST_TEST(nlohmann::json::parse(app::plan_scene(scene, true))["degrees_of_freedom"].size() == 6U);
     BOOST_CHECK_NO_THROW(app::check_studies(scene));
   }
 }

@@ -294,11 +294,11 @@ BOOST_AUTO_TEST_CASE(what_needs_several_changes_is_refused_too) {
           "pinion.bore_diameter_mm: is required because the mesh is computed");
   refused(test::replaced(computed, "pinion_torque_Nm = 20000", "pinion_torque_Nm = -5"),
           "must be above 0 with a tabulated stiffness");
-  refused(test::replaced(computed, "title", "rung = \"plane\"\ntitle"),
-          "rung = plane: cannot represent the mesh: helical teeth");
-  refused(test::replaced(computed, "title", "rung = \"closed_form\"\ntitle"),
+  refused(test::replaced(computed, "title", "model = \"plane\"\ntitle"),
+          "model = plane: cannot represent the mesh: helical teeth");
+  refused(test::replaced(computed, "title", "model = \"closed_form\"\ntitle"),
           "stiffness = \"closed_form\" in [mesh.pinion_wheel]");
-  refused(test::replaced(computed, "title", "rung = \"resolved\"\ntitle"), "cannot represent helical gears");
+  refused(test::replaced(computed, "title", "model = \"resolved\"\ntitle"), "cannot represent helical gears");
   const auto closed =
       test::replaced(test::quick_pair(), "stiffness = \"iso_6336\"\nripple = 0.05", "stiffness = \"closed_form\"");
   refused(test::replaced(closed, "teeth = 21\n", "teeth = 21\nlead_crowning_um = 5\n"),

@@ -51,7 +51,7 @@ support_damping_ratio = 0.05
 inline std::string solved_pair() {
   return R"(title = "Solved pair"
 accuracy = 0.03
-rung = "plane"
+model = "plane"
 [stage]
 kind = "helical_pair"
 module_mm = 4

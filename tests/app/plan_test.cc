@@ -14,6 +14,7 @@
 #include "app/scene/overrides.h"
 #include "core/files.h"
 #include "core/units.h"
+#include "fem/loaded_mesh.h"
 #include "tests/app/scenes.h"
 
 namespace annulus {
@@ -64,10 +65,10 @@ BOOST_AUTO_TEST_CASE(rungs_and_positions) {
   const auto& meshes = json["meshes"];
   BOOST_TEST_REQUIRE(meshes.size() == 4U);
   BOOST_TEST(meshes[0]["mesh"] == "sun_planet");
-  BOOST_TEST(meshes[0]["rung"] == "plane");
-  BOOST_TEST(meshes[1]["rung"] == "plane");  // traditional
-  BOOST_TEST(meshes[2]["rung"] == "solid");  // thin-walled
-  BOOST_TEST(meshes[3]["rung"] == "plane");  // pinned
+  BOOST_TEST(meshes[0]["model"] == "plane");
+  BOOST_TEST(meshes[1]["model"] == "plane");  // traditional
+  BOOST_TEST(meshes[2]["model"] == "solid");  // thin-walled
+  BOOST_TEST(meshes[3]["model"] == "plane");  // pinned
   BOOST_TEST(meshes[1]["ring_positions"] == 1);
   BOOST_TEST(meshes[3]["ring_positions"] == 27);  // 162 / gcd(162, 24)
   for (const auto& mesh : meshes) BOOST_TEST(!mesh["reason"].get<std::string>().empty());
@@ -124,14 +125,14 @@ BOOST_AUTO_TEST_CASE(solid_meshes_tell_what_of_the_face_they_solve) {
   BOOST_TEST(symmetry(usual.meshes[0]).choice == "nothing");  // a plane has no face
   BOOST_TEST(symmetry(usual.meshes[2]).choice == "whole face");
   BOOST_TEST(symmetry(usual.meshes[2]).reason == "held at one end face");
-  const auto solid = planned("rung = \"solid\"");
+  const auto solid = planned("model = \"solid\"");
   for (const std::size_t mesh : {0U, 1U, 3U}) {  // sun, traditional, pinned
     BOOST_TEST(symmetry(solid.meshes[mesh]).choice == "half of the face");
     BOOST_TEST(symmetry(solid.meshes[mesh]).reason.find("mirror image") != std::string::npos);
   }
   BOOST_TEST(app::to_text(solid).find("half of the face") != std::string::npos);
   BOOST_TEST(app::to_json(solid).find("\"half of the face\"") != std::string::npos);
-  const auto misaligned = planned("rung = \"solid\"", "sun_planet_misalignment_um = 5");
+  const auto misaligned = planned("model = \"solid\"", "sun_planet_misalignment_um = 5");
   BOOST_TEST(symmetry(misaligned.meshes[0]).reason == "misaligned flanks");
   BOOST_TEST(symmetry(misaligned.meshes[1]).choice == "half of the face");
 
@@ -142,7 +143,7 @@ BOOST_AUTO_TEST_CASE(solid_meshes_tell_what_of_the_face_they_solve) {
   BOOST_TEST(symmetry(whole).choice == "whole face");
   const app::CostModel costs(app::kept_cost_runs());
   const auto half_size = app::mesh_size(half_face, 1, costs), whole_size = app::mesh_size(whole, 1, costs);
-  // Of 8 quadratic cells: 9 of 17 layers of nodes, the last one without axial freedoms.
+  // Of 8 quadratic cells: 9 of 17 layers of nodes, the last one without axial DOFs.
   BOOST_TEST(half_size.unknowns / whole_size.unknowns == 26.0 / 51, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(costs.predict(half_size).seconds < costs.predict(whole_size).seconds);
 }
@@ -157,7 +158,7 @@ BOOST_AUTO_TEST_CASE(more_than_the_finest_solid_gives_is_told_beforehand) {
   BOOST_TEST(cost_of(0.002).find("more than the 0.2 % asked: the run may be refused at the end") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(the_accuracy_decides_rung_elements_and_motion) {
+BOOST_AUTO_TEST_CASE(the_accuracy_decides_fidelity_elements_and_motion) {
   const std::string text = read_file(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
   const auto planned = [&](const std::string& top) {
     const auto scene = app::parse_scene(test::replaced(text, "accuracy = 0.01", top),
@@ -180,10 +181,10 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_rung_elements_and_motion) {
   // Formulas where their error is within the accuracy; the thin-walled ring needs a solid. How planets act on each
   // other through the pinned ring takes elements, which counts below 10 %.
   const auto rough = planned("accuracy = 0.1");
-  BOOST_TEST(rough.meshes[0].rung == "closed_form");
-  BOOST_TEST(rough.meshes[1].rung == "closed_form");
-  BOOST_TEST(rough.meshes[2].rung == "solid");
-  BOOST_TEST(rough.meshes[3].rung == "closed_form");
+  BOOST_TEST(rough.meshes[0].fidelity == "closed_form");
+  BOOST_TEST(rough.meshes[1].fidelity == "closed_form");
+  BOOST_TEST(rough.meshes[2].fidelity == "solid");
+  BOOST_TEST(rough.meshes[3].fidelity == "closed_form");
   BOOST_TEST(!coupled(rough));
   const double held = fem::closed_form_error(*rough.meshes[1].problem);
   const double pinned = fem::closed_form_error(*rough.meshes[3].problem);
@@ -191,20 +192,20 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_rung_elements_and_motion) {
   BOOST_TEST(pinned > held);
   BOOST_TEST(decided(app::decisions(rough.meshes[0]), "elements") == "nothing");
   const auto enough = planned(fmt::format("accuracy = {}", 1.02 * pinned));
-  BOOST_TEST(enough.meshes[3].rung == "closed_form");
+  BOOST_TEST(enough.meshes[3].fidelity == "closed_form");
   BOOST_TEST(coupled(enough));
   const auto less_rough = planned(fmt::format("accuracy = {}", 0.98 * pinned));
-  BOOST_TEST(less_rough.meshes[0].rung == "closed_form");
-  BOOST_TEST(less_rough.meshes[3].rung == "plane");
+  BOOST_TEST(less_rough.meshes[0].fidelity == "closed_form");
+  BOOST_TEST(less_rough.meshes[3].fidelity == "plane");
   BOOST_TEST(coupled(less_rough));
   BOOST_TEST(decided(app::decisions(less_rough.meshes[3]), "elements") == "linear");
   BOOST_TEST(decided(rough.motion, "confirmation") == "where teeth part");
   BOOST_TEST(decided(rough.motion, "tolerance") == "1e-04");
-  // No rung but the one the scene asks for.
-  BOOST_TEST(planned("accuracy = 0.1\nrung = \"solid\"").meshes[0].rung == "solid");
+  // No model but the one the scene asks for.
+  BOOST_TEST(planned("accuracy = 0.1\nmodel = \"solid\"").meshes[0].fidelity == "solid");
   const auto usual = planned("accuracy = 0.01");
   for (const auto& mesh : usual.meshes) {
-    BOOST_TEST(mesh.rung != "closed_form");
+    BOOST_TEST(mesh.fidelity != "closed_form");
     // Linear ones meet 1 % where no edges of supports nor solids are in the way.
     const bool linear = mesh.ring.empty() || mesh.ring == rough.meshes[1].ring;
     BOOST_TEST(decided(app::decisions(mesh), "elements") == (linear ? "linear" : "quadratic"));
@@ -224,7 +225,7 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_rung_elements_and_motion) {
   BOOST_TEST(json["motion"].size() == usual.motion.size());
 }
 
-BOOST_AUTO_TEST_CASE(structures_their_rung_and_why) {
+BOOST_AUTO_TEST_CASE(structures_their_fidelity_and_why) {
   const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_structures.toml");
   const auto plan = app::make_plan(scene, app::make_geometry(scene));
   const auto mesh = [&](const std::string& ring) {
@@ -233,9 +234,9 @@ BOOST_AUTO_TEST_CASE(structures_their_rung_and_why) {
     }
     throw std::logic_error(ring);
   };
-  const auto check = [&](const std::string& ring, const std::string& rung, int positions, const std::string& word) {
+  const auto check = [&](const std::string& ring, const std::string& fidelity, int positions, const std::string& word) {
     const auto m = mesh(ring);
-    BOOST_TEST(m.rung == rung, ring);
+    BOOST_TEST(m.fidelity == fidelity, ring);
     BOOST_TEST(m.positions == positions, ring << ": " << m.positions);
     BOOST_TEST(m.reason.find(word) != std::string::npos, m.reason);
   };
@@ -273,7 +274,7 @@ BOOST_AUTO_TEST_CASE(misalignment_and_lead_need_solids) {
   const auto geometry = app::make_geometry(scene);
   const auto sun = app::sun_mesh_model(scene, geometry), ring = app::ring_mesh_model(scene, geometry, 0);
   for (const auto* mesh : {&sun, &ring}) {
-    BOOST_TEST(mesh->rung == "solid");
+    BOOST_TEST(mesh->fidelity == "solid");
     BOOST_TEST(mesh->reason.find("lead of the planet is modified") != std::string::npos, mesh->reason);
     BOOST_TEST(mesh->reason.find("misaligned") != std::string::npos, mesh->reason);
     BOOST_TEST(mesh->problem->pair.planet().parameters().lead_crowning == 8e-6, boost::test_tools::tolerance(1e-15));
@@ -291,7 +292,7 @@ BOOST_AUTO_TEST_CASE(helical_sets_are_solid) {
   const auto geometry = app::make_geometry(scene);
   const double beta = 12 * units::deg;
   for (const auto& mesh : {app::sun_mesh_model(scene, geometry), app::ring_mesh_model(scene, geometry, 0)}) {
-    BOOST_TEST(mesh.rung == "solid");
+    BOOST_TEST(mesh.fidelity == "solid");
     BOOST_TEST(mesh.reason.find("helical") != std::string::npos, mesh.reason);
     const auto &planet = mesh.problem->pair.planet(), &wheel = mesh.problem->pair.wheel();
     BOOST_TEST(planet.helix_angle() == beta, boost::test_tools::tolerance(1e-15));
@@ -313,22 +314,22 @@ BOOST_AUTO_TEST_CASE(linear_helical_solids_do_down_to_three_per_cent) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(asked_rungs) {
+BOOST_AUTO_TEST_CASE(asked_fidelities) {
   auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
   const auto geometry = app::make_geometry(scene);
-  const auto rung = [&](std::size_t ring) { return app::ring_mesh_model(scene, geometry, ring); };
-  scene.rung = app::Rung::resolved;
-  BOOST_TEST(rung(0).rung == "resolved_plane");
-  BOOST_TEST(rung(1).rung == "resolved_solid");  // thin-walled
-  BOOST_CHECK(rung(1).settings.rung == fem::Rung::resolved_solid);
-  BOOST_TEST(rung(1).reason.find("the scene asks for it") == 0U);
-  scene.rung = app::Rung::closed_form;
-  BOOST_CHECK(rung(2).settings.rung == fem::Rung::closed_form);
+  const auto fidelity = [&](std::size_t ring) { return app::ring_mesh_model(scene, geometry, ring); };
+  scene.fidelity = app::Fidelity::resolved;
+  BOOST_TEST(fidelity(0).fidelity == "resolved_plane");
+  BOOST_TEST(fidelity(1).fidelity == "resolved_solid");  // thin-walled
+  BOOST_CHECK(fidelity(1).settings.fidelity == fem::Fidelity::resolved_solid);
+  BOOST_TEST(fidelity(1).reason.find("the scene asks for it") == 0U);
+  scene.fidelity = app::Fidelity::closed_form;
+  BOOST_CHECK(fidelity(2).settings.fidelity == fem::Fidelity::closed_form);
   const auto remarks = app::make_plan(scene, geometry).remarks;
   BOOST_TEST(std::any_of(remarks.begin(), remarks.end(),
                          [](const auto& r) { return r.find("not controlled") != std::string::npos; }));
-  scene.rung = app::Rung::solid;
-  BOOST_CHECK(rung(0).settings.rung == fem::Rung::solid);
+  scene.fidelity = app::Fidelity::solid;
+  BOOST_CHECK(fidelity(0).settings.fidelity == fem::Fidelity::solid);
 }
 
 BOOST_AUTO_TEST_CASE(every_input_has_an_origin) {
@@ -345,10 +346,10 @@ BOOST_AUTO_TEST_CASE(every_input_has_an_origin) {
   BOOST_TEST(assumed > 10);
 }
 
-BOOST_AUTO_TEST_CASE(rigid_supports_drop_their_freedoms) {
+BOOST_AUTO_TEST_CASE(rigid_supports_drop_their_dofs) {
   const auto plan = plan_of(test::quick_scene());
   const auto kept = [&](const std::string& name) {
-    for (const auto& f : plan.freedoms) {
+    for (const auto& f : plan.dofs) {
       if (f.name == name) return f.kept;
     }
     throw std::logic_error(name);
@@ -359,7 +360,7 @@ BOOST_AUTO_TEST_CASE(rigid_supports_drop_their_freedoms) {
   BOOST_TEST(!kept("ring u"));
   BOOST_TEST(!kept("carrier x, y"));
   BOOST_TEST(plan.contact_problems() == 0L);
-  BOOST_TEST(plan.meshes.front().rung == "given");
+  BOOST_TEST(plan.meshes.front().fidelity == "given");
 }
 
 BOOST_AUTO_TEST_CASE(impossible_geometry_names_the_body) {

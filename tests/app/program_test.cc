@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
   const auto json = nlohmann::json::parse(read_file(folder.path() / "out/summary.json"));
   BOOST_TEST(json["title"] == "Quick");
   const auto& ring = json["rings"]["held"];
-  BOOST_TEST(ring["rung"] == "given");
+  BOOST_TEST(ring["model"] == "given");
   BOOST_TEST(ring["ring_planet"]["mean_stiffness_N_per_m"]["value"].get<double>() == 1.87e9,
              boost::test_tools::tolerance(1e-13));
   BOOST_TEST(std::abs(ring["ring_planet"]["contact_ratio"].get<double>() - 1.5826) < 5e-5);
@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
   BOOST_TEST(ring["poincare"]["section"] == (ring["dynamics"]["steady"].get<bool>() ? "period_1" : "undecided"));
 
   const auto shapes = Csv::read(dynamics / "mode_shapes.csv"), campbell = Csv::read(dynamics / "campbell.csv");
-  BOOST_TEST(shapes.columns.size() == shapes.rows.size() + 2);  // one mode per freedom
+  BOOST_TEST(shapes.columns.size() == shapes.rows.size() + 2);  // one mode per DOF
   BOOST_TEST(campbell.columns.size() == shapes.rows.size() + 3);
   for (std::size_t i = 0; i < shapes.rows.size(); ++i)  // at rest, to the rounding of the unsymmetric solver
     BOOST_TEST(std::abs(campbell.rows.front()[i + 3] - shapes.rows[i][1]) <= 1e-10 * shapes.rows.back()[1]);

@@ -256,18 +256,18 @@ BOOST_AUTO_TEST_CASE(plane_models_are_refused_where_the_face_width_matters) {
     const std::string text = read_file(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
     return test::replaced(text, what, by);
   };
-  for (const std::string rung : {"plane", "closed_form"}) {
-    const auto forced = paper("accuracy = 0.01", "accuracy = 0.01\nrung = \"" + rung + "\"");
+  for (const std::string fidelity : {"plane", "closed_form"}) {
+    const auto forced = paper("accuracy = 0.01", "accuracy = 0.01\nmodel = \"" + fidelity + "\"");
     const auto problems = problems_of(forced);
     BOOST_TEST_REQUIRE(problems.size() == 1U);
     const auto& message = problems.front().message;
-    BOOST_TEST(problems.front().line == line_of(forced, "rung ="));
-    BOOST_TEST(message.find("rung = " + rung + ": ") == 0U, message);
+    BOOST_TEST(problems.front().line == line_of(forced, "model ="));
+    BOOST_TEST(message.find("model = " + fidelity + ": ") == 0U, message);
     BOOST_TEST(message.find("'thin-walled'") != std::string::npos, message);
     BOOST_TEST(message.find("free end") != std::string::npos, message);
   }
-  BOOST_TEST(problems_of(paper("accuracy = 0.01", "rung = \"solid\"")).empty());
-  const auto resolved = problems_of(paper("accuracy = 0.01", "rung = \"resolved\""));
+  BOOST_TEST(problems_of(paper("accuracy = 0.01", "model = \"solid\"")).empty());
+  const auto resolved = problems_of(paper("accuracy = 0.01", "model = \"resolved\""));
   BOOST_TEST_REQUIRE(resolved.size() == 1U);
   BOOST_TEST(resolved.front().message.find("'pinned'") != std::string::npos, resolved.front().message);
   // Helical teeth push the rings along their axis, and pins do not hold them there.
@@ -275,12 +275,12 @@ BOOST_AUTO_TEST_CASE(plane_models_are_refused_where_the_face_width_matters) {
   BOOST_TEST_REQUIRE(helical.size() == 1U);
   BOOST_TEST(helical.front().message.find("'pinned'") != std::string::npos, helical.front().message);
   // The planet's lead touches the sun mesh and every ring mesh.
-  const auto lead = test::replaced(paper("accuracy = 0.01", "rung = \"closed_form\""), "bore_diameter_mm = 172",
+  const auto lead = test::replaced(paper("accuracy = 0.01", "model = \"closed_form\""), "bore_diameter_mm = 172",
                                    "bore_diameter_mm = 172\nlead_crowning_um = 5");
   const auto problems = problems_of(lead);
   BOOST_TEST_REQUIRE(problems.size() == 4U);
   for (const auto& p : problems) BOOST_TEST(p.message.find("lead of the planet") != std::string::npos, p.message);
-  const auto misaligned = problems_of(test::replaced(paper("accuracy = 0.01", "rung = \"plane\""), "[errors]",
+  const auto misaligned = problems_of(test::replaced(paper("accuracy = 0.01", "model = \"plane\""), "[errors]",
                                                      "[errors]\nsun_planet_misalignment_um = 5"));
   BOOST_TEST_REQUIRE(misaligned.size() == 2U);  // the sun mesh, and the cantilever as ever
   BOOST_TEST(misaligned.front().message.find("misaligned") != std::string::npos, misaligned.front().message);

@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(inputs_of_the_bodies_solve_tables_of_their_own) {
   text = test::replaced(text, "teeth = 55\n", "teeth = 55\nbore_diameter_mm = 172\n");
   text =
       test::replaced(text, "structure = \"traditional\"", "structure = \"pinned\"\npins = 27\npin_diameter_mm = 15.5");
-  text = test::replaced(text, "title = \"Quick\"", "title = \"Quick\"\nrung = \"closed_form\"");
+  text = test::replaced(text, "title = \"Quick\"", "title = \"Quick\"\nmodel = \"closed_form\"");
   text = test::replaced(text, "mesh_cycles = 20", "mesh_cycles = 6");
   const auto result = run_text(text +
                                    "[[sweep]]\ninput = \"ring.pins\"\nvalues = [27, 18]\n"

@@ -20,7 +20,7 @@ namespace annulus {
 namespace {
 
 app::TradePoint made_up(const std::string& settings, double wall, double error) {
-  app::TradePoint p{.rung = "plane", .settings = settings};
+  app::TradePoint p{.fidelity = "plane", .settings = settings};
   p.cost = {wall, wall, 100};
   p.values = {{1e9, error / 2, error}, {2e9, error, 2 * error}, {std::nan(""), std::nan(""), std::nan("")}};
   return p;
@@ -37,7 +37,7 @@ app::VariantTrade made_up_ring() {
   // Dearer than its equals, and no competitor of the fixed settings; its range of the transmission error is no promise.
   auto planned = made_up("for 1 %", 2, 0);
   planned.planned_for = 0.01;
-  planned.rung = "planned";
+  planned.fidelity = "planned";
   planned.values.assign(app::trade_figures(app::StageKind::planetary).size(),
                         {std::nan(""), std::nan(""), std::nan("")});
   planned.values[0] = {1e9, 0.007, 0.01};
@@ -148,11 +148,11 @@ BOOST_AUTO_TEST_CASE(the_front_and_the_cheapest) {
 BOOST_AUTO_TEST_CASE(a_ring_on_which_everything_fails_is_reported) {
   app::VariantTrade ring{.name = "held", .points = {}};
   for (const char* name : {"a", "finest"}) {
-    app::TradePoint p{.rung = "solid", .settings = name, .finest = std::string(name) == "finest"};
+    app::TradePoint p{.fidelity = "solid", .settings = name, .finest = std::string(name) == "finest"};
     p.failure = "the rim is too thin";
     ring.points.push_back(p);
   }
-  ring.points.push_back({.rung = "planned", .settings = "for 1 %", .planned_for = 0.01, .failure = "refused"});
+  ring.points.push_back({.fidelity = "planned", .settings = "for 1 %", .planned_for = 0.01, .failure = "refused"});
   const app::TradeOff trade{
       .scene = app::parse_scene(test::quick_scene(), "scene.toml"), .variants = {ring}, .total_seconds = 1};
   BOOST_TEST(app::trade_text(trade).find("refused") != std::string::npos);
@@ -190,12 +190,12 @@ BOOST_AUTO_TEST_CASE(errors_fall_toward_the_finest_and_measurements_are_kept, *i
   app::TradeLists lists;
   lists.mesh = [](const app::MeshModel&, bool needs_solid) {
     BOOST_TEST(!needs_solid);
-    using fem::Rung;
+    using fem::Fidelity;
     return std::vector<app::MeshSetting>{
-        {.rung = Rung::closed_form, .phases = 16, .loads = 1},
-        {.rung = Rung::plane, .degree = 1, .level = 1, .phases = 16, .loads = 1},
-        {.rung = Rung::plane, .degree = 1, .level = 3, .phases = 16, .loads = 1},
-        {.rung = Rung::plane, .degree = 2, .level = 2, .phases = 16, .loads = 1, .finest = true}};
+        {.fidelity = Fidelity::closed_form, .phases = 16, .loads = 1},
+        {.fidelity = Fidelity::plane, .degree = 1, .level = 1, .phases = 16, .loads = 1},
+        {.fidelity = Fidelity::plane, .degree = 1, .level = 3, .phases = 16, .loads = 1},
+        {.fidelity = Fidelity::plane, .degree = 2, .level = 2, .phases = 16, .loads = 1, .finest = true}};
   };
   const auto trade = app::measure_tradeoff(scene, options, lists);
   BOOST_TEST_REQUIRE(trade.variants.size() == 1U);
@@ -274,10 +274,10 @@ BOOST_AUTO_TEST_CASE(a_pair_is_traded_too, *in_a_process_of_its_own) {
   lists.accuracies = {0.1};
   lists.motions = false;
   lists.mesh = [](const app::MeshModel&, bool needs_solid) {
-    const auto rung = needs_solid ? fem::Rung::solid : fem::Rung::plane;
+    const auto fidelity = needs_solid ? fem::Fidelity::solid : fem::Fidelity::plane;
     return std::vector<app::MeshSetting>{
-        {.rung = rung, .degree = 1, .level = 1, .phases = 8, .loads = 1},
-        {.rung = rung, .degree = 2, .level = 1, .phases = 8, .loads = 1, .finest = true}};
+        {.fidelity = fidelity, .degree = 1, .level = 1, .phases = 8, .loads = 1},
+        {.fidelity = fidelity, .degree = 2, .level = 1, .phases = 8, .loads = 1, .finest = true}};
   };
   const auto solved = app::measure_tradeoff(app::parse_scene(test::solved_pair(), "s.toml"),
                                             {.out = folder.path() / "solved", .threads = 1}, lists);

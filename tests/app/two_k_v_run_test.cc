@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(first_frequency_and_its_estimate) {
   BOOST_TEST(std::abs(inertias + 0.5) <= 1e-9);
   BOOST_TEST(v.inputs[0].key == "stage.module_mm");
   BOOST_TEST(v.inputs[1].key == "input.inertia_kg_m2");
-  // One freedom: f1 ~ J^s nearly, so that the band follows from the sensitivity to second order.
+  // One DOF: f1 ~ J^s nearly, so that the band follows from the sensitivity to second order.
   const auto& inertia = v.inputs[1];
   BOOST_REQUIRE((inertia.band.low && inertia.band.high));
   BOOST_TEST(std::abs(*inertia.band.low / std::pow(1.05, 1 / inertia.sensitivity) - 1) <= 0.02);
@@ -167,8 +167,8 @@ BOOST_AUTO_TEST_CASE(plan_and_scenes_without_dynamics) {
   const auto scene = app::parse_scene(moving_scene(), "reducer.toml");
   const auto plan = app::make_two_k_v_plan(scene);
   BOOST_TEST(plan.meshes.size() == 2U);
-  BOOST_TEST(plan.meshes[1].rung == "line_contact");
-  BOOST_TEST(plan.freedoms.size() == 8U);
+  BOOST_TEST(plan.meshes[1].fidelity == "line_contact");
+  BOOST_TEST(plan.dofs.size() == 8U);
   BOOST_TEST(app::plan_scene(scene, true).find("\"ratio\": 103") != std::string::npos);
   const test::TemporaryFolder folder("reducer_solve");
   auto text = test::reducer_scene();
@@ -178,13 +178,13 @@ BOOST_AUTO_TEST_CASE(plan_and_scenes_without_dynamics) {
   BOOST_TEST(read_file(folder.path() / "report.html").find("id=\"meshes\"") != std::string::npos);
 }
 
-// The involute pair by finite elements, closed-form rung: of the order of ISO 6336's 14 to 20 N/(mm µm).
+// The involute pair by finite elements, closed-form model: of the order of ISO 6336's 14 to 20 N/(mm µm).
 BOOST_AUTO_TEST_CASE(sun_mesh_from_the_pipeline) {
   const test::TemporaryFolder folder("reducer_pipeline");
   auto text = test::replaced(test::reducer_scene(), "stiffness = \"constant\"\nmean_N_per_m = 1.4e8",
                              "stiffness = \"computed\"");
   text = test::replaced(text, "[planet]", "bore_diameter_mm = 4\n[planet]\nbore_diameter_mm = 14");
-  text = test::replaced(text, "title = \"Reducer\"\n", "title = \"Reducer\"\nrung = \"closed_form\"\n");
+  text = test::replaced(text, "title = \"Reducer\"\n", "title = \"Reducer\"\nmodel = \"closed_form\"\n");
   const auto result = run_reducer(text, folder.path());
   const double per_width = result.own.tables.sun.mean_stiffness().value / 10e-3;
   BOOST_TEST(per_width > 8e9);

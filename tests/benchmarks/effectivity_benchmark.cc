@@ -26,7 +26,7 @@ constexpr double least_effectivity = 0.3, largest_effectivity = 5;
 struct Case {
   std::string name;
   fem::RingStructure structure;
-  fem::Rung rung = fem::Rung::plane;
+  fem::Fidelity fidelity = fem::Fidelity::plane;
   int phases = 16;
   std::vector<int> levels;  ///< 0: as many as 0.15 % takes, which then measure how fast their differences shrink
   int reference_level = 0, reference_degree = 2;
@@ -44,7 +44,7 @@ fem::LoadedMeshResult solve(const Case& c, int level, int degree) {
   problem.loads = {load};
   problem.phases = c.phases;
   fem::LoadedMeshSettings settings;
-  settings.rung = c.rung;
+  settings.fidelity = c.fidelity;
   if (level > 0) settings.level = level;
   settings.accuracy = 1.5e-3;
   settings.degree = degree;
@@ -101,10 +101,11 @@ int main(int argc, char** argv) {
   app.add_flag("--finer", finer, "finer references and more positions: a quarter of an hour");
   CLI11_PARSE(app, argc, argv);
   // The levels the program uses.
-  const Case traditional{"traditional, plane", fem::OutsideHeld{}, fem::Rung::plane, 16, {1, 2, 0}, finer ? 6 : 4, 2};
-  const Case pinned{"24 pins, plane", pins(24), fem::Rung::plane, finer ? 16 : 4, {1, 2, 0}, finer ? 5 : 4, 2};
+  const Case traditional{
+      "traditional, plane", fem::OutsideHeld{}, fem::Fidelity::plane, 16, {1, 2, 0}, finer ? 6 : 4, 2};
+  const Case pinned{"24 pins, plane", pins(24), fem::Fidelity::plane, finer ? 16 : 4, {1, 2, 0}, finer ? 5 : 4, 2};
   const Case thin_walled{
-      "thin-walled, solid", fem::EndFaceHeld{18e-3, 10.6e-3}, fem::Rung::solid, 4, {1}, finer ? 2 : 1, 3};
+      "thin-walled, solid", fem::EndFaceHeld{18e-3, 10.6e-3}, fem::Fidelity::solid, 4, {1}, finer ? 2 : 1, 3};
   bool good = true;
   for (const Case& c : {traditional, pinned, thin_walled}) good = measure(c) && good;
   return good ? EXIT_SUCCESS : EXIT_FAILURE;

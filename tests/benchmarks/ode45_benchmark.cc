@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "benchmarks/stopwatch.h"
-#include "dynamics/integrate.h"
 #include "dynamics/stages.h"
-#include "dynamics/static_solver.h"
+#include "dynamics/statics/static_solver.h"
+#include "dynamics/time_integration/integrate.h"
 
 namespace {
 
@@ -82,7 +82,7 @@ std::string stiffness_expression(fmt::ostream& out, const LumpedSystem& system) 
 void write_script(const LumpedSystem& system, const SystemState& start, double end, double tolerance,
                   double absolute_tolerance, const std::filesystem::path& file, const std::filesystem::path& result) {
   auto out = fmt::output_file(file.string());
-  const int n = system.freedoms();
+  const int n = system.dofs();
   const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
   const Eigen::LLT<Eigen::MatrixXd> mass(system.mass());
   const Eigen::MatrixXd b = system.mesh_vectors();
@@ -155,7 +155,7 @@ Peer run_ode45(const LumpedSystem& system, const SystemState& start, double end,
   Peer peer;
   if (std::system(command.c_str()) != 0) return peer;
   std::ifstream in(result);
-  peer.state.resize(2 * system.freedoms());
+  peer.state.resize(2 * system.dofs());
   in >> peer.seconds >> peer.steps;
   for (double& value : peer.state) in >> value;
   if (!in) peer.seconds = 0;
@@ -201,7 +201,7 @@ int compare(const PlanetaryStage& stage, const std::string& stiffness, const Opt
   auto workspace = system.workspace();
   StaticSolver solver(system);
   start.q = solver.solve(0, workspace);
-  start.v = Eigen::VectorXd::Zero(system.freedoms());
+  start.v = Eigen::VectorXd::Zero(system.dofs());
 
   const Peer peer = run_ode45(system, start, end, options, absolute);
   if (peer.seconds == 0) {
@@ -209,10 +209,10 @@ int compare(const PlanetaryStage& stage, const std::string& stiffness, const Opt
     return 1;
   }
   const auto exact = advance(system, start, end, 1e-12, 1e-6 * absolute);
-  Eigen::VectorXd reference(2 * system.freedoms());
+  Eigen::VectorXd reference(2 * system.dofs());
   reference << exact.q, exact.v;
   const auto ours = advance(system, start, end, options.tolerance, absolute);
-  Eigen::VectorXd state(2 * system.freedoms());
+  Eigen::VectorXd state(2 * system.dofs());
   state << ours.q, ours.v;
   const double our_error = error_of(state, reference, deflection);
   const double peer_error = error_of(peer.state, reference, deflection);
@@ -222,8 +222,8 @@ int compare(const PlanetaryStage& stage, const std::string& stiffness, const Opt
   (void)advance(system, start, options.cycles * cycle, options.tolerance, absolute, &statistics);
   const double seconds = watch.cpu();
   const double per_cycle = seconds / options.cycles, peer_per_cycle = peer.seconds / options.ode45_cycles;
-  fmt::print("\nring paper's stage, {} freedoms, {} meshes, {} stiffness, relative tolerance {:g}\n", system.freedoms(),
-             system.meshes().size(), stiffness, options.tolerance);
+  fmt::print("\nring paper's stage, {} degrees of freedom, {} meshes, {} stiffness, relative tolerance {:g}\n",
+             system.dofs(), system.meshes().size(), stiffness, options.tolerance);
   fmt::print("                                     annulus      ode45\n");
   fmt::print("processor time per mesh cycle, ms  {:9.4f}  {:9.1f}   ratio {:.0f}\n", 1e3 * per_cycle,
              1e3 * peer_per_cycle, peer_per_cycle / per_cycle);

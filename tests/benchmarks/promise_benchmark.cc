@@ -23,34 +23,34 @@ namespace annulus::benchmark {
 namespace {
 
 using app::MeshSetting;
-using fem::Rung;
+using fem::Fidelity;
 
 constexpr double accuracies[] = {0.1, 0.03, 0.01, 0.003};
 
 /// The fixed settings among which the cheapest is looked for, and the truth.
 std::vector<MeshSetting> settings(const app::MeshModel& planned, bool needs_solid) {
   std::vector<MeshSetting> list;
-  const auto add = [&](Rung rung, int degree, int level, int phases, std::vector<int> loads) {
+  const auto add = [&](Fidelity fidelity, int degree, int level, int phases, std::vector<int> loads) {
     for (const int count : loads)
-      list.push_back({.rung = rung, .degree = degree, .level = level, .phases = phases, .loads = count});
+      list.push_back({.fidelity = fidelity, .degree = degree, .level = level, .phases = phases, .loads = count});
   };
   if (needs_solid) {
     for (const int phases : {32, 64}) {
-      add(Rung::solid, 1, 1, phases, {1, 3});
-      add(Rung::solid, 2, 1, phases, {1, 3});
+      add(Fidelity::solid, 1, 1, phases, {1, 3});
+      add(Fidelity::solid, 2, 1, phases, {1, 3});
     }
-    list.push_back({.rung = Rung::solid, .degree = 2, .level = 2, .phases = 64, .loads = 3, .finest = true});
+    list.push_back({.fidelity = Fidelity::solid, .degree = 2, .level = 2, .phases = 64, .loads = 3, .finest = true});
     return list;
   }
   for (const int phases : {16, 32, 64}) {
-    add(Rung::closed_form, 2, 1, phases, {1, 3});
-    add(Rung::plane, 1, 1, phases, {1, 3});
+    add(Fidelity::closed_form, 2, 1, phases, {1, 3});
+    add(Fidelity::plane, 1, 1, phases, {1, 3});
     if (phases == 16) continue;
-    add(Rung::plane, 1, 2, phases, {3});
-    add(Rung::plane, 2, 1, phases, {3});
-    if (phases > 32) add(Rung::plane, 2, 2, phases, {3});
+    add(Fidelity::plane, 1, 2, phases, {3});
+    add(Fidelity::plane, 2, 1, phases, {3});
+    if (phases > 32) add(Fidelity::plane, 2, 2, phases, {3});
   }
-  list.push_back({.rung = Rung::plane,
+  list.push_back({.fidelity = Fidelity::plane,
                   .degree = 3,
                   .level = 3,
                   .phases = std::max(128, 2 * planned.problem->phases),
@@ -120,7 +120,8 @@ double run_time(const app::Scene& scene, const std::filesystem::path& folder, co
 void print_points(const std::string& scene, const app::VariantTrade& ring) {
   for (const auto& p : ring.points) {
     if (p.part != app::TradePart::mesh) continue;
-    fmt::print("{:12} {:12} {:40} {:7.2f} s {:.5f} |", scene, p.rung, p.settings, p.cost.processor, p.promised_error());
+    fmt::print("{:12} {:12} {:40} {:7.2f} s {:.5f} |", scene, p.fidelity, p.settings, p.cost.processor,
+               p.promised_error());
     for (const auto& v : p.values) fmt::print(" {:.1e} ({:.1e})", v.error, v.error_estimate);
     fmt::print(" {}\n", p.failure);
   }
@@ -137,11 +138,11 @@ void print_row(const Row& row) {
     text += fmt::format("  tables {:6.2f} s  run {:6.2f} s", row.planned->cost.processor, row.planned_run);
   if (row.cheapest)
     text += fmt::format("  cheapest {:6.2f} s {:6.2f} s ({}, {})  ratio {:5.2f} {:5.2f}", row.cheapest->cost.processor,
-                        row.cheapest_run, row.cheapest->rung, row.cheapest->settings,
+                        row.cheapest_run, row.cheapest->fidelity, row.cheapest->settings,
                         row.planned->cost.processor / row.cheapest->cost.processor, row.planned_run / row.cheapest_run);
   if (row.known && row.known != row.cheapest)
     text += fmt::format("; that says so {:6.2f} s {:6.2f} s ({}, {})  ratio {:5.2f} {:5.2f}", row.known->cost.processor,
-                        row.known_run, row.known->rung, row.known->settings,
+                        row.known_run, row.known->fidelity, row.known->settings,
                         row.planned->cost.processor / row.known->cost.processor, row.planned_run / row.known_run);
   fmt::print("{}\n", text);
 }

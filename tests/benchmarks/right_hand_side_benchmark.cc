@@ -1,4 +1,4 @@
-// Nanoseconds of one right-hand side of the stage of the ring paper (24 freedoms, 10 meshes), and the same equations
+// Nanoseconds of one right-hand side of the stage of the ring paper (24 DOFs, 10 meshes), and the same equations
 // with dense matrices of Eigen as the peer.
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/lumped_system.h"
+#include "dynamics/system/lumped_system.h"
 #include "tests/dynamics/stages.h"
 #include "tests/dynamics/tables.h"
 
@@ -54,7 +54,7 @@ class DensePeer {
         force_(b_.cols()),
         closing_(b_.cols()),
         closing_rate_(b_.cols()),
-        right_(system.freedoms()) {}
+        right_(system.dofs()) {}
   void operator()(double t, const Eigen::VectorXd& y, Eigen::VectorXd& dy, LumpedSystem::Workspace& w) {
     const auto n = right_.size();
     const auto q = y.head(n), v = y.tail(n);
@@ -111,14 +111,14 @@ int main(int argc, char** argv) {
       {"law, coupled", table_stiffness(sun, load, 0, LoadDependence::table),
        table_stiffness(ring, load, 0, LoadDependence::table), coupled_ring(stage.planets(), stage.ring_teeth)},
   };
-  fmt::print("{:<14} {:>8} {:>12} {:>12} {:>8}\n", "mesh", "freedoms", "ns", "dense, ns", "ratio");
+  fmt::print("{:<14} {:>8} {:>12} {:>12} {:>8}\n", "mesh", "degrees_of_freedom", "ns", "dense, ns", "ratio");
   bool right = true;
   for (const auto& c : cases) {
     stage.sun_mesh = c.sun;
     stage.ring_mesh = c.ring;
     stage.ring_coupling = c.coupling;
     const auto system = assemble(stage);
-    const int n = system.freedoms();
+    const int n = system.dofs();
     auto w = system.workspace();
     // Meshes closed by the nominal deflection and a little different from each other, so that all carry.
     Eigen::VectorXd y = Eigen::VectorXd::Zero(2 * n), dy(2 * n), expected(2 * n);

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "benchmarks/stopwatch.h"
-#include "dynamics/response.h"
-#include "dynamics/sampling.h"
 #include "dynamics/stages.h"
-#include "dynamics/study_point.h"
+#include "dynamics/statistics/sampling.h"
+#include "dynamics/systems/planetary/response.h"
+#include "dynamics/systems/planetary/study_point.h"
 #include "dynamics/tables.h"
 
 namespace {

@@ -10,13 +10,13 @@
 
 #include "benchmarks/stopwatch.h"
 #include "core/units.h"
-#include "dynamics/manufacturing_error.h"
-#include "dynamics/pair_response.h"
 #include "dynamics/pairs.h"
-#include "dynamics/response.h"
 #include "dynamics/stages.h"
-#include "dynamics/study_point.h"
-#include "dynamics/two_k_v_modes.h"
+#include "dynamics/systems/helical_pair/manufacturing_error.h"
+#include "dynamics/systems/helical_pair/pair_response.h"
+#include "dynamics/systems/planetary/response.h"
+#include "dynamics/systems/planetary/study_point.h"
+#include "dynamics/systems/two_k_v/two_k_v_modes.h"
 #include "dynamics/two_k_v_stages.h"
 
 namespace {

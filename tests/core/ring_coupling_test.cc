@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(round_trip_keeps_every_bit) {
   for (const auto& [planets, teeth, positions, per_cycle, modes] :
        {std::tuple{1, 3, 1, 1, 0}, {5, 162, 27, 1, 3}, {3, 12, 1, 4, 1}, {4, 12, 6, 2, 5}}) {
     auto coupling = sample(planets, teeth, positions, per_cycle, modes);
-    coupling.provenance = {{"annulus_version", "0"}, {"rung", "plane"}};
+    coupling.provenance = {{"annulus_version", "0"}, {"model", "plane"}};
     const auto read = written_and_read(coupling);
     BOOST_TEST(read.planets == planets);
     BOOST_TEST(read.ring_teeth == teeth);

@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(round_trip_for_every_shape_of_table) {
     std::vector<double> forces;
     for (int i = 0; i < loads; ++i) forces.push_back(1e4 * (i + 1) / 3);
     auto table = sample(phases, positions, forces);
-    table.provenance = {{"annulus_version", "0"}, {"rung", "plane"}};
+    table.provenance = {{"annulus_version", "0"}, {"model", "plane"}};
     table.write_csv(file);
     const auto read = StiffnessTable::read_csv(file);
     BOOST_TEST(read.mesh() == table.mesh());

@@ -1,11 +1,11 @@
-#include "dynamics/arc_tooth.h"
+#include "dynamics/systems/two_k_v/arc_tooth.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "core/errors.h"
-#include "dynamics/mesh_excitation.h"
+#include "dynamics/system/mesh_excitation.h"
 #include "tests/dynamics/two_k_v_stages.h"
 #include "tests/verification_record.h"
 

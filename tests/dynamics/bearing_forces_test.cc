@@ -1,11 +1,11 @@
-#include "dynamics/bearing_forces.h"
+#include "dynamics/systems/planetary/bearing_forces.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "core/errors.h"
-#include "dynamics/orbit.h"
+#include "dynamics/systems/planetary/orbit.h"
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
 
@@ -24,10 +24,10 @@ TimeSeries steady_series(const PlanetaryStage& stage, int samples_per_cycle) {
   return std::move(response.series);
 }
 
-Eigen::RowVectorXd row(const TimeSeries& series, const Eigen::MatrixXd& values, const std::string& freedom) {
-  const auto found = std::find(series.freedoms.begin(), series.freedoms.end(), freedom);
-  BOOST_REQUIRE(found != series.freedoms.end());
-  return values.row(found - series.freedoms.begin());
+Eigen::RowVectorXd row(const TimeSeries& series, const Eigen::MatrixXd& values, const std::string& dof) {
+  const auto found = std::find(series.dofs.begin(), series.dofs.end(), dof);
+  BOOST_REQUIRE(found != series.dofs.end());
+  return values.row(found - series.dofs.begin());
 }
 
 /// Fourth-order difference of a velocity; its first and last two values are left zero.
@@ -199,7 +199,7 @@ BOOST_AUTO_TEST_CASE(orbit_of_a_circle) {
   annulus::test::Verification record("Orbit of a circle about a point off the axis", "closed form");
   auto stage = stages::ring_paper();
   TimeSeries series;
-  series.freedoms = {"sun_x", "sun_y"};
+  series.dofs = {"sun_x", "sun_y"};
   const int samples = 360;
   series.time.resize(samples);
   series.displacement.resize(2, samples);

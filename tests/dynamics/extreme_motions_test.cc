@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "core/errors.h"
-#include "dynamics/integrate.h"
-#include "dynamics/integrator_choice.h"
-#include "dynamics/marching_cost.h"
-#include "dynamics/modes.h"
-#include "dynamics/response.h"
-#include "dynamics/static_solver.h"
+#include "dynamics/statics/static_solver.h"
+#include "dynamics/steady_state/marching_cost.h"
+#include "dynamics/systems/planetary/planetary_modes.h"
+#include "dynamics/systems/planetary/response.h"
+#include "dynamics/time_integration/integrate.h"
+#include "dynamics/time_integration/integrator_choice.h"
 #include "tests/dynamics/stages.h"
 
 BOOST_AUTO_TEST_SUITE(extreme_motions)
@@ -32,8 +32,8 @@ PlanetaryStage with_supports(double k) {
   return stage;
 }
 
-// What is left of a freedom under 1e15 N/m moves by (meshes / support) of what meshes do: 5 x 1.9e9 / 1e15 at most.
-BOOST_AUTO_TEST_CASE(stiff_supports_tend_to_dropped_freedoms) {
+// What is left of a DOF under 1e15 N/m moves by (meshes / support) of what meshes do: 5 x 1.9e9 / 1e15 at most.
+BOOST_AUTO_TEST_CASE(stiff_supports_tend_to_dropped_dofs) {
   const auto held = all_frequencies(with_supports(rigid));
   for (const double k : {1e13, 1e14, 1e15}) {
     const auto stiff = all_frequencies(with_supports(k));
@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(stiff_supports_tend_to_dropped_freedoms) {
 // Two masses of 1 kg, one on 1 N/m, the other on it by 1e15 N/m: sqrt(1/2) and sqrt(2e15) rad/s.
 BOOST_AUTO_TEST_CASE(soft_supports_are_kept_beside_stiff_ones) {
   LumpedSystemBuilder builder;
-  const auto one = builder.add_freedom("one"), other = builder.add_freedom("other");
+  const auto one = builder.add_dof("one"), other = builder.add_dof("other");
   builder.add_mass(one, 1);
   builder.add_mass(other, 1);
   builder.add_spring(one, 1, 0);
@@ -136,7 +136,7 @@ LumpedSystem million_cycle_system(double mass, double damping, double ripple) {
   LumpedSystemBuilder builder;
   MeshElement mesh;
   mesh.name = "m";
-  mesh.b = builder.add_freedom("x");
+  mesh.b = builder.add_dof("x");
   mesh.excitation = ripple > 0 ? MeshExcitation(HarmonicStiffness{1e8, ripple, 0}) : ConstantStiffness{1e8};
   mesh.frequency = 700;
   mesh.damping = damping;

@@ -1,4 +1,5 @@
-#include "dynamics/figures.h"
+#include "dynamics/figures/spectrum.h"
+#include "dynamics/systems/planetary/load_sharing.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "dynamics/force_surface.h"
+#include "dynamics/system/force_surface.h"
 #include "core/floating_point.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
 #include "core/errors.h"
-#include "dynamics/mesh_excitation.h"
+#include "dynamics/system/mesh_excitation.h"
 #include "tests/dynamics/tables.h"
 
 BOOST_AUTO_TEST_SUITE(force_surface)

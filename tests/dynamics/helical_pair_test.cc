@@ -1,12 +1,12 @@
-#include "dynamics/helical_pair.h"
+#include "dynamics/systems/helical_pair/helical_pair.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "core/errors.h"
-#include "dynamics/integrate.h"
-#include "dynamics/static_solver.h"
+#include "dynamics/statics/static_solver.h"
+#include "dynamics/time_integration/integrate.h"
 #include "tests/dynamics/pairs.h"
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
@@ -27,7 +27,7 @@ BOOST_AUTO_TEST_CASE(turning_costs_nothing) {
                             "the natural frequency near 1.3 kHz of the paper's pair (docs/helical_pair.md)");
   const auto pair = pairs::error_paper();
   const auto system = assemble(pair);
-  BOOST_REQUIRE(system.freedoms() == 6);
+  BOOST_REQUIRE(system.dofs() == 6);
   const Eigen::MatrixXd k = stiffness_with_meshes(system, Eigen::VectorXd::Constant(1, mean_stiffness(pair.mesh)));
   BOOST_TEST((k - k.transpose()).cwiseAbs().maxCoeff() <= 1e-15 * k.cwiseAbs().maxCoeff());
   Eigen::VectorXd turn = Eigen::VectorXd::Zero(6);

@@ -1,4 +1,4 @@
-#include "dynamics/initial_spread.h"
+#include "dynamics/systems/planetary/initial_spread.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

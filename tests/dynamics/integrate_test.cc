@@ -1,4 +1,4 @@
-#include "dynamics/integrate.h"
+#include "dynamics/time_integration/integrate.h"
 
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -22,7 +22,7 @@ struct Oscillator {
   double mass = 2, stiffness = 5e4, damping = 0;  // 25.2 Hz
   [[nodiscard]] LumpedSystem system() const {
     LumpedSystemBuilder builder;
-    const auto x = builder.add_freedom("x");
+    const auto x = builder.add_dof("x");
     builder.add_mass(x, mass);
     builder.add_spring(x, stiffness, damping);
     return builder.build();
@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(backlash_oscillator_in_closed_form) {
   LumpedSystemBuilder builder;
   MeshElement mesh;
   mesh.name = "m";
-  mesh.b = builder.add_freedom("x");
+  mesh.b = builder.add_dof("x");
   mesh.excitation = ConstantStiffness{5e4};
   mesh.half_backlash = 1e-3;
   builder.add_mass(mesh.b, 2);
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(rectangular_stiffness_in_closed_form) {
   LumpedSystemBuilder builder;
   MeshElement mesh;
   mesh.name = "m";
-  mesh.b = builder.add_freedom("x");
+  mesh.b = builder.add_dof("x");
   mesh.excitation = RectangularStiffness{5e4, 0.6, 0.3, 0};
   mesh.frequency = 70;
   mesh.phase_offset = 0.1;
@@ -178,12 +178,12 @@ BOOST_AUTO_TEST_CASE(samples_lie_on_the_solution) {
   }
 }
 
-/// A stage without loss and load in which every freedom moves.
+/// A stage without loss and load in which every DOF moves.
 SystemState shaken(const LumpedSystem& system) {
   SystemState state;
-  state.q.setZero(system.freedoms());
-  state.v.resize(system.freedoms());
-  for (int i = 0; i < system.freedoms(); ++i) state.v[i] = 0.1 * std::sin(1.0 + 7.0 * i);
+  state.q.setZero(system.dofs());
+  state.v.resize(system.dofs());
+  for (int i = 0; i < system.dofs(); ++i) state.v[i] = 0.1 * std::sin(1.0 + 7.0 * i);
   return state;
 }
 
@@ -203,7 +203,7 @@ BOOST_AUTO_TEST_CASE(undamped_unforced_energy_is_constant) {
     for (const auto method : {Integrator::arkode_explicit, Integrator::cvode_adams}) {
       auto workspace = system.workspace();
       auto state = shaken(system);
-      Eigen::VectorXd y(2 * system.freedoms());
+      Eigen::VectorXd y(2 * system.dofs());
       y << state.q, state.v;
       system.detect_contact(0, y.data(), workspace);
       const double before = system.energy(0, y.data(), workspace);
@@ -212,7 +212,7 @@ BOOST_AUTO_TEST_CASE(undamped_unforced_energy_is_constant) {
       y << state.q, state.v;
       const double after = system.energy(state.time, y.data(), workspace);
       BOOST_TEST(statistics.contact_events > 10);
-      // Each step errs by at most about the tolerance in every freedom; energy is quadratic: 2 x steps x tolerance.
+      // Each step errs by at most about the tolerance in every DOF; energy is quadratic: 2 x steps x tolerance.
       record.near(speed > 0 ? "energy, carrier at 300 rad/s" : "energy, carrier at rest", "J", after, before,
                   2 * tolerance * static_cast<double>(statistics.steps) * before,
                   "2 x steps x tolerance of the integrator");
@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(energy_bookkeeping_closes_with_everything_acting) {
   for (const auto method : adaptive) {
     auto workspace = system.workspace();
     auto state = shaken(system);
-    Eigen::VectorXd y(2 * system.freedoms());
+    Eigen::VectorXd y(2 * system.dofs());
     y << state.q, state.v;
     system.hold_waves(1e-9, workspace);
     system.detect_contact(0, y.data(), workspace);
@@ -274,7 +274,7 @@ BOOST_AUTO_TEST_CASE(all_integrators_agree_on_a_rattling_stage) {
   // Deflections are some 1e-5 m; contact events amplify the integrators' 1e-9 differences by less than a thousand in
   // three mesh cycles.
   for (const auto& end : ends)
-    record.at_most("largest difference of a freedom after three mesh cycles", "m",
+    record.at_most("largest difference of a degree of freedom after three mesh cycles", "m",
                    (end - ends[0]).cwiseAbs().maxCoeff(), 1e-11,
                    "tolerance 1e-9 of 1e-5 m, amplified up to a thousand times by contact events");
 }
@@ -290,7 +290,7 @@ BOOST_AUTO_TEST_CASE(forced_response_agrees_with_the_frequency_domain) {
   stage.ring_mesh = ConstantStiffness{1.87e9};
   stage.carrier_speed = 200;  // errors at 589 rad/s, near the sun on its support; rotating terms of some per cent
   const auto system = assemble(stage);
-  const int n = system.freedoms();
+  const int n = system.dofs();
   const double w = 200.0 * 162 / 55;
 
   Eigen::MatrixXd stiffness = system.stiffness() + system.rotating_stiffness();
@@ -361,7 +361,7 @@ BOOST_AUTO_TEST_CASE(the_turning_frame_changes_nothing_physical) {
                                      "closed form: damped free vibration, turned back");
   const double mass = 2, stiffness = 5e4, damping = 40, speed = 90, t = 0.15;
   LumpedSystemBuilder builder;
-  const auto x = builder.add_freedom("x"), y = builder.add_freedom("y");
+  const auto x = builder.add_dof("x"), y = builder.add_dof("y");
   builder.add_rotating_mass(x, y, mass, speed);
   for (const auto& direction : {x, y}) builder.add_spring(direction, stiffness, damping);
   builder.add_housing_damper_rotation(x, y, damping, speed);

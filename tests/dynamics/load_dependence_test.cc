@@ -2,10 +2,10 @@
 #include <cmath>
 #include <random>
 
-#include "dynamics/figures.h"
-#include "dynamics/integrate.h"
-#include "dynamics/modes.h"
-#include "dynamics/static_solver.h"
+#include "dynamics/statics/static_solver.h"
+#include "dynamics/systems/planetary/load_sharing.h"
+#include "dynamics/systems/planetary/planetary_modes.h"
+#include "dynamics/time_integration/integrate.h"
 #include "tests/dynamics/stages.h"
 #include "tests/dynamics/tables.h"
 #include "tests/verification_record.h"
@@ -22,7 +22,7 @@ LumpedSystem one_mesh(const MeshExcitation& excitation, double frequency, double
   LumpedSystemBuilder builder;
   MeshElement mesh;
   mesh.name = "m";
-  mesh.b = builder.add_freedom("u");
+  mesh.b = builder.add_dof("u");
   mesh.excitation = excitation;
   mesh.frequency = frequency;
   mesh.damping = damping;
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(jacobian_is_the_derivative_of_the_right_hand_side) {
     auto stage = stage_with_law();
     if (!backlash) stage.set_half_backlash({});
     const auto system = assemble(stage);
-    const int n = system.freedoms();
+    const int n = system.dofs();
     Eigen::VectorXd y = stages::random_state(n, 2), up(2 * n), down(2 * n);
     auto workspace = system.workspace();
     const double t = 0.0123, h = 1e-9;
@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(power_is_the_rate_of_energy) {
   annulus::test::Verification record("Power of a stage with load-dependent meshes",
                                      "first law: rate of the energy by central differences");
   const auto system = assemble(stage_with_law());
-  const int n = system.freedoms();
+  const int n = system.dofs();
   const Eigen::VectorXd y = stages::random_state(n, 6);
   Eigen::VectorXd dy(2 * n);
   auto workspace = system.workspace();
@@ -220,7 +220,7 @@ BOOST_AUTO_TEST_CASE(energy_changes_by_what_is_supplied_and_dissipated) {
   annulus::test::Verification record("Energy of a stage with load-dependent meshes",
                                      "first law: change of energy = supplied work - dissipated work");
   const auto system = assemble(stage_with_law());
-  const int n = system.freedoms();
+  const int n = system.dofs();
   auto workspace = system.workspace();
   SystemState state;
   state.q = StaticSolver(system).solve(0, workspace);

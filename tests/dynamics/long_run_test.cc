@@ -5,8 +5,8 @@
 #include <fstream>
 #include <string>
 
-#include "dynamics/integrator_choice.h"
-#include "dynamics/periodic_response.h"
+#include "dynamics/systems/planetary/response.h"
+#include "dynamics/time_integration/integrator_choice.h"
 #include "tests/dynamics/allocation_counter.h"
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
@@ -95,7 +95,7 @@ LumpedSystem small_system() {
   LumpedSystemBuilder builder;
   MeshElement mesh;
   mesh.name = "m";
-  mesh.b = builder.add_freedom("x");
+  mesh.b = builder.add_dof("x");
   mesh.excitation = HarmonicStiffness{5e4, 0.2, 0};
   mesh.frequency = 70;
   mesh.damping = 60;

@@ -1,4 +1,4 @@
-#include "dynamics/lumped_system.h"
+#include "dynamics/system/lumped_system.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -45,9 +45,9 @@ BOOST_AUTO_TEST_CASE(matrices_have_their_symmetry) {
 
 BOOST_AUTO_TEST_CASE(gyroscopic_forces_do_no_work) {
   const auto system = assemble(fast_stage());
-  const auto v = random_vector(system.freedoms(), 1, 1);
+  const auto v = random_vector(system.dofs(), 1, 1);
   const double scale = v.cwiseAbs().dot(system.gyroscopic().cwiseAbs() * v.cwiseAbs());
-  BOOST_TEST(std::abs(v.dot(system.gyroscopic() * v)) <= 1e-15 * scale * system.freedoms());  // rounding of the sum
+  BOOST_TEST(std::abs(v.dot(system.gyroscopic() * v)) <= 1e-15 * scale * system.dofs());  // rounding of the sum
 }
 
 BOOST_AUTO_TEST_CASE(jacobian_is_the_derivative_of_the_right_hand_side) {
@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(jacobian_is_the_derivative_of_the_right_hand_side) {
     auto stage = fast_stage();
     stage.damping_without_contact = always_damped;
     const auto system = assemble(stage);
-    const int n = system.freedoms();
+    const int n = system.dofs();
     // Of the order of the backlash: some meshes drive, some are open, some touch at their backs.
     Eigen::VectorXd y(2 * n), up(2 * n), down(2 * n);
     y << random_vector(n, 6e-5, 2), random_vector(n, 0.1, 3);
@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(jacobian_is_the_derivative_of_the_right_hand_side) {
 
 BOOST_AUTO_TEST_CASE(right_hand_side_is_the_matrix_equation) {
   const auto system = assemble(fast_stage());
-  const int n = system.freedoms();
+  const int n = system.dofs();
   Eigen::VectorXd y(2 * n), dy(2 * n);
   const auto q = random_vector(n, 1e-4, 4), v = random_vector(n, 0.1, 5);
   y << q, v;
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(right_hand_side_is_the_matrix_equation) {
 
 BOOST_AUTO_TEST_CASE(power_is_the_rate_of_energy) {
   const auto system = assemble(fast_stage());
-  const int n = system.freedoms();
+  const int n = system.dofs();
   Eigen::VectorXd y(2 * n), dy(2 * n);
   y << random_vector(n, 1e-4, 6), random_vector(n, 0.1, 7);
   auto workspace = system.workspace();
@@ -135,7 +135,7 @@ BOOST_AUTO_TEST_CASE(the_right_hand_side_does_not_allocate) {
     auto stage = stages::ring_paper();
     stage.ring_mesh = table_stiffness(table, stage.mean_mesh_force(), 0, dependence);
     const auto system = assemble(stage);
-    const int n = system.freedoms();
+    const int n = system.dofs();
     const Eigen::VectorXd y = random_vector(2 * n, 1e-4, 8);
     Eigen::VectorXd dy(2 * n);
     Eigen::MatrixXd jacobian(2 * n, 2 * n);
@@ -153,9 +153,9 @@ BOOST_AUTO_TEST_CASE(the_right_hand_side_does_not_allocate) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_freedom_without_mass_is_refused) {
+BOOST_AUTO_TEST_CASE(a_dof_without_mass_is_refused) {
   LumpedSystemBuilder builder;
-  builder.add_freedom("loose");
+  builder.add_dof("loose");
   BOOST_CHECK_THROW((void)builder.build(), annulus::InputError);
 }
 

@@ -1,4 +1,4 @@
-#include "dynamics/manufacturing_error.h"
+#include "dynamics/systems/helical_pair/manufacturing_error.h"
 
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>

@@ -5,10 +5,10 @@
 #include <random>
 
 #include "core/errors.h"
-#include "dynamics/figures.h"
-#include "dynamics/integrate.h"
-#include "dynamics/modes.h"
-#include "dynamics/static_solver.h"
+#include "dynamics/statics/static_solver.h"
+#include "dynamics/systems/planetary/load_sharing.h"
+#include "dynamics/systems/planetary/planetary_modes.h"
+#include "dynamics/time_integration/integrate.h"
 #include "tests/dynamics/allocation_counter.h"
 #include "tests/dynamics/stages.h"
 #include "tests/dynamics/tables.h"
@@ -29,7 +29,7 @@ LumpedSystem pair_of_meshes(const Eigen::Matrix2d& compliance, std::optional<dou
   for (int i = 0; i < 2; ++i) {
     MeshElement mesh;
     mesh.name = "m" + std::to_string(i);
-    mesh.b = builder.add_freedom("u" + std::to_string(i));
+    mesh.b = builder.add_dof("u" + std::to_string(i));
     mesh.excitation = ConstantStiffness{(i + 1) * 1e9};
     mesh.half_backlash = half_backlash;
     mesh.damping = 100;
@@ -137,8 +137,8 @@ BOOST_AUTO_TEST_CASE(a_coupling_is_an_elastic_network_without_mass) {
   LumpedSystemBuilder builder;
   LinearForm node[2], body[2];
   for (int i = 0; i < 2; ++i) {
-    body[i] = builder.add_freedom("u" + std::to_string(i));
-    node[i] = builder.add_freedom("node" + std::to_string(i));
+    body[i] = builder.add_dof("u" + std::to_string(i));
+    node[i] = builder.add_dof("node" + std::to_string(i));
     builder.add_mass(body[i], 1);
     builder.add_mass(node[i], 1);
     builder.add_load(body[i], load[i]);
@@ -173,8 +173,8 @@ BOOST_AUTO_TEST_CASE(a_coupling_is_an_elastic_network_without_mass) {
 BOOST_AUTO_TEST_CASE(without_compliance_nothing_changes) {
   annulus::test::Verification record("A stage coupled through a ring without compliance", "the stage without coupling");
   const auto coupled = assemble(stage_with(coupling(0, 0))), alone = assemble(stage_with(nullptr));
-  const int n = alone.freedoms();
-  BOOST_REQUIRE(coupled.freedoms() == n);
+  const int n = alone.dofs();
+  BOOST_REQUIRE(coupled.dofs() == n);
   auto w = coupled.workspace(), v = alone.workspace();
   const auto y = stages::random_state(n, 1);
   Eigen::VectorXd a(2 * n), b(2 * n);
@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE(jacobian_and_tangent_matrix_are_derivatives) {
     auto stage = stage_with(coupling(1e-10, modes));
     stage.carrier_speed = 300;  // the carrier turns so fast past the ring that moving vectors matter
     const auto system = assemble(stage);
-    const int n = system.freedoms();
+    const int n = system.dofs();
     BOOST_TEST(system.has_moving_vectors() == (modes > 0));
     Eigen::VectorXd y = stages::random_state(n, 2), up(2 * n), down(2 * n);
     auto w = system.workspace();
@@ -287,7 +287,7 @@ BOOST_AUTO_TEST_CASE(right_hand_side_with_moving_vectors_is_the_matrix_equation)
   annulus::test::Verification record("Right-hand side with elastic modes of the ring",
                                      "the matrix equation with the vectors of its instant");
   const auto system = assemble(stage_with(coupling(1e-10, 3)));
-  const int n = system.freedoms();
+  const int n = system.dofs();
   const auto y = stages::random_state(n, 4);
   Eigen::VectorXd dy(2 * n);
   auto w = system.workspace();
@@ -312,7 +312,7 @@ BOOST_AUTO_TEST_CASE(right_hand_side_with_moving_vectors_is_the_matrix_equation)
                    "rounding over the step");
   }
   const Eigen::VectorXd residual = system.mass() * dy.tail(n) - force;
-  record.at_most("residual over the largest force and the freedoms", "",
+  record.at_most("residual over the largest force and the degrees of freedom", "",
                  residual.cwiseAbs().maxCoeff() / force.cwiseAbs().maxCoeff() / n, 1e-12, "rounding");
 }
 
@@ -321,7 +321,7 @@ BOOST_AUTO_TEST_CASE(power_is_the_rate_of_energy) {
                                      "first law: rate of the energy by central differences");
   for (const int modes : {0, 3}) {
     const auto system = assemble(stage_with(coupling(1e-10, modes)));
-    const int n = system.freedoms();
+    const int n = system.dofs();
     const auto y = stages::random_state(n, 6);
     Eigen::VectorXd dy(2 * n);
     auto w = system.workspace();
@@ -342,7 +342,7 @@ BOOST_AUTO_TEST_CASE(energy_changes_by_what_is_supplied_and_dissipated) {
                                      "first law: change of energy = supplied work - dissipated work");
   for (const int modes : {0, 3}) {
     const auto system = assemble(stage_with(coupling(1e-10, modes)));
-    const int n = system.freedoms();
+    const int n = system.dofs();
     auto w = system.workspace();
     SystemState state;
     state.q = StaticSolver(system).solve(0, w);
@@ -396,7 +396,7 @@ BOOST_AUTO_TEST_CASE(a_ring_in_the_housing_moves_as_in_the_carrier_frame) {
     auto w = system.workspace();
     SystemState state;
     state.q = StaticSolver(system).solve(0, w);
-    state.v = Eigen::VectorXd::Zero(system.freedoms());
+    state.v = Eigen::VectorXd::Zero(system.dofs());
     // At rest in the turning frame at time 0: in the housing the ring then moves with Omega x r.
     const int x = system.find("ring_x"), y = system.find("ring_y");
     if (housing) {
@@ -419,7 +419,7 @@ BOOST_AUTO_TEST_CASE(natural_frequencies_of_a_ring_mode) {
   auto stage = stage_with(coupling(0, 1), false);
   const auto system = assemble(stage);
   const int mode = system.find("ring_mode1"), x = system.find("ring_x");
-  BOOST_REQUIRE(mode == system.freedoms() - 1);
+  BOOST_REQUIRE(mode == system.dofs() - 1);
   BOOST_TEST(system.damping()(mode, mode) == 2 * 0.03 * tau * 1500, boost::test_tools::tolerance(1e-14));
   // Meshes off, the mode coupled by inertia to ring_x alone: (m - t^2) l^2 - (k + w^2 m) l + k w^2 = 0, l = omega^2.
   auto alone = std::make_shared<RingCoupling>(*stage.ring_coupling);
@@ -442,7 +442,7 @@ BOOST_AUTO_TEST_CASE(the_right_hand_side_does_not_allocate) {
   annulus::test::Verification record("Memory taken by the right-hand side of a coupled stage",
                                      "every operator new of the program, counted");
   const auto system = assemble(stage_with(coupling(1e-10, 3)));
-  const int n = system.freedoms();
+  const int n = system.dofs();
   const auto y = stages::random_state(n, 8);
   Eigen::VectorXd dy(2 * n);
   auto w = system.workspace();
@@ -482,7 +482,7 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
   refused([](auto& c) { c.modes[0].rotation = 1e6; });  // more than the whole ring: no positive mass matrix
   LumpedSystemBuilder builder;
   MeshElement mesh;
-  mesh.b = builder.add_freedom("u");
+  mesh.b = builder.add_dof("u");
   mesh.excitation = ConstantStiffness{1e9};
   builder.add_mass(mesh.b, 1);
   builder.add_mesh(mesh);

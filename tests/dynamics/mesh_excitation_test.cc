@@ -1,4 +1,4 @@
-#include "dynamics/mesh_excitation.h"
+#include "dynamics/system/mesh_excitation.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/errors.h"
-#include "dynamics/lumped_system.h"
+#include "dynamics/system/lumped_system.h"
 
 BOOST_AUTO_TEST_SUITE(mesh_excitation)
 
@@ -23,7 +23,7 @@ LumpedSystem single(const MeshExcitation& excitation, double frequency, double p
   LumpedSystemBuilder builder;
   MeshElement mesh;
   mesh.name = "m";
-  mesh.b = builder.add_freedom("u");
+  mesh.b = builder.add_dof("u");
   mesh.excitation = excitation;
   mesh.frequency = frequency;
   mesh.phase_offset = phase_offset;

@@ -1,4 +1,4 @@
-#include "dynamics/modal_energy.h"
+#include "dynamics/systems/planetary/planetary_modes.h"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
@@ -22,9 +22,9 @@ BOOST_AUTO_TEST_CASE(elements_add_up_to_the_stiffness) {
   annulus::test::Verification record("Springs of a stage, one by one", "the assembled stiffness and damping matrices");
   for (const auto& stage : {stages::ring_paper(), stages::lin_parker(3)}) {
     const auto system = assemble(stage);
-    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(system.freedoms(), system.freedoms()), damping = sum;
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(system.dofs(), system.dofs()), damping = sum;
     for (const auto& spring : system.springs()) {
-      Eigen::VectorXd a = Eigen::VectorXd::Zero(system.freedoms());
+      Eigen::VectorXd a = Eigen::VectorXd::Zero(system.dofs());
       for (const auto& [i, factor] : spring.a) a[i] += factor;
       BOOST_TEST(!spring.name.empty());
       sum += spring.stiffness * a * a.transpose();
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(shares_are_sensitivities) {
     const auto above = annulus::dynamics::modes(system, up), below = annulus::dynamics::modes(system, down);
     const auto row = element(energy, system.meshes()[mesh].name);
     for (Eigen::Index i = 1; i < count; ++i) {
-      if (found.modes[i].kind == ModeKind::translational) continue;
+      if (found.kinds[i] == ModeKind::translational) continue;
       const double sensitivity = (std::pow(above.modes[i].frequency, 2) - std::pow(below.modes[i].frequency, 2)) /
                                  (2 * step) / std::pow(found.modes[i].frequency, 2);
       record.near("share of one mesh", "", energy.strain(row, i), sensitivity, 2e-5, "step of 1e-3: 1e-6 x curvature");
@@ -119,9 +119,9 @@ BOOST_AUTO_TEST_CASE(rayleigh_quotient) {
     if (mode.frequency == 0) continue;
     const double quotient = mode.shape.dot(stiffness * mode.shape) / mode.shape.dot(system.mass() * mode.shape);
     const double omega = 2 * std::numbers::pi * mode.frequency;
-    // eps x the largest square over the smallest: (13 kHz / 60 Hz)^2 x 1e-16 x the number of freedoms.
+    // eps x the largest square over the smallest: (13 kHz / 60 Hz)^2 x 1e-16 x the number of DOFs.
     record.near("quotient over w^2", "", quotient / (omega * omega), 1, 1e-9,
-                "eps x (highest over lowest frequency)^2 x freedoms");
+                "eps x (highest over lowest frequency)^2 x degrees of freedom");
   }
 }
 
@@ -135,7 +135,7 @@ BOOST_AUTO_TEST_CASE(coupled_meshes) {
   for (const std::string name : {"a", "b"}) {
     MeshElement mesh;
     mesh.name = name + "_mesh";
-    mesh.b = builder.add_freedom(name + "_x");
+    mesh.b = builder.add_dof(name + "_x");
     mesh.excitation = ConstantStiffness{k};
     builder.add_mass(mesh.b, mass);
     builder.add_mesh(mesh);

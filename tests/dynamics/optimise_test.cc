@@ -1,4 +1,4 @@
-#include "dynamics/optimise.h"
+#include "dynamics/optimisation/optimise.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "core/errors.h"
-#include "dynamics/study_point.h"
+#include "dynamics/systems/planetary/study_point.h"
 #include "stages.h"
 
 using namespace annulus;

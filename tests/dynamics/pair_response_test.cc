@@ -1,4 +1,4 @@
-#include "dynamics/pair_response.h"
+#include "dynamics/systems/helical_pair/pair_response.h"
 
 #include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
@@ -35,7 +35,7 @@ const char* const top = "parabola through the highest of 256 samples: 1e-8";
 
 BOOST_AUTO_TEST_CASE(torsional_pair_follows_its_frequency_response) {
   test::Verification record("Torsional helical pair under its transmission error, four speeds",
-                            "closed form: frequency response of one freedom");
+                            "closed form: frequency response of one degree of freedom");
   auto pair = linear(pairs::held(pairs::error_paper()));
   const double c = std::cos(pair.base_helix_angle), k = mean_stiffness(pair.mesh), m = pair.reduced_mass();
   const double damping = 2 * pair.mesh_damping_ratio * std::sqrt(k * m);
@@ -78,8 +78,8 @@ BOOST_AUTO_TEST_CASE(torsional_pair_follows_its_frequency_response) {
   record.plot({"Dynamic factor", "speed of the pinion, r/min", "", {factor}});
 }
 
-BOOST_AUTO_TEST_CASE(six_freedoms_follow_their_dynamic_stiffness) {
-  test::Verification record("Helical pair on bearings, six freedoms, under its transmission error",
+BOOST_AUTO_TEST_CASE(six_dofs_follow_their_dynamic_stiffness) {
+  test::Verification record("Helical pair on bearings, six degrees of freedom, under its transmission error",
                             "dynamic stiffness matrix, solved directly");
   const auto pair = linear(pairs::error_paper());
   const auto system = assemble(pair);

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "dynamics/helical_pair.h"
+#include "dynamics/systems/helical_pair/helical_pair.h"
 
 /// Pairs the tests share.
 namespace annulus::dynamics::pairs {

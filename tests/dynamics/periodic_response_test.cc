@@ -1,4 +1,4 @@
-#include "dynamics/periodic_response.h"
+#include "dynamics/systems/planetary/response.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "core/errors.h"
-#include "dynamics/frequency_response.h"
-#include "dynamics/integrate.h"
+#include "dynamics/steady_state/frequency_response.h"
+#include "dynamics/time_integration/integrate.h"
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
 
@@ -31,7 +31,7 @@ struct MeshedMass {
   [[nodiscard]] LumpedSystem system() const {
     LumpedSystemBuilder builder;
     MeshElement m = mesh;
-    m.b = builder.add_freedom("x");
+    m.b = builder.add_dof("x");
     builder.add_mass(m.b, 2);
     builder.add_load(m.b, load);
     builder.add_mesh(m);
@@ -54,7 +54,7 @@ struct Marched {
 Marched marched(const LumpedSystem& system, double period, int periods, Eigen::Index samples, double absolute) {
   auto workspace = system.workspace();
   SystemState state;
-  state.q = state.v = Eigen::VectorXd::Zero(system.freedoms());
+  state.q = state.v = Eigen::VectorXd::Zero(system.dofs());
   IntegratorOptions options;
   options.method = Integrator::arkode_explicit;
   options.relative_tolerance = 1e-10;
@@ -62,7 +62,7 @@ Marched marched(const LumpedSystem& system, double period, int periods, Eigen::I
   integrate(system, state, (periods - 1) * period, options, workspace);
   Marched result;
   result.force.resize(static_cast<Eigen::Index>(system.meshes().size()), samples);
-  result.displacement.resize(system.freedoms(), samples);
+  result.displacement.resize(system.dofs(), samples);
   integrate(system, state, periods * period, options, workspace, static_cast<int>(samples),
             [&](int i, const SystemState& s) {
               for (Eigen::Index m = 0; m < result.force.rows(); ++m) result.force(m, i) = workspace.force[m];
@@ -244,7 +244,8 @@ BOOST_AUTO_TEST_CASE(stages_agree_with_marching) {
                    "harmonics above the 16th, 1e4 steps of 1e-9");
     // m; displacements are some 1e-4. A single planet out of balance lets the stage wander around, at no force.
     if (stage.planets() > 1)
-      record.at_most("largest difference of a freedom", "m", drift, 1e-6 * 1e-4, "a millionth of the displacements");
+      record.at_most("largest difference of a degree of freedom", "m", drift, 1e-6 * 1e-4,
+                     "a millionth of the displacements");
   }
 }
 

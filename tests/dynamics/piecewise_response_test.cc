@@ -1,4 +1,4 @@
-#include "dynamics/piecewise_response.h"
+#include "dynamics/systems/planetary/response.h"
 
 #include <Eigen/LU>
 #include <boost/test/unit_test.hpp>
@@ -6,9 +6,9 @@
 #include <complex>
 #include <numbers>
 
-#include "dynamics/integrate.h"
-#include "dynamics/lumped_system.h"
-#include "dynamics/response.h"
+#include "dynamics/system/lumped_system.h"
+#include "dynamics/systems/planetary/response.h"
+#include "dynamics/time_integration/integrate.h"
 #include "stages.h"
 #include "tests/verification_record.h"
 
@@ -22,7 +22,7 @@ constexpr double mass_1 = 0.3, mass_2 = 0.9, mean = 2e8, ripple = 0.8, duty = 0.
 /// Two gears free to turn, a rectangular mesh stiffness between them: one elastic and one rigid motion.
 LumpedSystem gear_pair(double frequency, double damping) {
   LumpedSystemBuilder builder;
-  const auto u = builder.add_freedom("u1"), v = builder.add_freedom("u2");
+  const auto u = builder.add_dof("u1"), v = builder.add_dof("u2");
   builder.add_mass(u, mass_1);
   builder.add_mass(v, mass_2);
   MeshElement mesh;

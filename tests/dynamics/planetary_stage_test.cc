@@ -1,10 +1,10 @@
-#include "dynamics/planetary_stage.h"
+#include "dynamics/systems/planetary/planetary_stage.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
 #include "core/errors.h"
-#include "dynamics/lumped_system.h"
+#include "dynamics/system/lumped_system.h"
 #include "geometry/planetary.h"
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(errors_act_like_displacements_of_their_body) {
       if (kind / 2 == 2) stage.ring.errors = errors;
       if (kind / 2 == 3) stage.carrier.errors = errors;
       const auto system = assemble(stage);
-      Eigen::VectorXd q = Eigen::VectorXd::Zero(system.freedoms());
+      Eigen::VectorXd q = Eigen::VectorXd::Zero(system.dofs());
       const double phi = stage.planet_angles[3];
       // Directions seen from the carrier: the planet turns at -(z_r/z_p) Omega, the sun at (z_r/z_s) Omega, the ring
       // and the housing at -Omega.
@@ -179,7 +179,7 @@ BOOST_AUTO_TEST_CASE(rigid_rotation_costs_nothing_at_any_speed) {
     stage.carrier_speed = speed;
     stage.sun_torque = 0;
     const auto system = assemble(stage);
-    Eigen::VectorXd turn = Eigen::VectorXd::Zero(system.freedoms());
+    Eigen::VectorXd turn = Eigen::VectorXd::Zero(system.dofs());
     const double cs = std::cos(stage.sun_working_angle), cr = std::cos(stage.ring_working_angle);
     turn[system.find("carrier_u")] = 1;
     turn[system.find("sun_u")] = cs + cr;
@@ -239,14 +239,14 @@ BOOST_AUTO_TEST_CASE(supports_and_bearings_are_damped_by_their_ratio) {
   BOOST_TEST(system.rotating_stiffness()(system.find("planet1_x"), system.find("planet1_y")) == 0.0);
 }
 
-BOOST_AUTO_TEST_CASE(rigid_supports_drop_their_freedoms) {
+BOOST_AUTO_TEST_CASE(rigid_supports_drop_their_dofs) {
   auto stage = stages::ring_paper();
-  BOOST_TEST(assemble(stage).freedoms() == 9 + 15);
+  BOOST_TEST(assemble(stage).dofs() == 9 + 15);
   stage.ring.support = stage.ring.torsional_support = rigid;
   BOOST_TEST(assemble(stage).find("ring_x") == -1);
-  BOOST_TEST(assemble(stage).freedoms() == 6 + 15);
+  BOOST_TEST(assemble(stage).dofs() == 6 + 15);
   stage.planet.bearing_radial = stage.planet.bearing_tangential = rigid;
-  BOOST_TEST(assemble(stage).freedoms() == 6 + 5);
+  BOOST_TEST(assemble(stage).dofs() == 6 + 5);
   stage.sun.support = stage.carrier.support = rigid;
   const auto torsional = assemble(stage);
   BOOST_TEST((torsional.names() == std::vector<std::string>{"sun_u", "carrier_u", "planet1_u", "planet2_u", "planet3_u",

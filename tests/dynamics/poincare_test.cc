@@ -1,4 +1,4 @@
-#include "dynamics/poincare.h"
+#include "dynamics/systems/planetary/poincare.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/errors.h"
-#include "dynamics/figures.h"
+#include "dynamics/systems/planetary/load_sharing.h"
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
 

@@ -1,4 +1,4 @@
-#include "dynamics/response.h"
+#include "dynamics/systems/planetary/response.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -254,7 +254,7 @@ BOOST_AUTO_TEST_CASE(table_stiffness_reproduces_the_harmonic_stage) {
 // The second paper's kind of stage: planets ride on the carrier, everything but the sun turns only, stiffness jumps.
 BOOST_AUTO_TEST_CASE(a_mostly_torsional_stage_with_jumping_stiffness) {
   annulus::test::Verification record("A mostly torsional stage with jumping stiffness",
-                                     "balance of energy; freedoms and jumps counted by hand");
+                                     "balance of energy; degrees of freedom and jumps counted by hand");
   auto stage = stages::ring_paper();
   for (double* support : {&stage.ring.support, &stage.ring.torsional_support, &stage.carrier.support,
                           &stage.planet.bearing_radial, &stage.planet.bearing_tangential})
@@ -263,7 +263,7 @@ BOOST_AUTO_TEST_CASE(a_mostly_torsional_stage_with_jumping_stiffness) {
   stage.ring_mesh = RectangularStiffness{5.5e8, 0.25, 0.6, 0};
   stage.planet_errors.clear();
   const auto r = simulate(stage, quick());
-  record.near("freedoms", "", static_cast<double>(r.series.freedoms.size()), 3 + 1 + 5, 0, "counted by hand");
+  record.near("degrees_of_freedom", "", static_cast<double>(r.series.dofs.size()), 3 + 1 + 5, 0, "counted by hand");
   BOOST_TEST(r.steady);
   record.near("mesh cycles of the window", "", r.window_cycles, 20, 0, "the least asked for");
   // Phases of 0.2 cycles, duty 0.6, sun and ring alike: five instants a cycle, less one at the end of each window.

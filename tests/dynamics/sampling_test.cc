@@ -1,4 +1,4 @@
-#include "dynamics/sampling.h"
+#include "dynamics/statistics/sampling.h"
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>

@@ -1,4 +1,4 @@
-#include "dynamics/shooting.h"
+#include "dynamics/steady_state/shooting.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -16,7 +16,7 @@ constexpr double mass = 2, stiffness = 8e6, damping = 40, frequency = 250, amoun
 /// A mass on a mesh with a harmonic error and a steady load.
 LumpedSystem oscillator() {
   LumpedSystemBuilder builder;
-  const auto x = builder.add_freedom("mass_x");
+  const auto x = builder.add_dof("mass_x");
   builder.add_mass(x, mass);
   MeshElement mesh;
   mesh.name = "mesh";
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(linear_oscillator) {
 BOOST_AUTO_TEST_CASE(rigid_motion_stays) {
   annulus::test::Verification record("Shooting on two free bodies", "closed form: static deflection; multiplier 1");
   LumpedSystemBuilder builder;
-  const auto x = builder.add_freedom("one_x"), y = builder.add_freedom("two_x");
+  const auto x = builder.add_dof("one_x"), y = builder.add_dof("two_x");
   builder.add_mass(x, 1);
   builder.add_mass(y, 1);
   MeshElement mesh;

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/units.h"
-#include "dynamics/planetary_stage.h"
+#include "dynamics/systems/planetary/planetary_stage.h"
 
 /// Stages the tests share.
 namespace annulus::dynamics::stages {
@@ -72,7 +72,7 @@ inline PlanetaryStage lin_parker(int planets) {
 }
 
 /// The reducer of the backlash paper (models.md C): 26/39/106 teeth, three planets, rectangular stiffnesses, no errors.
-/// Ring held; planets, carrier and sun free to turn, the sun floating: 7 freedoms. Printed are equivalent masses I/r^2,
+/// Ring held; planets, carrier and sun free to turn, the sun floating: 7 DOFs. Printed are equivalent masses I/r^2,
 /// r base radii and (r_bs + r_br)/2 for the carrier; the planets' own mass is taken as part of the carrier's.
 /// Not printed: the phase between sun and ring mesh, here none.
 inline PlanetaryStage backlash_paper() {
@@ -112,7 +112,7 @@ inline PlanetaryStage backlash_paper() {
   return s;
 }
 
-/// State (q, v) of n freedoms: displacements up to 0.1 mm, velocities up to 0.1 m/s.
+/// State (q, v) of n DOFs: displacements up to 0.1 mm, velocities up to 0.1 m/s.
 inline Eigen::VectorXd random_state(int n, unsigned seed) {
   std::mt19937 engine(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);

@@ -1,4 +1,4 @@
-#include "dynamics/statistics.h"
+#include "dynamics/statistics/statistics.h"
 
 #include <boost/math/distributions/normal.hpp>
 #include <boost/test/unit_test.hpp>
@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/errors.h"
-#include "dynamics/sampling.h"
+#include "dynamics/statistics/sampling.h"
 
 namespace annulus::dynamics {
 

@@ -1,4 +1,4 @@
-#include "dynamics/steady_response.h"
+#include "dynamics/steady_state/steady_response.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -17,7 +17,7 @@ constexpr double frequency = 200, mass = 2, ground = 4e6, mesh_stiffness = 3e7;
 /// A mass on a spring and a mesh, b = 1 + swing sin(2 pi f t).
 LumpedSystem swinging(double swing, double load) {
   LumpedSystemBuilder builder;
-  const auto x = builder.add_freedom("x");
+  const auto x = builder.add_dof("x");
   builder.add_mass(x, mass);
   builder.add_spring(x, ground, 2 * 0.1 * std::sqrt(ground * mass));
   builder.add_load(x, load);
@@ -104,7 +104,7 @@ LumpedSystem lifting() {
   LumpedSystemBuilder builder;
   MeshElement mesh;
   mesh.name = "mesh";
-  mesh.b = builder.add_freedom("x");
+  mesh.b = builder.add_dof("x");
   mesh.excitation = ConstantStiffness{5e4};
   mesh.frequency = slow;
   mesh.damping = 200;

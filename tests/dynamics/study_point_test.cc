@@ -1,10 +1,10 @@
-#include "dynamics/study_point.h"
+#include "dynamics/systems/planetary/study_point.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
 
-#include "dynamics/modes.h"
+#include "dynamics/systems/planetary/planetary_modes.h"
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
 

@@ -1,4 +1,4 @@
-#include "dynamics/two_k_v_modes.h"
+#include "dynamics/systems/two_k_v/two_k_v_modes.h"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/errors.h"
-#include "dynamics/two_k_v_sensitivity.h"
+#include "dynamics/systems/two_k_v/two_k_v_sensitivity.h"
 #include "tests/dynamics/two_k_v_stages.h"
 #include "tests/verification_record.h"
 
@@ -57,9 +57,10 @@ TwoKVStage stiff_reducer(double factor) {
   return stage;
 }
 
-BOOST_AUTO_TEST_CASE(one_freedom_limits) {
-  annulus::test::Verification record("Reducer with all but one element stiff",
-                                     "closed form: one freedom, sqrt(k / m), inertias of the whole train reduced");
+BOOST_AUTO_TEST_CASE(one_dof_limits) {
+  annulus::test::Verification record(
+      "Reducer with all but one element stiff",
+      "closed form: one degree of freedom, sqrt(k / m), inertias of the whole train reduced");
   const char* origin = "stiff elements a million times stiffer";
   const double two_pi = 2 * std::numbers::pi;
   auto shaft = stiff_reducer(1e6);

@@ -1,10 +1,10 @@
-#include "dynamics/two_k_v_response.h"
+#include "dynamics/systems/two_k_v/two_k_v_response.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
 #include "core/errors.h"
-#include "dynamics/two_k_v_modes.h"
+#include "dynamics/systems/two_k_v/two_k_v_modes.h"
 #include "tests/dynamics/two_k_v_stages.h"
 #include "tests/verification_record.h"
 

@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "core/units.h"
-#include "dynamics/arc_tooth.h"
-#include "dynamics/two_k_v.h"
+#include "dynamics/systems/two_k_v/arc_tooth.h"
+#include "dynamics/systems/two_k_v/two_k_v.h"
 
 namespace annulus::dynamics::stages {
 

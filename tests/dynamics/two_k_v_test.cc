@@ -1,4 +1,4 @@
-#include "dynamics/two_k_v.h"
+#include "dynamics/systems/two_k_v/two_k_v.h"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
@@ -8,9 +8,9 @@
 
 #include "core/errors.h"
 #include "core/floating_point.h"
-#include "dynamics/integrate.h"
-#include "dynamics/static_solver.h"
-#include "dynamics/two_k_v_modes.h"
+#include "dynamics/statics/static_solver.h"
+#include "dynamics/systems/two_k_v/two_k_v_modes.h"
+#include "dynamics/time_integration/integrate.h"
 #include "tests/dynamics/two_k_v_stages.h"
 #include "tests/verification_record.h"
 
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(motion_without_deformation_costs_nothing) {
       record.at_most("largest force over largest stiffness x motion", "",
                      (k * motion).cwiseAbs().maxCoeff() / (k.cwiseAbs().maxCoeff() * motion.cwiseAbs().maxCoeff()),
                      1e-13, "rounding of the largest terms");
-      BOOST_TEST(system.freedoms() == 3 + 3 * cranks + 2 * gears);
+      BOOST_TEST(system.dofs() == 3 + 3 * cranks + 2 * gears);
       BOOST_TEST((k - k.transpose()).cwiseAbs().maxCoeff() <= 1e-15 * k.cwiseAbs().maxCoeff());
       const auto found = annulus::dynamics::modes(stage);
       BOOST_TEST(found.modes[0].frequency == 0.0);
@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(stiffness_is_the_hessian_of_the_potential) {
   for (const double angle : {0.0, 0.4, 1.9, 5.0}) {
     const auto stage = free_reducer(angle);
     const auto system = assemble(stage);
-    const Eigen::VectorXd radii = freedom_radii(stage, system);
+    const Eigen::VectorXd radii = dof_radii(stage, system);
     const Eigen::MatrixXd k = radii.asDiagonal() * stiffness_of(stage) * radii.asDiagonal();
     BOOST_REQUIRE(k.rows() == 13);
     for (int i = 0; i < 13; ++i)
@@ -172,7 +172,7 @@ BOOST_AUTO_TEST_CASE(static_equilibrium) {
   const auto system = assemble(held);
   StaticSolver solver(system);
   auto workspace = system.workspace();
-  const Eigen::VectorXd radii = freedom_radii(held, system);
+  const Eigen::VectorXd radii = dof_radii(held, system);
   const double stiffness = torsional_stiffness(held, 1).from_input[0];
   for (const double time : {0.0, 0.01, 0.033}) {
     const Eigen::VectorXd q = solver.solve(time, workspace);
@@ -210,12 +210,12 @@ BOOST_AUTO_TEST_CASE(energy_of_free_vibration) {
     stage.output_speed = speed;
     const auto system = assemble(stage);
     SystemState state;
-    state.q = Eigen::VectorXd::Zero(system.freedoms());
+    state.q = Eigen::VectorXd::Zero(system.dofs());
     state.v = state.q;
-    for (int i = 0; i < system.freedoms(); ++i) state.v[i] = 1e-2 * std::cos(3.0 * i);
+    for (int i = 0; i < system.dofs(); ++i) state.v[i] = 1e-2 * std::cos(3.0 * i);
     auto workspace = system.workspace();
     const auto energy = [&] {
-      Eigen::VectorXd y(2 * system.freedoms());
+      Eigen::VectorXd y(2 * system.dofs());
       y << state.q, state.v;
       return system.energy(state.time, y.data(), workspace);
     };

@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "fem/closed_form/closed_form_mesh.h"
+#include "fem/closed_form/closed_form_error.h"
 #include "ring_paper_problems.h"
 #include "tests/verification_record.h"
 

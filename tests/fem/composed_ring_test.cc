@@ -54,7 +54,7 @@ ComposedRing composed_ring(double height, int radial_cells, int angular_cells) {
   model.pitch_angle = pitch;
   model.stiffness = body.stiffness;
   model.nodes = body.nodes;
-  model.freedom = body.freedom;
+  model.dof = body.dof;
   const auto by_radius = [&](int a, int b) { return body.nodes[a].norm() < body.nodes[b].norm(); };
   model.low_nodes = body.boundary_nodes(Boundary::side_low);
   model.high_nodes = body.boundary_nodes(Boundary::side_high);

@@ -8,10 +8,10 @@
 
 #include "core/errors.h"
 #include "discretised_body.h"
+#include "fem/body/gear_body.h"
 #include "fem/condensation/sparse_schur.h"
 #include "fem/contact/support_row.h"
-#include "fem/gear_body.h"
-#include "fem/stress_recovery.h"
+#include "fem/recovery/stress_recovery.h"
 #include "geometry/sector_mesh.h"
 #include "tests/verification_record.h"
 
@@ -94,7 +94,7 @@ Eigen::VectorXd unit_load(const DiscretisedBody& ring, const GearBody& body, int
   const int node = nearest_node(ring, turn * body.port_points[port]);
   const Eigen::Vector3d direction = turn * body.ports[port].direction;
   Eigen::VectorXd load = Eigen::VectorXd::Zero(ring.stiffness.rows());
-  for (int d = 0; d < ring.dimension; ++d) load[ring.freedom[node * ring.dimension + d]] = direction[d];
+  for (int d = 0; d < ring.dimension; ++d) load[ring.dof[node * ring.dimension + d]] = direction[d];
   return load;
 }
 
@@ -106,7 +106,7 @@ double worst_difference(const Case& c, Boundary held) {
   const auto held_nodes = ring.boundary_nodes(held);
   BOOST_TEST_REQUIRE(!held_nodes.empty());
   for (const int n : held_nodes)
-    for (int d = 0; d < ring.dimension; ++d) fixed[ring.freedom[n * ring.dimension + d]] = true;
+    for (int d = 0; d < ring.dimension; ++d) fixed[ring.dof[n * ring.dimension + d]] = true;
   const FreeSystem system(ring.stiffness, fixed);
 
   const int teeth = c.gear.teeth(), last = static_cast<int>(body.ports.size()) - 1;
@@ -127,8 +127,8 @@ double worst_difference(const Case& c, Boundary held) {
       worst = std::max(worst, std::abs(value - exact(i, j)) / exact.cwiseAbs().maxCoeff());
       smallest = std::min(smallest, std::abs(exact(i, j)));
     }
-  BOOST_TEST_MESSAGE(teeth << " teeth, " << ring.dimension << "D, " << ring.stiffness.rows() << " freedoms: " << worst
-                           << ", smallest compliance " << smallest / exact.cwiseAbs().maxCoeff());
+  BOOST_TEST_MESSAGE(teeth << " teeth, " << ring.dimension << "D, " << ring.stiffness.rows() << " degrees of freedom: "
+                           << worst << ", smallest compliance " << smallest / exact.cwiseAbs().maxCoeff());
   return worst;
 }
 
@@ -211,7 +211,7 @@ Eigen::VectorXd support_load(const DiscretisedBody& ring, const SectorModel& sec
     for (const auto& f : on_outside(plan.arcs()[arc], sector.outside)) {
       const int node = nearest_node(ring, turn * sector.nodes[f.node]);
       const Eigen::Vector3d turned = turn * f.force;
-      for (int d = 0; d < ring.dimension; ++d) load[ring.freedom[node * ring.dimension + d]] += turned[d];
+      for (int d = 0; d < ring.dimension; ++d) load[ring.dof[node * ring.dimension + d]] += turned[d];
     }
   }
   return load;
@@ -232,7 +232,7 @@ void check_floating(annulus::test::Verification& record, Case c,
   const DiscretisedBody ring = monolithic(c);
   const int dim = ring.dimension, rigid_motions = dim == 2 ? 3 : 6;
   std::vector<bool> fixed(ring.stiffness.rows(), false);
-  for (const auto& [point, component] : pinned) fixed[ring.freedom[nearest_node(ring, point) * dim + component]] = true;
+  for (const auto& [point, component] : pinned) fixed[ring.dof[nearest_node(ring, point) * dim + component]] = true;
   BOOST_TEST_REQUIRE(std::count(fixed.begin(), fixed.end(), true) == rigid_motions);
   const FreeSystem system(ring.stiffness, fixed);
 
@@ -264,7 +264,7 @@ void check_floating(annulus::test::Verification& record, Case c,
   for (std::size_t node = 0; node < ring.nodes.size(); ++node)
     for (Eigen::Index i = 0; i < n; ++i) {
       Eigen::Vector3d force = Eigen::Vector3d::Zero();
-      for (int d = 0; d < dim; ++d) force[d] = unit(ring.freedom[node * dim + d], i);
+      for (int d = 0; d < dim; ++d) force[d] = unit(ring.dof[node * dim + d], i);
       const Eigen::Vector3d moment = ring.nodes[node].cross(force);
       if (dim == 2)
         resultants.row(i) += Eigen::RowVector3d(force.x(), force.y(), moment.z());
@@ -338,7 +338,7 @@ void check_stress(annulus::test::Verification& record, Case c, Boundary held) {
   const DiscretisedBody ring = monolithic(c);
   std::vector<bool> fixed(ring.stiffness.rows(), false);
   for (const int n : ring.boundary_nodes(held))
-    for (int d = 0; d < ring.dimension; ++d) fixed[ring.freedom[n * ring.dimension + d]] = true;
+    for (int d = 0; d < ring.dimension; ++d) fixed[ring.dof[n * ring.dimension + d]] = true;
   const FreeSystem system(ring.stiffness, fixed);
 
   std::mt19937 random(5);
@@ -357,7 +357,7 @@ void check_stress(annulus::test::Verification& record, Case c, Boundary held) {
     for (const auto& f : functional) {
       const int node = nearest_node(ring, turn * model.nodes[f.node]);
       const Eigen::Vector3d turned = turn * f.force;
-      for (int d = 0; d < ring.dimension; ++d) sum += turned[d] * u[ring.freedom[node * ring.dimension + d]];
+      for (int d = 0; d < ring.dimension; ++d) sum += turned[d] * u[ring.dof[node * ring.dimension + d]];
     }
     return sum;
   };

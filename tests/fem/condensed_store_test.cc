@@ -1,4 +1,4 @@
-#include "fem/condensed_store.h"
+#include "fem/problem/condensed_store.h"
 
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/log.h"
-#include "fem/byte_stream.h"
+#include "fem/body/gear_body.h"
 #include "fem/contact/support_row.h"
-#include "fem/gear_body.h"
-#include "fem/ring_coupling.h"
+#include "fem/problem/byte_stream.h"
+#include "fem/ring/ring_coupling.h"
 #include "ring_paper_problems.h"
 #include "tests/temporary_folder.h"
 #include "tests/verification_record.h"

@@ -7,9 +7,9 @@
 namespace annulus::tests {
 namespace {
 
-fem::LoadedMeshSettings settings_for(fem::Rung rung, bool symmetry, int degree) {
+fem::LoadedMeshSettings settings_for(fem::Fidelity fidelity, bool symmetry, int degree) {
   fem::LoadedMeshSettings settings;
-  settings.rung = rung;
+  settings.fidelity = fidelity;
   settings.symmetry = symmetry;
   settings.degree = degree;
   return settings;
@@ -17,13 +17,15 @@ fem::LoadedMeshSettings settings_for(fem::Rung rung, bool symmetry, int degree) 
 
 }  // namespace
 
-ContactBench::ContactBench(const fem::LoadedMeshProblem& problem, int level, fem::Rung rung, bool symmetry, int degree)
+ContactBench::ContactBench(const fem::LoadedMeshProblem& problem, int level, fem::Fidelity fidelity, bool symmetry,
+                           int degree)
     : problem_(problem),
       flanks_(problem.pair),
-      bodies_(build_bodies(problem, flanks_, settings_for(rung, symmetry, degree), level)) {
+      bodies_(build_bodies(problem, flanks_, settings_for(fidelity, symmetry, degree), level)) {
   options_.half_face = bodies_.face.half;
   // As many pressure elements as solve_loaded_mesh takes at this level.
-  options_.elements = static_cast<int>(std::lround((rung == fem::Rung::solid ? 6 : 10) * std::pow(1.25, level - 1)));
+  options_.elements =
+      static_cast<int>(std::lround((fidelity == fem::Fidelity::solid ? 6 : 10) * std::pow(1.25, level - 1)));
   misalign(problem.misalignment);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "fem/contact/contact_system.h"
-#include "fem/mesh_bodies.h"
+#include "fem/levels/mesh_bodies.h"
 
 namespace annulus::tests {
 
@@ -9,7 +9,7 @@ namespace annulus::tests {
 class ContactBench {
  public:
   /// `symmetry` as in LoadedMeshSettings: off, so that bodies serve misalignments too.
-  ContactBench(const fem::LoadedMeshProblem& problem, int level, fem::Rung rung = fem::Rung::plane,
+  ContactBench(const fem::LoadedMeshProblem& problem, int level, fem::Fidelity fidelity = fem::Fidelity::plane,
                bool symmetry = false, int degree = 2);
   ContactBench(const ContactBench&) = delete;
   ContactBench& operator=(const ContactBench&) = delete;

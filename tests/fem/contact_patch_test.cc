@@ -9,7 +9,7 @@
 #include "fem/condensation/sparse_schur.h"
 #include "fem/contact/complementarity.h"
 #include "fem/contact/half_plane.h"
-#include "fem/contact/trace_basis.h"
+#include "fem/elasticity/trace_basis.h"
 #include "structured_mesh.h"
 #include "tests/verification_record.h"
 
@@ -44,8 +44,8 @@ Block make_block(int cells, int layers, double grading, int degree) {
       mesh, [](Boundary, const Eigen::Vector2d& p) { return p; }, steel, degree);
   std::vector<bool> fixed(body.stiffness.rows(), false);
   for (const int n : body.boundary_nodes(Boundary::support)) {
-    fixed[body.freedom[2 * n + 1]] = true;
-    if (body.nodes[n].x() == 0) fixed[body.freedom[2 * n]] = true;
+    fixed[body.dof[2 * n + 1]] = true;
+    if (body.nodes[n].x() == 0) fixed[body.dof[2 * n]] = true;
   }
   const annulus::tests::FreeSystem system(body.stiffness, fixed);
   auto surface = body.boundary_nodes(Boundary::tip);
@@ -54,7 +54,7 @@ Block make_block(int cells, int layers, double grading, int degree) {
   std::vector<double> stations;
   for (std::size_t i = 0; i < surface.size(); ++i) {
     stations.push_back(body.nodes[surface[i]].x());
-    loads(body.freedom[2 * surface[i] + 1], static_cast<Eigen::Index>(i)) = -1;
+    loads(body.dof[2 * surface[i] + 1], static_cast<Eigen::Index>(i)) = -1;
   }
   const Eigen::MatrixXd free_loads = system.restrict_rows(loads);
   return {TraceBasis(stations, degree),

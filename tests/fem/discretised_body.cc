@@ -21,7 +21,7 @@ DiscretisedBody discretise_in(const geometry::Mesh& mesh, const Projection& proj
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     for (int c = 0; c < dim; ++c) {
       point[c] = problem->node_points()[n][c];
-      body.freedom.push_back(problem->node_freedoms()[n][c]);
+      body.dof.push_back(problem->node_dofs()[n][c]);
     }
     body.nodes.push_back(point);
   }

@@ -5,16 +5,16 @@
 #include <functional>
 #include <vector>
 
-#include "fem/material.h"
+#include "fem/problem/material.h"
 #include "geometry/mesh.h"
 
 namespace annulus::tests {
 
-/// A finite-element body without deal.II's headers: nodes, the stiffness of all freedoms, nodes of each boundary.
+/// A finite-element body without deal.II's headers: nodes, the stiffness of all DOFs, nodes of each boundary.
 struct DiscretisedBody {
   int dimension = 2;
   std::vector<Eigen::Vector3d> nodes;
-  std::vector<int> freedom;  ///< [node * dimension + component]
+  std::vector<int> dof;  ///< [node * dimension + component]
   Eigen::SparseMatrix<double> stiffness;
   Eigen::SparseMatrix<double> nodal_mass;  ///< of one component, nodes x nodes
   std::function<std::vector<int>(geometry::Boundary)> boundary_nodes;
@@ -25,13 +25,13 @@ using Projection = std::function<Eigen::Vector2d(geometry::Boundary, const Eigen
 DiscretisedBody discretise_body(const geometry::Mesh& mesh, const Projection& project, const fem::Material& material,
                                 int degree);
 
-/// The part of a matrix that belongs to the freedoms that are not fixed, and the way there and back.
+/// The part of a matrix that belongs to the DOFs that are not fixed, and the way there and back.
 struct FreeSystem {
-  std::vector<int> row;  ///< freedom -> row, -1 when fixed
+  std::vector<int> row;  ///< DOF -> row, -1 when fixed
   Eigen::SparseMatrix<double> matrix;
   FreeSystem(const Eigen::SparseMatrix<double>& full, const std::vector<bool>& fixed);
   [[nodiscard]] Eigen::MatrixXd restrict_rows(const Eigen::MatrixXd& full) const;
-  [[nodiscard]] Eigen::MatrixXd extend_rows(const Eigen::MatrixXd& free) const;  ///< zero at the fixed freedoms
+  [[nodiscard]] Eigen::MatrixXd extend_rows(const Eigen::MatrixXd& free) const;  ///< zero at the fixed DOFs
 };
 
 }  // namespace annulus::tests

@@ -74,13 +74,13 @@ struct Manufactured {
 template <int dim, typename Exact>
 Eigen::VectorXd solve_dirichlet(const ElasticProblem<dim>& problem, const Exact& exact, const Eigen::VectorXd& load) {
   const Eigen::SparseMatrix<double> stiffness = problem.stiffness();
-  std::vector<bool> fixed(problem.freedoms(), false);
-  Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(problem.freedoms());
+  std::vector<bool> fixed(problem.dofs(), false);
+  Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(problem.dofs());
   for (const int n : problem.boundary_nodes(Boundary::inner)) {
     const auto u = exact(problem.node_points()[n]);
     for (int c = 0; c < dim; ++c) {
-      fixed[problem.node_freedoms()[n][c]] = true;
-      prescribed[problem.node_freedoms()[n][c]] = u[c];
+      fixed[problem.node_dofs()[n][c]] = true;
+      prescribed[problem.node_dofs()[n][c]] = u[c];
     }
   }
   const FreeSystem system(stiffness, fixed);
@@ -163,11 +163,11 @@ void check_patch(annulus::test::Verification& record, int degree) {
     for (int j = 0; j < dim; ++j) gradient[i][j] = slope[i][j];
   const auto linear = [&](const dealii::Point<dim>& x) -> Vector<dim> { return gradient * Vector<dim>(x); };
   const ElasticProblem<dim> problem(annulus::tests::distorted_box(dim, 4, 0.25), {}, steel_like, degree);
-  const Eigen::VectorXd u = solve_dirichlet(problem, linear, Eigen::VectorXd::Zero(problem.freedoms()));
+  const Eigen::VectorXd u = solve_dirichlet(problem, linear, Eigen::VectorXd::Zero(problem.dofs()));
   double worst = 0;
   for (std::size_t n = 0; n < problem.node_points().size(); ++n) {
     const auto expected = linear(problem.node_points()[n]);
-    for (int c = 0; c < dim; ++c) worst = std::max(worst, std::abs(u[problem.node_freedoms()[n][c]] - expected[c]));
+    for (int c = 0; c < dim; ++c) worst = std::max(worst, std::abs(u[problem.node_dofs()[n][c]] - expected[c]));
   }
   record.at_most("largest error of a displacement (of order one)", "m", worst, 1e-12,
                  "condition number (below 1e4) x rounding");
@@ -205,9 +205,9 @@ void check_rigid_motions(annulus::test::Verification& record, int degree) {
   std::vector<Vector<dim>> translations(dim);
   for (int c = 0; c < dim; ++c) translations[c][c] = 1;
   const auto check = [&](const auto& motion) {
-    Eigen::VectorXd u(problem.freedoms());
+    Eigen::VectorXd u(problem.dofs());
     for (std::size_t n = 0; n < problem.node_points().size(); ++n)
-      for (int c = 0; c < dim; ++c) u[problem.node_freedoms()[n][c]] = motion(problem.node_points()[n])[c];
+      for (int c = 0; c < dim; ++c) u[problem.node_dofs()[n][c]] = motion(problem.node_points()[n])[c];
     record.at_most("largest force over the largest stiffness", "", (stiffness * u).cwiseAbs().maxCoeff() / largest,
                    1e-13, "rounding");
   };
@@ -284,9 +284,9 @@ template <int dim>
 Eigen::VectorXd solve_quarter(const ElasticProblem<dim>& problem) {
   const Eigen::VectorXd load =
       problem.surface_load(Boundary::root, [](const auto&, const auto& normal) { return -pressure * normal; });
-  std::vector<bool> fixed(problem.freedoms(), false);
+  std::vector<bool> fixed(problem.dofs(), false);
   const auto hold = [&](Boundary boundary, int component) {
-    for (const int n : problem.boundary_nodes(boundary)) fixed[problem.node_freedoms()[n][component]] = true;
+    for (const int n : problem.boundary_nodes(boundary)) fixed[problem.node_dofs()[n][component]] = true;
   };
   hold(Boundary::side_low, 1);
   hold(Boundary::side_high, 0);
@@ -311,7 +311,7 @@ double displacement_error(int degree, int refinements) {
     for (const int n : nodes) {
       const auto& p = problem.node_points()[n];
       off_circle = std::max(off_circle, std::abs(std::hypot(p[0], p[1]) / r - 1));
-      const auto& f = problem.node_freedoms()[n];
+      const auto& f = problem.node_dofs()[n];
       const double error = std::hypot(u[f[0]] - exact_displacement(r) * p[0] / r,
                                       u[f[1]] - exact_displacement(r) * p[1] / r, dim == 3 ? u[f[dim - 1]] : 0.0);
       worst = std::max(worst, error / exact_displacement(r));
@@ -376,7 +376,7 @@ double stress_error(int degree, int refinements) {
   const auto observe = [&](const annulus::fem::NodalLoad& functional) {
     double sum = 0;
     for (const auto& f : functional)
-      for (int c = 0; c < dim; ++c) sum += f.force[c] * u[problem.node_freedoms()[f.node][c]];
+      for (int c = 0; c < dim; ++c) sum += f.force[c] * u[problem.node_dofs()[f.node][c]];
     return sum;
   };
   const double nu = ring_material.poisson_ratio;
@@ -433,7 +433,7 @@ BOOST_AUTO_TEST_CASE(pressure_on_a_curved_boundary_has_the_resultant_of_its_proj
   const auto load =
       problem.surface_load(Boundary::root, [](const auto&, const auto& normal) { return -pressure * normal; });
   double x = 0, y = 0;
-  for (const auto& f : problem.node_freedoms()) {
+  for (const auto& f : problem.node_dofs()) {
     x += load[f[0]];
     y += load[f[1]];
   }

@@ -1,11 +1,11 @@
-#include "fem/field_recovery.h"
+#include "fem/recovery/field_recovery.h"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
 #include "fem/contact/contact_system.h"
-#include "fem/mesh_bodies.h"
+#include "fem/levels/mesh_bodies.h"
 #include "ring_paper_problems.h"
 #include "tests/verification_record.h"
 
@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(solid_bodies_have_fields_near_the_contact) {
                                      "the held end; a cantilever gives way most at its free end");
   LoadedMeshSettings settings;
   settings.level = 1;
-  settings.rung = annulus::fem::Rung::solid;
+  settings.fidelity = annulus::fem::Fidelity::solid;
   settings.want_fields = true;
   const auto problem = ring_mesh(annulus::fem::EndFaceHeld{18e-3, 10.6e-3, {}}, 2);
   const auto result = solve_loaded_mesh(problem, settings);

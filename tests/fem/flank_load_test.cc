@@ -36,7 +36,7 @@ void on_every_flank(const F& f) {
     std::vector<std::unique_ptr<ContactBench>> all;
     all.push_back(std::make_unique<ContactBench>(ring_mesh(annulus::fem::OutsideHeld{}, 2), 0));
     all.push_back(std::make_unique<ContactBench>(sun_mesh(2), 0));
-    all.push_back(std::make_unique<ContactBench>(sun_mesh(2), 0, annulus::fem::Rung::solid));
+    all.push_back(std::make_unique<ContactBench>(sun_mesh(2), 0, annulus::fem::Fidelity::solid));
     return all;
   }();
   for (const auto& bench : benches) {

@@ -56,8 +56,8 @@ BOOST_AUTO_TEST_CASE(balances_hold_and_the_overlap_smooths_the_mesh) {
                                      "statics, energy, Maxwell and Betti; overlap evens the stiffness");
   const auto problem = helical_sun_mesh(12 * degree);
   BOOST_TEST(problem.pair.overlap_ratio() > 1.4);
-  ContactBench helical(problem, 0, annulus::fem::Rung::solid);
-  ContactBench spur(helical_sun_mesh(0), 0, annulus::fem::Rung::solid);
+  ContactBench helical(problem, 0, annulus::fem::Fidelity::solid);
+  ContactBench spur(helical_sun_mesh(0), 0, annulus::fem::Fidelity::solid);
   const auto positions = helical.sweep(phases, nominal_load), of_spur = spur.sweep(phases, nominal_load);
   double force = 0;
   for (const auto& p : positions) {
@@ -102,11 +102,11 @@ BOOST_AUTO_TEST_CASE(balances_hold_and_the_overlap_smooths_the_mesh) {
 
 BOOST_AUTO_TEST_CASE(a_hardly_helical_pair_is_a_spur_pair) {
   annulus::test::Verification record("Hardly helical teeth, 0.1 and 0.01 degrees", "limit: the spur mesh");
-  ContactBench spur(helical_sun_mesh(0), 0, annulus::fem::Rung::solid);
+  ContactBench spur(helical_sun_mesh(0), 0, annulus::fem::Fidelity::solid);
   const auto expected = spur.sweep(8, nominal_load);
   double before = 0;
   for (const double angle : {0.1 * degree, 0.01 * degree}) {
-    ContactBench helical(helical_sun_mesh(angle), 0, annulus::fem::Rung::solid);
+    ContactBench helical(helical_sun_mesh(angle), 0, annulus::fem::Fidelity::solid);
     const auto positions = helical.sweep(8, nominal_load);
     double worst = 0;
     for (std::size_t i = 0; i < positions.size(); ++i)
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(every_slice_presses_as_hertz_says_along_the_oblique_line_of
   annulus::test::Verification record("Pressure of every slice of spur and helical teeth, 0 and 30 degrees",
                                      "Hertz along the oblique line of contact");
   for (const double angle : {0.0, 30 * degree}) {
-    ContactBench bench(helical_sun_mesh(angle), 0, annulus::fem::Rung::solid);
+    ContactBench bench(helical_sun_mesh(angle), 0, annulus::fem::Fidelity::solid);
     bench.set_elements(12);
     const auto& pair = bench.flanks().pair();
     const double slant = std::cos(pair.planet().base_helix_angle()), base = pair.planet().base_radius();
@@ -183,8 +183,8 @@ BOOST_AUTO_TEST_CASE(every_slice_presses_as_hertz_says_along_the_oblique_line_of
 BOOST_AUTO_TEST_CASE(the_hand_does_not_matter) {
   annulus::test::Verification record("Right- and left-handed teeth", "symmetry");
   // A mirror image in the section through the middle, up to the order of the nodes.
-  ContactBench right(helical_sun_mesh(12 * degree), 0, annulus::fem::Rung::solid);
-  ContactBench left(helical_sun_mesh(-12 * degree), 0, annulus::fem::Rung::solid);
+  ContactBench right(helical_sun_mesh(12 * degree), 0, annulus::fem::Fidelity::solid);
+  ContactBench left(helical_sun_mesh(-12 * degree), 0, annulus::fem::Fidelity::solid);
   for (const double phase : {0.1, 0.6}) {
     auto p = right.solve(phase, nominal_load);
     const auto q = left.solve(phase, nominal_load);
@@ -202,7 +202,7 @@ BOOST_AUTO_TEST_CASE(linear_elements_are_refined_once_before_quadratic_ones_foll
                                      "first order: cells 1.5 times smaller leave two thirds");
   const auto problem = helical_sun_mesh(12 * degree);
   annulus::fem::LoadedMeshSettings settings;
-  settings.rung = annulus::fem::Rung::solid;
+  settings.fidelity = annulus::fem::Fidelity::solid;
   settings.degree = 1;
   settings.level = 1;
   const double first = solve_loaded_mesh(problem, settings).worst_error_relative;
@@ -216,7 +216,7 @@ BOOST_AUTO_TEST_CASE(linear_elements_are_refined_once_before_quadratic_ones_foll
                  1, "the accuracy asked for");
 }
 
-BOOST_AUTO_TEST_CASE(the_plane_rung_is_refused) {
+BOOST_AUTO_TEST_CASE(the_plane_fidelity_is_refused) {
   BOOST_CHECK_THROW((void)annulus::tests::solve_plane(helical_sun_mesh(12 * degree), 1), annulus::InputError);
 }
 

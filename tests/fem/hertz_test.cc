@@ -8,7 +8,7 @@
 #include "fem/condensation/sparse_schur.h"
 #include "fem/contact/complementarity.h"
 #include "fem/contact/contact_system.h"
-#include "fem/contact/trace_basis.h"
+#include "fem/elasticity/trace_basis.h"
 #include "structured_mesh.h"
 #include "tests/verification_record.h"
 
@@ -71,8 +71,7 @@ Result press(int cells, int degree) {
   const auto body = annulus::tests::discretise_body(mesh, project, steel, degree);
 
   std::vector<bool> fixed(body.stiffness.rows(), false);
-  for (const int n : body.boundary_nodes(Boundary::support))
-    fixed[body.freedom[2 * n]] = fixed[body.freedom[2 * n + 1]] = true;
+  for (const int n : body.boundary_nodes(Boundary::support)) fixed[body.dof[2 * n]] = fixed[body.dof[2 * n + 1]] = true;
   const annulus::tests::FreeSystem system(body.stiffness, fixed);
 
   // Surface nodes in order of the angle, loaded along the inward normal.
@@ -85,8 +84,8 @@ Result press(int cells, int degree) {
   for (Eigen::Index i = 0; i < count; ++i) {
     const double angle = angle_of(surface[i]);
     stations.push_back(angle);
-    loads(body.freedom[2 * surface[i]], i) = -std::cos(angle);
-    loads(body.freedom[2 * surface[i] + 1], i) = -std::sin(angle);
+    loads(body.dof[2 * surface[i]], i) = -std::cos(angle);
+    loads(body.dof[2 * surface[i] + 1], i) = -std::sin(angle);
   }
   const Eigen::MatrixXd free_loads = system.restrict_rows(loads);
   const Eigen::MatrixXd compliance =

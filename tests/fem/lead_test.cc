@@ -12,9 +12,9 @@
 BOOST_AUTO_TEST_SUITE(lead)
 
 using namespace annulus::tests;
+using annulus::fem::Fidelity;
 using annulus::fem::LoadedMeshProblem;
 using annulus::fem::LoadedPosition;
-using annulus::fem::Rung;
 
 /// A mesh of the ring paper's gears whose planet has a modified lead.
 LoadedMeshProblem modified(bool internal, double crowning, double slope) {
@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(straight_teeth_that_are_held_alike_carry_alike_along_the_fa
   annulus::test::Verification record("Line load of straight teeth along the face",
                                      "statics: mean line load; even but for the ends, which are free to widen");
   for (const bool internal : {true, false}) {
-    ContactBench bench(modified(internal, 0, 0), 0, Rung::solid);
+    ContactBench bench(modified(internal, 0, 0), 0, Fidelity::solid);
     for (const double load : {1e-3, 1.0})
       for (const double phase : {0.0, 0.5}) {
         const auto position = bench.solve(phase, load * nominal_load);
@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(misaligned_teeth_carry_like_a_row_of_springs) {
   annulus::test::Verification record("Face load factor of misaligned teeth",
                                      "ISO 6336-1, 7: a row of independent springs; 1 + k m / (2 F), sqrt(2 k m / F)");
   annulus::test::RecordedPlot::Curve light{"a thousandth of the load", {}, {}, {}}, nominal{"nominal load", {}, {}, {}};
-  ContactBench bench(modified(false, 0, 0), 0, Rung::solid);
+  ContactBench bench(modified(false, 0, 0), 0, Fidelity::solid);
   constexpr double phase = 0.05;  // a single pair, in the middle of its flank
   double light_excess = 0;
   for (const double load : {1e-3, 1.0}) {
@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(misaligned_teeth_carry_like_a_row_of_springs) {
 
 BOOST_AUTO_TEST_CASE(a_misalignment_of_the_other_sign_is_the_mirror_image) {
   annulus::test::Verification record("A misalignment and its mirror image", "symmetry");
-  ContactBench bench(modified(true, 0, 0), 0, Rung::solid);
+  ContactBench bench(modified(true, 0, 0), 0, Fidelity::solid);
   bench.misalign(30e-6);
   auto position = bench.solve(0.3, nominal_load);
   bench.misalign(-30e-6);
@@ -159,8 +159,8 @@ BOOST_AUTO_TEST_CASE(a_misalignment_of_the_other_sign_is_the_mirror_image) {
 BOOST_AUTO_TEST_CASE(crowned_teeth_carry_symmetrically_and_in_their_middle) {
   annulus::test::Verification record("Crowned teeth", "symmetry; without load crowns touch where nothing is missing");
   constexpr double crowning = 20e-6;
-  ContactBench bench(modified(true, crowning, 0), 0, Rung::solid);
-  ContactBench straight(modified(true, 0, 0), 0, Rung::solid);
+  ContactBench bench(modified(true, crowning, 0), 0, Fidelity::solid);
+  ContactBench straight(modified(true, 0, 0), 0, Fidelity::solid);
   for (const double load : {1e-3, 1.0}) {
     const auto position = bench.solve(0.3, load * nominal_load), plain = straight.solve(0.3, load * nominal_load);
     const auto& q = position.line_load;
@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(crowned_teeth_carry_symmetrically_and_in_their_middle) {
 
   // A slice's mean gap is larger than what is missing in its middle: counted as part of the deflection that would make
   // few slices stiffer.
-  ContactBench finer(modified(true, crowning, 0), 1, Rung::solid);
+  ContactBench finer(modified(true, crowning, 0), 1, Fidelity::solid);
   const double coarse = bench.solve(0.3, nominal_load).entry.stiffness_secant,
                fine = finer.solve(0.3, nominal_load).entry.stiffness_secant;
   record.near("stiffness, 18 slices against 24", "N/m", coarse, fine, 2e-3 * fine, "two levels of a solid");
@@ -195,7 +195,7 @@ BOOST_AUTO_TEST_CASE(a_slope_and_the_opposite_misalignment_cancel) {
     // Misaligned from the start, it has as many slices as the other.
     auto misaligned = modified(true, 0, 0);
     misaligned.misalignment = sign * slope;
-    ContactBench bench(modified(true, 0, sign * slope), 0, Rung::solid), straight(misaligned, 0, Rung::solid);
+    ContactBench bench(modified(true, 0, sign * slope), 0, Fidelity::solid), straight(misaligned, 0, Fidelity::solid);
     // Alone the slope is the misalignment; a slope takes material away (half of it in the mean), a misalignment tilts.
     bench.misalign(0);
     const auto sloping = bench.solve(0.6, nominal_load), tilted = straight.solve(0.6, nominal_load);

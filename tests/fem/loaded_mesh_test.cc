@@ -9,7 +9,7 @@
 
 #include "core/errors.h"
 #include "fem/contact/contact_system.h"
-#include "fem/error_estimate.h"
+#include "fem/levels/error_estimate.h"
 #include "ring_paper_problems.h"
 #include "tests/verification_record.h"
 

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "fem/body/gear_body.h"
+#include "fem/body/resolution.h"
 #include "fem/condensation/altered_ring.h"
-#include "fem/gear_body.h"
-#include "fem/resolution.h"
 #include "ring_paper.h"
 #include "ring_paper_problems.h"
 #include "tests/verification_record.h"
 
-/// Teeth with meshes of their own in a condensed gear, and the rung that is made of them.
+/// Teeth with meshes of their own in a condensed gear, and the model that is made of them.
 BOOST_AUTO_TEST_SUITE(resolved)
 
 using namespace annulus::tests;
@@ -96,13 +96,13 @@ BOOST_AUTO_TEST_CASE(a_tooth_replaced_by_its_like_changes_nothing) {
 
 annulus::fem::LoadedMeshResult solve_resolved_plane(const annulus::fem::LoadedMeshProblem& problem) {
   annulus::fem::LoadedMeshSettings settings;
-  settings.rung = annulus::fem::Rung::resolved_plane;
+  settings.fidelity = annulus::fem::Fidelity::resolved_plane;
   settings.level = 1;
   settings.threads = 2;
   return solve_loaded_mesh(problem, settings);
 }
 
-BOOST_AUTO_TEST_CASE(the_resolved_rung_agrees_with_the_plane_one_within_their_estimates) {
+BOOST_AUTO_TEST_CASE(the_resolved_fidelity_agrees_with_the_plane_one_within_their_estimates) {
   annulus::test::Verification record("Resolved contact against condensed flanks, nominal load",
                                      "meshes of their own around every contact, refined until the estimate is small");
   // Nominal load: positions with two pairs in contact, and one where a pair bears at a tip edge.
@@ -155,7 +155,7 @@ BOOST_AUTO_TEST_CASE(light_and_heavy_loads_all_along_the_mesh_cycle) {
 
 BOOST_AUTO_TEST_CASE(what_is_not_resolved_is_refused) {
   annulus::fem::LoadedMeshSettings settings;
-  settings.rung = annulus::fem::Rung::resolved_plane;
+  settings.fidelity = annulus::fem::Fidelity::resolved_plane;
   settings.level = 1;
   BOOST_CHECK_THROW((void)solve_loaded_mesh(ring_mesh(paper_pins(24, 0), 2), settings), annulus::InputError);
 }

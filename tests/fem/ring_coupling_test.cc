@@ -1,4 +1,4 @@
-#include "fem/ring_coupling.h"
+#include "fem/ring/ring_coupling.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
@@ -8,7 +8,7 @@
 
 #include "core/errors.h"
 #include "fem/condensation/sparse_schur.h"
-#include "fem/ring_on_supports.h"
+#include "fem/ring/ring_on_supports.h"
 #include "ring_paper_problems.h"
 #include "small_ring.h"
 #include "tests/verification_record.h"
@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(pins_that_lift_off_satisfy_their_conditions_on_the_whole_me
     // The whole mesh under the meshes' and the supports' forces, one direction of each rigid motion held at a node.
     std::vector<bool> fixed = ring.fixed;
     const int a = ring.node_of[0][0], b = ring.node_of[teeth / 4][0];
-    fixed[ring.whole.freedom[2 * a]] = fixed[ring.whole.freedom[2 * a + 1]] = fixed[ring.whole.freedom[2 * b]] = true;
+    fixed[ring.whole.dof[2 * a]] = fixed[ring.whole.dof[2 * a + 1]] = fixed[ring.whole.dof[2 * b]] = true;
     const FreeSystem system(ring.whole.stiffness, fixed);
     Eigen::VectorXd load = unit * forces;
     for (int i = 0; i < static_cast<int>(plan.forces().size()); ++i)
@@ -190,7 +190,7 @@ BOOST_AUTO_TEST_CASE(pins_that_lift_off_satisfy_their_conditions_on_the_whole_me
       gap[i] = arc.dot(u) + state.support[i] / plan.direction(plan.forces()[i]).stiffness;
       rigid.row(i).setZero();
       for (std::size_t node = 0; node < ring.whole.nodes.size(); ++node) {
-        const double x = arc[ring.whole.freedom[2 * node]], y = arc[ring.whole.freedom[2 * node + 1]];
+        const double x = arc[ring.whole.dof[2 * node]], y = arc[ring.whole.dof[2 * node + 1]];
         rigid.row(i) +=
             Eigen::RowVector3d(x, y, (ring.whole.nodes[node].x() * y - ring.whole.nodes[node].y() * x) / ring.outside);
       }

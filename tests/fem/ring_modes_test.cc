@@ -1,11 +1,11 @@
-#include "fem/ring_modes.h"
+#include "fem/ring/ring_modes.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "fem/ring_coupling.h"
+#include "fem/ring/ring_coupling.h"
 #include "ring_paper_problems.h"
 #include "small_ring.h"
 #include "structured_mesh.h"
@@ -48,7 +48,7 @@ RingFlexibility plain_ring(double height, int sectors, const MotionOrder& motion
   model.stiffness = body.stiffness;
   model.nodal_mass = body.nodal_mass;
   model.nodes = body.nodes;
-  model.freedom = body.freedom;
+  model.dof = body.dof;
   const auto by_radius = [&](int a, int b) { return body.nodes[a].norm() < body.nodes[b].norm(); };
   model.low_nodes = body.boundary_nodes(Boundary::side_low);
   model.high_nodes = body.boundary_nodes(Boundary::side_high);

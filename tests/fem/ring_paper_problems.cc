@@ -54,7 +54,7 @@ fem::LoadedMeshResult solve_plane(const fem::LoadedMeshProblem& problem, int lev
 
 fem::LoadedMeshResult solve_solid(const fem::LoadedMeshProblem& problem) {
   fem::LoadedMeshSettings settings;
-  settings.rung = fem::Rung::solid;
+  settings.fidelity = fem::Fidelity::solid;
   settings.level = 1;
   settings.threads = 2;
   return solve_loaded_mesh(problem, settings);

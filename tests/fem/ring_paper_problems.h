@@ -3,8 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "fem/error_estimate.h"
+#include "fem/levels/error_estimate.h"
 #include "fem/loaded_mesh.h"
+#include "fem/problem/plane_strain_error.h"
 #include "tests/verification_record.h"
 
 namespace annulus::tests {
@@ -42,7 +43,7 @@ void check_identical(const fem::LoadedMeshResult& a, const fem::LoadedMeshResult
 /// Largest relative difference of the transmission errors of two results at the same positions.
 double largest_lte_difference(const fem::LoadedMeshResult& a, const fem::LoadedMeshResult& b);
 
-/// Estimated relative error without what the rung leaves out: of two solutions of the same model.
+/// Estimated relative error without what the model leaves out: of two solutions of the same model.
 inline double numeric_error(const StiffnessEntry& entry) { return entry.error_relative - entry.error_parts.model; }
 /// Estimated error of the closed form alone: the plane finite elements share the plane strain.
 inline double formula_error(const fem::LoadedMeshProblem& problem, const StiffnessEntry& entry) {

@@ -23,7 +23,7 @@ struct State {
 
 /// The largest of a few positions; every one has to keep its balances.
 State solve_structure(const char* name, const RingStructure& structure) {
-  ContactBench bench(ring_mesh(structure, 2), 0, annulus::fem::Rung::solid);
+  ContactBench bench(ring_mesh(structure, 2), 0, annulus::fem::Fidelity::solid);
   const auto positions = bench.sweep(4, nominal_load);
   check_positions(positions);
   BOOST_TEST(positions.back().entry.lte == positions.front().entry.lte, boost::test_tools::tolerance(1e-9));

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "fem/body/resolution.h"
 #include "fem/loaded_mesh.h"
-#include "fem/resolution.h"
 #include "tests/verification_record.h"
 
 namespace annulus::tests::scaled {
@@ -51,9 +51,9 @@ fem::PinHeld pins(const Units& units) {
   return held;
 }
 
-fem::LoadedMeshResult solve(const fem::LoadedMeshProblem& problem, fem::Rung rung) {
+fem::LoadedMeshResult solve(const fem::LoadedMeshProblem& problem, fem::Fidelity fidelity) {
   fem::LoadedMeshSettings settings;
-  settings.rung = rung;
+  settings.fidelity = fidelity;
   settings.degree = 1;
   settings.level = 1;
   return fem::solve_loaded_mesh(problem, settings);
@@ -72,13 +72,13 @@ bool is_power_of_two(double factor) {
 }
 
 template <class Structure>
-void check_scaling(const Structure& structure, fem::Rung rung) {
-  const auto nominal = solve(ring_problem(structure(Units{}), Units{}), rung);
+void check_scaling(const Structure& structure, fem::Fidelity fidelity) {
+  const auto nominal = solve(ring_problem(structure(Units{}), Units{}), fidelity);
   for (const Units units : {Units{1e6, 1}, Units{1e-6, 1}, Units{1, 1e6}, Units{1, 1e-6}, Units{million, 1},
                             Units{1 / million, 1}, Units{1, million}, Units{1, 1 / million}}) {
     const bool exact = is_power_of_two(units.length) && is_power_of_two(units.pressure);
     BOOST_TEST_CONTEXT("lengths x " << units.length << ", pressures x " << units.pressure) {
-      const auto scaled = solve(ring_problem(structure(units), units), rung);
+      const auto scaled = solve(ring_problem(structure(units), units), fidelity);
       BOOST_TEST_REQUIRE(scaled.positions.size() == nominal.positions.size());
       const double line_stiffness = units.pressure * units.length;
       double worst = 0, worst_pressure = 0;
@@ -129,12 +129,12 @@ BOOST_AUTO_TEST_SUITE(scaling)
 using namespace annulus;
 using namespace annulus::tests::scaled;
 
-BOOST_AUTO_TEST_CASE(formulas_of_a_held_ring) { check_scaling(held, fem::Rung::closed_form); }
-BOOST_AUTO_TEST_CASE(formulas_of_a_ring_on_pins) { check_scaling(pinned, fem::Rung::closed_form); }
-BOOST_AUTO_TEST_CASE(formulas_of_a_ring_in_splines) { check_scaling(splined, fem::Rung::closed_form); }
-BOOST_AUTO_TEST_CASE(plane_elements_of_a_held_ring) { check_scaling(held, fem::Rung::plane); }
-BOOST_AUTO_TEST_CASE(plane_elements_of_a_ring_on_pins) { check_scaling(pinned, fem::Rung::plane); }
-BOOST_AUTO_TEST_CASE(solid_elements_of_a_ring_on_a_sleeve) { check_scaling(sleeve, fem::Rung::solid); }
+BOOST_AUTO_TEST_CASE(formulas_of_a_held_ring) { check_scaling(held, fem::Fidelity::closed_form); }
+BOOST_AUTO_TEST_CASE(formulas_of_a_ring_on_pins) { check_scaling(pinned, fem::Fidelity::closed_form); }
+BOOST_AUTO_TEST_CASE(formulas_of_a_ring_in_splines) { check_scaling(splined, fem::Fidelity::closed_form); }
+BOOST_AUTO_TEST_CASE(plane_elements_of_a_held_ring) { check_scaling(held, fem::Fidelity::plane); }
+BOOST_AUTO_TEST_CASE(plane_elements_of_a_ring_on_pins) { check_scaling(pinned, fem::Fidelity::plane); }
+BOOST_AUTO_TEST_CASE(solid_elements_of_a_ring_on_a_sleeve) { check_scaling(sleeve, fem::Fidelity::solid); }
 
 BOOST_AUTO_TEST_SUITE_END()
 
@@ -148,8 +148,8 @@ double nominal_lte(const fem::LoadedMeshResult& result) { return result.table.at
 /// Ever more stiff bolts become the held surface, from below.
 BOOST_AUTO_TEST_CASE(bolts_without_number_are_the_held_surface) {
   test::Verification record("18, 72 and 288 stiff bolts, side by side", "limit: the held surface, from below");
-  for (const auto rung : {fem::Rung::closed_form, fem::Rung::plane}) {
-    const double held = nominal_lte(solve(ring_problem(fem::OutsideHeld{}, Units{}), rung));
+  for (const auto fidelity : {fem::Fidelity::closed_form, fem::Fidelity::plane}) {
+    const double held = nominal_lte(solve(ring_problem(fem::OutsideHeld{}, Units{}), fidelity));
     double before = 1;
     for (const int bolts : {18, 72, 288}) {
       fem::PinHeld pins;
@@ -157,13 +157,13 @@ BOOST_AUTO_TEST_CASE(bolts_without_number_are_the_held_surface) {
       pins.pin_diameter = 2 * M_PI * 165e-3 / bolts;  // they touch
       pins.unilateral = false;
       pins.radial_stiffness = 1e14;
-      const double away = nominal_lte(solve(ring_problem(pins, Units{}), rung)) / held - 1;
+      const double away = nominal_lte(solve(ring_problem(pins, Units{}), fidelity)) / held - 1;
       BOOST_TEST(away > 0);
       BOOST_TEST(away < before / 2);
       before = away;
     }
-    record.at_most(rung == fem::Rung::plane ? "288 bolts, plane elements: transmission error over held - 1"
-                                            : "288 bolts, formulas: transmission error over held - 1",
+    record.at_most(fidelity == fem::Fidelity::plane ? "288 bolts, plane elements: transmission error over held - 1"
+                                                    : "288 bolts, formulas: transmission error over held - 1",
                    "", before, 5e-3, "ceiling; each step more than halves it");
   }
 }
@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(a_sleeve_without_length_is_none) {
     fem::EndFaceHeld face;
     face.free_length = length;
     face.sleeve_thickness = 8e-3;
-    return nominal_lte(solve(ring_problem(face, Units{}), fem::Rung::solid));
+    return nominal_lte(solve(ring_problem(face, Units{}), fem::Fidelity::solid));
   };
   const double none = lte(0), long_sleeve = lte(100e-3);
   const double tenth = lte(1e-4) - none, hundredth = lte(1e-5) - none;

@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(a_singular_complement_needs_and_survives_the_shift) {
 }
 
 BOOST_AUTO_TEST_CASE(large_matrices_take_the_nested_dissection_and_agree) {
-  const auto matrix = spring_net(64, 0.1);  // 4096 - 30 > 3000 inner freedoms
+  const auto matrix = spring_net(64, 0.1);  // 4096 - 30 > 3000 inner DOFs
   const auto retained = some_nodes(64 * 64, 30);
   const Eigen::MatrixXd complement = schur_complement(matrix, retained).matrix;
   // (K^-1)_rr = S^-1, from Eigen's own factorisation.
@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(loads_are_condensed_as_by_dense_elimination) {
     loads.setFromTriplets(entries.begin(), entries.end());
     for (const double shift : {0.0, 1.5}) {
       const auto result = schur_complement(matrix, retained, shift, loads, acting);
-      // Free loads: b_r^T S^-1 b_r and the part with the retained freedoms held make b^T K^-1 b.
+      // Free loads: b_r^T S^-1 b_r and the part with the retained DOFs held make b^T K^-1 b.
       const Eigen::MatrixXd dense = loads;
       const Eigen::MatrixXd exact = dense.transpose() * SparseCholesky(matrix).solve(dense).leftCols(acting);
       const Eigen::MatrixXd moved = result.loads.transpose() * result.matrix.llt().solve(result.loads.leftCols(acting));

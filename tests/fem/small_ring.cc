@@ -58,7 +58,7 @@ Eigen::VectorXd SmallRing::whole_load(int number, int load) const {
   const int dim = whole.dimension;
   for (const auto& f : loads.acting[load]) {
     const Eigen::Vector3d turned = turn * f.force;
-    for (int c = 0; c < dim; ++c) result[whole.freedom[node_of[number][f.node] * dim + c]] += turned[c] * per_width();
+    for (int c = 0; c < dim; ++c) result[whole.dof[node_of[number][f.node] * dim + c]] += turned[c] * per_width();
   }
   return result;
 }
@@ -85,8 +85,8 @@ Eigen::SparseMatrix<double> SmallRing::whole_mass() const {
   for (int column = 0; column < whole.nodal_mass.outerSize(); ++column)
     for (Eigen::SparseMatrix<double>::InnerIterator it(whole.nodal_mass, column); it; ++it)
       for (int c = 0; c < whole.dimension; ++c)
-        entries.emplace_back(whole.freedom[it.row() * whole.dimension + c],
-                             whole.freedom[static_cast<Eigen::Index>(column) * whole.dimension + c], it.value());
+        entries.emplace_back(whole.dof[it.row() * whole.dimension + c],
+                             whole.dof[static_cast<Eigen::Index>(column) * whole.dimension + c], it.value());
   Eigen::SparseMatrix<double> mass(whole.stiffness.rows(), whole.stiffness.rows());
   mass.setFromTriplets(entries.begin(), entries.end());
   return mass;
@@ -153,8 +153,7 @@ SmallRing small_ring(int teeth, SmallHeld held, const fem::MotionOrder& motions,
   ring.fixed.assign(ring.whole.stiffness.rows(), false);
   if (held != SmallHeld::floating)
     for (const int n : ring.whole.boundary_nodes(solid ? Boundary::end_low : Boundary::support))
-      for (int c = 0; c < ring.whole.dimension; ++c)
-        ring.fixed[ring.whole.freedom[n * ring.whole.dimension + c]] = true;
+      for (int c = 0; c < ring.whole.dimension; ++c) ring.fixed[ring.whole.dof[n * ring.whole.dimension + c]] = true;
   const NodeFinder find(ring.whole.nodes);
   for (int s = 0; s < teeth; ++s) {
     const Eigen::AngleAxisd turn(s * pitch, Eigen::Vector3d::UnitZ());

@@ -6,7 +6,7 @@
 
 #include "discretised_body.h"
 #include "fem/contact/support_row.h"
-#include "fem/ring_flexibility.h"
+#include "fem/ring/ring_flexibility.h"
 
 namespace annulus::tests {
 
@@ -18,17 +18,17 @@ struct SmallRing {
   fem::SectorLoads loads;
   fem::RingFlexibility flexibility;
   DiscretisedBody whole;
-  std::vector<bool> fixed;                ///< freedoms of the whole that are held
+  std::vector<bool> fixed;                ///< DOFs of the whole that are held
   std::vector<std::vector<int>> node_of;  ///< [sector][node of the sector] -> node of the whole
 
-  /// Load `load` of sector `sector` over the freedoms of the whole, in the units of `flexibility`: divided by the width
+  /// Load `load` of sector `sector` over the DOFs of the whole, in the units of `flexibility`: divided by the width
   /// in the plane.
   [[nodiscard]] Eigen::VectorXd whole_load(int sector, int load) const;
-  /// Stiffness of supports (a spring per force, all touching) over the freedoms of the whole.
+  /// Stiffness of supports (a spring per force, all touching) over the DOFs of the whole.
   [[nodiscard]] Eigen::SparseMatrix<double> support_stiffness(const fem::SupportPlan& plan) const;
   /// Arc loads of a support force, likewise.
   [[nodiscard]] Eigen::VectorXd support_load(const fem::SupportPlan& plan, int force) const;
-  /// Consistent mass over the freedoms of the whole, per unit of width in the plane.
+  /// Consistent mass over the DOFs of the whole, per unit of width in the plane.
   [[nodiscard]] Eigen::SparseMatrix<double> whole_mass() const;
   [[nodiscard]] double per_width() const { return whole.dimension == 2 ? 1 / width : 1; }
 };

@@ -1,4 +1,4 @@
-#include "fem/contact/support_sites.h"
+#include "fem/problem/support_sites.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -4,12 +4,12 @@
 #include <vector>
 
 #include "contact_bench.h"
-#include "fem/body_plan.h"
+#include "fem/body/body_plan.h"
 #include "fem/condensation/altered_ring.h"
 #include "fem/condensation/cyclic_body.h"
-#include "fem/condensed_store.h"
 #include "fem/cost_size.h"
-#include "fem/solved_face.h"
+#include "fem/problem/condensed_store.h"
+#include "fem/problem/solved_face.h"
 #include "ring_paper.h"
 #include "ring_paper_problems.h"
 #include "tests/temporary_folder.h"
@@ -20,13 +20,13 @@ BOOST_AUTO_TEST_SUITE(symmetric_face)
 
 using namespace annulus::tests;
 using annulus::fem::BodyStress;
+using annulus::fem::Fidelity;
 using annulus::fem::LoadedMeshProblem;
 using annulus::fem::LoadedMeshSettings;
 using annulus::fem::LoadedPosition;
 using annulus::fem::PinHeld;
 using annulus::fem::PinState;
 using annulus::fem::RingStructure;
-using annulus::fem::Rung;
 
 constexpr double crowning = 15e-6;
 LoadedMeshProblem crowned_ring(const RingStructure& structure) {
@@ -66,7 +66,7 @@ std::vector<Solved> solve(const LoadedMeshProblem& problem, int degree, bool sym
                           const std::vector<double>& phases) {
   constexpr int level = 1;  // an even number of cells along the face
   LoadedMeshSettings settings;
-  settings.rung = Rung::solid;
+  settings.fidelity = Fidelity::solid;
   settings.degree = degree;
   settings.symmetry = symmetry;
   settings.threads = 2;
@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(half_of_a_splined_ring_is_its_whole) {
 BOOST_AUTO_TEST_CASE(a_result_on_half_of_the_face_is_one_of_the_whole) {
   annulus::test::Verification record("A crowned mesh solved on half of its face", "the whole face on the same cells");
   LoadedMeshSettings settings;
-  settings.rung = Rung::solid;
+  settings.fidelity = Fidelity::solid;
   settings.degree = 1;
   settings.level = 2;  // between an even number of cells and another one
   settings.threads = 2;
@@ -222,8 +222,8 @@ BOOST_AUTO_TEST_CASE(an_odd_number_of_cells_is_as_good_halved) {
   // Five linear cells: the one in the middle is cut in two. Of what the level leaves, held against a quadratic
   // one, that changes the deflection by little, the load of the most loaded slice by up to as much.
   const auto problem = crowned_ring(annulus::fem::OutsideHeld{});
-  ContactBench half(problem, 0, Rung::solid, true, 1), whole(problem, 0, Rung::solid, false, 1),
-      finer(problem, 1, Rung::solid, true);
+  ContactBench half(problem, 0, Fidelity::solid, true, 1), whole(problem, 0, Fidelity::solid, false, 1),
+      finer(problem, 1, Fidelity::solid, true);
   BOOST_TEST(half.bodies().slice_edges.size() == 6U);
   const auto a = half.solve(0.3, nominal_load), b = whole.solve(0.3, nominal_load), c = finer.solve(0.3, nominal_load);
   const double softer = a.entry.lte / b.entry.lte - 1, left = c.entry.lte / b.entry.lte - 1;
@@ -241,7 +241,7 @@ BOOST_AUTO_TEST_CASE(an_odd_number_of_cells_is_as_good_halved) {
 
 BOOST_AUTO_TEST_CASE(what_differs_along_the_face_is_solved_whole) {
   LoadedMeshSettings settings;
-  settings.rung = Rung::solid;
+  settings.fidelity = Fidelity::solid;
   const auto half = [&](const LoadedMeshProblem& problem) { return annulus::fem::solved_face(problem, settings).half; };
   const annulus::fem::OutsideHeld held;
   const auto plain = ring_mesh(held, 2);
@@ -277,7 +277,7 @@ BOOST_AUTO_TEST_CASE(what_differs_along_the_face_is_solved_whole) {
   settings.symmetry = false;
   BOOST_TEST(!half(plain));
   settings.symmetry = true;
-  settings.rung = Rung::plane;
+  settings.fidelity = Fidelity::plane;
   BOOST_TEST(!half(plain));
 }
 
@@ -297,7 +297,7 @@ struct HalfSector {
 BOOST_AUTO_TEST_CASE(halves_of_teeth_can_be_exchanged) {
   annulus::test::Verification record("A half tooth replaced by its like",
                                      "the ring composed of equal halves by harmonics");
-  // As the resolved rung does: a tooth in the place of its like changes nothing.
+  // As the resolved model does: a tooth in the place of its like changes nothing.
   const HalfSector half;
   annulus::fem::GearBodyOptions options;
   options.sector = half.plan.model();

@@ -1,4 +1,4 @@
-#include "fem/contact/trace_basis.h"
+#include "fem/elasticity/trace_basis.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

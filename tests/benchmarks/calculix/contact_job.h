@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "benchmarks/calculix/quadratic_body.h"
-#include "fem/material.h"
+#include "fem/problem/material.h"
 
 namespace annulus::benchmarks {
 

@@ -9,12 +9,12 @@
 
 #include "benchmarks/stopwatch.h"
 #include "core/errors.h"
+#include "fem/body/resolution.h"
 #include "fem/condensation/condensed_sector.h"
 #include "fem/condensation/cyclic_body.h"
 #include "fem/condensation/lapack.h"
 #include "fem/condensation/sparse_schur.h"
 #include "fem/discretised_body.h"
-#include "fem/resolution.h"
 #include "fem/ring_paper.h"
 #include "geometry/profile.h"
 #include "geometry/sector_mesh.h"
@@ -87,9 +87,9 @@ Sector make_sector(const RingCase& ring) {
 /// The neighbour, the one after, and the farthest: in between the compliance of a held ring is too small to compare.
 std::vector<int> compared_offsets(int teeth) { return {0, 1, 2, teeth / 2}; }
 
-/// Where the ports of one tooth are in the whole ring: displacement along a port = sum of its freedoms x components.
+/// Where the ports of one tooth are in the whole ring: displacement along a port = sum of its DOFs x components.
 struct PortMap {
-  std::vector<std::array<int, 3>> freedoms;
+  std::vector<std::array<int, 3>> dofs;
   std::vector<Eigen::Vector3d> directions;
 };
 
@@ -102,19 +102,18 @@ PortMap map_ports(const tests::DiscretisedBody& body, const Sector& sector, int 
       return (a - point).squaredNorm() < (b - point).squaredNorm();
     });
     require((*nearest - point).norm() < 1e-9 * sector.outside, "a port has no node in the whole ring");
-    std::array<int, 3> freedoms{};
-    for (int d = 0; d < body.dimension; ++d)
-      freedoms[d] = body.freedom[(nearest - body.nodes.begin()) * body.dimension + d];
-    map.freedoms.push_back(freedoms);
+    std::array<int, 3> dofs{};
+    for (int d = 0; d < body.dimension; ++d) dofs[d] = body.dof[(nearest - body.nodes.begin()) * body.dimension + d];
+    map.dofs.push_back(dofs);
     map.directions.emplace_back(turn * port.direction);
   }
   return map;
 }
 
-std::vector<bool> held_freedoms(const tests::DiscretisedBody& body, Boundary held) {
+std::vector<bool> held_dofs(const tests::DiscretisedBody& body, Boundary held) {
   std::vector<bool> fixed(body.stiffness.rows(), false);
   for (const int node : body.boundary_nodes(held))
-    for (int d = 0; d < body.dimension; ++d) fixed[body.freedom[node * body.dimension + d]] = true;
+    for (int d = 0; d < body.dimension; ++d) fixed[body.dof[node * body.dimension + d]] = true;
   return fixed;
 }
 
@@ -175,7 +174,7 @@ RingCompliance monolithic(const RingCase& ring) {
   const Sector sector = make_sector(ring);
   const auto body = whole_ring(ring, sector);
   const tests::FreeSystem system(body.stiffness,
-                                 held_freedoms(body, ring.cantilever ? Boundary::end_low : Boundary::support));
+                                 held_dofs(body, ring.cantilever ? Boundary::end_low : Boundary::support));
   result.unknowns = system.matrix.rows();
   result.discretise_seconds = watch.wall();
   watch = {};
@@ -187,14 +186,14 @@ RingCompliance monolithic(const RingCase& ring) {
   Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(system.matrix.rows(), (ports + step - 1) / step);
   for (Eigen::Index column = 0; column < loads.cols(); ++column)
     for (int d = 0; d < ring.dimension; ++d)
-      loads(system.row[loaded.freedoms[column * step][d]], column) = loaded.directions[column * step][d];
+      loads(system.row[loaded.dofs[column * step][d]], column) = loaded.directions[column * step][d];
   const Eigen::MatrixXd solution = factor.solve(loads);
   for (const int offset : compared_offsets(ring.teeth)) {
     const PortMap seen = map_ports(body, sector, offset);
     Eigen::MatrixXd block = Eigen::MatrixXd::Zero(ports, loads.cols());
     for (int port = 0; port < ports; ++port)
       for (int d = 0; d < ring.dimension; ++d)
-        block.row(port) += seen.directions[port][d] * solution.row(system.row[seen.freedoms[port][d]]);
+        block.row(port) += seen.directions[port][d] * solution.row(system.row[seen.dofs[port][d]]);
     result.blocks.push_back(block);
   }
   result.compose_seconds = watch.wall();

@@ -1,0 +1,168 @@
+#include "dynamics/statics/static_solver.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.h"
+#include "dynamics/modes/modes.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+using Contact = LumpedSystem::Contact;
+
+/// State that a deflection asks for, and how far (m) it is inside another state than `held`.
+std::pair<Contact, double> wanted_state(double delta, double half_backlash, Contact held) {
+  Contact contact = Contact::open;
+  if (delta > half_backlash) contact = Contact::drive;
+  if (delta < -half_backlash) contact = Contact::back;
+  const double edge = (held == Contact::back || contact == Contact::back) ? -half_backlash : half_backlash;
+  return {contact, contact == held ? 0.0 : std::abs(delta - edge)};
+}
+
+// An open mesh keeps a billionth of its stiffness, so that an idle planet has a definite place. Its spring is then
+// anchored where it stands and pulls no more: 1e-9 k x half backlash may be more than a light load.
+constexpr double open_share = 1e-9;
+
+bool is_open(const LumpedSystem& system, int mesh, const LumpedSystem::Workspace& w) {
+  return system.meshes()[mesh].half_backlash.value_or(0.0) != 0 && w.contact[mesh] == Contact::open;
+}
+
+}  // namespace
+
+StaticSolver::StaticSolver(const LumpedSystem& system)
+    : system_(system), base_(system.stiffness()), vectors_(system.mesh_vectors()) {
+  const int meshes = static_cast<int>(vectors_.cols());
+  Eigen::VectorXd mean(meshes);
+  for (int m = 0; m < meshes; ++m) mean[m] = mean_stiffness(system.meshes()[m].excitation);
+  rest_ = Eigen::VectorXd::Zero(system.dofs());
+  forces_.resize(meshes);
+  const Modes found = modes(system, mean);
+  for (const auto& mode : found.modes) {
+    if (mode.frequency > 0) break;
+    const double work = std::abs(mode.shape.dot(system.load()));
+    // A balanced load cancels to rounding: some 1e-16 of the terms.
+    if (work > 1e-9 * mode.shape.cwiseAbs().dot(system.load().cwiseAbs())) refuse_unbalanced(system, mode.shape);
+    const Eigen::VectorXd momentum = system.mass() * mode.shape;
+    // As stiff as the meshes: stiffer, it would drown them in rounding.
+    base_ += mean.maxCoeff() / momentum.cwiseAbs2().maxCoeff() * momentum * momentum.transpose();
+  }
+  base_size_ = base_.cwiseAbs();
+  anchor_ = Eigen::VectorXd::Zero(meshes);
+}
+
+void StaticSolver::factorise(const Eigen::MatrixXd& tangent, double t) {
+  factor_.compute(base_ + vectors_ * tangent * vectors_.transpose());
+  if (factor_.info() != Eigen::Success)
+    throw SolverError(fmt::format(
+        "the quasi-static stiffness at t = {:g} s is not positive: a degree of freedom is held by nothing, or a "
+        "coupling takes more compliance off the meshes than they have",
+        t));
+}
+
+double StaticSolver::residual(double t, const Eigen::VectorXd& q, LumpedSystem::Workspace& w) {
+  system_.evaluate_meshes(t, q.data(), rest_.data(), w);
+  for (int m = 0; m < forces_.size(); ++m) {
+    w.delta_rate[m] = 0;
+    w.force[m] = forces_[m] = w.elastic[m];
+    if (is_open(system_, m, w)) forces_[m] += open_share * w.stiffness[m] * (w.closing[m] - anchor_[m]);
+  }
+  residual_ = system_.load() - base_ * q - vectors_ * forces_;
+  // A force carries the rounding of the motions and errors it is the difference of.
+  Eigen::VectorXd sizes = vectors_.cwiseAbs().transpose() * q.cwiseAbs();
+  for (int m = 0; m < forces_.size(); ++m)
+    sizes[m] = std::abs(forces_[m]) +
+               w.stiffness[m] * (sizes[m] + std::abs(w.error[m]) + system_.meshes()[m].half_backlash.value_or(0.0));
+  terms_ = system_.load().cwiseAbs() + base_size_ * q.cwiseAbs() + vectors_.cwiseAbs() * sizes;
+  return terms_.maxCoeff();
+}
+
+void StaticSolver::balance(double t, Eigen::VectorXd& q, LumpedSystem::Workspace& w) {
+  constexpr int steps = 60;
+  // Rounding of the residual is some 1e-15 of its terms; Newton's last step falls from 1e-6 to there.
+  constexpr double accuracy = 1e-13;
+  double scale = residual(t, q, w);
+  for (int step = 0; step < steps; ++step) {
+    // DOF by DOF: stiff supports must not hide what light loads do elsewhere.
+    if ((residual_.array().abs() <= accuracy * terms_.array()).all()) return;
+    system_.tangent_matrix(w, tangent_);
+    for (int m = 0; m < forces_.size(); ++m)
+      if (is_open(system_, m, w)) tangent_(m, m) += open_share * w.stiffness[m];
+    factorise(tangent_, t);
+    const Eigen::VectorXd direction = factor_.solve(residual_), from = q;
+    // The potential is convex along the step: halving it until its slope is no steeper than at the start ends soon.
+    const double slope = direction.dot(residual_);
+    double share = 1;
+    for (;; share /= 2) {
+      q = from + share * direction;
+      scale = residual(t, q, w);
+      if (std::abs(direction.dot(residual_)) <= 0.9 * slope || slope <= accuracy * scale * direction.norm()) break;
+      if (share < 1e-6) throw SolverError(fmt::format("no static equilibrium in sight at t = {:g} s", t));
+    }
+    // Where the terms cancel badly the residual stalls at rounding above the limit: a step that moves nothing ends it.
+    if (direction.cwiseAbs().maxCoeff() <= 1e-13 * q.cwiseAbs().maxCoeff()) return;
+  }
+  throw SolverError(fmt::format("no static equilibrium in {} steps of Newton's method at t = {:g} s", steps, t));
+}
+
+Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
+  system_.evaluate_excitation(t, w);
+  const int meshes = static_cast<int>(vectors_.cols());
+  if (system_.has_moving_vectors()) vectors_ = system_.mesh_vectors(t);
+  const auto half = [&](int m) { return system_.meshes()[m].half_backlash.value_or(0.0); };
+  constexpr int tries = 200, all_at_once = 20;
+  // The linear solution with the stiffnesses in the workspace: the equilibrium itself for linear meshes, near it for a
+  // law that carries about its nominal load.
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(system_.dofs());
+  tangent_.setZero(meshes, meshes);
+  Eigen::VectorXd load = system_.load();
+  anchor_.setZero();
+  int anchored = 0;
+  for (int m = 0; m < meshes; ++m) {
+    const double offset = half(m) == 0 ? 0.0 : static_cast<int>(w.contact[m]) * half(m);
+    tangent_(m, m) = (is_open(system_, m, w) ? open_share : 1.0) * w.stiffness[m];
+    load += tangent_(m, m) * (w.error[m] + offset) * vectors_.col(m);
+  }
+  factorise(tangent_, t);
+  q = factor_.solve(load);
+  for (int attempt = 0; attempt < tries; ++attempt) {
+    balance(t, q, w);
+    int changes = 0, worst = -1;
+    double worst_excess = 0;
+    for (int m = 0; m < meshes; ++m) {
+      if (half(m) == 0) continue;
+      const auto [contact, excess] = wanted_state(w.delta[m], half(m), w.contact[m]);
+      if (contact == w.contact[m]) continue;
+      ++changes;
+      if (excess > worst_excess) {
+        worst_excess = excess;
+        worst = m;
+      }
+      if (attempt < all_at_once) w.contact[m] = contact;
+    }
+    if (changes == 0) {
+      // Anchored once, the springs pull with a billionth of a billionth; again where that changed contacts.
+      constexpr double unseen = 1e-12;
+      constexpr int enough = 20;
+      double pull = 0;
+      for (int m = 0; m < meshes; ++m)
+        if (is_open(system_, m, w)) {
+          pull = std::max(pull, std::abs(open_share * w.stiffness[m] * (w.closing[m] - anchor_[m])));
+          anchor_[m] = w.closing[m];
+        }
+      if (pull <= unseen * system_.load().lpNorm<Eigen::Infinity>() || anchored++ == enough) return q;
+      continue;
+    }
+    // Changing all at once is fast but may cycle; one at a time, the worst first, ends it.
+    if (attempt >= all_at_once) {
+      if (worst < 0) return q;  // all differ by rounding only: on the edge either state is right
+      w.contact[worst] = wanted_state(w.delta[worst], half(worst), w.contact[worst]).first;
+    }
+  }
+  throw SolverError(fmt::format("no consistent contact state in {} attempts at t = {:g} s (quasi-static)", tries, t));
+}
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,108 @@
+#include "dynamics/statistics/sampling.h"
+
+#include <algorithm>
+#include <boost/math/distributions/lognormal.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/rayleigh.hpp>
+#include <cmath>
+#include <random>
+
+#include "core/errors.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+/// FNV-1a, 64 bits: fixed for all platforms, unlike std::hash.
+std::uint64_t name_hash(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  return hash;
+}
+
+/// Probability of [low, high] and the truncated quantile, from the upper tail where that is the smaller one.
+template <class Law>
+double kept(const Law& law, double low, double high, bool upper) {
+  if (upper) return cdf(complement(law, low)) - (std::isinf(high) ? 0 : cdf(complement(law, high)));
+  return (std::isinf(high) ? 1 : cdf(law, high)) - (std::isinf(low) ? 0 : cdf(law, low));
+}
+
+template <class Law>
+double truncated_quantile(const Law& law, double low, double high, double p) {
+  const bool upper = std::isfinite(low) && low > median(law);
+  const double share = kept(law, low, high, upper);
+  const double x = upper ? quantile(complement(law, cdf(complement(law, low)) - p * share))
+                         : quantile(law, (std::isinf(low) ? 0 : cdf(law, low)) + p * share);
+  return std::clamp(x, low, high);  // rounding of the quantile only
+}
+
+boost::math::lognormal lognormal_law(const Distribution& d) {
+  const double variance = std::log1p(d.deviation * d.deviation / (d.mean * d.mean));
+  return {std::log(d.mean) - variance / 2, std::sqrt(variance)};
+}
+
+std::uint64_t random_word(std::uint64_t seed, std::uint64_t sample, std::string_view quantity) {
+  const auto low = [](std::uint64_t x) { return static_cast<std::uint32_t>(x); };
+  const auto high = [](std::uint64_t x) { return static_cast<std::uint32_t>(x >> 32); };
+  const std::uint64_t name = name_hash(quantity);
+  // Both the seeding and the generator are fixed bit by bit in the C++ standard.
+  std::seed_seq words{low(seed), high(seed), low(sample), high(sample), low(name), high(name)};
+  std::mt19937_64 generator(words);
+  return generator();
+}
+
+}  // namespace
+
+double uniform_draw(std::uint64_t seed, std::uint64_t sample, std::string_view quantity) {
+  // The middle of one of 2^53 equal intervals: never 0 or 1.
+  return (static_cast<double>(random_word(seed, sample, quantity) >> 11) + 0.5) * 0x1p-53;
+}
+
+CounterDraws::CounterDraws(std::uint64_t seed, std::string_view quantity) : start_(random_word(seed, 0, quantity)) {}
+
+void Distribution::check() const {
+  if (std::isnan(mean) || std::isnan(deviation) || std::isnan(low) || std::isnan(high) || !(low < high))
+    throw InputError("the lower end must lie below the upper one");
+  if (kind == Kind::uniform) {
+    if (!std::isfinite(low) || !std::isfinite(high)) throw InputError("a uniform distribution needs both ends");
+    return;
+  }
+  if (kind == Kind::rayleigh) {
+    if (!std::isfinite(scale) || !(scale > 0))
+      throw InputError("the scale of a Rayleigh distribution must be positive");
+  } else if (!std::isfinite(deviation) || !(deviation > 0)) {
+    throw InputError("the deviation must be above zero");
+  }
+  if (kind == Kind::lognormal && !(mean > 0)) throw InputError("the mean of a lognormal distribution must be positive");
+  const double share = [&] {
+    if (kind == Kind::normal) {
+      const boost::math::normal law(mean, deviation);
+      return kept(law, low, high, std::isfinite(low) && low > mean);
+    }
+    if (!(high > 0)) return 0.0;
+    if (kind == Kind::rayleigh) {
+      const boost::math::rayleigh law(scale);
+      return kept(law, std::max(low, 0.0), high, low > median(law));
+    }
+    const auto law = lognormal_law(*this);
+    return kept(law, std::max(low, 0.0), high, low > median(law));
+  }();
+  if (!(share >= 1e-3)) throw InputError("less than a thousandth of the distribution lies between its ends");
+}
+
+double Distribution::quantile(double probability) const {
+  require(probability > 0 && probability < 1, "quantile of a probability outside (0, 1)");
+  switch (kind) {
+    case Kind::uniform:
+      break;
+    case Kind::normal:
+      return truncated_quantile(boost::math::normal(mean, deviation), low, high, probability);
+    case Kind::rayleigh:
+      return truncated_quantile(boost::math::rayleigh(scale), std::max(low, 0.0), high, probability);
+    case Kind::lognormal:
+      return truncated_quantile(lognormal_law(*this), std::max(low, 0.0), high, probability);
+  }
+  return low + probability * (high - low);
+}
+
+}  // namespace annulus::dynamics

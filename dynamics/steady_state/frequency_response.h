@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dynamics/system/lumped_system.h"
+
+namespace annulus::dynamics {
+
+/// The system with constant mesh stiffnesses k and all mesh dampers acting, in the frequency domain:
+///   D(w) = -w^2 M + i w (C + G + sum c b b^T) + K + K_Omega + sum k b b^T.
+/// From the eigenvalues of its state matrix, so that thousands of lines cost little; checked against direct solutions
+/// of D, which take over when the eigenvectors are useless (eigenvalues that coincide, as at critical damping).
+///
+/// Rigid motions (K and the meshes do not resist them) have no definite place: at w = 0 they are fixed by nu^T M q = 0,
+/// as in StaticSolver. What little K_Omega makes of them (a single planet out of balance) is left out there.
+class FrequencyResponse {
+ public:
+  /// Throws SolverError when the mesh stiffnesses leave the system singular at w = 0.
+  FrequencyResponse(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness);
+
+  /// Transfer B^T D(w)^-1 B (m/N) from forces on the meshes to their closings at the lines w = j x `spacing` (rad/s), j
+  /// = 1 ... lines: meshes x (2 meshes lines); per line the real part beside the imaginary part.
+  [[nodiscard]] Eigen::MatrixXd mesh_transfer(double spacing, Eigen::Index lines) const;
+
+  /// Displacements D(w)^-1 B F at the same lines: DOFs x lines, from amplitudes F (N), meshes x lines.
+  [[nodiscard]] Eigen::MatrixXcd displacements(double spacing, const Eigen::MatrixXcd& forces) const;
+
+  /// D(0)^-1 f for a real force f on the DOFs (N) that does no work on rigid motions.
+  [[nodiscard]] Eigen::VectorXd static_displacement(const Eigen::VectorXd& force) const;
+
+  /// Mesh vectors b as columns.
+  [[nodiscard]] const Eigen::MatrixXd& mesh_vectors() const { return b_; }
+  [[nodiscard]] bool by_eigenvalues() const { return by_eigenvalues_; }
+
+ private:
+  [[nodiscard]] Eigen::MatrixXcd solve_directly(double rate) const;  // D^-1 B
+  [[nodiscard]] Eigen::MatrixXd transfer_by_eigenvalues(double spacing, Eigen::Index lines) const;
+  void find_eigenvalues(const Eigen::MatrixXd& shapes, const Eigen::VectorXd& squares, Eigen::Index rigid_motions);
+  [[nodiscard]] bool eigenvalues_agree() const;
+
+  Eigen::MatrixXd mass_, damping_, stiffness_, b_;
+  Eigen::MatrixXd static_inverse_;
+  bool by_eigenvalues_ = false;
+  Eigen::VectorXcd eigenvalues_;  // 1/s
+  Eigen::MatrixXcd inputs_;       // eigenvalues x meshes
+  Eigen::MatrixXcd outputs_;      // DOFs x eigenvalues, rigid displacements left out
+  Eigen::MatrixXcd rigid_rates_;  // DOFs x eigenvalues: velocities along the rigid motions
+};
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,149 @@
+#include "dynamics/steady_state/harmonic_balance.h"
+
+#include <complex>
+
+#include "core/errors.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+}  // namespace
+
+HarmonicBalance::HarmonicBalance(const BalanceProblem& problem, double period, Eigen::Index samples)
+    : problem_(problem), meshes_(problem.system, period, samples), transform_(static_cast<int>(samples)) {
+  require(samples % 4 == 0 && samples / 2 - 1 <= problem.transfer.cols() / (2 * problem.transfer.rows()),
+          "a sampling of the harmonic balance does not fit its transfer functions");
+  lines_.resize(samples / 2 + 1, problem.mean_stiffness.size());
+  closing_lines_ = lines_;
+  line_.resize(lines_.rows());
+}
+
+void HarmonicBalance::forward(const Eigen::Ref<const Eigen::MatrixXd>& values, Eigen::MatrixXcd& lines) {
+  for (Eigen::Index m = 0; m < values.cols(); ++m) transform_.forward(values.col(m).data(), lines.col(m).data());
+}
+
+void HarmonicBalance::respond(Eigen::Ref<Eigen::MatrixXd> closing) {
+  const Eigen::Index meshes = lines_.cols(), last = samples() / 2;
+  const double scale = 1.0 / static_cast<double>(samples());
+  Eigen::VectorXd real(meshes), imaginary(meshes), sum(meshes), imaginary_sum(meshes);
+  real = scale * lines_.row(0).real();
+  lines_.row(0) = (problem_.static_transfer * real).cast<Complex>();
+  for (Eigen::Index j = 1; j < last; ++j) {
+    for (Eigen::Index m = 0; m < meshes; ++m) {
+      real[m] = scale * lines_(j, m).real();
+      imaginary[m] = scale * lines_(j, m).imag();
+    }
+    const auto re = problem_.transfer.middleCols(2 * meshes * (j - 1), meshes);
+    const auto im = problem_.transfer.middleCols(2 * meshes * (j - 1) + meshes, meshes);
+    sum.noalias() = re.lazyProduct(real) - im.lazyProduct(imaginary);
+    imaginary_sum.noalias() = re.lazyProduct(imaginary) + im.lazyProduct(real);
+    for (Eigen::Index m = 0; m < meshes; ++m) lines_(j, m) = Complex(sum[m], imaginary_sum[m]);
+  }
+  lines_.row(last).setZero();  // the sign of this line's rate is unknown: it is left out
+  for (Eigen::Index m = 0; m < meshes; ++m) transform_.inverse(lines_.col(m).data(), closing.col(m).data());
+}
+
+Eigen::MatrixXd HarmonicBalance::rate_of(const Eigen::Ref<const Eigen::MatrixXd>& values) {
+  Eigen::MatrixXd rate(values.rows(), values.cols());
+  const Eigen::Index last = samples() / 2;
+  const double scale = problem_.spacing / static_cast<double>(samples());
+  for (Eigen::Index m = 0; m < values.cols(); ++m) {
+    transform_.forward(values.col(m).data(), line_.data());
+    for (Eigen::Index j = 0; j < last; ++j) line_[j] *= Complex(0, static_cast<double>(j) * scale);
+    line_[last] = 0;
+    transform_.inverse(line_.data(), rate.col(m).data());
+  }
+  return rate;
+}
+
+Eigen::MatrixXd HarmonicBalance::linear_solution(const Eigen::MatrixXd& start, const Eigen::MatrixXd& start_rate,
+                                                 const Eigen::MatrixXd& force) {
+  Eigen::MatrixXd rest = force;
+  for (Eigen::Index m = 0; m < rest.cols(); ++m)
+    rest.col(m) -= problem_.mean_stiffness[m] * start.col(m) + problem_.system.meshes()[m].damping * start_rate.col(m);
+  forward(rest, lines_);
+  Eigen::MatrixXd closing(rest.rows(), rest.cols());
+  respond(closing);
+  return problem_.static_closing.transpose().replicate(closing.rows(), 1) - closing;
+}
+
+void HarmonicBalance::residual(const Eigen::Ref<const Eigen::MatrixXd>& closing, Eigen::Ref<Eigen::MatrixXd> result) {
+  const Eigen::Index last = samples() / 2;
+  const double scale = problem_.spacing / static_cast<double>(samples());
+  forward(closing, closing_lines_);
+  rate_.resize(closing.rows(), closing.cols());
+  for (Eigen::Index m = 0; m < closing.cols(); ++m) {
+    for (Eigen::Index j = 0; j < last; ++j)
+      line_[j] = closing_lines_(j, m) * Complex(0, static_cast<double>(j) * scale);
+    line_[last] = 0;
+    transform_.inverse(line_.data(), rate_.col(m).data());
+  }
+  meshes_.evaluate(closing, rate_, force_);
+  forward(force_, lines_);
+  for (Eigen::Index m = 0; m < closing.cols(); ++m) {
+    const double k = problem_.mean_stiffness[m], c = problem_.system.meshes()[m].damping * problem_.spacing;
+    for (Eigen::Index j = 0; j < last; ++j)
+      lines_(j, m) -= Complex(k, c * static_cast<double>(j)) * closing_lines_(j, m);
+  }
+  closing_lines_.topRows(last) = lines_.topRows(last) / static_cast<double>(samples());  // for the motion
+  respond(result);
+  for (Eigen::Index m = 0; m < closing.cols(); ++m)
+    result.col(m).array() += closing.col(m).array() - problem_.static_closing[m];
+}
+
+void HarmonicBalance::apply_derivative(const Eigen::Ref<const Eigen::MatrixXd>& change,
+                                       Eigen::Ref<Eigen::MatrixXd> result) {
+  // result serves as the forces' change first.
+  meshes_.apply_tangent(change, problem_.mean_stiffness, result);
+  for (Eigen::Index m = 0; m < change.cols(); ++m) {
+    const double c = problem_.system.meshes()[m].damping;
+    if ((meshes_.damping().col(m).array() != c).any())
+      result.col(m).array() += (meshes_.damping().col(m).array() - c) * rate_of(change.col(m)).array();
+  }
+  forward(result, lines_);
+  respond(result);
+  result += change;
+}
+
+Eigen::MatrixXd HarmonicBalance::refined(const Eigen::MatrixXd& values, Eigen::Index factor) {
+  const Eigen::Index coarse = values.rows(), fine = factor * coarse;
+  const RealTransform from(static_cast<int>(coarse)), to(static_cast<int>(fine));
+  Eigen::VectorXcd line(fine / 2 + 1);
+  Eigen::MatrixXd result(fine, values.cols());
+  for (Eigen::Index m = 0; m < values.cols(); ++m) {
+    from.forward(values.col(m).data(), line.data());
+    line.tail(line.size() - coarse / 2).setZero();
+    line.head(coarse / 2) /= static_cast<double>(coarse);
+    to.inverse(line.data(), result.col(m).data());
+  }
+  return result;
+}
+
+void HarmonicBalance::motion(Eigen::MatrixXd& displacement, Eigen::MatrixXd& velocity) {
+  const Eigen::Index last = samples() / 2;
+  const auto& response = problem_.response;
+  const Eigen::MatrixXcd amplitudes =
+      response.displacements(problem_.spacing, -closing_lines_.middleRows(1, last - 1).transpose());
+  const Eigen::VectorXd mean = response.static_displacement(
+      problem_.system.load() - response.mesh_vectors() * closing_lines_.row(0).real().transpose());
+  displacement.resize(amplitudes.rows(), samples());
+  velocity.resize(amplitudes.rows(), samples());
+  Eigen::VectorXd values(samples());
+  for (Eigen::Index i = 0; i < amplitudes.rows(); ++i) {
+    line_[0] = mean[i];
+    line_[last] = 0;
+    line_.segment(1, last - 1) = amplitudes.row(i);
+    transform_.inverse(line_.data(), values.data());
+    displacement.row(i) = values;
+    line_[0] = line_[last] = 0;
+    for (Eigen::Index j = 1; j < last; ++j)
+      line_[j] = amplitudes(i, j - 1) * Complex(0, static_cast<double>(j) * problem_.spacing);
+    transform_.inverse(line_.data(), values.data());
+    velocity.row(i) = values;
+  }
+}
+
+}  // namespace annulus::dynamics

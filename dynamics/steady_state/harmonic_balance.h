@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "dynamics/steady_state/frequency_response.h"
+#include "dynamics/steady_state/real_transform.h"
+#include "dynamics/steady_state/sampled_meshes.h"
+
+namespace annulus::dynamics {
+
+/// What all samplings of one period share.
+struct BalanceProblem {
+  const LumpedSystem& system;
+  const FrequencyResponse& response;
+  Eigen::VectorXd mean_stiffness;   ///< of `response`
+  double spacing = 0;               ///< rad/s, between the lines
+  Eigen::MatrixXd transfer;         ///< of the meshes, at all lines of the finest sampling
+  Eigen::MatrixXd static_transfer;  ///< at w = 0
+  Eigen::VectorXd static_closing;   ///< of the load, at w = 0
+};
+
+/// Residual and derivative of the harmonic balance at one sampling. Matrices: samples x meshes.
+class HarmonicBalance {
+ public:
+  HarmonicBalance(const BalanceProblem& problem, double period, Eigen::Index samples);
+
+  /// Closings from forces F = k (closing - start) + c (rate - start rate) + `force`: the linear problem.
+  [[nodiscard]] Eigen::MatrixXd linear_solution(const Eigen::MatrixXd& start, const Eigen::MatrixXd& start_rate,
+                                                const Eigen::MatrixXd& force);
+  /// z + H N(z) - H_0 f; remembers the forces and their derivatives.
+  void residual(const Eigen::Ref<const Eigen::MatrixXd>& closing, Eigen::Ref<Eigen::MatrixXd> result);
+  /// Derivative of the residual at the last `residual`, times `change`.
+  void apply_derivative(const Eigen::Ref<const Eigen::MatrixXd>& change, Eigen::Ref<Eigen::MatrixXd> result);
+
+  /// Time derivative of a periodic function.
+  [[nodiscard]] Eigen::MatrixXd rate_of(const Eigen::Ref<const Eigen::MatrixXd>& values);
+  /// The same function at `factor` times as many samples.
+  [[nodiscard]] static Eigen::MatrixXd refined(const Eigen::MatrixXd& values, Eigen::Index factor);
+  /// Displacement and velocity of all DOFs (DOFs x samples) at the last `residual`.
+  void motion(Eigen::MatrixXd& displacement, Eigen::MatrixXd& velocity);
+
+  [[nodiscard]] SampledMeshes& meshes() { return meshes_; }
+  [[nodiscard]] Eigen::Index samples() const { return meshes_.samples(); }
+
+ private:
+  /// H times the forces whose spectra stand in `lines_`, into the samples.
+  void respond(Eigen::Ref<Eigen::MatrixXd> closing);
+  void forward(const Eigen::Ref<const Eigen::MatrixXd>& values, Eigen::MatrixXcd& lines);
+
+  const BalanceProblem& problem_;
+  SampledMeshes meshes_;
+  RealTransform transform_;
+  Eigen::MatrixXcd lines_, closing_lines_;  // spectra, up to the Nyquist line, one column per mesh
+  Eigen::VectorXcd line_;
+  Eigen::MatrixXd rate_, force_;
+};
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,262 @@
+#include "dynamics/steady_state/periodic_response.h"
+
+#include <fmt/format.h>
+#include <kinsol/kinsol.h>
+#include <nvector/nvector_serial.h>
+#include <sunlinsol/sunlinsol_spgmr.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sundials/sundials_context.hpp>
+
+#include "core/errors.h"
+#include "dynamics/statics/static_solver.h"
+#include "dynamics/steady_state/harmonic_balance.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+/// What KINSOL's callbacks see.
+struct BalanceIteration {
+  HarmonicBalance& balance;
+  Eigen::MatrixXd at;  ///< where the residual was evaluated last
+  [[nodiscard]] Eigen::Map<Eigen::MatrixXd> matrix(N_Vector v) const {
+    return {N_VGetArrayPointer(v), at.rows(), at.cols()};
+  }
+};
+
+extern "C" {
+
+static int annulus_balance(N_Vector u, N_Vector result, void* data) {
+  auto& p = *static_cast<BalanceIteration*>(data);
+  p.at = p.matrix(u);
+  p.balance.residual(p.at, p.matrix(result));
+  return p.matrix(result).allFinite() ? 0 : 1;
+}
+
+static int annulus_balance_derivative(N_Vector v, N_Vector result, N_Vector u, booleantype* new_u, void* data) {
+  auto& p = *static_cast<BalanceIteration*>(data);
+  // The line search may have looked elsewhere last.
+  if (*new_u && p.at != p.matrix(u)) annulus_balance(u, result, data);
+  *new_u = SUNFALSE;
+  p.balance.apply_derivative(p.matrix(v), p.matrix(result));
+  return 0;
+}
+
+/// Most of GMRES at this size; SUNDIALS' own loop does one product at a time.
+static realtype annulus_balance_product(N_Vector a, N_Vector b) {
+  using Values = Eigen::Map<const Eigen::VectorXd>;
+  return Values(N_VGetArrayPointer(a), NV_LENGTH_S(a)).dot(Values(N_VGetArrayPointer(b), NV_LENGTH_S(b)));
+}
+
+/// KINSOL prints its complaints; here they end in `trouble`.
+static void annulus_balance_complaint(int, const char*, const char*, char* message, void* data) {
+  *static_cast<std::string*>(data) = message;
+}
+
+}  // extern "C"
+
+/// One Newton-Krylov solution; owns what KINSOL allocates.
+class BalanceSolver {
+ public:
+  BalanceSolver(HarmonicBalance& balance, const Eigen::MatrixXd& start, double scale, const PeriodicOptions& options)
+      : iteration_{balance, start}, scale_(scale), options_(options) {
+    u_ = N_VNew_Serial(start.size(), context_);
+    u_->ops->nvdotprod = annulus_balance_product;  // clones inherit it
+    weights_ = N_VClone(u_);
+    N_VConst(1 / scale, weights_);
+    iteration_.matrix(u_) = start;
+    constexpr int directions = 50;
+    solver_ = SUNLinSol_SPGMR(u_, SUN_PREC_NONE, directions, context_);
+    memory_ = KINCreate(context_);
+    if (!memory_) throw SolverError("KINSOL could not be set up");
+    KINSetErrHandlerFn(memory_, annulus_balance_complaint, &complaint_);
+    KINInit(memory_, annulus_balance, u_);
+    KINSetUserData(memory_, &iteration_);
+    KINSetFuncNormTol(memory_, options.tolerance);
+    KINSetScaledStepTol(memory_, 1e-3 * options.tolerance);
+    KINSetNumMaxIters(memory_, options.max_iterations);
+    // The linear problem (no contact lost) then takes two or three Newton iterations, of few directions each.
+    KINSetEtaForm(memory_, KIN_ETACONSTANT);
+    KINSetEtaConstValue(memory_, 1e-2);
+    KINSetLinearSolver(memory_, solver_, nullptr);
+    KINSetJacTimesVecFn(memory_, annulus_balance_derivative);
+  }
+  ~BalanceSolver() {
+    KINFree(&memory_);
+    SUNLinSolFree(solver_);
+    N_VDestroy(weights_);
+    N_VDestroy(u_);
+  }
+  BalanceSolver(const BalanceSolver&) = delete;
+  BalanceSolver& operator=(const BalanceSolver&) = delete;
+
+  /// Closings; adds to the iterations and sets residual, converged and trouble.
+  Eigen::MatrixXd solve(PeriodicResponse& response) {
+    const int flag = options_.max_iterations > 0 ? KINSol(memory_, u_, KIN_LINESEARCH, weights_, weights_) : 0;
+    long newton = 0, linear = 0;
+    KINGetNumNonlinSolvIters(memory_, &newton);
+    KINGetNumLinIters(memory_, &linear);
+    response.newton_iterations += static_cast<int>(newton);
+    response.linear_iterations += static_cast<int>(linear);
+    // The forces and derivatives of the answer itself, whatever KINSOL tried last.
+    Eigen::MatrixXd closing = iteration_.matrix(u_), residual(closing.rows(), closing.cols());
+    iteration_.balance.residual(closing, residual);
+    response.residual = residual.cwiseAbs().maxCoeff() / scale_;
+    response.converged = options_.max_iterations > 0 && response.residual <= options_.tolerance;
+    if (!response.converged && response.trouble.empty())
+      response.trouble = fmt::format("residual {:.1e} after {} iterations with {} samples: {}", response.residual,
+                                     newton, closing.rows(), flag < 0 ? complaint_ : "the steps became too small");
+    return closing;
+  }
+
+ private:
+  sundials::Context context_;
+  std::string complaint_;
+  BalanceIteration iteration_;
+  double scale_;
+  const PeriodicOptions& options_;
+  N_Vector u_ = nullptr, weights_ = nullptr;
+  SUNLinearSolver solver_ = nullptr;
+  void* memory_ = nullptr;
+};
+
+/// Deflections under load at time 0; an open mesh stands at its edge.
+struct Reference {
+  Eigen::VectorXd deflection;
+  double scale = 0;  ///< m, largest deformation of a mesh
+};
+
+Reference reference_of(const LumpedSystem& system) {
+  StaticSolver solver(system);
+  auto workspace = system.workspace();
+  if (std::isfinite(system.next_jump(0))) system.hold_waves(0.5 * system.next_jump(0), workspace);
+  (void)solver.solve(0, workspace);
+  const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
+  Reference reference{Eigen::Map<const Eigen::VectorXd>(workspace.delta.data(), meshes), 0};
+  for (Eigen::Index m = 0; m < meshes; ++m)
+    reference.scale = std::max(reference.scale, std::abs(workspace.force[m]) / workspace.stiffness[m]);
+  if (!(reference.scale > 0)) reference.scale = std::max(reference.deflection.cwiseAbs().maxCoeff(), 1e-9);
+  return reference;
+}
+
+/// Mean over time of dF/d delta at the reference; where the teeth are apart there, of the stiffness.
+Eigen::VectorXd mean_tangents(const LumpedSystem& system, const Eigen::MatrixXd& tangent) {
+  Eigen::VectorXd mean = tangent.colwise().mean();
+  for (Eigen::Index m = 0; m < mean.size(); ++m)
+    if (!(mean[m] > 0)) mean[m] = mean_stiffness(system.meshes()[m].excitation);
+  return mean;
+}
+
+void fill(PeriodicResponse& response, HarmonicBalance& balance, const Eigen::MatrixXd& closing) {
+  const Eigen::Index samples = balance.samples(), meshes = closing.cols();
+  Eigen::MatrixXd force;
+  std::vector<LumpedSystem::Contact> contact;
+  balance.meshes().evaluate_at_instants(closing, balance.rate_of(closing), force, contact);
+  response.coarse_force = std::move(response.force);
+  response.force = force.transpose();
+  response.time.resize(samples);
+  for (Eigen::Index i = 0; i < samples; ++i) response.time[i] = balance.meshes().time(i);
+  response.open.resize(meshes);
+  for (Eigen::Index m = 0; m < meshes; ++m)
+    response.open[m] =
+        static_cast<double>(std::count(contact.begin() + m * samples, contact.begin() + (m + 1) * samples,
+                                       LumpedSystem::Contact::open)) /
+        static_cast<double>(samples);
+}
+
+void set_sampling_difference(PeriodicResponse& response, int samples_per_cycle) {
+  response.samples_per_cycle = samples_per_cycle;
+  response.sampling_difference = 0;
+  for (Eigen::Index i = 0; i < response.coarse_force.cols(); ++i)
+    response.sampling_difference = std::max(
+        response.sampling_difference, (response.force.col(2 * i) - response.coarse_force.col(i)).cwiseAbs().maxCoeff());
+}
+
+bool wants_more_samples(const PeriodicResponse& response, const PeriodicOptions& options) {
+  return response.converged && options.sampling_tolerance &&
+         response.sampling_difference > *options.sampling_tolerance &&
+         2 * response.samples_per_cycle <= options.max_samples_per_cycle;
+}
+
+}  // namespace
+
+PeriodicResponse periodic_response(const LumpedSystem& system, double period, int cycles,
+                                   const PeriodicOptions& options) {
+  if (!(period > 0) || cycles < 1) throw InputError("a periodic response needs a positive period of whole cycles");
+  if (options.samples_per_cycle < 8 || options.samples_per_cycle % 8 != 0)
+    throw InputError("harmonic balance needs a multiple of 8 samples per mesh cycle");
+  if (!(options.tolerance > 0) || options.max_iterations < 1)
+    throw InputError("harmonic balance needs a positive tolerance and at least one iteration");
+  require(!system.meshes().empty(), "a periodic response needs meshes");
+  if (system.has_moving_vectors()) {
+    PeriodicResponse refused;
+    refused.trouble = "mesh vectors that move with the mesh (elastic modes of the ring) need time marching";
+    return refused;
+  }
+
+  const Eigen::Index samples = static_cast<Eigen::Index>(cycles) * options.samples_per_cycle;
+  // Solving begins with few samples, where iterations cost little, and doubles them: each level starts close to its
+  // answer.
+  constexpr double rough_tolerance = 1e-3, hopeless = 0.1;
+  Eigen::Index coarsening = 2;
+  while (options.samples_per_cycle % (2 * coarsening) == 0 && options.samples_per_cycle / (2 * coarsening) >= 8)
+    coarsening *= 2;
+  const Reference reference = reference_of(system);
+  Eigen::MatrixXd closing, rate, force;
+  SampledMeshes at_reference(system, period, samples / coarsening);
+  at_reference.at_deflection(reference.deflection, closing, rate);
+  at_reference.evaluate(closing, rate, force);
+  const Eigen::VectorXd mean = mean_tangents(system, at_reference.tangent());
+
+  const FrequencyResponse linear(system, mean);
+  const double spacing = 2 * std::numbers::pi / period;
+  BalanceProblem problem{system, linear, mean, spacing, linear.mesh_transfer(spacing, samples / 2 - 1), {}, {}};
+  problem.static_transfer.resize(mean.size(), mean.size());
+  const auto& b = linear.mesh_vectors();
+  for (Eigen::Index m = 0; m < mean.size(); ++m)
+    problem.static_transfer.col(m) = b.transpose() * linear.static_displacement(b.col(m));
+  problem.static_closing = b.transpose() * linear.static_displacement(system.load());
+
+  PeriodicResponse response;
+  closing.resize(0, 0);
+  bool failed = false;
+  for (Eigen::Index level = samples / coarsening; level <= samples; level *= 2) {
+    HarmonicBalance balance(problem, period, level);
+    if (closing.size() == 0) {
+      balance.meshes().at_deflection(reference.deflection, closing, rate);
+      balance.meshes().evaluate(closing, rate, force);
+      closing = balance.linear_solution(closing, rate, force);
+    } else {
+      closing = HarmonicBalance::refined(closing, 2);
+    }
+    auto level_options = options;
+    // Below the two finest only a start is wanted.
+    if (4 * level <= samples) level_options.tolerance = std::max(options.tolerance, rough_tolerance);
+    // What a coarse sampling cannot solve is hopeless, or too dear: the last iterate is then shown as it is.
+    if (failed) level_options.max_iterations = 0;
+    closing = BalanceSolver(balance, closing, reference.scale, level_options).solve(response);
+    failed = failed || response.residual > std::max(level_options.tolerance, level < samples ? hopeless : 0.0);
+    if (2 * level >= samples) fill(response, balance, closing);
+    if (level == samples && options.motion) balance.motion(response.displacement, response.velocity);
+  }
+  set_sampling_difference(response, options.samples_per_cycle);
+  while (wants_more_samples(response, options)) {
+    const Eigen::Index level = 2 * response.time.size();
+    problem.transfer = linear.mesh_transfer(spacing, level / 2 - 1);
+    HarmonicBalance balance(problem, period, level);
+    closing = HarmonicBalance::refined(closing, 2);
+    auto finer = response;
+    closing = BalanceSolver(balance, closing, reference.scale, options).solve(finer);
+    if (!finer.converged) break;
+    fill(finer, balance, closing);
+    if (options.motion) balance.motion(finer.displacement, finer.velocity);
+    set_sampling_difference(finer, 2 * response.samples_per_cycle);
+    response = std::move(finer);
+  }
+  return response;
+}
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,128 @@
+#include "dynamics/steady_state/response_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/errors.h"
+#include "dynamics/statics/static_solver.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+/// Jumps come with the forces before and after; at the end of the window those before alone, its beginning follows.
+void set_jumps(ResponseWindow& window, const std::vector<double>& times, const std::vector<double>& forces) {
+  const Eigen::Index meshes = window.force.rows(), notes = static_cast<Eigen::Index>(times.size());
+  const Eigen::Map<const Eigen::MatrixXd> noted(forces.data(), meshes, notes);
+  const Eigen::Index jumps = (notes + 1) / 2;
+  window.jump_time.resize(jumps);
+  window.force_before.resize(meshes, jumps);
+  window.force_after.resize(meshes, jumps);
+  if (jumps == 0) return;
+  require(notes % 2 == 1, "jumps come in pairs of forces, the end of a window alone");
+  window.jump_time[0] = window.time[0];
+  window.force_before.col(0) = noted.col(notes - 1);
+  window.force_after.col(0) = window.force.col(0);
+  for (Eigen::Index j = 1; j < jumps; ++j) {
+    window.jump_time[j] = times[static_cast<std::size_t>(2 * j - 2)];
+    window.force_before.col(j) = noted.col(2 * j - 2);
+    window.force_after.col(j) = noted.col(2 * j - 1);
+  }
+}
+
+}  // namespace
+
+ResponseRun::ResponseRun(const LumpedSystem& system, double mesh_frequency, int samples_per_cycle,
+                         const IntegratorOptions& integrator)
+    : system_(system),
+      mesh_frequency_(mesh_frequency),
+      samples_per_cycle_(samples_per_cycle),
+      workspace_(system.workspace()),
+      integrator_(integrator) {
+  require(integrator_.absolute_tolerance.has_value(), "a run needs an absolute tolerance");
+  start_from_equilibrium();
+}
+
+void ResponseRun::start_from_equilibrium() {
+  StaticSolver solver(system_);
+  state_.v = Eigen::VectorXd::Zero(system_.dofs());
+  if (!std::isfinite(system_.next_jump(0))) {
+    const double h = 1e-3 / mesh_frequency_;  // a thousandth of a cycle: smooth there, far above rounding
+    const Eigen::VectorXd after = solver.solve(h, workspace_), before = solver.solve(-h, workspace_);
+    state_.v = (after - before) / (2 * h);
+  }
+  state_.q = solver.solve(0, workspace_);
+}
+
+void ResponseRun::start_from(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity) {
+  state_ = {};
+  state_.q = displacement;
+  state_.v = velocity;
+  system_.detect_contact(0, state_.q.data(), workspace_);
+}
+
+void ResponseRun::advance(int cycles, ResponseWindow* window, bool track_energy) {
+  const double end = (cycles_ + cycles) / mesh_frequency_;
+  const int samples = window ? cycles * samples_per_cycle_ : 0;
+  if (window) {
+    window->samples_per_cycle = samples_per_cycle_;
+    const auto meshes = static_cast<Eigen::Index>(system_.meshes().size());
+    window->time.resize(samples);
+    window->force.resize(meshes, samples);
+    window->displacement.resize(system_.dofs(), samples);
+    window->velocity.resize(system_.dofs(), samples);
+    window->open = Eigen::VectorXd::Zero(meshes);
+  }
+  const auto sample = [&](int i, const SystemState& state) {
+    window->time[i] = state.time;
+    window->displacement.col(i) = state.q;
+    window->velocity.col(i) = state.v;
+    for (Eigen::Index m = 0; m < window->force.rows(); ++m) {
+      window->force(m, i) = workspace_.force[m];
+      if (workspace_.contact[m] == LumpedSystem::Contact::open) window->open[m] += 1.0 / samples;
+    }
+  };
+  std::vector<double> jump_time, jump_force;
+  const double start = state_.time, spacing = (end - start) / std::max(samples, 1);
+  std::function<void(double)> at_jump;
+  if (window) {
+    window->after_jump.clear();
+    at_jump = [&](double time) {
+      jump_time.push_back(time);
+      jump_force.insert(jump_force.end(), workspace_.force.begin(), workspace_.force.end());
+      // Rounding of a sample that stands on the jump itself: far below a billionth of the spacing.
+      const auto sample_after = static_cast<Eigen::Index>(std::ceil((time - start) / spacing - 1e-9));
+      if (sample_after < samples && (window->after_jump.empty() || window->after_jump.back() != sample_after))
+        window->after_jump.push_back(sample_after);
+    };
+  }
+  const auto s = integrate(system_, state_, end, integrator_, workspace_, samples, sample, track_energy, at_jump);
+  if (window) set_jumps(*window, jump_time, jump_force);
+  cycles_ += cycles;
+  statistics_.steps += s.steps;
+  statistics_.rhs_evaluations += s.rhs_evaluations;
+  statistics_.jacobian_evaluations += s.jacobian_evaluations;
+  statistics_.contact_events += s.contact_events;
+  statistics_.stiffness_restarts += s.stiffness_restarts;
+}
+
+double ResponseRun::energy() {
+  Eigen::VectorXd y(2 * system_.dofs());
+  y << state_.q, state_.v;
+  return system_.energy(state_.time, y.data(), workspace_);
+}
+
+void ResponseRun::pass_jump() {
+  const double next = system_.next_jump(state_.time);
+  if (std::isfinite(next)) system_.hold_waves((state_.time + next) / 2, workspace_);
+}
+
+void ResponseRun::loosen(double factor) {
+  // At most a tenth: beyond, the comparison would say little.
+  integrator_.relative_tolerance = std::min(0.1, integrator_.relative_tolerance * factor);
+  *integrator_.absolute_tolerance *= factor;
+  integrator_.fixed_step *= std::pow(factor, 0.25);  // the error of the fixed-step method goes with step^4
+}
+
+}  // namespace annulus::dynamics

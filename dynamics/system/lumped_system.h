@@ -1,0 +1,208 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dynamics/system/curve_bundle.h"
+#include "dynamics/system/mesh_excitation.h"
+
+namespace annulus::dynamics {
+
+/// A coordinate as a linear combination of DOFs: sum of factor x DOF. Empty: the coordinate is held.
+using LinearForm = std::vector<std::pair<int, double>>;
+[[nodiscard]] LinearForm operator+(const LinearForm& a, const LinearForm& b);
+[[nodiscard]] LinearForm operator*(double factor, const LinearForm& a);
+
+/// amount x sin(rate t + phase), part of a mesh's transmission error. m, rad/s, rad.
+struct HarmonicError {
+  double amount = 0, rate = 0, phase = 0;
+};
+
+/// A part of a mesh vector that changes in time: the closing b^T q gains factor(t) x DOF.
+struct MovingShare {
+  int dof = 0;
+  PeriodicCurve curve;   ///< of the mesh's cycles, frequency t + phase_offset; added to ...
+  HarmonicError wave{};  ///< ... amount x sin(rate t + phase)
+};
+
+/// One gear mesh, whatever its kind: delta = b^T q - e(t), force on the DOFs -b F,
+/// F = k(t) g(delta) + c delta', g with half backlash; c acts while the teeth touch (or always). With a ForceSurface
+/// k(t) g is replaced by the law Fs(t, g).
+struct MeshElement {
+  std::string name;
+  LinearForm b;
+  MeshExcitation excitation;
+  double frequency = 0;                 ///< Hz, mesh cycles per second
+  double phase_offset = 0;              ///< mesh cycles at t = 0: the excitation is read at frequency t + phase_offset
+  double damping = 0;                   ///< N s/m
+  std::optional<double> half_backlash;  ///< m
+  bool damping_without_contact = false;
+  std::vector<HarmonicError> errors;
+  std::vector<MovingShare> moving;  ///< at most one per DOF
+};
+
+/// Meshes that act on each other through a common elastic body (the ring): the own law of mesh i meets the deflection
+///   delta_i - sum_j D_ij(t) F_j,
+/// so the forces F solve a system of equations. F is the elastic force alone: the dampers of the meshes act on the
+/// closing rate of the rigid bodies as without coupling, and do not deflect the common body.
+/// 1/k + D of the closed meshes has to be positive definite (1/k holds the body's give under the mesh itself).
+/// The forces are found by Newton's method to 1e-13; where it fails they are not numbers, which integrators report.
+struct MeshCoupling {
+  std::vector<int> meshes;  ///< in the order of add_mesh; at most 20
+  /// D, m/N: the lower triangle row by row ((0,0), (1,0), (1,1), (2,0) ...), of the cycles of the first mesh.
+  std::vector<PeriodicCurve> compliance;
+  /// Elastic modes of the common body that are DOFs of the system: with the meshes' moving shares in it as factors,
+  /// the static compliance factor_i factor_j / stiffness is taken off D, for the DOF itself contributes it.
+  struct Kept {
+    int dof = 0;
+    double stiffness = 0;  ///< N/m
+  };
+  std::vector<Kept> kept;
+};
+
+/// The curves of MeshCoupling::compliance from symmetric matrices, `per_cycle` of them per mesh cycle.
+[[nodiscard]] std::vector<PeriodicCurve> compliance_curves(const std::vector<Eigen::MatrixXd>& matrices, int per_cycle);
+
+/// A spring with its damper along a coordinate a: force k a^T q + c a^T q', part of K and C. The name says what it
+/// stands for (sun_support_x, planet1_bearing_radial, ...); energies and bearing forces are given under it.
+struct SpringElement {
+  std::string name;
+  LinearForm a;
+  double stiffness = 0;  ///< N/m
+  double damping = 0;    ///< N s/m
+};
+
+/// M q'' + (C + G) q' + (K + K_Omega) q + sum_m b_m F_m = f, immutable. Built by LumpedSystemBuilder.
+class LumpedSystem {
+ public:
+  /// Contact state of a mesh, held between the events the integrator finds.
+  enum class Contact : signed char { back = -1, open = 0, drive = 1 };
+
+  /// Scratch memory and discrete state of one evaluation thread. Make one per thread with `workspace()`.
+  struct Workspace {
+    double time = 0;
+    bool excitation_valid = false;
+    /// Per mesh at `time`; where a law replaces the stiffness, `stiffness` is the secant at the nominal load.
+    std::vector<double> stiffness, error, error_rate;
+    std::vector<PhaseLocation> place;              ///< per mesh at `time`, on the grid of its law
+    std::vector<double> delta, delta_rate, force;  ///< per mesh, of the last evaluation
+    std::vector<double> elastic;                   ///< per mesh, force without damping of the last evaluation
+    std::vector<double> tangent;                   ///< per mesh, dF/d delta of the last evaluation, N/m
+    std::vector<Contact> contact;                  ///< per mesh
+    /// Per mesh: value of a rectangular wave (1 high, 0 low) held up to the next jump; -1: by time.
+    std::vector<signed char> wave;
+    std::vector<double> factor, factor_rate;  ///< of the moving shares of all meshes at `time`
+    std::vector<double> closing;              ///< per mesh, closing - error of the last evaluation
+    std::vector<double> compliance;           ///< D of all couplings at `time`
+    std::vector<double> sine, cosine;         ///< of the error rates and mesh frequencies at `time`
+    std::vector<double> pairs;                ///< scratch: (q_j, v_j) of every DOF, then the mesh forces
+  };
+
+  [[nodiscard]] int dofs() const { return static_cast<int>(names_.size()); }
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  /// Index of a DOF, -1 when it does not exist (held).
+  [[nodiscard]] int find(const std::string& name) const;
+  [[nodiscard]] const std::vector<MeshElement>& meshes() const { return meshes_; }
+  [[nodiscard]] const std::vector<SpringElement>& springs() const { return springs_; }  ///< those that are not all zero
+  [[nodiscard]] const Eigen::MatrixXd& mass() const { return mass_; }
+  [[nodiscard]] const Eigen::MatrixXd& stiffness() const { return stiffness_; }  ///< K, symmetric, without meshes
+  /// K_Omega: centripetal (symmetric) and circulatory (dampers to the housing, skew) terms.
+  [[nodiscard]] const Eigen::MatrixXd& rotating_stiffness() const { return rotating_stiffness_; }
+  [[nodiscard]] const Eigen::MatrixXd& damping() const { return damping_; }        ///< C, symmetric, without meshes
+  [[nodiscard]] const Eigen::MatrixXd& gyroscopic() const { return gyroscopic_; }  ///< G, skew
+  [[nodiscard]] const Eigen::VectorXd& load() const { return load_; }              ///< f, N
+  [[nodiscard]] Eigen::VectorXd mesh_vector(int mesh, double t = 0) const;         ///< b at a time, dense
+  [[nodiscard]] Eigen::VectorXd mesh_vector_rate(int mesh, double t) const;        ///< db/dt, 1/s
+  [[nodiscard]] Eigen::MatrixXd mesh_vectors(double t = 0) const;                  ///< all b, DOFs x meshes
+  [[nodiscard]] Eigen::MatrixXd damping_with_meshes() const;                       ///< C + sum c b b^T, b at time 0
+  [[nodiscard]] bool has_moving_vectors() const;                                   ///< does any b change in time?
+  [[nodiscard]] const std::vector<MeshCoupling>& couplings() const { return couplings_; }
+
+  [[nodiscard]] Workspace workspace() const;
+  /// Sets the contact states from the deflections at (t, q).
+  void detect_contact(double t, const double* q, Workspace& workspace) const;
+  /// Stiffness, error and error rate of every mesh at time t.
+  void evaluate_excitation(double t, Workspace& workspace) const;
+  /// delta, delta' and F of every mesh in its held contact state. No allocation.
+  void evaluate_meshes(double t, const double* q, const double* v, Workspace& workspace) const;
+  /// The same from the closings b^T q and their rates (one per mesh, errors not yet taken off), the contact states
+  /// following the deflections instead of being held. No allocation.
+  void evaluate_forces(double t, const double* closing, const double* closing_rate, Workspace& workspace) const;
+  /// Is the elastic force of the last evaluation beyond what the mesh's table covers? -1: in contact below the lowest
+  /// load, +1: above the largest, 0: within, open, or not a law from a table.
+  [[nodiscard]] int outside_table(int mesh, const Workspace& workspace) const;
+  /// d elastic / d closing of the last evaluation, meshes x meshes, symmetric; diagonal without couplings.
+  void tangent_matrix(const Workspace& workspace, Eigen::Ref<Eigen::MatrixXd> result) const;
+  /// State y = (q, v), dy = (v, M^-1 (...)). No allocation.
+  void rhs(double t, const double* y, double* dy, Workspace& workspace) const;
+  /// d(dy)/dy in the held contact state, column-major 2n x 2n.
+  void jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixXd> result, Workspace& workspace) const;
+
+  /// Energy (J): kinetic + elastic including the centripetal potential; of the last evaluated mesh state.
+  [[nodiscard]] double energy(double t, const double* y, Workspace& workspace) const;
+  /// Power (W) put in by loads, errors and stiffness change, and taken out by dampers, at the last rhs evaluation.
+  struct Power {
+    double supplied = 0, dissipated = 0;
+  };
+  [[nodiscard]] Power power(double t, const double* y, const Workspace& workspace) const;
+
+  /// Time of the next jump of a rectangular stiffness strictly after t, or infinity.
+  [[nodiscard]] double next_jump(double t) const;
+  /// Holds the rectangular waves at their values at time t (give the middle of the jump-free interval).
+  void hold_waves(double t, Workspace& workspace) const;
+
+ private:
+  friend class LumpedSystemBuilder;
+  struct Compiled;  // flat arrays for the right-hand side, shared by copies
+  void apply_forces(Workspace& workspace, bool held) const;
+  std::vector<std::string> names_;
+  std::vector<MeshElement> meshes_;
+  std::vector<MeshCoupling> couplings_;
+  std::vector<SpringElement> springs_;
+  Eigen::MatrixXd mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
+  Eigen::VectorXd load_;
+  std::shared_ptr<const Compiled> compiled_;
+};
+
+/// Collects bodies, supports, couplings and meshes of any stage.
+class LumpedSystemBuilder {
+ public:
+  /// Adds a DOF; its form is {{index, 1}}.
+  LinearForm add_dof(const std::string& name);
+  /// Adds mass (kg, or inertia / radius^2) to the coordinate: M += m a a^T.
+  void add_mass(const LinearForm& coordinate, double mass);
+  /// Plane body in a frame turning with `speed` (rad/s): -2 m Omega y', +2 m Omega x' and -m Omega^2 (x, y).
+  void add_rotating_mass(const LinearForm& x, const LinearForm& y, double mass, double speed);
+  /// Any symmetric term of the potential: K_Omega += value (a b^T + b a^T)/2.
+  void add_rotating_stiffness(const LinearForm& a, const LinearForm& b, double value);
+  /// Spring and damper along a coordinate: K += k a a^T, C += c a a^T.
+  void add_spring(const LinearForm& coordinate, double stiffness, double damping, const std::string& name = {});
+  /// Damper to the housing seen from the turning frame: c (x' - Omega y), c (y' + Omega x); adds the Omega part only.
+  void add_housing_damper_rotation(const LinearForm& x, const LinearForm& y, double damping, double speed);
+  void add_load(const LinearForm& coordinate, double force);
+  void add_mesh(MeshElement mesh);
+  /// Inertia between two coordinates: M += value (a b^T + b a^T).
+  void add_mass_coupling(const LinearForm& a, const LinearForm& b, double value);
+  /// Couples meshes added before; a mesh belongs to one coupling at most.
+  void add_mesh_coupling(MeshCoupling coupling);
+  /// Throws InputError when a DOF has no mass or a coupling does not fit its meshes.
+  [[nodiscard]] LumpedSystem build() const;
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<MeshElement> meshes_;
+  std::vector<MeshCoupling> couplings_;
+  std::vector<SpringElement> springs_;
+  struct Term {
+    LinearForm row, column;
+    double value;
+  };
+  std::vector<Term> mass_, stiffness_, rotating_stiffness_, damping_, gyroscopic_;
+  std::vector<std::pair<LinearForm, double>> load_;
+};
+
+}  // namespace annulus::dynamics

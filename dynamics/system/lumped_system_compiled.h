@@ -1,0 +1,137 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "dynamics/system/curve_bundle.h"
+#include "dynamics/system/force_surface.h"
+#include "dynamics/system/lumped_system.h"
+
+namespace annulus::dynamics {
+
+/// Sparse rows in flat arrays: row i is [start[i], start[i + 1]).
+struct FlatRows {
+  std::vector<int> start, index;
+  std::vector<double> factor;
+};
+
+/// sine x sin(rate t) + cosine x cos(rate t), rate by slot.
+struct SlotTerm {
+  std::size_t slot = 0;
+  double sine = 0, cosine = 0;
+};
+
+struct CompiledMesh {
+  enum class Kind { constant, harmonic, wave, table };
+  Kind kind = Kind::constant;
+  bool linear = true, damping_without_contact = false;
+  double mean = 0, damping = 0, half_backlash = 0;
+  double frequency = 0, phase_offset = 0;  ///< the phase shift of the excitation included
+  double constant_error = 0;
+  int first_error = 0, last_error = 0;    ///< of Compiled::errors
+  int first_moving = 0, last_moving = 0;  ///< of Compiled::moving
+  bool coupled = false;
+  SlotTerm ripple;
+  double low = 0, high = 0, duty = 0;
+  const CurveBundle* table = nullptr;  ///< secant and unloaded transmission error; of Compiled::bundles
+  const ForceSurface* surface = nullptr;
+};
+
+struct CompiledShare {
+  int dof = 0, slot = 0;  ///< slot: index into Compiled::moving_freedoms
+  double constant = 0;
+  SlotTerm wave;
+  bool waves = false;
+  const CurveBundle* curve = nullptr;  ///< of one curve, or none
+  double frequency = 0, phase_offset = 0;
+};
+
+struct CompiledCoupling {
+  std::vector<int> meshes;
+  double frequency = 0, phase_offset = 0;
+  CurveBundle compliance;  ///< lower triangle row by row
+  int offset = 0;          ///< of the matrix (column-major) in Workspace::compliance
+  struct Kept {
+    double compliance = 0;    ///< of the mode, m/N
+    std::vector<int> shares;  ///< of Compiled::moving, one per mesh, -1: none
+  };
+  std::vector<Kept> kept;
+};
+
+inline constexpr int largest_coupling = 20;
+/// Matrices of a coupling live on the stack.
+using CouplingMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, largest_coupling, largest_coupling>;
+using CouplingVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, largest_coupling, 1>;
+
+/// What the right-hand side reads, without the names and reasons.
+struct LumpedSystem::Compiled {
+  std::vector<int> row_start, column;      ///< common pattern of ...
+  std::vector<double> stiffness, damping;  ///< ... M^-1 (K + K_Omega) and M^-1 (C + G)
+  Eigen::VectorXd acceleration;            ///< M^-1 f
+  /// The acceleration less M^-1 f as one sparse matrix: row i is [pair_start[i], pair_start[i + 1]). A column is a pair
+  /// of numbers in Workspace::pairs, (q_j, v_j) first, two mesh forces at a time after them, then two forces on
+  /// moving_freedoms at a time.
+  std::vector<int> pair_start, pair_column;
+  std::vector<double> pair_factor;
+  struct PowerTerm {
+    int i = 0, j = 0;
+    double damping = 0, circulatory = 0;  ///< C_ij and the skew part of K_Omega
+  };
+  std::vector<PowerTerm> power;  ///< nonzero entries
+  FlatRows b, inverse_b;         ///< b and M^-1 b per mesh
+  std::vector<double> rates;     ///< rad/s, one per slot
+  std::vector<SlotTerm> errors;
+  std::vector<CompiledMesh> meshes;
+  std::vector<CompiledShare> moving;  ///< in the order of the meshes
+  std::vector<int> moving_dofs;       ///< each once
+  Eigen::MatrixXd inverse_moving;     ///< columns of M^-1 of moving_freedoms
+  std::vector<CompiledCoupling> couplings;
+  std::vector<std::unique_ptr<const CurveBundle>> bundles;  ///< equal ones once
+  std::vector<std::shared_ptr<const ForceSurface>> surfaces;
+};
+
+/// Deflection beyond the backlash in a held contact state.
+inline double penetration(const CompiledMesh& mesh, LumpedSystem::Contact contact, double delta) {
+  if (mesh.linear) return delta;
+  return contact == LumpedSystem::Contact::open ? 0.0 : delta - static_cast<int>(contact) * mesh.half_backlash;
+}
+
+inline double acting_damping(const CompiledMesh& mesh, LumpedSystem::Contact contact) {
+  return contact != LumpedSystem::Contact::open || mesh.damping_without_contact ? mesh.damping : 0.0;
+}
+
+inline LumpedSystem::Contact contact_of(const CompiledMesh& mesh, double delta) {
+  if (mesh.linear || delta > mesh.half_backlash) return LumpedSystem::Contact::drive;
+  return delta < -mesh.half_backlash ? LumpedSystem::Contact::back : LumpedSystem::Contact::open;
+}
+
+/// Elastic force and tangent of the own law from deflection and contact state in the workspace.
+inline void apply_law(const CompiledMesh& mesh, std::size_t m, LumpedSystem::Workspace& w) {
+  const auto contact = w.contact[m];
+  if (!mesh.linear && contact == LumpedSystem::Contact::open) {
+    w.elastic[m] = w.tangent[m] = 0;
+    return;
+  }
+  const double g = penetration(mesh, contact, w.delta[m]);
+  const auto value =
+      mesh.surface ? mesh.surface->at(w.place[m], g) : ForceSurface::Value{w.stiffness[m] * g, w.stiffness[m]};
+  w.elastic[m] = value.force;
+  w.tangent[m] = value.tangent;
+}
+
+/// D at the time of the workspace, from its moving factors; writes Workspace::compliance.
+void evaluate_compliance(const CompiledCoupling& coupling, double t, LumpedSystem::Workspace& w);
+/// dD/dt, 1/(N s) m.
+CouplingMatrix compliance_rate(const CompiledCoupling& coupling, double t, const LumpedSystem::Workspace& w);
+/// Elastic forces of the coupled meshes from Workspace::closing; the contact states held or following.
+void solve_coupling(const CompiledCoupling& coupling, const std::vector<CompiledMesh>& meshes, bool held,
+                    LumpedSystem::Workspace& w);
+/// d elastic / d closing of the coupled meshes.
+CouplingMatrix coupled_tangent(const CompiledCoupling& coupling, const LumpedSystem::Workspace& w);
+
+/// Is the rectangular wave high at this time?
+bool wave_is_high(const CompiledMesh& mesh, double t);
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+
+#include "core/stiffness_table.h"
+#include "dynamics/system/force_surface.h"
+
+namespace annulus::dynamics {
+
+/// Mesh stiffness that never changes.
+struct ConstantStiffness {
+  double mean = 0;  ///< N/m
+};
+
+/// k = mean (1 + ripple cos 2 pi (phase - phase_shift)), phase in mesh cycles.
+struct HarmonicStiffness {
+  double mean = 0;         ///< N/m
+  double ripple = 0;       ///< kappa, in [0, 1)
+  double phase_shift = 0;  ///< mesh cycles
+};
+
+/// k = mean (1 + ripple (s - duty)), s = 1 while the fractional part of (phase - phase_shift) is below `duty`, else 0.
+/// The integrators restart at the jumps; they are never smoothed.
+struct RectangularStiffness {
+  double mean = 0;         ///< N/m, the mean over a cycle
+  double ripple = 0;       ///< eps; the stiffness has to stay positive
+  double duty = 0.5;       ///< in (0, 1)
+  double phase_shift = 0;  ///< mesh cycles
+};
+
+/// Stiffness and unloaded transmission error read from a table (see curves_at_load), in one of two ways:
+/// - without `surface`: linear, F = k g with the *secant* stiffness at the nominal mesh force. The nominal load then
+///   acts at the tabulated loaded transmission error, but changes of the load meet the wrong stiffness.
+/// - with `surface`: the law of force over deflection, right at every tabulated load (see ForceSurface).
+/// Modes are small vibrations about the nominal load: `modes` uses the mean of the tangent there, with either.
+struct TableStiffness {
+  PeriodicCurve secant;                           ///< N/m
+  PeriodicCurve tangent;                          ///< N/m
+  PeriodicCurve unloaded_te;                      ///< m; enters e(t)
+  double phase_shift = 0;                         ///< mesh cycles
+  std::shared_ptr<const ForceSurface> surface{};  ///< absent: linear
+};
+
+/// How one kind of mesh (sun-planet or ring-planet) is excited; every planet's mesh shares it, shifted by its phase.
+using MeshExcitation = std::variant<ConstantStiffness, HarmonicStiffness, RectangularStiffness, TableStiffness>;
+
+enum class LoadDependence {
+  nominal,  ///< linear with the secant stiffness at the nominal load
+  table,    ///< the law of force over deflection that all loads of the table give
+};
+
+/// TableStiffness at one total normal force. Throws InputError outside the tabulated loads.
+[[nodiscard]] TableStiffness table_stiffness(const StiffnessTable& table, double load, double phase_shift = 0,
+                                             LoadDependence dependence = LoadDependence::nominal);
+
+/// Mean of the stiffness over its period (secant at the nominal load for tables), N/m.
+[[nodiscard]] double mean_stiffness(const MeshExcitation& excitation);
+/// Mean of the stiffness modes use (tangent for tables), N/m.
+[[nodiscard]] double mean_tangent_stiffness(const MeshExcitation& excitation);
+/// Whole mesh cycles after which the excitation repeats.
+[[nodiscard]] int period_in_cycles(const MeshExcitation& excitation);
+/// Throws InputError, naming `name`, when the stiffness is not positive at every phase or a ratio is out of range.
+void check(const MeshExcitation& excitation, const std::string& name);
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,163 @@
+// What every evaluation of the right-hand side runs through: no allocation, no library call besides sine and cosine.
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/system/lumped_system.h"
+#include "dynamics/system/lumped_system_compiled.h"
+#include "dynamics/system/pair.h"
+
+namespace annulus::dynamics {
+
+bool wave_is_high(const CompiledMesh& mesh, double t) {
+  const double phase = mesh.frequency * t + mesh.phase_offset;
+  return phase - std::floor(phase) < mesh.duty;
+}
+
+void LumpedSystem::evaluate_excitation(double t, Workspace& w) const {
+  // Newton iterations and last stages ask for the same time again.
+  if (w.excitation_valid && w.time == t) return;
+  const Compiled& c = *compiled_;
+  for (std::size_t i = 0; i < c.rates.size(); ++i) {
+    w.sine[i] = std::sin(c.rates[i] * t);
+    w.cosine[i] = std::cos(c.rates[i] * t);
+  }
+  for (std::size_t m = 0; m < c.meshes.size(); ++m) {
+    const CompiledMesh& mesh = c.meshes[m];
+    double e = mesh.constant_error, rate = 0;
+    for (int i = mesh.first_error; i < mesh.last_error; ++i) {
+      const SlotTerm& term = c.errors[i];
+      e += term.sine * w.sine[term.slot] + term.cosine * w.cosine[term.slot];
+      rate += c.rates[term.slot] * (term.sine * w.cosine[term.slot] - term.cosine * w.sine[term.slot]);
+    }
+    switch (mesh.kind) {
+      case CompiledMesh::Kind::constant:
+        w.stiffness[m] = mesh.mean;
+        break;
+      case CompiledMesh::Kind::harmonic:
+        w.stiffness[m] =
+            mesh.mean + mesh.ripple.sine * w.sine[mesh.ripple.slot] + mesh.ripple.cosine * w.cosine[mesh.ripple.slot];
+        break;
+      case CompiledMesh::Kind::wave: {
+        const bool high = w.wave[m] < 0 ? wave_is_high(mesh, t) : w.wave[m] == 1;
+        w.stiffness[m] = high ? mesh.high : mesh.low;
+        break;
+      }
+      case CompiledMesh::Kind::table: {
+        const double cycles = mesh.frequency * t + mesh.phase_offset;
+        const auto& grid = mesh.table->grid();
+        const auto place = grid.locate(cycles);
+        const double x = place.local;
+        const double* p = mesh.table->piece(place.piece);  // (secant, unloaded transmission error) by power
+        const Pair value = pair_at(p) + x * (pair_at(p + 2) + x * (pair_at(p + 4) + x * pair_at(p + 6)));
+        w.stiffness[m] = value[0];
+        e += value[1];
+        rate += mesh.frequency * grid.rate() * (p[3] + x * (2 * p[5] + 3 * x * p[7]));
+        if (mesh.surface) w.place[m] = mesh.surface->grid().locate(cycles);
+        break;
+      }
+    }
+    w.error[m] = e;
+    w.error_rate[m] = rate;
+  }
+  for (std::size_t i = 0; i < c.moving.size(); ++i) {
+    const CompiledShare& share = c.moving[i];
+    double factor = share.constant, rate = 0;
+    if (share.waves) {
+      const std::size_t slot = share.wave.slot;
+      factor += share.wave.sine * w.sine[slot] + share.wave.cosine * w.cosine[slot];
+      rate += c.rates[slot] * (share.wave.sine * w.cosine[slot] - share.wave.cosine * w.sine[slot]);
+    }
+    if (share.curve) {
+      double value = 0, slope = 0;
+      share.curve->evaluate(share.frequency * t + share.phase_offset, &value, &slope);
+      factor += value;
+      rate += share.frequency * slope;
+    }
+    w.factor[i] = factor;
+    w.factor_rate[i] = rate;
+  }
+  for (const auto& coupling : c.couplings) evaluate_compliance(coupling, t, w);
+  w.time = t;
+  w.excitation_valid = true;
+}
+
+void LumpedSystem::apply_forces(Workspace& w, bool held) const {
+  const Compiled& c = *compiled_;
+  for (std::size_t m = 0; m < c.meshes.size(); ++m) {
+    const CompiledMesh& mesh = c.meshes[m];
+    if (mesh.coupled) continue;
+    w.delta[m] = w.closing[m];
+    if (!held) w.contact[m] = contact_of(mesh, w.delta[m]);
+    apply_law(mesh, m, w);
+  }
+  for (const auto& coupling : c.couplings) solve_coupling(coupling, c.meshes, held, w);
+  for (std::size_t m = 0; m < c.meshes.size(); ++m)
+    w.force[m] = w.elastic[m] + acting_damping(c.meshes[m], w.contact[m]) * w.delta_rate[m];
+}
+
+void LumpedSystem::detect_contact(double t, const double* q, Workspace& w) const {
+  evaluate_excitation(t, w);
+  const Compiled& c = *compiled_;
+  for (std::size_t m = 0; m < c.meshes.size(); ++m) {
+    double closing = -w.error[m];
+    for (int i = c.b.start[m]; i < c.b.start[m + 1]; ++i) closing += c.b.factor[i] * q[c.b.index[i]];
+    for (int i = c.meshes[m].first_moving; i < c.meshes[m].last_moving; ++i)
+      closing += w.factor[i] * q[c.moving[i].dof];
+    w.closing[m] = closing;
+    w.delta_rate[m] = 0;
+  }
+  apply_forces(w, false);
+}
+
+void LumpedSystem::evaluate_meshes(double t, const double* q, const double* v, Workspace& w) const {
+  evaluate_excitation(t, w);
+  const Compiled& c = *compiled_;
+  double* pairs = w.pairs.data();
+  for (int i = 0; i < dofs(); ++i) store(Pair{q[i], v[i]}, pairs + 2 * i);
+  for (std::size_t m = 0; m < c.meshes.size(); ++m) {
+    Pair closing{-w.error[m], -w.error_rate[m]};
+    for (int i = c.b.start[m]; i < c.b.start[m + 1]; ++i) closing += c.b.factor[i] * pair_at(pairs + 2 * c.b.index[i]);
+    for (int i = c.meshes[m].first_moving; i < c.meshes[m].last_moving; ++i) {
+      const int j = c.moving[i].dof;
+      closing += w.factor[i] * pair_at(pairs + 2 * j) + Pair{0.0, w.factor_rate[i] * q[j]};
+    }
+    w.closing[m] = closing[0];
+    w.delta_rate[m] = closing[1];
+  }
+  apply_forces(w, true);
+}
+
+void LumpedSystem::evaluate_forces(double t, const double* closing, const double* closing_rate, Workspace& w) const {
+  evaluate_excitation(t, w);
+  for (std::size_t m = 0; m < compiled_->meshes.size(); ++m) {
+    w.closing[m] = closing[m] - w.error[m];
+    w.delta_rate[m] = closing_rate[m] - w.error_rate[m];
+  }
+  apply_forces(w, false);
+}
+
+void LumpedSystem::rhs(double t, const double* y, double* dy, Workspace& w) const {
+  const Compiled& c = *compiled_;
+  const int n = dofs();
+  evaluate_meshes(t, y, y + n, w);
+  double* pairs = w.pairs.data();
+  const std::size_t meshes = c.meshes.size();
+  for (std::size_t m = 0; m < meshes; m += 2)
+    store(Pair{w.force[m], m + 1 < meshes ? w.force[m + 1] : 0.0}, pairs + 2 * n + m);
+  if (!c.moving.empty()) {
+    double* forces = pairs + 2 * n + meshes + meshes % 2;
+    std::fill_n(forces, c.moving_dofs.size(), 0.0);
+    for (std::size_t m = 0; m < meshes; ++m)
+      for (int i = c.meshes[m].first_moving; i < c.meshes[m].last_moving; ++i)
+        forces[c.moving[i].slot] += w.factor[i] * w.force[m];
+  }
+  for (int i = 0; i < n; ++i) {
+    Pair a{c.acceleration[i], 0.0};
+    for (int j = c.pair_start[i]; j < c.pair_start[i + 1]; ++j)
+      a -= pair_at(&c.pair_factor[2 * j]) * pair_at(pairs + 2 * c.pair_column[j]);
+    dy[i] = y[n + i];
+    dy[n + i] = a[0] + a[1];
+  }
+}
+
+}  // namespace annulus::dynamics

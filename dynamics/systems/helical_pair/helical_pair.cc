@@ -1,0 +1,152 @@
+#include "dynamics/systems/helical_pair/helical_pair.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "core/errors.h"
+#include "dynamics/system/input_checks.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+void check_gear(const PairGear& gear, const std::string& name) {
+  if (gear.teeth < 1) throw InputError(fmt::format("{} teeth = {} must be positive", name, gear.teeth));
+  check_positive(gear.mass, name + " mass");
+  check_positive(gear.inertia, name + " inertia");
+  check_positive(gear.radius, name + " base radius");
+  check_support(gear.bearing_transverse, name + " bearing stiffness (transverse)", false);
+  check_support(gear.bearing_axial, name + " bearing stiffness (axial)", false);
+}
+
+void check_wave(const ErrorWave& wave, const std::string& name) {
+  if (!std::isfinite(wave.amount) || !std::isfinite(wave.phase))
+    throw InputError(name + ": amount or phase is not finite");
+}
+
+struct PairCoordinates {
+  LinearForm y, z, u;
+};
+
+PairCoordinates add_gear(LumpedSystemBuilder& builder, const PairGear& gear, double damping_ratio,
+                         const std::string& name) {
+  PairCoordinates c;
+  const auto place = [&](double bearing, const char* dof, const char* direction) {
+    if (bearing == rigid) return LinearForm{};
+    LinearForm own = builder.add_dof(name + dof);
+    builder.add_mass(own, gear.mass);
+    builder.add_spring(own, bearing, critical_share(damping_ratio, bearing, gear.mass), name + direction);
+    return own;
+  };
+  c.y = place(gear.bearing_transverse, "_y", "_bearing_transverse");
+  c.z = place(gear.bearing_axial, "_z", "_bearing_axial");
+  c.u = builder.add_dof(name + "_u");
+  builder.add_mass(c.u, gear.inertia / (gear.radius * gear.radius));
+  return c;
+}
+
+double yield_of(double stiffness) { return stiffness == rigid ? 0 : 1 / stiffness; }
+
+}  // namespace
+
+double HelicalPair::wheel_speed() const { return pinion_speed * pinion.teeth / wheel.teeth; }
+
+double HelicalPair::wheel_torque() const { return pinion_torque * wheel.radius / pinion.radius; }
+
+double HelicalPair::mesh_frequency() const { return pinion.teeth * pinion_speed / (2 * std::numbers::pi); }
+
+double HelicalPair::static_force() const { return pinion_torque / (pinion.radius * std::cos(base_helix_angle)); }
+
+double HelicalPair::reduced_mass() const {
+  return 1 / (pinion.radius * pinion.radius / pinion.inertia + wheel.radius * wheel.radius / wheel.inertia);
+}
+
+double HelicalPair::static_compliance() const {
+  const double c = std::cos(base_helix_angle), s = std::sin(base_helix_angle);
+  return 1 / mean_stiffness(mesh) + c * c * (yield_of(pinion.bearing_transverse) + yield_of(wheel.bearing_transverse)) +
+         s * s * (yield_of(pinion.bearing_axial) + yield_of(wheel.bearing_axial));
+}
+
+int HelicalPair::error_period() const {
+  int period = period_in_cycles(mesh);
+  if (pinion.error.exists()) period = std::lcm(period, pinion.teeth);
+  if (wheel.error.exists()) period = std::lcm(period, wheel.teeth);
+  return period;
+}
+
+void HelicalPair::check() const {
+  check_gear(pinion, "pinion");
+  check_gear(wheel, "wheel");
+  if (!(std::abs(base_helix_angle) < std::numbers::pi / 2))
+    throw InputError(fmt::format("base helix angle {} rad must lie below 90 degrees", base_helix_angle));
+  const double ratio = wheel.radius / pinion.radius, expected = static_cast<double>(wheel.teeth) / pinion.teeth;
+  if (std::abs(ratio - expected) > 1e-3 * expected)
+    throw InputError(fmt::format("base radii give the ratio {:.6g}, the teeth {:.6g}: the pair contradicts itself",
+                                 ratio, expected));
+  dynamics::check(mesh, "mesh");
+  check_wave(mesh_error, "error at mesh frequency");
+  check_wave(pinion.error, "error of the pinion");
+  check_wave(wheel.error, "error of the wheel");
+  if (half_backlash) check_not_negative(*half_backlash, "half backlash");
+  check_not_negative(mesh_damping_ratio, "mesh damping ratio");
+  check_not_negative(bearing_damping_ratio, "bearing damping ratio");
+  check_not_negative(pinion_speed, "pinion speed");
+  if (!std::isfinite(pinion_torque)) throw InputError("the pinion torque is not finite");
+}
+
+double base_helix_angle(double helix_angle, double normal_pressure_angle) {
+  return std::asin(std::sin(helix_angle) * std::cos(normal_pressure_angle));
+}
+
+double iso_6336_mesh_stiffness(double face_width, double transverse_contact_ratio, double helix_angle,
+                               double single_stiffness) {
+  check_positive(face_width, "face width");
+  check_positive(single_stiffness, "single stiffness");
+  if (!std::isfinite(transverse_contact_ratio) || !(transverse_contact_ratio >= 1))
+    throw InputError(fmt::format("transverse contact ratio {} must be at least 1", transverse_contact_ratio));
+  if (!(std::abs(helix_angle) < std::numbers::pi / 2))
+    throw InputError(fmt::format("helix angle {} rad must lie below 90 degrees", helix_angle));
+  return single_stiffness * std::cos(helix_angle) * (0.75 * transverse_contact_ratio + 0.25) * face_width;
+}
+
+LumpedSystem assemble(const HelicalPair& pair) {
+  pair.check();
+  LumpedSystemBuilder builder;
+  const auto pinion = add_gear(builder, pair.pinion, pair.bearing_damping_ratio, "pinion");
+  const auto wheel = add_gear(builder, pair.wheel, pair.bearing_damping_ratio, "wheel");
+  const double c = std::cos(pair.base_helix_angle), s = std::sin(pair.base_helix_angle);
+
+  MeshElement mesh;
+  mesh.name = "mesh";
+  mesh.b = c * (pinion.y + pinion.u + (-1.0) * wheel.y + wheel.u);
+  if (s != 0) mesh.b = mesh.b + (-s) * pinion.z + s * wheel.z;
+  mesh.excitation = pair.mesh;
+  mesh.frequency = pair.mesh_frequency();
+  mesh.damping = critical_share(pair.mesh_damping_ratio, mean_stiffness(pair.mesh), pair.reduced_mass());
+  mesh.half_backlash = pair.half_backlash;
+  mesh.damping_without_contact = pair.damping_without_contact;
+  const auto add_error = [&](const ErrorWave& wave, double rate) {
+    if (wave.exists()) mesh.errors.push_back({wave.amount, rate, wave.phase});
+  };
+  add_error(pair.mesh_error, 2 * std::numbers::pi * pair.mesh_frequency());
+  add_error(pair.pinion.error, pair.pinion_speed);
+  add_error(pair.wheel.error, pair.wheel_speed());
+  builder.add_mesh(std::move(mesh));
+
+  // Alike on both, which is T_2/r_2 = T_1/r_1 balanced to rounding: a pair free to turn does not creep away.
+  const double force = pair.pinion_torque / pair.pinion.radius;
+  builder.add_load(pinion.u, force);
+  builder.add_load(wheel.u, force);
+  return builder.build();
+}
+
+Modes modes(const HelicalPair& pair) {
+  return modes(assemble(pair), Eigen::VectorXd::Constant(1, mean_tangent_stiffness(pair.mesh)));
+}
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,242 @@
+#include "dynamics/systems/helical_pair/pair_response.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "core/errors.h"
+#include "dynamics/figures/peaks.h"
+#include "dynamics/statics/static_solver.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+using Row = Eigen::RowVectorXd;
+
+Row dof_row(const LumpedSystem& system, const Eigen::MatrixXd& values, const char* name) {
+  const int i = system.find(name);
+  return i < 0 ? Row(Row::Zero(values.cols())) : Row(values.row(i));
+}
+
+struct MotionRows {
+  Row transmission_error, relative;
+};
+
+/// From where the loaded flanks just touch.
+MotionRows motion_rows(const HelicalPair& pair, const LumpedSystem& system, const Eigen::MatrixXd& displacement) {
+  const double side = pair.pinion_torque > 0 ? 1 : pair.pinion_torque < 0 ? -1 : 0;
+  const double touching = side * pair.half_backlash.value_or(0.0) / std::cos(pair.base_helix_angle);
+  Row te = dof_row(system, displacement, "pinion_u") + dof_row(system, displacement, "wheel_u");
+  te.array() -= touching;
+  return {te, te + dof_row(system, displacement, "pinion_y") - dof_row(system, displacement, "wheel_y")};
+}
+
+/// q'' of all DOFs at the samples of a window.
+Eigen::MatrixXd accelerations(const LumpedSystem& system, const ResponseWindow& window) {
+  const int n = system.dofs();
+  auto workspace = system.workspace();
+  Eigen::VectorXd y(2 * n), dy(2 * n);
+  Eigen::MatrixXd result(n, window.time.size());
+  for (Eigen::Index i = 0; i < window.time.size(); ++i) {
+    y << window.displacement.col(i), window.velocity.col(i);
+    system.detect_contact(window.time[i], y.data(), workspace);
+    system.rhs(window.time[i], y.data(), dy.data(), workspace);
+    result.col(i) = dy.tail(n);
+  }
+  return result;
+}
+
+/// Peaks of one window, in the order of PairAccelerations; y, z, u of the gears apart from the sum.
+struct WindowPeaks {
+  Peak line_of_action, axial, rotation, tooth;
+  Peak te_high, te_low, relative_high, relative_low;  ///< low: of the negative
+  Peak force_high, force_low;
+};
+
+Peak higher(const Peak& a, const Peak& b) { return {std::max(a.sampled, b.sampled), std::max(a.refined, b.refined)}; }
+
+Peak magnitude(const Row& values) { return peak_of(values.cwiseAbs()); }
+
+WindowPeaks peaks_of(const HelicalPair& pair, const LumpedSystem& system, const ResponseWindow& window) {
+  WindowPeaks p;
+  const Eigen::MatrixXd a = accelerations(system, window);
+  for (const bool pinion : {true, false}) {
+    const Row y = dof_row(system, a, pinion ? "pinion_y" : "wheel_y");
+    const Row z = dof_row(system, a, pinion ? "pinion_z" : "wheel_z");
+    const Row u = dof_row(system, a, pinion ? "pinion_u" : "wheel_u");
+    const Row along = pinion ? Row(u + y) : Row(u - y);
+    p.line_of_action = higher(p.line_of_action, magnitude(y));
+    p.axial = higher(p.axial, magnitude(z));
+    p.rotation = higher(p.rotation, magnitude(u));
+    p.tooth = higher(p.tooth, magnitude((along.array().square() + z.array().square()).sqrt().matrix()));
+  }
+  const MotionRows rows = motion_rows(pair, system, window.displacement);
+  p.te_high = peak_of(rows.transmission_error);
+  p.te_low = peak_of(-rows.transmission_error);
+  p.relative_high = peak_of(rows.relative);
+  p.relative_low = peak_of(-rows.relative);
+  p.force_high = peak_of(window.force.row(0));
+  p.force_low = peak_of(-window.force.row(0));
+  return p;
+}
+
+Peak sum(const Peak& a, const Peak& b) { return {a.sampled + b.sampled, a.refined + b.refined}; }
+
+/// The peaks of the best window and those it is compared with, or bounds where only the forces are known.
+class PairEvidence {
+ public:
+  PairEvidence(const HelicalPair& pair, const LumpedSystem& system, const SteadyResponse& found)
+      : best_(peaks_of(pair, system, found.best)) {
+    for (const auto* other : {&found.before, &found.loose}) {
+      if (!*other) continue;
+      if ((*other)->displacement.size() > 0) {
+        others_.push_back(peaks_of(pair, system, **other));
+        continue;
+      }
+      const Eigen::Index stride = found.best.force.cols() / (*other)->force.cols();
+      for (Eigen::Index i = 0; i < (*other)->force.cols(); ++i)
+        force_difference_ =
+            std::max(force_difference_, std::abs(found.best.force(0, stride * i) - (*other)->force(0, i)));
+    }
+    // b / m: acceleration per force.
+    const Eigen::VectorXd b = system.mesh_vector(0).cwiseAbs();
+    for (int i = 0; i < system.dofs(); ++i)
+      acceleration_per_force_ = std::max(acceleration_per_force_, b[i] / system.mass()(i, i));
+    motion_per_force_ = pair.static_compliance() / std::cos(pair.base_helix_angle);
+  }
+
+  [[nodiscard]] Figure of(Peak WindowPeaks::*peak, double per_force) const {
+    return of([peak](const WindowPeaks& p) { return p.*peak; }, per_force);
+  }
+  template <class Pick>
+  [[nodiscard]] Figure of(const Pick& pick, double per_force) const {
+    const Peak best = pick(best_);
+    Figure result = figure(best, {});
+    for (const auto& other : others_) result.error += std::abs(best.refined - pick(other).refined);
+    result.error += force_difference_ * per_force;
+    return result;
+  }
+  [[nodiscard]] Figure acceleration(Peak WindowPeaks::*peak, double share = 1) const {
+    return of(peak, share * acceleration_per_force_);
+  }
+  [[nodiscard]] MotionFigures motion(const Row& row, Peak WindowPeaks::*high, Peak WindowPeaks::*low) const {
+    return {row.mean(), of([=](const WindowPeaks& p) { return sum(p.*high, p.*low); }, 2 * motion_per_force_),
+            of([=](const WindowPeaks& p) { return higher(p.*high, p.*low); }, motion_per_force_)};
+  }
+
+ private:
+  WindowPeaks best_;
+  std::vector<WindowPeaks> others_;
+  double force_difference_ = 0, acceleration_per_force_ = 0, motion_per_force_ = 0;
+};
+
+MotionFigures sampled_motion(const Row& row) {
+  const Peak high = peak_of(row), low = peak_of(-row);
+  return {row.mean(), figure(sum(high, low), {}), figure(higher(high, low), {})};
+}
+
+PairMotions quasi_static_motions(const HelicalPair& pair, const LumpedSystem& system,
+                                 const SimulationOptions& options) {
+  const int period = pair.error_period();
+  int positions = options.samples_per_cycle;
+  if (period > long_window) positions = std::min(positions, enough_samples(period));
+  // Two cycles at least, so that every peak has neighbours.
+  const int cycles = std::max(2, std::min(period, options.max_window_cycles));
+  StaticSolver solver(system);
+  auto workspace = system.workspace();
+  Eigen::MatrixXd displacement(system.dofs(), static_cast<Eigen::Index>(cycles) * positions);
+  for (Eigen::Index i = 0; i < displacement.cols(); ++i)
+    displacement.col(i) = solver.solve(static_cast<double>(i) / (positions * pair.mesh_frequency()), workspace);
+  const MotionRows rows = motion_rows(pair, system, displacement);
+  return {sampled_motion(rows.transmission_error), sampled_motion(rows.relative)};
+}
+
+/// N: moves the reduced mass along the errors, or bends the mesh by them where that takes less.
+double error_force(const HelicalPair& pair) {
+  const double stiffness = mean_stiffness(pair.mesh);
+  const auto force = [&](const ErrorWave& wave, double rate) {
+    return std::abs(wave.amount) * std::min(stiffness, pair.reduced_mass() * rate * rate);
+  };
+  return force(pair.mesh_error, 2 * std::numbers::pi * pair.mesh_frequency()) +
+         force(pair.pinion.error, pair.pinion_speed) + force(pair.wheel.error, pair.wheel_speed());
+}
+
+SteadyResponse pair_steady_state(const HelicalPair& pair, const LumpedSystem& system,
+                                 const SimulationOptions& options) {
+  const SteadyProblem problem{pair.mesh_frequency(), pair.error_period(),
+                              std::max(std::abs(pair.static_force()), error_force(pair)), mean_stiffness(pair.mesh)};
+  if (!options.confirm) {
+    auto quick = options;
+    if (problem.period_in_cycles > long_window)
+      quick.samples_per_cycle = std::min(quick.samples_per_cycle, enough_samples(problem.period_in_cycles));
+    quick.min_window_cycles = std::min(options.min_window_cycles, 2 * problem.period_in_cycles);
+    auto found = steady_response(system, problem, quick);
+    if (found.best.open[0] == 0 || options.mesh_cycles) return found;
+  }
+  auto thorough = options;
+  thorough.confirm = true;
+  return steady_response(system, problem, thorough);
+}
+
+}  // namespace
+
+PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& options) {
+  const LumpedSystem system = assemble(pair);
+  if (!(pair.pinion_speed > 0)) throw InputError("a time response of a pair needs a speed above zero");
+  if (pair.pinion_torque == 0 && error_force(pair) == 0)
+    throw InputError("neither torque nor errors: nothing moves the pair");
+  auto found = pair_steady_state(pair, system, options);
+
+  PairResponse response;
+  response.mesh_frequency = pair.mesh_frequency();
+  response.static_force = pair.static_force();
+  const PairEvidence evidence(pair, system, found);
+  response.force_max = evidence.of(&WindowPeaks::force_high, 1);
+  response.force_min = evidence.of(&WindowPeaks::force_low, 1);
+  response.force_min.value *= -1;
+  response.force_mean = averaging_force(found.best).row(0).mean();
+  const double f = response.static_force;
+  response.dynamic_factor =
+      f == 0  ? Figure{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()}
+      : f > 0 ? Figure{response.force_max.value / f, response.force_max.error / f}
+              : Figure{response.force_min.value / f, -response.force_min.error / f};
+  response.contact_loss = found.best.open[0];
+  response.acceleration = {evidence.acceleration(&WindowPeaks::line_of_action),
+                           evidence.acceleration(&WindowPeaks::axial), evidence.acceleration(&WindowPeaks::rotation),
+                           evidence.acceleration(&WindowPeaks::tooth, 2)};
+  const MotionRows rows = motion_rows(pair, system, found.best.displacement);
+  response.dynamic = {evidence.motion(rows.transmission_error, &WindowPeaks::te_high, &WindowPeaks::te_low),
+                      evidence.motion(rows.relative, &WindowPeaks::relative_high, &WindowPeaks::relative_low)};
+  response.quasi_static = quasi_static_motions(pair, system, options);
+
+  static_cast<SteadyOutcome&>(response) = found.outcome();
+  if (options.keep_series) response.series = series_of(system, std::move(found.best));
+  return response;
+}
+
+TransmissionErrorShares transmission_error_shares(const HelicalPair& pair, const SimulationOptions& given) {
+  auto options = given;
+  options.keep_series = false;
+  const auto ranges = [&](const HelicalPair& p) {
+    // Neither cause nor load: nothing moves.
+    if (p.pinion_torque == 0 && error_force(p) == 0) return PeakToPeak{};
+    const auto r = evaluate_pair(p, options);
+    return PeakToPeak{r.dynamic.transmission_error.peak_to_peak.value,
+                      r.quasi_static.transmission_error.peak_to_peak.value};
+  };
+  const auto whole = evaluate_pair(pair, options);
+  auto constant = pair, flawless = pair;
+  constant.mesh = ConstantStiffness{mean_stiffness(pair.mesh)};
+  flawless.mesh_error = flawless.pinion.error = flawless.wheel.error = {};
+  return {
+      {whole.dynamic.transmission_error.peak_to_peak.value, whole.quasi_static.transmission_error.peak_to_peak.value},
+      ranges(constant),
+      ranges(flawless),
+      whole.quasi_static.transmission_error.mean};
+}
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,201 @@
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <tuple>
+
+#include "dynamics/system/lumped_system.h"
+#include "dynamics/system/support.h"
+#include "dynamics/systems/planetary/planetary_stage.h"
+#include "dynamics/systems/planetary/stage_errors.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+struct PlaneBody {
+  LinearForm x, y, u;
+};
+
+/// `speed`: of the frame its x and y are measured in, for inertia and damping.
+PlaneBody add_central(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const CentralBody& body,
+                      const std::string& name, double speed) {
+  PlaneBody c;
+  if (body.support != rigid) {
+    c.x = builder.add_dof(name + "_x");
+    c.y = builder.add_dof(name + "_y");
+    const double damping = critical_share(stage.support_damping_ratio, body.support, body.mass);
+    builder.add_rotating_mass(c.x, c.y, body.mass, speed);
+    builder.add_spring(c.x, body.support, damping, name + "_support_x");
+    builder.add_spring(c.y, body.support, damping, name + "_support_y");
+    builder.add_housing_damper_rotation(c.x, c.y, damping, speed);
+  }
+  if (body.torsional_support != rigid) {
+    c.u = builder.add_dof(name + "_u");
+    const double mass = body.inertia / (body.radius * body.radius);
+    builder.add_mass(c.u, mass);
+    builder.add_spring(c.u, body.torsional_support,
+                       critical_share(stage.support_damping_ratio, body.torsional_support, mass), name + "_support_u");
+  }
+  return c;
+}
+
+/// Planet n at phi: its own DOFs where the bearing gives way, else the carrier's motion at its place.
+PlaneBody add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const PlaneBody& carrier, double phi,
+                     const std::string& name) {
+  const auto& body = stage.planet;
+  const LinearForm radial = std::cos(phi) * carrier.x + std::sin(phi) * carrier.y;
+  const LinearForm translation = -std::sin(phi) * carrier.x + std::cos(phi) * carrier.y;
+  const LinearForm tangential = translation + carrier.u;
+  PlaneBody p;
+  const auto place = [&](double bearing, const LinearForm& seat, const char* dof, const char* direction) {
+    if (bearing == rigid) return seat;
+    LinearForm own = builder.add_dof(name + dof);
+    builder.add_spring(own + (-1.0) * seat, bearing,  // (20), (21)
+                       critical_share(stage.support_damping_ratio, bearing, body.mass), name + direction);
+    return own;
+  };
+  p.x = place(body.bearing_radial, radial, "_x", "_bearing_radial");
+  p.y = place(body.bearing_tangential, tangential, "_y", "_bearing_tangential");
+  p.u = builder.add_dof(name + "_u");
+  builder.add_mass(p.u, body.inertia / (body.radius * body.radius));
+
+  const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
+  builder.add_rotating_mass(p.x, p.y, body.mass, speed);
+  // The bearing carries the centrifugal force m a Omega^2 of the planet. Turning the carrier by u/a turns this preload
+  // with it; to second order the potential is -m Omega^2/2 (x^2 + (y - u)^2 + 2 t u), t the tangential translation of
+  // the carrier at the planet. Without it a rigid rotation would gain energy and run away. Corrects -m Omega^2 y_n.
+  const double centrifugal = body.mass * speed * speed;
+  builder.add_rotating_stiffness(p.y, carrier.u, 2 * centrifugal);
+  builder.add_rotating_stiffness(carrier.u, carrier.u, -centrifugal);
+  builder.add_rotating_stiffness(translation, carrier.u, -2 * centrifugal);
+  return p;
+}
+
+/// 1/m_e = r_1^2/I_1 + r_2^2/I_2 (31); a body that cannot turn counts as infinitely heavy.
+double equivalent_mass(const PlanetaryStage& stage, const CentralBody& wheel) {
+  const auto& planet = stage.planet;
+  double inverse = planet.radius * planet.radius / planet.inertia;
+  if (wheel.torsional_support != rigid) inverse += wheel.radius * wheel.radius / wheel.inertia;
+  return 1 / inverse;
+}
+
+bool ring_in_housing(const PlanetaryStage& stage) { return stage.ring_coupling && !stage.ring_coupling->modes.empty(); }
+
+/// What an inertial coupling in the mass of the ring's elastic body is in the mass the stage gives the ring: the share
+/// of the mass that takes part in a mode stays. (A stage may leave out a flange, or sit its mass at another radius;
+/// mixing both masses could make more mass move than there is.)
+double in_mass_of_stage(double coupling, double stage_mass, double elastic_mass) {
+  return elastic_mass > 0 ? coupling * std::sqrt(stage_mass / elastic_mass) : coupling;
+}
+
+/// The modes of the ring as DOFs. M couples them with the rigid motions of the ring they contain.
+std::vector<LinearForm> add_ring_modes(LumpedSystemBuilder& builder, const PlanetaryStage& stage,
+                                       const PlaneBody& ring) {
+  std::vector<LinearForm> dofs;
+  if (!stage.ring_coupling) return dofs;
+  const auto& body = *stage.ring_coupling;
+  const double rotational_mass = stage.ring.inertia / (stage.ring.radius * stage.ring.radius);
+  for (const auto& mode : body.modes) {
+    auto amplitude = builder.add_dof("ring_mode" + std::to_string(dofs.size() + 1));
+    const double rate = 2 * std::numbers::pi * mode.frequency;
+    builder.add_mass(amplitude, 1);
+    builder.add_spring(amplitude, rate * rate, critical_share(stage.support_damping_ratio, rate * rate, 1));
+    builder.add_mass_coupling(amplitude, ring.x, in_mass_of_stage(mode.translation_x, stage.ring.mass, body.mass));
+    builder.add_mass_coupling(amplitude, ring.y, in_mass_of_stage(mode.translation_y, stage.ring.mass, body.mass));
+    builder.add_mass_coupling(amplitude, ring.u,
+                              in_mass_of_stage(mode.rotation, rotational_mass, body.rotational_mass));
+    dofs.push_back(std::move(amplitude));
+  }
+  return dofs;
+}
+
+/// Shares of the ring's motion in the closing of the mesh at angle psi = phi_n + a_r (16), the carrier turning past the
+/// housing: -sin(psi + Omega t) x + cos(psi + Omega t) y + sum of closings at the tooth in mesh x modal amplitude.
+std::vector<MovingShare> ring_shares(const PlanetaryStage& stage, const PlaneBody& ring,
+                                     const std::vector<LinearForm>& modes, double psi) {
+  std::vector<MovingShare> shares;
+  const double speed = stage.carrier_speed;
+  for (const auto& [form, amount, phase] :
+       {std::tuple{&ring.x, -1.0, psi}, std::tuple{&ring.y, 1.0, psi + std::numbers::pi / 2}})
+    for (const auto& [dof, factor] : *form) shares.push_back({dof, {}, {amount * factor, speed, phase}});
+  for (std::size_t k = 0; k < modes.size(); ++k)
+    shares.push_back({modes[k].front().first, PeriodicCurve(stage.ring_coupling->modes[k].closing, 1), {}});
+  return shares;
+}
+
+MeshCoupling coupling_of(const PlanetaryStage& stage, const std::vector<LinearForm>& modes) {
+  MeshCoupling coupling;
+  for (int n = 0; n < stage.planets(); ++n) coupling.meshes.push_back(stage.planets() + n);
+  coupling.compliance = compliance_curves(stage.ring_coupling->compliance, stage.ring_coupling->per_cycle);
+  for (std::size_t k = 0; k < modes.size(); ++k)
+    coupling.kept.push_back(
+        {modes[k].front().first, std::pow(2 * std::numbers::pi * stage.ring_coupling->modes[k].frequency, 2)});
+  return coupling;
+}
+
+double value_or_zero(const std::vector<double>& values, int n) { return values.empty() ? 0.0 : values[n]; }
+
+}  // namespace
+
+LumpedSystem assemble(const PlanetaryStage& stage) {
+  stage.check();
+  LumpedSystemBuilder builder;
+  const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
+  const bool housing = ring_in_housing(stage);
+  const PlaneBody sun = add_central(builder, stage, stage.sun, "sun", speed);
+  const PlaneBody ring = add_central(builder, stage, stage.ring, "ring", housing ? 0 : speed);
+  const PlaneBody carrier = add_central(builder, stage, stage.carrier, "carrier", speed);
+  const double as = stage.sun_working_angle, ar = stage.ring_working_angle;
+
+  const auto mesh = [&](const std::string& name, LinearForm b, const MeshExcitation& excitation,
+                        const CentralBody& wheel, std::optional<double> half_backlash, double phase,
+                        std::vector<HarmonicError> errors) {
+    MeshElement element;
+    element.name = name;
+    element.b = std::move(b);
+    element.excitation = excitation;
+    element.frequency = stage.mesh_frequency();
+    element.phase_offset = phase;
+    element.damping =
+        critical_share(stage.mesh_damping_ratio, mean_stiffness(excitation), equivalent_mass(stage, wheel));
+    element.half_backlash = half_backlash;
+    element.damping_without_contact = stage.damping_without_contact;
+    element.errors = std::move(errors);
+    return element;
+  };
+
+  std::vector<MeshElement> ring_meshes;
+  std::vector<PlaneBody> planets;
+  planets.reserve(stage.planet_angles.size());
+  for (int n = 0; n < stage.planets(); ++n)
+    planets.push_back(add_planet(builder, stage, carrier, stage.planet_angles[n], "planet" + std::to_string(n + 1)));
+  const auto ring_modes = add_ring_modes(builder, stage, ring);
+  const LinearForm none;
+  for (int n = 0; n < stage.planets(); ++n) {
+    const double phi = stage.planet_angles[n];
+    const auto number = std::to_string(n + 1);
+    const PlaneBody& p = planets[n];
+    const LinearForm sun_b = sun.u + (-std::sin(phi - as)) * sun.x + std::cos(phi - as) * sun.y + p.u +  // (15)
+                             (-std::sin(as)) * p.x + (-std::cos(as)) * p.y;
+    const LinearForm ring_b = ring.u + (-std::sin(phi + ar)) * (housing ? none : ring.x) +  // (16)
+                              std::cos(phi + ar) * (housing ? none : ring.y) + (-1.0) * p.u + std::sin(ar) * p.x +
+                              (-std::cos(ar)) * p.y;
+    builder.add_mesh(mesh("sun_planet" + number, sun_b, stage.sun_mesh, stage.sun, stage.sun_half_backlash,
+                          -value_or_zero(stage.sun_phase_lag, n), sun_mesh_errors(stage, n)));
+    ring_meshes.push_back(mesh("ring_planet" + number, ring_b, stage.ring_mesh, stage.ring, stage.ring_half_backlash,
+                               value_or_zero(stage.ring_tooth_offset, n) - value_or_zero(stage.ring_phase_lag, n),
+                               ring_mesh_errors(stage, n)));
+    if (housing) ring_meshes.back().moving = ring_shares(stage, ring, ring_modes, phi + ar);
+  }
+  for (auto& element : ring_meshes) builder.add_mesh(std::move(element));
+  if (stage.ring_coupling) builder.add_mesh_coupling(coupling_of(stage, ring_modes));
+
+  // The carrier's load from virtual work: equal to T_c / a with T_c = T_s (1 + z_r/z_s), but balanced to rounding, so
+  // that a stage free to turn does not creep away.
+  const double sun_force = stage.sun_torque / stage.sun.radius;
+  builder.add_load(sun.u, sun_force);
+  builder.add_load(carrier.u, -sun_force * (std::cos(as) + std::cos(ar)));
+  return builder.build();
+}
+
+}  // namespace annulus::dynamics

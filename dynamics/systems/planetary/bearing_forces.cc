@@ -1,0 +1,174 @@
+#include "dynamics/systems/planetary/bearing_forces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/errors.h"
+#include "dynamics/system/lumped_system.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+/// Motion of the stage over time by DOF or spring; what does not move gives zeros.
+class Motion {
+ public:
+  Motion(const PlanetaryStage& stage, const TimeSeries& series) : system_(assemble(stage)), series_(series) {
+    require(series.dofs == system_.names(), "a time series of this stage");
+    require(series.force.rows() == 2 * stage.planets(), "two mesh forces per planet");
+  }
+
+  [[nodiscard]] Eigen::RowVectorXd place(const std::string& dof) const { return row(series_.displacement, dof); }
+  [[nodiscard]] Eigen::RowVectorXd velocity(const std::string& dof) const { return row(series_.velocity, dof); }
+  [[nodiscard]] Eigen::RowVectorXd acceleration(const std::string& dof) {
+    if (acceleration_.size() == 0) accelerate();
+    return row(acceleration_, dof);
+  }
+  [[nodiscard]] bool moves(const std::string& dof) const { return system_.find(dof) >= 0; }
+
+  [[nodiscard]] const SpringElement* spring(const std::string& name) const {
+    const auto& springs = system_.springs();
+    const auto found = std::find_if(springs.begin(), springs.end(), [&](const auto& s) { return s.name == name; });
+    return found == springs.end() ? nullptr : &*found;
+  }
+  /// k a^T q + c a^T q'
+  [[nodiscard]] Eigen::RowVectorXd force(const SpringElement& spring) const {
+    Eigen::RowVectorXd result = Eigen::RowVectorXd::Zero(series_.time.size());
+    for (const auto& [i, factor] : spring.a)
+      result += factor * (spring.stiffness * series_.displacement.row(i) + spring.damping * series_.velocity.row(i));
+    return result;
+  }
+
+ private:
+  [[nodiscard]] Eigen::RowVectorXd row(const Eigen::MatrixXd& values, const std::string& dof) const {
+    const int i = system_.find(dof);
+    if (i < 0) return Eigen::RowVectorXd::Zero(series_.time.size());
+    return values.row(i);
+  }
+
+  void accelerate() {
+    auto workspace = system_.workspace();
+    const int n = system_.dofs();
+    acceleration_.resize(n, series_.time.size());
+    Eigen::VectorXd state(2 * n), rate(2 * n);
+    for (Eigen::Index i = 0; i < series_.time.size(); ++i) {
+      state << series_.displacement.col(i), series_.velocity.col(i);
+      system_.detect_contact(series_.time[i], state.data(), workspace);
+      system_.rhs(series_.time[i], state.data(), rate.data(), workspace);
+      acceleration_.col(i) = rate.tail(n);
+    }
+  }
+
+  LumpedSystem system_;
+  const TimeSeries& series_;
+  Eigen::MatrixXd acceleration_;
+};
+
+/// Place, velocity and acceleration of planet n in its radial or tangential coordinate, whether it has the DOF or
+/// rides on the carrier.
+struct Course {
+  Eigen::RowVectorXd place, velocity, acceleration;
+};
+
+Course planet_course(const PlanetaryStage& stage, Motion& motion, int n, bool radial) {
+  const auto dof = "planet" + std::to_string(n + 1) + (radial ? "_x" : "_y");
+  if (motion.moves(dof)) return {motion.place(dof), motion.velocity(dof), motion.acceleration(dof)};
+  const double phi = stage.planet_angles[n];
+  const double x = radial ? std::cos(phi) : -std::sin(phi), y = radial ? std::sin(phi) : std::cos(phi);
+  const double u = radial ? 0 : 1;
+  return {x * motion.place("carrier_x") + y * motion.place("carrier_y") + u * motion.place("carrier_u"),
+          x * motion.velocity("carrier_x") + y * motion.velocity("carrier_y") + u * motion.velocity("carrier_u"),
+          x * motion.acceleration("carrier_x") + y * motion.acceleration("carrier_y") +
+              u * motion.acceleration("carrier_u")};
+}
+
+/// Force on the pin from m (x'' - 2 Omega y' - Omega^2 x) = -sum b F - pin force, and alike for y.
+Eigen::RowVectorXd pin_force_by_equilibrium(const PlanetaryStage& stage, const TimeSeries& series, Motion& motion,
+                                            int n, bool radial) {
+  const double as = stage.sun_working_angle, ar = stage.ring_working_angle;
+  const double sun_b = radial ? -std::sin(as) : -std::cos(as), ring_b = radial ? std::sin(ar) : -std::cos(ar);
+  const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
+  const Course own = planet_course(stage, motion, n, radial), other = planet_course(stage, motion, n, !radial);
+  Eigen::RowVectorXd place = own.place;
+  if (!radial) place -= motion.place("carrier_u");  // the centrifugal force turns with the carrier
+  const Eigen::RowVectorXd inertia =
+      stage.planet.mass * (own.acceleration + (radial ? -2 : 2) * speed * other.velocity - speed * speed * place);
+  return -sun_b * series.force.row(n) - ring_b * series.force.row(stage.planets() + n) - inertia;
+}
+
+BearingForces pin_forces(const PlanetaryStage& stage, const TimeSeries& series, Motion& motion) {
+  BearingForces result;
+  result.radial.resize(stage.planets(), series.time.size());
+  result.tangential.resize(stage.planets(), series.time.size());
+  for (int n = 0; n < stage.planets(); ++n)
+    for (const bool radial : {true, false}) {
+      const auto name = "planet" + std::to_string(n + 1) + (radial ? "_bearing_radial" : "_bearing_tangential");
+      const auto* spring = motion.spring(name);
+      (radial ? result.radial : result.tangential).row(n) =
+          spring ? motion.force(*spring) : pin_force_by_equilibrium(stage, series, motion, n, radial);
+    }
+  if (stage.rotating_frame)
+    result.radial.array() += stage.planet.mass * stage.carrier.radius * stage.carrier_speed * stage.carrier_speed;
+  return result;
+}
+
+/// Sum of what acts on the body without its supports.
+SupportReaction applied(const PlanetaryStage& stage, const TimeSeries& series, Motion& motion, CentralMember member) {
+  const auto zero = Eigen::VectorXd::Zero(series.time.size());
+  SupportReaction sum{zero, zero, zero};
+  if (member == CentralMember::carrier) {
+    const auto pins = pin_forces(stage, series, motion);
+    for (int n = 0; n < stage.planets(); ++n) {
+      const double c = std::cos(stage.planet_angles[n]), s = std::sin(stage.planet_angles[n]);
+      sum.x += (c * pins.radial.row(n) - s * pins.tangential.row(n)).transpose();
+      sum.y += (s * pins.radial.row(n) + c * pins.tangential.row(n)).transpose();
+      sum.torque += stage.carrier.radius * pins.tangential.row(n).transpose();
+    }
+    return sum;
+  }
+  const bool sun = member == CentralMember::sun;
+  for (int n = 0; n < stage.planets(); ++n) {
+    const double psi = stage.planet_angles[n] + (sun ? -stage.sun_working_angle : stage.ring_working_angle);
+    const Eigen::VectorXd force = series.force.row(sun ? n : stage.planets() + n).transpose();
+    sum.x += std::sin(psi) * force;  // -b F, (15) and (16)
+    sum.y -= std::cos(psi) * force;
+    sum.torque -= (sun ? stage.sun : stage.ring).radius * force;
+  }
+  return sum;
+}
+
+}  // namespace
+
+BearingForces bearing_forces(const PlanetaryStage& stage, const TimeSeries& series) {
+  Motion motion(stage, series);
+  return pin_forces(stage, series, motion);
+}
+
+SupportReaction support_reaction(const PlanetaryStage& stage, const TimeSeries& series, CentralMember member) {
+  const auto& body = member == CentralMember::sun    ? stage.sun
+                     : member == CentralMember::ring ? stage.ring
+                                                     : stage.carrier;
+  const std::string name = member == CentralMember::sun ? "sun" : member == CentralMember::ring ? "ring" : "carrier";
+  Motion motion(stage, series);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(series.time.size());
+  SupportReaction result{zero, zero, zero};
+  if (body.support == rigid || body.torsional_support == rigid) {
+    const auto held = applied(stage, series, motion, member);
+    if (body.support == rigid) {
+      result.x = held.x;
+      result.y = held.y;
+    }
+    if (body.torsional_support == rigid) result.torque = held.torque;
+  }
+  const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
+  if (const auto* spring = motion.spring(name + "_support_x"))
+    result.x = (motion.force(*spring) - spring->damping * speed * motion.place(name + "_y")).transpose();
+  if (const auto* spring = motion.spring(name + "_support_y"))
+    result.y = (motion.force(*spring) + spring->damping * speed * motion.place(name + "_x")).transpose();
+  if (const auto* spring = motion.spring(name + "_support_u"))
+    result.torque = body.radius * motion.force(*spring).transpose();
+  return result;
+}
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,105 @@
+#include "dynamics/systems/planetary/initial_spread.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/errors.h"
+#include "dynamics/statics/static_solver.h"
+#include "dynamics/statistics/sampling.h"
+#include "dynamics/system/lumped_system.h"
+#include "dynamics/systems/planetary/planetary_modes.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+/// Draws states about the static equilibrium.
+class StartSampler {
+ public:
+  StartSampler(const PlanetaryStage& stage, const InitialSpreadOptions& options)
+      : options_(options), system_(assemble(stage)), rate_(2 * std::numbers::pi * stage.mesh_frequency()) {
+    StaticSolver solver(system_);
+    auto workspace = system_.workspace();
+    equilibrium_ = solver.solve(0, workspace);
+    for (std::size_t m = 0; m < workspace.force.size(); ++m)
+      size_ = std::max(size_, options.factor * std::abs(workspace.force[m]) / workspace.stiffness[m]);
+    for (const auto& mode : modes(stage).modes)
+      if (mode.frequency == 0) rigid_.push_back(mode.shape);
+  }
+
+  [[nodiscard]] SystemState draw(std::uint64_t start) const {
+    SystemState state{0, equilibrium_, {}};
+    state.q += size_ * random_vector(start, " displacement");
+    state.v = size_ * rate_ * random_vector(start, " velocity");
+    return state;
+  }
+
+ private:
+  /// Entries within -1 ... 1, rigid motions taken out: they would turn the stage at another speed.
+  [[nodiscard]] Eigen::VectorXd random_vector(std::uint64_t start, const char* what) const {
+    Eigen::VectorXd v(system_.dofs());
+    for (int i = 0; i < system_.dofs(); ++i)
+      v[i] = 2 * uniform_draw(options_.seed, start, system_.names()[i] + what) - 1;
+    for (const auto& nu : rigid_) v -= nu * nu.dot(system_.mass() * v);
+    return v;
+  }
+
+  const InitialSpreadOptions& options_;
+  LumpedSystem system_;
+  double rate_ = 0, size_ = 0;
+  Eigen::VectorXd equilibrium_;
+  std::vector<Eigen::VectorXd> rigid_;
+};
+
+bool same_motion(const InitialStart& a, const InitialStart& b, double share) {
+  const auto close = [share](double x, double y) {
+    return x == y || std::abs(x - y) <= share * std::max(std::abs(x), std::abs(y));
+  };
+  const auto kind = [&](const KindFigures& x, const KindFigures& y) {
+    return close(x.instantaneous, y.instantaneous) && close(x.dynamic_factor, y.dynamic_factor) &&
+           // A fraction of the time, itself counted in samples.
+           std::abs(x.contact_loss - y.contact_loss) <= std::max(share, 0.01);
+  };
+  return kind(a.sun_planet, b.sun_planet) && kind(a.ring_planet, b.ring_planet);
+}
+
+void widen(ValueRange& range, double value) {
+  range.low = std::min(range.low, value);
+  range.high = std::max(range.high, value);
+}
+
+}  // namespace
+
+InitialSpread initial_spread(const PlanetaryStage& stage, const InitialSpreadOptions& options) {
+  if (options.random_starts < 0 || !(options.factor > 0) || !(options.same > 0))
+    throw InputError("a spread over initial conditions needs a positive size of starts and share of sameness");
+  const StartSampler sampler(stage, options);
+  PointOptions point{.simulation = options.simulation, .motion = false};
+  point.simulation.steady_state = SteadyState::marching;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr ValueRange nothing{infinity, -infinity};
+  InitialSpread spread{
+      .starts = {}, .sun_load_sharing = nothing, .ring_load_sharing = nothing, .contact_loss = nothing};
+  for (int i = 0; i <= options.random_starts; ++i) {
+    if (i > 0) point.simulation.start = sampler.draw(static_cast<std::uint64_t>(i));
+    const PointFigures figures = evaluate_point(stage, point);
+    InitialStart start{.steady = figures.steady, .sun_planet = figures.sun_planet, .ring_planet = figures.ring_planet};
+    if (start.steady) {
+      const auto known = std::find_if(spread.starts.begin(), spread.starts.end(), [&](const InitialStart& other) {
+        return other.steady && same_motion(start, other, options.same);
+      });
+      start.attractor = known != spread.starts.end() ? known->attractor : spread.attractors++;
+    } else {
+      ++spread.unsteady;
+    }
+    widen(spread.sun_load_sharing, start.sun_planet.instantaneous);
+    widen(spread.ring_load_sharing, start.ring_planet.instantaneous);
+    widen(spread.contact_loss, std::max(start.sun_planet.contact_loss, start.ring_planet.contact_loss));
+    spread.starts.push_back(start);
+  }
+  return spread;
+}
+
+}  // namespace annulus::dynamics

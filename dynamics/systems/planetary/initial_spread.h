@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dynamics/systems/planetary/study_point.h"
+
+namespace annulus::dynamics {
+
+struct InitialSpreadOptions {
+  int random_starts = 8;  ///< beside the static equilibrium
+  /// Random starts lie within this many static mesh deflections of the equilibrium in every DOF, with velocities as
+  /// of a vibration of that size at mesh frequency.
+  double factor = 3;
+  std::uint64_t seed = 1;
+  /// Motions are one when none of their figures (load sharing, dynamic factor, contact loss) differs by more than this
+  /// share; steady windows agree far better.
+  double same = 5e-3;
+  SimulationOptions simulation{};  ///< marched always
+};
+
+/// The motion one start leads to.
+struct InitialStart {
+  bool steady = false;
+  int attractor = -1;  ///< index, in the order found; -1: not steady
+  KindFigures sun_planet, ring_planet;
+};
+
+struct ValueRange {
+  double low = 0, high = 0;
+};
+
+/// Where several motions are possible, the figures depend on the start and none of them stands for the stage.
+struct InitialSpread {
+  std::vector<InitialStart> starts;  ///< the static one first
+  int attractors = 0;                ///< distinct steady motions
+  int unsteady = 0;                  ///< starts from which windows did not repeat (chaos, or long transients)
+  ValueRange sun_load_sharing, ring_load_sharing;  ///< instantaneous, over all starts
+  ValueRange contact_loss;                         ///< largest of all meshes, over all starts
+};
+
+/// Marches the stage to its steady state from several starts. Depends on stage, options and seed alone. Throws what
+/// `simulate` throws, InputError for options that are not usable.
+[[nodiscard]] InitialSpread initial_spread(const PlanetaryStage& stage, const InitialSpreadOptions& options = {});
+
+}  // namespace annulus::dynamics

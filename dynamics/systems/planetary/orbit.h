@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "dynamics/systems/planetary/planetary_stage.h"
+#include "dynamics/systems/planetary/response.h"
+
+namespace annulus::dynamics {
+
+/// Path of the centre of a central body, m, one value per time.
+struct Orbit {
+  Eigen::VectorXd x, y;                  ///< in the frame of the carrier
+  Eigen::VectorXd housing_x, housing_y;  ///< in the housing; the frames coincide at time 0
+  double mean_x = 0, mean_y = 0;         ///< in the frame of the carrier
+  double extent = 0;                     ///< largest distance from that mean
+  double largest = 0;                    ///< largest distance from the axis of the housing
+};
+/// Of "sun", "ring" or "carrier"; zeros when its support is rigid.
+[[nodiscard]] Orbit orbit(const PlanetaryStage& stage, const TimeSeries& series, const std::string& body = "sun");
+
+}  // namespace annulus::dynamics

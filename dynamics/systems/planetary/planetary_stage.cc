@@ -1,0 +1,201 @@
+#include "dynamics/systems/planetary/planetary_stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+#include "core/errors.h"
+#include "dynamics/system/input_checks.h"
+#include "dynamics/systems/planetary/stage_errors.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+void check_errors(const BodyErrors& errors, const std::string& name) {
+  for (const auto& d : {errors.eccentricity, errors.installation})
+    if (!std::isfinite(d.amount) || !std::isfinite(d.phase))
+      throw InputError(name + ": an error or phase is not finite");
+}
+
+void check_central(const CentralBody& body, const std::string& name) {
+  check_positive(body.mass, name + " mass");
+  check_positive(body.inertia, name + " inertia");
+  check_positive(body.radius, name + " radius");
+  check_support(body.support, name + " support", true);
+  check_support(body.torsional_support, name + " torsional support", true);
+  check_errors(body.errors, name);
+}
+
+bool has_errors(const BodyErrors& errors) { return errors.eccentricity.exists() || errors.installation.exists(); }
+
+bool any_errors(const PlanetaryStage& stage) {
+  return has_errors(stage.sun.errors) || has_errors(stage.ring.errors) || has_errors(stage.carrier.errors) ||
+         std::any_of(stage.planet_errors.begin(), stage.planet_errors.end(), has_errors);
+}
+
+void check_coupling(const RingCoupling& coupling, const PlanetaryStage& stage) {
+  const auto refuse = [](const std::string& what) { throw InputError("ring coupling: " + what); };
+  if (coupling.planets != stage.planets())
+    refuse(fmt::format("made for {} planets, the stage has {}", coupling.planets, stage.planets()));
+  if (coupling.ring_teeth != stage.ring_teeth)
+    refuse(fmt::format("made for {} ring teeth, the stage has {}", coupling.ring_teeth, stage.ring_teeth));
+  const auto matrices = static_cast<int>(coupling.compliance.size());
+  if (coupling.per_cycle < 1 || matrices < 1 || matrices % coupling.per_cycle)
+    refuse(fmt::format("{} compliance matrices do not fill mesh cycles at {} per cycle", matrices, coupling.per_cycle));
+  for (const auto& matrix : coupling.compliance) {
+    if (matrix.rows() != stage.planets() || matrix.cols() != stage.planets() || !matrix.allFinite())
+      refuse("a compliance matrix is not planets x planets finite numbers");
+    // Tolerates what a file of a few digits leaves of the symmetry.
+    if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > 1e-6 * matrix.cwiseAbs().maxCoeff())
+      refuse("a compliance matrix is not symmetric");
+  }
+  for (const auto& mode : coupling.modes) {
+    check_positive(mode.frequency, "ring coupling: frequency of a mode");
+    if (static_cast<int>(mode.closing.size()) != coupling.ring_teeth)
+      refuse(fmt::format("a mode has {} closings for {} teeth", mode.closing.size(), coupling.ring_teeth));
+    for (const double value : {mode.translation_x, mode.translation_y, mode.rotation})
+      if (!std::isfinite(value)) refuse("a mode's inertial coupling is not finite");
+  }
+}
+
+MeshError sum_of(const std::vector<HarmonicError>& errors, double time) {
+  MeshError e;
+  for (const auto& h : errors) {
+    e.value += h.amount * std::sin(h.rate * time + h.phase);
+    e.rate += h.amount * h.rate * std::cos(h.rate * time + h.phase);
+  }
+  return e;
+}
+
+// A stage that stands (for its modes) may go without numbers of teeth.
+double rate_of_planet(const PlanetaryStage& s) {
+  return s.carrier_speed == 0 ? 0 : -s.carrier_speed * s.ring_teeth / s.planet_teeth;
+}
+double rate_of_sun(const PlanetaryStage& s) {
+  return s.carrier_speed == 0 ? 0 : s.carrier_speed * s.ring_teeth / s.sun_teeth;
+}
+
+void add(std::vector<HarmonicError>& list, double sign, const Deviation& deviation, double rate, double phase) {
+  if (deviation.exists()) list.push_back({sign * deviation.amount, rate, deviation.phase + phase});
+}
+
+}  // namespace
+
+// A displacement d of the planet's toothing opens the sun mesh by d . n_s, n_s = (-sin(phi_n - a_s), cos(phi_n - a_s)):
+// with delta = ... - e this is e = +|d| sin(angle of d - phi_n + a_s). A displacement of the sun closes it: e = -...
+// Ring mesh alike with n_r = (-sin(phi_n + a_r), cos(phi_n + a_r)).
+std::vector<HarmonicError> sun_mesh_errors(const PlanetaryStage& s, int n) {
+  std::vector<HarmonicError> list;
+  const double phi = s.planet_angles[n], alpha = s.sun_working_angle, turn = -s.carrier_speed;
+  if (!s.planet_errors.empty()) {
+    add(list, +1, s.planet_errors[n].eccentricity, rate_of_planet(s), alpha);
+    add(list, +1, s.planet_errors[n].installation, 0, alpha - phi);
+  }
+  add(list, -1, s.sun.errors.eccentricity, rate_of_sun(s), alpha - phi);
+  add(list, -1, s.sun.errors.installation, turn, alpha - phi);
+  add(list, +1, s.carrier.errors.eccentricity, 0, alpha - phi);
+  add(list, +1, s.carrier.errors.installation, turn, alpha - phi);
+  return list;
+}
+
+std::vector<HarmonicError> ring_mesh_errors(const PlanetaryStage& s, int n) {
+  std::vector<HarmonicError> list;
+  const double phi = s.planet_angles[n], alpha = s.ring_working_angle, turn = -s.carrier_speed;
+  if (!s.planet_errors.empty()) {
+    add(list, +1, s.planet_errors[n].eccentricity, rate_of_planet(s), -alpha);
+    add(list, +1, s.planet_errors[n].installation, 0, -alpha - phi);
+  }
+  add(list, -1, s.ring.errors.eccentricity, turn, -alpha - phi);
+  add(list, -1, s.ring.errors.installation, turn, -alpha - phi);
+  add(list, +1, s.carrier.errors.eccentricity, 0, -alpha - phi);
+  add(list, +1, s.carrier.errors.installation, turn, -alpha - phi);
+  return list;
+}
+
+MeshError sun_mesh_error(const PlanetaryStage& stage, int n, double time) {
+  return sum_of(sun_mesh_errors(stage, n), time);
+}
+
+MeshError ring_mesh_error(const PlanetaryStage& stage, int n, double time) {
+  return sum_of(ring_mesh_errors(stage, n), time);
+}
+
+double PlanetaryStage::mesh_frequency() const { return ring_teeth * carrier_speed / (2 * std::numbers::pi); }
+
+double PlanetaryStage::mean_mesh_force() const { return sun_torque / (planets() * sun.radius); }
+
+double PlanetaryStage::carrier_torque() const { return sun_torque * (1 + static_cast<double>(ring_teeth) / sun_teeth); }
+
+int PlanetaryStage::error_period() const {
+  int period = std::lcm(period_in_cycles(sun_mesh), period_in_cycles(ring_mesh));
+  if (ring_coupling) {
+    const auto matrices = static_cast<int>(ring_coupling->compliance.size());
+    period = std::lcm(period, matrices / ring_coupling->per_cycle);
+    if (!ring_coupling->modes.empty()) period = std::lcm(period, ring_teeth);
+  }
+  if (carrier_speed == 0) return period;
+  const auto eccentric = [](const BodyErrors& e) { return e.eccentricity.exists(); };
+  if (std::any_of(planet_errors.begin(), planet_errors.end(), eccentric)) period = std::lcm(period, planet_teeth);
+  if (sun.errors.eccentricity.exists()) period = std::lcm(period, sun_teeth);
+  if (sun.errors.installation.exists() || has_errors(ring.errors) || carrier.errors.installation.exists())
+    period = std::lcm(period, ring_teeth);
+  return period;
+}
+
+void PlanetaryStage::check() const {
+  check_central(sun, "sun");
+  check_central(ring, "ring");
+  check_central(carrier, "carrier");
+  check_positive(planet.mass, "planet mass");
+  check_positive(planet.inertia, "planet inertia");
+  check_positive(planet.radius, "planet radius");
+  check_support(planet.bearing_radial, "planet bearing stiffness (radial)", false);
+  check_support(planet.bearing_tangential, "planet bearing stiffness (tangential)", false);
+  if (planets() < 1) throw InputError("a planetary stage needs at least one planet");
+  for (const double angle : planet_angles)
+    if (!std::isfinite(angle)) throw InputError("a planet angle is not finite");
+  const auto per_planet = [&](std::size_t size, const std::string& name) {
+    if (size != 0 && size != planet_angles.size())
+      throw InputError(fmt::format("{} has {} values for {} planets", name, size, planets()));
+  };
+  per_planet(planet_errors.size(), "planet errors");
+  per_planet(sun_phase_lag.size(), "sun mesh phase");
+  per_planet(ring_phase_lag.size(), "ring mesh phase");
+  per_planet(ring_tooth_offset.size(), "ring tooth offset");
+  for (const auto& e : planet_errors) check_errors(e, "planet");
+  for (const double angle : {sun_working_angle, ring_working_angle})
+    if (!(std::abs(angle) < std::numbers::pi / 2))
+      throw InputError(fmt::format("working pressure angle {} rad must lie below 90 degrees", angle));
+  dynamics::check(sun_mesh, "sun-planet mesh");
+  dynamics::check(ring_mesh, "ring-planet mesh");
+  if (ring_coupling) check_coupling(*ring_coupling, *this);
+  if (sun_half_backlash) check_not_negative(*sun_half_backlash, "half backlash of the sun meshes");
+  if (ring_half_backlash) check_not_negative(*ring_half_backlash, "half backlash of the ring meshes");
+  check_not_negative(mesh_damping_ratio, "mesh damping ratio");
+  check_not_negative(support_damping_ratio, "support damping ratio");
+  check_not_negative(carrier_speed, "carrier speed");
+  if (!std::isfinite(sun_torque)) throw InputError("the sun torque is not finite");
+  // Without teeth there are natural frequencies, but no mesh frequency, torque ratio or rate of the errors.
+  if ((carrier_speed > 0 || sun_torque != 0 || any_errors(*this)) &&
+      !(sun_teeth > 0 && planet_teeth > 0 && ring_teeth > 0))
+    throw InputError("speed, torque and errors need the numbers of teeth of sun, planet and ring");
+  if (sun_torque != 0) {
+    if (sun.torsional_support == rigid)
+      throw InputError("the sun cannot turn (rigid torsional support), so its torque would not reach the meshes");
+    // Per metre of carrier motion the sun moves (cos a_s + cos a_r) metres: virtual work against the tooth ratio.
+    const double ratio = carrier.radius * (std::cos(sun_working_angle) + std::cos(ring_working_angle)) / sun.radius;
+    const double expected = 1 + static_cast<double>(ring_teeth) / sun_teeth;
+    if (std::abs(ratio - expected) > 1e-3 * expected)
+      throw InputError(
+          fmt::format("carrier radius, working angles and sun base radius give the torque ratio {:.6g}, "
+                      "the teeth {:.6g}: the stage contradicts itself",
+                      ratio, expected));
+  }
+}
+
+}  // namespace annulus::dynamics

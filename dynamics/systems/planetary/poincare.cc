@@ -1,0 +1,102 @@
+#include "dynamics/systems/planetary/poincare.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/errors.h"
+#include "dynamics/system/lumped_system.h"
+
+namespace annulus::dynamics {
+
+PoincareSection poincare_section(const PlanetaryStage& stage, const TimeSeries& series, int samples_per_cycle) {
+  require(samples_per_cycle > 0 && series.time.size() >= samples_per_cycle, "a section of less than a mesh cycle");
+  const LumpedSystem system = assemble(stage);
+  require(series.dofs == system.names(), "a time series of this stage");
+  const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
+  PoincareSection result;
+  std::vector<int> sun;
+  for (const std::string dof : {"sun_x", "sun_y"})
+    if (const int i = system.find(dof); i >= 0) {
+      sun.push_back(i);
+      result.quantities.push_back(dof + "_m");
+    }
+  for (const auto& mesh : system.meshes()) result.quantities.push_back(mesh.name + "_closing_m");
+  for (const auto& mesh : system.meshes()) result.quantities.push_back(mesh.name + "_force_N");
+
+  const auto first = static_cast<Eigen::Index>(sun.size());
+  Eigen::MatrixXd values(first + 2 * meshes, series.time.size());
+  auto workspace = system.workspace();
+  for (Eigen::Index i = 0; i < series.time.size(); ++i) {
+    for (Eigen::Index s = 0; s < first; ++s) values(s, i) = series.displacement(sun[s], i);
+    const Eigen::VectorXd q = series.displacement.col(i);
+    system.detect_contact(series.time[i], q.data(), workspace);
+    for (Eigen::Index m = 0; m < meshes; ++m) values(first + m, i) = workspace.delta[m];
+    values.col(i).tail(meshes) = series.force.col(i);
+  }
+  result.swing = values.rowwise().maxCoeff() - values.rowwise().minCoeff();
+  const Eigen::Index cycles = values.cols() / samples_per_cycle;
+  result.points.resize(values.rows(), cycles);
+  for (Eigen::Index c = 0; c < cycles; ++c) result.points.col(c) = values.col(c * samples_per_cycle);
+  return result;
+}
+
+std::string to_string(SectionKind kind) {
+  switch (kind) {
+    case SectionKind::period_1:
+      return "period_1";
+    case SectionKind::period_n:
+      return "period_n";
+    case SectionKind::irregular:
+      return "irregular";
+    case SectionKind::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+SectionPattern section_pattern(const PoincareSection& section, int error_period, double tolerance) {
+  require(error_period > 0 && tolerance > 0, "a section needs an error period and a tolerance");
+  // Relative to the largest swing of its unit: a quantity that hardly moves beside its like says nothing.
+  const auto unit_of = [&](Eigen::Index r) {
+    const auto& name = section.quantities[static_cast<std::size_t>(r)];
+    return name.substr(name.rfind('_') + 1);
+  };
+  Eigen::VectorXd scale(section.swing.size());
+  for (Eigen::Index r = 0; r < scale.size(); ++r) {
+    double largest = 0, size = 0;
+    for (Eigen::Index other = 0; other < scale.size(); ++other)
+      if (unit_of(other) == unit_of(r)) {
+        largest = std::max(largest, section.swing[other]);
+        size = std::max(size, section.points.row(other).cwiseAbs().maxCoeff());
+      }
+    scale[r] = largest > 1e-9 * size ? 1 / largest : 0.0;  // nothing moves but for rounding
+  }
+  const Eigen::MatrixXd points = scale.asDiagonal() * section.points;
+  const Eigen::Index cycles = points.cols();
+
+  SectionPattern pattern;
+  std::vector<Eigen::Index> leaders;
+  for (Eigen::Index c = 0; c < cycles; ++c) {
+    const auto near = [&](Eigen::Index leader) {
+      return (points.col(c) - points.col(leader)).cwiseAbs().maxCoeff() <= tolerance;
+    };
+    if (std::none_of(leaders.begin(), leaders.end(), near)) leaders.push_back(c);
+  }
+  pattern.clusters = static_cast<int>(leaders.size());
+
+  if (cycles < 2 * error_period) return pattern;
+  pattern.kind = SectionKind::irregular;
+  pattern.spread = std::numeric_limits<double>::infinity();
+  for (Eigen::Index shift = error_period; shift <= cycles / 2; shift += error_period) {
+    const double distance = (points.rightCols(cycles - shift) - points.leftCols(cycles - shift)).cwiseAbs().maxCoeff();
+    pattern.spread = std::min(pattern.spread, distance);
+    if (distance > tolerance) continue;
+    pattern.spread = distance;
+    pattern.period = static_cast<int>(shift);
+    pattern.kind = shift == error_period ? SectionKind::period_1 : SectionKind::period_n;
+    break;
+  }
+  return pattern;
+}
+
+}  // namespace annulus::dynamics

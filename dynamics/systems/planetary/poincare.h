@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/systems/planetary/planetary_stage.h"
+#include "dynamics/systems/planetary/response.h"
+
+namespace annulus::dynamics {
+
+/// The state once per mesh cycle.
+struct PoincareSection {
+  std::vector<std::string> quantities;  ///< sun_x_m, sun_y_m, then of every mesh closing_m, force_N
+  Eigen::MatrixXd points;               ///< quantities x mesh cycles
+  Eigen::VectorXd swing;                ///< per quantity, largest less smallest value over the whole series
+};
+/// A mesh's closing is b^T q - e(t), its dynamic transmission error. Sun coordinates are absent when it is held.
+[[nodiscard]] PoincareSection poincare_section(const PlanetaryStage& stage, const TimeSeries& series,
+                                               int samples_per_cycle);
+
+enum class SectionKind {
+  period_1,   ///< repeats as the excitation does, with every error period
+  period_n,   ///< repeats with several error periods: subharmonic
+  irregular,  ///< does not repeat within half the section: quasi-periodic, chaotic, or not yet settled
+  undecided,  ///< fewer than two error periods were seen
+};
+[[nodiscard]] std::string to_string(SectionKind kind);
+
+struct SectionPattern {
+  SectionKind kind = SectionKind::undecided;
+  std::optional<int> period;  ///< mesh cycles after which the points repeat
+  int clusters = 0;           ///< points that differ by more than the tolerance
+  /// Largest difference, relative to that swing, between points one period apart (the best multiple of the error period
+  /// when none repeats).
+  double spread = 0;
+};
+/// `error_period` in mesh cycles; `tolerance` relative to the largest swing among the quantities of one unit.
+[[nodiscard]] SectionPattern section_pattern(const PoincareSection& section, int error_period, double tolerance = 0.01);
+
+}  // namespace annulus::dynamics

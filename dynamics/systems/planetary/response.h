@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/figure.h"
+#include "dynamics/steady_state/periodic_response.h"
+#include "dynamics/steady_state/piecewise_response.h"
+#include "dynamics/steady_state/steady_response.h"
+#include "dynamics/systems/planetary/load_sharing.h"
+#include "dynamics/systems/planetary/planetary_stage.h"
+
+namespace annulus::dynamics {
+
+/// One branch of the power flow: the mesh of one planet with sun or ring.
+struct BranchResult {
+  Figure dynamic_factor_max;      ///< max F / mean mesh force over the window (peaks refined between the samples)
+  double dynamic_factor_min = 0;  ///< min F / mean mesh force
+  double mean_force = 0;          ///< N
+  double contact_loss = 0;        ///< fraction of the time without contact
+};
+
+struct MeshKindResult {
+  LoadSharing load_sharing;
+  std::vector<BranchResult> branches;  ///< one per planet
+};
+
+struct DynamicResponse : SteadyOutcome {
+  double mesh_frequency = 0;   ///< Hz
+  double mean_mesh_force = 0;  ///< N, T_s / (N r_bs)
+  MeshKindResult sun_planet, ring_planet;
+  Eigen::MatrixXd cycle_force;  ///< N, forces averaged over each mesh cycle: sun meshes, then ring meshes x cycles
+  /// Momentum balance of the sun's rotation over the window, relative to T_s: mean of sum F_sn r_bs (and of its
+  /// torsional support, and the change of angular momentum) against T_s.
+  double force_balance_relative = 0;
+  TimeSeries series;
+};
+
+/// Periodic steady state of the stage and its figures: solved for directly and confirmed by marching over one window
+/// from there (two independent methods); where they disagree, no balance is found or the error period is longer than
+/// `max_window_cycles`, by marching alone. The error of a figure adds up what the sampling misses, the change from the
+/// harmonic balance or the window before and, with `estimate_error`, the change under a looser integration. An infinite
+/// load sharing means instants at which the stage carries no load. Throws InputError when the stage or the options are
+/// not usable (no speed, no torque, an unbalanced load: nothing holds the ring), SolverError when the integrator fails.
+[[nodiscard]] DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& options = {});
+
+/// Harmonic balance of the stage alone, over its error period. Throws InputError without a speed above zero.
+[[nodiscard]] PeriodicResponse periodic_response(const PlanetaryStage& stage, const PeriodicOptions& options = {});
+/// Exact solution of a stage with piecewise constant stiffness, over its error period. Throws InputError alike.
+[[nodiscard]] PiecewiseResponse piecewise_response(const PlanetaryStage& stage, const PiecewiseOptions& options = {});
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "dynamics/systems/planetary/response.h"
+
+namespace annulus::dynamics {
+
+/// What the figures and their errors come from: the best window, and others whose figures should be the same.
+struct ResponseEvidence {
+  const ResponseWindow &best, &before, &loose;
+  double mean_force = 0;
+};
+
+/// Figures of the meshes first ... first + planets - 1.
+[[nodiscard]] MeshKindResult evaluate_meshes(const ResponseEvidence& evidence, Eigen::Index first, Eigen::Index planets,
+                                             const Eigen::MatrixXd& quasi_static_force);
+
+/// See DynamicResponse::force_balance_relative.
+[[nodiscard]] double force_balance(const PlanetaryStage& stage, const LumpedSystem& system,
+                                   const ResponseWindow& window, const SystemState& begin, const SystemState& end,
+                                   int cycles);
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "dynamics/systems/planetary/mode_kind.h"
+#include "dynamics/systems/planetary/planetary_stage.h"
+
+namespace annulus::dynamics {
+
+/// A mode of the turning stage, e^(lambda t) in the carrier-fixed frame.
+struct RotatingMode {
+  double frequency = 0;  ///< Hz, |Im lambda| / 2 pi: damped when damping counts
+  double damping_ratio =
+      0;  ///< -Re lambda / |lambda|; 0 for rigid motions, 1 when it creeps back, -1 when it runs away
+  ModeKind kind = ModeKind::mixed;
+  Eigen::VectorXcd shape;  ///< phi^H M phi = 1, largest entry real, in the order of `RotatingModes::DOFs`
+};
+
+struct RotatingModes {
+  double carrier_speed = 0;  ///< rad/s
+  std::vector<std::string> dofs;
+  std::vector<RotatingMode> modes;  ///< rising frequency, one per DOF
+};
+
+/// Modes of M q'' + (C + G) q' + (K + K_Omega) q = 0 at the carrier speed of the stage, with the mean tangent mesh
+/// stiffness and all teeth in contact. `damped` adds supports, bearings and meshes as dampers, those to the housing
+/// included; without it G and the centripetal part alone make the modes depend on speed.
+/// Frequencies below 1e-6 of the highest one are rigid motions and given as exactly 0.
+/// Throws InputError when the stage cannot be assembled, SolverError when the eigenvalue solver fails.
+[[nodiscard]] RotatingModes rotating_modes(const PlanetaryStage& stage, bool damped);
+
+}  // namespace annulus::dynamics

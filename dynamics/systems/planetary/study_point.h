@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "dynamics/systems/planetary/response.h"
+
+namespace annulus::dynamics {
+
+/// Root mean square about the mean and whole range of a motion over the window, m.
+struct MotionRange {
+  double rms = 0, peak_to_peak = 0;
+};
+
+/// Largest values over the planets of one kind of mesh.
+struct KindFigures {
+  double instantaneous = 0, averaged = 0, quasi_static = 0;  ///< load sharing
+  double dynamic_factor = 0;
+  double contact_loss = 0;  ///< fraction of the time
+};
+
+/// State of planet 1's sun mesh at the start of a mesh cycle.
+struct PoincarePoint {
+  double force = 0;       ///< N
+  double deflection = 0;  ///< m
+};
+
+/// What a study (sweep, sensitivity, Monte Carlo) keeps of one response.
+struct PointFigures {
+  KindFigures sun_planet, ring_planet;
+  bool steady = false;
+  int window_cycles = 0;
+  // Only with PointOptions::motion:
+  MotionRange
+      sun{};  ///< of the sun's centre: distance from its mean place; range: the wider one of x and y. NaN when held
+  MotionRange sun_mesh{}, ring_mesh{};    ///< deflection of the mesh that moves most
+  std::vector<double> frequencies{};      ///< Hz, the lowest distinct natural frequencies above zero
+  std::vector<PoincarePoint> poincare{};  ///< one per mesh cycle of the window, `poincare_cycles` at most
+};
+
+struct PointOptions {
+  SimulationOptions simulation;
+  bool motion = true;         ///< orbits, deflections, natural frequencies and Poincare points too
+  int frequencies = 6;        ///< at most
+  int poincare_cycles = 200;  ///< at most
+};
+
+/// Response and figures of one stage. Throws what `simulate` and `modes` throw.
+[[nodiscard]] PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& options);
+
+/// How responses of studies are found; enters the identity of kept results.
+[[nodiscard]] const char* point_method();
+
+/// Rough wall time of evaluate_point in seconds on one core, for plans: the window is `error_period` mesh cycles.
+[[nodiscard]] double point_seconds(int planets, int error_period);
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,177 @@
+#include "dynamics/systems/two_k_v/two_k_v_response.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "core/errors.h"
+#include "dynamics/figures/peaks.h"
+#include "dynamics/statics/static_solver.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+/// The output's error as a linear form of the DOFs.
+Eigen::VectorXd error_form(const TwoKVStage& stage, const LumpedSystem& system) {
+  const Eigen::VectorXd radii = dof_radii(stage, system);
+  Eigen::VectorXd form = Eigen::VectorXd::Zero(system.dofs());
+  if (const int i = system.find("output_u"); i >= 0) form[i] = 1 / radii[i];
+  if (const int i = system.find("input_u"); i >= 0) form[i] = -1 / (radii[i] * stage.ratio());
+  return form;
+}
+
+/// Swing of a curve: sampled and refined.
+Peak swing(const Eigen::Ref<const Eigen::RowVectorXd>& values) {
+  const Peak top = peak_of(values), bottom = peak_of(-values);
+  return {top.sampled + bottom.sampled, top.refined + bottom.refined};
+}
+
+OutputError output_error(const Eigen::VectorXd& form, const SteadyResponse& steady) {
+  OutputError error;
+  error.series = steady.best.displacement.transpose() * form;
+  error.mean = error.series.mean();
+  const auto swing_of = [&](const std::optional<ResponseWindow>& window) {
+    const auto& motion = window && window->displacement.size() ? window->displacement : steady.best.displacement;
+    return swing(form.transpose() * motion);
+  };
+  error.peak_to_peak = figure(swing(error.series.transpose()), {swing_of(steady.before), swing_of(steady.loose)});
+  return error;
+}
+
+OutputError quasi_static_error(const TwoKVStage& stage, const LumpedSystem& system, const Eigen::VectorXd& form,
+                               int positions_per_cycle, Eigen::VectorXd& time) {
+  const int count = period_in_crank_turns(stage) * stage.planet_teeth * positions_per_cycle;
+  const double period = period_in_crank_turns(stage) / stage.crank_frequency();
+  StaticSolver solver(system);
+  auto workspace = system.workspace();
+  OutputError error;
+  error.series.resize(count);
+  time.resize(count);
+  for (int i = 0; i < count; ++i) {
+    time[i] = i * period / count;
+    error.series[i] = form.dot(solver.solve(time[i], workspace));
+  }
+  error.mean = error.series.mean();
+  error.peak_to_peak = figure(swing(error.series.transpose()), {});
+  return error;
+}
+
+std::vector<TwoKVMeshResult> mesh_results(const SteadyResponse& steady, Eigen::Index first, int count,
+                                          double mean_force) {
+  std::vector<TwoKVMeshResult> results;
+  for (Eigen::Index m = first; m < first + count; ++m) {
+    const auto peak_in = [&](const ResponseWindow& window) {
+      const Peak peak = peak_of(window.force.row(m));
+      return Peak{peak.sampled / mean_force, peak.refined / mean_force};
+    };
+    TwoKVMeshResult result;
+    result.dynamic_factor_max = figure(peak_in(steady.best), {peak_in(steady.before ? *steady.before : steady.best),
+                                                              peak_in(steady.loose ? *steady.loose : steady.best)});
+    result.dynamic_factor_min = steady.best.force.row(m).minCoeff() / mean_force;
+    result.mean_force = averaging_force(steady.best).row(m).mean();
+    result.contact_loss = steady.best.open[m];
+    results.push_back(result);
+  }
+  return results;
+}
+
+/// The two linear meshes of every bearing follow the toothed ones, tangential before radial.
+std::vector<ArcBearingResult> bearing_results(const TwoKVStage& stage, const Eigen::MatrixXd& force) {
+  std::vector<ArcBearingResult> results;
+  Eigen::Index m = stage.cranks + stage.arc_gears;
+  for (int i = 0; i < stage.cranks; ++i)
+    for (int j = 0; j < stage.arc_gears; ++j, m += 2) {
+      const Eigen::RowVectorXd resultant = force.middleRows(m, 2).colwise().norm();
+      results.push_back({i, j, resultant.maxCoeff(), resultant.mean()});
+    }
+  return results;
+}
+
+std::optional<double> torque_balance(const TwoKVStage& stage, const LumpedSystem& system,
+                                     const SteadyResponse& steady) {
+  if (stage.input_support != 0) return std::nullopt;
+  const double torque = stage.output_torque / stage.ratio();
+  const double meshes =
+      averaging_force(steady.best).topRows(stage.cranks).colwise().sum().mean() * stage.sun_base_radius();
+  double momentum = 0;
+  const double span = steady.end.time - steady.begin.time;
+  if (span > 0)
+    for (const char* name : {"input_u", "sun_u"}) {
+      const int i = system.find(name);
+      momentum += system.mass()(i, i) * (steady.end.v[i] - steady.begin.v[i]) * stage.sun_base_radius() / span;
+    }
+  return std::abs(meshes + momentum - torque) / torque;
+}
+
+/// Puts the start on the periodic orbit where shooting finds it.
+std::optional<double> shoot_for_start(const TwoKVStage& stage, const LumpedSystem& system,
+                                      const SimulationOptions& options, SteadyProblem& problem) {
+  if (options.mesh_cycles || problem.period_in_cycles > options.max_window_cycles) return std::nullopt;
+  ShootingOptions shooting;
+  shooting.displacement = problem.force_scale / problem.stiffness;
+  shooting.tolerance = 0.1 * options.steady_tolerance * shooting.displacement;
+  shooting.rate = 2 * std::numbers::pi * problem.mesh_frequency;
+  shooting.integrator = options.integrator;
+  if (!shooting.integrator.absolute_tolerance)
+    shooting.integrator.absolute_tolerance =
+        0.1 * shooting.integrator.relative_tolerance * problem.force_scale / problem.stiffness;
+  StaticSolver solver(system);
+  auto workspace = system.workspace();
+  const SystemState guess{0, solver.solve(0, workspace), Eigen::VectorXd::Zero(system.dofs())};
+  const auto found = shoot(system, problem.period_in_cycles / problem.mesh_frequency, guess, shooting);
+  const bool rigid_motion_exists = stage.input_support == 0 && stage.output_support == 0;
+  const double multiplier = std::abs(found.multipliers[rigid_motion_exists ? 2 : 0]);
+  // From an unstable orbit the motion departs, sooner or later: marching from elsewhere finds where to.
+  constexpr double accuracy = 1e-3;  // of multipliers from differences; an undamped motion neither grows nor dies
+  if (found.converged && multiplier <= 1 + accuracy) problem.start = found.start;
+  return multiplier;
+}
+
+}  // namespace
+
+int period_in_crank_turns(const TwoKVStage& stage) {
+  const auto turns = [](const MeshExcitation& excitation, int cycles_per_turn) {
+    const int period = period_in_cycles(excitation);
+    return period / std::gcd(period, cycles_per_turn);
+  };
+  return std::lcm(turns(stage.sun_mesh, stage.planet_teeth), turns(stage.arc_mesh, stage.arc_teeth));
+}
+
+TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options) {
+  stage.check();
+  if (!(stage.output_speed > 0)) throw InputError("2K-V stage: a time response needs an output speed above zero");
+  if (!(stage.output_torque > 0)) throw InputError("2K-V stage: a time response needs an output torque above zero");
+  if (stage.input_support == rigid && stage.output_support == rigid)
+    throw InputError("2K-V stage: with input and output held no torque acts; leave one end free");
+  const LumpedSystem system = assemble(stage);
+  const double arc_force = stage.mean_arc_mesh_force();
+  SteadyProblem problem{stage.sun_mesh_frequency(), period_in_crank_turns(stage) * stage.planet_teeth, arc_force,
+                        mean_stiffness(stage.arc_mesh), std::nullopt};
+  TwoKVResponse response;
+  response.largest_multiplier = shoot_for_start(stage, system, options, problem);
+  auto steady = steady_response(system, problem, options);
+  response.steady = steady.outcome();
+  response.crank_frequency = stage.crank_frequency();
+  response.sun_mesh_frequency = stage.sun_mesh_frequency();
+  response.arc_mesh_frequency = stage.arc_mesh_frequency();
+  response.mean_sun_force = stage.mean_sun_mesh_force();
+  response.mean_arc_force = arc_force;
+  response.crank_turns = steady.window_cycles / stage.planet_teeth;
+
+  const Eigen::VectorXd form = error_form(stage, system);
+  response.dynamic = output_error(form, steady);
+  constexpr int static_positions = 16;  // per sun mesh cycle
+  response.quasi_static = quasi_static_error(stage, system, form, static_positions, response.quasi_static_time);
+  response.sun_planet = mesh_results(steady, 0, stage.cranks, response.mean_sun_force);
+  response.arc_pins = mesh_results(steady, stage.cranks, stage.arc_gears, arc_force);
+  response.arc_bearings = bearing_results(stage, steady.best.force);
+  response.torque_balance_relative = torque_balance(stage, system, steady);
+  if (steady.window_cycles % stage.planet_teeth == 0)
+    response.error_spectrum = spectrum(response.dynamic.series, response.crank_turns);
+  if (options.keep_series) response.series = series_of(system, std::move(steady.best));
+  return response;
+}
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/figure.h"
+#include "dynamics/figures/spectrum.h"
+#include "dynamics/steady_state/shooting.h"
+#include "dynamics/steady_state/steady_response.h"
+#include "dynamics/systems/two_k_v/two_k_v.h"
+
+namespace annulus::dynamics {
+
+/// theta_o - theta_i/ratio, rad: how far the output lags or leads the input.
+struct OutputError {
+  Eigen::VectorXd series;  ///< over the window
+  double mean = 0;         ///< the wind-up under the torque
+  Figure peak_to_peak;
+};
+
+/// Figures of one mesh.
+struct TwoKVMeshResult {
+  Figure dynamic_factor_max;      ///< max F/mean mesh force, peaks refined between the samples
+  double dynamic_factor_min = 0;  ///< min F/mean mesh force
+  double mean_force = 0;          ///< N, of the window
+  double contact_loss = 0;        ///< fraction of the time without contact
+};
+
+/// One bearing of an arc gear on an eccentric, both directions together.
+struct ArcBearingResult {
+  int crank = 0, arc_gear = 0;   ///< from 0
+  double largest = 0, mean = 0;  ///< N, of the resultant
+};
+
+struct TwoKVResponse {
+  double crank_frequency = 0, sun_mesh_frequency = 0, arc_mesh_frequency = 0;  ///< Hz, in the frame of the carrier
+  double mean_sun_force = 0, mean_arc_force = 0;                               ///< N, what the factors refer to
+  int crank_turns = 0;                                                         ///< in the window
+  OutputError dynamic;
+  OutputError quasi_static;           ///< K(t) q = f at `quasi_static_time`: the error of the changing stiffness alone
+  Eigen::VectorXd quasi_static_time;  ///< s, over one period
+  std::vector<TwoKVMeshResult> sun_planet, arc_pins;
+  std::vector<ArcBearingResult> arc_bearings;
+  Spectrum error_spectrum;  ///< of the dynamic error, rad; orders count turns of the crank. Empty where the window
+                            ///< holds no whole turns
+  /// Mean torque of the sun meshes on the sun, change of the momentum of sun and input included, against T/ratio;
+  /// absent where the input has a support.
+  std::optional<double> torque_balance_relative;
+  /// Largest amount of a Floquet multiplier of one period but the double unit one of a rigid motion: below 1 the motion
+  /// is stable, above 1 the changing stiffness feeds it. Absent without shooting.
+  std::optional<double> largest_multiplier;
+  SteadyOutcome steady;
+  TimeSeries series;  ///< empty without `keep_series`
+};
+
+/// Turns of the crank against the carrier after which all repeats. One turn moves every sun mesh on by z_p whole
+/// cycles, every arc mesh by z_a, and brings the directions of the bearings back: one, unless a table spans several
+/// cycles.
+[[nodiscard]] int period_in_crank_turns(const TwoKVStage& stage);
+
+/// Periodic steady state at output_speed under output_torque (both > 0) with everything that changes in time: mesh
+/// stiffnesses and bearing directions. Found by shooting (the first mode dies slowly: the dampers of stiff bearings
+/// take little from a motion that hardly strains them, and marching alone would wait hundreds of crank turns), then
+/// marched on until windows repeat; with `mesh_cycles` by marching from quasi-static equilibrium alone. Cycles of the
+/// options are those of the sun meshes. Throws InputError when no torque acts (both ends held) or the load is not
+/// balanced.
+[[nodiscard]] TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options = {});
+
+}  // namespace annulus::dynamics

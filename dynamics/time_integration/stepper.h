@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "dynamics/time_integration/integrate.h"
+
+namespace annulus::dynamics {
+
+/// Tolerated error of a state entry y: relative × min(|y|, |y - origin| + extent) + absolute. Where backlash is wide
+/// and the load light, displacements are far larger than the deflections that matter.
+struct StateTolerance {
+  double relative = 0;
+  Eigen::ArrayXd absolute, origin, extent;
+};
+
+/// What the SUNDIALS callbacks see.
+struct StepperProblem {
+  const LumpedSystem& system;
+  LumpedSystem::Workspace& workspace;
+  std::vector<int> rooted;  ///< meshes with backlash; two root functions each: delta - half, delta + half
+  bool track_energy = false;
+  StateTolerance tolerance{};
+  IntegratorStatistics statistics{};
+  [[nodiscard]] int size() const { return 2 * system.dofs() + (track_energy ? 2 : 0); }
+};
+
+/// One SUNDIALS integrator between two restarts. The state is (q, v) and, when tracked, the energies supplied and
+/// dissipated.
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+  /// The state vector: set it before `restart`, read it after `advance`.
+  [[nodiscard]] virtual Eigen::Map<Eigen::VectorXd> state() = 0;
+  /// Begins anew at time t with the present state; no step passes `stop`.
+  virtual void restart(double t, double stop) = 0;
+  struct Reached {
+    double time = 0;
+    bool root = false;
+  };
+  /// Integrates to `out` (at most `stop`) or to the first root. Throws SolverError.
+  virtual Reached advance(double out) = 0;
+  /// +1 rising, -1 falling, 0 no root, for every root function at the last root.
+  [[nodiscard]] virtual const std::vector<int>& roots() = 0;
+  /// Adds the steps since the last restart to the statistics.
+  virtual void close() = 0;
+};
+
+[[nodiscard]] std::unique_ptr<Stepper> make_stepper(StepperProblem& problem, const IntegratorOptions& options);
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "fem/body/resolution.h"
+#include "fem/elasticity/sector_model.h"
+#include "fem/problem/loaded_mesh_problem.h"
+#include "fem/problem/solved_face.h"
+#include "geometry/mesh.h"
+
+namespace annulus::fem {
+
+/// How one gear of a loaded mesh becomes a body: what is meshed and what holds it. The toothed part lies between z = 0
+/// and the face width.
+class BodyPlan {
+ public:
+  /// `wheel`: the pair's wheel with its structure, else the planet. The profile is referred to. Throws InputError when
+  /// the structure needs a solid body and `solid` is false.
+  BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfile& profile, bool wheel,
+           geometry::Boundary flank, int degree, bool solid, const SolvedFace& face);
+
+  /// Plane section alone, whatever the body.
+  [[nodiscard]] geometry::Mesh section(const geometry::SectorResolution& resolution) const;
+  /// Sector of the body as it is solved: the section, or solid.
+  [[nodiscard]] geometry::Mesh sector(const BodyResolution& resolution) const { return sector(resolution, face_); }
+  /// The same over the whole face width.
+  [[nodiscard]] geometry::Mesh whole_sector(const BodyResolution& resolution) const {
+    return sector(resolution, {face_.width, false});
+  }
+
+  [[nodiscard]] const geometry::ToothProfile& profile() const { return profile_; }
+  [[nodiscard]] double support_radius() const { return rim_.support_radius; }
+  [[nodiscard]] const SectorModelOptions& model() const { return model_; }
+  /// Of the section held at its support circle: near fields are compared on it.
+  [[nodiscard]] SectorModelOptions near_field_model() const;
+  [[nodiscard]] bool floating() const { return model_.held == HeldBoundary::none; }
+
+ private:
+  [[nodiscard]] geometry::Mesh sector(const BodyResolution& resolution, const SolvedFace& face) const;
+
+  const geometry::ToothProfile& profile_;
+  SolvedFace face_;
+  bool solid_;
+  RingStructure structure_ = OutsideHeld{};
+  geometry::Rim rim_;
+  SectorModelOptions model_;
+};
+
+}  // namespace annulus::fem

@@ -1,0 +1,241 @@
+#include "fem/body/gear_body.h"
+
+#include <Eigen/Geometry>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+#include "core/errors.h"
+#include "fem/body/sector_bytes.h"
+
+namespace annulus::fem {
+namespace {
+
+/// Appends the stresses of a surface to what is observed, at no more than about `most` points along the line: every so
+/// many nodes, and the last one.
+StressLine observe(const StressSurface& surface, const SectorModel& model, int most, SectorLoads& loads) {
+  StressLine line;
+  const auto& trace = surface.trace;
+  if (trace.nodes.empty()) return line;
+  line.first_load = loads.columns();
+  line.axial_stations = static_cast<int>(trace.axial.size());
+  line.components = model.dimension == 3 ? 3 : 1;
+  const int nodes = static_cast<int>(trace.profile.size()), step = (nodes - 1 + most - 1) / most;
+  double arc = 0;
+  for (int u = 0; u < nodes; ++u) {
+    const auto at = [&](int station) { return model.nodes[trace.nodes[station * line.axial_stations]]; };
+    if (u > 0) arc += (at(u) - at(u - 1)).norm();
+    if (u % step != 0 && u != nodes - 1) continue;
+    line.angle.push_back(trace.profile[u]);
+    line.arc.push_back(arc);
+    for (int z = 0; z < line.axial_stations; ++z) {
+      const auto& stress = surface.stress[u * line.axial_stations + z];
+      loads.observed.push_back(stress.tangential);
+      if (line.components == 1) continue;
+      loads.observed.push_back(stress.axial);
+      loads.observed.push_back(stress.shear);
+    }
+  }
+  return line;
+}
+
+}  // namespace
+
+Eigen::RowVector3d GearBody::rigid_motion(int port, int sector) const {
+  const Eigen::AngleAxisd turn(sector * pitch_angle, Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d d = turn * ports[port].direction, p = turn * port_points[port];
+  return {d.x(), d.y(), p.x() * d.y() - p.y() * d.x()};
+}
+
+Wrench GearBody::arc_wrench(int arc, int sector) const {
+  const Eigen::AngleAxisd turn(sector * pitch_angle, Eigen::Vector3d::UnitZ());
+  Wrench turned;
+  turned << turn * arc_wrenches[arc].head<3>(), turn * arc_wrenches[arc].tail<3>();
+  return turned;
+}
+
+namespace {
+
+/// Unit normal of the flank (side 1: leading, -1: trailing) out of the material; of a helical gear in its section at z.
+Eigen::Vector3d flank_normal(const geometry::ToothProfile& profile, double roll, double side, double z) {
+  const Eigen::Vector2d normal = profile.flank_normal(roll), point = profile.flank_point(roll);
+  // The normal stands on the tangent (twist e_z x p) + e_z of the helix through the point.
+  const double moment = side * (point.x() * normal.y() - point.y() * normal.x());
+  const Eigen::Vector3d all(normal.x(), side * normal.y(), -profile.twist() * moment);
+  return Eigen::AngleAxisd(profile.twist() * z, Eigen::Vector3d::UnitZ()) * all.normalized();
+}
+
+}  // namespace
+
+Wrench resultant(const NodalLoad& load, const std::vector<Eigen::Vector3d>& nodes) {
+  Wrench wrench = Wrench::Zero();
+  for (const auto& f : load) {
+    wrench.head<3>() += f.force;
+    wrench.tail<3>() += nodes[f.node].cross(f.force);
+  }
+  return wrench;
+}
+
+std::vector<Port> flank_forces(const SectorModel& model, const geometry::ToothProfile& profile,
+                               geometry::Boundary flank) {
+  std::vector<Port> ports;
+  const double side = flank == geometry::Boundary::trailing_flank ? -1 : 1;
+  for (const int node : model.flank.nodes) {
+    // At the node's own place, not at the coordinates of its row: only there has the normal the base circle's lever
+    // arm.
+    const auto& point = model.nodes[node];
+    const double roll = profile.roll_length_at(std::hypot(point.x(), point.y()));
+    ports.push_back({node, -flank_normal(profile, roll, side, point.z())});
+  }
+  return ports;
+}
+
+namespace {
+
+/// A tooth condensed for the unit loads of its outside, before arcs are put together: what the store keeps. The body's
+/// arc loads are these unit loads.
+struct UnitTooth {
+  CondensedTooth tooth;
+  OutsideLoads outside;
+};
+
+UnitTooth condense_unit_tooth(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
+                              double support_radius, const Material& material, const GearBodyOptions& options) {
+  const SectorModel model = make_sector_model(sector_mesh, profile, support_radius, material, options.sector);
+
+  UnitTooth unit;
+  CondensedTooth& tooth = unit.tooth;
+  GearBody& body = tooth.body;
+  body.teeth = profile.gear().teeth();
+  body.pitch_angle = profile.gear().pitch_angle();
+  body.flank = TraceBasis(model.flank.profile, model.flank.degree);
+  if (model.flank.axial.size() > 1) body.axial = TraceBasis(model.flank.axial, model.flank.degree);
+  body.unknowns = model.stiffness.rows();
+
+  SectorLoads loads;
+  loads.ports = flank_forces(model, profile, options.sector.flank);
+  for (const auto& port : loads.ports) body.port_points.push_back(model.nodes[port.node]);
+  if (!options.arcs.empty()) {
+    unit.outside = OutsideLoads::of(options.arcs, model.outside);
+    loads.acting = unit.outside.unit_loads(model.outside);
+    for (const auto& load : loads.acting) body.arc_wrenches.push_back(resultant(load, model.nodes));
+  }
+
+  constexpr int root_points = 60, rim_points = 24;
+  body.root_low = observe(model.root_low, model, root_points, loads);
+  body.root_high = observe(model.root_high, model, root_points, loads);
+  body.rim = observe(model.rim, model, rim_points, loads);
+
+  tooth.sector = condense(model, loads, options.sector.held == HeldBoundary::none);
+  body.ports = std::move(loads.ports);
+  return unit;
+}
+
+/// The arcs put together from the unit loads of the outside.
+CondensedTooth with_arcs(UnitTooth unit, const std::vector<ArcLoad>& arcs) {
+  CondensedTooth tooth = std::move(unit.tooth);
+  if (arcs.empty()) return tooth;
+  GearBody& body = tooth.body;
+  const Eigen::MatrixXd weights = unit.outside.weights(arcs);
+  tooth.sector = combine_loads(std::move(tooth.sector), body.first_arc(), weights);
+  Eigen::Matrix<double, 6, Eigen::Dynamic> units(6, weights.rows());
+  for (Eigen::Index i = 0; i < weights.rows(); ++i) units.col(i) = body.arc_wrenches[i];
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> wrenches = units * weights;
+  body.arc_wrenches.clear();
+  for (Eigen::Index i = 0; i < wrenches.cols(); ++i) body.arc_wrenches.emplace_back(wrenches.col(i));
+  for (auto* line : {&body.root_low, &body.root_high, &body.rim})
+    if (line->points() > 0) line->first_load += static_cast<int>(weights.cols() - weights.rows());
+  return tooth;
+}
+
+void write_line(ByteWriter& out, const StressLine& line) {
+  out.add(line.first_load).add(line.components).add(line.axial_stations).add(line.angle).add(line.arc);
+}
+void read_line(ByteReader& in, StressLine& line) {
+  in.get(line.first_load);
+  in.get(line.components);
+  in.get(line.axial_stations);
+  in.get(line.angle);
+  in.get(line.arc);
+}
+
+void write_tooth(ByteWriter& out, const UnitTooth& unit) {
+  const GearBody& body = unit.tooth.body;
+  out.add(unit.tooth.seconds).add(body.teeth).add(body.pitch_angle).add(body.unknowns);
+  for (const auto* trace : {&body.flank, &body.axial}) out.add(trace->degree()).add(trace->stations());
+  out.add(static_cast<std::uint64_t>(body.ports.size()));
+  for (const auto& port : body.ports) out.add(port.node).add(port.direction);
+  out.add(body.port_points).add(body.arc_wrenches);
+  for (const auto* line : {&body.root_low, &body.root_high, &body.rim}) write_line(out, *line);
+  write(out, unit.outside);
+  write(out, unit.tooth.sector);
+}
+
+UnitTooth read_tooth(ByteReader& in) {
+  UnitTooth unit;
+  GearBody& body = unit.tooth.body;
+  in.get(unit.tooth.seconds);
+  in.get(body.teeth);
+  in.get(body.pitch_angle);
+  in.get(body.unknowns);
+  for (auto* trace : {&body.flank, &body.axial}) {
+    const int degree = in.get<int>();
+    std::vector<double> stations;
+    in.get(stations);
+    if (!stations.empty()) *trace = TraceBasis(stations, degree);
+  }
+  const auto ports = in.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < ports; ++i) {
+    Port port;
+    in.get(port.node);
+    in.get(port.direction);
+    body.ports.push_back(port);
+  }
+  in.get(body.port_points);
+  in.get(body.arc_wrenches);
+  for (auto* line : {&body.root_low, &body.root_high, &body.rim}) read_line(in, *line);
+  unit.outside = read_outside(in);
+  unit.tooth.sector = read_sector(in);
+  return unit;
+}
+
+}  // namespace
+
+CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
+                              double support_radius, const Material& material, const GearBodyOptions& options) {
+  UnitTooth unit;
+  const auto make = [&] {
+    const auto start = std::chrono::steady_clock::now();
+    unit = condense_unit_tooth(sector_mesh, profile, support_radius, material, options);
+    unit.tooth.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  bool reused = false;
+  if (options.store != nullptr) {
+    std::ostringstream text;
+    ByteWriter inputs(text);
+    inputs.add(std::string("tooth"));
+    add_sector_inputs(inputs, sector_mesh, profile, support_radius, material, options.sector);
+    add_slices(inputs, options.arcs);
+    reused = options.store->read_or_make(
+        options.store->key(text.str()), [&](ByteReader& in) { unit = read_tooth(in); }, make,
+        [&](ByteWriter& out) { write_tooth(out, unit); });
+  } else {
+    make();
+  }
+  CondensedTooth tooth = with_arcs(std::move(unit), options.arcs);
+  tooth.reused = reused;
+  return tooth;
+}
+
+GearBody compose_body(CondensedTooth tooth, const GearBodyOptions& options) {
+  tooth.body.compliance = compose_ring(tooth.sector, tooth.body.teeth, options.extent,
+                                       options.sector.held == HeldBoundary::none, options.threads);
+  return std::move(tooth.body);
+}
+
+GearBody make_gear_body(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile, double support_radius,
+                        const Material& material, const GearBodyOptions& options) {
+  return compose_body(condense_tooth(sector_mesh, profile, support_radius, material, options), options);
+}
+
+}  // namespace annulus::fem

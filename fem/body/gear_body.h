@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fem/condensation/cyclic_body.h"
+#include "fem/elasticity/arc_load.h"
+#include "fem/elasticity/sector_model.h"
+#include "fem/elasticity/trace_basis.h"
+#include "fem/problem/condensed_store.h"
+
+namespace annulus::fem {
+
+/// Force (N) and moment about the origin (N m) of a load.
+using Wrench = Eigen::Matrix<double, 6, 1>;
+
+/// Where a body is asked for its surface stress: a line of the cross-section at every axial station.
+struct StressLine {
+  int first_load = 0;  ///< number of its first observed load, [point][axial station][component]
+  int components = 1;  ///< tangential; of a solid also axial and shear
+  int axial_stations = 1;
+  std::vector<double> angle;  ///< rad, of its points in the sector's frame, ascending
+  std::vector<double> arc;    ///< m, length of the line up to each point
+  [[nodiscard]] int points() const { return static_cast<int>(angle.size()); }
+  [[nodiscard]] int loads() const { return points() * axial_stations * components; }
+};
+
+/// A whole gear reduced to the loads it takes and the stresses it is asked for, from one condensed sector.
+///
+/// Loads of a sector in the order of `compliance`: flank ports, [profile station * axial stations + axial station],
+/// unit forces along the flank normal into the material; loads on arcs of a free outside; stresses.
+struct GearBody {
+  int teeth = 0;
+  double pitch_angle = 0;
+  TraceBasis flank;  ///< over the planet's or wheel's own roll length
+  TraceBasis axial;  ///< over z; empty in the plane
+  std::vector<Port> ports;
+  std::vector<Eigen::Vector3d> port_points;
+  std::vector<Wrench> arc_wrenches;  ///< of the arc loads, in the sector's frame
+  /// Root land and fillet of the trailing side (from the cut to the form circle) and of the leading side (from the form
+  /// circle to the cut); the rim opposite, where it is free. Empty when stresses are not asked for.
+  StressLine root_low, root_high, rim;
+  CyclicCompliance compliance;
+  long unknowns = 0;
+
+  [[nodiscard]] int axial_stations() const { return axial.size() > 0 ? axial.size() : 1; }
+  [[nodiscard]] int flank_ports() const { return static_cast<int>(ports.size()); }
+  [[nodiscard]] int first_arc() const { return flank_ports(); }  ///< load number of the first arc load
+  /// In-plane rigid-motion displacement (x, y, rotation about the axis) of a port of sector `sector`, m per (m, m,
+  /// rad), in the frame of sector 0. Its transpose gives the resultant of a unit port load.
+  [[nodiscard]] Eigen::RowVector3d rigid_motion(int port, int sector) const;
+  /// Resultant of a unit arc load of sector `sector` in the frame of sector 0.
+  [[nodiscard]] Wrench arc_wrench(int arc, int sector) const;
+};
+
+/// Force and moment of a load, in the sector's frame.
+[[nodiscard]] Wrench resultant(const NodalLoad& load, const std::vector<Eigen::Vector3d>& nodes);
+/// Unit forces into the material along the flank normal at the nodes of the flank, [as model.flank.nodes].
+[[nodiscard]] std::vector<Port> flank_forces(const SectorModel& model, const geometry::ToothProfile& profile,
+                                             geometry::Boundary flank);
+
+struct GearBodyOptions {
+  SectorModelOptions sector;
+  RingExtent extent;
+  std::vector<ArcLoad> arcs;  ///< loads on a free outside
+  int threads = 1;
+  CondensedStore* store = nullptr;  ///< where condensed teeth are looked for and kept; may be null
+};
+
+/// One tooth by itself: the body without its compliance, and the condensed sector.
+struct CondensedTooth {
+  GearBody body;
+  CondensedSector sector;
+  bool reused = false;  ///< read from the store
+  double seconds = 0;   ///< wall, that condensing it took, now or when it was kept
+};
+
+/// Meshed and condensed without regard to where arcs lie, so that one tooth serves all supports (see OutsideLoads).
+[[nodiscard]] CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
+                                            double support_radius, const Material& material,
+                                            const GearBodyOptions& options);
+
+/// The body of a tooth, `options` being those that it was condensed with.
+[[nodiscard]] GearBody compose_body(CondensedTooth tooth, const GearBodyOptions& options);
+
+[[nodiscard]] GearBody make_gear_body(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
+                                      double support_radius, const Material& material, const GearBodyOptions& options);
+
+}  // namespace annulus::fem

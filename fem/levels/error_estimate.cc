@@ -1,0 +1,86 @@
+#include "fem/levels/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fem/body/resolution.h"
+#include "fem/problem/plane_strain_error.h"
+
+namespace annulus::fem {
+
+double most_left_over(int degree) {
+  // Linear elements approach their limit with the first power of the cell size: what is left of them at a ratio of 1.5
+  // is twice the difference. Near singular edges of a support the error of others falls little faster than that, and
+  // the difference is about the error itself; where the contact dominates it falls at least with the square.
+  return degree == 1 ? 1 / (level_ratio - 1) : 1;
+}
+
+namespace {
+
+/// The error of the finer of two levels over their difference.
+double left_over(int degree, double difference, std::optional<double> before) {
+  const double most = most_left_over(degree);
+  // Two differences tell: the next ones are taken to shrink as these did, and no faster than with the cube.
+  if (degree == 1 || !before) return most;
+  const double least = 1 / (std::pow(level_ratio, 3) - 1);
+  const double ratio = difference / *before;
+  return ratio < 0.5 ? std::max(least, ratio / (1 - ratio)) : most;
+}
+
+/// Relative, of the stiffness; zero at phases that the coarser level left out, at loads that it left out the larger one
+/// of the loads to either side.
+std::vector<double> differences(const std::vector<LoadedPosition>& coarser,
+                                const std::vector<LoadedPosition>& positions, std::size_t loads) {
+  const auto solved = [&](std::size_t i) { return coarser[i].entry.stiffness_secant != 0; };
+  std::vector<double> result(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (solved(i)) result[i] = std::abs(coarser[i].entry.stiffness_secant / positions[i].entry.stiffness_secant - 1);
+  for (std::size_t first = 0; first < positions.size(); first += loads) {
+    if (!solved(first)) continue;
+    for (std::size_t low = 0, high = 1; high < loads; ++high) {
+      if (!solved(first + high)) continue;
+      for (std::size_t load = low + 1; load < high; ++load)
+        result[first + load] = std::max(result[first + low], result[first + high]);
+      low = high;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+LevelErrors estimate_errors(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, double contact,
+                            const std::vector<LoadedPosition>& coarser, std::vector<LoadedPosition>& positions,
+                            std::optional<double> before) {
+  const std::size_t loads = problem.loads.size();
+  LevelErrors result;
+  std::vector<double> difference = differences(coarser, positions, loads);
+  for (std::size_t i = loads / 2; i < positions.size(); i += loads)
+    result.difference = std::max(result.difference, difference[i]);
+  const double left = left_over(settings.degree, result.difference, before);
+  for (double& d : difference) d *= left;
+  const bool plane = settings.fidelity == Fidelity::plane || settings.fidelity == Fidelity::resolved_plane;
+  const double model = plane ? plane_strain_error(problem) : 0;
+  // Along the mesh cycle the difference changes its sign here and there, where it says nothing about the error: the
+  // largest of a sixteenth of a cycle to either side counts.
+  const auto along = static_cast<std::ptrdiff_t>(positions.size() / loads);
+  const std::ptrdiff_t reach = (problem.phases + 15) / 16;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    auto& entry = positions[i].entry;
+    ErrorParts& parts = entry.error_parts;
+    parts.contact = contact;
+    parts.condensation = positions[i].reciprocity_relative;
+    parts.model = model;
+    const auto at = static_cast<std::ptrdiff_t>(i / loads);
+    for (std::ptrdiff_t k = at - reach; k <= at + reach; ++k) {
+      // The last position is the first of the next cycle; a table that repeats closes on itself.
+      const std::ptrdiff_t wrapped = (k + along - 1) % (along - 1);
+      parts.discretisation = std::max(parts.discretisation, difference[wrapped * loads + i % loads]);
+    }
+    entry.error_relative = parts.total();
+    if (i % loads == loads / 2) result.worst = std::max(result.worst, entry.error_relative - model);
+  }
+  return result;
+}
+
+}  // namespace annulus::fem

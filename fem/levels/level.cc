@@ -1,0 +1,84 @@
+#include "fem/levels/level.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "fem/problem/problem_check.h"
+
+namespace annulus::fem {
+
+int compared_stride(const LoadedMeshProblem& problem) {
+  constexpr int enough_phases = 32;
+  return std::max(1, problem.phases / enough_phases);
+}
+
+bool is_compared(const LoadedMeshProblem& problem, int phase, int load) {
+  constexpr int enough_loads = 3;
+  const int loads = static_cast<int>(problem.loads.size());
+  if (phase % compared_stride(problem) != 0) return false;
+  return loads <= enough_loads || load == 0 || load == loads / 2 || load == loads - 1;
+}
+
+ProgressFunction part_of(const ProgressFunction& progress, double from, double to) {
+  if (!progress) return {};
+  return [=](double fraction) { progress(from + fraction * (to - from)); };
+}
+
+double compared_share(const LoadedMeshProblem& problem) {
+  const int loads = static_cast<int>(problem.loads.size());
+  int compared = 0;
+  for (int phase = 0; phase < problem.phases; ++phase)
+    for (int load = 0; load < loads; ++load) compared += is_compared(problem, phase, load);
+  return static_cast<double>(compared) / (problem.phases * loads);
+}
+
+void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, bool table, bool chained,
+                     const SolvePosition& solve, const ProgressFunction& progress,
+                     std::vector<LoadedPosition>& positions) {
+  const int loads = static_cast<int>(problem.loads.size()), phases = problem.phases;
+  const int cycles = repeating_teeth(problem.structure, problem.pair.wheel().teeth());
+  positions.resize(static_cast<std::size_t>(cycles * phases + 1) * loads);
+  // Chained: one task per load, neighbouring phases warm-start each other. Otherwise one task per load and phase, in
+  // which the pins move on from cycle to cycle.
+  const int tasks = chained ? loads : loads * (phases + 1);
+  std::atomic<int> next{0}, done{0};
+  std::mutex lock;
+  std::exception_ptr failure;
+  const auto worker = [&] {
+    for (int task = next++; task < tasks; task = next++) try {
+        const int load = task % loads;
+        const int first_phase = chained ? 0 : task / loads, last_phase = chained ? phases : first_phase;
+        ContactSystem::PairsCache cache;
+        ContactSystem::WarmStart warm;
+        for (int phase = first_phase; phase <= last_phase; ++phase) {
+          if (!table && !is_compared(problem, phase, load)) continue;
+          for (int cycle = phase == phases ? cycles - 1 : 0; cycle < cycles; ++cycle) {
+            auto& position = positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load];
+            if (position.entry.stiffness_secant != 0) continue;
+            position = solve(cycle, phase, load, cache, warm);
+            check_deflection(problem, settings, position);
+            if (load != loads / 2) position.pressure.clear();
+          }
+        }
+        ++done;
+        if (progress) {
+          const std::lock_guard guard(lock);
+          progress(static_cast<double>(done) / tasks);
+        }
+      } catch (...) {
+        const std::lock_guard guard(lock);
+        if (!failure) failure = std::current_exception();
+        next = tasks;
+      }
+  };
+  std::vector<std::thread> pool;
+  for (int t = 1; t < std::min(settings.threads, tasks); ++t) pool.emplace_back(worker);
+  worker();
+  for (auto& t : pool) t.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace annulus::fem

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <vector>
+
+#include "fem/contact/contact_system.h"
+#include "fem/contact/flank_contact.h"
+#include "fem/problem/loaded_mesh_problem.h"
+#include "fem/problem/loaded_mesh_result.h"
+
+namespace annulus::fem {
+
+/// How many phases lie between those at which levels are compared: they are 32 or a few more in a mesh cycle.
+[[nodiscard]] int compared_stride(const LoadedMeshProblem& problem);
+/// Whether a position is among those by which levels are compared: at the phases above, and of more than three loads
+/// the smallest, the middle and the largest one.
+[[nodiscard]] bool is_compared(const LoadedMeshProblem& problem, int phase, int load);
+
+/// What one level of resolution of a loaded mesh gives.
+struct SolvedLevel {
+  /// [cycle][phase 0 ... phases][load]: the last phase of the last cycle is the closure, inner ends of cycles are not
+  /// solved twice. A stiffness of 0 says that the position was left out.
+  std::vector<LoadedPosition> positions;
+  std::vector<StressCurve> stress_curves;
+  std::vector<BodyField> fields;
+  geometry::Mesh planet_sector, wheel_sector;
+  bool half_face = false;
+  long unknowns = 0;
+  /// Relative, of the stiffness, by the discretised pressure alone; 0 where the pressure is refined with the cells.
+  double contact_error = 0;
+  double pin_stiffness = 0;
+  std::vector<double> pin_angles, slice_edges;
+  double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0, saved_seconds = 0;
+  int condensed_teeth = 0, reused_teeth = 0;
+};
+
+using ProgressFunction = std::function<void(double fraction)>;
+/// Asked when the compared positions of a level are solved: whether it becomes the table. Then the others follow, with
+/// stresses and fields; else what is there is enough to estimate the error of the next level. Empty: it does not.
+using AcceptLevel = std::function<bool(SolvedLevel& compared)>;
+
+/// Condensed gears whose meshes do not follow the contact: the plane and solid models.
+[[nodiscard]] SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
+                                                const FlankContact& flanks, int level, const AcceptLevel& accept,
+                                                const ProgressFunction& progress);
+/// Teeth meshed anew for every contact: the resolved models.
+[[nodiscard]] SolvedLevel solve_resolved_level(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
+                                               const FlankContact& flanks, int level, const AcceptLevel& accept,
+                                               const ProgressFunction& progress);
+
+/// Solves one position: mesh cycle, number of the phase, number of the load. Cache and warm start are those of the task
+/// that the position belongs to.
+using SolvePosition = std::function<LoadedPosition(int cycle, int phase, int load, ContactSystem::PairsCache& cache,
+                                                   ContactSystem::WarmStart& warm)>;
+/// Tells `progress` of a part of its work, from one fraction to another.
+[[nodiscard]] ProgressFunction part_of(const ProgressFunction& progress, double from, double to);
+/// The compared positions over all.
+[[nodiscard]] double compared_share(const LoadedMeshProblem& problem);
+/// The positions of one level on the threads of the settings: never dependent on their number. `table`: all that
+/// `positions` does not hold yet, else the compared ones alone.
+void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, bool table, bool chained,
+                     const SolvePosition& solve, const ProgressFunction& progress,
+                     std::vector<LoadedPosition>& positions);
+
+/// Wall seconds since the construction.
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace annulus::fem

@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.h"
+#include "fem/body/body_plan.h"
+#include "fem/condensation/altered_ring.h"
+#include "fem/condensation/lapack.h"
+#include "fem/contact/contact_system.h"
+#include "fem/levels/level.h"
+
+namespace annulus::fem {
+namespace {
+
+constexpr int most_pairs = 6;         // that may touch at once
+constexpr double patch_reach = 1.6;   // in Hertz half-widths of the whole load
+constexpr double patch_window = 1.4;  // half-length of the pressure elements' window, likewise
+
+/// Numbers of a level: nested by the ratio of all levels.
+struct PatchResolution {
+  double cells = 0;    ///< in a half-width
+  double growth = 0;   ///< of the cells beyond the patch
+  double at_edge = 0;  ///< length of the cells under a tip edge relative to those of the patch
+  BodyResolution regular;
+};
+
+PatchResolution patch_resolution(const geometry::Gear& gear, bool solid, int level) {
+  const double refine = std::pow(level_ratio, level - 1);
+  PatchResolution r;
+  if (solid) {
+    r.cells = 3 * refine;
+    r.growth = 1 + 0.7 / refine;
+    r.at_edge = 1 / 3.0;
+    r.regular = resolved_solid_resolution(level);
+  } else {
+    r.cells = 6 * refine;
+    r.growth = 1 + 0.3 / refine;
+    r.at_edge = 1 / 8.0;
+    r.regular = plane_resolution(gear, level);
+  }
+  return r;
+}
+
+/// Where a flank is to be resolved.
+struct PlaceOfContact {
+  double arc = 0;               ///< m, along the flank
+  double half_width = 0;        ///< m, if this contact carried the whole load
+  std::vector<double> edges{};  ///< m, likewise, of tip edges within reach
+  double gap = 0;               ///< m, smallest before loading
+  double roll = 0;              ///< m, theoretical contact on the planet
+  bool resolved = true;         ///< else the tooth keeps its regular mesh
+};
+
+/// A gear whose teeth can be exchanged.
+struct Exchangeable {
+  BodyPlan plan;
+  PatchResolution resolution;
+  geometry::Mesh regular_mesh;
+  CondensedTooth regular;
+  AlteredRing ring;
+
+  static CondensedTooth condense(const BodyPlan& plan, const Material& material, const geometry::Mesh& mesh) {
+    GearBodyOptions options;
+    options.sector = plan.model();
+    return condense_tooth(mesh, plan.profile(), plan.support_radius(), material, options);
+  }
+  Exchangeable(BodyPlan body_plan, const Material& material, bool solid, int level, int threads)
+      : plan(std::move(body_plan)),
+        resolution(patch_resolution(plan.profile().gear(), solid, level)),
+        regular_mesh(plan.sector(resolution.regular)),
+        regular(condense(plan, material, regular_mesh)),
+        ring(regular.sector, plan.profile().gear().teeth(), most_pairs, threads) {}
+
+  /// `contacts`: on neighbouring teeth from `first_tooth` counter-clockwise.
+  [[nodiscard]] ResolvedBody body(const std::vector<PlaceOfContact>& contacts, int first_tooth,
+                                  const Material& material, const std::vector<double>& slice_edges) const {
+    const auto& gear = plan.profile().gear();
+    std::vector<CondensedTooth> teeth;
+    for (const auto& contact : contacts) {
+      if (!contact.resolved) {
+        teeth.push_back(regular);
+        continue;
+      }
+      const double cell = contact.half_width / resolution.cells;
+      BodyResolution patch = resolution.regular;
+      patch.section = resolving_section(gear, resolution.regular.section,
+                                        {contact.arc, patch_reach * contact.half_width, cell, resolution.growth,
+                                         contact.edges, resolution.at_edge * cell});
+      teeth.push_back(condense(plan, material, plan.sector(patch)));
+    }
+    std::vector<const CondensedSector*> sectors;
+    std::vector<GearBody> bodies;
+    for (auto& tooth : teeth) {
+      sectors.push_back(&tooth.sector);
+      bodies.push_back(std::move(tooth.body));
+    }
+    return {std::move(bodies), first_tooth, ring.compliance(sectors), gear.base_radius(), slice_edges};
+  }
+};
+
+void refuse_what_is_not_resolved(const LoadedMeshProblem& problem) {
+  if (std::holds_alternative<PinHeld>(problem.structure) || std::holds_alternative<SplineHeld>(problem.structure))
+    throw InputError("the resolved model does not cover rings on pins or splines: use the plane or solid model");
+  if (problem.pair.planet().helix_angle() != 0)
+    throw InputError("the resolved model does not cover helical gears: use the solid model");
+}
+
+/// The gears of a resolved mesh.
+struct ResolvedMesh {
+  const LoadedMeshProblem& problem;
+  const FlankContact& flanks;
+  bool solid;
+  SolvedFace face;
+  Exchangeable planet, wheel;
+  std::vector<double> slice_edges;
+
+  ResolvedMesh(const LoadedMeshProblem& p, const LoadedMeshSettings& settings, const FlankContact& f, int level)
+      : problem(p),
+        flanks(f),
+        solid(settings.fidelity == Fidelity::resolved_solid),
+        face(solved_face(p, settings)),
+        planet({p, f.planet(), false, geometry::Boundary::leading_flank, settings.degree, solid, face}, p.material,
+               solid, level, settings.threads),
+        wheel({p, f.wheel(), true, f.wheel_flank(), settings.degree, solid, face}, p.material, solid, level,
+              settings.threads),
+        slice_edges(
+            face.edges(solid ? slices_per_cell(p, settings.degree) * planet.resolution.regular.face_cells : 1)) {}
+
+  [[nodiscard]] LoadedPosition solve(double phase, double load) const;
+
+ private:
+  /// Contacts of all pairs in their order, on the planet and on the wheel.
+  struct Places {
+    std::vector<PlaceOfContact> planet, wheel;
+  };
+  [[nodiscard]] Places places(const std::vector<std::pair<int, double>>& pairs, double load) const;
+};
+
+ResolvedMesh::Places ResolvedMesh::places(const std::vector<std::pair<int, double>>& pairs, double load) const {
+  const auto planet_arc = [&](double roll) { return roll * roll / (2 * problem.pair.planet().base_radius()); };
+  const auto wheel_arc = [&](double roll) { return roll * roll / (2 * problem.pair.wheel().base_radius()); };
+  Places result;
+  for (const auto& [index, roll] : pairs) {
+    PlaceOfContact planet_place;
+    planet_place.half_width = ContactSystem::half_width(flanks, roll, load / problem.face_width, problem.material);
+    planet_place.roll = roll;
+    const double centre = flanks.nearest_roll(roll, flanks.domain(roll));
+    const auto opposite = flanks.match(centre, roll);
+    planet_place.gap = opposite.gap;
+    planet_place.arc = planet_arc(centre);
+    auto wheel_place = planet_place;
+    wheel_place.arc = wheel_arc(opposite.wheel_roll);
+    const auto domain = flanks.domain(roll);
+    for (const double end : {domain.low, domain.high}) {
+      if (std::abs(planet_arc(end) - planet_place.arc) > patch_reach * planet_place.half_width) continue;
+      planet_place.edges.push_back(planet_arc(end));
+      wheel_place.edges.push_back(wheel_arc(flanks.match(end, roll).wheel_roll));
+    }
+    result.planet.push_back(std::move(planet_place));
+    result.wheel.push_back(std::move(wheel_place));
+  }
+  return result;
+}
+
+LoadedPosition ResolvedMesh::solve(double phase, double load) const {
+  const auto pairs = ContactSystem::possible_pairs(flanks, phase);
+  require(static_cast<int>(pairs.size()) <= most_pairs, "more tooth pairs than the resolved model exchanges");
+  const int first = ContactSystem::wheel_tooth(flanks, pairs.front().first, 0);
+  const int last = ContactSystem::wheel_tooth(flanks, pairs.back().first, 0);
+  ContactOptions options;
+  options.misalignment = problem.misalignment;
+  options.half_face = face.half;
+  options.window = patch_window;
+  Places contacts = places(pairs, load);
+  double least_gap = contacts.planet.front().gap;
+  for (const auto& place : contacts.planet) least_gap = std::min(least_gap, place.gap);
+  // A pair further apart than such a softly estimated mesh gives way will not touch: no mesh of its own, which is most
+  // of the work. Where it touches nevertheless, all pairs get theirs.
+  constexpr double soft_mesh = 8e9;  // N/m per m of face width
+  const double reach = load / (soft_mesh * problem.face_width);
+  for (auto* list : {&contacts.planet, &contacts.wheel})
+    for (auto& place : *list) place.resolved = place.gap - least_gap < reach;
+  for (;;) {
+    auto on_wheel = contacts.wheel;
+    if (last < first) std::reverse(on_wheel.begin(), on_wheel.end());
+    const ResolvedBody planet_body = planet.body(contacts.planet, pairs.front().first, problem.material, slice_edges);
+    const ResolvedBody wheel_body = wheel.body(on_wheel, std::min(first, last), problem.material, slice_edges);
+    const ContactSystem system(flanks, planet_body, wheel_body, nullptr, problem.material, slice_edges, options);
+    ContactSystem::PairsCache cache;
+    ContactSystem::WarmStart warm;
+    auto position = system.solve(0, phase, load, cache, warm, nullptr);
+    bool all_resolved = true;
+    for (std::size_t i = 0; i < position.pair_share.size(); ++i)
+      for (const auto& place : contacts.planet)
+        if (place.roll == position.pair_roll[i] && position.pair_share[i] > 0) all_resolved &= place.resolved;
+    if (all_resolved) return position;
+    for (auto* list : {&contacts.planet, &contacts.wheel})
+      for (auto& place : *list) place.resolved = true;
+  }
+}
+
+}  // namespace
+
+SolvedLevel solve_resolved_level(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
+                                 const FlankContact& flanks, int level, const AcceptLevel& accept,
+                                 const ProgressFunction& progress) {
+  refuse_what_is_not_resolved(problem);
+  lapack::use_one_thread();
+  SolvedLevel result;
+  const Stopwatch condensing;
+  const ResolvedMesh mesh(problem, settings, flanks, level);
+  result.condense_seconds = condensing.seconds();
+  const Stopwatch solving;
+  const auto solve = [&](int, int phase, int load, ContactSystem::PairsCache&, ContactSystem::WarmStart&) {
+    return mesh.solve(static_cast<double>(phase) / problem.phases, problem.loads[load]);
+  };
+  const double compared = accept ? compared_share(problem) : 1;
+  solve_positions(problem, settings, false, false, solve, part_of(progress, 0, compared), result.positions);
+  if (accept && accept(result))
+    solve_positions(problem, settings, true, false, solve, part_of(progress, compared, 1), result.positions);
+  result.contact_seconds = solving.seconds();
+  result.unknowns = mesh.planet.regular.body.unknowns + mesh.wheel.regular.body.unknowns;
+  result.half_face = mesh.face.half;
+  result.slice_edges = result.half_face ? mirrored_edges(mesh.slice_edges) : mesh.slice_edges;
+  const auto whole = [&](const Exchangeable& gear) {
+    return result.half_face ? gear.plan.whole_sector(gear.resolution.regular) : gear.regular_mesh;
+  };
+  result.planet_sector = whole(mesh.planet);
+  result.wheel_sector = whole(mesh.wheel);
+  return result;
+}
+
+}  // namespace annulus::fem

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fem/problem/material.h"
+#include "fem/problem/ring_structure.h"
+#include "geometry/gear_pair.h"
+
+namespace annulus::fem {
+
+class CondensedStore;
+
+/// A gear mesh to be solved: sun-planet or planet-ring, with the bodies' supports.
+struct LoadedMeshProblem {
+  geometry::GearPair pair;
+  Material material;
+  double face_width = 0;                    ///< m, common
+  double planet_bore_radius = 0;            ///< m, rigid hub
+  double wheel_support_radius = 0;          ///< m: bore of the sun (rigid hub) or outside radius of the ring
+  RingStructure structure = OutsideHeld{};  ///< ring mesh only
+  double misalignment = 0;                  ///< m over the face width, normal to the flanks, > 0 opens towards +z
+  std::vector<double> loads{};              ///< N, total normal forces, strictly increasing
+  int phases = 16;                          ///< positions per mesh cycle
+};
+
+enum class Fidelity { closed_form, plane, solid, resolved_plane, resolved_solid };
+
+struct LoadedMeshSettings {
+  Fidelity fidelity = Fidelity::plane;
+  /// Wanted relative accuracy of the stiffness at the middle load of the table: the mesh is refined until the estimate
+  /// of every position meets it. Entries at other loads carry their own estimate.
+  double accuracy = 0.01;
+  /// Polynomial degree of the elements. Linear ones give way to quadratic ones where the first level does not do,
+  /// unless a level is forced.
+  int degree = 2;
+  /// Forces one level of resolution (1, 2, ...; its error estimated from the level before) instead of refining.
+  std::optional<int> level{};
+  /// Solid models solve half of the face width where the problem is its own mirror image about the middle: the same
+  /// results in a fraction of the time.
+  bool symmetry = true;
+  /// In modules: larger ones are refused, because a linear model with its unloaded flanks no longer describes them.
+  double largest_deflection = std::numeric_limits<double>::infinity();
+  bool want_fields = false;                         ///< of condensed models: LoadedMeshResult::fields
+  int threads = 1;                                  ///< changes the time, never the result
+  std::function<void(double fraction)> progress{};  ///< called now and then with the finished fraction
+  /// Where condensed teeth are looked for and kept; may be null. They depend neither on loads and phases nor on the
+  /// places, the number and the stiffness of supports, nor on modifications of the flanks.
+  std::shared_ptr<CondensedStore> store{};
+};
+
+}  // namespace annulus::fem

@@ -1,0 +1,13 @@
+#include "fem/problem/loaded_mesh_result.h"
+
+#include <cmath>
+
+namespace annulus::fem {
+
+double BodyField::von_mises(std::size_t vertex) const {
+  const auto& [xx, yy, zz, xy, yz, zx] = stress[vertex];
+  return std::sqrt(((xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)) / 2 +
+                   3 * (xy * xy + yz * yz + zx * zx));
+}
+
+}  // namespace annulus::fem

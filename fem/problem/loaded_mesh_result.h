@@ -1,0 +1,108 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/stiffness_table.h"
+#include "geometry/mesh.h"
+
+namespace annulus::fem {
+
+/// State of one pin (or spline tooth) at one position.
+struct PinState {
+  bool touching = false;        ///< always, when held both ways
+  double radial_force = 0;      ///< N, positive presses the pin outwards
+  double tangential_force = 0;  ///< N, counter-clockwise on the pin
+};
+
+/// Mean contact pressure over one piece of a flank.
+struct PressurePatch {
+  int pair = 0;                        ///< index into LoadedPosition::pair_share
+  double z_low = 0, z_high = 0;        ///< m
+  double roll_low = 0, roll_high = 0;  ///< m, roll lengths of the planet
+  double pressure = 0;                 ///< Pa
+};
+
+/// Largest stresses of one body at one position, Pa, on its free surfaces: tangential ones along the surface in the
+/// cross-section, compression negative.
+struct BodyStress {
+  double root_tension = 0, root_compression = 0, root_von_mises = 0;  ///< in the fillets and root lands
+  double rim_tension = 0, rim_compression = 0, rim_von_mises = 0;     ///< on the other side of the rim
+};
+
+/// One position of the mesh under one load.
+struct LoadedPosition {
+  double mesh_phase = 0;  ///< [0, 1], 1 included once as the closure check
+  int ring_tooth = 0;     ///< whole mesh cycles before this one
+  double ring_angle = 0;  ///< rad, of the pitch point in the wheel's own frame
+  double load = 0;        ///< N
+  StiffnessEntry entry;
+  /// Load share of the tooth pairs near enough to touch, in order of rising planet roll length.
+  std::vector<double> pair_share;
+  std::vector<double> pair_roll;  ///< m, planet roll length of each pair's theoretical contact point
+  double max_pressure = 0;        ///< Pa
+  bool tip_edge_contact = false;  ///< the peak pressure stands at a tip edge: singular, not to be compared
+  std::vector<PinState> pins;
+  std::vector<PinState> housing;        ///< patches of the housing bore, one behind every tooth; empty without
+  std::vector<double> line_load;        ///< N/m, of all pairs together, per slice of the face width from low to high z
+  double face_load_factor = 1;          ///< K_H_beta (ISO 6336-1): largest over mean line load
+  std::vector<PressurePatch> pressure;  ///< touching pieces, at the middle load of the table only
+  std::optional<BodyStress> planet_stress{}, wheel_stress{};  ///< at the middle load of the table only
+  double force_balance_relative = 0;                          ///< |sum of force x lever arm - torque| / torque
+  /// |work - 2 x strain energy - work against the gaps| / the larger of work and energy
+  double energy_balance_relative = 0;
+  double reciprocity_relative = 0;  ///< asymmetry of the compliance between tooth pairs, formed both ways
+  double max_penetration = 0;       ///< m
+};
+
+/// Surface stress along a line, for pictures.
+struct StressCurve {
+  std::string name;              ///< "planet root", "wheel root", "wheel rim"
+  std::size_t position = 0;      ///< index into LoadedMeshResult::positions: where its largest von Mises stress occurs
+  std::vector<double> abscissa;  ///< root: arc length counter-clockwise through the tooth space, from form circle to
+                                 ///< form circle, m; rim: polar angle in the wheel's own frame, rad
+  std::vector<double> tangential, von_mises;  ///< Pa
+};
+
+/// Displacement and stress of a body under the contact forces of one position, in the frame of its tooth 0.
+struct BodyField {
+  std::string body;          ///< "planet", "wheel"
+  std::size_t position = 0;  ///< index into LoadedMeshResult::positions
+  /// Sectors around the contact, each with vertices of its own, as many as make a file of some megabytes: of coarse
+  /// plane bodies all. Of a symmetric face the lower half.
+  geometry::Mesh mesh;
+  int sectors = 1;
+  std::vector<Eigen::Vector3d> displacement;  ///< m, per vertex; of the planet relative to its hub
+  /// Pa, per vertex: xx, yy, zz, xy, yz, zx; means of the adjacent cells, so that peaks at edges are cut.
+  std::vector<std::array<double, 6>> stress;
+
+  [[nodiscard]] double von_mises(std::size_t vertex) const;  ///< Pa
+};
+
+struct LoadedMeshResult {
+  StiffnessTable table;
+  std::vector<LoadedPosition> positions;  ///< at every load, [ring tooth][phase][load], then the closure positions
+  double closure_relative = 0;            ///< |LTE(phase 1) - LTE(phase 0)| / LTE over all loads
+  double reciprocity_relative = 0;        ///< largest over the positions
+  geometry::Mesh planet_sector{}, wheel_sector{};  ///< as solved
+  int level = 1;                                   ///< level of resolution reached
+  int degree = 2;                                  ///< of the elements of that level
+  /// Largest estimated error at the middle load, plane strain not counted: what the accuracy is about.
+  double worst_error_relative = 0;
+  bool half_face = false;             ///< solved on half of the face width; all figures are those of the whole
+  long unknowns = 0;                  ///< DOFs of the two sectors
+  double pin_stiffness = 0;           ///< N/m per pin or spline flank as used; 0 without
+  std::vector<double> pin_angles{};   ///< rad, from the centre of tooth 0; empty without pins
+  std::vector<double> slice_edges{};  ///< m, z of the slices of the face width
+  std::vector<StressCurve> stress_curves{};
+  std::vector<BodyField> fields{};  ///< of both bodies, if wanted, where the wheel's root is stressed most
+  double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0;
+  int condensed_teeth = 0, reused_teeth = 0;  ///< made, and read from the store, on all levels; none by resolved models
+  double saved_seconds = 0;                   ///< that condense_seconds would be longer without the store
+};
+
+}  // namespace annulus::fem

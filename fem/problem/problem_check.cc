@@ -1,0 +1,65 @@
+#include "fem/problem/problem_check.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/errors.h"
+#include "fem/problem/support_sites.h"
+
+namespace annulus::fem {
+
+void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
+  if (problem.loads.empty() || problem.phases < 2) throw InputError("a loaded mesh needs a load and two phases");
+  for (std::size_t i = 0; i < problem.loads.size(); ++i)
+    if (!(problem.loads[i] > (i > 0 ? problem.loads[i - 1] : 0.0)))
+      throw InputError("the loads of a stiffness table have to be positive and strictly increasing");
+  if (!problem.pair.internal() && !std::holds_alternative<OutsideHeld>(problem.structure))
+    throw InputError("a ring structure belongs to the ring mesh");
+  if (fidelity == Fidelity::solid || fidelity == Fidelity::resolved_solid) return;
+  for (const auto* gear : {&problem.pair.planet(), &problem.pair.wheel()}) {
+    if (gear->parameters().lead_crowning != 0 || gear->parameters().lead_slope != 0)
+      throw InputError("lead modifications need a load distribution over the face width: use model = \"solid\"");
+    if (gear->helix_angle() != 0) throw InputError("helical gears need solid bodies: use model = \"solid\"");
+  }
+  if (problem.misalignment != 0)
+    throw InputError("misalignment needs a load distribution over the face width: use model = \"solid\"");
+}
+
+void check_deflection(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
+                      const LoadedPosition& position) {
+  const double deflection = position.entry.lte - position.entry.unloaded_te;
+  const double modules = deflection / problem.pair.planet().parameters().module;
+  if (modules <= settings.largest_deflection) return;
+  throw InputError(
+      fmt::format("the {} mesh gives way by {:.4g} mm = {:.3g} modules under {:.4g} N; small displacements and strains "
+                  "are computed, up to {} modules: reduce the load, or make teeth, rim, supports or material stiffer "
+                  "and their clearances smaller",
+                  problem.pair.internal() ? "ring" : "external", 1e3 * deflection, modules, position.load,
+                  settings.largest_deflection));
+}
+
+double turn_on_supports(const LoadedMeshProblem& problem, double force) {
+  const auto& gear = problem.pair.wheel();
+  const double outside = problem.wheel_support_radius, lever = gear.base_radius();
+  const SupportedRing ring{gear.teeth(), outside, problem.face_width, problem.material};
+  double stiffness = 0, play = 0;
+  if (const auto* spline = std::get_if<SplineHeld>(&problem.structure)) {
+    // One of both flanks of every tooth.
+    for (const auto& site : spline_sites(*spline, ring).sites) {
+      const auto& flank = site.directions.front();
+      stiffness += flank.total_stiffness() * std::pow(flank.counter_clockwise * outside, 2);
+      play = flank.clearance / flank.counter_clockwise / outside;
+    }
+  } else if (const auto* pins = std::get_if<PinHeld>(&problem.structure)) {
+    // On a single pin it turns until it leans on its housing, which shifts its centre and turns it, at worst both
+    // alike.
+    if (pins->angles.size() == 1) play = pins->housing_clearance.value_or(0) * (1 / outside + 1 / lever);
+    for (const auto& site : pin_sites(*pins, ring).sites)
+      for (const auto& direction : site.directions)
+        stiffness += direction.total_stiffness() * std::pow(direction.counter_clockwise * outside, 2);
+  }
+  return play * lever + force * lever * lever / stiffness;
+}
+
+}  // namespace annulus::fem

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "fem/body/body_source.h"
+#include "fem/body/gear_body.h"
+#include "fem/contact/contact_forces.h"
+#include "fem/contact/support_row.h"
+#include "fem/problem/loaded_mesh_result.h"
+
+namespace annulus::fem {
+
+/// Displacement and stress inside a condensed body: its sectors solved once more, their cuts moved as the composed
+/// body moves them. Exact for the discretised body, as the condensation is.
+class FieldRecovery {
+ public:
+  /// `body` was made of `source`; `supports` may be null. All of them are referred to.
+  FieldRecovery(const GearBody& body, const BodySource& source, const Material& material, double face_width,
+                const SupportRow* supports);
+  ~FieldRecovery();
+  FieldRecovery(const FieldRecovery&) = delete;
+  FieldRecovery& operator=(const FieldRecovery&) = delete;
+
+  /// Under `teeth`, the supports' forces and the rigid motion of `forces`: as BodyField::mesh says. `mirrored`: the
+  /// real body is the mirror image of the solved one (y -> -y).
+  [[nodiscard]] BodyField field(const std::vector<ToothForces>& teeth, const ContactForces& forces,
+                                bool mirrored) const;
+  /// Displacements of all DOFs of one sector in its own frame, [node][component], without the rigid motion.
+  [[nodiscard]] Eigen::VectorXd sector_displacement(int sector, const std::vector<ToothForces>& teeth,
+                                                    const Eigen::VectorXd& supports) const;
+  [[nodiscard]] const SectorModel& model() const { return model_; }
+
+ private:
+  struct Interior;  // the factorised sector, its cuts held
+
+  [[nodiscard]] Eigen::MatrixXd cut_displacement(int cut, const std::vector<ToothForces>& teeth,
+                                                 const Eigen::VectorXd& supports) const;
+
+  const GearBody& body_;
+  const SupportRow* supports_;
+  double per_width_;
+  SectorModel model_;
+  std::vector<NodalLoad> arcs_;
+  std::unique_ptr<Interior> interior_;
+};
+
+}  // namespace annulus::fem

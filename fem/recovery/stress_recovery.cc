@@ -1,0 +1,129 @@
+#include "fem/recovery/stress_recovery.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.h"
+
+namespace annulus::fem {
+namespace {
+
+/// Two lines that share the end of the first and the start of the second: there the mean counts.
+StressRecovery::Line join(const StressRecovery::Line& first, const StressRecovery::Line& second) {
+  const auto points = first.tangential.rows(), more = second.tangential.rows() - 1;
+  StressRecovery::Line line = first;
+  for (std::size_t i = 1; i < second.abscissa.size(); ++i)
+    line.abscissa.push_back(first.abscissa.back() + second.abscissa[i] - second.abscissa.front());
+  const auto append = [&](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    Eigen::MatrixXd both(points + more, a.cols());
+    both << a.topRows(points - 1), (a.bottomRows(1) + b.topRows(1)) / 2, b.bottomRows(more);
+    return both;
+  };
+  line.tangential = append(first.tangential, second.tangential);
+  line.von_mises = append(first.von_mises, second.von_mises);
+  return line;
+}
+
+}  // namespace
+
+StressRecovery::StressRecovery(const GearBody& body, double face_width, double poisson_ratio,
+                               const SupportRow* supports)
+    : body_(body),
+      supports_(supports),
+      per_width_(body.axial_stations() > 1 ? 1 : 1 / face_width),
+      poisson_ratio_(poisson_ratio),
+      first_load_(body.root_low.first_load),
+      loads_(body.root_low.loads() + body.root_high.loads() + body.rim.loads()) {
+  require(body.root_low.points() > 1 && body.root_high.points() > 1, "a body that was not asked for its stresses");
+}
+
+std::map<int, Eigen::VectorXd> StressRecovery::by_sector(const std::vector<ToothForces>& teeth,
+                                                         const Eigen::VectorXd& supports) const {
+  const auto& c = body_.compliance;
+  const int ports = body_.flank_ports();
+  std::map<int, Eigen::MatrixXd> cut_loads;
+  const auto add_load = [&](int cut, const Eigen::VectorXd& load) {
+    auto& sum = cut_loads.try_emplace(number(cut), Eigen::MatrixXd::Zero(c.cut_size(), 1)).first->second;
+    sum += load;
+  };
+  int first_tooth = teeth.front().tooth, last_tooth = first_tooth;
+  for (const auto& t : teeth) {
+    add_load(t.tooth, per_width_ * c.low().leftCols(ports) * t.ports);
+    add_load(t.tooth + 1, per_width_ * c.high().leftCols(ports) * t.ports);
+    first_tooth = std::min(first_tooth, t.tooth);
+    last_tooth = std::max(last_tooth, t.tooth);
+  }
+  const bool all_around = body_.axial_stations() == 1 && c.max_cut_offset() == c.sectors() / 2;
+  const int reach = std::min(6, c.max_cut_offset() - 1);
+  const int first = all_around ? 0 : last_tooth - reach, last = all_around ? body_.teeth - 1 : first_tooth + reach;
+
+  const auto cut_displacement = [&](int cut) {
+    Eigen::MatrixXd v = Eigen::MatrixXd::Zero(c.cut_size(), 1);
+    for (const auto& [loaded, load] : cut_loads) c.add_cut_displacement(cut - loaded, load, v);
+    if (supports_ != nullptr) v += supports_->at_cut(cut) * supports;
+    return v;
+  };
+  std::map<int, Eigen::VectorXd> result;
+  Eigen::MatrixXd at_low = cut_displacement(first);
+  for (int sector = first; sector <= last; ++sector) {
+    Eigen::MatrixXd at_high = cut_displacement(sector + 1);
+    Eigen::VectorXd stress = c.low().middleCols(first_load_, loads_).transpose() * at_low +
+                             c.high().middleCols(first_load_, loads_).transpose() * at_high;
+    for (const auto& t : teeth)
+      if (number(t.tooth) == number(sector))
+        stress += per_width_ * (c.within().block(first_load_, 0, loads_, ports) * t.ports);
+    if (supports_ != nullptr) stress += supports_->within_sector(sector, first_load_, loads_, supports);
+    result.emplace(sector, std::move(stress));
+    at_low = std::move(at_high);
+  }
+  return result;
+}
+
+StressRecovery::Line StressRecovery::on_sector(const StressLine& line, const Eigen::VectorXd& observed) const {
+  Line result{line.arc, Eigen::MatrixXd(line.points(), line.axial_stations), {}};
+  result.von_mises = result.tangential;
+  const double nu = poisson_ratio_;
+  Eigen::Index at = line.first_load - first_load_;
+  for (int u = 0; u < line.points(); ++u)
+    for (int z = 0; z < line.axial_stations; ++z, at += line.components) {
+      const double t = observed[at];
+      const double axial = line.components == 1 ? nu * t : observed[at + 1];  // plane strain
+      const double shear = line.components == 1 ? 0 : observed[at + 2];
+      result.tangential(u, z) = t;
+      result.von_mises(u, z) = std::sqrt(t * t - t * axial + axial * axial + 3 * shear * shear);
+    }
+  return result;
+}
+
+StressRecovery::Result StressRecovery::stresses(const std::vector<ToothForces>& teeth,
+                                                const Eigen::VectorXd& supports) const {
+  require(!teeth.empty(), "stresses without forces");
+  const auto observed = by_sector(teeth, supports);
+  const bool closed = static_cast<int>(observed.size()) == body_.teeth;
+  const auto after = [&](int sector) { return observed.find(closed ? number(sector + 1) : sector + 1); };
+
+  Result result;
+  auto& largest = result.largest;
+  for (const auto& [sector, values] : observed) {
+    const auto next = after(sector);
+    if (next == observed.end()) continue;
+    Line root = join(on_sector(body_.root_high, values), on_sector(body_.root_low, next->second));
+    largest.root_tension = std::max(largest.root_tension, root.tangential.maxCoeff());
+    largest.root_compression = std::min(largest.root_compression, root.tangential.minCoeff());
+    if (root.von_mises.maxCoeff() <= largest.root_von_mises) continue;
+    largest.root_von_mises = root.von_mises.maxCoeff();
+    result.root = std::move(root);
+  }
+  if (body_.rim.points() == 0) return result;
+  for (const auto& [sector, values] : observed) {
+    Line rim = on_sector(body_.rim, values);
+    for (int u = 0; u < body_.rim.points(); ++u) rim.abscissa[u] = body_.rim.angle[u] + sector * body_.pitch_angle;
+    result.rim = result.rim.abscissa.empty() ? std::move(rim) : join(result.rim, rim);
+  }
+  largest.rim_tension = std::max(0.0, result.rim.tangential.maxCoeff());
+  largest.rim_compression = std::min(0.0, result.rim.tangential.minCoeff());
+  largest.rim_von_mises = result.rim.von_mises.maxCoeff();
+  return result;
+}
+
+}  // namespace annulus::fem

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "fem/body/gear_body.h"
+#include "fem/contact/contact_forces.h"
+#include "fem/contact/support_row.h"
+#include "fem/problem/loaded_mesh_result.h"
+
+namespace annulus::fem {
+
+/// Surface stresses of a whole body under given forces on its teeth and supports.
+///
+/// A stress is a functional of the displacement and thereby one more load of the condensed body: by reciprocity it
+/// costs a few products, no solve. Under a support itself the surface is not free: there the tangential stress lacks
+/// nu / (1 - nu) of the support's pressure.
+class StressRecovery {
+ public:
+  /// `body` has stress lines and is referred to, `supports` may be null. Plane bodies are looked at all around, solid
+  /// ones a few teeth to either side of the forces.
+  StressRecovery(const GearBody& body, double face_width, double poisson_ratio, const SupportRow* supports);
+
+  /// The stresses of one line of the body: the root of a tooth space, or the whole rim.
+  struct Line {
+    std::vector<double> abscissa;
+    Eigen::MatrixXd tangential, von_mises;  ///< Pa, points x axial stations
+  };
+  struct Result {
+    BodyStress largest;
+    Line root;  ///< of the tooth space with the largest von Mises stress, counter-clockwise; abscissa: arc length, m
+    Line rim;   ///< abscissa: polar angle in the body's frame, rad, ascending
+  };
+  [[nodiscard]] Result stresses(const std::vector<ToothForces>& teeth, const Eigen::VectorXd& supports) const;
+
+ private:
+  /// Stresses of all lines of the looked-at sectors, as numbered among the observed loads.
+  [[nodiscard]] std::map<int, Eigen::VectorXd> by_sector(const std::vector<ToothForces>& teeth,
+                                                         const Eigen::VectorXd& supports) const;
+  /// Tangential and von Mises stress of the points of a line in one sector, [point][axial station].
+  [[nodiscard]] Line on_sector(const StressLine& line, const Eigen::VectorXd& observed) const;
+  [[nodiscard]] int number(int sector) const { return ((sector % body_.teeth) + body_.teeth) % body_.teeth; }
+
+  const GearBody& body_;
+  const SupportRow* supports_;
+  double per_width_, poisson_ratio_;
+  int first_load_, loads_;
+};
+
+}  // namespace annulus::fem

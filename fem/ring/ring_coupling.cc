@@ -1,0 +1,233 @@
+#include "fem/ring/ring_coupling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/errors.h"
+#include "fem/body/body_plan.h"
+#include "fem/body/resolution.h"
+#include "fem/contact/flank_contact.h"
+#include "fem/levels/error_estimate.h"
+#include "fem/ring/ring_flexibility.h"
+#include "fem/ring/ring_on_supports.h"
+
+namespace annulus::fem {
+namespace {
+
+/// The coupling at one level of resolution.
+struct Level {
+  std::vector<Eigen::MatrixXd> compliance;
+  std::vector<RingMode> modes;
+  Eigen::MatrixXd teeth;  // compliance between the mesh forces of all teeth, numbered as in the real ring
+  double own = 0;
+  long unknowns = 0;
+  double mass = 0, rotational_mass = 0;
+  bool reused = false;  // the condensed sector
+};
+
+bool needs_solid(const LoadedMeshProblem& problem) {
+  return std::holds_alternative<EndFaceHeld>(problem.structure) ||
+         std::holds_alternative<FlangeHeld>(problem.structure) || problem.pair.wheel().helix_angle() != 0;
+}
+
+/// The ring as it is solved: the mirror image turns the hand of a helical one.
+geometry::Gear mirrored(const geometry::Gear& gear) {
+  auto parameters = gear.parameters();
+  parameters.helix_angle = -parameters.helix_angle;
+  return geometry::Gear(parameters);
+}
+
+std::optional<SupportPlan> support_plan(const LoadedMeshProblem& problem) {
+  const int teeth = problem.pair.wheel().teeth();
+  const SupportedRing ring{teeth, problem.wheel_support_radius, problem.face_width, problem.material};
+  const std::vector<double> whole_width = {0, problem.face_width};
+  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure))
+    return SupportPlan(pin_sites(*pinned, ring), teeth, whole_width);
+  if (const auto* splined = std::get_if<SplineHeld>(&problem.structure))
+    return SupportPlan(spline_sites(*splined, ring), teeth, whole_width);
+  return std::nullopt;
+}
+
+/// Mesh forces of all planets, planet 0 at `position`: teeth x planets.
+Eigen::MatrixXd mesh_forces(double position, const std::vector<double>& teeth_ahead, int teeth) {
+  Eigen::MatrixXd patterns(teeth, static_cast<Eigen::Index>(teeth_ahead.size()));
+  for (std::size_t n = 0; n < teeth_ahead.size(); ++n)
+    patterns.col(static_cast<Eigen::Index>(n)) = mesh_force_on_teeth(position + teeth_ahead[n], teeth);
+  return patterns;
+}
+
+/// Coupling on supports that can lift off; `state` is the one with all meshes loaded.
+Eigen::MatrixXd unilateral_coupling(const RingOnSupports& ring, const Eigen::MatrixXd& patterns, double load,
+                                    const RingOnSupports::State& state, double& own) {
+  Eigen::MatrixXd coupling = state.tangent;
+  for (Eigen::Index n = 0; n < patterns.cols(); ++n) {
+    const auto alone = ring.solve(patterns.col(n), Eigen::VectorXd::Constant(1, load), state.touching);
+    own += alone.displacement[0] / load;
+    const double others = coupling.row(n).sum() - coupling(n, n);
+    coupling(n, n) = (state.displacement[n] - alone.displacement[0]) / load - others;
+  }
+  return coupling;
+}
+
+/// Of the real ring, whose teeth count the other way round than those of the solve.
+Eigen::MatrixXd teeth_compliance(const RingFlexibility& ring, const RingOnSupports* supported) {
+  const int teeth = ring.teeth;
+  Eigen::MatrixXd solved(teeth, teeth), result(teeth, teeth);
+  if (supported) {
+    solved = supported->held_teeth_compliance();
+  } else {
+    for (int a = 0; a < teeth; ++a)
+      for (int b = 0; b < teeth; ++b) solved(a, b) = ring.compliance.block(a - b)(0, 0);
+  }
+  for (int a = 0; a < teeth; ++a)
+    for (int b = 0; b < teeth; ++b) result(a, b) = solved((teeth - a) % teeth, (teeth - b) % teeth);
+  return 0.5 * (result + result.transpose());
+}
+
+Level solve_level(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead, double load,
+                  const RingCouplingSettings& settings, int level) {
+  const auto planets = static_cast<Eigen::Index>(teeth_ahead.size());
+  const bool solid = needs_solid(problem);
+  const geometry::ToothProfile profile(mirrored(problem.pair.wheel()));
+  const BodyPlan body(problem, profile, true, geometry::Boundary::trailing_flank, settings.degree, solid,
+                      {problem.face_width, false});
+  const auto plan = support_plan(problem);
+  RingFlexibilityOptions options;
+  options.roll = problem.pair.wheel_roll_length(problem.pair.roll_length_pitch());
+  options.face_width = problem.face_width;
+  options.solid = solid;
+  options.motions = settings.motions;
+  options.threads = settings.threads;
+  options.store = settings.store.get();
+  if (plan) options.arcs = plan->arcs();
+  const RingFlexibility ring = make_ring_flexibility(
+      body, solid ? solid_resolution(level, settings.degree) : plane_resolution(profile.gear(), level, settings.degree),
+      problem.material, options);
+
+  Level result;
+  result.unknowns = ring.unknowns;
+  result.reused = ring.reused;
+  std::optional<RingOnSupports> supported;
+  if (plan) supported.emplace(ring, *plan);
+  const Eigen::VectorXd loads = Eigen::VectorXd::Constant(planets, load);
+  const int positions = repeating_teeth(problem.structure, ring.teeth) * settings.per_cycle;
+  std::vector<bool> touching;
+  for (int i = 0; i < positions; ++i) {
+    const Eigen::MatrixXd patterns = mesh_forces(static_cast<double>(i) / settings.per_cycle, teeth_ahead, ring.teeth);
+    Eigen::MatrixXd coupling;
+    if (supported) {
+      const auto state = supported->solve(patterns, loads, touching);
+      touching = state.touching;
+      coupling = state.tangent;
+      if (supported->unilateral()) coupling = unilateral_coupling(*supported, patterns, load, state, result.own);
+    } else {
+      coupling = Eigen::MatrixXd::Zero(planets, planets);
+      for (int a = 0; a < ring.teeth; ++a)
+        for (int b = 0; b < ring.teeth; ++b)
+          if (!patterns.row(a).isZero(0) && !patterns.row(b).isZero(0))
+            coupling += ring.compliance.block(a - b)(0, 0) * patterns.row(a).transpose() * patterns.row(b);
+      coupling = (0.5 * (coupling + coupling.transpose())).eval();
+    }
+    if (!supported || !supported->unilateral()) {
+      result.own += coupling.trace();
+      coupling.diagonal().setZero();
+    }
+    result.compliance.push_back(std::move(coupling));
+  }
+  result.own /= static_cast<double>(positions) * static_cast<double>(planets);
+  result.teeth = teeth_compliance(ring, supported ? &*supported : nullptr);
+  result.modes =
+      supported ? supported_ring_modes(ring, *supported, settings.modes) : held_ring_modes(ring, settings.modes);
+  for (int s = 0; s < ring.teeth; ++s) {
+    const Eigen::Vector3d squares = ring.resultants_of(s, ring.first_motion(), ring.motions).rowwise().squaredNorm();
+    result.mass += squares.x();
+    result.rotational_mass += squares.z() / std::pow(ring.base_radius, 2);
+  }
+  return result;
+}
+
+void check_places(const std::vector<double>& teeth_ahead, int teeth) {
+  if (teeth_ahead.empty() || teeth_ahead.front() != 0)
+    throw InputError("the coupling of ring meshes needs planets, the first of them 0 teeth ahead");
+  // The four teeth that share one mesh force are not those of the next planet.
+  constexpr double apart = 4;
+  for (std::size_t n = 0; n < teeth_ahead.size(); ++n) {
+    const double next = n + 1 < teeth_ahead.size() ? teeth_ahead[n + 1] : teeth;
+    if (!std::isfinite(next) || next - teeth_ahead[n] < apart)
+      throw InputError(
+          fmt::format("planet {} stands {} ring teeth ahead of planet 1, the next one {}: at least {} have "
+                      "to lie between them",
+                      n + 1, teeth_ahead[n], next, apart));
+  }
+}
+
+void check(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead, double load,
+           const RingCouplingSettings& settings) {
+  if (!problem.pair.internal()) throw InputError("the coupling of ring meshes needs a planet-ring pair");
+  const int last = needs_solid(problem) ? last_solid_level : last_plane_level;
+  if (settings.level < 1 || settings.level > last)
+    throw InputError(fmt::format("level {} is not available: 1 to {} are", settings.level, last));
+  check_places(teeth_ahead, problem.pair.wheel().teeth());
+  if (!std::isfinite(load) || !(load > 0))
+    throw InputError(fmt::format("a mesh load of {} N: it has to be positive", load));
+  if (settings.per_cycle < 1) throw InputError("at least one ring position per mesh cycle is needed");
+  if (settings.motions.section < 1 || settings.motions.axial < 0 || settings.modes.count < 1)
+    throw InputError("modes need motions of order 1 or higher, and a count of at least one");
+}
+
+}  // namespace
+
+Eigen::VectorXd mesh_force_on_teeth(double position, int teeth) {
+  const double below = std::floor(position), t = position - below;
+  // Lagrange polynomials through -1, 0, 1, 2.
+  const double weights[4] = {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
+                             (t + 1) * t * (t - 1) / 6};
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(teeth);
+  for (int k = 0; k < 4; ++k) {
+    const int tooth = (static_cast<int>(below) + k - 1) % teeth;
+    result[(2 * teeth - tooth) % teeth] += weights[k];
+  }
+  return result;
+}
+
+SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead,
+                                       double load, const RingCouplingSettings& settings) {
+  check(problem, teeth_ahead, load, settings);
+  RingCouplingSettings before = settings;
+  before.motions.section = std::max(1, settings.motions.section - 1);
+  before.motions.axial = std::max(0, settings.motions.axial - 1);
+  const Level coarser = solve_level(problem, teeth_ahead, load, before, settings.level - 1);
+  Level level = solve_level(problem, teeth_ahead, load, settings, settings.level);
+
+  SolvedRingCoupling result;
+  const double left = most_left_over(settings.degree);
+  for (std::size_t i = 0; i < level.compliance.size(); ++i)
+    result.compliance_error =
+        std::max(result.compliance_error, left * (level.compliance[i] - coarser.compliance[i]).cwiseAbs().maxCoeff());
+  for (std::size_t k = 0; k < std::min(level.modes.size(), coarser.modes.size()); ++k)
+    result.frequency_error_relative = std::max(
+        result.frequency_error_relative, left * std::abs(coarser.modes[k].frequency / level.modes[k].frequency - 1));
+  result.own_compliance = level.own;
+  result.teeth_compliance_error = left * (level.teeth - coarser.teeth).cwiseAbs().maxCoeff();
+  result.teeth_compliance = std::move(level.teeth);
+  result.unknowns = level.unknowns;
+  result.reused_teeth = (coarser.reused ? 1 : 0) + (level.reused ? 1 : 0);
+  result.condensed_teeth = 2 - result.reused_teeth;
+  auto& coupling = result.coupling;
+  coupling.planets = static_cast<int>(teeth_ahead.size());
+  coupling.ring_teeth = problem.pair.wheel().teeth();
+  coupling.load = load;
+  coupling.per_cycle = settings.per_cycle;
+  coupling.compliance = std::move(level.compliance);
+  coupling.modes = std::move(level.modes);
+  coupling.mass = level.mass;
+  coupling.rotational_mass = level.rotational_mass;
+  coupling.provenance = {{"compliance_error_m_per_N", fmt::format("{:.3g}", result.compliance_error)},
+                         {"frequency_error_relative", fmt::format("{:.3g}", result.frequency_error_relative)}};
+  return result;
+}
+
+}  // namespace annulus::fem
