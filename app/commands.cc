@@ -12,14 +12,15 @@
 #include "app/export/export.h"
 #include "app/export/rexs.h"
 #include "app/finished_run.h"
+#include "app/model/gear_system.h"
 #include "app/pipeline.h"
 #include "app/plan/cost_budget.h"
 #include "app/plan/run_limits.h"
 #include "app/report/report_files.h"
+#include "app/results/figure_table.h"
 #include "app/scene/new_scene.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/scene_schema.h"
-#include "app/stage_kinds.h"
 #include "app/study/studies.h"
 #include "app/tradeoff/trade_report.h"
 #include "core/errors.h"
@@ -88,12 +89,34 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
   } else {
     check_scene(scene, arguments, with_dynamics);
     remove_unfinished_files(options.out);
-    const auto text = run_scene(scene, options);
+    const auto text = run_text(*run_system(scene, options));
     fmt::print("{}", text);
     keep_finished_run(options.out, id, text);
   }
   if (!budget.empty()) fmt::print("{}\n", budget);
   fmt::print("report  {}\n", (options.out / "report.html").string());
+}
+
+}  // namespace
+
+namespace {
+
+/// Prints what the results of this key mean; the same declaration of several kinds once. False: there is none.
+bool explain_results(const std::string& key) {
+  std::vector<std::pair<FigureSpec, std::vector<std::string>>> found;
+  for (const auto& kind : system_kinds()) {
+    const auto* spec = find_figure(kind.figures(), key);
+    if (!spec) continue;
+    const auto same = std::find_if(found.begin(), found.end(), [&](const auto& f) {
+      return f.first.title == spec->title && f.first.definition == spec->definition;
+    });
+    if (same == found.end())
+      found.push_back({*spec, {kind_name(kind.kind)}});
+    else
+      same->second.emplace_back(kind_name(kind.kind));
+  }
+  for (const auto& [spec, kinds] : found) fmt::print("{}", explain(spec, kinds));
+  return !found.empty();
 }
 
 }  // namespace
@@ -113,7 +136,7 @@ void plan_command(const Arguments& arguments) {
   check_stage(scene);
   check_files(scene);
   check_studies(scene);
-  fmt::print("{}", plan_scene(scene, arguments.json, arguments.threads, budget));
+  fmt::print("{}", plan_scene(scene, arguments.json ? PlanFormat::json : PlanFormat::text, arguments.threads, budget));
   // The plan itself shows what is too much.
   std::fflush(stdout);
   check_limits(scene, limits_of(arguments), arguments.threads, CostModel::of_this_machine());
@@ -124,7 +147,7 @@ void check_command(const Arguments& arguments) {
   check_stage(scene);
   check_files(scene);
   check_studies(scene);
-  fmt::print("{}: good ({})\n", arguments.scene, stage_text(scene));
+  fmt::print("{}: good ({})\n", arguments.scene, make_system(scene)->describe());
 }
 
 void tradeoff_command(const Arguments& arguments) {
@@ -170,9 +193,15 @@ void explain_command(const Arguments& arguments) {
       found = true;
     }
   }
+  if (arguments.key.empty()) return;
+  found = explain_results(arguments.key) || found;
   if (found) return;
-  const std::string near = nearest(arguments.key, all_keys());
-  throw InputError(arguments.key + ": there is no such key" + (near.empty() ? "" : "; did you mean " + near + "?"));
+  auto names = all_keys();
+  for (const auto& kind : system_kinds())
+    for (const auto& spec : kind.figures()) names.push_back(spec.key);
+  const std::string near = nearest(arguments.key, names);
+  throw InputError(arguments.key + ": there is no such key or result" +
+                   (near.empty() ? "" : "; did you mean " + near + "?"));
 }
 
 void export_command(const Arguments& arguments) {

@@ -61,6 +61,6 @@ set(CPACK_DEBIAN_PACKAGE_DEPENDS "libjs-chart.js, libjs-three")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libopenblas0-pthread")
 # For who builds against the libraries.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-    "libeigen3-dev, libfmt-dev, libspdlog-dev, libgmsh-dev, libsundials-dev, libpagmo-dev, libfftw3-dev, libboost-dev")
+    "libeigen3-dev, nlohmann-json3-dev, libfmt-dev, libspdlog-dev, libgmsh-dev, libsundials-dev, libpagmo-dev, libfftw3-dev, libboost-dev")
 set(CPACK_STRIP_FILES ON)
 include(CPack)

@@ -29,6 +29,7 @@ struct StiffnessEntry {
 class StiffnessTable {
  public:
   /// Entries are ordered [position][phase][load]. Throws InputError when sizes, order or values are not usable.
+  StiffnessTable() = default;  ///< empty: without phases
   StiffnessTable(std::string mesh, int phases, std::vector<double> ring_angles, std::vector<double> loads,
                  std::vector<StiffnessEntry> entries);
 
@@ -49,7 +50,7 @@ class StiffnessTable {
 
  private:
   std::string mesh_;
-  int phases_;
+  int phases_ = 0;
   std::vector<double> ring_angles_;
   std::vector<double> loads_;
   std::vector<StiffnessEntry> entries_;

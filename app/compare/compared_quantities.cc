@@ -15,10 +15,11 @@ std::vector<const ComparedVariant*> all_variants(const std::vector<ComparedRun>&
 
 std::vector<ComparedQuantity> compared_quantities(const std::vector<ComparedRun>& runs) {
   std::vector<ComparedQuantity> list;
-  for (const auto& figure : compared_figures(runs.front().kind)) {
-    ComparedQuantity compared{figure, {figure.key, figure.name, {}, figure.digits}};
+  for (const auto& spec : *runs.front().specs) {
+    if (!spec.compared) continue;
+    ComparedQuantity compared{spec, {spec.quantity, spec.title, {}, spec.digits}};
     for (const auto* variant : all_variants(runs)) {
-      const auto [value, error] = variant->figures.at(figure.name);
+      const auto [value, error] = variant->figures.figure(spec.key);
       if (std::isfinite(value)) compared.quantity.rings.push_back({variant->name, value, error});
     }
     if (!compared.quantity.rings.empty()) list.push_back(std::move(compared));
@@ -28,10 +29,10 @@ std::vector<ComparedQuantity> compared_quantities(const std::vector<ComparedRun>
 
 RingQuantity in_unit(const ComparedQuantity& compared) {
   auto quantity = compared.quantity;
-  if (!compared.figure.unit.empty()) quantity.name += ", " + compared.figure.unit;
+  if (!compared.spec.unit.empty()) quantity.name += ", " + compared.spec.unit;
   for (auto& m : quantity.rings) {
-    m.value *= compared.figure.scale;
-    m.error *= compared.figure.scale;
+    m.value *= compared.spec.scale;
+    m.error *= compared.spec.scale;
   }
   return quantity;
 }

@@ -3,15 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "app/compare/compared_figures.h"
 #include "app/compare/compared_run.h"
 #include "app/stage/measured.h"
+#include "core/figure.h"
 
 namespace annulus::app {
 
 /// A figure over all variants of all runs, SI.
 struct ComparedQuantity {
-  ComparedFigure figure;
+  FigureSpec spec;
   RingQuantity quantity;  ///< the variants that have it
 };
 /// Those that at least one variant has.

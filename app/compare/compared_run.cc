@@ -5,20 +5,21 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "app/compare/compared_figures.h"
 #include "app/finished_run.h"
+#include "app/model/gear_system.h"
+#include "app/scene/scene_schema.h"
 #include "app/scene/scene_value.h"
 #include "core/errors.h"
+#include "core/json.h"
 
 namespace annulus::app {
 
 namespace {
 
 namespace fs = std::filesystem;
-using RunJson = nlohmann::ordered_json;
+using RunJson = Json;
 
 constexpr std::uintmax_t largest_summary = 50'000'000;  // bytes; those of long searches have a few millions
 
@@ -66,10 +67,11 @@ RunJson read_summary(const fs::path& folder) {
   return summary;
 }
 
-std::string kind_of(const RunJson& json) {
-  if (json.contains("kind")) return json.at("kind");
-  // Earlier versions named the kind of pairs only.
-  return json.contains("rings") ? "planetary" : "two_k_v";
+/// The results that runs of a kind have; nullptr for a name that is none.
+const std::vector<FigureSpec>* specs_of(const std::string& kind) {
+  for (const auto& k : system_kinds())
+    if (kind == kind_name(k.kind)) return &k.figures();
+  return nullptr;
 }
 
 std::string input_text(const RunJson& value) {
@@ -92,34 +94,26 @@ std::map<std::string, std::string> inputs_of(const RunJson& json, const std::str
   return inputs;
 }
 
-ComparedVariant variant_of(const RunJson& json, const RunJson& figures, const std::string& kind,
-                           const std::string& ring) {
-  return {.name = ring, .figures = read_figures(kind, figures.dump()), .inputs = inputs_of(json, ring)};
-}
-
 ComparedRun run_of(const RunJson& json, const fs::path& folder) {
   ComparedRun run{.folder = folder,
                   .title = json.at("title"),
                   .version = json.at("annulus_version"),
-                  .kind = kind_of(json),
+                  .kind = json.at("kind"),
                   .accuracy = json.at("accuracy_wanted"),
                   .inputs_known = json.contains("inputs")};
-  if (compared_figures(run.kind).empty()) throw InputError("kind is '" + run.kind + "'");
-  if (run.kind == "planetary") {
-    if (!json.at("rings").is_object()) throw InputError("its rings are no object");
-    for (const auto& [ring, figures] : json.at("rings").items())
-      run.variants.push_back(variant_of(json, figures, run.kind, ring));
-    if (run.variants.empty()) throw InputError("it has no rings");
-  } else {
-    run.variants.push_back(variant_of(json, json, run.kind, ""));
-    if (json.contains("computed"))
-      run.variants.push_back(variant_of(json, json.at("computed"), run.kind, "computed stiffness"));
+  run.specs = specs_of(run.kind);
+  if (!run.specs) throw InputError("kind is '" + run.kind + "'");
+  for (const auto& variant : json.at("variants")) {
+    const std::string name = variant.at("name");
+    run.variants.push_back(
+        {.name = name, .figures = figure_set_of(variant.at("figures")), .inputs = inputs_of(json, name)});
   }
-  const auto tells = [](const ComparedVariant& variant) {
-    return std::any_of(variant.figures.begin(), variant.figures.end(),
-                       [](const auto& figure) { return std::isfinite(figure.second.first); });
+  if (run.variants.empty()) throw InputError("it has no variants");
+  const auto has_results = [](const ComparedVariant& variant) {
+    return std::any_of(variant.figures.entries().begin(), variant.figures.entries().end(),
+                       [](const auto& entry) { return std::isfinite(entry.figure.value); });
   };
-  if (std::none_of(run.variants.begin(), run.variants.end(), tells)) throw InputError("it holds no figures");
+  if (std::none_of(run.variants.begin(), run.variants.end(), has_results)) throw InputError("it holds no results");
   for (const auto& [stage, seconds] : json.at("timings_s").items()) run.timings.emplace_back(stage, seconds);
   run.peak_memory_MB = json.at("peak_memory_MB");
   if (json.contains("reuse")) run.read_back = json.at("reuse").at("reused").size();

@@ -6,14 +6,15 @@
 #include <utility>
 #include <vector>
 
+#include "core/figure.h"
+
 namespace annulus::app {
 
 /// One ring of a finished run with its figures; a stage without rings has one variant, or two where it compares given
 /// with computed stiffness.
 struct ComparedVariant {
-  std::string name{};  ///< of the run, and of the ring where that is needed to tell them apart
-  /// SI: value and absolute error, by the keys of compared_figures; NaN where not known.
-  std::map<std::string, std::pair<double, double>> figures{};
+  std::string name{};                           ///< of the run, and of the ring where that is needed to tell them apart
+  FigureSet figures{};                          ///< SI
   std::map<std::string, std::string> inputs{};  ///< by key, as in a scene file
 };
 
@@ -22,7 +23,8 @@ struct ComparedRun {
   std::filesystem::path folder{};
   std::string name{}, title{}, version{}, kind{};
   double accuracy = 0;
-  bool inputs_known = false;  ///< runs of earlier versions do not list them
+  const std::vector<FigureSpec>* specs = nullptr;  ///< results of runs of this kind
+  bool inputs_known = false;                       ///< runs of earlier versions do not list them
   std::vector<ComparedVariant> variants{};
   std::vector<std::pair<std::string, double>> timings{};  ///< s
   double peak_memory_MB = 0;

@@ -80,7 +80,7 @@ std::string comparison_csv(const std::vector<ComparedRun>& runs) {
     const auto& first = quantity.rings.front();
     for (const auto& m : quantity.rings) {
       const bool other = &m != &first;
-      text += csv_cell(compared.figure.name) + "," + compared.figure.unit + "," + csv_cell(m.ring) + "," +
+      text += csv_cell(compared.spec.title) + "," + compared.spec.unit + "," + csv_cell(m.ring) + "," +
               csv_cell(m.value) + "," + csv_cell(m.error) + "," + (other ? csv_cell(m.value - first.value) : "") + "," +
               (other ? csv_cell(m.error + first.error) : "") + "," +
               (other ? csv_cell(difference_text(first, m, quantity.digits)) : "") + "\n";

@@ -1,5 +1,4 @@
 #include "app/pair/pair_run.h"
-#include "app/report/report_files.h"
 
 #include <fmt/format.h>
 
@@ -9,9 +8,9 @@
 #include "app/content_id.h"
 #include "app/pair/pair_subject.h"
 #include "app/pair/pair_table_errors.h"
+#include "app/pipeline.h"
 #include "app/plan/cost_actual.h"
-#include "app/progress.h"
-#include "app/study/studies.h"
+#include "app/stage/mesh_figures.h"
 #include "app/tasks.h"
 #include "core/errors.h"
 #include "core/files.h"
@@ -83,7 +82,7 @@ PairResponseResult respond(const PairRunResult& result, const std::filesystem::p
   response.series = series_table(pair, response.figures);
   response.spectrum = spectrum_table(response.figures);
   response.figures.series = {};
-  add_table_errors(result, response.figures);
+  response.results = carried_pair_errors(result, simulation, response.figures);
   const auto id = pair_id(pair, simulation, result.mesh.table ? &*result.mesh.table : nullptr);
   write_table(response.series, id, folder / "time_series.csv");
   write_table(response.spectrum, id, folder / "spectrum.csv");
@@ -177,27 +176,7 @@ void save_shares(const std::vector<ShareRow>& rows, const std::filesystem::path&
   csv.write(folder / "transmission_error_shares.csv");
 }
 
-std::vector<std::pair<std::string, double>> pair_timings(const StageTimers& timers) {
-  std::vector<std::pair<std::string, double>> list;
-  double total = 0, named = 0;
-  for (const auto& [stage, seconds] : timers.report()) {
-    if (stage == "total") total = seconds;
-  }
-  for (const auto* stage : {"mesh", "errors", "dynamics", "shares", "studies"}) {
-    list.emplace_back(stage, timers.seconds(stage));
-    named += timers.seconds(stage);
-  }
-  list.emplace_back("other", std::max(0.0, total - named));
-  list.emplace_back("total", total);
-  return list;
-}
-
 }  // namespace
-
-LoadedForce loaded_force(const dynamics::PairResponse& r) {
-  if (r.static_force >= 0) return {r.force_max, r.force_min};
-  return {{-r.force_min.value, r.force_min.error}, {-r.force_max.value, r.force_max.error}};
-}
 
 double pair_seconds(const Scene& scene) {
   // Measured: 4 ms at the ends of a torque and speed grid, some tens where the teeth part; a wave once per turn makes
@@ -206,77 +185,105 @@ double pair_seconds(const Scene& scene) {
   return (turns ? 0.5 : 0.02) + (scene.dynamics->mesh_cycles ? pair_marching_seconds(scene) : 0);
 }
 
-PairRunResult run_pair(const Scene& scene, const RunOptions& given) {
-  StageTimers timers;
-  const RunOptions options = with_reuse(given);
-  const auto geometry = make_pair_geometry(scene);
-  if (options.with_dynamics) check_studies(scene);  // before anything expensive
-  Plan plan = make_pair_plan(scene, geometry, options.threads);
-  PairRunResult result{.scene = scene, .geometry = geometry, .plan = std::move(plan)};
-  std::filesystem::create_directories(options.out);
+PairRunResult::PairRunResult(const Scene& of) : geometry(make_pair_geometry(of)) { scene = of; }
+
+void PairRunResult::solve_meshes(const RunOptions& options) {
   {
-    const auto timer = timers.measure("mesh");
-    const auto& model = result.plan.meshes.front();
+    const auto& model = plan.meshes.front();
     std::optional<MeshResult> solved;
     if (model.computed()) solved = computed_stiffness(model, {""}, options);
-    result.mesh = pair_mesh(scene, result.geometry, model, std::move(solved));
-    result.stiffnesses = mean_stiffnesses(scene, result.geometry, result.mesh);
-    if (result.mesh.table && !result.mesh.computed) {
-      auto table = *result.mesh.table;
+    mesh = pair_mesh(scene, geometry, model, std::move(solved));
+    stiffnesses = mean_stiffnesses(scene, geometry, mesh);
+    if (mesh.table && !mesh.computed) {
+      auto table = *mesh.table;
       table.provenance = {{"annulus_version", version()}, {"source", model.reason}};
       table.write_csv(options.out / "stiffness_pinion_wheel.csv");
     }
   }
+  const auto timer = timers.measure("errors");
+  errors = pair_errors(scene);
+  save_pair_errors(errors, options.out / "errors");
+}
+
+void PairRunResult::respond(const RunOptions& options) {
+  const auto folder = options.out / "dynamics";
+  pair = make_pair(scene, geometry, pair_excitation(scene, geometry, mesh), errors.amplitude);
   {
-    const auto timer = timers.measure("errors");
-    result.errors = pair_errors(scene);
-    save_pair_errors(result.errors, options.out / "errors");
+    const auto timer = timers.measure("dynamics");
+    response = app::respond(*this, folder);
   }
-  if (options.with_dynamics && scene.dynamics) {
-    const auto folder = options.out / "dynamics";
-    result.pair = make_pair(scene, result.geometry, pair_excitation(scene, result.geometry, result.mesh),
-                            result.errors.amplitude);
-    {
-      const auto timer = timers.measure("dynamics");
-      result.response = respond(result, folder);
-    }
-    if (scene.transmission_error) {
-      const auto timer = timers.measure("shares");
-      const auto& torques = scene.transmission_error->pinion_torques;
-      result.shares.resize(torques.size());
-      for_each_task(torques.size(), options.threads,
-                    [&](std::size_t i) { result.shares[i] = share_row(result, torques[i]); });
-      for (const auto& row : result.shares) {
-        if (!row.failure.empty())
-          log::warn(fmt::format("transmission error at {} N m: {}", to_text(row.pinion_torque), row.failure));
-      }
-      save_shares(result.shares, folder);
-      const auto& speeds = scene.transmission_error->pinion_speeds;
-      result.speeds.resize(speeds.size());
-      for_each_task(speeds.size(), options.threads,
-                    [&](std::size_t i) { result.speeds[i] = speed_row(result, speeds[i]); });
-      for (const auto& row : result.speeds) {
-        if (!row.failure.empty())
-          log::warn(fmt::format("causes at {} r/min: {}", to_text(row.pinion_speed / units::rpm, 6), row.failure));
-      }
-      if (!speeds.empty()) save_speeds(result.speeds, folder);
-    }
-    const auto timer = timers.measure("studies");
-    result.studies = run_studies(PairSubject(result, options));
+  if (!scene.transmission_error) return;
+  const auto timer = timers.measure("shares");
+  const auto& torques = scene.transmission_error->pinion_torques;
+  shares.resize(torques.size());
+  for_each_task(torques.size(), options.threads, [&](std::size_t i) { shares[i] = share_row(*this, torques[i]); });
+  for (const auto& row : shares) {
+    if (!row.failure.empty())
+      log::warn(fmt::format("transmission error at {} N m: {}", to_text(row.pinion_torque), row.failure));
   }
-  result.reuse = options.reuse;
-  result.timings = pair_timings(timers);
-  result.peak_memory_MB = peak_memory_MB();
-  result.cost = actual_costs(result.plan.cost, [&](const CostStep& step) -> std::optional<CostRun> {
-    if (step.kind == CostKind::mesh)
-      return result.mesh.computed ? actual_mesh(step.size, *result.mesh.computed) : std::nullopt;
-    if (!result.response) return std::nullopt;
-    return actual_time(step.size, timers.seconds("dynamics") + timers.seconds("shares"));
-  });
-  keep_costs(result.cost);
-  write_file(options.out / "summary.json", pair_summary_json(result));
-  write_report(options.out / "report.html", pair_report_html(result));
+  save_shares(shares, folder);
+  const auto& wanted = scene.transmission_error->pinion_speeds;
+  speeds.resize(wanted.size());
+  for_each_task(wanted.size(), options.threads, [&](std::size_t i) { speeds[i] = speed_row(*this, wanted[i]); });
+  for (const auto& row : speeds) {
+    if (!row.failure.empty())
+      log::warn(fmt::format("causes at {} r/min: {}", to_text(row.pinion_speed / units::rpm, 6), row.failure));
+  }
+  if (!speeds.empty()) save_speeds(speeds, folder);
+}
+
+std::vector<const MeshResult*> PairRunResult::meshes() const {
+  if (!mesh.computed) return {};
+  return {&*mesh.computed};
+}
+
+std::vector<VariantFigures> PairRunResult::variants() const {
+  FigureSet set;
+  for (const auto& s : stiffnesses)
+    if (s.taken) set.set("mean_stiffness_N_per_m", {s.value, std::abs(s.value) * s.error_relative});
+  if (mesh.computed) set.add(mesh_figures(*mesh.computed));
+  if (response) set.add(response->results);
+  return {{"", std::move(set)}};
+}
+
+std::optional<CostRun> PairRunResult::actual(const CostStep& step) const {
+  if (step.kind == CostKind::mesh) return mesh.computed ? actual_mesh(step.size, *mesh.computed) : std::nullopt;
+  if (!response) return std::nullopt;
+  return actual_time(step.size, timers.seconds("dynamics") + timers.seconds("shares"));
+}
+
+std::unique_ptr<StudySubject> PairRunResult::subject(const RunOptions& options) const {
+  return std::make_unique<PairSubject>(*this, options);
+}
+
+std::string PairRunResult::report() const { return pair_report_html(*this); }
+
+PairRunResult run_pair(const Scene& scene, const RunOptions& options) {
+  PairRunResult result(scene);
+  run_system(result, options);
   return result;
+}
+
+const std::vector<FigureSpec>& pair_run_figures() {
+  static const auto list = [] {
+    std::vector<FigureSpec> specs = {{.key = "mean_stiffness_N_per_m",
+                                      .title = "Mean stiffness along the normal, as applied",
+                                      .unit = "N/µm",
+                                      .scale = 1e-6,
+                                      .definition =
+                                          "mean mesh stiffness along the normal of the flanks that the lumped "
+                                          "model has",
+                                      .effort = FigureEffort::tables,
+                                      .guarantee = Guarantee::always,
+                                      .quantity = "mean_stiffness",
+                                      .compared = true}};
+    const auto mesh = mesh_figure_specs(pinion_wheel, "mesh", "pinion_wheel_stiffness");
+    specs.insert(specs.end(), mesh.begin(), mesh.end());
+    const auto& model = dynamics::pair_figures();
+    specs.insert(specs.end(), model.begin(), model.end());
+    return specs;
+  }();
+  return list;
 }
 
 }  // namespace annulus::app

@@ -5,13 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "app/model/system_run.h"
 #include "app/pair/pair_errors.h"
 #include "app/pair/pair_stiffness.h"
-#include "app/plan/plan.h"
-#include "app/study/study_result.h"
 #include "core/csv.h"
 #include "dynamics/modes/modes.h"
-#include "dynamics/systems/helical_pair/pair_response.h"
+#include "dynamics/systems/helical_pair/pair_figures.h"
 
 /// Scenes of kind helical_pair from the scene to the report:
 ///
@@ -39,23 +38,18 @@ struct SpeedRow {
   std::string failure{};
 };
 
-/// Largest and smallest mesh force in the direction of the load (that of the driving flanks without a torque), N.
-struct LoadedForce {
-  Figure largest, smallest;
-};
-[[nodiscard]] LoadedForce loaded_force(const dynamics::PairResponse& response);
-
 struct PairResponseResult {
-  dynamics::PairResponse figures;  ///< without the series
+  dynamics::PairResponse figures;  ///< without the series; errors with all their parts
+  FigureSet results;               ///< by key, with the parts of their errors; frequencies too
   dynamics::Modes modes;
   Csv series;    ///< one row per sample: time, DOFs, force, transmission error
   Csv spectrum;  ///< of the mesh force
 };
 
-struct PairRunResult {
-  Scene scene;
+struct PairRunResult final : SystemRun {
+  explicit PairRunResult(const Scene& of);
+
   PairGeometry geometry;
-  Plan plan;
   PairMesh mesh{};
   std::vector<MeanStiffness> stiffnesses{};
   PairErrors errors{};
@@ -63,28 +57,34 @@ struct PairRunResult {
   std::optional<PairResponseResult> response{};
   std::vector<ShareRow> shares{};
   std::vector<SpeedRow> speeds{};
-  StudyResults studies{};
-  std::vector<std::pair<std::string, double>> timings{};
-  double peak_memory_MB = 0;
-  PlanCost cost{};  ///< predicted and actual, of the steps that were not reused
-  std::shared_ptr<const Reuse> reuse{};
+
+  void solve_meshes(const RunOptions& options) override;
+  void respond(const RunOptions& options) override;
+  [[nodiscard]] std::vector<const MeshResult*> meshes() const override;
+  [[nodiscard]] std::vector<VariantFigures> variants() const override;
+  [[nodiscard]] std::optional<CostRun> actual(const CostStep& step) const override;
+  [[nodiscard]] std::unique_ptr<StudySubject> subject(const RunOptions& options) const override;
+  [[nodiscard]] Json summary() const override;      // pair_summary.cc
+  [[nodiscard]] std::string text() const override;  // pair_summary.cc
+  [[nodiscard]] std::string report() const override;
 };
 
-/// Everything the scene asks for, into options.out. Throws what the steps throw.
-PairRunResult run_pair(const Scene& scene, const RunOptions& options);
+/// All steps of a run of a scene of this kind.
+[[nodiscard]] PairRunResult run_pair(const Scene& scene, const RunOptions& options);
+
+/// The results of a pair: those of its mesh, then those of its lumped model.
+[[nodiscard]] const std::vector<FigureSpec>& pair_run_figures();
 
 /// Rough wall time of one response on one core, s.
 [[nodiscard]] double pair_seconds(const Scene& scene);
 /// Time integration of one response: of `mesh_cycles`, else of the window that confirms it.
 [[nodiscard]] double pair_marching_seconds(const Scene& scene);
 
-/// What will be modelled and why (pair_plan.cc).
-[[nodiscard]] Plan make_pair_plan(const Scene& scene, const PairGeometry& geometry, int threads = 1);
+/// What a plan says of a pair (pair_plan.cc).
+void describe_pair(const Scene& scene, const PairGeometry& geometry, Plan& plan);
 /// The responses of a run, as one step: the scene's own, and those that part the transmission error by its causes.
 [[nodiscard]] std::vector<PlannedResponse> pair_responses(const Scene& scene, int threads);
 
-[[nodiscard]] std::string pair_summary_json(const PairRunResult& result);  ///< pair_summary.cc
-[[nodiscard]] std::string pair_summary_text(const PairRunResult& result);
 [[nodiscard]] std::string pair_report_html(const PairRunResult& result);  ///< pair_report.cc
 
 }  // namespace annulus::app

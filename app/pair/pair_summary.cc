@@ -16,7 +16,7 @@ namespace annulus::app {
 
 namespace {
 
-using PairJson = nlohmann::ordered_json;
+using PairJson = Json;
 
 PairJson pair_number(double x) { return std::isfinite(x) ? PairJson(x) : PairJson(nullptr); }
 
@@ -62,8 +62,8 @@ PairJson response_json_of(const PairResponseResult& response) {
   const auto& f = response.figures;
   PairJson json = {{"mesh_frequency_Hz", f.mesh_frequency},
                    {"static_force_N", f.static_force},
-                   {"mesh_force_max_N", pair_figure(loaded_force(f).largest)},
-                   {"mesh_force_min_N", pair_figure(loaded_force(f).smallest)},
+                   {"mesh_force_max_N", pair_figure(dynamics::loaded_force(f).largest)},
+                   {"mesh_force_min_N", pair_figure(dynamics::loaded_force(f).smallest)},
                    {"dynamic_factor", pair_figure(f.dynamic_factor)},
                    {"contact_loss", f.contact_loss},
                    {"acceleration_m_per_s2",
@@ -87,11 +87,9 @@ PairJson response_json_of(const PairResponseResult& response) {
 
 }  // namespace
 
-std::string pair_summary_json(const PairRunResult& result) {
-  PairJson json = {{"title", result.scene.title},
-                   {"annulus_version", version()},
-                   {"kind", kind_name(result.scene.stage.kind)},
-                   {"accuracy_wanted", result.scene.accuracy}};
+Json PairRunResult::summary() const {
+  const auto& result = *this;
+  Json json = Json::object();
   for (const auto& q : result.plan.quantities) json["derived"][q.key] = pair_number(q.value);
   for (const auto& s : result.stiffnesses)
     json["mean_stiffness_N_per_m"][s.source] = {
@@ -130,22 +128,12 @@ std::string pair_summary_json(const PairRunResult& result) {
                                          {"errors_alone", motion(row.errors_alone)},
                                          {"stiffness_alone", motion(row.stiffness_alone)}});
   }
-  if (!result.studies.variants.empty()) {
-    json.update(PairJson::parse(variant_studies_json(result.studies, 0)));
-    json.update(PairJson::parse(studies_json(result.studies)));
-  }
-  ContentId inputs;
-  for (const auto& input : result.scene.inputs) inputs.add(input.key, to_text(input.value));
-  json["inputs_id"] = inputs.id();
-  json["inputs"] = PairJson::parse(inputs_json(result.plan.inputs));
-  for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
-  json["peak_memory_MB"] = result.peak_memory_MB;
-  if (!result.cost.empty()) json["cost"] = PairJson::parse(cost_json(result.cost));
-  json["reuse"] = PairJson::parse(result.reuse->json());
-  return json.dump(2) + "\n";
+  if (!studies.variants.empty()) json.update(Json::parse(variant_studies_json(studies, 0)));
+  return json;
 }
 
-std::string pair_summary_text(const PairRunResult& result) {
+std::string PairRunResult::text() const {
+  const auto& result = *this;
   std::string text;
   for (const auto& s : result.stiffnesses) {
     if (!std::isfinite(s.value)) continue;
@@ -162,16 +150,11 @@ std::string pair_summary_text(const PairRunResult& result) {
     text += fmt::format(
         "response       acceleration {:.4g} m/s2, mesh force {:.4g} kN{}, transmission error "
         "{:.2f} um peak to peak, {:.2f} um at most\n",
-        f.acceleration.tooth.value, loaded_force(f).largest.value / 1e3,
+        f.acceleration.tooth.value, dynamics::loaded_force(f).largest.value / 1e3,
         std::isfinite(f.dynamic_factor.value) ? fmt::format(" (dynamic factor {:.3f})", f.dynamic_factor.value) : "",
         1e6 * f.dynamic.transmission_error.peak_to_peak.value, 1e6 * f.dynamic.transmission_error.largest.value);
   }
-  text += "\ntime   ";
-  for (const auto& [stage, seconds] : result.timings) text += fmt::format(" {} {:.2f} s ", stage, seconds);
-  text += fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
-  const std::string cost = cost_sentence(result.plan.cost, result.cost, result.peak_memory_MB);
-  if (!cost.empty()) text += "cost    " + cost + "\n";
-  return text + result.reuse->text();
+  return text;
 }
 
 }  // namespace annulus::app

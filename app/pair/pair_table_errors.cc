@@ -1,75 +1,59 @@
 #include "app/pair/pair_table_errors.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
+#include <utility>
 
-#include "core/errors.h"
-#include "core/log.h"
-#include "core/table_variants.h"
+#include "dynamics/error_propagation/error_propagation.h"
 
 namespace annulus::app {
 
 namespace {
 
-using PairFigures = std::vector<Figure*>;
-
-PairFigures figures_of(dynamics::PairResponse& r) {
-  auto& a = r.acceleration;
-  PairFigures list = {&r.force_max, &r.force_min, &r.dynamic_factor, &a.line_of_action,
-                      &a.axial,     &a.rotation,  &a.tooth};
-  for (auto* motions : {&r.dynamic, &r.quasi_static}) {
-    for (auto* m : {&motions->transmission_error, &motions->relative}) {
-      list.push_back(&m->peak_to_peak);
-      list.push_back(&m->largest);
-    }
-  }
-  return list;
+dynamics::Evaluation evaluation_of(const dynamics::HelicalPair& pair, const dynamics::PairResponse& response) {
+  dynamics::Evaluation evaluation{.figures = dynamics::figures(response), .outcome = response};
+  evaluation.figures.add(dynamics::frequency_figures(pair));
+  return evaluation;
 }
 
-bool has_estimate(const StiffnessTable& table) {
-  for (int phase = 0; phase < table.phases(); ++phase) {
-    for (int load = 0; load < static_cast<int>(table.loads().size()); ++load) {
-      if (table.at(0, phase, load).error_relative > 0) return true;
-    }
-  }
-  return false;
+/// The totals back into the response that the results were read from.
+void set_errors(const FigureSet& figures, dynamics::PairResponse& r) {
+  auto &te = r.dynamic.transmission_error, &relative = r.dynamic.relative;
+  const bool forward = r.static_force >= 0;
+  for (const auto& [key, figure] : {std::pair{"acceleration_max_m_per_s2", &r.acceleration.tooth},
+                                    {"acceleration_line_of_action_m_per_s2", &r.acceleration.line_of_action},
+                                    {"acceleration_axial_m_per_s2", &r.acceleration.axial},
+                                    {"acceleration_rotation_m_per_s2", &r.acceleration.rotation},
+                                    {"mesh_force_max_N", forward ? &r.force_max : &r.force_min},
+                                    {"mesh_force_min_N", forward ? &r.force_min : &r.force_max},
+                                    {"dynamic_factor", &r.dynamic_factor},
+                                    {"transmission_error_max_m", &te.largest},
+                                    {"transmission_error_peak_to_peak_m", &te.peak_to_peak},
+                                    {"relative_motion_max_m", &relative.largest},
+                                    {"relative_motion_peak_to_peak_m", &relative.peak_to_peak}})
+    figure->error = figures.figure(key).error;
 }
 
 }  // namespace
 
-void add_table_errors(const PairRunResult& result, dynamics::PairResponse& response) {
-  if (!result.mesh.table) return;
-  const auto& table = *result.mesh.table;
-  auto simulation = pair_simulation(result.scene);
-  simulation.confirm = simulation.keep_series = simulation.estimate_error = false;
-  const auto solve = [&](const StiffnessTable& changed) {
+FigureSet carried_pair_errors(const PairRunResult& result, const dynamics::SimulationOptions& options,
+                              dynamics::PairResponse& response) {
+  const auto comparison = dynamics::comparison_options(response, options);
+  dynamics::TabulatedModel model{.meshes = {},
+                                 .evaluate = {},
+                                 .seeks_steady_state = comparison.seeks_steady_state,
+                                 .nominal_alike = comparison.nominal_alike};
+  if (result.mesh.table)
+    model.meshes.push_back({"mesh", *result.mesh.table,
+                            result.mesh.computed ? result.mesh.computed->mean_stiffness().parts : ErrorParts{}});
+  model.evaluate = [&](const std::vector<StiffnessTable>& tables) {
     PairMesh mesh = result.mesh;
-    mesh.table = changed;
+    mesh.table = tables.front();
     auto pair = *result.pair;
     pair.mesh = pair_excitation(result.scene, result.geometry, mesh);
-    return dynamics::evaluate_pair(pair, simulation);
+    return evaluation_of(pair, dynamics::evaluate_pair(pair, comparison.simulation));
   };
-  const auto figures = figures_of(response);
-  std::vector<double> stiffness(figures.size(), 0.0), phases(figures.size(), 0.0);
-  const auto compare = [&](std::vector<double>& part, StiffnessTable (*change)(const StiffnessTable&), double weight) {
-    try {
-      auto base = solve(table), other = solve(change(table));
-      const auto a = figures_of(base), b = figures_of(other);
-      for (std::size_t i = 0; i < part.size(); ++i)
-        part[i] = std::isnan(part[i]) ? part[i] : std::max(part[i], weight * std::abs(a[i]->value - b[i]->value));
-    } catch (const Error& error) {
-      log::warn(std::string("what the error of the table does to the figures is not known: ") + error.what());
-      std::fill(part.begin(), part.end(), std::numeric_limits<double>::quiet_NaN());
-    }
-  };
-  if (has_estimate(table)) {
-    compare(stiffness, stiffer, 1);
-    compare(stiffness, more_rippled, 1);
-  }
-  compare(phases, coarser, 1.0 / 3);
-  for (std::size_t i = 0; i < figures.size(); ++i) figures[i]->error += stiffness[i] + phases[i];
+  auto figures = propagate_errors(evaluation_of(*result.pair, response), model);
+  set_errors(figures, response);
+  return figures;
 }
 
 }  // namespace annulus::app

@@ -4,12 +4,9 @@
 
 namespace annulus::app {
 
-/// Adds to every figure's error what the error of the stiffness table can do to it, as carried_errors.h does for
-/// planetary stages: the pair is solved again by harmonic balance on tables changed within their own uncertainty and
-/// compared with the unchanged one found the same way. Added are the larger difference of a stiffer and of a more
-/// rippled table, and a third of the difference to every second phase. NaN where a changed table gives no response.
-/// Nothing is added for a stiffness that is not tabulated; where the table has no error estimate, only the part of the
-/// phases.
-void add_table_errors(const PairRunResult& result, dynamics::PairResponse& response);
+/// The results of a response that was found with `options`, with the errors that the stiffness table brings (see
+/// dynamics/error_propagation); `response` receives their totals. Prescribed stiffness is exact.
+[[nodiscard]] FigureSet carried_pair_errors(const PairRunResult& result, const dynamics::SimulationOptions& options,
+                                            dynamics::PairResponse& response);
 
 }  // namespace annulus::app

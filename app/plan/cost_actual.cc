@@ -37,31 +37,11 @@ CostRun actual_time(CostRun size, double seconds) {
   return size;
 }
 
-PlanCost actual_costs(const PlanCost& planned, const std::function<std::optional<CostRun>(const CostStep&)>& actual) {
-  PlanCost cost = planned;
+PlanCost actual_costs(const SystemRun& run) {
+  PlanCost cost = run.plan.cost;
   for (auto& step : cost.steps)
-    if (step.kind != CostKind::studies) step.actual = actual(step);
+    if (step.kind != CostKind::studies) step.actual = run.actual(step);
   return cost.done();
-}
-
-PlanCost actual_costs(const RunResult& result) {
-  return actual_costs(result.plan.cost, [&](const CostStep& step) -> std::optional<CostRun> {
-    if (step.kind == CostKind::mesh && step.label == result.sun_mesh.model.label())
-      return actual_mesh(step.size, result.sun_mesh);
-    for (const auto& ring : result.rings) {
-      const auto& coupling = ring.mesh.coupling;
-      if (step.kind == CostKind::mesh && step.label == ring.mesh.model.label())
-        return actual_mesh(step.size, ring.mesh);
-      if (step.kind == CostKind::coupling && step.ring == ring.name && coupling && !coupling->reused) {
-        auto time = actual_time(step.size, coupling->seconds);
-        if (coupling->reused_teeth > 0) time.saved_s = std::numeric_limits<double>::quiet_NaN();
-        return time;
-      }
-      if (step.kind == CostKind::response && step.ring == ring.name && ring.response && !ring.response->reused)
-        return actual_time(step.size, ring.response_seconds);
-    }
-    return std::nullopt;
-  });
 }
 
 void keep_costs(const PlanCost& done) {
@@ -77,7 +57,9 @@ void keep_costs(const PlanCost& done) {
   add_user_costs(user_costs_file(), runs);
 }
 
-std::string cost_sentence(const PlanCost& planned, const PlanCost& done, double peak_memory_MB) {
+std::string cost_sentence(const SystemRun& run) {
+  const auto& planned = run.plan.cost;
+  const auto& done = run.cost;
   if (done.empty()) return "";
   const auto meshes = [](const PlanCost& cost) {
     return std::count_if(cost.steps.begin(), cost.steps.end(),
@@ -87,11 +69,8 @@ std::string cost_sentence(const PlanCost& planned, const PlanCost& done, double 
     return fmt::format("predicted {}, actual {} for what was not reused", duration_text(done.seconds()),
                        duration_text(done.actual_seconds()));
   return fmt::format("predicted {} and {}, actual {} and {}", duration_text(done.seconds()),
-                     memory_text(done.peak_MB()), duration_text(done.actual_seconds()), memory_text(peak_memory_MB));
-}
-
-std::string cost_sentence(const RunResult& result) {
-  return cost_sentence(result.plan.cost, result.cost, result.peak_memory_MB);
+                     memory_text(done.peak_MB()), duration_text(done.actual_seconds()),
+                     memory_text(run.peak_memory_MB));
 }
 
 std::string cost_json(const PlanCost& done) {
@@ -107,11 +86,8 @@ std::string cost_json(const PlanCost& done) {
   return json.dump();
 }
 
-std::string predicted_and_actual_html(const RunResult& result) {
-  return predicted_and_actual_html(result.plan.cost, result.cost, result.peak_memory_MB);
-}
-
-std::string predicted_and_actual_html(const PlanCost& planned, const PlanCost& done, double peak_memory_MB) {
+std::string predicted_and_actual_html(const SystemRun& run) {
+  const auto& done = run.cost;
   if (done.empty()) return "";
   HtmlTable table{
       .head = {"step", "predicted time", "actual time", "predicted peak memory"}, .rows = {}, .css_class = "numbers"};
@@ -120,7 +96,7 @@ std::string predicted_and_actual_html(const PlanCost& planned, const PlanCost& d
                           duration_text(step.actual->seconds()),
                           step.kind == CostKind::coupling ? "–" : memory_text(step.predicted.peak_MB)});
   return "<p>Cost of the steps that were not reused, as predicted before the run and as measured: " +
-         escape(cost_sentence(planned, done, peak_memory_MB)) + ".</p>\n" + html(table);
+         escape(cost_sentence(run)) + ".</p>\n" + html(table);
 }
 
 }  // namespace annulus::app

@@ -1,20 +1,15 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 
-#include "app/pipeline.h"
+#include "app/model/system_run.h"
 
 namespace annulus::app {
 
-/// The predicted steps of a finished run with what they cost, without those that were reused and without studies, whose
+/// The planned steps of a finished run with what they cost, without those that were reused and without studies, whose
 /// points may be partly reused.
-[[nodiscard]] PlanCost actual_costs(const RunResult& result);
-
-/// The steps of a finished plan for which `actual` tells what they did, which is nothing for those that were reused.
-[[nodiscard]] PlanCost actual_costs(const PlanCost& planned,
-                                    const std::function<std::optional<CostRun>(const CostStep&)>& actual);
+[[nodiscard]] PlanCost actual_costs(const SystemRun& run);
 /// What a mesh cost; nothing when it was reused or not computed.
 [[nodiscard]] std::optional<CostRun> actual_mesh(CostRun size, const MeshResult& mesh);
 /// A step of which only the wall time (s) is known.
@@ -24,14 +19,11 @@ void keep_costs(const PlanCost& done);
 
 /// "predicted 4.1 s and 410 MB, actual 4.4 s and 436 MB"; empty when nothing was computed. The memory is left out when
 /// a mesh was reused: the peak belongs to what was computed.
-[[nodiscard]] std::string cost_sentence(const PlanCost& planned, const PlanCost& done, double peak_memory_MB);
-[[nodiscard]] std::string cost_sentence(const RunResult& result);
+[[nodiscard]] std::string cost_sentence(const SystemRun& run);
 /// Predicted and actual time of every step as a JSON object.
 [[nodiscard]] std::string cost_json(const PlanCost& done);
 
 /// Predicted and actual time of every step as HTML; empty when nothing was computed.
-[[nodiscard]] std::string predicted_and_actual_html(const PlanCost& planned, const PlanCost& done,
-                                                    double peak_memory_MB);
-[[nodiscard]] std::string predicted_and_actual_html(const RunResult& result);
+[[nodiscard]] std::string predicted_and_actual_html(const SystemRun& run);
 
 }  // namespace annulus::app

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "app/model/gear_system.h"
 #include "app/scene/overrides.h"
-#include "app/stage_kinds.h"
 #include "core/errors.h"
 #include "fem/cost_size.h"
 
@@ -24,7 +24,7 @@ bool refines(const MeshModel& model) {
 
 /// Whether the scene's meshes are expected to reach its accuracy.
 bool within_reach(const Scene& scene, const CostModel& costs) {
-  for (const auto& model : stage_meshes(scene)) {
+  for (const auto& model : make_system(scene)->meshes()) {
     if (refines(model) && costs.expected_error(cost_kind(model), model.settings.degree,
                                                fem::last_level(model.settings.fidelity)) > scene.accuracy)
       return false;
@@ -55,7 +55,8 @@ double parse_duration(const std::string& text, const char* option) {
 BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const CostModel& costs) {
   bool any = false;
   // Formulas that do for the scene's own accuracy may not for a finer one.
-  for (const auto& model : stage_meshes(with_accuracy(scene, accuracy_ladder[0], ""))) any = any || refines(model);
+  for (const auto& model : make_system(with_accuracy(scene, accuracy_ladder[0], ""))->meshes())
+    any = any || refines(model);
   const auto known = [](const PlanCost& cost) {
     if (std::isfinite(cost.seconds())) return;
     for (const auto& step : cost.steps)
@@ -63,7 +64,7 @@ BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const Co
         throw SolverError(fmt::format("--budget: what the {} costs ({}) is not known; run it without a budget",
                                       step.label, step.size.kind));
   };
-  PlanCost cost = stage_cost(scene, threads, costs);
+  PlanCost cost = make_system(scene)->cost(threads, costs);
   known(cost);
   if (!any) {
     if (cost.seconds() > budget)
@@ -82,7 +83,7 @@ BudgetChoice fit_budget(const Scene& scene, double budget, int threads, const Co
     Scene fitted = with_accuracy(scene, accuracy,
                                  fmt::format("the most accurate that a budget of {} pays for", duration_text(budget)));
     if (!within_reach(fitted, costs)) continue;
-    cost = stage_cost(fitted, threads, costs);
+    cost = make_system(fitted)->cost(threads, costs);
     known(cost);
     if (cost.seconds() > budget) {
       if (cheapest.empty() || cost.seconds() <= cheapest.seconds()) cheapest = cost, cheapest_accuracy = accuracy;

@@ -250,24 +250,29 @@ PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<Plann
   return steps.cost;
 }
 
-PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::vector<MeshModel>& meshes,
-                   const std::vector<StudyPlan>& studies, int threads, const CostModel& costs) {
-  CostSteps steps(threads, costs);
+double planetary_response_seconds(const Scene& scene, const GearGeometry& geometry) {
+  double seconds = 0;
+  for (const int period : period_cycles(scene, geometry))
+    seconds += dynamics::point_seconds(scene.stage.planets, period);
+  // Studies integrate in time only where a number of cycles is asked for.
+  if (scene.dynamics->mesh_cycles)
+    for (const double integrated : marching_seconds(scene, geometry)) seconds += integrated;
+  return seconds;
+}
+
+std::vector<PlannedResponse> planetary_responses(const Scene& scene, const GearGeometry& geometry,
+                                                 const std::vector<MeshModel>& meshes) {
+  if (!scene.dynamics) return {};
   std::vector<std::string> elastic;
   bool computed = false;
   for (const auto& model : meshes) {
     if (!model.computed()) continue;
     computed = true;
-    steps.add_mesh(model);
-    if (!may_be_coupled(scene, model)) continue;
     // A ring held all around its outside has no modes as low as the stage's.
-    if (scene.dynamics->rim_coupling != RimCoupling::statical &&
+    if (may_be_coupled(scene, model) && scene.dynamics->rim_coupling != RimCoupling::statical &&
         !std::holds_alternative<fem::OutsideHeld>(model.problem->structure))
       elastic.push_back(model.ring);
-    steps.add(CostKind::coupling, fmt::format("coupling through '{}'", model.ring), model.ring,
-              coupling_size(model, threads));
   }
-  if (!scene.dynamics) return steps.cost;
   const auto periods = period_cycles(scene, geometry);
   const auto marching = marching_seconds(scene, geometry);
   // With tables their errors are carried through: a base, both meshes stiffer and more rippled, half the phases.
@@ -284,7 +289,21 @@ PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::
                     std::min(periods[i], scene.dynamics->mesh_cycles.value_or(periods[i]));
     responses.push_back({fmt::format("dynamics of '{}'", name), name, size, marches * marching[i]});
   }
-  steps.add_responses(responses);
+  return responses;
+}
+
+PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::vector<MeshModel>& meshes,
+                   const std::vector<StudyPlan>& studies, int threads, const CostModel& costs) {
+  CostSteps steps(threads, costs);
+  for (const auto& model : meshes) {
+    if (!model.computed()) continue;
+    steps.add_mesh(model);
+    if (!may_be_coupled(scene, model)) continue;
+    steps.add(CostKind::coupling, fmt::format("coupling through '{}'", model.ring), model.ring,
+              coupling_size(model, threads));
+  }
+  if (!scene.dynamics) return steps.cost;
+  steps.add_responses(planetary_responses(scene, geometry, meshes));
   steps.add_studies(studies);
   return steps.cost;
 }

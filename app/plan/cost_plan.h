@@ -63,6 +63,12 @@ struct PlannedResponse {
 /// Time integration of the response of each ring, s: of `mesh_cycles`, else of one error period that confirms.
 [[nodiscard]] std::vector<double> marching_seconds(const Scene& scene, const GearGeometry& geometry);
 
+/// The responses of a planetary scene, one per ring; empty without [dynamics].
+[[nodiscard]] std::vector<PlannedResponse> planetary_responses(const Scene& scene, const GearGeometry& geometry,
+                                                               const std::vector<MeshModel>& meshes);
+/// Wall time of a study's response of all rings on one core, s, rough.
+[[nodiscard]] double planetary_response_seconds(const Scene& scene, const GearGeometry& geometry);
+
 /// Of a stage whose meshes do not act on each other through elastic rings.
 [[nodiscard]] PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<PlannedResponse>& responses,
                                  const std::vector<StudyPlan>& studies, int threads, const CostModel& costs);

@@ -148,18 +148,11 @@ double pair_marching_seconds(const Scene& scene) {
   return dynamics::marching_seconds(assemble(pair), pair.mesh_frequency(), cycles, options.integrator);
 }
 
-Plan make_pair_plan(const Scene& scene, const PairGeometry& geometry, int threads) {
-  Plan plan;
-  plan.title = scene.title;
+void describe_pair(const Scene& scene, const PairGeometry& geometry, Plan& plan) {
   plan.inputs = pair_inputs(scene, geometry);
   plan.quantities = pair_quantities(scene, geometry);
-  plan.meshes.push_back(pair_mesh_model(scene, geometry));
   if (scene.dynamics) plan.dofs = pair_dofs(scene);
-  plan.studies = plan_studies(scene);
-  plan.cost =
-      plan_cost(plan.meshes, pair_responses(scene, threads), plan.studies, threads, CostModel::of_this_machine());
   plan.remarks = pair_remarks(scene, geometry, plan.meshes.front());
-  return plan;
 }
 
 }  // namespace annulus::app

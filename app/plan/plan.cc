@@ -215,24 +215,15 @@ long Plan::contact_problems() const {
   return count;
 }
 
-Plan make_plan(const Scene& scene, const GearGeometry& geometry, int threads) {
-  Plan plan;
-  plan.title = scene.title;
+void describe_planetary(const Scene& scene, const GearGeometry& geometry, Plan& plan) {
   plan.inputs = resolved_inputs(scene, geometry);
   plan.quantities = stage_quantities(scene, geometry);
-  plan.meshes.push_back(sun_mesh_model(scene, geometry));
-  for (std::size_t i = 0; i < geometry.rings.size(); ++i) {
-    plan.rings.emplace_back(geometry.rings[i].name, ring_quantities(geometry.rings[i]));
-    plan.meshes.push_back(ring_mesh_model(scene, geometry, i));
-  }
+  for (const auto& ring : geometry.rings) plan.rings.emplace_back(ring.name, ring_quantities(ring));
   if (scene.dynamics) {
     plan.dofs = dofs(scene);
     plan.motion = motion_decisions(scene, plan.meshes);
   }
-  plan.studies = plan_studies(scene);
   plan.remarks = remarks(scene, geometry, plan.meshes);
-  plan.cost = plan_cost(scene, geometry, plan.meshes, plan.studies, threads, CostModel::of_this_machine());
-  return plan;
 }
 
 }  // namespace annulus::app

@@ -44,8 +44,8 @@ struct Plan {
   [[nodiscard]] long contact_problems() const;
 };
 
-/// The cost is predicted for a run on `threads`.
-[[nodiscard]] Plan make_plan(const Scene& scene, const GearGeometry& geometry, int threads = 1);
+/// What a plan says of a planetary stage.
+void describe_planetary(const Scene& scene, const GearGeometry& geometry, Plan& plan);
 
 [[nodiscard]] std::string to_text(const Plan& plan);
 [[nodiscard]] std::string to_json(const Plan& plan);

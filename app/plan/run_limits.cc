@@ -10,7 +10,7 @@
 #include <fstream>
 #include <limits>
 
-#include "app/stage_kinds.h"
+#include "app/model/gear_system.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -44,7 +44,7 @@ double address_space_MB() {
 double study_MB(const Scene& scene, const StudyPlan& study) {
   if (study.name == "[optimise]") return 0;
   constexpr double of_a_point = 200;  // bytes besides its figures: vectors, a text
-  const auto figures = static_cast<double>(stage_figures(scene.stage.kind).size());
+  const auto figures = static_cast<double>(system_kind(scene.stage.kind).model_figures().size());
   return static_cast<double>(study.responses) * (of_a_point + figures * sizeof(double)) / bytes_per_MB;
 }
 
@@ -64,7 +64,7 @@ std::string mesh_cure(const CostStep& step) {
 
 std::vector<Need> needs_of(const Scene& scene, int threads, const CostModel& costs, bool with_dynamics) {
   std::vector<Need> needs;
-  for (const auto& step : stage_cost(scene, threads, costs).steps) {
+  for (const auto& step : make_system(scene)->cost(threads, costs).steps) {
     const bool solved = step.kind == CostKind::mesh || step.kind == CostKind::coupling;
     if (step.kind == CostKind::studies || (!solved && !with_dynamics)) continue;
     needs.push_back({step.label, step.predicted.seconds, step.predicted.peak_MB,

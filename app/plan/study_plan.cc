@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "app/stage_kinds.h"
+#include "app/model/gear_system.h"
 #include "app/study/study_cases.h"
 #include "core/errors.h"
 
@@ -32,8 +32,8 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
   const bool any =
       !scene.sweeps.empty() || !scene.grids.empty() || scene.monte_carlo || scene.sensitivity || scene.optimise;
   if (!any || !scene.dynamics) return list;
-  const auto variants = static_cast<long>(variant_count(scene));
-  const double each = response_seconds(scene);
+  const auto variants = static_cast<long>(make_system(scene)->variants().size());
+  const double each = make_system(scene)->response_seconds();
   const auto add = [&](std::string name, std::string what, std::size_t cases, int tables) {
     const auto n = static_cast<long>(cases);
     list.push_back({std::move(name), std::move(what), n * variants, tables, each * static_cast<double>(n)});

@@ -153,19 +153,12 @@ double two_k_v_marching_seconds(const Scene& scene) {
                                     two_k_v_simulation(scene, stage).integrator);
 }
 
-Plan make_two_k_v_plan(const Scene& scene, int threads) {
-  const auto pair = sun_planet_pair(scene);
-  Plan plan;
-  plan.title = scene.title;
+void describe_two_k_v(const Scene& scene, Plan& plan) {
   for (const auto& input : scene.inputs)
     if (!std::holds_alternative<std::monostate>(input.value)) plan.inputs.push_back(input);
-  plan.quantities = two_k_v_quantities(scene, pair);
-  plan.meshes = two_k_v_meshes(scene);
+  plan.quantities = two_k_v_quantities(scene, sun_planet_pair(scene));
   if (scene.dynamics) plan.dofs = two_k_v_dofs(scene);
-  plan.studies = plan_studies(scene);
-  plan.cost = plan_cost(plan.meshes, two_k_v_responses(scene), plan.studies, threads, CostModel::of_this_machine());
   plan.remarks = two_k_v_remarks(scene, plan.meshes);
-  return plan;
 }
 
 }  // namespace annulus::app

@@ -87,10 +87,9 @@ void add_loads(std::vector<Conclusion>& list, const PairRunResult& result) {
     for (const auto& [column, words, scale, unit] :
          {std::tuple{"mesh_force_max_N", "The largest mesh force grows with the torque", 1e-3, "kN"},
           {"transmission_error_max_m", "The largest transmission error grows with the torque", 1e6, "µm"}}) {
-      const auto figure = find_figure(result.studies.figures, column);
       std::vector<double> x, y;
       for (std::size_t i = 0; i < grid.x.size(); ++i) {
-        const double value = grid.variants.front()[i].value(figure);
+        const double value = grid.variants.front()[i].value(column);
         if (std::isfinite(value)) x.push_back(grid.x[i]), y.push_back(scale * value);
       }
       if (x.size() < 3) continue;
@@ -206,7 +205,7 @@ std::string pair_verdict(const PairRunResult& result) {
   std::string text = "<div class=\"verdict\">\n";
   if (result.response) {
     const auto& f = result.response->figures;
-    const auto force = loaded_force(f).largest;
+    const auto force = dynamics::loaded_force(f).largest;
     text += fmt::format(
         "<p>Largest mesh force {} kN{}, largest acceleration of the teeth {} m/s², transmission error "
         "{} µm peak to peak about a mean of {} µm.{}</p>\n",

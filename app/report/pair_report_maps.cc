@@ -42,14 +42,14 @@ MapAxis map_axis(const SweepInput& input, const std::vector<double>& values, con
   return axis;
 }
 
-std::string one_map(const GridResult& grid, const StudyFigure& figure, std::size_t index) {
+std::string one_map(const GridResult& grid, const FigureSpec& figure) {
   const auto x = map_axis(grid.grid.x, grid.x, grid.x_unit), y = map_axis(grid.grid.y, grid.y, grid.y_unit);
   RangeFinder values;
   ColourMap::Panel panel{.x_range = {x.cells[x.order.front()].low, x.cells[x.order.back()].high}};
   bool any = false, gap = false;
   for (const auto j : y.order) {
     for (const auto i : x.order) {
-      const double value = figure.scale * grid.variants.front()[j * grid.x.size() + i].value(index);
+      const double value = figure.scale * grid.variants.front()[j * grid.x.size() + i].value(figure.key);
       ColourMap::Cell cell{.x = x.cells[i], .y = y.cells[j]};
       if (std::isfinite(value)) {
         cell.value = value;
@@ -65,7 +65,7 @@ std::string one_map(const GridResult& grid, const StudyFigure& figure, std::size
   return plot_html(ColourMap{.title = figure.title,
                              .x_label = x.label,
                              .y_label = y.label,
-                             .value_label = figure.label,
+                             .value_label = figure.axis_label(),
                              .y_range = {y.cells[y.order.front()].low, y.cells[y.order.back()].high},
                              .values = values.range(0),
                              .grey = gap ? "failed" : "",
@@ -76,8 +76,7 @@ std::string one_map(const GridResult& grid, const StudyFigure& figure, std::size
 
 /// Where the teeth part, and where the largest acceleration lies.
 std::string map_words(const StudyResults& studies, const GridResult& grid) {
-  const auto loss = find_figure(studies.figures, "contact_loss"),
-             acceleration = find_figure(studies.figures, "acceleration_max_m_per_s2");
+  constexpr const char *loss = "contact_loss", *acceleration = "acceleration_max_m_per_s2";
   const auto& points = grid.variants.front();
   int parted = 0;
   std::size_t top = 0;
@@ -103,7 +102,7 @@ std::string pair_maps_section(const PairRunResult& result) {
     std::vector<std::string> pictures;
     for (std::size_t i = 0; i < studies.figures.size(); ++i) {
       if (!studies.figures[i].plotted) continue;
-      auto picture = one_map(grid, studies.figures[i], i);
+      auto picture = one_map(grid, studies.figures[i]);
       if (!picture.empty()) pictures.push_back(std::move(picture));
     }
     if (pictures.empty()) continue;

@@ -37,7 +37,7 @@ std::string pair_figures_section(const PairRunResult& result) {
   };
   table.rows.push_back({"Mesh force along the normal of the flanks"});
   plain("static", f.static_force / 1e3, "kN");
-  const auto force = loaded_force(f);
+  const auto force = dynamics::loaded_force(f);
   row("largest, in the direction of the load", force.largest, 1e-3, "kN");
   row("smallest", force.smallest, 1e-3, "kN");
   if (std::isfinite(f.dynamic_factor.value)) row("dynamic factor, largest / static", f.dynamic_factor, 1, "");
@@ -154,8 +154,7 @@ std::string pair_modes_section(const PairRunResult& result) {
 }
 
 std::string pair_quality_section(const PairRunResult& result) {
-  std::string text = "<h2 id=\"quality\">Checks and cost</h2>\n" +
-                     predicted_and_actual_html(result.plan.cost, result.cost, result.peak_memory_MB);
+  std::string text = "<h2 id=\"quality\">Checks and cost</h2>\n" + predicted_and_actual_html(result);
   if (result.response) {
     const auto& f = result.response->figures;
     std::string how = "marched";

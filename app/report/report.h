@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "app/pipeline.h"
+#include "app/stage/planetary_run.h"
 
 namespace annulus::app {
 

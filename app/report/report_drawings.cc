@@ -231,7 +231,7 @@ std::string drawings_section(const PairRunResult& result) {
 }
 
 std::string drawings_section(const TwoKVResult& result) {
-  const auto& scene = result.scene();
+  const auto& scene = result.scene;
   const auto pair = sun_planet_pair(scene);
   TransverseSection section{
       .title = "Sun and planets: transverse section",

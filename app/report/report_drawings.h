@@ -3,8 +3,8 @@
 #include <string>
 
 #include "app/pair/pair_run.h"
-#include "app/pipeline.h"
 #include "app/report/svg_section.h"
+#include "app/stage/planetary_run.h"
 #include "app/two_k_v/two_k_v_run.h"
 
 /// Drawings of the gears to scale: how they stand together, their teeth in mesh, how the ring is made.

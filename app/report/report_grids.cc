@@ -23,18 +23,17 @@ std::vector<std::size_t> shown_rows(std::size_t rows) {
 }
 
 /// One figure over x, a line for each shown y; empty when the figure is nowhere known or zero throughout.
-std::string lines_picture(const GridResult& grid, const std::vector<StudyPoint>& points, const StudyFigure& figure,
-                          std::size_t index) {
+std::string lines_picture(const GridResult& grid, const std::vector<StudyPoint>& points, const FigureSpec& figure) {
   Plot plot{.title = figure.title,
             .x_label = grid.grid.x.input + (grid.x_unit.empty() ? "" : ", " + grid.x_unit),
-            .y_label = figure.label};
+            .y_label = figure.axis_label()};
   plot.x_log = grid.grid.x.scale == SweepScale::logarithmic;
   bool any = false;
   const auto rows = shown_rows(grid.y.size());
   for (std::size_t line = 0; line < rows.size(); ++line) {
     Series series{.label = to_text(grid.y[rows[line]], 5) + " " + grid.y_unit, .x = grid.x, .colour = line};
     for (std::size_t i = 0; i < grid.x.size(); ++i) {
-      series.y.push_back(figure.scale * points[rows[line] * grid.x.size() + i].value(index));
+      series.y.push_back(figure.scale * points[rows[line] * grid.x.size() + i].value(figure.key));
       any = any || (std::isfinite(series.y.back()) && series.y.back() != 0);
     }
     plot.series.push_back(std::move(series));
@@ -45,11 +44,10 @@ std::string lines_picture(const GridResult& grid, const std::vector<StudyPoint>&
 std::string one_grid(const Scene& scene, const StudyResults& studies, std::size_t n) {
   const auto& grid = studies.grids[n];
   int failed = 0, not_steady = 0;
-  const auto steady = find_figure(studies.figures, "steady");
   for (const auto& variant : grid.variants) {
     for (const auto& point : variant) {
       failed += point.failure.empty() ? 0 : 1;
-      not_steady += point.failure.empty() && point.value(steady) == 0 ? 1 : 0;
+      not_steady += point.failure.empty() && point.value("steady") == 0 ? 1 : 0;
     }
   }
   std::string text = fmt::format(
@@ -69,7 +67,7 @@ std::string one_grid(const Scene& scene, const StudyResults& studies, std::size_
     std::vector<std::string> pictures;
     for (std::size_t i = 0; i < studies.figures.size(); ++i) {
       if (!studies.figures[i].plotted) continue;
-      auto picture = lines_picture(grid, grid.variants[variant], studies.figures[i], i);
+      auto picture = lines_picture(grid, grid.variants[variant], studies.figures[i]);
       if (!picture.empty()) pictures.push_back(std::move(picture));
     }
     const auto& name = studies.variants[variant];

@@ -22,12 +22,12 @@ std::string name_of(const OptimiseResults& o, const OptimiseRun& run) {
 std::string objective_text(const StudyResults& studies, const OptimiseResults& o) {
   std::string text;
   for (std::size_t i = 0; i < o.settings.objective.size(); ++i) {
-    const auto figure = find_figure(studies.figures, o.settings.objective[i]);
+    const auto* figure = find_figure(studies.figures, o.settings.objective[i]);
     const std::string weight =
         o.settings.weights.empty()
             ? (o.settings.objective.size() > 1 ? "1/" + std::to_string(o.settings.objective.size()) + " × " : "")
             : to_text(o.settings.weights[i], 4) + " × ";
-    text += (text.empty() ? "" : " + ") + weight + "“" + escape(studies.figures[figure].title) + "”";
+    text += (text.empty() ? "" : " + ") + weight + "“" + escape(figure->title) + "”";
   }
   return text;
 }
@@ -58,11 +58,11 @@ std::string verdict(const StudyResults& studies, const OptimiseResults& o) {
   }
   text += "</p>\n";
   for (const std::string mesh : {"sun_planet", "ring_planet", "mesh"}) {
-    const auto loss = find_figure(studies.figures, mesh + "_contact_loss");
-    if (loss == std::string::npos) continue;
+    const auto* loss = find_figure(studies.figures, mesh + "_contact_loss");
+    if (!loss) continue;
     text +=
-        fmt::format("<p>{}: {} % with the given values, {} % with the best.</p>\n", escape(studies.figures[loss].title),
-                    to_text(100 * o.given.point.value(loss), 3), to_text(100 * o.best.point.value(loss), 3));
+        fmt::format("<p>{}: {} % with the given values, {} % with the best.</p>\n", escape(loss->title),
+                    to_text(100 * o.given.point.value(loss->key), 3), to_text(100 * o.best.point.value(loss->key), 3));
   }
   return text + "</div>\n";
 }
@@ -74,14 +74,12 @@ std::string starts_text(const StudyResults& studies, const OptimiseResults& o, c
   std::string text = fmt::format("<li>{}: {} initial conditions lead to {} steady motion{}", which, s.starts, s.motions,
                                  s.motions == 1 ? "" : "s");
   if (s.not_steady) text += fmt::format(" ({} did not become steady)", s.not_steady);
-  std::size_t quick = 0;
-  for (std::size_t i = 0; i < studies.figures.size(); ++i) {
-    if (!studies.figures[i].quick) continue;
+  for (const auto& f : studies.figures) {
     const auto& wanted = o.settings.objective;
-    if (std::find(wanted.begin(), wanted.end(), studies.figures[i].column) != wanted.end() && quick < s.low.size())
-      text += fmt::format("; {} from {} to {}", escape(studies.figures[i].title), to_text(s.low[quick], 6),
-                          to_text(s.high[quick], 6));
-    ++quick;
+    if (f.effort == FigureEffort::motion || s.low.empty()) continue;
+    if (std::find(wanted.begin(), wanted.end(), f.key) != wanted.end())
+      text += fmt::format("; {} from {} to {}", escape(f.title), to_text(s.low.value(f.key), 6),
+                          to_text(s.high.value(f.key), 6));
   }
   return text + ".</li>\n";
 }
@@ -139,12 +137,12 @@ HtmlTable runs_table(const OptimiseResults& o) {
 
 HtmlTable figures_table(const StudyResults& studies, const OptimiseResults& o) {
   HtmlTable table{.head = {"", "as given", "best"}, .rows = {}, .css_class = "numbers"};
-  for (std::size_t i = 0; i < studies.figures.size(); ++i) {
-    const auto& f = studies.figures[i];
-    if (!std::isfinite(o.best.point.value(i)) || f.column == "steady") continue;
-    const double scale = f.label.empty() ? 1 : f.scale;
-    table.rows.push_back({escape(f.title + (f.label.empty() ? "" : ", " + f.label)),
-                          to_text(scale * o.given.point.value(i), 6), to_text(scale * o.best.point.value(i), 6)});
+  for (const auto& f : studies.figures) {
+    if (!std::isfinite(o.best.point.value(f.key)) || f.key == "steady") continue;
+    const double scale = f.axis_label().empty() ? 1 : f.scale;
+    table.rows.push_back({escape(f.title + (f.axis_label().empty() ? "" : ", " + f.axis_label())),
+                          to_text(scale * o.given.point.value(f.key), 6),
+                          to_text(scale * o.best.point.value(f.key), 6)});
   }
   return table;
 }

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "app/pipeline.h"
 #include "app/report/svg_plot.h"
 #include "app/stage/measured.h"
+#include "app/stage/planetary_run.h"
 
 /// The parts of report.html, each a piece of HTML made from the results alone.
 namespace annulus::app {

@@ -10,7 +10,7 @@ namespace annulus::app {
 namespace {
 
 /// Values of one figure: divided, nominal, multiplied.
-std::string three(const SensitivityResult& s, const SensitivityRow& row, std::size_t variant, std::size_t figure,
+std::string three(const SensitivityResult& s, const SensitivityRow& row, std::size_t variant, const std::string& figure,
                   double scale) {
   std::string text;
   for (const auto* point : {&row.divided[variant], &s.nominal[variant], &row.multiplied[variant]}) {
@@ -40,13 +40,14 @@ std::string sensitivity_section(const StudyResults& studies) {
   const auto& s = *studies.sensitivity;
   const bool compare = studies.variants.size() > 1;
   HtmlTable table{.head = {"input", "value"}, .rows = {}, .css_class = "numbers"};
-  std::vector<std::size_t> shown;
+  std::vector<const FigureSpec*> shown;
   std::string what;
   for (std::size_t i = 0; i < studies.figures.size(); ++i) {
     const auto& figure = studies.figures[i];
     if (!figure.ordering) continue;
-    shown.push_back(i);
-    what += (what.empty() ? "" : "; ") + escape(figure.title + (figure.label.empty() ? "" : " (" + figure.label + ")"));
+    shown.push_back(&figure);
+    what += (what.empty() ? "" : "; ") +
+            escape(figure.title + (figure.axis_label().empty() ? "" : " (" + figure.axis_label() + ")"));
     for (const auto& name : studies.variants)
       table.head.push_back(escape(figure.title + (name.empty() ? "" : ", " + name)));
   }
@@ -54,9 +55,9 @@ std::string sensitivity_section(const StudyResults& studies) {
   std::size_t kept = 0;
   for (const auto& row : s.rows) {
     std::vector<std::string> cells = {"<code>" + escape(row.input) + "</code>", nominal_values(row)};
-    for (const std::size_t i : shown) {
+    for (const auto* figure : shown) {
       for (std::size_t variant = 0; variant < studies.variants.size(); ++variant)
-        cells.push_back(three(s, row, variant, i, studies.figures[i].scale));
+        cells.push_back(three(s, row, variant, figure->key, figure->scale));
     }
     if (compare)
       cells.emplace_back(row.order_stays ? "<span class=\"tag agrees\">stays</span>"

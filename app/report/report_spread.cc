@@ -19,10 +19,10 @@ std::vector<double> sampled(const VariantSamples& ring, const std::string& figur
   return values;
 }
 
-std::string spread_picture(const StudyResults& studies, const StudyFigure& figure) {
-  SpreadPlot plot{.title = figure.title, .y_label = figure.label};
+std::string spread_picture(const StudyResults& studies, const FigureSpec& figure) {
+  SpreadPlot plot{.title = figure.title, .y_label = figure.axis_label()};
   for (std::size_t i = 0; i < studies.variants.size(); ++i) {
-    auto values = sampled(studies.monte_carlo->variants[i], figure.column);
+    auto values = sampled(studies.monte_carlo->variants[i], figure.key);
     if (values.empty()) continue;
     for (auto& v : values) v *= figure.scale;
     const auto quantile = [&](double p) { return dynamics::quantile_interval(values, p).value; };
@@ -33,10 +33,9 @@ std::string spread_picture(const StudyResults& studies, const StudyFigure& figur
                         .median = quantile(0.5),
                         .q75 = quantile(0.75),
                         .q95 = quantile(0.95)};
-    const auto nominal = studies.nominal[i].find(figure.column);
-    const bool known = nominal != studies.nominal[i].end();
-    column.nominal = known ? figure.scale * nominal->second.value : std::nan("");
-    column.nominal_error = known ? figure.scale * nominal->second.error : 0;
+    const auto nominal = studies.nominal[i].figure(figure.key);
+    column.nominal = figure.scale * nominal.value;
+    column.nominal_error = std::isfinite(nominal.error) ? figure.scale * nominal.error : 0;
     column.values = std::move(values);
     plot.columns.push_back(std::move(column));
   }
@@ -73,11 +72,11 @@ HtmlTable statistics_table(const StudyResults& studies) {
       .head = {"", "mean", "standard deviation", "5 %", "median", "95 %"}, .rows = {}, .css_class = "numbers"};
   for (const auto& figure : studies.figures) {
     if (!figure.spread) continue;
-    const std::string title = escape(figure.title + (figure.label.empty() ? "" : ", " + figure.label));
+    const std::string title = escape(figure.title + (figure.axis_label().empty() ? "" : ", " + figure.axis_label()));
     const bool named = !studies.variants.front().empty();
     if (named) table.rows.push_back({title});
     for (std::size_t i = 0; i < studies.variants.size(); ++i) {
-      const auto* s = studies.monte_carlo->variants[i].find(figure.column);
+      const auto* s = studies.monte_carlo->variants[i].find(figure.key);
       if (!s) continue;
       table.rows.push_back({named ? escape(studies.variants[i]) : title, bounds(s->mean, figure.scale),
                             to_text(figure.scale * s->deviation, 5), bounds(s->q05, figure.scale),
@@ -128,7 +127,7 @@ std::string spread_section(const StudyResults& studies) {
   std::string sentences;
   const auto* ordering = studies.ordering();
   for (const auto& order : samples.orders) {
-    if (ordering && order.figure == ordering->column) sentences += order_sentence(studies, order);
+    if (ordering && order.figure == ordering->key) sentences += order_sentence(studies, order);
   }
   if (!sentences.empty())
     text += "<p>" + escape(ordering->title) + ", sample by sample:</p>\n<ul>" + sentences + "</ul>\n";

@@ -33,18 +33,18 @@ class SweepPictures {
   }
 
   /// All variants in one picture; empty when the figure is nowhere known or zero throughout.
-  [[nodiscard]] std::string figure(const StudyFigure& figure) const {
-    Plot plot = empty_plot(figure.title, figure.label);
+  [[nodiscard]] std::string figure(const FigureSpec& figure) const {
+    Plot plot = empty_plot(figure.title, figure.axis_label());
     bool any = false;
     for (std::size_t variant = 0; variant < studies_.variants.size(); ++variant) {
-      for (const auto& column : {figure.column, figure.with}) {
+      for (const auto& column : {figure.key, figure.beside}) {
         if (column.empty()) continue;
         auto y = values(variant, column);
         for (auto& v : y) {
           v *= figure.scale;
           any = any || (std::isfinite(v) && v != 0);
         }
-        const bool dashed = column == figure.with;
+        const bool dashed = column == figure.beside;
         const auto& name = studies_.variants[variant];
         plot.series.push_back({.label = name, .x = x_, .y = y, .colour = variant, .dashed = dashed});
         plot.series.push_back(
@@ -62,8 +62,8 @@ class SweepPictures {
       Plot plot = empty_plot(headed(variant, "natural frequencies"), "frequency, Hz");
       widen(plot);
       for (const auto& figure : studies_.figures) {
-        if (!figure.column.starts_with("frequency_")) continue;
-        const auto y = values(variant, figure.column);
+        if (!figure.key.starts_with("frequency_")) continue;
+        const auto y = values(variant, figure.key);
         for (const double f : y) moved = moved || std::abs(f - y.front()) > 1e-3 * y.front();
         plot.series.push_back(
             {.label = figure.title, .x = x_, .y = y, .colour = variant, .style = Series::Style::line});
@@ -113,9 +113,8 @@ class SweepPictures {
     return name.empty() ? what : name + ": " + what;
   }
   [[nodiscard]] std::vector<double> values(std::size_t variant, const std::string& column) const {
-    const auto figure = find_figure(studies_.figures, column);
     std::vector<double> list;
-    for (const std::size_t i : order_) list.push_back(sweep_.variants[variant][i].value(figure));
+    for (const std::size_t i : order_) list.push_back(sweep_.variants[variant][i].value(column));
     return list;
   }
 
@@ -129,12 +128,11 @@ std::string remarks_of(const StudyResults& studies, const SweepResult& sweep) {
   std::string text;
   int failed = 0, not_steady = 0;
   std::string first;
-  const auto steady = find_figure(studies.figures, "steady");
   for (std::size_t variant = 0; variant < studies.variants.size(); ++variant) {
     for (std::size_t i = 0; i < sweep.values.size(); ++i) {
       const auto& point = sweep.variants[variant][i];
       if (point.failure.empty()) {
-        not_steady += point.value(steady) == 0 ? 1 : 0;
+        not_steady += point.value("steady") == 0 ? 1 : 0;
       } else if (failed++ == 0) {
         first = fmt::format("{} at {}: {}", studies.variants[variant], to_text(sweep.values[i], 6), point.failure);
       }
@@ -161,7 +159,7 @@ std::string one_sweep(const Scene& scene, const StudyResults& studies, std::size
     if (!figure.plotted) continue;
     auto picture = draw.figure(figure);
     if (picture.empty()) continue;
-    dashed = dashed || !figure.with.empty();
+    dashed = dashed || !figure.beside.empty();
     pictures.push_back(std::move(picture));
   }
   text +=

@@ -41,7 +41,7 @@ AssumedPart assumed_part(const TwoKVResult& result) {
   double squares = 0;
   for (const auto& input : result.own.vibration->inputs) {
     ++part.of;
-    if (!result.scene().assumed.contains(input.key)) continue;
+    if (!result.scene.assumed.contains(input.key)) continue;
     ++part.assumed;
     squares += input.sensitivity * input.sensitivity;
   }
@@ -81,7 +81,7 @@ std::string worth(const TwoKVResult& result, bool in_short) {
   if (in_short) return text + " <a href=\"#comparison\">More</a></p>\n";
   const auto& strongest = v.inputs.front();
   for (const auto& input : v.inputs) {
-    if (!result.scene().assumed.contains(input.key)) continue;
+    if (!result.scene.assumed.contains(input.key)) continue;
     text += fmt::format(" The strongest assumed input is <code>{}</code>", escape(input.key));
     if (!input.reaching.empty() && input.reaching.back())
       text += fmt::format(": {} times its value alone would give {} Hz", to_text(*input.reaching.back(), 4),
@@ -89,7 +89,7 @@ std::string worth(const TwoKVResult& result, bool in_short) {
     text += ".";
     break;
   }
-  if (!result.scene().assumed.contains(strongest.key))
+  if (!result.scene.assumed.contains(strongest.key))
     text += fmt::format(" Of all inputs <code>{}</code> weighs most ({:+.3f}).", escape(strongest.key),
                         strongest.sensitivity);
   return text + "</p>\n";
@@ -204,7 +204,7 @@ std::string reducer_quality(const TwoKVResult& result) {
     if (shown.result->tables.sun.model.computed())
       checks.rows.push_back(mesh_check_row("sun mesh, " + shown.name, shown.result->tables.sun));
   if (!checks.rows.empty()) text += html(checks);
-  text += predicted_and_actual_html(result.plan.cost, result.cost, result.peak_memory_MB);
+  text += predicted_and_actual_html(result);
   return text + cost_html(result.timings, result.peak_memory_MB);
 }
 
@@ -231,7 +231,7 @@ std::string mode_words(const std::string& name) {
 }
 
 std::string two_k_v_report(const TwoKVResult& result) {
-  const auto& scene = result.scene();
+  const auto& scene = result.scene;
   const auto stage = two_k_v_kinematics(scene);
   const std::string subtitle =
       fmt::format("annulus {} · scene <code>{}</code> · ratio {}, {} N m at {} r/min of the output", version(),

@@ -75,8 +75,8 @@ std::string mesh_table_html(const TwoKVResult& result) {
 std::string arc_part(const TwoKVResult& result) {
   if (!result.arc) return "";
   const auto& arc = *result.arc;
-  const auto stage = two_k_v_kinematics(result.scene());
-  const double even = stage.arc_torque(), uneven = dynamics::uneven_share * result.scene().output.torque;
+  const auto stage = two_k_v_kinematics(result.scene);
+  const double even = stage.arc_torque(), uneven = dynamics::uneven_share * result.scene.output.torque;
   const auto position = dynamics::arc_position(arc, even, 0);
   Plot pins{.title = "Pin forces at phase 0", .x_label = "pin, counted from the line of centres", .y_label = "N"};
   Series bars{.label = "force", .colour = 2, .style = Series::Style::bars};

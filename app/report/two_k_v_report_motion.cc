@@ -142,7 +142,7 @@ std::string error_text(const TwoKVMotion& m) {
 
 std::string reducer_motion_section(const TwoKVResult& result) {
   if (!result.own.motion) return "";
-  const auto& scene = result.scene();
+  const auto& scene = result.scene;
   const auto& m = *result.own.motion;
   std::string text = fmt::format(
       "<h2 id=\"motion\">Motion under load</h2>\n<p>Periodic motion at {} r/min of the output under {} N m, everything "
@@ -156,7 +156,7 @@ std::string reducer_motion_section(const TwoKVResult& result) {
   text += motion_table(result);
   for (const auto& shown : shown_cases(result)) {
     const auto& motion = *shown.result->motion;
-    if (constant_stiffness(*shown.result->stage)) {
+    if (dynamics::constant_stiffness(*shown.result->stage)) {
       text += fmt::format(
           "<p>With {}, the output follows the input but for the wind-up, and all forces stay constant: with constant "
           "mesh stiffness the turning directions of the eccentrics alone excite nothing, for what one crank's bearings "

@@ -210,7 +210,7 @@ std::string frequencies_section(const TwoKVResult& result) {
 std::string first_frequency_section(const TwoKVResult& result) {
   if (!result.own.vibration) return "";
   const auto& v = *result.own.vibration;
-  const auto& scene = result.scene();
+  const auto& scene = result.scene;
   std::string text =
       "<h2 id=\"first-frequency\">What the first frequency depends on</h2>\n<p>d ln f₁/d ln p: by how many per cent "
       "the "

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <set>
 
+#include "app/model/gear_system.h"
 #include "app/scene/overrides.h"
 #include "app/scene/scene_checks.h"
 #include "app/scene/scene_limits.h"
-#include "app/stage_kinds.h"
 #include "app/study/optimisation.h"
 
 namespace annulus::app {
@@ -159,7 +159,7 @@ class StudyChecker {
     }
     const auto& o = *scene_.optimise;
     std::vector<std::string> known;
-    for (const auto& figure : stage_figures(scene_.stage.kind)) known.push_back(figure.column);
+    for (const auto& figure : system_kind(scene_.stage.kind).model_figures()) known.push_back(figure.key);
     if (o.objective.empty()) problem("optimise.objective", 0, "needs at least one figure");
     for (const auto& figure : o.objective) {
       if (std::find(known.begin(), known.end(), figure) != known.end()) continue;

@@ -7,35 +7,13 @@
 #include <numbers>
 #include <optional>
 
+#include "app/model/gear_system.h"
 #include "app/report/svg_plot.h"
 #include "core/units.h"
 
 namespace annulus::app {
 
 namespace {
-
-double largest_factor(const dynamics::MeshKindResult& kind, double& error) {
-  double largest = 0;
-  for (const auto& b : kind.branches) {
-    if (b.dynamic_factor_max.value > largest) {
-      largest = b.dynamic_factor_max.value;
-      error = b.dynamic_factor_max.error;
-    }
-  }
-  return largest;
-}
-
-double stiffness_range(const MeshResult& mesh) {
-  double low = INFINITY, high = 0;
-  for (int position = 0; position < mesh.table.positions(); ++position) {
-    for (int phase = 0; phase < mesh.table.phases(); ++phase) {
-      const double k = mesh.table.at(position, phase, static_cast<int>(mesh.nominal)).stiffness_secant;
-      low = std::min(low, k);
-      high = std::max(high, k);
-    }
-  }
-  return (high - low) / mesh.mean_stiffness().value;
-}
 
 const Measured* find(const RingQuantity& quantity, const std::string& ring) {
   const auto found =
@@ -208,50 +186,27 @@ std::vector<Verdict> judge_pin(const Reference::AtPin& statement, const RunResul
 }  // namespace
 
 std::vector<RingQuantity> ring_quantities(const RunResult& result) {
+  // The definitions that are compared with published statements, the usual one first.
+  constexpr const char* keys[] = {"ring_planet_mean_stiffness_N_per_m",
+                                  "ring_planet_stiffness_ripple",
+                                  "sun_planet_load_sharing_averaged",
+                                  "ring_planet_load_sharing_averaged",
+                                  "sun_planet_load_sharing_instantaneous",
+                                  "sun_planet_load_sharing_quasi_static",
+                                  "sun_planet_dynamic_factor",
+                                  "ring_planet_dynamic_factor"};
+  const auto& specs = system_kind(result.scene.stage.kind).figures();
+  const auto variants = result.variants();
   std::vector<RingQuantity> list;
-  const auto add = [&](const char* key, const char* name, int digits, auto value) {
-    RingQuantity quantity{key, name, {}, digits};
-    for (const auto& ring : result.rings) {
-      if (auto m = value(ring); std::isfinite(m.value)) {
-        m.ring = ring.name;
-        quantity.rings.push_back(std::move(m));
-      }
+  for (const auto* key : keys) {
+    const auto* spec = find_figure(specs, key);
+    RingQuantity quantity{spec->quantity, spec->title, {}, spec->digits};
+    for (const auto& variant : variants) {
+      const auto figure = variant.figures.figure(key);
+      if (std::isfinite(figure.value)) quantity.rings.push_back({variant.name, figure.value, figure.error});
     }
     if (!quantity.rings.empty()) list.push_back(std::move(quantity));
-  };
-  const auto of = [](const Estimate& e) { return Measured{{}, e.value, std::abs(e.error_relative * e.value)}; };
-  add("ring_stiffness", "mean ring mesh stiffness, N/m", 4,
-      [&](const RingResult& r) { return of(r.mesh.mean_stiffness()); });
-  add("stiffness_ripple", "range over mean of the ring mesh stiffness", 3, [&](const RingResult& r) {
-    // Both ends of the range carry the stiffness error; the larger part of it is common to both.
-    const double range = stiffness_range(r.mesh);
-    return Measured{{}, range, range * r.mesh.lte_peak_to_peak().error_relative};
-  });
-  const auto sharing = [&](const char* name, auto pick) {
-    add("load_sharing", name, 5, [&](const RingResult& r) {
-      if (!r.response) return Measured{{}, NAN, 0};
-      const Figure f = pick(r.response->figures);
-      return Measured{{}, f.value, f.error};
-    });
-  };
-  sharing("load sharing, sun meshes, averaged over a mesh cycle",
-          [](const auto& f) { return f.sun_planet.load_sharing.averaged; });
-  sharing("load sharing, ring meshes, averaged over a mesh cycle",
-          [](const auto& f) { return f.ring_planet.load_sharing.averaged; });
-  sharing("load sharing, sun meshes, instantaneous",
-          [](const auto& f) { return f.sun_planet.load_sharing.instantaneous; });
-  sharing("load sharing, sun meshes, quasi-static",
-          [](const auto& f) { return f.sun_planet.load_sharing.quasi_static; });
-  const auto factor = [&](const char* name, auto pick) {
-    add("dynamic_factor", name, 4, [&](const RingResult& r) {
-      if (!r.response) return Measured{{}, NAN, 0};
-      double error = 0;
-      const double value = largest_factor(pick(r.response->figures), error);
-      return Measured{{}, value, error};
-    });
-  };
-  factor("dynamic factor, largest of all sun meshes", [](const auto& f) { return f.sun_planet; });
-  factor("dynamic factor, largest of all ring meshes", [](const auto& f) { return f.ring_planet; });
+  }
   return list;
 }
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/pipeline.h"
 #include "app/stage/measured.h"
+#include "app/stage/planetary_run.h"
 #include "app/stage/reference.h"
 
 namespace annulus::app {

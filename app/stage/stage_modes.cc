@@ -6,6 +6,7 @@
 
 #include "core/units.h"
 #include "dynamics/systems/planetary/campbell.h"
+#include "dynamics/systems/planetary/planetary_figures.h"
 #include "dynamics/systems/planetary/planetary_modes.h"
 
 namespace annulus::app {
@@ -111,6 +112,19 @@ StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnes
   add_operating_speed(result, stage);
   if (stage.carrier_speed > 0) add_campbell(result, stage);
   return result;
+}
+
+FigureSet frequency_figures(const StageModes& modes) {
+  constexpr double same = 1e-6;  // modes in pairs agree to rounding, neighbours of different kind do not
+  FigureSet set;
+  double last = 0;
+  int count = 0;
+  for (const auto& mode : modes.list) {
+    if (!(mode.frequency > last * (1 + same)) || count == dynamics::planetary_frequencies) continue;
+    set.set(fmt::format("frequency_{}_Hz", ++count), {mode.frequency, mode.frequency_error}, mode.error_parts);
+    last = mode.frequency;
+  }
+  return set;
 }
 
 std::string modes_csv(const StageModes& modes) {

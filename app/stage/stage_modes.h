@@ -5,6 +5,7 @@
 
 #include "app/stage/mesh_result.h"
 #include "core/csv.h"
+#include "core/figure.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
 namespace annulus::app {
@@ -39,6 +40,9 @@ struct MeshStiffnessErrors {
 /// The error of a frequency is that of the stiffnesses times half their shares of the strain energy of the mode, all
 /// taken to err the same way.
 [[nodiscard]] StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnessErrors& errors);
+
+/// The distinct natural frequencies above zero with their errors, by the keys of dynamics::planetary_figures.
+[[nodiscard]] FigureSet frequency_figures(const StageModes& modes);
 
 /// The text of modes.csv without its header lines.
 [[nodiscard]] std::string modes_csv(const StageModes& modes);

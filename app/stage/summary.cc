@@ -1,4 +1,4 @@
-#include "app/stage/summary.h"
+#include "app/stage/planetary_run.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ namespace annulus::app {
 
 namespace {
 
-using SummaryJson = nlohmann::ordered_json;
+using SummaryJson = Json;
 
 SummaryJson known(double x) { return std::isfinite(x) ? SummaryJson(x) : SummaryJson(nullptr); }
 
@@ -127,35 +127,20 @@ SummaryJson ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
 
 }  // namespace
 
-std::string summary_json(const RunResult& result) {
-  SummaryJson json = {{"title", result.scene.title},
-                      {"annulus_version", version()},
-                      {"kind", kind_name(result.scene.stage.kind)},
-                      {"accuracy_wanted", result.scene.accuracy}};
-  const auto& point = result.geometry.operating_point;
-  json["operating_point"] = {{"sun_torque_N_m", point.sun_torque},
-                             {"mesh_frequency_Hz", point.mesh_frequency},
-                             {"mean_mesh_force_N", point.mean_mesh_force}};
-  std::string ids = result.sun_mesh.model.id();
-  for (std::size_t i = 0; i < result.rings.size(); ++i) {
-    const auto& ring = result.rings[i];
-    auto& entry = json["rings"][ring.name] = ring_json(ring, result.sun_mesh);
-    entry.update(SummaryJson::parse(variant_studies_json(result.studies, i)));
-    ids += ring.mesh.model.id();
+Json RunResult::summary() const {
+  const auto& point = geometry.operating_point;
+  Json json = {{"operating_point",
+                {{"sun_torque_N_m", point.sun_torque},
+                 {"mesh_frequency_Hz", point.mesh_frequency},
+                 {"mean_mesh_force_N", point.mean_mesh_force}}}};
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    auto& entry = json["rings"][rings[i].name] = ring_json(rings[i], sun_mesh);
+    entry.update(Json::parse(variant_studies_json(studies, i)));
   }
-  json.update(SummaryJson::parse(studies_json(result.studies)));
-  ContentId inputs;
-  for (const auto& input : result.scene.inputs) inputs.add(input.ring + "." + input.key, to_text(input.value));
-  json["inputs_id"] = inputs.add("meshes", ids).id();
-  json["inputs"] = SummaryJson::parse(inputs_json(result.plan.inputs));
-  for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
-  json["peak_memory_MB"] = result.peak_memory_MB;
-  if (!result.cost.empty()) json["cost"] = SummaryJson::parse(cost_json(result.cost));
-  if (result.reuse) json["reuse"] = SummaryJson::parse(result.reuse->json());
-  return json.dump(2) + "\n";
+  return json;
 }
 
-std::string summary_text(const RunResult& result) {
+std::string RunResult::text() const {
   std::string text = fmt::format("{:<20} {:>16} {:>12} {:>12} {:>14} {:>14}\n", "ring", "stiffness N/m", "LTE um",
                                  "p-p um", "load sharing", "dyn. factor");
   const auto row = [&](const std::string& name, const MeshResult& mesh, const StageResponse* response) {
@@ -172,13 +157,10 @@ std::string summary_text(const RunResult& result) {
     }
     text += "\n";
   };
-  for (const auto& ring : result.rings) row(ring.name, ring.mesh, ring.response ? &*ring.response : nullptr);
-  row("(sun mesh)", result.sun_mesh, nullptr);
-  text += "load sharing: sun meshes, averaged over a mesh cycle; dynamic factor: largest of all sun meshes\n\ntime   ";
-  for (const auto& [stage, seconds] : result.timings) text += fmt::format(" {} {:.2f} s ", stage, seconds);
-  text += fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
-  if (const std::string cost = cost_sentence(result); !cost.empty()) text += "cost    " + cost + "\n";
-  return result.reuse ? text + result.reuse->text() : text;
+  for (const auto& ring : rings) row(ring.name, ring.mesh, ring.response ? &*ring.response : nullptr);
+  row("(sun mesh)", sun_mesh, nullptr);
+  text += "load sharing: sun meshes, averaged over a mesh cycle; dynamic factor: largest of all sun meshes\n";
+  return text;
 }
 
 }  // namespace annulus::app

@@ -28,9 +28,8 @@ StudyJson statistics_json(const FigureStatistics& s) {
 StudyJson point_json(const StudyResults& studies, const StudyPoint& point) {
   if (!point.failure.empty()) return {{"failure", point.failure}};
   StudyJson json;
-  for (std::size_t i = 0; i < studies.figures.size(); ++i) {
-    if (studies.figures[i].quick) json[studies.figures[i].column] = finite_or_null(point.value(i));
-  }
+  for (const auto& figure : studies.figures)
+    if (figure.effort != FigureEffort::motion) json[figure.key] = finite_or_null(point.value(figure.key));
   return json;
 }
 
@@ -41,11 +40,11 @@ int count_failed(const std::vector<StudyPoint>& points) {
 }
 
 void add_plotted(StudyJson& json, const StudyResults& studies, const std::vector<StudyPoint>& points) {
-  for (std::size_t i = 0; i < studies.figures.size(); ++i) {
-    if (!studies.figures[i].plotted) continue;
+  for (const auto& figure : studies.figures) {
+    if (!figure.plotted) continue;
     auto list = StudyJson::array();
-    for (const auto& point : points) list.push_back(finite_or_null(point.value(i)));
-    json[studies.figures[i].column] = std::move(list);
+    for (const auto& point : points) list.push_back(finite_or_null(point.value(figure.key)));
+    json[figure.key] = std::move(list);
   }
 }
 

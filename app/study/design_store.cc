@@ -16,12 +16,13 @@ std::optional<Design> DesignStore::find(const std::vector<double>& x) const {
     if (csv.header.size() < 5 || csv.header[1].second != id_) return std::nullopt;
     StartSpread spread{.starts = std::stoi(csv.header[2].second),
                        .motions = std::stoi(csv.header[3].second),
-                       .low = {},
-                       .high = {},
                        .not_steady = std::stoi(csv.header[4].second)};
-    for (const auto& row : csv.rows) {
-      spread.low.push_back(row.at(0));
-      spread.high.push_back(row.at(1));
+    if (!csv.rows.empty()) {
+      spread.low = spread.high = FigureRow(figures_);
+      for (std::size_t i = 0; i < csv.columns.size(); ++i) {
+        spread.low.set(csv.columns[i], csv.rows.at(0)[i]);
+        spread.high.set(csv.columns[i], csv.rows.at(1)[i]);
+      }
     }
     if (spread.starts > 0) design.starts = std::move(spread);
   } catch (const std::exception&) {
@@ -39,9 +40,15 @@ void DesignStore::save(const Design& design) const {
                      {"starts", std::to_string(spread.starts)},
                      {"motions", std::to_string(spread.motions)},
                      {"not_steady", std::to_string(spread.not_steady)}},
-          .columns = {"low", "high"},
+          .columns = {},
           .rows = {}};
-  for (std::size_t i = 0; i < spread.low.size(); ++i) csv.rows.push_back({spread.low[i], spread.high[i]});
+  // A column per result; the lowest values, then the highest ones.
+  for (const auto& figure : figures_) csv.columns.push_back(figure.key);
+  for (const auto* row : {&spread.low, &spread.high}) {
+    if (row->empty()) continue;
+    auto& cells = csv.rows.emplace_back();
+    for (const auto& figure : figures_) cells.push_back(row->value(figure.key));
+  }
   csv.write(starts_file());
 }
 

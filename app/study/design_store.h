@@ -13,8 +13,8 @@ namespace annulus::app {
 /// of all they depend on: a search that is read back need not follow its best design again.
 class DesignStore {
  public:
-  DesignStore(std::filesystem::path folder, std::string id, std::vector<StudyFigure> figures)
-      : folder_(std::move(folder)), id_(std::move(id)), figures_(std::move(figures)) {}
+  DesignStore(std::filesystem::path folder, std::string id, const std::vector<FigureSpec>& figures)
+      : folder_(std::move(folder)), id_(std::move(id)), figures_(figures) {}
 
   /// Nothing when it is not there or damaged.
   [[nodiscard]] std::optional<Design> find(const std::vector<double>& x) const;
@@ -26,7 +26,7 @@ class DesignStore {
 
   std::filesystem::path folder_;
   std::string id_;
-  std::vector<StudyFigure> figures_;
+  const std::vector<FigureSpec>& figures_;
 };
 
 }  // namespace annulus::app

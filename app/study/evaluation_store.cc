@@ -14,11 +14,12 @@ constexpr auto evaluations_interval = std::chrono::seconds(2);  // the most that
 }  // namespace
 
 EvaluationStore::EvaluationStore(std::filesystem::path file, std::string id, std::vector<std::string> variables,
-                                 std::vector<std::string> figures)
+                                 std::vector<std::string> figures, const std::vector<FigureSpec>& specs)
     : file_(std::move(file)),
       id_(std::move(id)),
       variables_(std::move(variables)),
       figures_(std::move(figures)),
+      specs_(specs),
       saved_(std::chrono::steady_clock::now()) {
   read();
 }
@@ -36,10 +37,13 @@ void EvaluationStore::read() {
       const auto n = static_cast<std::ptrdiff_t>(variables_.size());
       const std::vector<double> x(values.begin(), values.begin() + n);
       StudyPoint point;
-      if (values[variables_.size()] == 0)
-        point.values.assign(values.begin() + n + 1, values.end());
-      else
+      if (values[variables_.size()] == 0) {
+        point.figures = FigureRow(specs_);
+        for (std::size_t i = 0; i < figures_.size(); ++i)
+          point.figures.set(figures_[i], values[variables_.size() + 1 + i]);
+      } else {
         point.failure = failures.at(failure_line + std::to_string(row + 1));
+      }
       order_.push_back(x);
       points_[x] = std::move(point);
     }
@@ -72,7 +76,7 @@ void EvaluationStore::save() {
     const auto& point = points_.at(x);
     auto row = x;
     row.push_back(point.failure.empty() ? 0.0 : 1.0);
-    for (std::size_t i = 0; i < figures_.size(); ++i) row.push_back(point.value(i));
+    for (const auto& key : figures_) row.push_back(point.value(key));
     csv.rows.push_back(std::move(row));
     if (!point.failure.empty()) csv.header.emplace_back(failure_line + std::to_string(csv.rows.size()), point.failure);
   }

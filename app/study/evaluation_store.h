@@ -14,9 +14,10 @@ namespace annulus::app {
 /// already had. Values of variables are compared to the last bit.
 class EvaluationStore {
  public:
-  /// Reads what an earlier run with this identity kept; `variables` name the first columns, figures the others.
+  /// Reads what an earlier run with this identity kept; `variables` name the first columns, keys of
+  /// results among `specs` the others.
   EvaluationStore(std::filesystem::path file, std::string id, std::vector<std::string> variables,
-                  std::vector<std::string> figures);
+                  std::vector<std::string> figures, const std::vector<FigureSpec>& specs);
 
   /// nullptr: not known.
   [[nodiscard]] const StudyPoint* find(const std::vector<double>& x) const;
@@ -31,6 +32,7 @@ class EvaluationStore {
   std::filesystem::path file_;
   std::string id_;
   std::vector<std::string> variables_, figures_;
+  const std::vector<FigureSpec>& specs_;
   std::vector<std::vector<double>> order_;  ///< as they came
   std::map<std::vector<double>, StudyPoint> points_;
   int kept_ = 0;

@@ -18,10 +18,10 @@ namespace {
 const std::string failure_of = "failure_";
 constexpr int chunk_size = 20;  // samples per kept file: the most that an interruption costs, per thread
 
-std::vector<std::string> quick_columns(const std::vector<StudyFigure>& figures) {
+std::vector<std::string> quick_keys(const std::vector<FigureSpec>& figures) {
   std::vector<std::string> names;
   for (const auto& figure : figures) {
-    if (figure.quick) names.push_back(figure.column);
+    if (figure.effort != FigureEffort::motion) names.push_back(figure.key);
   }
   return names;
 }
@@ -33,7 +33,7 @@ class SampleStore {
       : subject_(subject),
         variant_(variant),
         variables_(variables),
-        figures_(subject.figures()),
+        figures_(quick_keys(subject.figures())),
         folder_(subject.folder(variant) / "monte_carlo"),
         id_(identity()) {
     std::filesystem::create_directories(folder_);
@@ -58,7 +58,7 @@ class SampleStore {
   [[nodiscard]] std::vector<std::string> columns() const {
     std::vector<std::string> names = {"sample", "failed"};
     for (const auto& variable : variables_) names.push_back(file_name(variable.input));
-    for (const auto& figure : quick_columns(figures_)) names.push_back(figure);
+    names.insert(names.end(), figures_.begin(), figures_.end());
     return names;
   }
 
@@ -120,9 +120,7 @@ class SampleStore {
     auto& row = csv.rows.emplace_back();
     row = {static_cast<double>(sample + 1), point.failure.empty() ? 0.0 : 1.0};
     for (const auto& change : drawn.overrides) row.push_back(change.value);
-    for (std::size_t i = 0; i < figures_.size(); ++i) {
-      if (figures_[i].quick) row.push_back(point.value(i));
-    }
+    for (const auto& key : figures_) row.push_back(point.value(key));
     if (point.failure.empty()) return;
     std::replace(point.failure.begin(), point.failure.end(), '\n', ' ');
     csv.header.emplace_back(failure_of + std::to_string(sample + 1), point.failure);
@@ -131,7 +129,7 @@ class SampleStore {
   const StudySubject& subject_;
   std::size_t variant_;
   const std::vector<RandomVariable>& variables_;
-  std::vector<StudyFigure> figures_;
+  std::vector<std::string> figures_;  ///< keys
   std::filesystem::path folder_;
   std::string id_;
 };
@@ -179,7 +177,7 @@ PairedOrder paired_order(const std::vector<VariantSamples>& variants, std::size_
 MonteCarloResult run_monte_carlo(const StudySubject& subject) {
   const auto& settings = *subject.scene().monte_carlo;
   const auto variables = random_variables(subject.scene());
-  const auto figures = subject.figures();
+  const auto& figures = subject.figures();
   const auto names = subject.variants();
   std::vector<SampleStore> stores;
   for (std::size_t i = 0; i < names.size(); ++i) stores.emplace_back(subject, i, variables);
@@ -213,7 +211,7 @@ MonteCarloResult run_monte_carlo(const StudySubject& subject) {
       variant.not_steady += row[failed] == 0 && row[steady] == 0 ? 1 : 0;
     }
     failures += variant.failed;
-    variant.statistics = statistics_of(variant.samples, quick_columns(figures));
+    variant.statistics = statistics_of(variant.samples, quick_keys(figures));
     variant.samples.write(subject.folder(i) / "monte_carlo.csv");
     if (variant.failed)
       log::warn(fmt::format("Monte Carlo{}: {} of {} samples failed; monte_carlo.csv tells why",
@@ -224,7 +222,7 @@ MonteCarloResult run_monte_carlo(const StudySubject& subject) {
     if (!figure.ordering) continue;
     for (std::size_t a = 0; a < names.size(); ++a) {
       for (std::size_t b = a + 1; b < names.size(); ++b)
-        result.orders.push_back(paired_order(result.variants, a, b, figure.column));
+        result.orders.push_back(paired_order(result.variants, a, b, figure.key));
     }
   }
   progress.finish(fmt::format("{} samples{}{}", settings.samples,

@@ -31,12 +31,12 @@ class DesignObjective {
         settings_(*scene_.optimise),
         figures_(subject.figures()),
         variant_(variant_of(subject)) {
-    for (const auto& column : settings_.objective) columns_.push_back(find_figure(figures_, column));
-    steady_ = find_figure(figures_, "steady");
-    quick_ = std::all_of(columns_.begin(), columns_.end(), [&](std::size_t i) { return figures_[i].quick; });
+    quick_ = std::all_of(settings_.objective.begin(), settings_.objective.end(), [&](const std::string& key) {
+      return find_figure(figures_, key)->effort != FigureEffort::motion;
+    });
     weights_ = settings_.weights;
-    const auto n = static_cast<double>(columns_.size());
-    if (weights_.empty()) weights_.assign(columns_.size(), 1 / n);
+    const auto n = static_cast<double>(settings_.objective.size());
+    if (weights_.empty()) weights_.assign(settings_.objective.size(), 1 / n);
   }
 
   [[nodiscard]] std::size_t variant() const { return variant_; }
@@ -46,7 +46,7 @@ class DesignObjective {
 
   [[nodiscard]] double value(const StudyPoint& point) const {
     double sum = 0;
-    for (std::size_t i = 0; i < columns_.size(); ++i) sum += weights_[i] * point.value(columns_[i]);
+    for (std::size_t i = 0; i < weights_.size(); ++i) sum += weights_[i] * point.value(settings_.objective[i]);
     return sum;
   }
 
@@ -54,17 +54,16 @@ class DesignObjective {
   /// integration happened to end: noise, among which a search finds its luck.
   [[nodiscard]] std::string trouble(const StudyPoint& point) const {
     if (!point.failure.empty()) return point.failure;
-    return steady_ != std::string::npos && point.value(steady_) == 0 ? "the motion does not become periodic" : "";
+    return point.value("steady") == 0 ? "the motion does not become periodic" : "";
   }
 
   /// Of the objective at the scene as given, as far as its figures carry errors.
   [[nodiscard]] double numerical_error() const {
     const auto nominal = subject_.nominal(variant_);
     double error = 0;
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      const auto known = nominal.find(settings_.objective[i]);
-      if (known != nominal.end() && std::isfinite(known->second.error))
-        error += std::abs(weights_[i]) * known->second.error;
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      const double known = nominal.figure(settings_.objective[i]).error;
+      if (std::isfinite(known)) error += std::abs(weights_[i]) * known;
     }
     return error;
   }
@@ -127,9 +126,8 @@ class DesignObjective {
     if (quick_ && d.point.failure.empty()) {
       // The same numbers as the search saw: the motion is sampled otherwise.
       const auto as_searched = evaluate(x, true);
-      for (std::size_t i = 0; i < figures_.size(); ++i) {
-        if (figures_[i].quick) d.point.values[i] = as_searched.value(i);
-      }
+      for (const auto& figure : figures_)
+        if (figure.effort != FigureEffort::motion) d.point.figures.set(figure.key, as_searched.value(figure.key));
     }
     d.objective = value(d.point);
     if (!d.point.failure.empty() || settings_.starts == 0) return d;
@@ -161,10 +159,8 @@ class DesignObjective {
   const StudySubject& subject_;
   const Scene& scene_;
   const OptimiseInput& settings_;
-  std::vector<StudyFigure> figures_;
+  const std::vector<FigureSpec>& figures_;
   std::size_t variant_ = 0;
-  std::vector<std::size_t> columns_;
-  std::size_t steady_ = 0;  ///< column, npos: the kind does not tell
   std::vector<double> weights_;
   bool quick_ = true;
   mutable std::mutex solving_;
@@ -197,12 +193,12 @@ OptimiseRun search(const StudySubject& subject, const DesignObjective& objective
   std::vector<std::string> variables, figures;
   for (const auto& v : scene.variables) variables.push_back(file_name(v.input));
   for (const auto& f : subject.figures()) {
-    if (f.quick || !objective.quick()) figures.push_back(f.column);
+    if (f.effort != FigureEffort::motion || !objective.quick()) figures.push_back(f.key);
   }
   // The answers depend on the scene, not on how the search goes on; the file is one search's.
   EvaluationStore store(
       subject.folder(objective.variant()) / "optimise" / fmt::format("{}_{}.csv", optimiser, repeat + 1),
-      subject.model({}, "[optimise]", objective.variant(), "", true).id, variables, figures);
+      subject.model({}, "[optimise]", objective.variant(), "", true).id, variables, figures, subject.figures());
   OptimiseRun run{.optimiser = optimiser, .repeat = repeat + 1, .search = {}, .kept = 0};
   const auto answer = [&](const std::vector<double>& x) {
     const StudyPoint* known = store.find(x);

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "app/content_id.h"
+#include "app/pipeline.h"
 #include "app/study/study_cases.h"
 #include "core/log.h"
 #include "dynamics/systems/planetary/initial_spread.h"
+#include "dynamics/systems/planetary/planetary_figures.h"
 
 namespace annulus::app {
 
@@ -18,107 +19,14 @@ std::vector<MeshModel> mesh_models(const Scene& scene, const GearGeometry& geome
   return models;
 }
 
-bool table_serves(const MeshModel& nominal, const MeshModel& changed, double mean_mesh_force) {
-  if (!nominal.computed() || !changed.computed()) return nominal.computed() == changed.computed();
-  const auto& loads = nominal.problem->loads;
-  if (mean_mesh_force < loads.front() || mean_mesh_force > loads.back()) return false;
-  MeshModel same_loads = changed;
-  same_loads.problem->loads = loads;
-  return same_loads.id() == nominal.id();
-}
-
 namespace {
-
-constexpr std::size_t listed_frequencies = 6;
-
-void append(std::vector<double>& row, const dynamics::KindFigures& f) {
-  row.insert(row.end(), {f.averaged, f.instantaneous, f.quasi_static, f.dynamic_factor, f.contact_loss});
-}
 
 StudyPoint point_of(const ChangedStage& changed, bool quick) {
   auto f = dynamics::evaluate_point(changed.stage, {.simulation = changed.simulation, .motion = !quick});
-  StudyPoint point;
-  append(point.values, f.sun_planet);
-  append(point.values, f.ring_planet);
-  point.values.push_back(f.steady ? 1 : 0);
-  if (!quick) {
-    for (const auto* m : {&f.sun, &f.sun_mesh, &f.ring_mesh})
-      point.values.insert(point.values.end(), {m->rms, m->peak_to_peak});
-    for (std::size_t i = 0; i < listed_frequencies; ++i)
-      point.values.push_back(i < f.frequencies.size() ? f.frequencies[i] : std::numeric_limits<double>::quiet_NaN());
-    point.poincare = std::move(f.poincare);
-  }
-  return point;
-}
-
-/// The one of the branch with the largest dynamic factor.
-Figure largest_factor(const dynamics::MeshKindResult& kind) {
-  return std::max_element(
-             kind.branches.begin(), kind.branches.end(),
-             [](const auto& a, const auto& b) { return a.dynamic_factor_max.value < b.dynamic_factor_max.value; })
-      ->dynamic_factor_max;
+  return {.figures = {dynamics::planetary_figures(), dynamics::figures(f, !quick)}, .poincare = std::move(f.poincare)};
 }
 
 }  // namespace
-
-std::vector<StudyFigure> planetary_figures() {
-  constexpr const char* share = "N F / ΣF";
-  constexpr const char* factor = "largest F / mean mesh force";
-  std::vector<StudyFigure> list;
-  for (const std::string mesh : {"sun", "ring"}) {
-    const std::string column = mesh + "_planet_", of = " of the " + mesh + " meshes";
-    list.push_back({.column = column + "load_sharing_averaged",
-                    .title = "Load sharing" + of + ", averaged over a mesh cycle",
-                    .label = share,
-                    .plotted = true,
-                    .spread = true,
-                    .ordering = true,
-                    .with = column + "load_sharing_quasi_static"});
-    list.push_back({.column = column + "load_sharing_instantaneous",
-                    .title = "Load sharing" + of + ", instantaneous",
-                    .label = share,
-                    .spread = true});
-    list.push_back({.column = column + "load_sharing_quasi_static",
-                    .title = "Load sharing" + of + ", quasi-static",
-                    .label = share,
-                    .spread = true});
-    list.push_back({.column = column + "dynamic_factor",
-                    .title = "Dynamic factor" + of,
-                    .label = factor,
-                    .plotted = true,
-                    .spread = true,
-                    .ordering = mesh == "sun"});
-    list.push_back({.column = column + "contact_loss",
-                    .title = "Time without contact, " + mesh + " meshes",
-                    .label = "worst planet, %",
-                    .scale = 100,
-                    .plotted = true});
-  }
-  list.push_back({.column = "steady", .title = "Periodic"});
-  for (const auto& [column, title] : {std::pair{"sun", "Motion of the sun"},
-                                      {"sun_planet_deflection", "Deflection of the sun mesh"},
-                                      {"ring_planet_deflection", "Deflection of the ring mesh"}}) {
-    const bool sun = std::string(column) == "sun", ring_mesh = std::string(column).starts_with("ring");
-    list.push_back({.column = std::string(column) + "_rms_m",
-                    .title = title,
-                    .label = "rms, µm",
-                    .scale = 1e6,
-                    .quick = false,
-                    .plotted = sun});
-    list.push_back({.column = std::string(column) + "_peak_to_peak_m",
-                    .title = title,
-                    .label = "peak to peak, µm",
-                    .scale = 1e6,
-                    .quick = false,
-                    .plotted = ring_mesh});
-  }
-  for (std::size_t i = 1; i <= listed_frequencies; ++i)
-    list.push_back({.column = fmt::format("frequency_{}_Hz", i),
-                    .title = fmt::format("Natural frequency {}", i),
-                    .label = "Hz",
-                    .quick = false});
-  return list;
-}
 
 std::vector<std::string> PlanetarySubject::variants() const {
   std::vector<std::string> names;
@@ -126,19 +34,9 @@ std::vector<std::string> PlanetarySubject::variants() const {
   return names;
 }
 
-NominalFigures PlanetarySubject::nominal(std::size_t ring) const {
-  NominalFigures figures;
+FigureSet PlanetarySubject::nominal(std::size_t ring) const {
   const auto& response = nominal_.rings.at(ring).response;
-  if (!response) return figures;
-  for (const auto& [mesh, kind] :
-       {std::pair{"sun_planet_", &response->figures.sun_planet}, {"ring_planet_", &response->figures.ring_planet}}) {
-    const std::string column = mesh;
-    figures[column + "load_sharing_averaged"] = kind->load_sharing.averaged;
-    figures[column + "load_sharing_instantaneous"] = kind->load_sharing.instantaneous;
-    figures[column + "load_sharing_quasi_static"] = kind->load_sharing.quasi_static;
-    figures[column + "dynamic_factor"] = largest_factor(*kind);
-  }
-  return figures;
+  return response ? dynamics::figures(response->figures) : FigureSet{};
 }
 
 const MeshResult& PlanetarySubject::nominal_mesh(std::size_t mesh) const {
@@ -220,17 +118,15 @@ std::optional<StartSpread> PlanetarySubject::starts(const std::vector<Override>&
   const auto spread = dynamics::initial_spread(
       changed.stage,
       {.random_starts = count - 1, .seed = static_cast<std::uint64_t>(seed), .simulation = changed.simulation});
-  StartSpread result{
-      .starts = count, .motions = spread.attractors, .low = {}, .high = {}, .not_steady = spread.unsteady};
+  const auto& specs = dynamics::planetary_figures();
+  StartSpread result{.starts = count, .motions = spread.attractors, .not_steady = spread.unsteady};
   for (const auto& start : spread.starts) {
-    std::vector<double> row;
-    append(row, start.sun_planet);
-    append(row, start.ring_planet);
-    row.push_back(start.steady ? 1 : 0);
+    const FigureRow row(
+        specs, dynamics::figures(dynamics::PointFigures{start.sun_planet, start.ring_planet, start.steady}, false));
     if (result.low.empty()) result.low = result.high = row;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      result.low[i] = std::min(result.low[i], row[i]);
-      result.high[i] = std::max(result.high[i], row[i]);
+    for (const auto& spec : specs) {
+      result.low.set(spec.key, std::min(result.low.value(spec.key), row.value(spec.key)));
+      result.high.set(spec.key, std::max(result.high.value(spec.key), row.value(spec.key)));
     }
   }
   return result;

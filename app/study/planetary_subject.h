@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "app/pipeline.h"
+#include "app/model/gear_system.h"
+#include "app/stage/planetary_run.h"
 #include "app/study/study_subject.h"
+#include "dynamics/systems/planetary/planetary_figures.h"
 
 namespace annulus::app {
 
@@ -19,13 +21,6 @@ struct ChangedStage {
 /// Sun mesh first, then one per ring.
 [[nodiscard]] std::vector<MeshModel> mesh_models(const Scene& scene, const GearGeometry& geometry);
 
-/// Whether a table solved for `nominal` answers for `changed` as well: the same bodies, and a mean mesh force within
-/// the tabulated loads, between which tables are interpolated.
-[[nodiscard]] bool table_serves(const MeshModel& nominal, const MeshModel& changed, double mean_mesh_force);
-
-/// The figures a planetary stage answers with.
-[[nodiscard]] std::vector<StudyFigure> planetary_figures();
-
 /// The rings of a planetary stage, on the tables of the nominal run where these serve and on others where not.
 class PlanetarySubject final : public StudySubject {
  public:
@@ -34,8 +29,8 @@ class PlanetarySubject final : public StudySubject {
   [[nodiscard]] const Scene& scene() const override { return nominal_.scene; }
   [[nodiscard]] const RunOptions& options() const override { return options_; }
   [[nodiscard]] std::vector<std::string> variants() const override;
-  [[nodiscard]] std::vector<StudyFigure> figures() const override { return planetary_figures(); }
-  [[nodiscard]] NominalFigures nominal(std::size_t ring) const override;
+  [[nodiscard]] const std::vector<FigureSpec>& figures() const override { return dynamics::planetary_figures(); }
+  [[nodiscard]] FigureSet nominal(std::size_t ring) const override;
   bool prepare(const std::vector<Override>& overrides, const std::string& where,
                const std::string& folder) const override;
   [[nodiscard]] ChangedModel model(const std::vector<Override>& overrides, const std::string& where, std::size_t ring,

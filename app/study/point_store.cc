@@ -29,10 +29,10 @@ double point_number(const PointJson& json) {
 
 }  // namespace
 
-std::string point_text(const StudyPoint& point, const std::vector<StudyFigure>& figures, const std::string& id) {
+std::string point_text(const StudyPoint& point, const std::vector<FigureSpec>& figures, const std::string& id) {
   PointJson json = {{"inputs_id", id}, {"failure", point.failure}};
   if (point.failure.empty()) {
-    for (std::size_t i = 0; i < figures.size(); ++i) json["figures"][figures[i].column] = point_number(point.value(i));
+    for (const auto& figure : figures) json["figures"][figure.key] = point_number(point.value(figure.key));
     json["poincare_N_m"] = PointJson::array();
     for (const auto& p : point.poincare)
       json["poincare_N_m"].push_back(PointJson::array({point_number(p.force), point_number(p.deflection)}));
@@ -40,7 +40,7 @@ std::string point_text(const StudyPoint& point, const std::vector<StudyFigure>& 
   return json.dump() + "\n";
 }
 
-std::optional<StudyPoint> read_point(const std::filesystem::path& file, const std::vector<StudyFigure>& figures,
+std::optional<StudyPoint> read_point(const std::filesystem::path& file, const std::vector<FigureSpec>& figures,
                                      const std::string& id) {
   std::ifstream in(file);
   if (!in) return std::nullopt;
@@ -49,7 +49,8 @@ std::optional<StudyPoint> read_point(const std::filesystem::path& file, const st
     if (json.at("inputs_id") != id) return std::nullopt;
     StudyPoint point{.failure = json.at("failure")};
     if (!point.failure.empty()) return point;
-    for (const auto& figure : figures) point.values.push_back(point_number(json.at("figures").at(figure.column)));
+    point.figures = FigureRow(figures);
+    for (const auto& figure : figures) point.figures.set(figure.key, point_number(json.at("figures").at(figure.key)));
     for (const auto& p : json.at("poincare_N_m"))
       point.poincare.push_back({point_number(p.at(0)), point_number(p.at(1))});
     return point;

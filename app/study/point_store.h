@@ -21,14 +21,14 @@ class PointStore {
 
  private:
   const StudySubject& subject_;
-  std::vector<StudyFigure> figures_;
+  const std::vector<FigureSpec>& figures_;
 };
 
 /// A point as a file of this identity, and read back from one: nothing when there is none, or another, or a damaged
-/// one.
-[[nodiscard]] std::string point_text(const StudyPoint& point, const std::vector<StudyFigure>& figures,
+/// one. The declarations are referred to by the point.
+[[nodiscard]] std::string point_text(const StudyPoint& point, const std::vector<FigureSpec>& figures,
                                      const std::string& id);
 [[nodiscard]] std::optional<StudyPoint> read_point(const std::filesystem::path& file,
-                                                   const std::vector<StudyFigure>& figures, const std::string& id);
+                                                   const std::vector<FigureSpec>& figures, const std::string& id);
 
 }  // namespace annulus::app

@@ -15,7 +15,7 @@ namespace annulus::app {
 namespace {
 
 /// Variants by falling value of the ordering figure; empty when one failed.
-std::vector<std::size_t> order_of(const std::vector<StudyPoint>& variants, std::size_t figure) {
+std::vector<std::size_t> order_of(const std::vector<StudyPoint>& variants, const std::string& figure) {
   std::vector<std::size_t> order(variants.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (const auto& point : variants) {
@@ -30,17 +30,17 @@ std::vector<std::size_t> order_of(const std::vector<StudyPoint>& variants, std::
 std::string sensitivity_csv(const StudySubject& subject, const SensitivityResult& result) {
   std::string text =
       fmt::format("# annulus_version: {}\n# factor: {:.17g}\ninput,ring,value", version(), result.factor);
-  const auto figures = subject.figures();
+  const auto& figures = subject.figures();
   const auto names = subject.variants();
   for (const auto* which : {"divided_", "nominal_", "multiplied_"}) {
-    for (const auto& figure : figures) text += std::string(",") + which + figure.column;
+    for (const auto& figure : figures) text += std::string(",") + which + figure.key;
   }
   text += ",order_of_rings_stays\n";
   for (const auto& row : result.rows) {
     for (std::size_t variant = 0; variant < names.size(); ++variant) {
       text += fmt::format("{},{},{:.17g}", row.input, names[variant], row.values[variant]);
       for (const auto* point : {&row.divided[variant], &result.nominal[variant], &row.multiplied[variant]}) {
-        for (std::size_t i = 0; i < figures.size(); ++i) text += fmt::format(",{:.17g}", point->value(i));
+        for (const auto& figure : figures) text += fmt::format(",{:.17g}", point->value(figure.key));
       }
       text += row.order_stays ? ",1\n" : ",0\n";
     }
@@ -61,9 +61,9 @@ SensitivityResult run_sensitivity(const StudySubject& subject) {
     for (const auto& variant : points.variants) list.push_back(variant[i]);
     return list;
   };
-  const auto figures = subject.figures();
+  const auto& figures = subject.figures();
   const auto ordering = std::find_if(figures.begin(), figures.end(), [](const auto& f) { return f.ordering; });
-  const auto figure = static_cast<std::size_t>(ordering - figures.begin());
+  const std::string figure = ordering == figures.end() ? "" : ordering->key;
   SensitivityResult result{scene.sensitivity->factor, column(cases.size() - 1), {}};
   const auto order = order_of(result.nominal, figure);
   for (std::size_t i = 0; i < inputs.size(); ++i) {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "app/model/gear_system.h"
 #include "app/pipeline.h"
 #include "app/progress.h"
 #include "app/scene/input_place.h"
-#include "app/stage_kinds.h"
 #include "app/study/point_store.h"
 #include "app/study/study_runner.h"
 #include "app/tasks.h"

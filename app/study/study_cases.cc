@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/model/gear_system.h"
 #include "app/scene/input_place.h"
-#include "app/stage_kinds.h"
 #include "core/errors.h"
 
 namespace annulus::app {

@@ -1,15 +1,8 @@
 #include "app/study/study_result.h"
 
 #include <algorithm>
-#include <limits>
-
-#include "app/study/study_subject.h"
 
 namespace annulus::app {
-
-double StudyPoint::value(std::size_t figure) const {
-  return figure < values.size() ? values[figure] : std::numeric_limits<double>::quiet_NaN();
-}
 
 const FigureStatistics* VariantSamples::find(const std::string& figure) const {
   const auto found =
@@ -17,11 +10,7 @@ const FigureStatistics* VariantSamples::find(const std::string& figure) const {
   return found == statistics.end() ? nullptr : &*found;
 }
 
-double StudyResults::value(const StudyPoint& point, const std::string& column) const {
-  return point.value(find_figure(figures, column));
-}
-
-const StudyFigure* StudyResults::ordering() const {
+const FigureSpec* StudyResults::ordering() const {
   const auto found = std::find_if(figures.begin(), figures.end(), [](const auto& f) { return f.ordering; });
   return found == figures.end() ? nullptr : &*found;
 }

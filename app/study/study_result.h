@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,29 +14,14 @@
 /// What studies find: named figures of many responses to changed inputs, whatever the kind of the stage.
 namespace annulus::app {
 
-/// A figure that the lumped model of a stage answers with.
-struct StudyFigure {
-  std::string column;     ///< of all tables: "sun_planet_load_sharing_averaged", with its unit: "frequency_1_Hz"
-  std::string title;      ///< for people
-  std::string label{};    ///< of an axis: "N F / ΣF", "rms, µm"
-  double scale = 1;       ///< from the table to the axis
-  bool quick = true;      ///< found without the motion of the bodies
-  bool plotted = false;   ///< over sweeps and grids
-  bool spread = false;    ///< in the pictures and tables of Monte Carlo samples
-  bool ordering = false;  ///< compared between the variants; the first such one orders them
-  std::string with{};     ///< a figure drawn dashed in the same picture
-};
-
 /// The figures of one response, or why there are none.
 struct StudyPoint {
-  std::vector<double> values{};                     ///< in the order of the figures; NaN: not known
+  FigureRow figures{};
   std::vector<dynamics::PoincarePoint> poincare{};  ///< where the motion was asked for
   std::string failure{};                            ///< empty: none
   /// NaN for a point that failed.
-  [[nodiscard]] double value(std::size_t figure) const;
+  [[nodiscard]] double value(const std::string& key) const { return figures.value(key); }
 };
-
-using NominalFigures = std::map<std::string, Figure>;  ///< by column, with their errors
 
 struct SweepResult {
   SweepInput sweep;
@@ -57,7 +41,7 @@ struct GridResult {
 };
 
 struct FigureStatistics {
-  std::string figure;       ///< column of the samples
+  std::string figure;       ///< its key
   dynamics::Interval mean;  ///< Student's interval
   double deviation = 0;
   dynamics::Interval q05, median, q95;  ///< intervals between order statistics
@@ -103,8 +87,8 @@ struct SensitivityResult {
 
 /// Steady motions found from several initial conditions.
 struct StartSpread {
-  int starts = 0, motions = 0;    ///< motions: distinct ones
-  std::vector<double> low, high;  ///< of every quick figure of the subject over the starts
+  int starts = 0, motions = 0;  ///< motions: distinct ones
+  FigureRow low{}, high{};      ///< results of effort `forces` over the starts
   int not_steady = 0;
 };
 
@@ -141,18 +125,16 @@ struct OptimiseResults {
 
 struct StudyResults {
   std::vector<std::string> variants;  ///< names; a single empty one for kinds without variants
-  std::vector<StudyFigure> figures;
-  std::vector<NominalFigures> nominal{};  ///< by variant
+  std::vector<FigureSpec> figures;
+  std::vector<FigureSet> nominal{};  ///< by variant
   std::vector<SweepResult> sweeps{};
   std::vector<GridResult> grids{};
   std::optional<MonteCarloResult> monte_carlo{};
   std::optional<SensitivityResult> sensitivity{};
   std::optional<OptimiseResults> optimise{};
 
-  /// Of a point by column; NaN when there is none.
-  [[nodiscard]] double value(const StudyPoint& point, const std::string& column) const;
   /// The figure that orders the variants; nullptr when none does.
-  [[nodiscard]] const StudyFigure* ordering() const;
+  [[nodiscard]] const FigureSpec* ordering() const;
 };
 
 }  // namespace annulus::app

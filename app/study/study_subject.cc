@@ -1,7 +1,5 @@
 #include "app/study/study_subject.h"
 
-#include <algorithm>
-
 #include "app/pipeline.h"
 #include "core/errors.h"
 
@@ -17,11 +15,6 @@ RunOptions StudySubject::options_in(const std::string& folder) const {
 
 std::filesystem::path StudySubject::folder(std::size_t variant) const {
   return options().out / variants().at(variant) / "dynamics";
-}
-
-std::size_t find_figure(const std::vector<StudyFigure>& figures, const std::string& column) {
-  const auto found = std::find_if(figures.begin(), figures.end(), [&](const auto& f) { return f.column == column; });
-  return found == figures.end() ? std::string::npos : static_cast<std::size_t>(found - figures.begin());
 }
 
 StudyPoint evaluate(const ChangedModel& model, bool quick) {

@@ -16,7 +16,7 @@ struct RunOptions;
 /// The lumped model of a changed scene.
 struct ChangedModel {
   std::string id;  ///< of everything its answer depends on; empty when not asked for
-  /// The figures in the order of the subject's list; only the quick ones, the others NaN, when `quick`.
+  /// The subject's results; when `quick`, only those that need no motion, the others NaN.
   /// Throws what solving throws. Any number of threads at once.
   std::function<StudyPoint(bool quick)> answer;
 };
@@ -31,9 +31,9 @@ class StudySubject {
   [[nodiscard]] virtual const RunOptions& options() const = 0;
   /// Names, of folders too; a single empty one for kinds without variants.
   [[nodiscard]] virtual std::vector<std::string> variants() const = 0;
-  [[nodiscard]] virtual std::vector<StudyFigure> figures() const = 0;
-  /// The figures of the scene as it is, by column, for the pictures; may be empty.
-  [[nodiscard]] virtual NominalFigures nominal(std::size_t variant) const = 0;
+  [[nodiscard]] virtual const std::vector<FigureSpec>& figures() const = 0;
+  /// The results of the scene as it is with their errors; may be empty.
+  [[nodiscard]] virtual FigureSet nominal(std::size_t variant) const = 0;
 
   /// Solves what a changed scene needs beyond the nominal results (stiffness tables), with all threads, into
   /// OUT/`folder`; true when there was anything. Throws what solving throws.
@@ -57,9 +57,6 @@ class StudySubject {
   /// OUT/<variant>/dynamics
   [[nodiscard]] std::filesystem::path folder(std::size_t variant) const;
 };
-
-/// A column of the subject's figures; npos when there is none of this name.
-[[nodiscard]] std::size_t find_figure(const std::vector<StudyFigure>& figures, const std::string& column);
 
 /// The answer; errors of solver and input become the failure of the point.
 [[nodiscard]] StudyPoint evaluate(const ChangedModel& model, bool quick);

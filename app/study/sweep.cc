@@ -9,9 +9,10 @@ namespace annulus::app {
 
 namespace {
 
-void add_point(Csv& csv, std::vector<double> row, const StudyPoint& point, std::size_t figures, std::size_t number) {
+void add_point(Csv& csv, std::vector<double> row, const StudyPoint& point, const std::vector<FigureSpec>& figures,
+               std::size_t number) {
   row.push_back(point.failure.empty() ? 0.0 : 1.0);
-  for (std::size_t i = 0; i < figures; ++i) row.push_back(point.value(i));
+  for (const auto& figure : figures) row.push_back(point.value(figure.key));
   csv.rows.push_back(std::move(row));
   if (!point.failure.empty()) csv.header.emplace_back(fmt::format("failure_{}", number), point.failure);
 }
@@ -19,16 +20,16 @@ void add_point(Csv& csv, std::vector<double> row, const StudyPoint& point, std::
 void write_sweep(const StudySubject& subject, std::size_t number, const SweepResult& result) {
   const std::vector<std::pair<std::string, std::string>> header = {
       {"annulus_version", version()}, {"input", result.sweep.input}, {"unit", result.unit}};
-  const auto names = subject.figures();
+  const auto& specs = subject.figures();
   for (std::size_t variant = 0; variant < result.variants.size(); ++variant) {
     Csv figures, poincare;
     figures.header = poincare.header = header;
     figures.columns = {file_name(result.sweep.input), "failed"};
-    for (const auto& f : names) figures.columns.push_back(f.column);
+    for (const auto& f : specs) figures.columns.push_back(f.key);
     poincare.columns = {file_name(result.sweep.input), "mesh_cycle", "force_N", "deflection_m"};
     for (std::size_t i = 0; i < result.values.size(); ++i) {
       const auto& point = result.variants[variant][i];
-      add_point(figures, {result.values[i]}, point, names.size(), i + 1);
+      add_point(figures, {result.values[i]}, point, specs, i + 1);
       double cycle = 0;
       for (const auto& p : point.poincare) poincare.rows.push_back({result.values[i], cycle++, p.force, p.deflection});
     }
@@ -40,7 +41,7 @@ void write_sweep(const StudySubject& subject, std::size_t number, const SweepRes
 }
 
 void write_grid(const StudySubject& subject, std::size_t number, const GridResult& result) {
-  const auto names = subject.figures();
+  const auto& specs = subject.figures();
   for (std::size_t variant = 0; variant < result.variants.size(); ++variant) {
     Csv csv;
     csv.header = {{"annulus_version", version()},
@@ -49,10 +50,10 @@ void write_grid(const StudySubject& subject, std::size_t number, const GridResul
                   {"y_input", result.grid.y.input},
                   {"y_unit", result.y_unit}};
     csv.columns = {file_name(result.grid.x.input), file_name(result.grid.y.input), "failed"};
-    for (const auto& f : names) csv.columns.push_back(f.column);
+    for (const auto& f : specs) csv.columns.push_back(f.key);
     for (std::size_t i = 0; i < result.variants[variant].size(); ++i)
-      add_point(csv, {result.x[i % result.x.size()], result.y[i / result.x.size()]}, result.variants[variant][i],
-                names.size(), i + 1);
+      add_point(csv, {result.x[i % result.x.size()], result.y[i / result.x.size()]}, result.variants[variant][i], specs,
+                i + 1);
     const auto folder = subject.folder(variant);
     std::filesystem::create_directories(folder);
     csv.write(folder / fmt::format("grid_{}.csv", number));

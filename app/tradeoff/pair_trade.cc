@@ -11,15 +11,9 @@ namespace annulus::app {
 
 namespace {
 
-Figures figures_of(const dynamics::HelicalPair& pair, const dynamics::PairResponse& response) {
-  Figures figures = {relative(response.dynamic_factor), relative(response.dynamic.transmission_error.peak_to_peak),
-                     relative(response.acceleration.tooth)};
-  Figures frequencies;
-  for (const auto& mode : dynamics::modes(pair).modes)
-    if (mode.frequency > 0) frequencies.push_back({mode.frequency, not_known});
-  frequencies.resize(traded_frequencies, {not_known, not_known});
-  figures.insert(figures.end(), frequencies.begin(), frequencies.end());
-  figures.push_back({response.contact_loss, not_known});
+FigureSet figures_of(const dynamics::HelicalPair& pair, const dynamics::PairResponse& response) {
+  auto figures = dynamics::figures(response);
+  figures.add(dynamics::frequency_figures(pair));
   return figures;
 }
 
@@ -52,8 +46,7 @@ class PairTrade : public TradeSubject {
     const auto result = lumped(tables);
     return {.fidelity = {}, .settings = {}, .id = id_of(result, simulation), .figures = [result, simulation] {
               auto response = dynamics::evaluate_pair(*result.pair, simulation);
-              add_table_errors(result, response);
-              return figures_of(*result.pair, response);
+              return carried_pair_errors(result, simulation, response);
             }};
   }
 
@@ -103,7 +96,7 @@ class PairTrade : public TradeSubject {
  private:
   /// The lumped pair on these tables; without any on the stiffness that the scene gives.
   [[nodiscard]] PairRunResult lumped(const std::vector<MeshResult>& tables) const {
-    PairRunResult result{.scene = scene_, .geometry = geometry_, .plan = {}};
+    PairRunResult result(scene_);
     result.mesh =
         pair_mesh(scene_, geometry_, model_, tables.empty() ? std::nullopt : std::optional<MeshResult>(tables.front()));
     result.pair = make_pair(scene_, geometry_, pair_excitation(scene_, geometry_, result.mesh), errors_.amplitude);

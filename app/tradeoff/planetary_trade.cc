@@ -2,43 +2,28 @@
 #include <cmath>
 
 #include "app/content_id.h"
+#include "app/model/gear_system.h"
+#include "app/plan/plan.h"
 #include "app/scene/overrides.h"
+#include "app/stage/planetary_run.h"
 #include "app/tradeoff/measured_work.h"
 #include "app/tradeoff/trade_settings.h"
 #include "app/tradeoff/trade_subject.h"
 #include "core/errors.h"
 #include "core/log.h"
+#include "dynamics/systems/planetary/planetary_figures.h"
 
 namespace annulus::app {
 
 namespace {
 
-Figure largest_factor(const dynamics::MeshKindResult& kind) {
-  Figure largest{-1, 0};
-  for (const auto& branch : kind.branches) {
-    if (branch.dynamic_factor_max.value > largest.value) largest = branch.dynamic_factor_max;
-  }
-  return largest;
-}
-
 /// `errors` of the tables, where frequencies are to carry them.
-Figures figures_of(const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response,
-                   const std::optional<MeshStiffnessErrors>& errors) {
-  Figures figures = {relative(response.sun_planet.load_sharing.averaged),
-                     relative(response.sun_planet.load_sharing.instantaneous),
-                     relative(largest_factor(response.sun_planet)), relative(largest_factor(response.ring_planet))};
-  constexpr double same = 1e-6;
-  Figures frequencies;
-  for (const auto& mode : stage_modes(stage, errors.value_or(MeshStiffnessErrors{})).list) {
-    if (mode.frequency > 0 && (frequencies.empty() || mode.frequency > frequencies.back().value * (1 + same)))
-      frequencies.push_back({mode.frequency, errors ? mode.frequency_error / mode.frequency : not_known});
-  }
-  frequencies.resize(traded_frequencies, {not_known, not_known});
-  figures.insert(figures.end(), frequencies.begin(), frequencies.end());
-  double loss = 0;
-  for (const auto* kind : {&response.sun_planet, &response.ring_planet})
-    for (const auto& branch : kind->branches) loss = std::max(loss, branch.contact_loss);
-  figures.push_back({loss, not_known});
+FigureSet figures_of(const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response,
+                     const std::optional<MeshStiffnessErrors>& errors) {
+  auto figures = dynamics::figures(response);
+  auto frequencies = frequency_figures(stage_modes(stage, errors.value_or(MeshStiffnessErrors{})));
+  for (const auto& e : frequencies.entries())
+    figures.set(e.key, {e.figure.value, errors ? e.figure.error : not_known}, e.parts);
   return figures;
 }
 
@@ -75,7 +60,7 @@ std::vector<StageChange> stage_changes(const dynamics::PlanetaryStage& stage,
 class PlanetaryTrade : public TradeSubject {
  public:
   PlanetaryTrade(const Scene& scene, std::size_t ring)
-      : scene_(scene), ring_(ring), geometry_(make_geometry(scene)), plan_(make_plan(scene, geometry_)) {}
+      : scene_(scene), ring_(ring), geometry_(make_geometry(scene)), plan_(make_plan(scene)) {}
 
   [[nodiscard]] std::string name() const override { return scene_.rings.at(ring_).name; }
 

@@ -30,21 +30,18 @@ std::string setting_text(const TradePoint& p) { return p.fidelity + ", " + p.set
 std::string cheapest_text(const VariantTrade& variant, TradePart part, double accuracy) {
   const auto* p = variant.cheapest(part, accuracy);
   if (!p) return fmt::format("For {}: no setting but the finest.", percent(accuracy));
-  const auto& worst = trade_figures(p->kind)[*p->worst_figure()];
   return fmt::format("For {}: {}; {}, {:.0f} MB; errors up to {} ({}).", percent(accuracy), setting_text(*p),
-                     duration_text(p->cost.wall), p->cost.peak_memory_MB, percent(p->error()), worst.title);
+                     duration_text(p->cost.wall), p->cost.peak_memory_MB, percent(p->error()),
+                     variant.title(p->worst()->key));
 }
 
 /// "The planner, asked for 1 %: 3.1 s, 400 MB; errors up to 0.2 % (...)".
-std::string planned_text(const TradePoint& p) {
+std::string planned_text(const VariantTrade& variant, const TradePoint& p) {
   const std::string text = fmt::format("The planner, asked for {}: ", percent(*p.planned_for));
   if (!p.failure.empty()) return text + p.failure;
-  std::optional<std::size_t> worst;
-  for (std::size_t i = 0; i < p.values.size(); ++i)
-    if (trade_figures(p.kind)[i].promised && p.values[i].error == p.promised_error()) worst = i;
+  const auto* worst = variant.worst_guaranteed(p);
   return text + fmt::format("{}, {:.0f} MB; errors up to {}{}.", duration_text(p.cost.wall), p.cost.peak_memory_MB,
-                            percent(p.promised_error()),
-                            worst ? std::string(" (") + trade_figures(p.kind)[*worst].title + ")" : "");
+                            percent(variant.guaranteed_error(p)), worst ? " (" + variant.title(worst->key) + ")" : "");
 }
 
 const TradePoint* finest_of(const VariantTrade& variant, TradePart part) {
@@ -57,11 +54,11 @@ const TradePoint* finest_of(const VariantTrade& variant, TradePart part) {
 HtmlTable cheapest_table(const VariantTrade& variant, TradePart part) {
   HtmlTable table{.head = {"figure"}, .rows = {}};
   for (const double accuracy : wanted_accuracies) table.head.push_back(percent(accuracy));
-  for (std::size_t f = 0; f < variant.figures().size(); ++f) {
-    if (variant.front(part, f).empty()) continue;
-    std::vector<std::string> row = {variant.figures()[f].title};
+  for (const auto& figure : variant.figures) {
+    if (variant.front(part, figure.key).empty()) continue;
+    std::vector<std::string> row = {figure.title};
     for (const double accuracy : wanted_accuracies) {
-      const auto* p = variant.cheapest(part, accuracy, f);
+      const auto* p = variant.cheapest(part, accuracy, figure.key);
       row.push_back(p ? escape(setting_text(*p)) + " <span class=\"muted\">" + duration_text(p->cost.wall) + "</span>"
                       : std::string("the finest alone"));
     }
@@ -76,12 +73,13 @@ Plot fronts_plot(const VariantTrade& variant, TradePart part) {
   plot.x_log = plot.y_log = plot.legend = true;
   plot.width = 640;
   plot.height = 460;
-  for (std::size_t f = 0; f < variant.figures().size(); ++f) {
-    Series series{.label = variant.figures()[f].title, .colour = f};
-    for (const auto* p : variant.front(part, f)) {
-      if (!(p->error(f) > 0)) continue;
+  for (std::size_t f = 0; f < variant.figures.size(); ++f) {
+    const auto& figure = variant.figures[f];
+    Series series{.label = figure.title, .colour = f};
+    for (const auto* p : variant.front(part, figure.key)) {
+      if (!(p->error(figure.key) > 0)) continue;
       series.x.push_back(p->cost.wall);
-      series.y.push_back(p->error(f));
+      series.y.push_back(p->error(figure.key));
     }
     if (!series.x.empty()) plot.series.push_back(std::move(series));
   }
@@ -118,8 +116,8 @@ HtmlTable points_table(const VariantTrade& variant, TradePart part) {
       row.insert(row.end(), {"failed", escape(p.failure)});
     } else if (p.finest) {
       row.insert(row.end(), {"finest", ""});
-    } else if (const auto worst = p.worst_figure()) {
-      row.insert(row.end(), {percent(p.error()), escape(trade_figures(p.kind)[*worst].title)});
+    } else if (const auto* worst = p.worst()) {
+      row.insert(row.end(), {percent(p.error()), escape(variant.title(worst->key))});
     } else {
       row.insert(row.end(), {"", ""});
     }
@@ -131,16 +129,17 @@ HtmlTable points_table(const VariantTrade& variant, TradePart part) {
 /// Error of every figure, one column each.
 HtmlTable errors_table(const VariantTrade& variant, TradePart part) {
   HtmlTable table{.head = {"setting"}, .rows = {}, .css_class = "numbers"};
-  for (const auto& f : variant.figures()) table.head.emplace_back(f.title);
+  for (const auto& f : variant.figures) table.head.emplace_back(f.title);
   for (const auto& p : variant.points) {
     if (p.part != part || !p.failure.empty() || p.finest) continue;
     std::vector<std::string> row = {escape(setting_text(p))};
-    for (const auto& v : p.values) {
-      std::string cell = std::isfinite(v.error) ? percent(v.error) : "–";
-      if (std::isfinite(v.error_estimate)) cell += " <span class=\"muted\">(" + percent(v.error_estimate) + ")</span>";
+    for (const auto& f : variant.figures) {
+      const auto* v = p.find(f.key);
+      std::string cell = v && std::isfinite(v->error) ? percent(v->error) : "–";
+      if (v && std::isfinite(v->error_estimate))
+        cell += " <span class=\"muted\">(" + percent(v->error_estimate) + ")</span>";
       row.push_back(std::move(cell));
     }
-    row.resize(table.head.size(), "–");
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -157,7 +156,7 @@ std::string part_section(const VariantTrade& variant, TradePart part) {
   for (const double accuracy : wanted_accuracies)
     text += "<li>" + escape(cheapest_text(variant, part, accuracy)) + "</li>";
   for (const auto& p : variant.points)
-    if (p.part == part && p.planned_for) text += "<li>" + escape(planned_text(p)) + "</li>";
+    if (p.part == part && p.planned_for) text += "<li>" + escape(planned_text(variant, p)) + "</li>";
   text += "</ul>\n" + figure({plot_html(trade_plot(variant, part)), plot_html(fronts_plot(variant, part))}, "",
                              "Largest error over all figures against wall time. The line joins the settings that no "
                              "other beats in both; what leaves parts of the model out is marked apart.");
@@ -212,12 +211,9 @@ std::string trade_csv(const TradeOff& trade) {
       const std::string cost = fmt::format("{:.6g},{:.6g},{:.6g},{}\n", p.cost.wall, p.cost.processor,
                                            p.cost.peak_memory_MB, csv_cell(p.failure));
       if (p.values.empty()) text.append(head).append(",,,,").append(cost);
-      for (std::size_t i = 0; i < p.values.size(); ++i) {
-        const auto& v = p.values[i];
-        if (!std::isfinite(v.value)) continue;
-        text += fmt::format("{}{},{},{},{},{}", head, trade_figures(p.kind)[i].column, csv_cell(v.value),
-                            csv_cell(v.error), csv_cell(v.error_estimate), cost);
-      }
+      for (const auto& v : p.values)
+        text += fmt::format("{}{},{},{},{},{}", head, v.key, csv_cell(v.value), csv_cell(v.error),
+                            csv_cell(v.error_estimate), cost);
     }
   }
   return text;
@@ -234,7 +230,7 @@ std::string trade_text(const TradeOff& trade) {
                             p->cost.peak_memory_MB, percent(p->error()), setting_text(*p));
       for (const double accuracy : wanted_accuracies) text += "  " + cheapest_text(variant, part, accuracy) + "\n";
       for (const auto& p : variant.points)
-        if (p.part == part && p.planned_for) text += "  " + planned_text(p) + "\n";
+        if (p.part == part && p.planned_for) text += "  " + planned_text(variant, p) + "\n";
     }
   }
   return text;

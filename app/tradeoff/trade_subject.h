@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/pipeline.h"
-#include "app/tradeoff/trade_figures.h"
+#include "app/model/run_options.h"
+#include "app/stage/mesh_result.h"
 #include "core/figure.h"
 
 /// What is measured: meshes that are solved into tables, and a lumped model that takes them.
@@ -28,9 +28,8 @@ struct TradeMotion {
   std::string id;        ///< identity of everything the figures depend on
   bool finest = false;
   bool changes_model = false;  ///< its error is not one of numbers
-  /// Those of the motion, the largest fraction of the time without contact behind them. Throws when there is no
-  /// periodic motion.
-  std::function<Figures()> figures;
+  /// Results of the motion, with the errors that the program states. Throws when there is no periodic motion.
+  std::function<FigureSet()> figures;
 };
 
 class TradeSubject {
@@ -57,13 +56,8 @@ class TradeSubject {
                                                          const std::filesystem::path& folder) const = 0;
 };
 
-/// One per ring, or the pair or reducer. Throws what making the geometry throws.
-[[nodiscard]] std::vector<std::unique_ptr<TradeSubject>> trade_subjects(const Scene& scene);
 [[nodiscard]] std::unique_ptr<TradeSubject> pair_trade_subject(const Scene& scene);  ///< pair_trade.cc
 [[nodiscard]] std::unique_ptr<TradeSubject> planetary_trade_subject(const Scene& scene, std::size_t ring);
 [[nodiscard]] std::unique_ptr<TradeSubject> two_k_v_trade_subject(const Scene& scene);  ///< two_k_v_trade.cc
-
-/// A figure with its error relative to it.
-[[nodiscard]] inline Estimate relative(const Figure& f) { return {f.value, f.error / std::abs(f.value)}; }
 
 }  // namespace annulus::app

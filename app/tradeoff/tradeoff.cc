@@ -6,12 +6,14 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "app/content_id.h"
+#include "app/model/gear_system.h"
+#include "app/pipeline.h"
 #include "app/tradeoff/trade_subject.h"
 #include "core/errors.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "core/log.h"
 #include "fem/problem/plane_strain_error.h"
 
@@ -19,21 +21,9 @@ namespace annulus::app {
 
 namespace {
 
-using Json = nlohmann::json;
-Json to_json(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-double number(const Json& json) { return json.is_null() ? not_known : json.get<double>(); }
-
-std::string figures_text(const Figures& figures) {
-  Json json = Json::array();
-  for (const auto& f : figures) json.push_back({to_json(f.value), to_json(f.error_relative)});
-  return json.dump();
-}
-
-Figures parse_figures(const std::string& text) {
-  Figures figures;
-  for (const auto& f : Json::parse(text)) figures.push_back({number(f[0]), number(f[1])});
-  return figures;
-}
+std::string mean_key(const std::string& mesh) { return mesh + "_mean_stiffness_N_per_m"; }
+std::string entries_key(const std::string& mesh) { return mesh + "_stiffness_entries_N_per_m"; }
+std::string lte_key(const std::string& mesh) { return mesh + "_lte_peak_to_peak_m"; }
 
 /// All settings of a ring in the plane share plane strain, also the one they are held against.
 double common_error(const MeshResult& mesh) {
@@ -43,23 +33,18 @@ double common_error(const MeshResult& mesh) {
              : fem::plane_strain_error(*mesh.model.problem);
 }
 
-Estimate mean_stiffness(const MeshResult& mesh) {
-  const auto mean = mesh.mean_stiffness();
-  return {mean.value, mean.error_relative - common_error(mesh)};
-}
+Figure absolute(double value, double relative) { return {value, std::abs(value) * relative}; }
 
-/// The mean, with the largest error of any position: what the wanted accuracy is about.
-Estimate stiffness_anywhere(const MeshResult& mesh) {
-  return {mesh.mean_stiffness().value, mesh.worst_stiffness_error() - common_error(mesh)};
-}
-
-/// Figures of the meshes: means, entries, ranges of the transmission error, each for all meshes.
-Figures mesh_figures(const std::vector<MeshResult>& tables) {
-  Figures figures;
-  for (const auto& mesh : tables) figures.push_back(mean_stiffness(mesh));
-  for (const auto& mesh : tables) figures.push_back(stiffness_anywhere(mesh));
-  for (const auto& mesh : tables) figures.push_back(mesh.lte_peak_to_peak());
-  return figures;
+/// Results of one mesh: the mean, with its own error; the mean again with the largest error of any position, which the
+/// wanted accuracy is about; the transmission error. What all settings leave out is not counted.
+FigureSet figures_of_mesh(const MeshResult& mesh) {
+  const auto mean = mesh.mean_stiffness(), lte = mesh.lte_peak_to_peak();
+  const double common = common_error(mesh);
+  FigureSet set;
+  set.set(mean_key(mesh.model.mesh), absolute(mean.value, mean.error_relative - common));
+  set.set(entries_key(mesh.model.mesh), absolute(mean.value, mesh.worst_stiffness_error() - common));
+  set.set(lte_key(mesh.model.mesh), absolute(lte.value, lte.error_relative));
+  return set;
 }
 
 StiffnessCycle stiffness_cycle(const MeshResult& mesh) {
@@ -116,11 +101,16 @@ std::string plain_name(std::string name) {
 
 class Measurement {
  public:
-  Measurement(const TradeSubject& subject, StageKind kind, const RunOptions& options, const TradeLists& lists)
-      : subject_(subject), kind_(kind), options_(options), lists_(lists), meshes_(subject.meshes()) {}
+  Measurement(const TradeSubject& subject, const std::vector<FigureSpec>& model, const RunOptions& options,
+              const TradeLists& lists)
+      : subject_(subject), options_(options), lists_(lists), meshes_(subject.meshes()) {
+    std::vector<MeshModel> models;
+    for (const auto& mesh : meshes_) models.push_back(mesh.planned);
+    figures_ = trade_figures(models, model);
+  }
 
   VariantTrade run() {
-    VariantTrade trade{.name = subject_.name(), .points = {}};
+    VariantTrade trade{.name = subject_.name(), .figures = figures_, .points = {}};
     const auto tell = [&](const std::string& what) {
       log::info(fmt::format("tradeoff of '{}': {}", trade.name, what));
     };
@@ -177,8 +167,7 @@ class Measurement {
   }
 
   TradePoint mesh_point(const MeshSetting& setting) {
-    TradePoint point{.kind = kind_,
-                     .fidelity = fidelity_name(setting.fidelity),
+    TradePoint point{.fidelity = fidelity_name(setting.fidelity),
                      .settings = setting.text(),
                      .finest = setting.finest,
                      .mesh = setting};
@@ -190,10 +179,8 @@ class Measurement {
 
   /// As a run with this wanted accuracy solves it.
   TradePoint planned_point(double accuracy) {
-    TradePoint point{.kind = kind_,
-                     .fidelity = "planned",
-                     .settings = fmt::format("for {:g} %", 100 * accuracy),
-                     .planned_for = accuracy};
+    TradePoint point{
+        .fidelity = "planned", .settings = fmt::format("for {:g} %", 100 * accuracy), .planned_for = accuracy};
     try {
       measure(subject_.planned(accuracy), fmt::format("planned_{:g}", accuracy), point);
     } catch (const InputError& error) {
@@ -209,32 +196,30 @@ class Measurement {
       if (auto solved = table(models[i], root() / meshes_[i].folder / name, point))
         tables.push_back(std::move(*solved));
     if (tables.size() < models.size()) return;
-    Figures figures = mesh_figures(tables);
+    FigureSet figures;
+    for (const auto& mesh : tables) figures.add(figures_of_mesh(mesh));
     if (subject_.has_motion()) {
       try {
         const auto motion = subject_.motion_on(tables);
         const auto done = kept_figures(root() / subject_.name() / name / "figures.json", motion);
         point.response = done.cost;
         if (!done.failure.empty()) throw SolverError(done.failure);
-        const auto found = parse_figures(done.answer);
-        figures.insert(figures.end(), found.begin(), found.end());
+        figures.add(figure_set_of(Json::parse(done.answer)));
       } catch (const Error& error) {
         point.failure = error.what();
       }
     }
-    figures.resize(trade_figures(kind_).size() + 1, {not_known, not_known});
     set_values(point, figures);
     for (const auto& mesh : tables) point.cycles.push_back(stiffness_cycle(mesh));
     if (point.finest) finest_ = std::move(tables);
   }
 
   [[nodiscard]] static MeasuredWork kept_figures(const std::filesystem::path& file, const TradeMotion& motion) {
-    return kept_work(file, motion.id, [&] { return figures_text(motion.figures()); });
+    return kept_work(file, motion.id, [&] { return to_json(motion.figures()).dump(); });
   }
 
   [[nodiscard]] TradePoint motion_point(TradeMotion motion) const {
-    TradePoint point{.kind = kind_,
-                     .part = TradePart::dynamics,
+    TradePoint point{.part = TradePart::dynamics,
                      .fidelity = motion.fidelity,
                      .settings = motion.settings,
                      .finest = motion.finest,
@@ -245,73 +230,110 @@ class Measurement {
     point.cost = done.cost;
     point.failure = done.failure;
     if (!done.failure.empty()) return point;
-    const auto found = parse_figures(done.answer);
-    Figures figures(trade_figures(kind_).size() + 1 - found.size(), {not_known, not_known});  // those of the meshes
-    figures.insert(figures.end(), found.begin(), found.end());
-    set_values(point, figures);
+    set_values(point, figure_set_of(Json::parse(done.answer)));
     return point;
   }
 
-  static void set_values(TradePoint& point, const Figures& figures) {
-    const std::size_t count = trade_figures(point.kind).size();
-    for (std::size_t i = 0; i < count; ++i)
-      point.values.push_back({figures[i].value, not_known, figures[i].error_relative});
-    if (std::isfinite(figures[count].value)) point.contact_loss = figures[count].value;
+  void set_values(TradePoint& point, const FigureSet& figures) const {
+    for (const auto& figure : figures_) {
+      const auto f = figures.figure(figure.key);
+      if (std::isfinite(f.value)) point.values.push_back({figure.key, f.value, not_known, f.error / std::abs(f.value)});
+    }
+    // Of one kind of mesh or of several; the largest.
+    for (const auto& entry : figures.entries())
+      if (entry.key.ends_with("contact_loss")) point.contact_loss = std::max(point.contact_loss, entry.figure.value);
   }
 
-  static void compare(std::vector<TradePoint>& points, TradePart part) {
+  void compare(std::vector<TradePoint>& points, TradePart part) const {
     const auto finest =
         std::find_if(points.begin(), points.end(), [part](const TradePoint& p) { return p.part == part && p.finest; });
     if (finest == points.end() || finest->values.empty()) return;
     for (auto& point : points) {
       if (point.part != part) continue;
-      for (std::size_t i = 0; i < point.values.size(); ++i) {
-        auto& value = point.values[i];
-        value.error = std::abs(value.value / finest->values[i].value - 1);
-        const auto mesh = trade_figures(point.kind)[i].entries_of;
-        if (part == TradePart::mesh && mesh)
-          value.error = largest_difference(point.cycles.at(*mesh), finest->cycles.at(*mesh));
+      for (auto& value : point.values) {
+        const auto* truth = finest->find(value.key);
+        if (truth) value.error = std::abs(value.value / truth->value - 1);
+        const auto figure =
+            std::find_if(figures_.begin(), figures_.end(), [&](const TradeFigure& f) { return f.key == value.key; });
+        if (part == TradePart::mesh && figure->entries_of)
+          value.error =
+              largest_difference(point.cycles.at(*figure->entries_of), finest->cycles.at(*figure->entries_of));
       }
     }
   }
 
   const TradeSubject& subject_;
-  StageKind kind_;
   const RunOptions& options_;
   const TradeLists& lists_;
   std::vector<TradeMesh> meshes_;
+  std::vector<TradeFigure> figures_;
   std::optional<std::vector<MeshResult>> finest_;
 };
 
 }  // namespace
 
-std::optional<std::size_t> TradePoint::worst_figure() const {
-  std::optional<std::size_t> worst;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::isfinite(values[i].error) && (!worst || values[i].error > values[*worst].error)) worst = i;
+std::vector<TradeFigure> trade_figures(const std::vector<MeshModel>& meshes, const std::vector<FigureSpec>& model) {
+  std::vector<TradeFigure> list;
+  const auto name = [](const MeshModel& mesh) { return "the " + mesh.label(); };
+  for (const auto& mesh : meshes)
+    list.push_back({mean_key(mesh.mesh), "mean stiffness of " + name(mesh), Guarantee::always});
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    list.push_back({entries_key(meshes[i].mesh), "stiffness of " + name(meshes[i]) + ", every entry of its table",
+                    Guarantee::always, i});
+  // A range of the transmission error is a small difference of large values: it carries an error of its own.
+  for (const auto& mesh : meshes)
+    list.push_back({lte_key(mesh.mesh), "transmission error of " + name(mesh) + ", peak to peak", Guarantee::none});
+  for (const auto& spec : model)
+    if (spec.cost_study) list.push_back({spec.key, spec.title, spec.guarantee});
+  return list;
+}
+
+const TradeValue* TradePoint::find(const std::string& key) const {
+  const auto found = std::find_if(values.begin(), values.end(), [&](const TradeValue& v) { return v.key == key; });
+  return found == values.end() ? nullptr : &*found;
+}
+
+const TradeValue* TradePoint::worst() const {
+  const TradeValue* worst = nullptr;
+  for (const auto& value : values)
+    if (std::isfinite(value.error) && (!worst || value.error > worst->error)) worst = &value;
+  return worst;
+}
+
+double TradePoint::error(const std::string& key) const {
+  const auto* value = key.empty() ? worst() : find(key);
+  return failure.empty() && value ? value->error : not_known;
+}
+
+const std::string& VariantTrade::title(const std::string& key) const {
+  const auto found = std::find_if(figures.begin(), figures.end(), [&](const TradeFigure& f) { return f.key == key; });
+  require(found != figures.end(), "a result of the cost study that is not declared");
+  return found->title;
+}
+
+const TradeValue* VariantTrade::worst_guaranteed(const TradePoint& point) const {
+  const TradeValue* worst = nullptr;
+  for (const auto& figure : figures) {
+    const bool covered = figure.guarantee == Guarantee::always ||
+                         (figure.guarantee == Guarantee::while_in_contact && !(point.contact_loss > 0));
+    const auto* value = point.find(figure.key);
+    if (covered && value && std::isfinite(value->error) && (!worst || value->error > worst->error)) worst = value;
   }
   return worst;
 }
 
-double TradePoint::error(std::optional<std::size_t> figure) const {
-  if (!figure) figure = worst_figure();
-  return failure.empty() && figure && *figure < values.size() ? values[*figure].error : not_known;
+double VariantTrade::guaranteed_error(const TradePoint& point) const {
+  if (!point.failure.empty() || point.values.empty()) return not_known;
+  const auto* worst = worst_guaranteed(point);
+  return worst ? worst->error : 0;
 }
 
-double TradePoint::stiffness_estimate() const {
+double VariantTrade::stiffness_estimate(const TradePoint& point) const {
   double largest = not_known;
-  for (std::size_t i = 0; failure.empty() && i < values.size(); ++i)
-    if (trade_figures(kind)[i].entries_of)
-      largest = std::isnan(largest) ? values[i].error_estimate : std::max(largest, values[i].error_estimate);
-  return largest;
-}
-
-double TradePoint::promised_error() const {
-  double largest = failure.empty() && !values.empty() ? 0 : not_known;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto& figure = trade_figures(kind)[i];
-    if (!figure.promised || (figure.while_teeth_touch && contact_loss > 0)) continue;
-    if (std::isfinite(values[i].error)) largest = std::max(largest, values[i].error);
+  if (!point.failure.empty()) return largest;
+  for (const auto& figure : figures) {
+    const auto* value = figure.entries_of ? point.find(figure.key) : nullptr;
+    if (value) largest = std::isnan(largest) ? value->error_estimate : std::max(largest, value->error_estimate);
   }
   return largest;
 }
@@ -322,25 +344,25 @@ const TradePoint* VariantTrade::planned(double accuracy) const {
   return nullptr;
 }
 
-const TradePoint* VariantTrade::cheapest(TradePart part, double accuracy, std::optional<std::size_t> figure) const {
+const TradePoint* VariantTrade::cheapest(TradePart part, double accuracy, const std::string& key) const {
   const TradePoint* best = nullptr;
   for (const auto& p : points) {
-    if (p.part != part || p.finest || p.planned_for || !(p.error(figure) <= accuracy)) continue;
+    if (p.part != part || p.finest || p.planned_for || !(p.error(key) <= accuracy)) continue;
     if (!best || p.cost.wall < best->cost.wall) best = &p;
   }
   return best;
 }
 
-std::vector<const TradePoint*> VariantTrade::front(TradePart part, std::optional<std::size_t> figure) const {
+std::vector<const TradePoint*> VariantTrade::front(TradePart part, const std::string& key) const {
   std::vector<const TradePoint*> list;
   for (const auto& p : points) {
-    if (p.part == part && !p.finest && !p.planned_for && std::isfinite(p.error(figure))) list.push_back(&p);
+    if (p.part == part && !p.finest && !p.planned_for && std::isfinite(p.error(key))) list.push_back(&p);
   }
   std::stable_sort(list.begin(), list.end(), [](const auto* a, const auto* b) { return a->cost.wall < b->cost.wall; });
   double best = std::numeric_limits<double>::infinity();
   std::erase_if(list, [&](const TradePoint* p) {
-    if (p->error(figure) >= best) return true;
-    best = p->error(figure);
+    if (p->error(key) >= best) return true;
+    best = p->error(key);
     return false;
   });
   return list;
@@ -348,13 +370,14 @@ std::vector<const TradePoint*> VariantTrade::front(TradePart part, std::optional
 
 TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options, const TradeLists& lists) {
   TradeOff trade{.scene = scene, .variants = {}, .total_seconds = 0};
-  const auto subjects = trade_subjects(scene);
+  const auto subjects = make_system(scene)->trades();
   for (const auto& subject : subjects)
     if (subject->meshes().empty() && !subject->has_motion())
       throw InputError(fmt::format("{}: '{}' has a given stiffness and no [dynamics]: there is nothing to trade",
                                    scene.file.string(), subject->name()));
   for (const auto& subject : subjects)
-    trade.variants.push_back(Measurement(*subject, scene.stage.kind, options, lists).run());
+    trade.variants.push_back(
+        Measurement(*subject, system_kind(scene.stage.kind).model_figures(), options, lists).run());
   for (const auto& variant : trade.variants) {
     for (const auto& p : variant.points) trade.total_seconds += p.cost.wall;
   }

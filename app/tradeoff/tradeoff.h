@@ -5,16 +5,28 @@
 #include <string>
 #include <vector>
 
-#include "app/pipeline.h"
+#include "app/model/run_options.h"
 #include "app/tradeoff/measured_work.h"
-#include "app/tradeoff/trade_figures.h"
 #include "app/tradeoff/trade_settings.h"
+#include "core/figure.h"
+#include "core/stiffness_table.h"
 
 /// Every model and setting measured: what it costs and how wrong it is (`annulus tradeoff`).
 namespace annulus::app {
 
+/// A result that the cost study measures.
+struct TradeFigure {
+  std::string key, title;
+  Guarantee guarantee = Guarantee::none;
+  std::optional<std::size_t> entries_of{};  ///< it stands for every entry of the table of that mesh
+};
+/// Of these meshes, mean, entries and transmission error; then those of the lumped model.
+[[nodiscard]] std::vector<TradeFigure> trade_figures(const std::vector<MeshModel>& meshes,
+                                                     const std::vector<FigureSpec>& model);
+
 /// A figure as one setting gives it.
 struct TradeValue {
+  std::string key;
   double value = 0;           ///< NaN: the setting does not give it
   double error = 0;           ///< true relative error: against the finest setting of its part
   double error_estimate = 0;  ///< what the program says of itself, relative; NaN: nothing
@@ -29,7 +41,6 @@ struct StiffnessCycle {
 
 /// One setting of a ring, a pair or a reducer.
 struct TradePoint {
-  StageKind kind = StageKind::planetary;
   TradePart part = TradePart::mesh;
   std::string fidelity;  ///< "plane"; of the dynamics: how the motion is found, "marching"
   std::string settings;  ///< "degree 2, level 1, 32 phases, 5 loads"
@@ -40,36 +51,37 @@ struct TradePoint {
   Cost cost{};            ///< meshes: of all tables, the memory of the largest one; dynamics: of the response
   Cost response{};        ///< meshes: of the response on these tables and its errors
   std::string failure{};  ///< why there are no figures
-  std::vector<TradeValue> values{};  ///< in the order of trade_figures(kind)
+  std::vector<TradeValue> values{};  ///< those that it gives
   double contact_loss = 0;           ///< largest fraction of the time that a mesh spends without contact
   /// Secant stiffness at the nominal load of every mesh; empty for the dynamics.
   std::vector<StiffnessCycle> cycles{};
 
-  /// Of one figure; without a figure, the largest over all that both settings give. NaN for a failure.
-  [[nodiscard]] double error(std::optional<std::size_t> figure = {}) const;
-  [[nodiscard]] std::optional<std::size_t> worst_figure() const;
-  /// The largest error of the figures that the wanted accuracy covers. NaN for a failure.
-  [[nodiscard]] double promised_error() const;
-  /// What the program says of the stiffness: the larger estimate of the tables' entries. NaN for a failure.
-  [[nodiscard]] double stiffness_estimate() const;
+  /// nullptr: it does not give it.
+  [[nodiscard]] const TradeValue* find(const std::string& key) const;
+  /// Of one result; without a key, the largest over all that both settings give. NaN for a failure.
+  [[nodiscard]] double error(const std::string& key = {}) const;
+  [[nodiscard]] const TradeValue* worst() const;  ///< nullptr: no error is known
 };
 
 /// A ring, a pair or a reducer.
 struct VariantTrade {
   std::string name;
+  std::vector<TradeFigure> figures;
   std::vector<TradePoint> points;  ///< those of the meshes, then those of the dynamics
 
-  [[nodiscard]] const std::vector<TradeFigure>& figures() const {
-    return trade_figures(points.empty() ? StageKind::planetary : points.front().kind);
-  }
-  /// The cheapest fixed setting of a part by wall time whose error (of one figure, or the largest) is within the
+  [[nodiscard]] const std::string& title(const std::string& key) const;
+  /// The largest error of the results that the wanted accuracy covers, and which one it is. NaN for a failure.
+  [[nodiscard]] double guaranteed_error(const TradePoint& point) const;
+  [[nodiscard]] const TradeValue* worst_guaranteed(const TradePoint& point) const;
+  /// What the program states of the stiffness: the largest estimate of the tables' entries. NaN for a failure.
+  [[nodiscard]] double stiffness_estimate(const TradePoint& point) const;
+  /// The cheapest fixed setting of a part by wall time whose error (of one result, or the largest) is within the
   /// accuracy; the finest itself does not count. nullptr: none.
-  [[nodiscard]] const TradePoint* cheapest(TradePart part, double accuracy,
-                                           std::optional<std::size_t> figure = {}) const;
+  [[nodiscard]] const TradePoint* cheapest(TradePart part, double accuracy, const std::string& key = {}) const;
   /// What the planner chose for an accuracy. nullptr: it was not asked.
   [[nodiscard]] const TradePoint* planned(double accuracy) const;
   /// Fixed settings of the part no other beats in both wall time and that error, by rising time.
-  [[nodiscard]] std::vector<const TradePoint*> front(TradePart part, std::optional<std::size_t> figure = {}) const;
+  [[nodiscard]] std::vector<const TradePoint*> front(TradePart part, const std::string& key = {}) const;
 };
 
 struct TradeOff {

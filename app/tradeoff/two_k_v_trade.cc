@@ -14,30 +14,6 @@ namespace annulus::app {
 
 namespace {
 
-Figure largest_factor(const std::vector<dynamics::TwoKVMeshResult>& meshes) {
-  Figure largest{-1, 0};
-  for (const auto& mesh : meshes)
-    if (mesh.dynamic_factor_max.value > largest.value) largest = mesh.dynamic_factor_max;
-  return largest;
-}
-
-Figures figures_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVResponse& response) {
-  Figures figures = {relative(largest_factor(response.sun_planet)), relative(largest_factor(response.arc_pins))};
-  // Of a range that is rounding alone no setting is wrong.
-  figures.push_back(motion_of(stage, response).output_moves() ? relative(response.dynamic.peak_to_peak)
-                                                              : Estimate{not_known, not_known});
-  Figures frequencies;
-  for (const auto& mode : dynamics::modes(stage).modes)
-    if (mode.frequency > 0) frequencies.push_back({mode.frequency, not_known});
-  frequencies.resize(traded_frequencies, {not_known, not_known});
-  figures.insert(figures.end(), frequencies.begin(), frequencies.end());
-  double loss = 0;
-  for (const auto* meshes : {&response.sun_planet, &response.arc_pins})
-    for (const auto& mesh : *meshes) loss = std::max(loss, mesh.contact_loss);
-  figures.push_back({loss, not_known});
-  return figures;
-}
-
 /// The sun mesh and the motion. The arc mesh is a matter of formulas.
 class TwoKVTrade : public TradeSubject {
  public:
@@ -99,10 +75,13 @@ class TwoKVTrade : public TradeSubject {
     return {.fidelity = {},
             .settings = {},
             .id = two_k_v_id(stage, simulation, {tables.front(), arc_pins_result(scene_)}),
-            .figures = [stage, simulation] {
-              const auto response = dynamics::simulate(stage, simulation);
+            .figures = [models = TwoKVModels{make_two_k_v(scene_, {tables.front(), arc_pins_result(scene_)},
+                                                          dynamics::LoadDependence::nominal),
+                                             stage, scene_.arc_gear.clearance},
+                        simulation] {
+              const auto response = dynamics::simulate(models.moving, simulation);
               if (!response.steady.steady) throw SolverError("the motion does not become periodic");
-              return figures_of(stage, response);
+              return evaluation_of(models, response).figures;
             }};
   }
 

@@ -1,25 +1,25 @@
 #include "app/two_k_v/two_k_v_motion.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "app/content_id.h"
 #include "core/errors.h"
 #include "core/files.h"
+#include "core/json.h"
+#include "dynamics/systems/two_k_v/two_k_v_figures.h"
 
 namespace annulus::app {
 
 namespace {
 
-using MotionJson = nlohmann::ordered_json;
+using MotionJson = Json;
 
 constexpr double highest_crank_order = 200;  // several multiples of both mesh orders
 
-MotionJson number_or_null(const std::optional<double>& x) {
-  return x && std::isfinite(*x) ? MotionJson(*x) : MotionJson(nullptr);
-}
 std::optional<double> optional_number(const MotionJson& json) {
   if (json.is_null()) return std::nullopt;
   return json.get<double>();
@@ -56,10 +56,10 @@ std::string motion_json(const TwoKVMotion& m, const std::string& id) {
                      {"crank_turns", m.crank_turns},
                      {"total_cycles", m.total_cycles},
                      {"steady", m.steady},
-                     {"steady_difference", number_or_null(m.steady_difference)},
-                     {"torque_balance_relative", number_or_null(m.torque_balance_relative)},
-                     {"largest_multiplier", number_or_null(m.largest_multiplier)},
-                     {"energy_relative", number_or_null(m.energy_relative)},
+                     {"steady_difference", json_number(m.steady_difference)},
+                     {"torque_balance_relative", json_number(m.torque_balance_relative)},
+                     {"largest_multiplier", json_number(m.largest_multiplier)},
+                     {"energy_relative", json_number(m.energy_relative)},
                      {"error_peak_to_peak_rad", m.error_peak_to_peak.value},
                      {"error_peak_to_peak_error_rad", m.error_peak_to_peak.error},
                      {"error_mean_rad", m.error_mean},
@@ -67,6 +67,7 @@ std::string motion_json(const TwoKVMotion& m, const std::string& id) {
                      {"static_error_peak_to_peak_rad", m.static_error_peak_to_peak},
                      {"sun_planet", meshes_json(m.sun_planet)},
                      {"arc_pins", meshes_json(m.arc_pins)}};
+  json["results"] = to_json(m.results);
   json["arc_bearings"] = MotionJson::array();
   for (const auto& b : m.arc_bearings)
     json["arc_bearings"].push_back(
@@ -94,6 +95,7 @@ TwoKVMotion parse_motion(const MotionJson& json) {
   m.static_error_peak_to_peak = json.at("static_error_peak_to_peak_rad");
   m.sun_planet = meshes_of(json.at("sun_planet"));
   m.arc_pins = meshes_of(json.at("arc_pins"));
+  m.results = figure_set_of(json.at("results"));
   for (const auto& b : json.at("arc_bearings"))
     m.arc_bearings.push_back({b.at("crank"), b.at("arc_gear"), b.at("largest_N"), b.at("mean_N")});
   return m;
@@ -129,8 +131,7 @@ double largest_of(const std::vector<dynamics::TwoKVMeshResult>& meshes,
 }  // namespace
 
 bool TwoKVMotion::output_moves() const {
-  constexpr double rounding = 1e-9;  // of the wind-up: a thousandth of what the integrators resolve
-  return std::max(error_peak_to_peak.value, static_error_peak_to_peak) > rounding * std::abs(error_mean);
+  return dynamics::output_moves(error_peak_to_peak.value, static_error_peak_to_peak, error_mean);
 }
 
 double TwoKVMotion::dynamic_factor(bool arc) const {
@@ -192,10 +193,36 @@ TwoKVMotion motion_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVRe
   return m;
 }
 
-TwoKVMotion simulate_two_k_v(const dynamics::TwoKVStage& stage, const dynamics::SimulationOptions& options,
-                             const std::string& id, const std::filesystem::path& folder) {
-  const auto response = dynamics::simulate(stage, options);
-  auto motion = motion_of(stage, response);
+namespace {
+
+std::string factor_key(const char* mesh, std::size_t n) { return fmt::format("{}{}_dynamic_factor", mesh, n + 1); }
+
+}  // namespace
+
+dynamics::Evaluation evaluation_of(const TwoKVModels& models, const dynamics::TwoKVResponse& response) {
+  dynamics::Evaluation evaluation{.figures = dynamics::static_figures(models.at_nominal, models.arc_clearance),
+                                  .outcome = response.steady};
+  evaluation.figures.add(dynamics::figures(models.moving, response));
+  const auto add = [&](const char* mesh, const std::vector<dynamics::TwoKVMeshResult>& list) {
+    for (std::size_t n = 0; n < list.size(); ++n)
+      evaluation.figures.set(factor_key(mesh, n), list[n].dynamic_factor_max);
+  };
+  add("sun_planet", response.sun_planet);
+  add("arc_pins", response.arc_pins);
+  return evaluation;
+}
+
+TwoKVMotion simulate_two_k_v(const TwoKVModels& models, const dynamics::SimulationOptions& options,
+                             const dynamics::TabulatedModel& tables, const std::string& id,
+                             const std::filesystem::path& folder) {
+  const auto response = dynamics::simulate(models.moving, options);
+  auto motion = motion_of(models.moving, response);
+  motion.results = propagate_errors(evaluation_of(models, response), tables);
+  motion.error_peak_to_peak.error = motion.results.figure("output_error_peak_to_peak_rad").error;
+  for (std::size_t n = 0; n < motion.sun_planet.size(); ++n)
+    motion.sun_planet[n].dynamic_factor_max.error = motion.results.figure(factor_key("sun_planet", n)).error;
+  for (std::size_t n = 0; n < motion.arc_pins.size(); ++n)
+    motion.arc_pins[n].dynamic_factor_max.error = motion.results.figure(factor_key("arc_pins", n)).error;
   std::filesystem::create_directories(folder);
   const std::vector<std::pair<std::string, std::string>> header = {{"annulus_version", version()}, {"inputs_id", id}};
   for (const auto& [name, table] : motion_tables(motion)) {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "core/csv.h"
+#include "core/figure.h"
+#include "dynamics/error_propagation/error_propagation.h"
 #include "dynamics/systems/two_k_v/two_k_v_response.h"
 
 namespace annulus::app {
@@ -23,6 +25,8 @@ struct TwoKVMotion {
   std::vector<dynamics::TwoKVMeshResult> sun_planet, arc_pins;
   std::vector<dynamics::ArcBearingResult> arc_bearings;
 
+  FigureSet results;  ///< by key, with the parts of their errors; of the lumped model and of every mesh
+
   Csv output_error;  ///< crank_turn, time_s, error_rad
   Csv static_error;  ///< crank_turn, error_rad: K(t) q = f
   Csv spectrum;      ///< frequency_Hz, crank_order, amplitude_rad; empty where the window holds no whole turns
@@ -39,10 +43,19 @@ struct TwoKVMotion {
 
 [[nodiscard]] TwoKVMotion motion_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVResponse& response);
 
-/// Simulates and writes figures.json, output_error.csv, output_error_static.csv, spectrum.csv, forces.csv and
-/// time_series.csv into `folder`.
-[[nodiscard]] TwoKVMotion simulate_two_k_v(const dynamics::TwoKVStage& stage,
-                                           const dynamics::SimulationOptions& options, const std::string& id,
+/// A 2K-V stage as its results need it.
+struct TwoKVModels {
+  dynamics::TwoKVStage at_nominal;  ///< tables at the nominal load: modes and statics
+  dynamics::TwoKVStage moving;
+  double arc_clearance = 0;  ///< m, see dynamics::lost_motion
+};
+/// Its results, those of every mesh by itself besides: sun_planet1_dynamic_factor, arc_pins2_dynamic_factor, ...
+[[nodiscard]] dynamics::Evaluation evaluation_of(const TwoKVModels& models, const dynamics::TwoKVResponse& response);
+
+/// Simulates, carries the errors of `tables` into the results and writes figures.json, output_error.csv,
+/// output_error_static.csv, spectrum.csv, forces.csv and time_series.csv into `folder`.
+[[nodiscard]] TwoKVMotion simulate_two_k_v(const TwoKVModels& models, const dynamics::SimulationOptions& options,
+                                           const dynamics::TabulatedModel& tables, const std::string& id,
                                            const std::filesystem::path& folder);
 /// The motion kept in `folder`, if its inputs are those of `id`.
 [[nodiscard]] std::optional<TwoKVMotion> load_two_k_v(const std::string& id, const std::filesystem::path& folder);

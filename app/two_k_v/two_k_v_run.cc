@@ -1,5 +1,4 @@
 #include "app/two_k_v/two_k_v_run.h"
-#include "app/report/report_files.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +6,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "app/pipeline.h"
 #include "app/plan/cost_actual.h"
-#include "app/scene/scene_files.h"
-#include "app/study/planetary_subject.h"
-#include "app/study/studies.h"
+#include "app/stage/mesh_figures.h"
 #include "app/tasks.h"
 #include "app/two_k_v/two_k_v_subject.h"
 #include "core/files.h"
@@ -38,19 +36,38 @@ void write_arc_table(const Scene& scene, const MeshResult& arc, const std::files
   arc.table.write_csv(folder / "stiffness_arc_pins.csv");
 }
 
-/// Without the motion.
-TwoKVCase make_case(Scene scene, MeshResult sun, const std::vector<double>& published, const RunOptions& options,
-                    const std::string& folder) {
-  auto arc = arc_pins_result(scene);
-  TwoKVCase c{.scene = std::move(scene), .tables = {std::move(sun), std::move(arc)}};
-  write_arc_table(c.scene, c.tables.arc, options.out / folder);
-  if (!options.with_dynamics || !c.scene.dynamics) return c;
+/// Modes and statics of a case.
+void vibrate(TwoKVCase& c, const std::vector<double>& published, const std::filesystem::path& folder) {
   const auto start = std::chrono::steady_clock::now();
   c.stage = make_two_k_v(c.scene, c.tables, dynamics::LoadDependence::nominal);
   c.vibration = vibration_of(*c.stage, c.scene.arc_gear.clearance, published);
-  write_vibration(*c.vibration, options.out / folder / "dynamics");
+  write_vibration(*c.vibration, folder / "dynamics");
   c.response_seconds = seconds_since(start);
-  return c;
+}
+
+TwoKVModels models_of(const Scene& scene, const TwoKVTables& tables) {
+  return {make_two_k_v(scene, tables, dynamics::LoadDependence::nominal),
+          make_two_k_v(scene, tables, scene.dynamics->load_dependence), scene.arc_gear.clearance};
+}
+
+/// The model of a case as a function of the tables of its meshes. Every evaluation shoots for the periodic motion anew.
+dynamics::TabulatedModel errors_in(const TwoKVCase& c, dynamics::SimulationOptions simulation) {
+  simulation.keep_series = false;
+  simulation.estimate_error = false;
+  const auto stage = make_two_k_v(c.scene, c.tables, c.scene.dynamics->load_dependence);
+  const bool sun = std::holds_alternative<dynamics::TableStiffness>(stage.sun_mesh),
+             arc = std::holds_alternative<dynamics::TableStiffness>(stage.arc_mesh);
+  dynamics::TabulatedModel model{.meshes = {}, .evaluate = {}, .seeks_steady_state = !simulation.mesh_cycles};
+  if (sun) model.meshes.push_back({"sun mesh", c.tables.sun.table, c.tables.sun.mean_stiffness().parts});
+  if (arc) model.meshes.push_back({"arc mesh", c.tables.arc.table, c.tables.arc.mean_stiffness().parts});
+  model.evaluate = [&c, simulation, sun, arc](const std::vector<StiffnessTable>& changed) {
+    auto tables = c.tables;
+    if (sun) tables.sun.table = changed.front();
+    if (arc) tables.arc.table = changed.back();
+    const auto models = models_of(c.scene, tables);
+    return evaluation_of(models, dynamics::simulate(models.moving, simulation));
+  };
+  return model;
 }
 
 TwoKVMotion motion_in(const TwoKVCase& c, const RunOptions& options, const std::string& folder) {
@@ -65,101 +82,97 @@ TwoKVMotion motion_in(const TwoKVCase& c, const RunOptions& options, const std::
     log::info(name + ": unchanged, reused");
     return std::move(*kept);
   }
-  auto motion = simulate_two_k_v(stage, simulation, id, out);
+  auto motion = simulate_two_k_v(models_of(c.scene, c.tables), simulation, errors_in(c, simulation), id, out);
   log::info(fmt::format("{}: {} turns of the crank, {}", name, motion.crank_turns,
                         motion.steady ? "periodic steady state" : "no periodic steady state"));
   return motion;
 }
 
-std::vector<std::pair<std::string, double>> two_k_v_timings(const TwoKVResult& result, const StageTimers& timers) {
-  double mesh = 0, condense = 0, contact = 0;
-  const auto add = [&](const TwoKVCase& c) {
-    const auto& sun = c.tables.sun;
-    if (sun.reused || !sun.model.computed()) return;
-    mesh += sun.fact("mesh_seconds");
-    condense += sun.fact("condense_seconds");
-    contact += sun.fact("contact_seconds");
-  };
-  add(result.own);
-  if (result.computed && !result.own.tables.sun.model.computed()) add(*result.computed);
-  double total = 0;
-  for (const auto& [stage, seconds] : timers.report())
-    if (stage == "total") total = seconds;
-  const double modes = timers.seconds("modes"), dynamics = timers.seconds("dynamics"),
-               studies = timers.seconds("studies");
-  return {{"mesh", mesh},
-          {"condense", condense},
-          {"contact", contact},
-          {"modes", modes},
-          {"dynamics", dynamics},
-          {"studies", studies},
-          {"other", std::max(0.0, total - mesh - condense - contact - modes - dynamics - studies)},
-          {"total", total}};
-}
-
 }  // namespace
 
-TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& given) {
-  StageTimers timers;
-  const RunOptions options = with_reuse(given);
-  std::optional<Reference> reference;
-  if (scene.reference) reference = read_reference(file_of_scene(scene, "reference", *scene.reference));
-  if (options.with_dynamics) check_studies(scene);  // before anything expensive
-  Plan plan = make_two_k_v_plan(scene, options.threads);
+TwoKVResult::TwoKVResult(const Scene& of) : arc(arc_tooth_mesh(of)), own{.scene = of, .tables = {}} { scene = of; }
+
+void TwoKVResult::solve_meshes(const RunOptions& options) {
   auto other = compared_scene(scene);
-  auto sun = sun_result(scene, "", options);
-  std::optional<MeshResult> other_sun;
-  if (other)
-    other_sun =
-        other->sun_planet.stiffness == scene.sun_planet.stiffness ? sun : sun_result(*other, compared_folder, options);
-  std::optional<TwoKVCase> own, computed;
+  own.tables = {sun_result(scene, "", options), arc_pins_result(scene)};
+  write_arc_table(scene, own.tables.arc, options.out);
+  if (!other) return;
+  const bool same_sun = other->sun_planet.stiffness == scene.sun_planet.stiffness;
+  TwoKVTables tables{same_sun ? own.tables.sun : sun_result(*other, compared_folder, options), arc_pins_result(*other)};
+  computed = TwoKVCase{.scene = std::move(*other), .tables = std::move(tables)};
+  write_arc_table(computed->scene, computed->tables.arc, options.out / compared_folder);
+}
+
+void TwoKVResult::respond(const RunOptions& options) {
+  const auto folder = [&](const TwoKVCase& c) { return &c == &own ? options.out : options.out / compared_folder; };
+  std::vector<TwoKVCase*> cases = {&own};
+  if (computed) cases.push_back(&*computed);
   {
     const auto timer = timers.measure("modes");
     std::vector<double> published;
     if (reference)
       for (const auto& value : reference->values)
         if (value.quantity == "frequency_1_Hz") published.push_back(value.value);
-    own = make_case(scene, std::move(sun), published, options, "");
-    if (other) computed = make_case(std::move(*other), std::move(*other_sun), published, options, compared_folder);
+    for (auto* c : cases) vibrate(*c, published, folder(*c));
   }
-  TwoKVResult result{.plan = std::move(plan), .arc = arc_tooth_mesh(scene), .own = std::move(*own)};
-  result.computed = std::move(computed);
-  result.reference = std::move(reference);
-  if (options.with_dynamics && scene.dynamics) {
-    const auto timer = timers.measure("dynamics");
-    for_each_task(result.computed ? 2 : 1, options.threads, [&](std::size_t i) {
-      auto& c = i == 0 ? result.own : *result.computed;
-      const auto start = std::chrono::steady_clock::now();
-      c.motion = motion_in(c, options, i == 0 ? "" : compared_folder);
-      c.response_seconds += seconds_since(start);
-    });
-  }
-  if (options.with_dynamics) {
-    const auto timer = timers.measure("studies");
-    const auto& c = result.own;
-    result.studies = run_studies(TwoKVSubject(c.scene, c.tables, c.motion ? &*c.motion : nullptr, options));
-  }
-  result.reuse = options.reuse;
-  result.timings = two_k_v_timings(result, timers);
-  result.peak_memory_MB = peak_memory_MB();
-  result.cost = actual_costs(result.plan.cost, [&](const CostStep& step) -> std::optional<CostRun> {
-    const auto& other_case = result.computed ? *result.computed : result.own;
-    if (step.kind == CostKind::mesh) return actual_mesh(step.size, other_case.tables.sun);
-    const auto& c = step.ring.empty() ? result.own : other_case;
-    if (!c.motion || c.motion->reused) return std::nullopt;
-    return actual_time(step.size, c.response_seconds);
+  const auto timer = timers.measure("dynamics");
+  for_each_task(cases.size(), options.threads, [&](std::size_t i) {
+    auto& c = *cases[i];
+    const auto start = std::chrono::steady_clock::now();
+    c.motion = motion_in(c, options, i == 0 ? "" : compared_folder);
+    c.response_seconds += seconds_since(start);
   });
-  keep_costs(result.cost);
-  std::filesystem::create_directories(options.out);
-  write_file(options.out / "summary.json", two_k_v_summary(result));
-  write_report(options.out / "report.html", two_k_v_report(result));
+}
+
+std::vector<const MeshResult*> TwoKVResult::meshes() const {
+  std::vector<const MeshResult*> list = {&own.tables.sun};
+  if (computed && !own.tables.sun.model.computed()) list.push_back(&computed->tables.sun);
+  return list;
+}
+
+std::vector<VariantFigures> TwoKVResult::variants() const {
+  std::vector<VariantFigures> list;
+  const auto add = [&](const char* name, const TwoKVCase& c) {
+    FigureSet set = mesh_figures(c.tables.sun);
+    set.add(mesh_figures(c.tables.arc));
+    if (c.motion) set.add(c.motion->results);
+    list.push_back({name, std::move(set)});
+  };
+  add("", own);
+  if (computed) add("computed stiffness", *computed);
+  return list;
+}
+
+std::optional<CostRun> TwoKVResult::actual(const CostStep& step) const {
+  const auto& other_case = computed ? *computed : own;
+  if (step.kind == CostKind::mesh) return actual_mesh(step.size, other_case.tables.sun);
+  const auto& c = step.ring.empty() ? own : other_case;
+  if (!c.motion || c.motion->reused) return std::nullopt;
+  return actual_time(step.size, c.response_seconds);
+}
+
+std::unique_ptr<StudySubject> TwoKVResult::subject(const RunOptions& options) const {
+  return std::make_unique<TwoKVSubject>(own.scene, own.tables, own.motion ? &*own.motion : nullptr, options);
+}
+
+std::string TwoKVResult::report() const { return two_k_v_report(*this); }
+
+TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options) {
+  TwoKVResult result(scene);
+  run_system(result, options);
   return result;
 }
 
-std::vector<std::string> two_k_v_tables_to_solve(const Scene& nominal, const Scene& changed) {
-  const auto before = two_k_v_sun_model(nominal), after = two_k_v_sun_model(changed);
-  if (table_serves(before, after, two_k_v_kinematics(changed).mean_sun_mesh_force())) return {};
-  return {after.label()};
+const std::vector<FigureSpec>& two_k_v_run_figures() {
+  static const auto list = [] {
+    auto specs = mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness");
+    const auto arc = mesh_figure_specs(arc_pins, "arc mesh", "arc_stiffness");
+    specs.insert(specs.end(), arc.begin(), arc.end());
+    const auto& model = dynamics::two_k_v_figures();
+    specs.insert(specs.end(), model.begin(), model.end());
+    return specs;
+  }();
+  return list;
 }
 
 double two_k_v_seconds(const Scene& scene) {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/pipeline.h"
+#include "app/model/system_run.h"
 #include "app/two_k_v/two_k_v_model.h"
 #include "app/two_k_v/two_k_v_motion.h"
 #include "app/two_k_v/two_k_v_vibration.h"
@@ -24,41 +24,45 @@ struct TwoKVCase {
   double response_seconds = 0;  ///< wall, vibration and motion
 };
 
-/// Everything a report needs.
-struct TwoKVResult {
-  Plan plan;
+struct TwoKVResult final : SystemRun {
+  explicit TwoKVResult(const Scene& of);
+
   std::optional<dynamics::ArcToothMesh> arc;  ///< absent when its dimensions are not given
   TwoKVCase own;                              ///< the scene as it is
   std::optional<TwoKVCase> computed{};        ///< with computed stiffness where the scene asks for a comparison
-  std::optional<Reference> reference{};
-  StudyResults studies{};
-  std::vector<std::pair<std::string, double>> timings{};
-  double peak_memory_MB = 0;
-  PlanCost cost{};  ///< predicted and actual, of the steps that were not reused
-  std::shared_ptr<const Reuse> reuse{};
 
-  [[nodiscard]] const Scene& scene() const { return own.scene; }
+  /// The sun meshes; writes stiffness tables of both meshes to options.out, of the compared case to
+  /// options.out/computed.
+  void solve_meshes(const RunOptions& options) override;
+  /// Vibration and motion of both cases.
+  void respond(const RunOptions& options) override;
+  [[nodiscard]] std::vector<const MeshResult*> meshes() const override;
+  [[nodiscard]] std::vector<VariantFigures> variants() const override;
+  [[nodiscard]] std::optional<CostRun> actual(const CostStep& step) const override;
+  [[nodiscard]] std::unique_ptr<StudySubject> subject(const RunOptions& options) const override;
+  [[nodiscard]] Json summary() const override;      // two_k_v_summary.cc
+  [[nodiscard]] std::string text() const override;  // two_k_v_summary.cc
+  [[nodiscard]] std::string report() const override;
 };
 
-[[nodiscard]] Plan make_two_k_v_plan(const Scene& scene, int threads = 1);
+/// All steps of a run of a scene of this kind.
+[[nodiscard]] TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options);
+
+/// The results of a reducer: those of its meshes, then those of its lumped model.
+[[nodiscard]] const std::vector<FigureSpec>& two_k_v_run_figures();
+
+/// What a plan says of a reducer (two_k_v_plan.cc).
+void describe_two_k_v(const Scene& scene, Plan& plan);
 /// The meshes that are solved or given: where the scene compares, those of the comparison.
 [[nodiscard]] std::vector<MeshModel> two_k_v_meshes(const Scene& scene);
 /// One for the scene, one for a comparison if it asks for it.
 [[nodiscard]] std::vector<PlannedResponse> two_k_v_responses(const Scene& scene);
 
-/// Writes stiffness tables, dynamics/*.csv, figures, summary.json and report.html to options.out; those of the compared
-/// case to options.out/computed. Throws what the stages throw; what is finished by then is reused.
-TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options);
-
-/// Tables a changed scene needs and the nominal one does not have.
-[[nodiscard]] std::vector<std::string> two_k_v_tables_to_solve(const Scene& nominal, const Scene& changed);
 /// Rough wall time of one response on one core.
 [[nodiscard]] double two_k_v_seconds(const Scene& scene);
 /// Time integration of one response: of `mesh_cycles`, else of the turns of the crank that shooting takes.
 [[nodiscard]] double two_k_v_marching_seconds(const Scene& scene);
 
-[[nodiscard]] std::string two_k_v_report(const TwoKVResult& result);   ///< HTML (two_k_v_report.cc)
-[[nodiscard]] std::string two_k_v_summary(const TwoKVResult& result);  ///< JSON (two_k_v_summary.cc)
-[[nodiscard]] std::string two_k_v_text(const TwoKVResult& result);     ///< for standard output
+[[nodiscard]] std::string two_k_v_report(const TwoKVResult& result);  ///< HTML (two_k_v_report.cc)
 
 }  // namespace annulus::app

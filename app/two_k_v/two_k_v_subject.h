@@ -7,12 +7,9 @@
 #include "app/study/study_subject.h"
 #include "app/two_k_v/two_k_v_model.h"
 #include "app/two_k_v/two_k_v_motion.h"
-#include "app/two_k_v/two_k_v_vibration.h"
+#include "dynamics/systems/two_k_v/two_k_v_figures.h"
 
 namespace annulus::app {
-
-/// The figures a 2K-V stage answers with.
-[[nodiscard]] std::vector<StudyFigure> two_k_v_figures();
 
 /// A 2K-V stage, on the table of the nominal sun mesh where it serves and on another where not. One variant, without a
 /// name.
@@ -24,8 +21,8 @@ class TwoKVSubject final : public StudySubject {
   [[nodiscard]] const Scene& scene() const override { return scene_; }
   [[nodiscard]] const RunOptions& options() const override { return options_; }
   [[nodiscard]] std::vector<std::string> variants() const override { return {""}; }
-  [[nodiscard]] std::vector<StudyFigure> figures() const override { return two_k_v_figures(); }
-  [[nodiscard]] NominalFigures nominal(std::size_t variant) const override;
+  [[nodiscard]] const std::vector<FigureSpec>& figures() const override { return dynamics::two_k_v_figures(); }
+  [[nodiscard]] FigureSet nominal(std::size_t variant) const override;
   bool prepare(const std::vector<Override>& overrides, const std::string& where,
                const std::string& folder) const override;
   [[nodiscard]] ChangedModel model(const std::vector<Override>& overrides, const std::string& where,

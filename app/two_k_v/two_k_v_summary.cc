@@ -17,7 +17,7 @@ namespace annulus::app {
 
 namespace {
 
-using ReducerJson = nlohmann::ordered_json;
+using ReducerJson = Json;
 
 ReducerJson finite(double x) { return std::isfinite(x) ? ReducerJson(x) : ReducerJson(nullptr); }
 ReducerJson finite(const std::optional<double>& x) { return x ? finite(*x) : ReducerJson(nullptr); }
@@ -96,29 +96,16 @@ ReducerJson case_json(const TwoKVCase& c) {
 
 }  // namespace
 
-std::string two_k_v_summary(const TwoKVResult& result) {
-  const auto& scene = result.scene();
-  ReducerJson json = {{"title", scene.title},
-                      {"annulus_version", version()},
-                      {"kind", kind_name(scene.stage.kind)},
-                      {"accuracy_wanted", scene.accuracy}};
-  for (const auto& q : result.plan.quantities) json["operating_point"][q.key] = q.value;
-  json.update(case_json(result.own));
-  if (result.computed) json["computed"] = case_json(*result.computed);
-  json.update(ReducerJson::parse(variant_studies_json(result.studies, 0)));
-  json.update(ReducerJson::parse(studies_json(result.studies)));
-  ContentId inputs;
-  for (const auto& input : scene.inputs) inputs.add(input.key, to_text(input.value));
-  json["inputs_id"] = inputs.add("mesh", result.own.tables.sun.model.id()).id();
-  json["inputs"] = ReducerJson::parse(inputs_json(result.plan.inputs));
-  for (const auto& [stage, seconds] : result.timings) json["timings_s"][stage] = seconds;
-  json["peak_memory_MB"] = result.peak_memory_MB;
-  if (!result.cost.empty()) json["cost"] = ReducerJson::parse(cost_json(result.cost));
-  json["reuse"] = ReducerJson::parse(result.reuse->json());
-  return json.dump(2) + "\n";
+Json TwoKVResult::summary() const {
+  Json json = Json::object();
+  for (const auto& q : plan.quantities) json["operating_point"][q.key] = q.value;
+  json.update(case_json(own));
+  if (computed) json["computed"] = case_json(*computed);
+  json.update(Json::parse(variant_studies_json(studies, 0)));
+  return json;
 }
 
-std::string two_k_v_text(const TwoKVResult& result) {
+std::string TwoKVResult::text() const {
   std::string text = fmt::format("{:<12} {:>14} {:>14} {:>12} {:>16} {:>18} {:>12}\n", "stiffness", "sun mesh N/m",
                                  "arc mesh N/m", "f1 Hz", "torsion Nm/rad", "output error, asec", "dyn. factor");
   constexpr double arc_second = std::numbers::pi / (180 * 3600);
@@ -132,14 +119,10 @@ std::string two_k_v_text(const TwoKVResult& result) {
                           std::max(c.motion->dynamic_factor(false), c.motion->dynamic_factor(true)));
     text += "\n";
   };
-  row("scene", result.own);
-  if (result.computed) row("computed", *result.computed);
-  text += "output error: peak to peak; dynamic factor: largest of all meshes\n\ntime   ";
-  for (const auto& [stage, seconds] : result.timings) text += fmt::format(" {} {:.2f} s ", stage, seconds);
-  text += fmt::format("\nmemory  {:.0f} MB at the peak\n", result.peak_memory_MB);
-  const std::string cost = cost_sentence(result.plan.cost, result.cost, result.peak_memory_MB);
-  if (!cost.empty()) text += "cost    " + cost + "\n";
-  return text + result.reuse->text();
+  row("scene", own);
+  if (computed) row("computed", *computed);
+  text += "output error: peak to peak; dynamic factor: largest of all meshes\n";
+  return text;
 }
 
 }  // namespace annulus::app

@@ -107,46 +107,13 @@ void align_shapes(dynamics::CrankModes& crank) {
   }
 }
 
-double hertz(double stiffness, double inertia) { return std::sqrt(stiffness / inertia) / (2 * std::numbers::pi); }
-
 }  // namespace
-
-bool constant_stiffness(const dynamics::TwoKVStage& stage) {
-  return std::holds_alternative<dynamics::ConstantStiffness>(stage.sun_mesh) &&
-         std::holds_alternative<dynamics::ConstantStiffness>(stage.arc_mesh);
-}
 
 int crank_positions(const dynamics::TwoKVStage& stage) {
   constexpr int least = 72, per_cycle = 8;
-  return constant_stiffness(stage) ? least : std::max(least, per_cycle * std::max(stage.planet_teeth, stage.arc_teeth));
-}
-
-OneDof one_dof(const dynamics::TwoKVStage& stage) {
-  OneDof one;
-  one.stiffness = dynamics::torsional_stiffness(stage, 1, dynamics::FrozenStiffness::mean).from_output[0];
-  one.input_inertia = stage.input_inertia * stage.ratio() * stage.ratio();
-  auto free = stage;
-  free.input_support = free.output_support = 0;
-  const auto system = dynamics::assemble(free);
-  Eigen::VectorXd motion = dynamics::rigid_motion(free, system);
-  motion[system.find("output_u")] = 0;
-  one.train_inertia = motion.dot(system.mass() * motion);
-  one.input_frequency = hertz(one.stiffness, one.input_inertia);
-  one.train_frequency = hertz(one.stiffness, one.train_inertia);
-  return one;
-}
-
-LostMotion lost_motion(const dynamics::TwoKVStage& stage, double stiffness, double arc_clearance) {
-  // By virtual work: the mesh forces of one newton metre at the output are the turns of the output per metre of play.
-  const double sun = 1 / (stage.ratio() * stage.sun_base_radius());
-  const double arc = (1 - 1 / stage.ratio()) / (stage.eccentricity * stage.pins);
-  LostMotion lost;
-  lost.backlash =
-      2 * (sun * stage.sun_half_backlash.value_or(0) + arc * (stage.arc_half_backlash.value_or(0) + arc_clearance));
-  constexpr double test_torque = 0.03;  // of the rated torque
-  lost.elastic = 2 * test_torque * stage.output_torque / stiffness;
-  lost.wind_up = stage.output_torque / stiffness;
-  return lost;
+  return dynamics::constant_stiffness(stage)
+             ? least
+             : std::max(least, per_cycle * std::max(stage.planet_teeth, stage.arc_teeth));
 }
 
 double TwoKVVibration::first_frequency() const {
@@ -169,8 +136,8 @@ TwoKVVibration vibration_of(const dynamics::TwoKVStage& stage, double arc_cleara
   v.seconds_per_position = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / positions;
   align_shapes(v.over_crank);
   v.torsion = dynamics::torsional_stiffness(stage, positions);
-  v.estimate = one_dof(stage);
-  v.lost = lost_motion(stage, v.torsion.mean(), arc_clearance);
+  v.estimate = dynamics::one_dof(stage);
+  v.lost = dynamics::lost_motion(stage, v.torsion.mean(), arc_clearance);
   v.inputs = frequency_inputs_of(stage, v.first_frequency(), targets);
   return v;
 }

@@ -5,10 +5,10 @@
 #include <ctime>
 #include <numbers>
 
+#include "app/model/gear_system.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/scene_limits.h"
 #include "app/scene/scene_schema.h"
-#include "app/stage_kinds.h"
 #include "app/study/studies.h"
 #include "core/errors.h"
 #include "core/files.h"

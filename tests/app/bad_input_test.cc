@@ -5,8 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "app/model/gear_system.h"
 #include "app/scene/scene_schema.h"
-#include "app/stage_kinds.h"
 #include "app/study/studies.h"
 #include "core/errors.h"
 #include "tests/app/bad_scenes.h"
@@ -44,7 +44,7 @@ Outcome outcome_of(const std::string& text) {
     try {
       app::check_stage(scene);
       app::check_studies(scene);
-      (void)app::plan_scene(scene, false);
+      (void)app::plan_scene(scene, app::PlanFormat::text);
       return {};
     } catch (const InputError& error) {
       return {error.what()};

@@ -12,6 +12,7 @@
 
 #include "app/pipeline.h"
 #include "app/report/report_parts.h"
+#include "app/stage/planetary_run.h"
 #include "app/stage/stage_modes.h"
 #include "core/files.h"
 #include "core/log.h"
@@ -95,7 +96,7 @@ BOOST_AUTO_TEST_CASE(frequencies_carry_the_errors_of_the_stiffness) {
                        "1.87e9", fmt::format("{:.17g}", TableScene::ring * ring)),
         "scene.toml");
     const auto geometry = app::make_geometry(scene);
-    const auto plan = app::make_plan(scene, geometry);
+    const auto plan = app::make_plan(scene);
     const auto mesh = [&](std::size_t i) {
       return app::mesh_stiffness(scene, geometry, plan.meshes[i], {"held"}, {.out = folder.path()});
     };

@@ -25,7 +25,7 @@ app::RunResult run_of(double stiff, double soft, double error) {
   };
   auto sun = mesh(0, 2e9);
   auto stiff_mesh = mesh(0, stiff), soft_mesh = mesh(1, soft);
-  auto plan = app::make_plan(scene, geometry);
+  auto plan = app::make_plan(scene);
   app::RunResult result{.scene = scene, .geometry = geometry, .plan = std::move(plan), .sun_mesh = std::move(sun)};
   result.rings.push_back({"stiff", std::move(stiff_mesh)});
   result.rings.push_back({"soft", std::move(soft_mesh)});

@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "app/model/gear_system.h"
 #include "app/plan/cost_actual.h"
 #include "app/plan/plan.h"
-#include "app/stage_kinds.h"
 #include "core/files.h"
 #include "tests/app/pair_scenes.h"
 #include "tests/app/run_program.h"
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(less_time_buys_less_accuracy) {
   const auto scene = app::parse_scene(computed_scene("accuracy = 0.02\n"), "s.toml");
   const auto predicted = [&](double accuracy) {
     const auto with = app::with_accuracy(scene, accuracy, "");
-    return app::make_plan(with, app::make_geometry(with), 2).cost.seconds();
+    return app::make_plan(with, 2).cost.seconds();
   };
   const double finest = predicted(0.001), coarsest = predicted(0.1);
   BOOST_REQUIRE(finest > 1.1 * coarsest);
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(a_budget_too_small_is_refused_with_the_figures) {
 BOOST_AUTO_TEST_CASE(every_kind_and_fidelity_has_a_budget) {
   for (const auto& text : {computed_scene("model = \"resolved\"\n"), test::solved_pair(), test::reducer_scene()}) {
     const auto scene = app::parse_scene(text, "s.toml");
-    const auto cost = app::stage_cost(scene, 2, app::CostModel(app::kept_cost_runs()));
+    const auto cost = app::make_system(scene)->cost(2, app::CostModel(app::kept_cost_runs()));
     BOOST_TEST(cost.seconds() > 0);
     BOOST_TEST(cost.peak_MB() > 100);
     const auto choice = fitted(scene, 1e6);
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(every_kind_and_fidelity_has_a_budget) {
   // The same accuracy costs many times as much where every contact has a mesh of its own.
   const auto seconds = [](const std::string& top) {
     const auto scene = app::parse_scene(computed_scene(top), "s.toml");
-    return app::stage_cost(scene, 2, app::CostModel(app::kept_cost_runs())).seconds();
+    return app::make_system(scene)->cost(2, app::CostModel(app::kept_cost_runs())).seconds();
   };
   BOOST_TEST(seconds("model = \"resolved\"\naccuracy = 0.01\n") > 10 * seconds("model = \"plane\"\naccuracy = 0.01\n"));
 }
@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(the_rest_of_the_scene_stays) {
 
 BOOST_AUTO_TEST_CASE(the_plan_tells_time_and_memory) {
   const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
-  const auto plan = app::make_plan(scene, app::make_geometry(scene), 2);
+  const auto plan = app::make_plan(scene, 2);
   const auto json = nlohmann::json::parse(app::to_json(plan));
   for (const auto& mesh : json["meshes"]) {
     BOOST_TEST(mesh["predicted_s"].get<double>() > 0);
@@ -157,10 +157,10 @@ BOOST_AUTO_TEST_CASE(the_plan_tells_time_and_memory) {
 BOOST_AUTO_TEST_CASE(plans_of_all_kinds_tell_time_and_memory) {
   for (const auto* name : {"helical_pair", "helical_pair_solid", "arc_tooth_2kv", "helical_set", "misaligned_set"}) {
     const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/" + name + ".toml");
-    const auto json = nlohmann::json::parse(app::plan_scene(scene, true, 2));
+    const auto json = nlohmann::json::parse(app::plan_scene(scene, app::PlanFormat::json, 2));
     BOOST_TEST(json["predicted_s"].is_number(), name);
     BOOST_TEST(json["predicted_peak_MB"].is_number(), name);
-    BOOST_TEST(app::plan_scene(scene, false, 2).find("not known") == std::string::npos, name);
+    BOOST_TEST(app::plan_scene(scene, app::PlanFormat::text, 2).find("not known") == std::string::npos, name);
   }
 }
 
@@ -173,7 +173,7 @@ BOOST_AUTO_TEST_CASE(predicted_and_actual_of_other_kinds) {
   for (const auto& text : {test::quick_pair(), test::solved_pair(), test::reducer_scene()}) {
     const auto scene = app::parse_scene(text, folder.path() / "s.toml");
     const app::RunOptions options{.out = folder.path() / std::to_string(text.size()), .threads = 2};
-    const std::string told = app::run_scene(scene, options);
+    const std::string told = app::run_text(*app::run_system(scene, options));
     BOOST_TEST(told.find("cost    predicted ") != std::string::npos, told);
     const auto json = nlohmann::json::parse(read_file(options.out / "summary.json"));
     BOOST_TEST(json["cost"]["predicted_s"].get<double>() > 0);

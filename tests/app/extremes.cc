@@ -7,10 +7,10 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "app/model/gear_system.h"
 #include "app/plan/mesh_model.h"
 #include "app/scene/scene_schema.h"
 #include "app/stage/gear_geometry.h"
-#include "app/stage_kinds.h"
 #include "core/errors.h"
 #include "tests/app/scene_edit.h"
 
@@ -70,7 +70,7 @@ Solved solve_scene(const std::string& text, const SolveChoice& choice) {
     const auto scene = app::parse_scene(text, "scene.toml");
     app::check_stage(scene);
     const bool planetary = scene.stage.kind == app::StageKind::planetary;
-    auto models = app::stage_meshes(scene);
+    auto models = app::make_system(scene)->meshes();
     auto& model = planetary && !choice.sun ? models.at(1) : models.at(0);
     solved.early = false;
     solved.problem = *model.problem;

@@ -10,6 +10,7 @@
 #include "app/pair/pair_model.h"
 #include "app/pipeline.h"
 #include "app/stage/gear_geometry.h"
+#include "app/stage/planetary_run.h"
 #include "core/errors.h"
 #include "tests/app/pair_scenes.h"
 #include "tests/app/scenes.h"

@@ -124,7 +124,7 @@ fem::LoadedMeshResult made_up_solution(const app::MeshModel& model) {
 
 app::RunResult made_up_run(const app::Scene& scene, int phases) {
   auto geometry = app::make_geometry(scene);
-  auto plan = app::make_plan(scene, geometry);
+  auto plan = app::make_plan(scene);
   for (auto& model : plan.meshes) model.problem->phases = phases;
   auto sun = app::pack(plan.meshes.front(), made_up_solution(plan.meshes.front()));
   app::RunResult result{.scene = scene, .geometry = std::move(geometry), .plan = plan, .sun_mesh = std::move(sun)};

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/model/gear_system.h"
 #include "app/pair/pair_errors.h"
 #include "app/pair/pair_model.h"
 #include "app/pair/pair_stiffness.h"
-#include "app/stage_kinds.h"
 #include "app/study/study_cases.h"
 #include "core/units.h"
 #include "tests/app/pair_scenes.h"

@@ -23,12 +23,12 @@ namespace {
 
 app::Plan plan_of(const std::string& text) {
   const auto scene = app::parse_scene(text, "scene.toml");
-  return app::make_plan(scene, app::make_geometry(scene));
+  return app::make_plan(scene);
 }
 
 nlohmann::json ring_types() {
   const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
-  return nlohmann::json::parse(app::to_json(app::make_plan(scene, app::make_geometry(scene))));
+  return nlohmann::json::parse(app::to_json(app::make_plan(scene)));
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_how_finely_tables_are_resolved) {
   for (const auto& [accuracy, loads] : {std::pair{"0.1", 3U}, {"0.03", 3U}, {"0.01", 5U}, {"0.001", 5U}}) {
     const auto changed = test::replaced(text, "accuracy = 0.01", std::string("accuracy = ") + accuracy);
     const auto scene = app::parse_scene(changed, std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
-    const auto plan = app::make_plan(scene, app::make_geometry(scene));
+    const auto plan = app::make_plan(scene);
     for (const auto& mesh : plan.meshes) {
       BOOST_TEST(mesh.problem->loads.size() == loads);
       BOOST_TEST(mesh.problem->phases >= phases);
@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(solid_meshes_tell_what_of_the_face_they_solve) {
     auto changed = test::replaced(text, "accuracy = 0.01", "accuracy = 0.01\n" + more);
     changed = test::replaced(changed, "[errors]", "[errors]\n" + error);
     const auto scene = app::parse_scene(changed, file);
-    return app::make_plan(scene, app::make_geometry(scene));
+    return app::make_plan(scene);
   };
   const auto symmetry = [](const app::MeshModel& mesh) -> app::Decision {
     for (const auto& d : app::decisions(mesh))
@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(more_than_the_finest_solid_gives_is_told_beforehand) {
   const std::string text = read_file(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/helical_set.toml");
   const auto cost_of = [&](double accuracy) {
     const auto scene = app::with_accuracy(app::parse_scene(text, "scene.toml"), accuracy, "asked here");
-    return app::to_text(app::make_plan(scene, app::make_geometry(scene)));
+    return app::to_text(app::make_plan(scene));
   };
   BOOST_TEST(cost_of(0.02).find("may be refused") == std::string::npos);
   BOOST_TEST(cost_of(0.002).find("more than the 0.2 % asked: the run may be refused at the end") != std::string::npos);
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_fidelity_elements_and_motion) {
   const auto planned = [&](const std::string& top) {
     const auto scene = app::parse_scene(test::replaced(text, "accuracy = 0.01", top),
                                         std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_types.toml");
-    return app::make_plan(scene, app::make_geometry(scene));
+    return app::make_plan(scene);
   };
   const auto decided = [](const std::vector<app::Decision>& list, const std::string& what) {
     for (const auto& d : list) {
@@ -227,7 +227,7 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_fidelity_elements_and_motion) {
 
 BOOST_AUTO_TEST_CASE(structures_their_fidelity_and_why) {
   const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/ring_structures.toml");
-  const auto plan = app::make_plan(scene, app::make_geometry(scene));
+  const auto plan = app::make_plan(scene);
   const auto mesh = [&](const std::string& ring) {
     for (const auto& m : plan.meshes) {
       if (m.ring == ring) return m;
@@ -325,7 +325,7 @@ BOOST_AUTO_TEST_CASE(asked_fidelities) {
   BOOST_TEST(fidelity(1).reason.find("the scene asks for it") == 0U);
   scene.fidelity = app::Fidelity::closed_form;
   BOOST_CHECK(fidelity(2).settings.fidelity == fem::Fidelity::closed_form);
-  const auto remarks = app::make_plan(scene, geometry).remarks;
+  const auto remarks = app::make_plan(scene).remarks;
   BOOST_TEST(std::any_of(remarks.begin(), remarks.end(),
                          [](const auto& r) { return r.find("not controlled") != std::string::npos; }));
   scene.fidelity = app::Fidelity::solid;

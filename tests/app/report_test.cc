@@ -6,7 +6,7 @@
 
 #include "app/report/report_parts.h"
 #include "app/report/svg_map.h"
-#include "app/stage/summary.h"
+#include "app/stage/planetary_run.h"
 #include "tests/app/made_up_solution.h"
 #include "tests/app/scenes.h"
 

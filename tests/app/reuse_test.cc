@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/pipeline.h"
-#include "app/stage/summary.h"
+#include "app/stage/planetary_run.h"
 #include "core/csv.h"
 #include "core/log.h"
 #include "tests/app/scenes.h"
@@ -61,8 +61,8 @@ BOOST_AUTO_TEST_CASE(a_second_run_computes_nothing) {
   BOOST_TEST((second.reuse->reused() == first.reuse->computed()));
   for (const auto& [things, count] : second.reuse->counts()) BOOST_TEST(count.computed == 0, things);
   BOOST_TEST(second.reuse->counted(app::study_responses).reused == 2);
-  BOOST_TEST(app::summary_text(second).find("computed ") == std::string::npos);
-  BOOST_TEST(app::summary_text(second).find("reused   ") != std::string::npos);
+  BOOST_TEST(app::run_text(second).find("computed ") == std::string::npos);
+  BOOST_TEST(app::run_text(second).find("reused   ") != std::string::npos);
 
   std::ifstream in(folder.path() / "summary.json");
   const auto json = nlohmann::json::parse(in)["reuse"];

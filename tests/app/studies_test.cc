@@ -333,7 +333,7 @@ BOOST_AUTO_TEST_CASE(the_plan_counts_what_is_to_come) {
                                           "[[sweep]]\ninput = \"stage.power_kW\"\nfrom = 1\nto = 9\ncount = 9\n" +
                                           few_samples + "[sensitivity]\n",
                                       "s");
-  const auto plan = app::make_plan(scene, app::make_geometry(scene));
+  const auto plan = app::make_plan(scene);
   BOOST_TEST_REQUIRE(plan.studies.size() == 3U);
   BOOST_TEST(plan.studies[0].responses == 18);
   BOOST_TEST(plan.studies[1].responses == 90);

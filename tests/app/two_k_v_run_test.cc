@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "app/stage_kinds.h"
+#include "app/model/gear_system.h"
 #include "app/two_k_v/two_k_v_subject.h"
 #include "core/files.h"
 #include "core/log.h"
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(lost_motion_of_backlash) {
   auto stage = app::two_k_v_kinematics(app::parse_scene(test::reducer_scene(), "reducer.toml"));
   stage.sun_half_backlash = 10e-6;
   stage.arc_half_backlash = 2e-6;
-  const auto lost = app::lost_motion(stage, 7e4, 1e-6);
+  const auto lost = annulus::dynamics::lost_motion(stage, 7e4, 1e-6);
   // The sun turns freely by 20 µm / r_bs; an arc mesh open by e lets the output turn by e z_p/(a z_s ratio).
   const double sun = 20e-6 / (5e-3 * std::cos(20 * std::numbers::pi / 180)) / 103,
                arc = 6e-6 * 34 / (0.9e-3 * 10 * 103);
@@ -165,11 +165,11 @@ BOOST_AUTO_TEST_CASE(studies_answer_with_named_figures) {
 
 BOOST_AUTO_TEST_CASE(plan_and_scenes_without_dynamics) {
   const auto scene = app::parse_scene(moving_scene(), "reducer.toml");
-  const auto plan = app::make_two_k_v_plan(scene);
+  const auto plan = app::make_plan(scene);
   BOOST_TEST(plan.meshes.size() == 2U);
   BOOST_TEST(plan.meshes[1].fidelity == "line_contact");
   BOOST_TEST(plan.dofs.size() == 8U);
-  BOOST_TEST(app::plan_scene(scene, true).find("\"ratio\": 103") != std::string::npos);
+  BOOST_TEST(app::plan_scene(scene, app::PlanFormat::json).find("\"ratio\": 103") != std::string::npos);
   const test::TemporaryFolder folder("reducer_solve");
   auto text = test::reducer_scene();
   text.erase(text.find("[dynamics]"));

@@ -1,9 +1,9 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "app/model/gear_system.h"
 #include "app/scene/overrides.h"
 #include "app/scene/scene_schema.h"
-#include "app/stage_kinds.h"
 #include "app/two_k_v/two_k_v_model.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(values_arrive_in_SI) {
   const auto stage = app::two_k_v_kinematics(scene);
   BOOST_TEST(stage.ratio() == 103.0);
   BOOST_TEST(stage.sun_mesh_frequency() == 510.0, boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(app::stage_text(scene) == "2 cranks with a planet each, 2 arc gears on 30 pins, ratio 103");
+  BOOST_TEST(app::make_system(scene)->describe() == "2 cranks with a planet each, 2 arc gears on 30 pins, ratio 103");
 }
 
 BOOST_AUTO_TEST_CASE(keys_of_other_kinds_are_refused) {

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "app/model/gear_system.h"
 #include "app/scene/scene_schema.h"
-#include "app/stage_kinds.h"
 #include "app/study/studies.h"
 #include "core/errors.h"
 

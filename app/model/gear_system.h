@@ -1,0 +1,93 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/plan/cost_plan.h"
+#include "app/plan/mesh_model.h"
+#include "app/scene/scene.h"
+#include "core/figure.h"
+
+namespace annulus::app {
+
+struct Plan;
+struct SystemRun;
+class TradeSubject;
+
+/// A gear system of a scene: what one kind of them answers to the commands, which know no kind. A new kind is a class
+/// of this sort in a folder of its own and a line in systems/registry.cc.
+class GearSystem {
+ public:
+  explicit GearSystem(const Scene& scene) : scene_(scene) {}
+  GearSystem(const GearSystem&) = delete;
+  GearSystem& operator=(const GearSystem&) = delete;
+  virtual ~GearSystem() = default;
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  /// One line for people: "3 rings, 5 planets".
+  [[nodiscard]] virtual std::string describe() const = 0;
+  /// The lumped models that are compared: the rings of a planetary stage; otherwise a single one without a name.
+  [[nodiscard]] virtual std::vector<std::string> variants() const { return {""}; }
+
+  /// Geometry and whatever else needs no solving. Throws InputError and GeometryError without a place in the scene.
+  virtual void check() const = 0;
+  /// The meshes that are solved, and those whose stiffness is prescribed; the same number for every changed scene.
+  [[nodiscard]] virtual std::vector<MeshModel> meshes() const = 0;
+  /// N, of every mesh: the load at which the lumped model reads the tables.
+  [[nodiscard]] virtual double mean_mesh_force() const = 0;
+  /// The responses of a run, one step each; empty without [dynamics].
+  [[nodiscard]] virtual std::vector<PlannedResponse> responses(int threads) const = 0;
+  /// Wall time of a study's response of all variants on one core, s, rough. Needs [dynamics].
+  [[nodiscard]] virtual double response_seconds() const = 0;
+  /// Predicted time and memory of a run.
+  [[nodiscard]] virtual PlanCost cost(int threads, const CostModel& costs) const;
+  /// What will be modelled and why; computes nothing elastic.
+  [[nodiscard]] Plan plan(int threads) const;
+
+  /// A run that has not begun.
+  [[nodiscard]] virtual std::unique_ptr<SystemRun> run() const = 0;
+  /// What the cost study measures, one per variant. They refer to the scene.
+  [[nodiscard]] virtual std::vector<std::unique_ptr<TradeSubject>> trades() const = 0;
+
+ protected:
+  /// Fills what a kind has of its own: inputs, quantities, degrees of freedom, decisions about the motion, remarks.
+  virtual void describe(Plan& plan) const = 0;
+
+ private:
+  const Scene& scene_;
+};
+
+/// A kind of gear system, as it is registered.
+struct SystemKind {
+  StageKind kind;
+  const std::vector<FigureSpec>& (*figures)();        ///< all results, those of its meshes first
+  const std::vector<FigureSpec>& (*model_figures)();  ///< those of its lumped model, which studies vary
+  std::unique_ptr<GearSystem> (*make)(const Scene& scene);
+};
+/// systems/registry.cc
+[[nodiscard]] const std::vector<SystemKind>& system_kinds();
+[[nodiscard]] const SystemKind& system_kind(StageKind kind);
+
+/// The scene is referred to. Makes nothing but the object.
+[[nodiscard]] std::unique_ptr<GearSystem> make_system(const Scene& scene);
+
+/// What will be modelled and why; the cost is predicted for a run on `threads`.
+[[nodiscard]] Plan make_plan(const Scene& scene, int threads = 1);
+
+enum class PlanFormat { text, json };
+/// `annulus plan`. `budget`: the sentence about a budget, if there was one.
+[[nodiscard]] std::string plan_scene(const Scene& scene, PlanFormat format, int threads = 1,
+                                     const std::string& budget = {});
+
+/// Makes the geometry and whatever else needs no solving. Throws InputError or GeometryError, with the place in the
+/// scene, where the scene is not a good one.
+void check_stage(const Scene& scene);
+
+/// Whether a table solved for `nominal` answers for `changed` as well: the same bodies, and a mean mesh force within
+/// the tabulated loads, between which tables are interpolated.
+[[nodiscard]] bool table_serves(const MeshModel& nominal, const MeshModel& changed, double mean_mesh_force);
+/// Stiffness tables (labels for people) that a changed scene needs and the nominal one does not have.
+[[nodiscard]] std::vector<std::string> tables_to_solve(const Scene& nominal, const Scene& changed);
+
+}  // namespace annulus::app

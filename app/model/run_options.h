@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "app/plan/mesh_model.h"
+#include "app/reuse.h"
+
+namespace annulus::fem {
+class CondensedStore;
+}
+
+namespace annulus::app {
+
+struct RunOptions {
+  std::filesystem::path out{};                    ///< folder of all results
+  std::optional<std::filesystem::path> tables{};  ///< where to look for earlier tables; absent: `out`
+  int threads = 1;
+  bool with_dynamics = true;  ///< false: meshes, transmission error and stiffness only
+  // Set by the run itself (with_reuse); without them nothing is noted and every tooth is condensed.
+  std::shared_ptr<Reuse> reuse{};
+  std::shared_ptr<fem::CondensedStore> store{};
+  bool for_study = false;  ///< what is computed belongs to a changed scene
+  /// Changes how a mesh is solved from what was planned (measurements); absent: as planned.
+  std::function<MeshModel(const MeshModel& planned)> remodel{};
+};
+
+}  // namespace annulus::app

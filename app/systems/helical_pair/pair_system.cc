@@ -1,0 +1,60 @@
+#include "app/systems/helical_pair/pair_system.h"
+
+#include <fmt/format.h>
+
+#include "app/pair/pair_run.h"
+#include "app/plan/plan.h"
+#include "app/scene/displacement_checks.h"
+#include "app/scene/rim_checks.h"
+#include "app/tradeoff/trade_subject.h"
+
+namespace annulus::app {
+
+namespace {
+
+class PairSystem final : public GearSystem {
+ public:
+  using GearSystem::GearSystem;
+
+  [[nodiscard]] std::string describe() const override {
+    return fmt::format("helical pair, {} and {} teeth", scene().pinion.teeth, scene().wheel.teeth);
+  }
+
+  void check() const override {
+    const auto geometry = make_pair_geometry(scene());
+    check_rims(scene(), geometry);
+    check_displacements(scene(), geometry);
+  }
+
+  [[nodiscard]] std::vector<MeshModel> meshes() const override {
+    return {pair_mesh_model(scene(), make_pair_geometry(scene()))};
+  }
+
+  [[nodiscard]] double mean_mesh_force() const override { return make_pair_geometry(scene()).transverse_force; }
+
+  [[nodiscard]] std::vector<PlannedResponse> responses(int threads) const override {
+    return pair_responses(scene(), threads);
+  }
+
+  [[nodiscard]] double response_seconds() const override { return pair_seconds(scene()); }
+
+  [[nodiscard]] std::unique_ptr<SystemRun> run() const override { return std::make_unique<PairRunResult>(scene()); }
+
+  [[nodiscard]] std::vector<std::unique_ptr<TradeSubject>> trades() const override {
+    std::vector<std::unique_ptr<TradeSubject>> list;
+    list.push_back(pair_trade_subject(scene()));
+    return list;
+  }
+
+ protected:
+  void describe(Plan& plan) const override { describe_pair(scene(), make_pair_geometry(scene()), plan); }
+};
+
+}  // namespace
+
+SystemKind helical_pair_kind() {
+  return {StageKind::helical_pair, pair_run_figures, dynamics::pair_figures,
+          [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PairSystem>(scene); }};
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,90 @@
+#include "app/systems/planetary/planetary_system.h"
+
+#include <fmt/format.h>
+
+#include "app/plan/cost_plan.h"
+#include "app/plan/plan.h"
+#include "app/scene/displacement_checks.h"
+#include "app/scene/rim_checks.h"
+#include "app/stage/mesh_figures.h"
+#include "app/stage/planetary_run.h"
+#include "app/study/planetary_subject.h"
+#include "app/tradeoff/trade_subject.h"
+#include "dynamics/systems/planetary/planetary_figures.h"
+
+namespace annulus::app {
+
+namespace {
+
+class PlanetarySystem final : public GearSystem {
+ public:
+  using GearSystem::GearSystem;
+
+  [[nodiscard]] std::string describe() const override {
+    return fmt::format("{} ring{}, {} planets", scene().rings.size(), scene().rings.size() == 1 ? "" : "s",
+                       scene().stage.planets);
+  }
+
+  [[nodiscard]] std::vector<std::string> variants() const override {
+    std::vector<std::string> names;
+    for (const auto& ring : scene().rings) names.push_back(ring.name);
+    return names;
+  }
+
+  void check() const override {
+    const auto geometry = make_geometry(scene());
+    check_rims(scene(), geometry);
+    check_displacements(scene(), geometry);
+  }
+
+  /// The sun mesh, then one mesh per ring.
+  [[nodiscard]] std::vector<MeshModel> meshes() const override { return mesh_models(scene(), make_geometry(scene())); }
+
+  [[nodiscard]] double mean_mesh_force() const override {
+    return make_geometry(scene()).operating_point.mean_mesh_force;
+  }
+
+  [[nodiscard]] std::vector<PlannedResponse> responses(int /*threads*/) const override {
+    return planetary_responses(scene(), make_geometry(scene()), meshes());
+  }
+
+  [[nodiscard]] double response_seconds() const override {
+    return planetary_response_seconds(scene(), make_geometry(scene()));
+  }
+
+  [[nodiscard]] PlanCost cost(int threads, const CostModel& costs) const override {
+    return plan_cost(scene(), make_geometry(scene()), meshes(), plan_studies(scene()), threads, costs);
+  }
+
+  [[nodiscard]] std::unique_ptr<SystemRun> run() const override { return std::make_unique<RunResult>(scene()); }
+
+  [[nodiscard]] std::vector<std::unique_ptr<TradeSubject>> trades() const override {
+    std::vector<std::unique_ptr<TradeSubject>> list;
+    for (std::size_t i = 0; i < scene().rings.size(); ++i) list.push_back(planetary_trade_subject(scene(), i));
+    return list;
+  }
+
+ protected:
+  void describe(Plan& plan) const override { describe_planetary(scene(), make_geometry(scene()), plan); }
+};
+
+const std::vector<FigureSpec>& figures() {
+  static const auto list = [] {
+    auto specs = mesh_figure_specs(ring_planet, "ring mesh", "ring_stiffness");
+    const auto sun = mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness");
+    specs.insert(specs.end(), sun.begin(), sun.end());
+    const auto& model = dynamics::planetary_figures();
+    specs.insert(specs.end(), model.begin(), model.end());
+    return specs;
+  }();
+  return list;
+}
+
+}  // namespace
+
+SystemKind planetary_kind() {
+  return {StageKind::planetary, figures, dynamics::planetary_figures,
+          [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PlanetarySystem>(scene); }};
+}
+
+}  // namespace annulus::app

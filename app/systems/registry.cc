@@ -1,0 +1,13 @@
+#include "app/model/gear_system.h"
+#include "app/systems/helical_pair/pair_system.h"
+#include "app/systems/planetary/planetary_system.h"
+#include "app/systems/two_k_v/two_k_v_system.h"
+
+namespace annulus::app {
+
+const std::vector<SystemKind>& system_kinds() {
+  static const std::vector<SystemKind> kinds = {planetary_kind(), helical_pair_kind(), two_k_v_kind()};
+  return kinds;
+}
+
+}  // namespace annulus::app

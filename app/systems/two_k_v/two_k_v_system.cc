@@ -1,0 +1,60 @@
+#include "app/systems/two_k_v/two_k_v_system.h"
+
+#include <fmt/format.h>
+
+#include "app/plan/plan.h"
+#include "app/scene/displacement_checks.h"
+#include "app/scene/rim_checks.h"
+#include "app/tradeoff/trade_subject.h"
+#include "app/two_k_v/two_k_v_run.h"
+#include "dynamics/systems/two_k_v/two_k_v_figures.h"
+
+namespace annulus::app {
+
+namespace {
+
+class TwoKVSystem final : public GearSystem {
+ public:
+  using GearSystem::GearSystem;
+
+  [[nodiscard]] std::string describe() const override {
+    return fmt::format("{} cranks with a planet each, {} arc gears on {} pins, ratio {}", scene().stage.planets,
+                       scene().arc_gear.count, scene().arc_gear.pins, to_text(two_k_v_kinematics(scene()).ratio(), 6));
+  }
+
+  void check() const override {
+    check_two_k_v(scene());
+    check_rims(scene(), sun_planet_pair(scene()));
+    check_two_k_v_displacements(scene());
+  }
+
+  [[nodiscard]] std::vector<MeshModel> meshes() const override { return two_k_v_meshes(scene()); }
+
+  [[nodiscard]] double mean_mesh_force() const override { return two_k_v_kinematics(scene()).mean_sun_mesh_force(); }
+
+  [[nodiscard]] std::vector<PlannedResponse> responses(int /*threads*/) const override {
+    return two_k_v_responses(scene());
+  }
+
+  [[nodiscard]] double response_seconds() const override { return two_k_v_seconds(scene()); }
+
+  [[nodiscard]] std::unique_ptr<SystemRun> run() const override { return std::make_unique<TwoKVResult>(scene()); }
+
+  [[nodiscard]] std::vector<std::unique_ptr<TradeSubject>> trades() const override {
+    std::vector<std::unique_ptr<TradeSubject>> list;
+    list.push_back(two_k_v_trade_subject(scene()));
+    return list;
+  }
+
+ protected:
+  void describe(Plan& plan) const override { describe_two_k_v(scene(), plan); }
+};
+
+}  // namespace
+
+SystemKind two_k_v_kind() {
+  return {StageKind::two_k_v, two_k_v_run_figures, dynamics::two_k_v_figures,
+          [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<TwoKVSystem>(scene); }};
+}
+
+}  // namespace annulus::app

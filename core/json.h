@@ -1,0 +1,34 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/figure.h"
+
+/// How the project writes JSON: members keep their order, what is not known is null.
+namespace annulus {
+
+using Json = nlohmann::ordered_json;
+
+/// null for NaN and infinite values, which JSON does not have.
+[[nodiscard]] Json json_number(double x);
+[[nodiscard]] Json json_number(const std::optional<double>& x);
+/// NaN for null. Throws what the JSON library throws for anything but a number.
+[[nodiscard]] double number_of(const Json& json);
+/// The member of an object, or null where there is none or `json` is no object.
+[[nodiscard]] const Json& member(const Json& json, const std::string& key);
+
+/// All six parts by their names in files; null where not known.
+[[nodiscard]] Json to_json(const ErrorParts& parts);
+/// Throws what the JSON library throws where a part is missing.
+[[nodiscard]] ErrorParts error_parts_of(const Json& json);
+
+/// {"value": 1, "error": 0.1}.
+[[nodiscard]] Json to_json(const Figure& figure);
+[[nodiscard]] Figure figure_of(const Json& json);
+
+/// {key: {"value": 1, "error": 0.1, "error_parts": {...}}}; the parts only where one is not zero.
+[[nodiscard]] Json to_json(const FigureSet& figures);
+[[nodiscard]] FigureSet figure_set_of(const Json& json);
+
+}  // namespace annulus

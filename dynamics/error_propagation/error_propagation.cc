@@ -1,0 +1,162 @@
+#include "dynamics/error_propagation/error_propagation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "core/errors.h"
+#include "core/log.h"
+#include "core/table_variants.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+using TableChange = StiffnessTable (*)(const StiffnessTable&);
+using Differences = std::map<std::string, double>;  // by the key of the result
+
+constexpr std::size_t all_meshes = static_cast<std::size_t>(-1);
+
+bool any_error(const StiffnessTable& table) {
+  for (int position = 0; position < table.positions(); ++position)
+    for (int phase = 0; phase < table.phases(); ++phase)
+      for (int load = 0; load < static_cast<int>(table.loads().size()); ++load)
+        if (table.at(position, phase, load).error_relative > 0) return true;
+  return false;
+}
+
+/// The harmonic balance is the motion to compare where it alone was asked, and where time integration stayed on it.
+bool taken_directly(const SteadyOutcome& nominal) {
+  return nominal.direct && nominal.direct->converged && (nominal.confirmed || nominal.total_cycles == 0);
+}
+
+/// Evaluates the model on changed tables.
+class Comparison {
+ public:
+  Comparison(const Evaluation& nominal, const TabulatedModel& model) : model_(model), nominal_(nominal) {
+    if (model.nominal_alike) base_ = nominal;
+  }
+
+  /// |difference| of every result to the unchanged tables, one mesh or all of them changed.
+  Differences differences(TableChange change, std::size_t mesh, const std::string& what) {
+    Differences result;
+    for (const auto& entry : nominal_.figures.entries()) result[entry.key] = not_known;
+    try {
+      if (!base_) base_ = model_.evaluate(tables(nullptr, all_meshes));
+      const auto changed = model_.evaluate(tables(change, mesh));
+      // A change that ends the periodic motion has done so much at least.
+      if (model_.seeks_steady_state && base_->outcome.steady && !changed.outcome.steady)
+        log::warn(fmt::format("no steady state with {}: the results of its last mesh cycles are compared", what));
+      for (auto& [key, difference] : result)
+        difference = std::abs(changed.figures.value(key) - base_->figures.value(key));
+    } catch (const Error& error) {  // no solution, or a changed table from which no law follows
+      log::warn(fmt::format("{}: {}: its effect on the results is not known", what, error.what()));
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] std::vector<StiffnessTable> tables(TableChange change, std::size_t mesh) const {
+    std::vector<StiffnessTable> list;
+    for (std::size_t i = 0; i < model_.meshes.size(); ++i) {
+      const auto& table = model_.meshes[i].table;
+      list.push_back(change && (mesh == all_meshes || mesh == i) ? change(table) : table);
+    }
+    return list;
+  }
+
+  const TabulatedModel& model_;
+  const Evaluation& nominal_;
+  std::optional<Evaluation> base_;
+};
+
+/// What the error estimate of one mesh's stiffness does to every result; NaN where one of the changes is not known.
+Differences stiffness_differences(Comparison& comparison, const TabulatedModel& model, std::size_t mesh) {
+  const auto in_mesh = " in the " + model.meshes[mesh].name;
+  auto part = comparison.differences(stiffer, mesh, "more stiffness" + in_mesh);
+  for (const auto& [key, ripple] : comparison.differences(more_rippled, mesh, "more ripple" + in_mesh)) {
+    double& larger = part.at(key);
+    larger = std::isnan(larger + ripple) ? not_known : std::max(larger, ripple);
+  }
+  return part;
+}
+
+/// Adds the error that a result has by a mesh's stiffness, in the proportions of that stiffness' own error.
+void add_stiffness_error(double error, const ErrorParts& of_stiffness, ErrorParts& parts) {
+  double whole = 0;
+  for (const auto& [name, part] : stiffness_error_part_names) whole += of_stiffness.*part;
+  if (whole <= 0) {
+    parts.discretisation += error;
+    return;
+  }
+  for (const auto& [name, part] : stiffness_error_part_names)
+    if (of_stiffness.*part > 0) parts.*part += error * (of_stiffness.*part / whole);
+}
+
+Differences interpolation_differences(Comparison& comparison, const TabulatedModel& model) {
+  const bool odd = std::any_of(model.meshes.begin(), model.meshes.end(),
+                               [](const TabulatedMesh& mesh) { return mesh.table.phases() % 2 != 0; });
+  if (odd || model.meshes.empty()) return {};
+  auto part = comparison.differences(coarser, all_meshes, "half the phases");
+  // Between the first order of jumping slopes and the second of smooth curves: halving the spacing leaves a third to a
+  // half of what halving the number did.
+  for (auto& [key, difference] : part) difference /= 2;
+  return part;
+}
+
+}  // namespace
+
+ComparisonOptions comparison_options(const SteadyOutcome& nominal, const SimulationOptions& options) {
+  ComparisonOptions result{.simulation = options};
+  auto& o = result.simulation;
+  if (nominal.direct) o.samples_per_cycle = std::min(o.samples_per_cycle, enough_samples(nominal.window_cycles));
+  o.estimate_error = false;
+  o.keep_series = false;
+  if (!o.mesh_cycles && (!nominal.direct || !nominal.steady)) {
+    // No steady state to compare, or one too long to integrate again and again: all are integrated alike for a while,
+    // from the nominal motion on, so that only what the change does has to settle.
+    constexpr int lead = 60, evaluated = 110;
+    o.mesh_cycles = lead + evaluated;
+    o.max_window_cycles = evaluated;
+    o.start = nominal.begin;
+    result.seeks_steady_state = false;
+    return result;
+  }
+  o.confirm = !taken_directly(nominal);
+  // A small change leads from the nominal motion to the one beside it within a few windows, and to no other.
+  if (o.confirm && !o.mesh_cycles) {
+    constexpr int few = 8;
+    o.steady_state = SteadyState::marching;
+    o.start = nominal.begin;
+    o.max_windows = std::min(o.max_windows, few);
+  }
+  result.seeks_steady_state = !o.mesh_cycles;
+  result.nominal_alike = !o.mesh_cycles && o.samples_per_cycle == options.samples_per_cycle &&
+                         (o.steady_state == SteadyState::marching || nominal.total_cycles == 0);
+  return result;
+}
+
+FigureSet propagate_errors(const Evaluation& nominal, const TabulatedModel& model) {
+  Comparison comparison(nominal, model);
+  std::vector<Differences> by_mesh;
+  for (std::size_t i = 0; i < model.meshes.size(); ++i)
+    by_mesh.push_back(any_error(model.meshes[i].table) ? stiffness_differences(comparison, model, i) : Differences{});
+  const auto interpolation = interpolation_differences(comparison, model);
+
+  FigureSet result;
+  for (const auto& entry : nominal.figures.entries()) {
+    ErrorParts parts;
+    parts.integration = entry.figure.error;
+    if (!model.meshes.empty()) parts.interpolation = interpolation.empty() ? not_known : interpolation.at(entry.key);
+    for (std::size_t i = 0; i < by_mesh.size(); ++i)
+      if (!by_mesh[i].empty())
+        add_stiffness_error(by_mesh[i].at(entry.key), model.meshes[i].mean_stiffness_parts, parts);
+    result.set(entry.key, {entry.figure.value, parts.total()}, parts);
+  }
+  return result;
+}
+
+}  // namespace annulus::dynamics

@@ -1,0 +1,147 @@
+#include "dynamics/systems/helical_pair/pair_figures.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace annulus::dynamics {
+
+namespace {
+
+FigureSpec length(const char* key, const char* title, const char* definition) {
+  return {.key = key, .title = title, .unit = "µm", .scale = 1e6, .definition = definition, .better = Better::smaller};
+}
+
+FigureSpec acceleration(const char* key, const char* title, const char* definition) {
+  return {.key = key, .title = title, .unit = "m/s²", .definition = definition, .better = Better::smaller};
+}
+
+std::vector<FigureSpec> declared() {
+  std::vector<FigureSpec> list;
+  auto tooth = acceleration("acceleration_max_m_per_s2", "Largest acceleration of the teeth",
+                            "largest over time and both gears of |(u'' ± y'', z'')| of the teeth in mesh");
+  tooth.compared = tooth.cost_study = tooth.plotted = tooth.spread = tooth.ordering = true;
+  list.push_back(tooth);
+  list.push_back(acceleration("acceleration_line_of_action_m_per_s2",
+                              "Largest acceleration of the axes along the line of action",
+                              "largest over time and both gears of |y''|"));
+  list.push_back(acceleration("acceleration_axial_m_per_s2", "Largest axial acceleration",
+                              "largest over time and both gears of |z''|"));
+  list.push_back(acceleration("acceleration_rotation_m_per_s2", "Largest acceleration of the base circles",
+                              "largest over time and both gears of |r θ''|"));
+  list.push_back({.key = "mesh_force_max_N",
+                  .title = "Largest mesh force",
+                  .unit = "kN",
+                  .scale = 1e-3,
+                  .definition = "largest mesh force over time, in the direction of the load",
+                  .better = Better::smaller,
+                  .compared = true,
+                  .plotted = true,
+                  .spread = true});
+  list.push_back({.key = "mesh_force_min_N",
+                  .title = "Smallest mesh force",
+                  .unit = "kN",
+                  .scale = 1e-3,
+                  .definition = "smallest mesh force over time, in the direction of the load"});
+  list.push_back({.key = "dynamic_factor",
+                  .title = "Dynamic factor",
+                  .axis = "largest force / static force",
+                  .definition = "largest mesh force over time / static mesh force T_1 / (r_b1 cos β_b)",
+                  .better = Better::smaller,
+                  .guarantee = Guarantee::while_in_contact,
+                  .quantity = "dynamic_factor",
+                  .compared = true,
+                  .cost_study = true,
+                  .plotted = true,
+                  .spread = true,
+                  .ordering = true});
+  list.push_back({.key = "contact_loss",
+                  .title = "Time without contact",
+                  .unit = "%",
+                  .scale = 100,
+                  .definition = "fraction of the time in which no tooth touches",
+                  .better = Better::smaller,
+                  .plotted = true});
+  auto largest = length("transmission_error_max_m", "Largest transmission error",
+                        "largest over time of |u_1 + u_2|, the mean included");
+  largest.plotted = largest.spread = true;
+  largest.beside = "transmission_error_static_max_m";
+  list.push_back(largest);
+  auto range =
+      length("transmission_error_peak_to_peak_m", "Transmission error, peak to peak", "range over time of u_1 + u_2");
+  range.compared = range.cost_study = range.plotted = range.spread = range.ordering = true;
+  range.beside = "transmission_error_static_peak_to_peak_m";
+  list.push_back(range);
+  list.push_back(length("transmission_error_mean_m", "Transmission error, mean", "mean over time of u_1 + u_2"));
+  list.push_back(length("transmission_error_static_max_m", "Largest transmission error, quasi-static",
+                        "largest over the positions of |u_1 + u_2|, without inertia and damping"));
+  list.push_back(length("transmission_error_static_peak_to_peak_m", "Transmission error, peak to peak, quasi-static",
+                        "range over the positions of u_1 + u_2, without inertia and damping"));
+  list.push_back(length("relative_motion_max_m", "Largest relative motion with the bending of shafts and bearings",
+                        "largest over time of |y_1 + u_1 - y_2 + u_2|, the mean included"));
+  list.push_back(length("relative_motion_peak_to_peak_m",
+                        "Relative motion with the bending of shafts and bearings, peak to peak",
+                        "range over time of y_1 + u_1 - y_2 + u_2"));
+  list.push_back({.key = "steady",
+                  .title = "Periodic",
+                  .definition = "1 where a periodic steady state was found, otherwise 0",
+                  .better = Better::larger});
+  for (int i = 1; i <= pair_frequencies; ++i)
+    list.push_back({.key = fmt::format("frequency_{}_Hz", i),
+                    .title = fmt::format("Natural frequency {}", i),
+                    .unit = "Hz",
+                    .definition = "undamped natural frequencies above zero, rising, with the mean mesh stiffness",
+                    .effort = FigureEffort::motion,
+                    .guarantee = Guarantee::always,
+                    .digits = 5,
+                    .compared = true,
+                    .cost_study = i <= 3});
+  return list;
+}
+
+}  // namespace
+
+const std::vector<FigureSpec>& pair_figures() {
+  static const auto list = declared();
+  return list;
+}
+
+LoadedForce loaded_force(const PairResponse& r) {
+  if (r.static_force >= 0) return {r.force_max, r.force_min};
+  return {{-r.force_min.value, r.force_min.error}, {-r.force_max.value, r.force_max.error}};
+}
+
+FigureSet figures(const PairResponse& r) {
+  const auto& te = r.dynamic.transmission_error;
+  const auto& still = r.quasi_static.transmission_error;
+  const auto force = loaded_force(r);
+  FigureSet set;
+  set.set("acceleration_max_m_per_s2", r.acceleration.tooth);
+  set.set("acceleration_line_of_action_m_per_s2", r.acceleration.line_of_action);
+  set.set("acceleration_axial_m_per_s2", r.acceleration.axial);
+  set.set("acceleration_rotation_m_per_s2", r.acceleration.rotation);
+  set.set("mesh_force_max_N", force.largest);
+  set.set("mesh_force_min_N", force.smallest);
+  set.set("dynamic_factor", r.dynamic_factor);
+  set.set("contact_loss", r.contact_loss);
+  set.set("transmission_error_max_m", te.largest);
+  set.set("transmission_error_peak_to_peak_m", te.peak_to_peak);
+  set.set("transmission_error_mean_m", te.mean);
+  set.set("transmission_error_static_max_m", still.largest.value);
+  set.set("transmission_error_static_peak_to_peak_m", still.peak_to_peak.value);
+  set.set("relative_motion_max_m", r.dynamic.relative.largest);
+  set.set("relative_motion_peak_to_peak_m", r.dynamic.relative.peak_to_peak);
+  set.set("steady", r.steady ? 1 : 0);
+  return set;
+}
+
+FigureSet frequency_figures(const HelicalPair& pair) {
+  FigureSet set;
+  int i = 0;
+  for (const auto& mode : modes(pair).modes)
+    if (mode.frequency > 0 && i < pair_frequencies)
+      set.set(fmt::format("frequency_{}_Hz", ++i), Figure{mode.frequency, 0});
+  return set;
+}
+
+}  // namespace annulus::dynamics

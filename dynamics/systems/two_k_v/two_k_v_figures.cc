@@ -1,0 +1,190 @@
+#include "dynamics/systems/two_k_v/two_k_v_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "dynamics/systems/two_k_v/two_k_v_modes.h"
+#include "dynamics/systems/two_k_v/two_k_v_statics.h"
+
+namespace annulus::dynamics {
+
+namespace {
+
+constexpr double arc_seconds = 180 * 3600 / std::numbers::pi;  // per radian
+constexpr std::pair<const char*, const char*> mesh_kinds[] = {{"sun_planet_", "sun meshes"},
+                                                              {"arc_pins_", "arc meshes"}};
+
+FigureSpec angle(const char* key, const char* title, const char* definition) {
+  return {.key = key,
+          .title = title,
+          .unit = "arc seconds",
+          .scale = arc_seconds,
+          .definition = definition,
+          .better = Better::smaller};
+}
+
+void declare_statics(std::vector<FigureSpec>& list) {
+  for (int i = 1; i <= two_k_v_frequencies; ++i)
+    list.push_back({.key = fmt::format("frequency_{}_Hz", i),
+                    .title = fmt::format("Natural frequency {}", i),
+                    .unit = "Hz",
+                    .definition =
+                        "undamped natural frequencies above zero, rising, at the crank angle of the scene and "
+                        "with the mean mesh stiffness",
+                    .guarantee = Guarantee::always,
+                    .digits = 5,
+                    .compared = i <= 5,
+                    .cost_study = i <= 3,
+                    .plotted = i == 1,
+                    .spread = i == 1,
+                    .ordering = i == 1});
+  list.push_back({.key = "torsional_stiffness_Nm_per_rad",
+                  .title = "Torsional stiffness from the output",
+                  .unit = "kN m/rad",
+                  .scale = 1e-3,
+                  .definition = "mean over a crank turn of torque over twist of the output, the input held",
+                  .better = Better::larger,
+                  .digits = 5,
+                  .compared = true,
+                  .plotted = true,
+                  .spread = true,
+                  .ordering = true});
+  list.push_back({.key = "torsional_stiffness_ripple",
+                  .title = "Range of the torsional stiffness over a crank turn",
+                  .unit = "%",
+                  .scale = 100,
+                  .axis = "% of the mean",
+                  .definition = "(largest - smallest) / mean over a crank turn",
+                  .better = Better::smaller,
+                  .spread = true});
+  auto wind_up = angle("wind_up_rad", "Wind-up of the output under load", "output torque / mean torsional stiffness");
+  wind_up.spread = true;
+  list.push_back(wind_up);
+  auto lost = angle("lost_motion_rad", "Lost motion of the output",
+                    "turn of the output between -3 % and +3 % of its torque, the input held, backlash included");
+  lost.spread = true;
+  list.push_back(lost);
+}
+
+void declare_motion(std::vector<FigureSpec>& list) {
+  list.push_back({.key = "steady",
+                  .title = "Periodic",
+                  .definition = "1 where a periodic steady state was found, otherwise 0",
+                  .better = Better::larger});
+  auto error = angle("output_error_peak_to_peak_rad", "Error of the output",
+                     "range over the window of θ_output - θ_input / ratio");
+  error.axis = "peak to peak, arc seconds";
+  error.effort = FigureEffort::motion;
+  error.compared = error.cost_study = error.plotted = error.ordering = true;
+  error.beside = "output_error_quasi_static_rad";
+  list.push_back(error);
+  auto still = angle("output_error_quasi_static_rad", "Error of the output, quasi-static",
+                     "range over the positions of θ_output - θ_input / ratio, without inertia and damping");
+  still.axis = error.axis;
+  still.effort = FigureEffort::motion;
+  list.push_back(still);
+  for (const auto& [prefix, meshes] : mesh_kinds)
+    list.push_back({.key = std::string(prefix) + "dynamic_factor",
+                    .title = std::string("Dynamic factor of the ") + meshes,
+                    .axis = "largest F / mean mesh force",
+                    .definition = "largest over the meshes and instants of F over the nominal mesh force",
+                    .better = Better::smaller,
+                    .effort = FigureEffort::motion,
+                    .guarantee = Guarantee::while_in_contact,
+                    .quantity = "dynamic_factor",
+                    .compared = true,
+                    .cost_study = true,
+                    .plotted = true});
+  for (const auto& [prefix, meshes] : mesh_kinds)
+    list.push_back({.key = std::string(prefix) + "contact_loss",
+                    .title = std::string("Time without contact, ") + meshes,
+                    .unit = "%",
+                    .scale = 100,
+                    .axis = "worst, %",
+                    .definition = "largest over the meshes of the fraction of the time in which no tooth touches",
+                    .better = Better::smaller,
+                    .effort = FigureEffort::motion,
+                    .plotted = true});
+  list.push_back({.key = "arc_bearing_force_N",
+                  .title = "Largest force of an eccentric's bearing",
+                  .unit = "N",
+                  .definition = "largest over the bearings and instants of the resultant force",
+                  .better = Better::smaller,
+                  .effort = FigureEffort::motion});
+}
+
+/// Positions over a crank turn. No mesh has a whole number of cycles between two of them, so each meets as many phases.
+int stiffness_positions(const TwoKVStage& stage) {
+  int count = 37;
+  while (std::gcd(count, stage.planet_teeth) != 1 || std::gcd(count, stage.arc_teeth) != 1) ++count;
+  return count;
+}
+
+}  // namespace
+
+const std::vector<FigureSpec>& two_k_v_figures() {
+  static const auto list = [] {
+    std::vector<FigureSpec> specs;
+    declare_statics(specs);
+    declare_motion(specs);
+    return specs;
+  }();
+  return list;
+}
+
+bool output_moves(double peak_to_peak, double static_peak_to_peak, double mean) {
+  constexpr double rounding = 1e-9;  // of the wind-up: a thousandth of what the integrators resolve
+  return std::max(peak_to_peak, static_peak_to_peak) > rounding * std::abs(mean);
+}
+
+FigureSet static_figures(const TwoKVStage& at_nominal, double arc_clearance) {
+  FigureSet set;
+  int i = 0;
+  for (const auto& mode : modes(at_nominal).modes)
+    if (mode.frequency > 0 && i < two_k_v_frequencies)
+      set.set(fmt::format("frequency_{}_Hz", ++i), Figure{mode.frequency, 0});
+  const auto torsion = torsional_stiffness(at_nominal, stiffness_positions(at_nominal));
+  const auto lost = lost_motion(at_nominal, torsion.mean(), arc_clearance);
+  constexpr double rounding = 1e-10;  // of the condensation
+  // Statics and modes are exact for the stage that they are asked of.
+  const auto exact = [&](const char* key, double value) { set.set(key, Figure{value, 0}); };
+  exact("torsional_stiffness_Nm_per_rad", torsion.mean());
+  exact("torsional_stiffness_ripple", torsion.ripple() > rounding ? torsion.ripple() : 0);
+  exact("wind_up_rad", lost.wind_up);
+  exact("lost_motion_rad", lost.total());
+  return set;
+}
+
+FigureSet figures(const TwoKVStage& stage, const TwoKVResponse& r) {
+  const auto& range = r.dynamic.peak_to_peak;
+  const double static_range = r.quasi_static.peak_to_peak.value;
+  const bool still =
+      constant_stiffness(stage) && r.steady.steady && !output_moves(range.value, static_range, r.dynamic.mean);
+  FigureSet set;
+  set.set("steady", r.steady.steady ? 1 : 0);
+  set.set("output_error_peak_to_peak_rad", still ? Figure{} : range);
+  set.set("output_error_quasi_static_rad", still ? 0 : static_range);
+  const std::vector<TwoKVMeshResult>* kinds[] = {&r.sun_planet, &r.arc_pins};
+  for (std::size_t k = 0; k < std::size(kinds); ++k) {
+    Figure factor{0, not_known};
+    double loss = 0;
+    for (const auto& mesh : *kinds[k]) {
+      if (mesh.dynamic_factor_max.value > factor.value) factor = mesh.dynamic_factor_max;
+      loss = std::max(loss, mesh.contact_loss);
+    }
+    set.set(std::string(mesh_kinds[k].first) + "dynamic_factor", still ? Figure{1, 0} : factor);
+    set.set(std::string(mesh_kinds[k].first) + "contact_loss", loss);
+  }
+  double bearing = 0;
+  for (const auto& b : r.arc_bearings) bearing = std::max(bearing, b.largest);
+  set.set("arc_bearing_force_N", bearing);
+  return set;
+}
+
+}  // namespace annulus::dynamics
