@@ -47,7 +47,7 @@ app::VariantTrade made_up_ring() {
 }
 
 /// A light set of gears whose meshes are computed.
-std::string computed_scene() {
+std::string computed_ring_scene() {
   auto text = test::quick_scene();
   const auto begin = text.find("[mesh.sun_planet]"), end = text.find("[dynamics]");
   text.erase(begin, end - begin);
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(a_ring_on_which_everything_fails_is_reported) {
 }
 
 BOOST_AUTO_TEST_CASE(settings_keep_the_problem_but_for_what_they_set) {
-  const auto scene = app::parse_scene(computed_scene(), "scene.toml");
+  const auto scene = app::parse_scene(computed_ring_scene(), "scene.toml");
   const auto planned = app::ring_mesh_model(scene, app::make_geometry(scene), 0);
   const double nominal = planned.problem->loads[planned.nominal_load()];
   int finest = 0;
@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(settings_keep_the_problem_but_for_what_they_set) {
 BOOST_AUTO_TEST_CASE(errors_fall_toward_the_finest_and_measurements_are_kept, *in_a_process_of_its_own) {
   log::set_level(log::Level::quiet);
   const test::TemporaryFolder folder("tradeoff");
-  const auto scene = app::parse_scene(computed_scene(), "scene.toml");
+  const auto scene = app::parse_scene(computed_ring_scene(), "scene.toml");
   const app::RunOptions options{.out = folder.path(), .threads = 1};
   app::TradeLists lists;
   lists.mesh = [](const app::MeshModel&, bool needs_solid) {
