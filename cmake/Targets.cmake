@@ -31,7 +31,6 @@ set(ANNULUS_TIMEOUT_unit 120)
 set(ANNULUS_TIMEOUT_verification 300)
 set(ANNULUS_TIMEOUT_pipeline 300)
 set(ANNULUS_TIMEOUT_extremes 300)
-set(ANNULUS_TIMEOUT_smoke 120)
 set(ANNULUS_TIMEOUT_slow 1200)
 set(ANNULUS_TIMEOUT_benchmark 1200)
 set(ANNULUS_TIMEOUT_nightly 10800)
@@ -39,8 +38,7 @@ set(ANNULUS_TIMEOUT_nightly 10800)
 # Labels of a test and its timeout:
 #   annulus_label_test(fem.hertz verification fem)
 # Kinds: unit, verification, pipeline, extremes, benchmark. Layers: core, geometry, fem, dynamics, app.
-# slow: more than 20 s of processor time. smoke: cases of slow suites that the quick tests run instead of them.
-# nightly: hours. CMakePresets.json selects by these labels.
+# slow: more than 20 s of processor time. nightly: hours in all. CMakePresets.json selects by these labels.
 function(annulus_label_test name)
   set(timeout 0)
   foreach(label IN LISTS ARGN)
@@ -93,11 +91,4 @@ function(annulus_add_tests name)
   add_test(NAME ${name}.suites COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:test_${name}> "-DLISTED=${suites}"
                                        -P ${PROJECT_SOURCE_DIR}/cmake/CheckSuites.cmake)
   annulus_label_test(${name}.suites unit ${ARG_LAYER})
-endfunction()
-
-# Cases of a slow suite that the quick tests run:
-#   annulus_add_smoke_test(planetary app program/first_case,second_case)
-function(annulus_add_smoke_test name program cases)
-  add_test(NAME smoke.${name} COMMAND test_${program} --run_test=${cases} --log_level=test_suite)
-  annulus_label_test(smoke.${name} smoke)
 endfunction()
