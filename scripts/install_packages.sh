@@ -2,6 +2,7 @@
 # Installs the packages that annulus needs on Debian 12, as root or with sudo; a second call takes no time.
 #   scripts/install_packages.sh              to build and run it
 #   scripts/install_packages.sh --tests      for scripts/test.sh too
+#   scripts/install_packages.sh --all        for scripts/test.sh --all too (twice as much)
 #   scripts/install_packages.sh --nightly    for scripts/nightly.sh too
 set -euo pipefail
 
@@ -13,16 +14,19 @@ packages=(
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
   libhdf5-dev libmatio-dev libpugixml-dev librsvg2-dev libjs-chart.js libjs-three
 )
-if [ "${1:-}" = --tests ] || [ "${1:-}" = --nightly ]; then
-  packages+=(
-    calculix-ccx octave    # benchmarks compare with them
-    python3-h5py chromium  # they read exports and reports
-    clang-format
-  )
-fi
-if [ "${1:-}" = --nightly ]; then
-  packages+=(clang libclang-rt-dev libomp-dev clang-tidy valgrind)
-fi
+tests=(python3 clang-format)
+all=(
+  calculix-ccx octave    # benchmarks compare with them
+  python3-h5py chromium  # they read exports and reports
+)
+nightly=(clang libclang-rt-dev libomp-dev clang-tidy valgrind)
+case "${1:-}" in
+  "") ;;
+  --tests) packages+=("${tests[@]}") ;;
+  --all) packages+=("${tests[@]}" "${all[@]}") ;;
+  --nightly) packages+=("${tests[@]}" "${all[@]}" "${nightly[@]}") ;;
+  *) echo "install_packages.sh: unknown option $1" >&2; exit 2 ;;
+esac
 
 missing=()
 for package in "${packages[@]}"; do

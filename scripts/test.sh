@@ -6,12 +6,14 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 preset=quick
+packages=--tests
 if [ "${1:-}" = --all ]; then
   preset=release
+  packages=--all
   shift
 fi
 
-scripts/install_packages.sh --tests
+scripts/install_packages.sh "$packages"
 cmake --preset release -DANNULUS_BUILD_TESTS=ON
 cmake --build --preset release
 ctest --preset "$preset" --parallel "$(nproc)" "$@"

@@ -263,7 +263,7 @@ BOOST_AUTO_TEST_CASE(a_mostly_torsional_stage_with_jumping_stiffness) {
   stage.ring_mesh = RectangularStiffness{5.5e8, 0.25, 0.6, 0};
   stage.planet_errors.clear();
   const auto r = simulate(stage, quick());
-  record.near("degrees_of_freedom", "", static_cast<double>(r.series.dofs.size()), 3 + 1 + 5, 0, "counted by hand");
+  record.near("degrees of freedom", "", static_cast<double>(r.series.dofs.size()), 3 + 1 + 5, 0, "counted by hand");
   BOOST_TEST(r.steady);
   record.near("mesh cycles of the window", "", r.window_cycles, 20, 0, "the least asked for");
   // Phases of 0.2 cycles, duty 0.6, sun and ring alike: five instants a cycle, less one at the end of each window.

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "fem/closed_form/closed_form_mesh.h"
 #include "fem/closed_form/closed_form_error.h"
+#include "fem/closed_form/closed_form_mesh.h"
 #include "ring_paper_problems.h"
 #include "tests/verification_record.h"
 
