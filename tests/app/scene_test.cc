@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(pins_by_number_or_by_place) {
   check_ring_refused("pinned", d + "pin_angles_deg = [0, 400]", "pin_angles_deg",
                      {"[ 0, 400 ]", "value 2", "-360 <= each value <= 360 °"});
   check_ring_refused("bolted", d + "pin_angles_deg = [-90, 0, 270]", "pin_angles_deg",
-                     {"pins 1 and 3 (-90° and 270°) are at the same place"});
+                     {"pins 1 and 3 (-90° and 270°) have the same angular position"});
   // 2° on 663.6 mm are 11.58 mm, less than the diameter of 15 mm.
   check_ring_refused("pinned", d + "pin_angles_deg = [0, 90, 92]", "pin_angles_deg",
                      {"pins 2 and 3", "overlap", "11.58 mm", "pin_diameter_mm = 15"});
