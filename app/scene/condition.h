@@ -75,7 +75,7 @@ class Condition {
 /// A condition and its reason, as the schema declares them for a key or a table.
 struct KeyRule {
   Condition when;
-  std::string why{};                 ///< empty: the condition says all
+  std::string why{};                 ///< empty: the condition is enough
   std::vector<std::string> kinds{};  ///< kinds of gear systems with this rule; empty: all that have the key
 };
 

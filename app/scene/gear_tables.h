@@ -91,6 +91,7 @@ struct MeshKeys {
   const char* constant_shape = "";                    ///< what a shape of `more_waves` is without a ripple
 };
 [[nodiscard]] Declarations<MeshInput> declare_mesh(const char* path, const char* meaning,
-                                                   MeshInput& (*section)(Scene&, std::size_t), const MeshKeys& keys = {});
+                                                   MeshInput& (*section)(Scene&, std::size_t),
+                                                   const MeshKeys& keys = {});
 
 }  // namespace annulus::app

@@ -123,9 +123,10 @@ std::string new_scene(StageKind kind, const NewValues& values) {
       "run FILE computes it.");
   for (const auto& table : schema(kind_name(kind))) {
     const auto& keys = table.parameters;
-    const bool used = table.path.empty() || std::any_of(keys.begin(), keys.end(), [&](const auto& p) {
-                        return values.count(p.key()) > 0 || (table.required && p.presence == Parameter::Presence::required);
-                      });
+    const bool used =
+        table.path.empty() || std::any_of(keys.begin(), keys.end(), [&](const auto& p) {
+          return values.count(p.key()) > 0 || (table.required && p.presence == Parameter::Presence::required);
+        });
     text += "\n";
     if (!table.path.empty()) {
       std::string meaning = table.meaning;

@@ -102,12 +102,12 @@ std::size_t list_length(const Scene& scene, const Parameter& p, std::size_t entr
   return p.table == "errors" ? static_cast<std::size_t>(scene.stage.planets) : 0;
 }
 
-std::size_t parse_index(const std::string& path, const std::string& text, std::size_t length, bool planets) {
+/// From 0. `meaning`: of the index, for messages.
+std::size_t parse_index(const std::string& path, const std::string& text, std::size_t length, const char* meaning) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size() || number < 1 || number > length)
-    throw InputError(fmt::format("{}: [{}] must be a number from 1 to {}{}", path, text, length,
-                                 planets ? ", the number of the planet" : ""));
+    throw InputError(fmt::format("{}: [{}] must be a number from 1 to {}{}", path, text, length, meaning));
   return number - 1;
 }
 
@@ -146,8 +146,9 @@ InputTarget find_input(const Scene& scene, const std::string& path) {
   const bool planets = target.parameter->table == "errors";
   if (!has_index)
     throw InputError(fmt::format("{0}: is a list; name one value, as {0}[1]{1}", path, planets ? " for planet 1" : ""));
-  target.index = parse_index(
-      path, index, list_length(scene, *target.parameter, target.rings.empty() ? 0 : target.rings.front()), planets);
+  target.index =
+      parse_index(path, index, list_length(scene, *target.parameter, target.rings.empty() ? 0 : target.rings.front()),
+                  planets ? ", the number of the planet" : "");
   return target;
 }
 

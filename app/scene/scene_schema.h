@@ -26,21 +26,21 @@ struct Parameter {
   double si = 1;       ///< value in SI units = value in the file x si
   Presence presence = Presence::optional;
   Value default_value{};
-  std::string note{};                      ///< reason of the default, or what absence means
-  std::vector<std::string> kinds{};        ///< of gear systems that have this key; empty: those of its table
+  std::string note{};                       ///< reason of the default, or what absence means
+  std::vector<std::string> kinds{};         ///< of gear systems that have this key; empty: those of its table
   std::vector<std::string> required_for{};  ///< kinds that cannot do without it, where others can
   double low = -rigid, high = rigid;
   bool low_included = true;
   bool may_be_infinite = false;
-  std::size_t longest = longest_list;       ///< values of a list
-  std::vector<std::string> choices{};       ///< permitted texts; empty: any
+  std::size_t longest = longest_list;  ///< values of a list
+  std::vector<std::string> choices{};  ///< permitted texts; empty: any
   std::string meaning{};
-  std::vector<std::string> old_names{};     ///< refused with the present name
-  std::vector<OldChoice> old_choices{};     ///< the same for texts
-  std::string without_table{};              ///< value that conditions see when its table is absent
+  std::vector<std::string> old_names{};  ///< refused with the present name
+  std::vector<OldChoice> old_choices{};  ///< the same for texts
+  std::string without_table{};           ///< value that conditions see when its table is absent
 
   // Rules between keys (key_rules.h).
-  std::vector<KeyRule> only_if{};           ///< refused where one of these does not hold
+  std::vector<KeyRule> only_if{};  ///< refused where one of these does not hold
   std::vector<KeyRule> required_if{};
   std::vector<KeyRule> refused_if{};
   std::vector<std::string> together_with{};  ///< keys of the table that are given with this one or not at all
@@ -101,8 +101,8 @@ struct Table {
 /// nullptr when there is no such key.
 [[nodiscard]] const Parameter* find_parameter(const std::string& key);
 [[nodiscard]] std::vector<std::string> all_keys();
-/// The present key of an earlier one: "errors.sun_position_error_um" -> "errors.sun_position_error_um"; empty when there
-/// is none.
+/// The present key of an earlier one: "errors.sun_position_error_um" -> "errors.sun_position_error_um"; empty when
+/// there is none.
 [[nodiscard]] std::string renamed_key(const std::string& old_key);
 
 /// The scene reference as Markdown (docs/scene.md), and one key for `annulus explain KEY`.

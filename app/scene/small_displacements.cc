@@ -39,19 +39,20 @@ void check_load(const Scene& scene, const char* key, double force) {
 
 void check_prescribed_mesh(const Scene& scene, const char* key, const MeshInput& mesh, double force) {
   if (!mesh.mean || force <= most(scene) * *mesh.mean) return;
-  throw InputError(
-      fmt::format("{}: a mesh of {} N/m deflects by {} mm under its load of {} N; at most {} of the module is possible: "
-                  "{}; reduce the load {:.3g} times",
-                  key, to_text(*mesh.mean, 4), to_text(force / *mesh.mean / units::mm, 3), to_text(force, 3),
-                  largest_gear_displacement, no_engagement, force / (most(scene) * *mesh.mean)));
+  throw InputError(fmt::format(
+      "{}: a mesh of {} N/m deflects by {} mm under its load of {} N; at most {} of the module is possible: "
+      "{}; reduce the load {:.3g} times",
+      key, to_text(*mesh.mean, 4), to_text(force / *mesh.mean / units::mm, 3), to_text(force, 3),
+      largest_gear_displacement, no_engagement, force / (most(scene) * *mesh.mean)));
 }
 
 void check_bearing(const Scene& scene, const char* key, double stiffness, double force) {
   if (stiffness == 0 || force <= most(scene) * stiffness) return;
-  throw InputError(fmt::format("{} = {}: deflects under the load of {} N by more than {} of the module: {}; must be at "
-                               "least {} N/m",
-                               key, to_text(stiffness, 6), to_text(force, 3), largest_gear_displacement, no_engagement,
-                               to_text(force / most(scene), 3)));
+  throw InputError(
+      fmt::format("{} = {}: deflects under the load of {} N by more than {} of the module: {}; must be at "
+                  "least {} N/m",
+                  key, to_text(stiffness, 6), to_text(force, 3), largest_gear_displacement, no_engagement,
+                  to_text(force / most(scene), 3)));
 }
 
 void check_torsional_support(const char* key, double stiffness, double force, double radius) {

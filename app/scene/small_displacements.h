@@ -21,8 +21,8 @@ inline constexpr double largest_deflection = 0.1;
 void check_load(const Scene& scene, const char* key, double force);
 /// `key` carries the load, of which a mesh of prescribed stiffness carries `force` (N).
 void check_prescribed_mesh(const Scene& scene, const char* key, const MeshInput& mesh, double force);
-/// `key` is a bearing of `stiffness` (N/m) that carries `force` (N). Without a bearing the load is refused elsewhere, as
-/// unbalanced.
+/// `key` is a bearing of `stiffness` (N/m) that carries `force` (N). Without a bearing the load is refused elsewhere,
+/// as unbalanced.
 void check_bearing(const Scene& scene, const char* key, double stiffness, double force);
 /// `key` is a torsional support of `stiffness` (N/m) in u = `radius` (m) x angle, and carries `force` (N) there.
 void check_torsional_support(const char* key, double stiffness, double force, double radius);

@@ -78,7 +78,8 @@ class StudyChecker {
     if (given(table + "values", i)) {
       if (s.values.empty()) return problem(table + "values", i, "needs at least one value");
       const std::set<double> distinct(s.values.begin(), s.values.end());
-      if (distinct.size() != s.values.size()) return problem(table + "values", i, "contains the same value twice; leave one out");
+      if (distinct.size() != s.values.size())
+        return problem(table + "values", i, "contains the same value twice; leave one out");
     } else if (*s.from == *s.to) {
       return problem(table + "to", i, "must differ from `from`");
     }
@@ -159,7 +160,8 @@ class StudyChecker {
         problem(table + key, i, fmt::format("{} must be in range: {}", v.input, parameter.range_text()));
     }
     if (!(v.low < v.high)) problem(table + "high", i, "must be larger than low");
-    if (v.scale == SweepScale::logarithmic && v.low <= 0) problem(table + "scale", i, "needs values above 0; use \"linear\"");
+    if (v.scale == SweepScale::logarithmic && v.low <= 0)
+      problem(table + "scale", i, "needs values above 0; use \"linear\"");
     const bool whole = parameter.kind == Parameter::Kind::integer;
     if (whole && (v.low != std::floor(v.low) || v.high != std::floor(v.high)))
       problem(table + "low", i, v.input + " is a whole number, so must be its limits");

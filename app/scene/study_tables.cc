@@ -78,8 +78,10 @@ Table monte_carlo_table() {
       .fallback(1L, "any number will do")
       .from(0, 2147483647);
   monte_carlo
-      .choice("phases", &MonteCarloInput::phases, {{"unknown", ErrorPhases::unknown}, {"prescribed", ErrorPhases::given, "given"}},
-              "unknown: every error phase of every body is uniform over the full circle; prescribed: the phases of [errors].")
+      .choice("phases", &MonteCarloInput::phases,
+              {{"unknown", ErrorPhases::unknown}, {"prescribed", ErrorPhases::given, "given"}},
+              "unknown: every error phase of every body is uniform over the full circle; prescribed: the phases of "
+              "[errors].")
       .fallback(std::string("unknown"), "the phases of errors are hardly ever known");
   return monte_carlo.done();
 }
@@ -120,7 +122,8 @@ Table random_input_table() {
 
 Table sensitivity_table() {
   Declarations<SensitivityInput> sensitivity(
-      "sensitivity", "Each input divided and multiplied by a factor, one at a time: does the order of the rings change?",
+      "sensitivity",
+      "Each input divided and multiplied by a factor, one at a time: does the order of the rings change?",
       [](Scene& s, std::size_t) -> SensitivityInput& {
         if (!s.sensitivity) s.sensitivity.emplace();
         return *s.sensitivity;

@@ -50,13 +50,14 @@ BOOST_AUTO_TEST_SUITE(overrides)
 
 BOOST_AUTO_TEST_CASE(values_are_set_before_the_checks) {
   const auto scene = quick();
-  const auto changed = app::with_overrides(scene, {{"stage.power_kW", 1000},
-                                                   {"stage.sun_speed_rpm", 900},
-                                                   {"supports.ring_N_per_m", 2e9},  // not in the file
-                                                   {"mesh.sun_planet.mean_N_per_m", 1e9},
-                                                   {"errors.planet_eccentricity_um[2]", 40},
-                                                   {"errors.planet_pin_position_error_phase_deg[5]", 90},  // list not there
-                                                   {"sun.teeth", 48}});
+  const auto changed =
+      app::with_overrides(scene, {{"stage.power_kW", 1000},
+                                  {"stage.sun_speed_rpm", 900},
+                                  {"supports.ring_N_per_m", 2e9},  // not in the file
+                                  {"mesh.sun_planet.mean_N_per_m", 1e9},
+                                  {"errors.planet_eccentricity_um[2]", 40},
+                                  {"errors.planet_pin_position_error_phase_deg[5]", 90},  // list not there
+                                  {"sun.teeth", 48}});
   BOOST_TEST(changed.stage.power == 1e6);
   BOOST_TEST(*changed.stage.sun_speed == 900 * units::rpm, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(changed.supports.ring == 2e9);
@@ -147,8 +148,10 @@ BOOST_AUTO_TEST_CASE(study_tables_are_checked) {
   const auto random = [](const std::string& keys) {
     return "[monte_carlo]\nsamples = 5\n[[monte_carlo.input]]\n" + keys;
   };
-  refused(random("input = \"planet.mass_kg\"\ndistribution = \"normal\"\nmean = 8\n"), {"monte_carlo.input.deviation: is required by distribution = \"normal\""});
-  refused(random("input = \"planet.mass_kg\"\ndistribution = \"uniform\"\nlow = 8\n"), {"monte_carlo.input.high: is required by distribution = \"uniform\""});
+  refused(random("input = \"planet.mass_kg\"\ndistribution = \"normal\"\nmean = 8\n"),
+          {"monte_carlo.input.deviation: is required by distribution = \"normal\""});
+  refused(random("input = \"planet.mass_kg\"\ndistribution = \"uniform\"\nlow = 8\n"),
+          {"monte_carlo.input.high: is required by distribution = \"uniform\""});
   refused(random("input = \"planet.mass\"\ndistribution = \"uniform\"\nlow = 8\nhigh = 9\n"), {"planet.mass_kg?"});
   refused("[sensitivity]\ninputs = [\"planet.mas_kg\"]\n", {"planet.mass_kg?"});
   refused("[sensitivity]\nfactor = 1\n", {"sensitivity.factor = 1"});

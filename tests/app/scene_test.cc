@@ -328,8 +328,10 @@ BOOST_AUTO_TEST_CASE(every_key_is_documented) {
     BOOST_TEST(!table.meaning.empty());
     for (const auto& p : table.parameters) {
       BOOST_TEST(p.meaning.size() > 3U, p.key());
-      // What an absent key means has to be said, and so has the reason of a default (a title needs none).
-      if (p.presence != app::Parameter::Presence::required && p.name != "title") BOOST_TEST(!p.note.empty(), p.key());
+      // What an absent key means has to be documented, and so has the reason of a default (a title needs none).
+      const bool needed = !p.required_if.empty() || !p.required_for.empty();
+      if (p.presence == app::Parameter::Presence::optional) BOOST_TEST((needed || !p.note.empty()), p.key());
+      if (p.presence == app::Parameter::Presence::defaulted && p.name != "title") BOOST_TEST(!p.note.empty(), p.key());
       if (p.kind == app::Parameter::Kind::real && p.presence == app::Parameter::Presence::required)
         BOOST_TEST(!p.range_text().empty(), p.key());
     }

@@ -140,8 +140,7 @@ Table manufacturing_error_table() {
 
 Table transmission_error_table() {
   Declarations<TransmissionErrorInput> shares(
-      "transmission_error",
-      "Causes of the transmission error: all causes, the errors alone and the stiffness alone.",
+      "transmission_error", "Causes of the transmission error: all causes, the errors alone and the stiffness alone.",
       [](Scene& s, std::size_t) -> TransmissionErrorInput& {
         if (!s.transmission_error) s.transmission_error.emplace();
         return *s.transmission_error;

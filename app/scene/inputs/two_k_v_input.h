@@ -31,7 +31,7 @@ struct InputShaftInput {
 struct OutputInput {
   double torque = 0, speed = 0;
   std::optional<double> inertia;
-  double support = 0;  ///< N m/rad; `rigid`: held
+  double support = 0;  ///< N m/rad; `rigid`: fixed
 };
 
 /// What the scene of a 2K-V reducer has besides stage, material, sun, planets and dynamics.

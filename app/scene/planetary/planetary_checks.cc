@@ -77,8 +77,7 @@ class PlanetaryChecker : KeyChecks {
   void check_ring(RingInput& ring) {
     if (!usable("ring.structure", ring.name)) return;
     if (ring.structure == Structure::traditional) check_flange(ring);
-    if (ring.structure == Structure::thin_walled)
-      not_wider_than_face("ring.hoop_width_mm", ring.name, ring.hoop_width);
+    if (ring.structure == Structure::thin_walled) not_wider_than_face("ring.hoop_width_mm", ring.name, ring.hoop_width);
     if (ring.has_pins()) check_pins(ring);
   }
 
@@ -111,7 +110,8 @@ class PlanetaryChecker : KeyChecks {
   /// Gives the only pin of a ring a bore of the housing without play, unless the scene declares one.
   void rest_in_bore(RingInput& ring) {
     for (auto& input : scene_.inputs) {
-      if (input.key != "ring.housing_clearance_um" || input.ring != ring.name || input.origin == Origin::scene) continue;
+      if (input.key != "ring.housing_clearance_um" || input.ring != ring.name || input.origin == Origin::scene)
+        continue;
       input.value = 0.0;
       input.note = "a single pin cannot hold the ring alone: it rests in the bore of the housing";
       ring.housing_clearance = 0;

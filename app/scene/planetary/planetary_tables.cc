@@ -164,25 +164,25 @@ Table optimised_ring_key() {
 }  // namespace
 
 std::vector<Table> planetary_tables() {
-  return {planetary_stage_table(),
-          planetary_hub_gear_table(
-              "sun", "The sun gear.", [](Scene& s, std::size_t) -> HubGearInput& { return s.sun; },
-              sun_mesh_computed()),
-          planetary_hub_gear_table(
-              "planet", "Each planet gear.", [](Scene& s, std::size_t) -> HubGearInput& { return s.planet; },
-              sun_mesh_computed() || ring_mesh_computed()),
-          carrier_table(),
-          ring_table(),
-          planetary_errors_table(),
-          supports_table(),
-          declare_mesh("mesh.sun_planet", "Stiffness of the sun mesh, prescribed instead of computed.",
-                       [](Scene& s, std::size_t) -> MeshInput& { return s.sun_planet; })
-              .done(),
-          declare_mesh("mesh.ring_planet", "Stiffness of the ring mesh, prescribed instead of computed.",
-                       [](Scene& s, std::size_t) -> MeshInput& { return s.ring_planet; })
-              .done(),
-          rim_coupling_key(),
-          optimised_ring_key()};
+  return {
+      planetary_stage_table(),
+      planetary_hub_gear_table(
+          "sun", "The sun gear.", [](Scene& s, std::size_t) -> HubGearInput& { return s.sun; }, sun_mesh_computed()),
+      planetary_hub_gear_table(
+          "planet", "Each planet gear.", [](Scene& s, std::size_t) -> HubGearInput& { return s.planet; },
+          sun_mesh_computed() || ring_mesh_computed()),
+      carrier_table(),
+      ring_table(),
+      planetary_errors_table(),
+      supports_table(),
+      declare_mesh("mesh.sun_planet", "Stiffness of the sun mesh, prescribed instead of computed.",
+                   [](Scene& s, std::size_t) -> MeshInput& { return s.sun_planet; })
+          .done(),
+      declare_mesh("mesh.ring_planet", "Stiffness of the ring mesh, prescribed instead of computed.",
+                   [](Scene& s, std::size_t) -> MeshInput& { return s.ring_planet; })
+          .done(),
+      rim_coupling_key(),
+      optimised_ring_key()};
 }
 
 }  // namespace annulus::app

@@ -115,7 +115,8 @@ class Reader {
         }
         input.origin = Origin::default_value;
         input.note = p.note;
-        if (!p.default_where_it_applies) input.value = p.default_value;  // the others follow with the rules between keys
+        if (!p.default_where_it_applies)
+          input.value = p.default_value;  // the others follow with the rules between keys
         input.line = at.line;
         input.column = at.column;
       } else {

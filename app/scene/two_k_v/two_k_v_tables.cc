@@ -118,7 +118,8 @@ Table input_shaft_table() {
       .above(0, 1e14)
       .required_if(with_dynamics());
   input
-      .key("support_Nm_per_rad", &InputShaftInput::support, "Torsional support of the input in the housing; inf: fixed.")
+      .key("support_Nm_per_rad", &InputShaftInput::support,
+           "Torsional support of the input in the housing; inf: fixed.")
       .fallback(0.0, "free: it carries the power")
       .from(0, 1e14)
       .infinite();
