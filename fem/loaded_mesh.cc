@@ -18,7 +18,7 @@ namespace {
 
 /// Teeth after which the structure of the wheel repeats.
 int repeating_teeth(const LoadedMeshProblem& problem) {
-  return repeating_teeth(problem.structure, problem.pair.wheel().teeth());
+  return problem.structure.repeating_teeth(problem.pair.wheel().teeth());
 }
 
 /// The ring mesh is solved in a mirror image of the real one, which turns the hands of helical gears.

@@ -48,6 +48,14 @@ void check_ring(const Scene& scene, const RingInput& input, const RingGeometry& 
         fmt::format("must be in range: 0 < value <= {}: the sleeve lies in the rim, which is {} thick, and keeps {} = "
                     "{} modules from the root",
                     mm(rim - least), mm(rim), mm(least), geometry::min_circle_distance));
+  const double smallest = 2 * (root + least), largest = 2 * (ring.outside_radius - least);
+  if (input.clamp_inner_diameter && (*input.clamp_inner_diameter < smallest * (1 - rounding) ||
+                                     *input.clamp_inner_diameter > largest * (1 + rounding)))
+    refuse(
+        "clamp_inner_diameter_mm", *input.clamp_inner_diameter,
+        fmt::format("must be in range: {} <= value <= {}: the clamped end faces lie in the rim, and their edge keeps "
+                    "{} = {} modules from root and outside",
+                    mm(smallest), mm(largest), mm(least), geometry::min_circle_distance));
 }
 
 }  // namespace

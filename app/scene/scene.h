@@ -20,7 +20,7 @@ namespace annulus::app {
 enum class Compare { none, computed };
 enum class StageKind { planetary, helical_pair, two_k_v };
 enum class Fidelity { automatic, closed_form, plane, solid, resolved };
-enum class Structure { traditional, thin_walled, pinned, bolted, splined };
+enum class Structure { traditional, thin_walled, pinned, bolted, splined, clamped };
 enum class StiffnessShape { computed, constant, harmonic, rectangular, table, iso_6336, closed_form };
 enum class MeshDamping { in_contact, always };
 enum class RimCoupling { automatic, none, statical, elastic };
@@ -83,6 +83,8 @@ struct RingInput : GearInput {
   std::optional<double> pin_radial_stiffness, pin_tangential_stiffness;
   std::optional<int> splines;
   std::optional<double> first_spline_angle, spline_flank_angle, spline_clearance, spline_stiffness;
+  std::optional<int> bolts, dowels;  ///< dowels: with their diameter or none
+  std::optional<double> clamp_inner_diameter, bolt_circle_diameter, bolt_diameter, first_bolt_angle, dowel_diameter;
 
   [[nodiscard]] bool has_pins() const { return structure == Structure::pinned || structure == Structure::bolted; }
   [[nodiscard]] int pin_count() const {

@@ -101,6 +101,7 @@ class Checker : KeyChecks {
     check_sleeve(ring);
     check_pins(ring);
     check_splines(ring);
+    check_clamp(ring);
   }
 
   /// Outside radius in m, when the scene tells enough; what is missing is reported elsewhere.
@@ -226,6 +227,55 @@ class Checker : KeyChecks {
     fall_back("ring.spline_clearance_um", name, ring.spline_clearance, 0, "no play");
   }
 
+  void check_clamp(RingInput& ring) {
+    const auto& name = ring.name;
+    const bool clamped = ring.structure == Structure::clamped;
+    constexpr const char* why = "structure = \"clamped\"";
+    const std::vector<std::string> needed = {"ring.clamp_inner_diameter_mm", "ring.bolts",
+                                             "ring.bolt_circle_diameter_mm", "ring.bolt_diameter_mm"};
+    required_if(clamped, needed, name, why);
+    forbidden_unless(clamped, needed, name, why);
+    forbidden_unless(clamped, {"ring.first_bolt_angle_deg", "ring.dowels", "ring.dowel_diameter_mm"}, name, why);
+    if (!clamped) return;
+    fall_back("ring.first_bolt_angle_deg", name, ring.first_bolt_angle, 0, "behind tooth 0");
+    both_or_none("ring.dowels", "ring.dowel_diameter_mm", name);
+    const auto radius = outside(ring);
+    if (radius && ring.clamp_inner_diameter && *ring.clamp_inner_diameter >= 2 * *radius)
+      problem(
+          "ring.clamp_inner_diameter_mm", name,
+          fmt::format("must be smaller than the outside diameter, value < {} mm", to_text(2 * *radius / units::mm, 7)));
+    if (ring.clamp_inner_diameter && ring.bolt_circle_diameter && ring.bolt_diameter && ring.bolts) bolt_circle(ring);
+  }
+
+  /// Bolts and dowels lie in the clamped annulus and leave each other room.
+  void bolt_circle(const RingInput& ring) {
+    const double circle = *ring.bolt_circle_diameter, bolt = *ring.bolt_diameter;
+    const double widest = std::max(bolt, ring.dowel_diameter.value_or(0));
+    const auto mm = [](double length) { return to_text(length / units::mm, 7); };
+    const auto radius = outside(ring);
+    const double least = *ring.clamp_inner_diameter + widest;
+    if (circle < least || (radius && circle > 2 * *radius - widest))
+      problem("ring.bolt_circle_diameter_mm", ring.name,
+              fmt::format("bolts and dowels of up to {} mm have to lie in the clamped end faces: {} mm <= value{}",
+                          mm(widest), mm(least), radius ? fmt::format(" <= {} mm", mm(2 * *radius - widest)) : ""));
+    const double apart = circle * std::sin(std::numbers::pi / *ring.bolts);
+    if (apart < bolt)
+      problem(
+          "ring.bolts", ring.name,
+          fmt::format("bolts overlap: their centres are {} mm apart on the bolt circle, less than bolt_diameter_mm = "
+                      "{}",
+                      to_text(apart / units::mm, 4), mm(bolt)));
+    if (!ring.dowels || !ring.dowel_diameter) return;
+    if (*ring.dowels > *ring.bolts)
+      problem("ring.dowels", ring.name,
+              fmt::format("there is room for one dowel between two bolts, value <= bolts = {}", *ring.bolts));
+    const double beside = circle * std::sin(std::numbers::pi / 2 / *ring.bolts);
+    if (apart >= bolt && beside < (bolt + *ring.dowel_diameter) / 2)
+      problem("ring.dowel_diameter_mm", ring.name,
+              fmt::format("dowels overlap the bolts, whose centres are {} mm away: value <= {} mm",
+                          to_text(beside / units::mm, 4), mm(2 * beside - bolt)));
+  }
+
   /// Gives an absent key of this ring's structure its default, in the unit of the key, and lists it among the inputs.
   void fall_back(const std::string& key, const std::string& ring, std::optional<double>& member, double value,
                  const char* why) {
@@ -253,7 +303,7 @@ class Checker : KeyChecks {
   void fidelity() {
     if (scene_.fidelity == Fidelity::resolved && scene_.ring_planet.stiffness == StiffnessShape::computed)
       for (const auto& ring : scene_.rings)
-        if (ring.structure != Structure::traditional && ring.structure != Structure::thin_walled)
+        if (fem::on_single_supports(ring_structure(ring)))
           problem(
               "model", "",
               fmt::format("cannot represent the ring-planet mesh of '{}': the resolved model does not cover rings on "
@@ -263,7 +313,7 @@ class Checker : KeyChecks {
       problem("model", "", "cannot represent helical gears: use \"automatic\" or \"solid\"");
     if (scene_.stage.helix_angle != 0 && scene_.ring_planet.stiffness == StiffnessShape::computed)
       for (const auto& ring : scene_.rings)
-        if (ring.structure != Structure::traditional && ring.structure != Structure::thin_walled)
+        if (fem::on_single_supports(ring_structure(ring)))
           problem("stage.helix_angle_deg", "",
                   fmt::format("is not modelled for the ring '{}' on pins, bolts or splines: nothing there takes the "
                               "axial force",

@@ -235,16 +235,19 @@ std::vector<Table> declare_tables() {
                                [](Scene& s, std::size_t i) -> RingInput& { return s.rings.at(i); });
   ring.repeated([](Scene& s, std::size_t n) { s.rings.resize(n); }).only(planetary);
   ring.key("name", &RingInput::name, "Name, also of the folder of its results.").required();
-  ring.choice("structure", &RingInput::structure,
-              {{"traditional", Structure::traditional},
-               {"thin_walled", Structure::thin_walled},
-               {"pinned", Structure::pinned},
-               {"bolted", Structure::bolted},
-               {"splined", Structure::splined}},
-              "traditional: outer surface held, or a bolted flange if one is given; thin_walled: cantilever on a "
-              "sleeve whose end face is held, outside free, with a hoop if one is given; pinned: pins around the "
-              "outside that carry outward pressure only; bolted: the same places held both ways; splined: spline "
-              "teeth around the outside in a rigid mate.")
+  ring.choice(
+          "structure", &RingInput::structure,
+          {{"traditional", Structure::traditional},
+           {"thin_walled", Structure::thin_walled},
+           {"pinned", Structure::pinned},
+           {"bolted", Structure::bolted},
+           {"splined", Structure::splined},
+           {"clamped", Structure::clamped}},
+          "traditional: outer surface held, or a bolted flange if one is given; thin_walled: cantilever on a "
+          "sleeve whose end face is held, outside free, with a hoop if one is given; pinned: pins around the "
+          "outside that carry outward pressure only; bolted: the same places held both ways; splined: spline "
+          "teeth around the outside in a rigid mate; clamped: both end faces held by a bolt circle through the rim, "
+          "outside free.")
       .required();
   declare_gear(ring, true);
   ring.key("outside_diameter_mm", &RingInput::outside_diameter, "Outside diameter; give this or rim_thickness_mm.")
@@ -325,6 +328,28 @@ std::vector<Table> declare_tables() {
   ring.key("spline_stiffness_N_per_m", &RingInput::spline_stiffness, "splined: normal stiffness of one flank.")
       .above(0, 1e14)
       .absent("derived from the spline tooth");
+  ring.key("clamp_inner_diameter_mm", &RingInput::clamp_inner_diameter,
+           "clamped: both end faces are held from here out to the outside diameter; the rest of them is free.")
+      .above(0, 1e5)
+      .absent("clamped only");
+  ring.key("bolts", &RingInput::bolts, "clamped: number of equally spaced bolts through the rim.")
+      .from(3, 2000)
+      .absent("clamped only");
+  ring.key("bolt_circle_diameter_mm", &RingInput::bolt_circle_diameter, "clamped: diameter of the bolt circle.")
+      .above(0, 1e5)
+      .absent("clamped only");
+  ring.key("bolt_diameter_mm", &RingInput::bolt_diameter, "clamped: diameter of the bolt holes.")
+      .above(0, 1000)
+      .absent("clamped only");
+  ring.key("first_bolt_angle_deg", &RingInput::first_bolt_angle, "clamped: first bolt, from the centre of tooth 0.")
+      .from(-360, 360)
+      .absent("0: behind tooth 0");
+  ring.key("dowels", &RingInput::dowels, "clamped: number of dowels on the bolt circle, between bolts.")
+      .from(1, 2000)
+      .absent("no dowels");
+  ring.key("dowel_diameter_mm", &RingInput::dowel_diameter, "clamped: diameter of the dowels.")
+      .above(0, 1000)
+      .absent("no dowels");
   tables.push_back(ring.done());
 
   Declarations<ErrorInput> errors(

@@ -146,8 +146,7 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
 
 void ClosedFormRun::add_supports(const Eigen::VectorXd& force, LoadedPosition& position) const {
   // Two supports belong to each pin or spline tooth; the bore's, which follow, are not pins.
-  const auto* pins = std::get_if<PinHeld>(&problem_.structure);
-  const std::size_t count = pins != nullptr ? pins->angles.size() : supports_.size() / 2;
+  const auto count = static_cast<std::size_t>(problem_.structure.single_supports());
   for (std::size_t q = 0; q < count; ++q) {
     PinState state;
     for (const std::size_t i : {2 * q, 2 * q + 1}) {
@@ -187,7 +186,7 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
   lapack::use_one_thread();  // thousands of small systems: threads would wait for each other more than they work
   const auto start = std::chrono::steady_clock::now();
   const auto since = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  const int cycles = repeating_teeth(problem.structure, problem.pair.wheel().teeth());
+  const int cycles = problem.structure.repeating_teeth(problem.pair.wheel().teeth());
   const int loads = static_cast<int>(problem.loads.size());
   const ClosedFormRun run(problem, rim);
   const double condensed = since();
@@ -222,9 +221,9 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
         std::max(result.closure_relative,
                  std::abs(result.positions[table_size + l].entry.lte / result.positions[l].entry.lte - 1));
   if (!run.supports().empty()) result.pin_stiffness = run.supports().front().stiffness;
-  if (const auto* pins = std::get_if<PinHeld>(&problem.structure)) result.pin_angles = pins->angles;
-  if (const auto* spline = std::get_if<SplineHeld>(&problem.structure))
-    result.pin_angles = equal_angles(spline->teeth, spline->first_tooth_angle);
+  // The frame of the solve is the mirror image of the real ring.
+  for (int pin = 0; pin < problem.structure.single_supports(); ++pin)
+    result.pin_angles.push_back(-run.supports()[2 * static_cast<std::size_t>(pin)].angle);
   result.slice_edges = {0, problem.face_width};
   result.condense_seconds = condensed;
   result.contact_seconds = since() - condensed;

@@ -66,15 +66,6 @@ double saved_seconds(const std::vector<Task>& tasks, int threads) {
   return without - with;
 }
 
-/// The supports of a floating ring; none when the structure holds the ring.
-std::optional<SupportSites> support_sites(const LoadedMeshProblem& problem) {
-  const SupportedRing ring{problem.pair.wheel().teeth(), problem.wheel_support_radius, problem.face_width,
-                           problem.material};
-  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure)) return pin_sites(*pinned, ring);
-  if (const auto* splined = std::get_if<SplineHeld>(&problem.structure)) return spline_sites(*splined, ring);
-  return std::nullopt;
-}
-
 }  // namespace
 
 MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& flanks,
@@ -89,9 +80,10 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   const BodyResolution solid_counts =
       solid ? solid_resolution(level, settings.degree, pair.overlap_ratio()) : BodyResolution{};
   std::optional<SupportPlan> supports;
-  if (const auto sites = support_sites(problem))
+  if (wheel.floating())
     // A slice per layer of elements: unilateral on its own.
-    supports.emplace(*sites, pair.wheel().teeth(), face.edges(std::max(1, solid_counts.face_cells)), face.half);
+    supports.emplace(support_sites(problem), pair.wheel().teeth(), face.edges(std::max(1, solid_counts.face_cells)),
+                     face.half);
 
   std::vector<Task> tasks;
   const auto add_body = [&](const BodyPlan& plan) {

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -98,8 +100,11 @@ struct Exchangeable {
 };
 
 void refuse_what_is_not_resolved(const LoadedMeshProblem& problem) {
-  if (std::holds_alternative<PinHeld>(problem.structure) || std::holds_alternative<SplineHeld>(problem.structure))
-    throw InputError("the resolved model does not cover rings on pins or splines: use the plane or solid model");
+  if (on_single_supports(problem.structure))
+    throw InputError(
+        fmt::format("the resolved model does not cover rings on pins or splines, and the ring has {}: use "
+                    "the plane or solid model",
+                    problem.structure.words().description));
   if (problem.pair.planet().helix_angle() != 0)
     throw InputError("the resolved model does not cover helical gears: use the solid model");
 }
