@@ -2,11 +2,11 @@
 #include "fem/closed_form/closed_form_error.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "fem/closed_form/tooth_contacts.h"
 #include "fem/condensation/lapack.h"
 #include "fem/problem/plane_strain_error.h"
@@ -184,12 +184,11 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
                                    const RimModel& rim) {
   check_problem(problem, Fidelity::closed_form);
   lapack::use_one_thread();  // thousands of small systems: threads would wait for each other more than they work
-  const auto start = std::chrono::steady_clock::now();
-  const auto since = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const Stopwatch watch;
   const int cycles = problem.structure.repeating_teeth(problem.pair.wheel().teeth());
   const int loads = static_cast<int>(problem.loads.size());
   const ClosedFormRun run(problem, rim);
-  const double condensed = since();
+  const double condensed = watch.seconds();
   auto positions = run.solve(cycles, settings);
   const auto yielding = bending_errors(problem, settings, rim, cycles, positions);
   for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -226,7 +225,7 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
     result.pin_angles.push_back(-run.supports()[2 * static_cast<std::size_t>(pin)].angle);
   result.slice_edges = {0, problem.face_width};
   result.condense_seconds = condensed;
-  result.contact_seconds = since() - condensed;
+  result.contact_seconds = watch.seconds() - condensed;
   return result;
 }
 

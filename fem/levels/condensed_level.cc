@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/stopwatch.h"
 #include "fem/levels/level.h"
 #include "fem/levels/mesh_bodies.h"
 #include "fem/recovery/field_recovery.h"

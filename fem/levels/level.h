@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <vector>
 
@@ -62,16 +61,5 @@ using SolvePosition = std::function<LoadedPosition(int cycle, int phase, int loa
 void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, bool table, bool chained,
                      const SolvePosition& solve, const ProgressFunction& progress,
                      std::vector<LoadedPosition>& positions);
-
-/// Wall seconds since the construction.
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace annulus::fem

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "fem/body/body_plan.h"
 #include "fem/condensation/altered_ring.h"
 #include "fem/condensation/lapack.h"
