@@ -11,6 +11,7 @@
 #include "fem/condensation/lapack.h"
 #include "fem/problem/plane_strain_error.h"
 #include "fem/problem/problem_check.h"
+#include "fem/problem/tabulated_result.h"
 
 namespace annulus::fem {
 namespace {
@@ -197,28 +198,12 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
     entry.error_relative = entry.error_parts.total();
   }
 
-  const std::size_t table_size = static_cast<std::size_t>(cycles) * problem.phases * loads;
-  std::vector<StiffnessEntry> entries;
-  std::vector<double> ring_angles;
-  ring_angles.reserve(cycles);
-  for (std::size_t i = 0; i < table_size; ++i) entries.push_back(positions[i].entry);
-  for (int c = 0; c < cycles; ++c)
-    ring_angles.push_back(positions[static_cast<std::size_t>(c) * problem.phases * loads].ring_angle);
-  StiffnessTable table(problem.pair.internal() ? "ring_planet" : "sun_planet", problem.phases, std::move(ring_angles),
-                       problem.loads, std::move(entries));
-  LoadedMeshResult result{std::move(table), std::move(positions)};
+  LoadedMeshResult result = tabulated(problem, std::move(positions));
   result.level = 0;
-  for (std::size_t i = 0; i < result.positions.size(); ++i) {
-    const auto& p = result.positions[i];
-    result.reciprocity_relative = std::max(result.reciprocity_relative, p.reciprocity_relative);
+  for (std::size_t i = 0; i < result.positions.size(); ++i)
     if (i % loads == static_cast<std::size_t>(loads) / 2)
       result.worst_error_relative =
-          std::max(result.worst_error_relative, p.entry.error_relative - plane_strain_error(problem));
-  }
-  for (int l = 0; l < loads; ++l)
-    result.closure_relative =
-        std::max(result.closure_relative,
-                 std::abs(result.positions[table_size + l].entry.lte / result.positions[l].entry.lte - 1));
+          std::max(result.worst_error_relative, result.positions[i].entry.error_relative - plane_strain_error(problem));
   if (!run.supports().empty()) result.pin_stiffness = run.supports().front().stiffness;
   // The frame of the solve is the mirror image of the real ring.
   for (int pin = 0; pin < problem.structure.single_supports(); ++pin)

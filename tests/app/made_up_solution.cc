@@ -113,9 +113,8 @@ fem::LoadedMeshResult made_up_solution(const app::MeshModel& model) {
       }
     }
   }
-  fem::LoadedMeshResult result{
-      .table = StiffnessTable(model.mesh, problem.phases, ring_angles, problem.loads, std::move(entries)),
-      .positions = std::move(positions)};
+  fem::LoadedMeshResult result(
+      StiffnessTable(model.mesh, problem.phases, ring_angles, problem.loads, std::move(entries)), std::move(positions));
   result.pin_angles = pins;
   result.slice_edges = edges;
   result.stress_curves = curves(problem.pair.internal(), solid ? 1.3 : 1);
