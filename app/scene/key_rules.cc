@@ -109,7 +109,7 @@ class RuleChecker {
     for (const auto& name : p.together_with) {
       const auto other = p.table + "." + name;
       if (has == keys_.given(other, entry)) continue;
-      problem(has ? p.key() : other, entry, fmt::format("needs {} as well", has ? name : p.name));
+      problem(has ? p.key() : other, entry, fmt::format("needs {} as well", has ? other : p.key()));
     }
   }
 

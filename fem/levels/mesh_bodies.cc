@@ -1,22 +1,18 @@
 #include "fem/levels/mesh_bodies.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <optional>
 #include <thread>
 
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "fem/body/body_plan.h"
 #include "fem/condensation/lapack.h"
 
 namespace annulus::fem {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// What is to be condensed: kept as data so that meshing (gmsh, serial) and condensing (parallel) can be apart.
 struct Task {
@@ -34,12 +30,12 @@ void condense_all(std::vector<Task>& tasks, const Material& material, int thread
   const auto condense_one = [&](std::size_t i) {
     try {
       auto& t = tasks[i];
-      const auto start = std::chrono::steady_clock::now();
+      const Stopwatch watch;
       CondensedTooth tooth = condense_tooth(t.mesh, *t.profile, t.support_radius, material, t.options);
       t.reused = tooth.reused;
-      if (t.reused) t.saved_seconds = std::max(0.0, tooth.seconds - seconds_since(start));
+      if (t.reused) t.saved_seconds = std::max(0.0, tooth.seconds - watch.seconds());
       t.body = compose_body(std::move(tooth), t.options);
-      t.seconds = seconds_since(start);
+      t.seconds = watch.seconds();
     } catch (...) {
       failures[i] = std::current_exception();
     }
@@ -66,20 +62,11 @@ double saved_seconds(const std::vector<Task>& tasks, int threads) {
   return without - with;
 }
 
-/// The supports of a floating ring; none when the structure holds the ring.
-std::optional<SupportSites> support_sites(const LoadedMeshProblem& problem) {
-  const SupportedRing ring{problem.pair.wheel().teeth(), problem.wheel_support_radius, problem.face_width,
-                           problem.material};
-  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure)) return pin_sites(*pinned, ring);
-  if (const auto* splined = std::get_if<SplineHeld>(&problem.structure)) return spline_sites(*splined, ring);
-  return std::nullopt;
-}
-
 }  // namespace
 
 MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& flanks,
                         const LoadedMeshSettings& settings, int level) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch meshing;
   const auto& pair = problem.pair;
   const bool solid = settings.fidelity == Fidelity::solid;
   const SolvedFace face = solved_face(problem, settings);
@@ -89,9 +76,10 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   const BodyResolution solid_counts =
       solid ? solid_resolution(level, settings.degree, pair.overlap_ratio()) : BodyResolution{};
   std::optional<SupportPlan> supports;
-  if (const auto sites = support_sites(problem))
+  if (wheel.floating())
     // A slice per layer of elements: unilateral on its own.
-    supports.emplace(*sites, pair.wheel().teeth(), face.edges(std::max(1, solid_counts.face_cells)), face.half);
+    supports.emplace(support_sites(problem), pair.wheel().teeth(), face.edges(std::max(1, solid_counts.face_cells)),
+                     face.half);
 
   std::vector<Task> tasks;
   const auto add_body = [&](const BodyPlan& plan) {
@@ -123,8 +111,8 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
     }
 
   MeshBodies bodies;
-  bodies.mesh_seconds = seconds_since(start);
-  const auto condense_start = std::chrono::steady_clock::now();
+  bodies.mesh_seconds = meshing.seconds();
+  const Stopwatch condensing;
   lapack::use_one_thread();
   condense_all(tasks, problem.material, settings.threads);
   for (const auto& task : tasks) ++(task.reused ? bodies.reused_teeth : bodies.condensed_teeth);
@@ -162,7 +150,7 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   bodies.planet_stress = std::make_unique<StressRecovery>(bodies.planet->body(), problem.face_width, nu, nullptr);
   bodies.wheel_stress =
       std::make_unique<StressRecovery>(bodies.wheel->body(), problem.face_width, nu, bodies.supports.get());
-  bodies.condense_seconds = seconds_since(condense_start);
+  bodies.condense_seconds = condensing.seconds();
   return bodies;
 }
 

@@ -150,9 +150,9 @@ BOOST_AUTO_TEST_CASE(partners_and_alternatives) {
   BOOST_TEST(problems_of(together, {width, depth(3)}).empty());
   BOOST_TEST(problems_of(together, {absent("shape.width_mm"), absent("shape.depth_mm")}).empty());
   BOOST_TEST(only_message(problems_of(together, {width, absent("shape.depth_mm")})) ==
-             "shape.width_mm = 2: needs depth_mm as well");
+             "shape.width_mm = 2: needs shape.depth_mm as well");
   BOOST_TEST(only_message(problems_of(together, {absent("shape.width_mm"), depth(3)})) ==
-             "shape.depth_mm = 3: needs width_mm as well");
+             "shape.depth_mm = 3: needs shape.width_mm as well");
 
   const auto either = shapes([](app::Declared d) { d.only_if(is("form", {"deep"})).instead_of({"width_mm"}); });
   BOOST_TEST(problems_of(either, {form("deep"), width, absent("shape.depth_mm")}).empty());

@@ -231,6 +231,37 @@ BOOST_AUTO_TEST_CASE(splines) {
   check_ring_refused("traditional", "splines = 54", "splines = 54", {"only with structure = \"splined\""});
 }
 
+BOOST_AUTO_TEST_CASE(clamped_rings) {
+  const std::string clamp = "clamp_inner_diameter_mm = 640\n", number = "bolts = 36\n",
+                    circle = "bolt_circle_diameter_mm = 652\n", diameter = "bolt_diameter_mm = 9\n";
+  const std::string all = clamp + number + circle + diameter;
+  const auto scene = app::parse_scene(ring_with("clamped", all), "s");
+  const auto& ring = scene.rings.front();
+  BOOST_TEST(*ring.clamp_inner_diameter == 0.64, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(*ring.first_bolt_angle == 0.0);
+  BOOST_TEST(!ring.dowels.has_value());
+  BOOST_CHECK_NO_THROW((void)app::parse_scene(ring_with("clamped", all + "dowels = 6\ndowel_diameter_mm = 8\n"), "s"));
+
+  check_ring_refused("clamped", number + circle + diameter, "[[ring]]",
+                     {"ring.clamp_inner_diameter_mm", "is required"});
+  check_ring_refused("clamped", clamp + circle + diameter, "[[ring]]", {"ring.bolts", "is required"});
+  check_ring_refused("traditional", clamp, "clamp_inner", {"only with structure = \"clamped\""});
+  check_ring_refused("clamped", all + "pins = 24", "pins = 24", {"\"pinned\" or \"bolted\""});
+  check_ring_refused("clamped", "clamp_inner_diameter_mm = 664\n" + number + circle + diameter, "clamp_inner",
+                     {"smaller than the outside diameter", "value < 663.6 mm"});
+  // A hole of 9 mm between 640 and 663.6 mm.
+  check_ring_refused("clamped", clamp + number + "bolt_circle_diameter_mm = 645\n" + diameter, "bolt_circle",
+                     {"649 mm <= value <= 654.6 mm"});
+  // 1° on 652 mm are 5.69 mm.
+  check_ring_refused("clamped", clamp + "bolts = 360\n" + circle + diameter, "bolts = 360",
+                     {"overlap", "5.69 mm", "bolt_diameter_mm = 9"});
+  check_ring_refused("clamped", all + "dowels = 4", "dowels = 4", {"needs ring.dowel_diameter_mm"});
+  check_ring_refused("clamped", all + "dowels = 37\ndowel_diameter_mm = 8", "dowels = 37", {"value <= bolts = 36"});
+  // Halfway between 200 bolts, 5.121 mm from either.
+  check_ring_refused("clamped", clamp + "bolts = 200\n" + circle + diameter + "dowels = 4\ndowel_diameter_mm = 8",
+                     "dowel_diameter_mm", {"5.121 mm away", "value <= 1.24"});
+}
+
 BOOST_AUTO_TEST_CASE(flanges_and_hoops_come_in_pairs) {
   const std::string sleeve = "free_length_mm = 18\nsleeve_thickness_mm = 10.6\n";
   const auto flange =

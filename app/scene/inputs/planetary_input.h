@@ -8,7 +8,7 @@
 
 namespace annulus::app {
 
-enum class Structure { traditional, thin_walled, pinned, bolted, splined };
+enum class Structure { traditional, thin_walled, pinned, bolted, splined, clamped };
 
 struct CarrierInput {
   std::optional<double> mass, inertia;
@@ -26,6 +26,8 @@ struct RingInput : GearInput {
   std::optional<double> pin_radial_stiffness, pin_tangential_stiffness;
   std::optional<int> splines;
   std::optional<double> first_spline_angle, spline_flank_angle, spline_clearance, spline_stiffness;
+  std::optional<int> bolts, dowels;  ///< dowels: with their diameter or none
+  std::optional<double> clamp_inner_diameter, bolt_circle_diameter, bolt_diameter, first_bolt_angle, dowel_diameter;
 
   [[nodiscard]] bool has_pins() const { return structure == Structure::pinned || structure == Structure::bolted; }
   [[nodiscard]] int pin_count() const {

@@ -8,8 +8,10 @@
 #include <set>
 
 #include "app/plan/mesh_model.h"
+#include "app/plan/ring_structures.h"
 #include "app/scene/key_checks.h"
 #include "app/scene/planetary/planetary_scene.h"
+#include "app/scene/planetary/ring_checks.h"
 #include "app/scene/scene_limits.h"
 #include "app/scene/scene_schema.h"
 #include "app/stage/gear_geometry.h"
@@ -31,7 +33,7 @@ class PlanetaryChecker : KeyChecks {
     // Problems of rings with the same name could not be assigned, so only the first one is checked.
     std::set<std::string> seen;
     for (auto& ring : scene_.rings) {
-      if (seen.insert(ring.name).second) check_ring(ring);
+      if (seen.insert(ring.name).second) check_ring(ring, scene_, problems_);
     }
     wave(scene_.sun_planet, "mesh.sun_planet");
     wave(scene_.ring_planet, "mesh.ring_planet");
@@ -74,104 +76,11 @@ class PlanetaryChecker : KeyChecks {
     }
   }
 
-  void check_ring(RingInput& ring) {
-    if (!usable("ring.structure", ring.name)) return;
-    if (ring.structure == Structure::traditional) check_flange(ring);
-    if (ring.structure == Structure::thin_walled) not_wider_than_face("ring.hoop_width_mm", ring.name, ring.hoop_width);
-    if (ring.has_pins()) check_pins(ring);
-  }
-
-  /// Outside radius in m, when the scene defines it; what is missing is reported elsewhere.
-  [[nodiscard]] std::optional<double> outside(const RingInput& ring) const {
-    if (!ring.outside_diameter && !ring.rim_thickness) return std::nullopt;
-    try {
-      return outside_radius(scene_, ring);
-    } catch (const GeometryError&) {
-      return std::nullopt;
-    }
-  }
-
-  void check_flange(const RingInput& ring) {
-    not_wider_than_face("ring.flange_width_mm", ring.name, ring.flange_width);
-    if (const auto radius = outside(ring); radius && ring.flange_diameter && *ring.flange_diameter <= 2 * *radius) {
-      problem(
-          "ring.flange_diameter_mm", ring.name,
-          fmt::format("must be larger than the outside diameter, value > {} mm", to_text(2 * *radius / units::mm, 7)));
-    }
-  }
-
-  void check_pins(RingInput& ring) {
-    const bool equal = given("ring.pins", ring.name), listed = given("ring.pin_angles_deg", ring.name);
-    if (listed && !equal && usable("ring.pin_angles_deg", ring.name)) listed_pins(ring);
-    if (equal && !listed && ring.pins) equal_pins(ring);
-    if (ring.pin_count() == 1) rest_in_bore(ring);
-  }
-
-  /// Gives the only pin of a ring a bore of the housing without play, unless the scene declares one.
-  void rest_in_bore(RingInput& ring) {
-    for (auto& input : scene_.inputs) {
-      if (input.key != "ring.housing_clearance_um" || input.ring != ring.name || input.origin == Origin::scene)
-        continue;
-      input.value = 0.0;
-      input.note = "a single pin cannot hold the ring alone: it rests in the bore of the housing";
-      ring.housing_clearance = 0;
-    }
-  }
-
-  void equal_pins(const RingInput& ring) {
-    const auto radius = outside(ring);
-    if (!radius || !ring.pin_diameter || *ring.pins < 2) return;
-    const double distance = 2 * *radius * std::sin(std::numbers::pi / *ring.pins);
-    if (distance >= *ring.pin_diameter) return;
-    problem("ring.pins", ring.name,
-            fmt::format("pins overlap: their centres are {} mm apart on the outside, less than pin_diameter_mm = {}",
-                        to_text(distance / units::mm, 4), to_text(*ring.pin_diameter / units::mm)));
-  }
-
-  /// Every pin needs an angular position of its own, and room for its diameter.
-  void listed_pins(const RingInput& ring) {
-    const auto& angles = ring.pin_angles;
-    if (angles.empty()) {
-      return problem("ring.pin_angles_deg", ring.name, fmt::format("needs at least one angle, {}", angle_range()));
-    }
-    const auto radius = outside(ring);
-    for (std::size_t i = 0; i < angles.size(); ++i) {
-      for (std::size_t j = i + 1; j < angles.size(); ++j) {
-        const double apart = std::abs(std::remainder(angles[i] - angles[j], 2 * std::numbers::pi));
-        const std::string which = fmt::format("pins {} and {} ({}° and {}°)", i + 1, j + 1,
-                                              to_text(angles[i] / units::deg), to_text(angles[j] / units::deg));
-        constexpr double same = 1e-9;  // rad: beyond the rounding of degrees
-        if (apart < same) return problem("ring.pin_angles_deg", ring.name, which + " have the same angular position");
-        const double distance = radius ? 2 * *radius * std::sin(apart / 2) : 0;
-        if (radius && ring.pin_diameter && distance < *ring.pin_diameter) {
-          return problem("ring.pin_angles_deg", ring.name,
-                         fmt::format("{} overlap: their centres are {} mm apart on the outside, less than "
-                                     "pin_diameter_mm = {}",
-                                     which, to_text(distance / units::mm, 4), to_text(*ring.pin_diameter / units::mm)));
-        }
-      }
-    }
-  }
-
-  static std::string angle_range() { return find_parameter("ring.pin_angles_deg")->range_text(); }
-
-  void not_wider_than_face(const std::string& key, const std::string& ring, const std::optional<double>& width) {
-    if (!width || !usable("stage.face_width_mm") || *width <= scene_.stage.face_width) return;
-    problem(
-        key, ring,
-        fmt::format("must not exceed the face width, value <= {} mm", to_text(scene_.stage.face_width / units::mm)));
-  }
-
-  /// Rings on pins, bolts or splines.
-  static bool on_single_supports(const RingInput& ring) {
-    return ring.structure != Structure::traditional && ring.structure != Structure::thin_walled;
-  }
-
   void resolved_model() {
     if (scene_.fidelity != Fidelity::resolved) return;
     if (scene_.ring_planet.stiffness == StiffnessShape::computed)
       for (const auto& ring : scene_.rings)
-        if (on_single_supports(ring))
+        if (fem::on_single_supports(ring_structure(ring)))
           problem("model", "",
                   fmt::format("cannot represent the ring-planet mesh of '{}': the resolved model does not cover rings "
                               "on pins, bolts or splines; use \"automatic\"",
@@ -183,7 +92,7 @@ class PlanetaryChecker : KeyChecks {
   void axial_force() {
     if (scene_.stage.helix_angle == 0 || scene_.ring_planet.stiffness != StiffnessShape::computed) return;
     for (const auto& ring : scene_.rings)
-      if (on_single_supports(ring))
+      if (fem::on_single_supports(ring_structure(ring)))
         problem("stage.helix_angle_deg", "",
                 fmt::format("is not modelled for the ring '{}' on pins, bolts or splines: they do not carry the axial "
                             "force",

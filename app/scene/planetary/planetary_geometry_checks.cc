@@ -36,6 +36,14 @@ void check_ring_rim(const Scene& scene, const RingInput& input, const RingGeomet
         fmt::format("must be in range: 0 < value <= {}: the sleeve lies in the rim, which is {} thick, and keeps {} = "
                     "{} modules from the root",
                     length_mm(rim - least), length_mm(rim), length_mm(least), geometry::min_circle_distance));
+  const double smallest = 2 * (root + least), largest = 2 * (ring.outside_radius - least);
+  if (input.clamp_inner_diameter && (*input.clamp_inner_diameter < smallest * (1 - diameter_rounding) ||
+                                     *input.clamp_inner_diameter > largest * (1 + diameter_rounding)))
+    refuse(
+        "clamp_inner_diameter_mm", *input.clamp_inner_diameter,
+        fmt::format("must be in range: {} <= value <= {}: the clamped end faces lie in the rim, and their edge keeps "
+                    "{} = {} modules from root and outside",
+                    length_mm(smallest), length_mm(largest), length_mm(least), geometry::min_circle_distance));
 }
 
 void check_ring_supports(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {

@@ -9,16 +9,19 @@ using RingDeclarations = Declarations<RingInput>;
 
 void declare_ring_body(RingDeclarations& ring) {
   ring.key("name", &RingInput::name, "Name, also of the folder of its results.").required();
-  ring.choice("structure", &RingInput::structure,
-              {{"traditional", Structure::traditional},
-               {"thin_walled", Structure::thin_walled},
-               {"pinned", Structure::pinned},
-               {"bolted", Structure::bolted},
-               {"splined", Structure::splined}},
-              "traditional: outer surface fixed, or a bolted flange if one is declared; thin_walled: cantilevered from "
-              "a sleeve whose end face is fixed, outside free, with a hoop if one is declared; pinned: pins around the "
-              "outside that carry outward pressure only; bolted: bolts at the same positions, fixed both ways; "
-              "splined: spline teeth around the outside in a rigid mate.")
+  ring.choice(
+          "structure", &RingInput::structure,
+          {{"traditional", Structure::traditional},
+           {"thin_walled", Structure::thin_walled},
+           {"pinned", Structure::pinned},
+           {"bolted", Structure::bolted},
+           {"splined", Structure::splined},
+           {"clamped", Structure::clamped}},
+          "traditional: outer surface fixed, or a bolted flange if one is declared; thin_walled: cantilevered from "
+          "a sleeve whose end face is fixed, outside free, with a hoop if one is declared; pinned: pins around the "
+          "outside that carry outward pressure only; bolted: bolts at the same positions, fixed both ways; "
+          "splined: spline teeth around the outside in a rigid mate; clamped: both end faces fixed by a bolt circle "
+          "through the rim, outside free.")
       .required();
   declare_teeth(ring, Flanks::internal);
   declare_mass(ring);
@@ -138,6 +141,37 @@ void declare_splines(RingDeclarations& ring) {
       .absent("derived from the spline tooth");
 }
 
+void declare_clamp(RingDeclarations& ring) {
+  const auto clamped = is("structure", {"clamped"});
+  ring.key("clamp_inner_diameter_mm", &RingInput::clamp_inner_diameter,
+           "Both end faces are fixed between this diameter and the outside; the rest of them is free.")
+      .above(0, 1e5)
+      .needed_if(clamped);
+  ring.key("bolts", &RingInput::bolts, "Number of equally spaced bolts through the rim.")
+      .from(3, 2000)
+      .needed_if(clamped);
+  ring.key("bolt_circle_diameter_mm", &RingInput::bolt_circle_diameter, "Diameter of the bolt circle.")
+      .above(0, 1e5)
+      .needed_if(clamped);
+  ring.key("bolt_diameter_mm", &RingInput::bolt_diameter, "Diameter of the bolt holes.")
+      .above(0, 1000)
+      .needed_if(clamped);
+  ring.key("first_bolt_angle_deg", &RingInput::first_bolt_angle,
+           "Angular position of the first bolt, from the centre of tooth 0.")
+      .from(-360, 360)
+      .only_if(clamped)
+      .fallback(0.0, "behind tooth 0");
+  ring.key("dowels", &RingInput::dowels, "Number of dowels on the bolt circle, between bolts.")
+      .from(1, 2000)
+      .only_if(clamped)
+      .absent("no dowels");
+  ring.key("dowel_diameter_mm", &RingInput::dowel_diameter, "Diameter of the dowels.")
+      .above(0, 1000)
+      .only_if(clamped)
+      .together_with("dowels")
+      .absent("no dowels");
+}
+
 }  // namespace
 
 Table ring_table() {
@@ -149,6 +183,7 @@ Table ring_table() {
   declare_sleeve(ring);
   declare_pins(ring);
   declare_splines(ring);
+  declare_clamp(ring);
   return ring.done();
 }
 
