@@ -43,6 +43,7 @@ std::optional<std::string> KeyValues::text(const std::string& key, std::size_t e
     if (none && input->origin == Origin::scene) return std::nullopt;
     return none ? "" : to_text(input->value);
   }
+  if (has_table(table_of(key))) return std::nullopt;  // required, and reported as missing
   for (const auto& table : tables_) {
     if (table.path != table_of(key)) continue;
     for (const auto& p : table.parameters)

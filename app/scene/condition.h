@@ -21,7 +21,8 @@ class KeyValues {
   [[nodiscard]] const Input* find(const std::string& key, std::size_t entry) const;
   /// Written in the scene, with whatever value.
   [[nodiscard]] bool given(const std::string& key, std::size_t entry) const;
-  /// Text of the value, of the default, or of what an absent table stands for; nothing when the value was refused.
+  /// Text of the value, of the default, or of what an absent table stands for; nothing when the value was refused or a
+  /// required one is missing.
   [[nodiscard]] std::optional<std::string> text(const std::string& key, std::size_t entry) const;
   /// Whether a table was read. Optional tables whose keys all have defaults are always read.
   [[nodiscard]] bool has_table(const std::string& path) const;

@@ -97,6 +97,9 @@ BOOST_AUTO_TEST_CASE(conditions_hold_fail_or_are_unknown) {
   BOOST_TEST(!holds(is("form", {"flat"}) && given("[shape]"), 1).has_value());
   BOOST_TEST((holds(is("form", {"flat"}) || given("[shape]"), 1) == true));
   BOOST_TEST(!holds(is("form", {"flat"}) || given("[other]"), 1).has_value());
+  // A required one that is missing is not known either; a table that is absent is.
+  BOOST_TEST(!holds(is("form", {"flat"}), 2).has_value());
+  BOOST_TEST((holds(is("other.form", {"flat"})) == false));
 }
 
 BOOST_AUTO_TEST_CASE(conditions_as_text) {
