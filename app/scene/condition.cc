@@ -54,8 +54,12 @@ std::optional<std::string> KeyValues::text(const std::string& key, std::size_t e
 
 bool KeyValues::has_table(const std::string& path) const {
   const auto head = path + ".";
-  const auto next = places_.lower_bound({head, 0});
-  return next != places_.end() && next->first.first.starts_with(head);
+  for (auto next = places_.lower_bound({head, 0}); next != places_.end(); ++next) {
+    const auto& key = next->first.first;
+    if (!key.starts_with(head)) return false;
+    if (table_of(key) == path) return true;  // not that of a table below, as [[monte_carlo.input]]
+  }
+  return false;
 }
 
 std::string Condition::full_key(const std::string& table) const {

@@ -89,6 +89,9 @@ BOOST_AUTO_TEST_CASE(conditions_hold_fail_or_are_unknown) {
   BOOST_TEST((holds(given("width_mm")) == false));
   BOOST_TEST((holds(given("[shape]")) == true));
   BOOST_TEST((holds(given("[other]")) == false));
+  const std::vector<app::Input> below = {written("shape.part.depth_mm", 3.0)};
+  BOOST_TEST((given("[shape]").holds(app::KeyValues(below, tables), "", 0) == false));
+  BOOST_TEST((given("[shape.part]").holds(app::KeyValues(below, tables), "", 0) == true));
   BOOST_TEST((holds(!given("width_mm")) == true));
   // A refused value: only what the other part decides is known.
   BOOST_TEST(!holds(is("form", {"flat"}), 1).has_value());
