@@ -163,7 +163,8 @@ std::string presence_text(const Parameter& p) {
       return "required";
     case Parameter::Presence::optional: {
       const std::string kinds = p.required_for.empty() ? "" : "required for " + kinds_text(p.required_for) + ", else ";
-      return kinds + (p.note.empty() ? "optional" : "optional; absent: " + p.note);
+      const std::string word = p.required_if.empty() ? "optional" : "conditional";
+      return kinds + (p.note.empty() ? word : word + "; absent: " + p.note);
     }
     case Parameter::Presence::defaulted:
       break;

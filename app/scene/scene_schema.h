@@ -108,7 +108,7 @@ struct Table {
 /// The scene reference as Markdown (docs/scene.md), and one key for `annulus explain KEY`.
 [[nodiscard]] std::string scene_reference();
 [[nodiscard]] std::string explain(const Parameter& parameter);
-/// "required", "default 0.3 (steel)", "optional; absent: ...".
+/// "required", "default 0.3 (steel)", "optional; absent: ...", "conditional" (on what: rule_texts).
 [[nodiscard]] std::string presence_text(const Parameter& parameter);
 /// "one of "linear", "logarithmic"".
 [[nodiscard]] std::string choices_text(const Parameter& parameter);
