@@ -70,13 +70,13 @@ std::string rule_text(const char* verb, const KeyRule& rule, const std::string& 
          (rule.why.empty() ? "" : ": " + rule.why);
 }
 
-std::string sentence(std::string text) {
+std::string as_sentence(std::string text) {
   text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
   return text + ".";
 }
 
 /// Rules with the same condition as another one, as those of needed_if.
-bool repeats(const KeyRule& rule, const std::vector<KeyRule>& others, const std::string& table) {
+bool has_condition_of(const KeyRule& rule, const std::vector<KeyRule>& others, const std::string& table) {
   return std::any_of(others.begin(), others.end(),
                      [&](const KeyRule& o) { return o.when.text(table) == rule.when.text(table); });
 }
@@ -101,11 +101,11 @@ bool Parameter::required(StageKind stage) const { return required(kind_name(stag
 std::vector<std::string> rule_texts(const Parameter& p) {
   std::vector<std::string> list;
   for (const auto& rule : p.only_if) {
-    const bool needed = repeats(rule, p.required_if, p.table);
+    const bool needed = has_condition_of(rule, p.required_if, p.table);
     list.push_back(rule_text(needed ? "required, and permitted only, with " : "only with ", rule, p.table));
   }
   for (const auto& rule : p.required_if)
-    if (!repeats(rule, p.only_if, p.table)) list.push_back(rule_text("required by ", rule, p.table));
+    if (!has_condition_of(rule, p.only_if, p.table)) list.push_back(rule_text("required by ", rule, p.table));
   for (const auto& rule : p.refused_if) list.push_back(rule_text("refused beside ", rule, p.table));
   for (const auto& name : p.together_with) list.push_back("together with " + name);
   std::string others;
@@ -195,7 +195,7 @@ std::string scene_reference() {
   for (const auto& table : schema()) {
     text += fmt::format("\n## {}\n\n{}", table.path.empty() ? "Top level" : "`" + table.header() + "`", table.meaning);
     if (!table.required) text += " Optional.";
-    for (const auto& rule : table.only_if) text += " " + sentence(rule_text("only with ", rule, ""));
+    for (const auto& rule : table.only_if) text += " " + as_sentence(rule_text("only with ", rule, ""));
     if (!table.kinds.empty()) text += " For stages of kind " + kinds_text(table.kinds) + ".";
     text += "\n\n| key | type | range | presence | meaning |\n|---|---|---|---|---|\n";
     for (const auto& p : table.parameters) {

@@ -19,7 +19,7 @@ constexpr double usual_mesh_stiffness = 0.1;
 
 constexpr const char* no_engagement = "beyond that the teeth hardly engage";
 
-double most(const Scene& scene) { return largest_gear_displacement * scene.stage.module; }
+double displacement_limit(const Scene& scene) { return largest_gear_displacement * scene.stage.module; }
 
 }  // namespace
 
@@ -38,21 +38,21 @@ void check_load(const Scene& scene, const char* key, double force) {
 }
 
 void check_prescribed_mesh(const Scene& scene, const char* key, const MeshInput& mesh, double force) {
-  if (!mesh.mean || force <= most(scene) * *mesh.mean) return;
+  if (!mesh.mean || force <= displacement_limit(scene) * *mesh.mean) return;
   throw InputError(fmt::format(
       "{}: a mesh of {} N/m deflects by {} mm under its load of {} N; at most {} of the module is possible: "
       "{}; reduce the load {:.3g} times",
       key, to_text(*mesh.mean, 4), to_text(force / *mesh.mean / units::mm, 3), to_text(force, 3),
-      largest_gear_displacement, no_engagement, force / (most(scene) * *mesh.mean)));
+      largest_gear_displacement, no_engagement, force / (displacement_limit(scene) * *mesh.mean)));
 }
 
 void check_bearing(const Scene& scene, const char* key, double stiffness, double force) {
-  if (stiffness == 0 || force <= most(scene) * stiffness) return;
+  if (stiffness == 0 || force <= displacement_limit(scene) * stiffness) return;
   throw InputError(
       fmt::format("{} = {}: deflects under the load of {} N by more than {} of the module: {}; must be at "
                   "least {} N/m",
                   key, to_text(stiffness, 6), to_text(force, 3), largest_gear_displacement, no_engagement,
-                  to_text(force / most(scene), 3)));
+                  to_text(force / displacement_limit(scene), 3)));
 }
 
 void check_torsional_support(const char* key, double stiffness, double force, double radius) {
@@ -65,8 +65,8 @@ void check_torsional_support(const char* key, double stiffness, double force, do
 }
 
 void check_error(const Scene& scene, const char* key, double value) {
-  if (std::abs(value) <= most(scene)) return;
-  const std::string limit = to_text(most(scene) / units::um, 6);
+  if (std::abs(value) <= displacement_limit(scene)) return;
+  const std::string limit = to_text(displacement_limit(scene) / units::um, 6);
   throw InputError(fmt::format("{} = {}: must be in range: -{} <= value <= {} µm, {} of the module: {}", key,
                                to_text(value / units::um), limit, limit, largest_gear_displacement, no_engagement));
 }

@@ -81,7 +81,7 @@ Table pair_mesh_table() {
 }
 
 /// Names of the quantities whose quantile can be the error at mesh frequency, and "none".
-std::vector<Choice<std::string>> readings() {
+std::vector<Choice<std::string>> reading_choices() {
   std::vector<Choice<std::string>> list;
   for (const std::string gear : {"pinion_", "wheel_"}) {
     for (const auto* what : {"error", "error_magnitude", "x1", "x2", "envelope", "crest"})
@@ -127,7 +127,7 @@ Table manufacturing_error_table() {
            {{"printed", ErrorDivisor::printed}, {"exact", ErrorDivisor::exact}},
            "Scale of the Rayleigh law = deviation / divisor: 6.8 as printed, or 2√(−2 ln 0.003) = 6.817.")
       .fallback(std::string("printed"), "the source's rounding");
-  t.choice("reading", &ManufacturingErrorInput::reading, readings(),
+  t.choice("reading", &ManufacturingErrorInput::reading, reading_choices(),
            "Which quantity's quantile becomes the error at mesh frequency: pinion_ or wheel_ with error (one-sided), "
            "error_magnitude, x1, x2, envelope √(X₁² + X₂²) or crest X₁ + X₂; sum or sum_magnitude of both gears; "
            "none: the law is reported, the error is that of errors.mesh_error_um.")
