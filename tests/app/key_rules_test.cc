@@ -45,8 +45,8 @@ std::vector<app::Table> shapes(Rules rules) {
   return {t.done()};
 }
 
-std::vector<app::Problem> problems_of(const std::vector<app::Table>& tables, std::vector<app::Input> inputs,
-                                      app::Scene* result = nullptr) {
+std::vector<app::Problem> rule_problems(const std::vector<app::Table>& tables, std::vector<app::Input> inputs,
+                                        app::Scene* result = nullptr) {
   app::Scene scene;
   scene.inputs = std::move(inputs);
   std::vector<app::Problem> problems;
@@ -55,13 +55,13 @@ std::vector<app::Problem> problems_of(const std::vector<app::Table>& tables, std
   return problems;
 }
 
-std::string only_message(const std::vector<app::Problem>& problems) {
+std::string the_only_message(const std::vector<app::Problem>& problems) {
   BOOST_TEST_REQUIRE(problems.size() == 1U);
   return problems.front().message;
 }
 
-const auto form = [](const char* value) { return written("shape.form", std::string(value)); };
-const auto depth = [](double value) { return written("shape.depth_mm", value); };
+app::Input form_of(const char* value) { return written("shape.form", std::string(value)); }
+app::Input depth_of(double value) { return written("shape.depth_mm", value); }
 
 std::string first_refusal(const std::string& text) {
   try {
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_SUITE(key_rules)
 
 BOOST_AUTO_TEST_CASE(conditions_hold_fail_or_are_unknown) {
   const auto tables = shapes([](app::Declared) {});
-  const std::vector<app::Input> inputs = {form("deep"), absent("shape.width_mm"), depth(3),
+  const std::vector<app::Input> inputs = {form_of("deep"), absent("shape.width_mm"), depth_of(3),
                                           written("shape.form", std::monostate{}, 1)};
   const app::KeyValues keys(inputs, tables);
   const auto holds = [&](const app::Condition& c, std::size_t entry = 0) { return c.holds(keys, "shape", entry); };
@@ -112,75 +112,76 @@ BOOST_AUTO_TEST_CASE(conditions_as_text) {
   BOOST_TEST((!is("form", {"flat"})).text("shape") == "form other than \"flat\"");
   BOOST_TEST((given("[shape]") && !given("depth_mm")).text("shape") == "[shape] and no depth_mm");
   const auto tables = shapes([](app::Declared) {});
-  const std::vector<app::Input> inputs = {form("deep")};
+  const std::vector<app::Input> inputs = {form_of("deep")};
   const app::KeyValues keys(inputs, tables);
   BOOST_TEST((is("form", {"flat", "deep"}) || given("[other]")).cause(keys, "shape", 0) == "form = \"deep\"");
 }
 
 BOOST_AUTO_TEST_CASE(keys_that_apply_or_are_needed_under_a_condition) {
   const auto only = shapes([](app::Declared d) { d.only_if(is("form", {"deep"}), "flat ones have none"); });
-  BOOST_TEST(problems_of(only, {form("deep"), depth(3)}).empty());
-  BOOST_TEST(problems_of(only, {form("deep"), absent("shape.depth_mm")}).empty());
-  BOOST_TEST(problems_of(only, {form("flat"), absent("shape.depth_mm")}).empty());
-  BOOST_TEST(only_message(problems_of(only, {form("flat"), depth(3)})) ==
+  BOOST_TEST(rule_problems(only, {form_of("deep"), depth_of(3)}).empty());
+  BOOST_TEST(rule_problems(only, {form_of("deep"), absent("shape.depth_mm")}).empty());
+  BOOST_TEST(rule_problems(only, {form_of("flat"), absent("shape.depth_mm")}).empty());
+  BOOST_TEST(the_only_message(rule_problems(only, {form_of("flat"), depth_of(3)})) ==
              "shape.depth_mm = 3: has a meaning only with form = \"deep\": flat ones have none");
-  BOOST_TEST(problems_of(only, {form("flat"), depth(3)}).front().line == 7);
+  BOOST_TEST(rule_problems(only, {form_of("flat"), depth_of(3)}).front().line == 7);
   // A refused form is a problem of its own.
-  BOOST_TEST(problems_of(only, {written("shape.form", std::monostate{}), depth(3)}).empty());
+  BOOST_TEST(rule_problems(only, {written("shape.form", std::monostate{}), depth_of(3)}).empty());
 
   const auto needed = shapes([](app::Declared d) { d.needed_if(is("form", {"deep"})); });
-  BOOST_TEST(only_message(problems_of(needed, {form("deep"), absent("shape.depth_mm")})) ==
+  BOOST_TEST(the_only_message(rule_problems(needed, {form_of("deep"), absent("shape.depth_mm")})) ==
              "shape.depth_mm: is required by form = \"deep\"");
-  BOOST_TEST(problems_of(needed, {form("deep"), absent("shape.depth_mm")}).front().line == 5);
-  BOOST_TEST(problems_of(needed, {form("flat"), absent("shape.depth_mm")}).empty());
-  BOOST_TEST(problems_of(needed, {form("flat"), depth(3)}).size() == 1U);
+  BOOST_TEST(rule_problems(needed, {form_of("deep"), absent("shape.depth_mm")}).front().line == 5);
+  BOOST_TEST(rule_problems(needed, {form_of("flat"), absent("shape.depth_mm")}).empty());
+  BOOST_TEST(rule_problems(needed, {form_of("flat"), depth_of(3)}).size() == 1U);
 
   const auto refused = shapes([](app::Declared d) { d.refused_if(given("width_mm"), "one follows from the other"); });
-  BOOST_TEST(problems_of(refused, {depth(3), absent("shape.width_mm")}).empty());
-  BOOST_TEST(only_message(problems_of(refused, {depth(3), written("shape.width_mm", 2.0)})) ==
+  BOOST_TEST(rule_problems(refused, {depth_of(3), absent("shape.width_mm")}).empty());
+  BOOST_TEST(the_only_message(rule_problems(refused, {depth_of(3), written("shape.width_mm", 2.0)})) ==
              "shape.depth_mm = 3: cannot stand beside width_mm: one follows from the other");
 }
 
 BOOST_AUTO_TEST_CASE(each_entry_of_an_array_has_its_own_conditions) {
   const auto tables = shapes([](app::Declared d) { d.needed_if(is("form", {"deep"})); });
   const auto problems =
-      problems_of(tables, {form("flat"), absent("shape.depth_mm"), written("shape.form", std::string("deep"), 1),
-                           absent("shape.depth_mm", 1), written("shape.form", std::string("deep"), 2),
-                           written("shape.depth_mm", 3.0, 2)});
-  BOOST_TEST(only_message(problems) == "shape.depth_mm: is required by form = \"deep\"");
+      rule_problems(tables, {form_of("flat"), absent("shape.depth_mm"), written("shape.form", std::string("deep"), 1),
+                             absent("shape.depth_mm", 1), written("shape.form", std::string("deep"), 2),
+                             written("shape.depth_mm", 3.0, 2)});
+  BOOST_TEST(the_only_message(problems) == "shape.depth_mm: is required by form = \"deep\"");
 }
 
 BOOST_AUTO_TEST_CASE(partners_and_alternatives) {
   const auto together = shapes([](app::Declared d) { d.together_with("width_mm"); });
   const auto width = written("shape.width_mm", 2.0);
-  BOOST_TEST(problems_of(together, {width, depth(3)}).empty());
-  BOOST_TEST(problems_of(together, {absent("shape.width_mm"), absent("shape.depth_mm")}).empty());
-  BOOST_TEST(only_message(problems_of(together, {width, absent("shape.depth_mm")})) ==
+  BOOST_TEST(rule_problems(together, {width, depth_of(3)}).empty());
+  BOOST_TEST(rule_problems(together, {absent("shape.width_mm"), absent("shape.depth_mm")}).empty());
+  BOOST_TEST(the_only_message(rule_problems(together, {width, absent("shape.depth_mm")})) ==
              "shape.width_mm = 2: needs shape.depth_mm as well");
-  BOOST_TEST(only_message(problems_of(together, {absent("shape.width_mm"), depth(3)})) ==
+  BOOST_TEST(the_only_message(rule_problems(together, {absent("shape.width_mm"), depth_of(3)})) ==
              "shape.depth_mm = 3: needs shape.width_mm as well");
 
   const auto either = shapes([](app::Declared d) { d.only_if(is("form", {"deep"})).instead_of({"width_mm"}); });
-  BOOST_TEST(problems_of(either, {form("deep"), width, absent("shape.depth_mm")}).empty());
-  BOOST_TEST(problems_of(either, {form("deep"), absent("shape.width_mm"), depth(3)}).empty());
-  BOOST_TEST(only_message(problems_of(either, {form("deep"), width, depth(3)})) ==
+  BOOST_TEST(rule_problems(either, {form_of("deep"), width, absent("shape.depth_mm")}).empty());
+  BOOST_TEST(rule_problems(either, {form_of("deep"), absent("shape.width_mm"), depth_of(3)}).empty());
+  BOOST_TEST(the_only_message(rule_problems(either, {form_of("deep"), width, depth_of(3)})) ==
              "shape.depth_mm = 3: give either width_mm or depth_mm");
-  BOOST_TEST(only_message(problems_of(either, {form("deep"), absent("shape.width_mm"), absent("shape.depth_mm")})) ==
-             "shape.width_mm: width_mm or depth_mm is required by form = \"deep\"");
-  BOOST_TEST(problems_of(either, {form("flat"), absent("shape.width_mm"), absent("shape.depth_mm")}).empty());
+  BOOST_TEST(
+      the_only_message(rule_problems(either, {form_of("deep"), absent("shape.width_mm"), absent("shape.depth_mm")})) ==
+      "shape.width_mm: width_mm or depth_mm is required by form = \"deep\"");
+  BOOST_TEST(rule_problems(either, {form_of("flat"), absent("shape.width_mm"), absent("shape.depth_mm")}).empty());
 }
 
 BOOST_AUTO_TEST_CASE(defaults_that_hold_where_a_key_applies) {
   const auto tables = shapes([](app::Declared d) { d.only_if(is("form", {"deep"})).fallback(4.0, "usual"); });
   app::Scene scene;
-  BOOST_TEST(problems_of(tables, {form("deep"), absent("shape.depth_mm")}, &scene).empty());
+  BOOST_TEST(rule_problems(tables, {form_of("deep"), absent("shape.depth_mm")}, &scene).empty());
   BOOST_TEST(scene.rings.front().free_length.value() == 4e-3);
   BOOST_TEST(std::get<double>(scene.inputs.back().value) == 4.0);
   BOOST_TEST(scene.inputs.back().note == "usual");
-  BOOST_TEST(problems_of(tables, {form("flat"), absent("shape.depth_mm")}, &scene).empty());
+  BOOST_TEST(rule_problems(tables, {form_of("flat"), absent("shape.depth_mm")}, &scene).empty());
   BOOST_TEST((scene.rings.empty() || !scene.rings.front().free_length));
   BOOST_TEST(std::holds_alternative<std::monostate>(scene.inputs.back().value));
-  BOOST_TEST(problems_of(tables, {form("flat"), depth(4)}).size() == 1U);
+  BOOST_TEST(rule_problems(tables, {form_of("flat"), depth_of(4)}).size() == 1U);
 }
 
 BOOST_AUTO_TEST_CASE(rules_name_keys_that_exist) {
