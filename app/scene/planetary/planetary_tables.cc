@@ -139,8 +139,10 @@ Table supports_table() {
 }
 
 Table rim_coupling_key() {
-  Declarations<DynamicsInput> lumped("dynamics", "",
-                                     [](Scene& s, std::size_t) -> DynamicsInput& { return *s.dynamics; });
+  Declarations<DynamicsInput> lumped("dynamics", "", [](Scene& s, std::size_t) -> DynamicsInput& {
+    if (!s.dynamics) s.dynamics.emplace();
+    return *s.dynamics;
+  });
   lumped
       .choice("rim_coupling", &DynamicsInput::rim_coupling,
               {{"automatic", RimCoupling::automatic},
@@ -155,8 +157,10 @@ Table rim_coupling_key() {
 }
 
 Table optimised_ring_key() {
-  Declarations<OptimiseInput> optimise("optimise", "",
-                                       [](Scene& s, std::size_t) -> OptimiseInput& { return *s.optimise; });
+  Declarations<OptimiseInput> optimise("optimise", "", [](Scene& s, std::size_t) -> OptimiseInput& {
+    if (!s.optimise) s.optimise.emplace();
+    return *s.optimise;
+  });
   optimise.key("ring", &OptimiseInput::ring, "The ring whose results count.").absent("the first");
   return optimise.done();
 }
