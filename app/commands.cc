@@ -171,6 +171,7 @@ void explain_command(const Arguments& arguments) {
     }
   }
   if (found) return;
+  if (const auto now = renamed_key(arguments.key); !now.empty()) throw InputError(arguments.key + ": is now " + now);
   const std::string near = nearest(arguments.key, all_keys());
   throw InputError(arguments.key + ": there is no such key" + (near.empty() ? "" : "; did you mean " + near + "?"));
 }

@@ -85,18 +85,20 @@ StressSurface make_stress_surface(const std::vector<SurfaceStress>& surface, con
   return result;
 }
 
-geometry::Boundary boundary_of(HeldBoundary held) {
+std::vector<geometry::Boundary> boundaries_of(HeldBoundary held) {
   switch (held) {
     case HeldBoundary::support:
-      return geometry::Boundary::support;
+      return {geometry::Boundary::support};
     case HeldBoundary::end_low:
-      return geometry::Boundary::end_low;
+      return {geometry::Boundary::end_low};
+    case HeldBoundary::both_ends:
+      return {geometry::Boundary::end_low, geometry::Boundary::end_high};
     case HeldBoundary::flange_face:
-      return geometry::Boundary::flange_face;
+      return {geometry::Boundary::flange_face};
     case HeldBoundary::none:
       break;
   }
-  return geometry::Boundary::none;  // no face of a mesh
+  return {};
 }
 
 template <int dim>
@@ -117,7 +119,8 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
   }
 
   std::vector<bool> held(model.nodes.size(), false);
-  for (const int n : problem.boundary_nodes(boundary_of(options.held))) held[n] = true;
+  for (const auto boundary : boundaries_of(options.held))
+    for (const int n : problem.boundary_nodes(boundary)) held[n] = true;
   require(dim == 3 || !options.symmetric_end, "a plane sector has no end");
   std::vector<bool> in_symmetry(model.nodes.size(), false);
   if (options.symmetric_end)

@@ -39,7 +39,7 @@ struct VertexField {
 };
 
 /// Which boundary of a sector is held.
-enum class HeldBoundary { none, support, end_low, flange_face };
+enum class HeldBoundary { none, support, end_low, flange_face, both_ends };
 
 /// One discretised tooth sector, free of deal.II: stiffness over the DOFs that are not held, and the nodes that
 /// matter to the outside.

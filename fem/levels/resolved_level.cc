@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "fem/body/body_plan.h"
 #include "fem/condensation/altered_ring.h"
 #include "fem/condensation/lapack.h"
@@ -98,8 +101,11 @@ struct Exchangeable {
 };
 
 void refuse_what_is_not_resolved(const LoadedMeshProblem& problem) {
-  if (std::holds_alternative<PinHeld>(problem.structure) || std::holds_alternative<SplineHeld>(problem.structure))
-    throw InputError("the resolved model does not cover rings on pins or splines: use the plane or solid model");
+  if (on_single_supports(problem.structure))
+    throw InputError(
+        fmt::format("the resolved model does not cover rings on pins or splines, and the ring has {}: use "
+                    "the plane or solid model",
+                    problem.structure.words().description));
   if (problem.pair.planet().helix_angle() != 0)
     throw InputError("the resolved model does not cover helical gears: use the solid model");
 }

@@ -52,13 +52,14 @@ BOOST_AUTO_TEST_SUITE(overrides)
 
 BOOST_AUTO_TEST_CASE(values_are_set_before_the_checks) {
   const auto scene = quick_with();
-  const auto changed = app::with_overrides(scene, {{"stage.power_kW", 1000},
-                                                   {"stage.sun_speed_rpm", 900},
-                                                   {"supports.ring_N_per_m", 2e9},  // not in the file
-                                                   {"mesh.sun_planet.mean_N_per_m", 1e9},
-                                                   {"errors.planet_eccentricity_um[2]", 40},
-                                                   {"errors.planet_installation_phase_deg[5]", 90},  // list not there
-                                                   {"sun.teeth", 48}});
+  const auto changed =
+      app::with_overrides(scene, {{"stage.power_kW", 1000},
+                                  {"stage.sun_speed_rpm", 900},
+                                  {"supports.ring_N_per_m", 2e9},  // not in the file
+                                  {"mesh.sun_planet.mean_N_per_m", 1e9},
+                                  {"errors.planet_eccentricity_um[2]", 40},
+                                  {"errors.planet_pin_position_error_phase_deg[5]", 90},  // list not there
+                                  {"sun.teeth", 48}});
   BOOST_TEST(changed.stage.power == 1e6);
   BOOST_TEST(*changed.stage.sun_speed == 900 * units::rpm, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(changed.supports.ring == 2e9);
@@ -139,7 +140,7 @@ BOOST_AUTO_TEST_CASE(study_tables_are_checked) {
       quick_with(sweep("from = 10\nto = 1000\ncount = 3\nscale = \"logarithmic\"\n")).sweeps.front();
   BOOST_TEST(logarithmic.points()[1] == 100.0, boost::test_tools::tolerance(1e-14));
   BOOST_TEST(quick_with(sweep("values = [7, 5]\n")).sweeps.front().points().size() == 2U);
-  refused(sweep(""), {"sweep.input", "from, to and count, or values"});
+  refused(sweep(""), {"sweep.from: from, to and count, or values are required"});
   refused(sweep("from = 1\nvalues = [2]\n"), {"sweep.values", "either"});
   refused(sweep("values = [2, 2]\n"), {"twice"});
   refused(sweep("from = -1\nto = 1\ncount = 5\nscale = \"logarithmic\"\n"), {"sweep.from = -1", "0 < value"});
@@ -150,8 +151,10 @@ BOOST_AUTO_TEST_CASE(study_tables_are_checked) {
   const auto random = [](const std::string& keys) {
     return "[monte_carlo]\nsamples = 5\n[[monte_carlo.input]]\n" + keys;
   };
-  refused(random("input = \"planet.mass_kg\"\ndistribution = \"normal\"\nmean = 8\n"), {"needs deviation"});
-  refused(random("input = \"planet.mass_kg\"\ndistribution = \"uniform\"\nlow = 8\n"), {"needs high"});
+  refused(random("input = \"planet.mass_kg\"\ndistribution = \"normal\"\nmean = 8\n"),
+          {"monte_carlo.input.deviation: is required by distribution = \"normal\""});
+  refused(random("input = \"planet.mass_kg\"\ndistribution = \"uniform\"\nlow = 8\n"),
+          {"monte_carlo.input.high: is required by distribution = \"uniform\""});
   refused(random("input = \"planet.mass\"\ndistribution = \"uniform\"\nlow = 8\nhigh = 9\n"), {"planet.mass_kg?"});
   refused("[sensitivity]\ninputs = [\"planet.mas_kg\"]\n", {"planet.mass_kg?"});
   refused("[sensitivity]\nfactor = 1\n", {"sensitivity.factor = 1"});
@@ -217,7 +220,7 @@ BOOST_AUTO_TEST_CASE(unknown_phases_are_those_of_errors_that_exist) {
       "errors.planet_eccentricity_phase_deg[3]", "errors.planet_eccentricity_phase_deg[4]",
       "errors.planet_eccentricity_phase_deg[5]"};
   BOOST_TEST(names("") == planets, boost::test_tools::per_element());
-  BOOST_TEST(names("phases = \"given\"\n").empty());
+  BOOST_TEST(names("phases = \"prescribed\"\n").empty());
   // A drawn error has a phase too, and one with a distribution of its own is not drawn twice.
   const auto more = names(
       "[[monte_carlo.input]]\ninput = \"errors.sun_eccentricity_um\"\ndistribution = \"uniform\"\nlow = 0\nhigh = 9\n"

@@ -25,7 +25,7 @@ std::string pinned_scene() {
   text = test::replaced(text, "planet_N_per_m = 1e9\n", "planet_N_per_m = 1e9\nring_N_per_m = 1e9\n");
   text = test::replaced(text, "[mesh.ring_planet]\nstiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294\n",
                         "");
-  text = test::replaced(text, "planet_eccentricity_um", "planet_installation_um");
+  text = test::replaced(text, "planet_eccentricity_um", "planet_pin_position_error_um");
   return test::replaced(text, "mesh_cycles = 110\n", "mesh_cycles = 4\n");
 }
 
@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(an_input_of_the_dynamics_solves_no_mesh) {
   (void)run_reusing(pinned_scene(), folder.path());
   for (const auto& [what, by] : {std::pair{"half_backlash_um = 50", "half_backlash_um = 60"},
                                  {"sun_N_per_m = 1e7", "sun_N_per_m = 3e7"},
-                                 {"planet_installation_um = [15", "planet_installation_um = [25"}}) {
+                                 {"planet_pin_position_error_um = [15", "planet_pin_position_error_um = [25"}}) {
     const auto changed = run_reusing(test::replaced(pinned_scene(), what, by), folder.path());
     BOOST_TEST(has(changed.reuse->reused(), mesh_of_ring), by);
     BOOST_TEST(has(changed.reuse->computed(), dynamics_of), by);

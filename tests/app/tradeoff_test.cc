@@ -51,7 +51,7 @@ std::string computed_ring_scene() {
   auto text = test::quick_scene();
   const auto begin = text.find("[mesh.sun_planet]"), end = text.find("[dynamics]");
   text.erase(begin, end - begin);
-  text = test::replaced(text, "planet_eccentricity_um", "planet_installation_um");
+  text = test::replaced(text, "planet_eccentricity_um", "planet_pin_position_error_um");
   text = test::replaced(text, "[carrier]\n", "bore_diameter_mm = 172\n[carrier]\n");
   text = test::replaced(text, "[planet]\n", "bore_diameter_mm = 130\n[planet]\n");
   return test::replaced(text, "mesh_cycles = 110\n", "");
@@ -248,7 +248,7 @@ BOOST_AUTO_TEST_CASE(given_stiffness_leaves_the_motion, *in_a_process_of_its_own
   const test::TemporaryFolder folder("tradeoff_given");
   const auto text = test::replaced(test::quick_scene(), "mesh_cycles = 110\n", "");
   const auto scene =
-      app::parse_scene(test::replaced(text, "planet_eccentricity_um", "planet_installation_um"), "s.toml");
+      app::parse_scene(test::replaced(text, "planet_eccentricity_um", "planet_pin_position_error_um"), "s.toml");
   const auto trade = app::measure_tradeoff(scene, {.out = folder.path() / "planetary", .threads = 1});
   BOOST_TEST_REQUIRE(trade.variants.size() == 1U);
   const auto errors = motion_errors(trade.variants.front());

@@ -369,7 +369,7 @@ BOOST_AUTO_TEST_CASE(the_supports_carry_what_the_planet_presses_on_the_ring) {
     const auto problem = ring_mesh(structure, 2);
     const auto result = solve_closed_form(problem, {});
     check_invariants(result);
-    const bool bore = structure.index() == 2 && result.pin_angles.size() == 1;
+    const bool bore = structure.single_supports() == 1;
     double worst_force = 0, worst_moment = 0;
     for (const auto& p : result.positions) {
       BOOST_TEST_REQUIRE(p.pins.size() == result.pin_angles.size());

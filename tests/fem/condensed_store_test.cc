@@ -206,7 +206,7 @@ BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
   for (const auto& [pins, slices] : {std::pair{81, 2}, {54, 2}, {24, 2}, {24, 1}}) {
     std::vector<double> edges = {0, width};
     if (slices == 2) edges.insert(edges.begin() + 1, width / 2);
-    const auto sites = pin_sites(paper_pins(pins, 0.01), {162, ring_outside, width, problem.material});
+    const auto sites = paper_pins(pins, 0.01).supports({162, ring_outside, width, problem.material});
     options.arcs = annulus::fem::SupportPlan(sites, 162, edges).arcs();
     options.store = store.get();
     const auto kept = condense_tooth(mesh, profile, ring_outside, problem.material, options);

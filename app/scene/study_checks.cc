@@ -6,9 +6,8 @@
 
 #include "app/scene/overrides.h"
 #include "app/scene/scene_checks.h"
+#include "app/scene/scene_kind.h"
 #include "app/scene/scene_limits.h"
-#include "app/stage_kinds.h"
-#include "app/study/optimisation.h"
 
 namespace annulus::app {
 
@@ -31,17 +30,8 @@ class StudyChecker {
   StudyChecker(const Scene& scene, std::vector<Problem>& problems) : scene_(scene), problems_(problems) {}
 
   void run() {
-    if (!scene_.dynamics) {
-      for (const auto* key :
-           {"sweep.input", "grid.x_input", "monte_carlo.samples", "sensitivity.factor", "optimise.objective"}) {
-        if (find(key, 0)) problem(key, 0, "needs [dynamics]: studies vary what the lumped model answers");
-      }
-      return;
-    }
     for (std::size_t i = 0; i < scene_.sweeps.size(); ++i) row("sweep.", scene_.sweeps[i], i);
     for (std::size_t i = 0; i < scene_.grids.size(); ++i) grid(scene_.grids[i], i);
-    if (!scene_.random_inputs.empty() && !scene_.monte_carlo)
-      problem("monte_carlo.input.input", 0, "needs [monte_carlo] with the number of samples");
     for (std::size_t i = 0; i < scene_.random_inputs.size(); ++i) random(scene_.random_inputs[i], i);
     optimise();
     if (scene_.sensitivity) {
@@ -85,17 +75,11 @@ class StudyChecker {
   /// `table` with the prefix of its keys: "sweep.", "grid.x_".
   void row(const std::string& table, const SweepInput& s, std::size_t i) {
     if (!input(table + "input", i, s.input)) return;
-    const std::string prefix = table.substr(table.find('.') + 1);  // of the keys: "", "x_"
-    const bool steps = s.from || s.to || s.count;
     if (given(table + "values", i)) {
-      if (steps)
-        return problem(table + "values", i,
-                       fmt::format("give either {0}values or {0}from, {0}to and {0}count", prefix));
       if (s.values.empty()) return problem(table + "values", i, "needs at least one value");
       const std::set<double> distinct(s.values.begin(), s.values.end());
-      if (distinct.size() != s.values.size()) return problem(table + "values", i, "the same value stands there twice");
-    } else if (!s.from || !s.to || !s.count) {
-      return problem(table + "input", i, fmt::format("needs {0}from, {0}to and {0}count, or {0}values", prefix));
+      if (distinct.size() != s.values.size())
+        return problem(table + "values", i, "contains the same value twice; leave one out");
     } else if (*s.from == *s.to) {
       return problem(table + "to", i, "must differ from `from`");
     }
@@ -110,7 +94,7 @@ class StudyChecker {
                      i, fmt::format("{} = {} must be in range: {}", s.input, to_text(x), parameter.range_text()));
     }
     if (s.scale == SweepScale::logarithmic && *std::min_element(points.begin(), points.end()) <= 0)
-      problem(table + "scale", i, "needs values above zero");
+      problem(table + "scale", i, "needs values above 0; use \"linear\"");
   }
 
   void grid(const GridInput& g, std::size_t i) {
@@ -134,58 +118,32 @@ class StudyChecker {
     }
     for (std::size_t j = 0; j < i; ++j) {
       if (scene_.random_inputs[j].input == r.input)
-        return problem(table + "input", i, "is given twice; each input has one distribution");
-    }
-    const bool uniform = r.distribution == RandomKind::uniform;
-    const auto need = [&](const char* key, const std::optional<double>& value) {
-      if (!value) problem(table + "distribution", i, fmt::format("needs {}", key));
-    };
-    if (uniform) {
-      need("low", r.low);
-      need("high", r.high);
-      for (const auto* key : {"mean", "deviation"}) {
-        if (given(table + key, i)) problem(table + key, i, "has no meaning for a uniform distribution");
-      }
-    } else {
-      need("mean", r.mean);
-      need("deviation", r.deviation);
+        return problem(table + "input", i, "is declared twice: each input has one distribution; leave one out");
     }
   }
 
   void optimise() {
-    if (!scene_.optimise) {
-      if (!scene_.variables.empty()) problem("optimise.variable.input", 0, "needs [optimise] with the objective");
-      return;
-    }
+    if (!scene_.optimise) return;
     const auto& o = *scene_.optimise;
-    std::vector<std::string> known;
-    for (const auto& figure : stage_figures(scene_.stage.kind)) known.push_back(figure.column);
-    if (o.objective.empty()) problem("optimise.objective", 0, "needs at least one figure");
+    const auto known = scene_kind(scene_.stage.kind).results();
+    if (o.objective.empty()) problem("optimise.objective", 0, "needs at least one result");
     for (const auto& figure : o.objective) {
       if (std::find(known.begin(), known.end(), figure) != known.end()) continue;
       const std::string near = nearest(figure, known);
       problem("optimise.objective", 0,
-              fmt::format("there is no figure \"{}\"; {}", figure,
-                          near.empty() ? "the columns of dynamics/sweep_1.csv are the figures"
+              fmt::format("there is no result \"{}\"; {}", figure,
+                          near.empty() ? "the columns of dynamics/sweep_1.csv are the results"
                                        : "did you mean \"" + near + "\"?"));
     }
     if (!o.weights.empty() && o.weights.size() != o.objective.size())
       problem(
           "optimise.weights", 0,
-          fmt::format("needs one weight per figure: {} weights for {} figures", o.weights.size(), o.objective.size()));
-    const auto& names = optimiser_names();
+          fmt::format("needs one weight per result: {} weights for {} results", o.weights.size(), o.objective.size()));
     if (o.optimisers.empty()) problem("optimise.optimisers", 0, "needs at least one");
-    for (const auto& name : o.optimisers) {
-      if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-      const std::string near = nearest(name, names);
-      problem(
-          "optimise.optimisers", 0,
-          fmt::format("there is no optimiser \"{}\"{}", name, near.empty() ? "" : "; did you mean \"" + near + "\"?"));
-    }
     if (o.population % 2) problem("optimise.population", 0, "must be even: parents are crossed in pairs");
     if (o.ring &&
         std::none_of(scene_.rings.begin(), scene_.rings.end(), [&](const auto& r) { return r.name == *o.ring; }))
-      problem("optimise.ring", 0, "there is no ring of this name");
+      problem("optimise.ring", 0, "there is no ring of this name in the scene");
     if (scene_.variables.empty()) problem("optimise.objective", 0, "needs an [[optimise.variable]] at least");
     for (std::size_t i = 0; i < scene_.variables.size(); ++i) variable(scene_.variables[i], i);
   }
@@ -194,7 +152,7 @@ class StudyChecker {
     const std::string table = "optimise.variable.";
     if (!input(table + "input", i, v.input)) return;
     for (std::size_t j = 0; j < i; ++j) {
-      if (scene_.variables[j].input == v.input) return problem(table + "input", i, "is given twice");
+      if (scene_.variables[j].input == v.input) return problem(table + "input", i, "is declared twice; leave one out");
     }
     const auto& parameter = *find_input(scene_, v.input).parameter;
     for (const auto& [key, value] : {std::pair{"low", v.low}, {"high", v.high}}) {
@@ -202,7 +160,8 @@ class StudyChecker {
         problem(table + key, i, fmt::format("{} must be in range: {}", v.input, parameter.range_text()));
     }
     if (!(v.low < v.high)) problem(table + "high", i, "must be larger than low");
-    if (v.scale == SweepScale::logarithmic && v.low <= 0) problem(table + "scale", i, "needs values above zero");
+    if (v.scale == SweepScale::logarithmic && v.low <= 0)
+      problem(table + "scale", i, "needs values above 0; use \"linear\"");
     const bool whole = parameter.kind == Parameter::Kind::integer;
     if (whole && (v.low != std::floor(v.low) || v.high != std::floor(v.high)))
       problem(table + "low", i, v.input + " is a whole number, so must be its limits");

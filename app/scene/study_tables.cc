@@ -1,5 +1,5 @@
+#include "app/scene/common_tables.h"
 #include "app/scene/scene_declare.h"
-#include "app/scene/scene_schema.h"
 
 namespace annulus::app {
 
@@ -13,13 +13,11 @@ constexpr const char* path_meaning =
 /// Values of studies are bounded as the widest key is; the key that is varied has bounds of its own.
 constexpr int most_study_values = 10000;
 
-const std::vector<StageKind> planetary_kind = {StageKind::planetary};
-
 /// Keys of one input and its values, their names behind a prefix.
 Table row_of_values(const char* path, const char* meaning, const std::string& prefix,
                     SweepInput& (*section)(Scene&, std::size_t)) {
   Declarations<SweepInput> row(path, meaning, section);
-  row.on_request();
+  row.study();
   const auto name = [&](const char* key) { return prefix + key; };
   row.key(name("input").c_str(), &SweepInput::input, (std::string("What is varied: ") + path_meaning).c_str())
       .required();
@@ -39,21 +37,22 @@ Table row_of_values(const char* path, const char* meaning, const std::string& pr
   row.key(name("values").c_str(), &SweepInput::values, "The values themselves, in the unit of the input.")
       .from(-1e14, 1e14)
       .longest(most_study_values)
+      .instead_of({name("from"), name("to"), name("count")})
       .absent("give from, to and count instead");
   Table table = row.done();
   table.repeated = true;
   return table;
 }
 
-}  // namespace
-
-void declare_studies(std::vector<Table>& tables) {
+Table sweep_table() {
   Table sweep = row_of_values(
       "sweep", "One input run through a row of values, for every ring; several tables are several sweeps.", "",
       [](Scene& s, std::size_t i) -> SweepInput& { return s.sweeps.at(i); });
   sweep.resize = [](Scene& s, std::size_t n) { s.sweeps.resize(n); };
-  tables.push_back(std::move(sweep));
+  return sweep;
+}
 
+Table grid_table() {
   Table grid = row_of_values(
       "grid", "Two inputs run through all combinations of their values; several tables are several grids.", "x_",
       [](Scene& s, std::size_t i) -> SweepInput& { return s.grids.at(i).x; });
@@ -61,8 +60,10 @@ void declare_studies(std::vector<Table>& tables) {
       row_of_values("grid", "", "y_", [](Scene& s, std::size_t i) -> SweepInput& { return s.grids.at(i).y; });
   grid.parameters.insert(grid.parameters.end(), grid_y.parameters.begin(), grid_y.parameters.end());
   grid.resize = [](Scene& s, std::size_t n) { s.grids.resize(n); };
-  tables.push_back(std::move(grid));
+  return grid;
+}
 
+Table monte_carlo_table() {
   Declarations<MonteCarloInput> monte_carlo(
       "monte_carlo",
       "Random samples of what is not known. Every ring gets the same draws. A draw depends on seed, sample number and "
@@ -71,22 +72,28 @@ void declare_studies(std::vector<Table>& tables) {
         if (!s.monte_carlo) s.monte_carlo.emplace();
         return *s.monte_carlo;
       });
-  monte_carlo.on_request();
+  monte_carlo.study();
   monte_carlo.key("samples", &MonteCarloInput::samples, "Number of samples.").required().from(2, 1e6);
   monte_carlo.key("seed", &MonteCarloInput::seed, "Other seeds give other draws.")
       .fallback(1L, "any number will do")
       .from(0, 2147483647);
   monte_carlo
-      .choice("phases", &MonteCarloInput::phases, {{"unknown", ErrorPhases::unknown}, {"given", ErrorPhases::given}},
-              "unknown: every error phase of every body is uniform over the full circle; given: as the scene says.")
+      .choice("phases", &MonteCarloInput::phases,
+              {{"unknown", ErrorPhases::unknown}, {"prescribed", ErrorPhases::given, "given"}},
+              "unknown: every error phase of every body is uniform over the full circle; prescribed: the phases of "
+              "[errors].")
       .fallback(std::string("unknown"), "the phases of errors are hardly ever known");
-  tables.push_back(monte_carlo.done());
+  return monte_carlo.done();
+}
 
+Table random_input_table() {
   Declarations<RandomInput> random("monte_carlo.input",
                                    "A tolerance: an input that is not known exactly. It must leave the stiffness "
                                    "tables as they are. A draw outside the range of the key is refused, never moved.",
                                    [](Scene& s, std::size_t i) -> RandomInput& { return s.random_inputs.at(i); });
-  random.repeated([](Scene& s, std::size_t n) { s.random_inputs.resize(n); }).on_request();
+  random.repeated([](Scene& s, std::size_t n) { s.random_inputs.resize(n); })
+      .study()
+      .only_if(given("[monte_carlo]"), "it holds the number of samples");
   static const std::string random_input =
       std::string("What is uncertain: ") + path_meaning + " \"...[*]\" draws for every planet by itself.";
   random.key("input", &RandomInput::input, random_input.c_str()).required();
@@ -98,25 +105,30 @@ void declare_studies(std::vector<Table>& tables) {
       .required();
   random.key("low", &RandomInput::low, "Lower end, in the unit of the input.")
       .from(-1e14, 1e14)
-      .absent("not truncated; uniform needs it");
+      .required_if(is("distribution", {"uniform"}))
+      .absent("not truncated");
   random.key("high", &RandomInput::high, "Upper end, in the unit of the input.")
       .from(-1e14, 1e14)
-      .absent("not truncated; uniform needs it");
+      .required_if(is("distribution", {"uniform"}))
+      .absent("not truncated");
   random.key("mean", &RandomInput::mean, "Mean before truncation.")
       .from(-1e14, 1e14)
-      .absent("needed by normal and lognormal");
+      .needed_if(is("distribution", {"normal", "lognormal"}));
   random.key("deviation", &RandomInput::deviation, "Standard deviation before truncation.")
       .above(0, 1e14)
-      .absent("needed by normal and lognormal");
-  tables.push_back(random.done());
+      .needed_if(is("distribution", {"normal", "lognormal"}));
+  return random.done();
+}
 
+Table sensitivity_table() {
   Declarations<SensitivityInput> sensitivity(
-      "sensitivity", "Each input divided and multiplied by a factor, one at a time: does the order of the rings stay?",
+      "sensitivity",
+      "Each input divided and multiplied by a factor, one at a time: does the order of the rings change?",
       [](Scene& s, std::size_t) -> SensitivityInput& {
         if (!s.sensitivity) s.sensitivity.emplace();
         return *s.sensitivity;
       });
-  sensitivity.on_request();
+  sensitivity.study();
   static const std::string sensitivity_inputs = std::string("Which inputs; each is ") + path_meaning;
   sensitivity.key("inputs", &SensitivityInput::inputs, sensitivity_inputs.c_str())
       .fallback(
@@ -124,33 +136,35 @@ void declare_studies(std::vector<Table>& tables) {
           "the stiffnesses of [supports], the damping ratios and the backlash; of a 2K-V stage all stiffnesses and "
           "inertias besides");
   sensitivity.key("factor", &SensitivityInput::factor, "The factor.").fallback(2.0, "a usual doubt").above(1, 1e6);
-  tables.push_back(sensitivity.done());
+  return sensitivity.done();
+}
 
+Table optimise_table() {
   Declarations<OptimiseInput> optimise(
       "optimise",
-      "Inputs are searched for the best value of a figure. A search interrupted goes on where it stopped; the same "
+      "Inputs are searched for the best value of a result. A search interrupted goes on where it stopped; the same "
       "seed gives the same search.",
       [](Scene& s, std::size_t) -> OptimiseInput& {
         if (!s.optimise) s.optimise.emplace();
         return *s.optimise;
       });
-  optimise.on_request();
+  optimise.study();
   optimise
       .key("objective", &OptimiseInput::objective,
-           "Figures whose weighted sum is the objective: columns of the tables of sweeps, as "
+           "Results whose weighted sum is the objective: columns of the tables of sweeps, as "
            "\"sun_planet_load_sharing_instantaneous\".")
       .required();
-  optimise.key("weights", &OptimiseInput::weights, "One weight per figure.")
+  optimise.key("weights", &OptimiseInput::weights, "One weight per result.")
       .fallback(std::vector<double>{}, "equal weights: the mean")
       .from(-1e14, 1e14);
   optimise
       .choice("goal", &OptimiseInput::goal, {{"smallest", Goal::smallest}, {"largest", Goal::largest}},
               "Which value is best.")
       .fallback(std::string("smallest"), "less is better");
-  optimise.key("ring", &OptimiseInput::ring, "The ring whose figures count.").only(planetary_kind).absent("the first");
   optimise
       .key("optimisers", &OptimiseInput::optimisers,
            "Any of genetic, cma_es, differential_evolution; several are compared.")
+      .among({"genetic", "cma_es", "differential_evolution"})
       .fallback(std::vector<std::string>{"genetic", "cma_es"}, "the method of the literature and a modern one");
   optimise.key("generations", &OptimiseInput::generations, "Generations after the first population.")
       .fallback(200L, "as usual in the literature")
@@ -175,15 +189,19 @@ void declare_studies(std::vector<Table>& tables) {
       .from(0, 1);
   optimise
       .key("initial_conditions", &OptimiseInput::starts,
-           "Initial conditions from which the motion is followed at the given and the best inputs: where the teeth "
-           "part, more than one steady motion is possible.")
+           "Initial conditions from which the motion is followed at the inputs of the scene and at the best ones: "
+           "where teeth lose contact, more than one steady motion is possible.")
       .fallback(6L, "finds a second motion that is not rare")
       .from(0, 1000);
-  tables.push_back(optimise.done());
+  return optimise.done();
+}
 
+Table variable_table() {
   Declarations<VariableInput> variable("optimise.variable", "An input that is searched.",
                                        [](Scene& s, std::size_t i) -> VariableInput& { return s.variables.at(i); });
-  variable.repeated([](Scene& s, std::size_t n) { s.variables.resize(n); }).on_request();
+  variable.repeated([](Scene& s, std::size_t n) { s.variables.resize(n); })
+      .study()
+      .only_if(given("[optimise]"), "it holds the objective");
   variable.key("input", &VariableInput::input, (std::string("What is searched: ") + path_meaning).c_str()).required();
   variable.key("low", &VariableInput::low, "Smallest value, in the unit of the input.").required().from(-1e14, 1e14);
   variable.key("high", &VariableInput::high, "Largest value, in the unit of the input.").required().from(-1e14, 1e14);
@@ -192,7 +210,14 @@ void declare_studies(std::vector<Table>& tables) {
               {{"linear", SweepScale::linear}, {"logarithmic", SweepScale::logarithmic}},
               "Scale on which the range is searched.")
       .fallback(std::string("linear"), "equal steps");
-  tables.push_back(variable.done());
+  return variable.done();
+}
+
+}  // namespace
+
+std::vector<Table> study_tables() {
+  return {sweep_table(),       grid_table(),     monte_carlo_table(), random_input_table(),
+          sensitivity_table(), optimise_table(), variable_table()};
 }
 
 }  // namespace annulus::app
