@@ -1,5 +1,7 @@
 #include "fem/condensation/condensed_sector.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
@@ -94,7 +96,11 @@ CondensedSector condense(const SectorModel& model, const SectorLoads& loads, boo
   if (others > 0) on_retained.rightCols(others) = s.loads;
 
   Eigen::MatrixXd factor = s.matrix.bottomRightCorner(inner, inner);
-  if (!lapack::cholesky(factor)) throw SolverError("the condensed stiffness of a tooth is not positive definite");
+  if (!lapack::cholesky(factor))
+    throw SolverError(
+        fmt::format("the stiffness of a tooth superelement ({} inner degrees of freedom) is not positive "
+                    "definite",
+                    inner));
   Eigen::MatrixXd to_cuts = s.matrix.bottomLeftCorner(inner, cuts);
   lapack::solve_lower(factor, to_cuts);
   Eigen::MatrixXd from_loads = on_retained.bottomRows(inner);

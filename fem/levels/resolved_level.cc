@@ -109,7 +109,10 @@ void refuse_what_is_not_resolved(const LoadedMeshProblem& problem) {
                     "the plane or solid model",
                     problem.structure.words().description));
   if (problem.pair.planet().helix_angle() != 0)
-    throw InputError("the resolved model does not cover helical gears: use the solid model");
+    throw InputError(
+        fmt::format("the resolved model does not cover helical gears, here of {:.4g} degrees: use the solid "
+                    "model",
+                    problem.pair.planet().helix_angle() * 180 / M_PI));
 }
 
 /// The gears of a resolved mesh.
