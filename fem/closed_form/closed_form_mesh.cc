@@ -1,4 +1,6 @@
 #include "fem/closed_form/closed_form_mesh.h"
+
+#include <fmt/format.h>
 #include "fem/closed_form/closed_form_error.h"
 
 #include <algorithm>
@@ -118,7 +120,10 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
   }
   position.entry.lte = solution.rigid[0];
   position.entry.unloaded_te = unloaded;
-  if (!(position.entry.lte > unloaded)) throw SolverError("the loaded transmission error is not positive");
+  if (!(position.entry.lte > unloaded))
+    throw SolverError(fmt::format(
+        "the loaded transmission error, {:.4g} m, does not exceed the unloaded one, {:.4g} m, under {:.4g} N",
+        position.entry.lte, unloaded, load));
   position.entry.stiffness_secant = load / (position.entry.lte - unloaded);
   position.entry.stiffness_tangent = 1 / solution.tangent(0, 0);
 

@@ -49,7 +49,7 @@ struct SectorModel {
   Eigen::SparseMatrix<double> stiffness;
   std::vector<Eigen::Vector3d> nodes;
   std::vector<int> dof;                    ///< [node * dimension + component] -> row of `stiffness`, or -1 when held
-  std::vector<int> low_nodes, high_nodes;  ///< matched pairs on the two radial cuts, wholly held nodes left out
+  std::vector<int> low_nodes, high_nodes;  ///< matched pairs on the two cyclic interfaces, wholly held nodes left out
   TraceGrid flank;                         ///< of the contact flank
   TraceGrid outside;                       ///< of the support circle (empty when held)
   StressSurface root_low, root_high;       ///< root land and fillet of the trailing (y < 0) and of the leading side

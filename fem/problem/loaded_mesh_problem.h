@@ -56,7 +56,7 @@ struct LoadedMeshSettings {
   bool want_fields = false;                         ///< of condensed models: LoadedMeshResult::fields
   int threads = 1;                                  ///< changes the time, never the result
   std::function<void(double fraction)> progress{};  ///< called now and then with the finished fraction
-  /// Where condensed teeth are looked for and kept; may be null. They depend neither on loads and phases nor on the
+  /// Where tooth superelements are looked for and kept; may be null. They depend neither on loads and phases nor on the
   /// places, the number and the stiffness of supports, nor on modifications of the flanks.
   std::shared_ptr<CondensedStore> store{};
 };

@@ -9,21 +9,34 @@
 namespace annulus::fem {
 
 void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
-  if (problem.loads.empty() || problem.phases < 2) throw InputError("a loaded mesh needs a load and two phases");
+  if (problem.loads.empty() || problem.phases < 2)
+    throw InputError(fmt::format("a loaded mesh needs a load and two phases, and has {} and {}", problem.loads.size(),
+                                 problem.phases));
   for (std::size_t i = 0; i < problem.loads.size(); ++i)
     if (!(problem.loads[i] > (i > 0 ? problem.loads[i - 1] : 0.0)))
-      throw InputError("the loads of a stiffness table have to be positive and strictly increasing");
+      throw InputError(
+          fmt::format("the loads of a stiffness table have to be positive and strictly increasing: load {} "
+                      "is {:.6g} N after {:.6g} N",
+                      i + 1, problem.loads[i], i > 0 ? problem.loads[i - 1] : 0.0));
   if (!problem.pair.internal() && !held_outside(problem.structure))
     throw InputError(fmt::format("a ring structure ({}) belongs to the ring mesh, and the pair is external",
                                  problem.structure.words().description));
   if (fidelity == Fidelity::solid || fidelity == Fidelity::resolved_solid) return;
   for (const auto* gear : {&problem.pair.planet(), &problem.pair.wheel()}) {
     if (gear->parameters().lead_crowning != 0 || gear->parameters().lead_slope != 0)
-      throw InputError("lead modifications need a load distribution over the face width: use model = \"solid\"");
-    if (gear->helix_angle() != 0) throw InputError("helical gears need solid bodies: use model = \"solid\"");
+      throw InputError(
+          fmt::format("lead modifications (crowning {:.4g} um, slope {:.4g} um) need a load distribution "
+                      "over the face width: use model = \"solid\"",
+                      1e6 * gear->parameters().lead_crowning, 1e6 * gear->parameters().lead_slope));
+    if (gear->helix_angle() != 0)
+      throw InputError(fmt::format("helical gears (here of {:.4g} degrees) need solid bodies: use model = \"solid\"",
+                                   gear->helix_angle() * 180 / M_PI));
   }
   if (problem.misalignment != 0)
-    throw InputError("misalignment needs a load distribution over the face width: use model = \"solid\"");
+    throw InputError(
+        fmt::format("a misalignment of {:.4g} um needs a load distribution over the face width: use model "
+                    "= \"solid\"",
+                    1e6 * problem.misalignment));
 }
 
 void check_deflection(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,

@@ -144,7 +144,10 @@ Level solve_level(const LoadedMeshProblem& problem, const std::vector<double>& t
 
 void check_places(const std::vector<double>& teeth_ahead, int teeth) {
   if (teeth_ahead.empty() || teeth_ahead.front() != 0)
-    throw InputError("the coupling of ring meshes needs planets, the first of them 0 teeth ahead");
+
+    throw InputError(teeth_ahead.empty() ? "the coupling of ring meshes needs planets, and there are none"
+                                         : fmt::format("the first planet has to stand 0 teeth ahead of itself, not {}",
+                                                       teeth_ahead.front()));
   // The four teeth that share one mesh force are not those of the next planet.
   constexpr double apart = 4;
   for (std::size_t n = 0; n < teeth_ahead.size(); ++n) {
@@ -166,9 +169,14 @@ void check(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ah
   check_places(teeth_ahead, problem.pair.wheel().teeth());
   if (!std::isfinite(load) || !(load > 0))
     throw InputError(fmt::format("a mesh load of {} N: it has to be positive", load));
-  if (settings.per_cycle < 1) throw InputError("at least one ring position per mesh cycle is needed");
+  if (settings.per_cycle < 1)
+    throw InputError(fmt::format("{} ring positions per mesh cycle: at least one is needed", settings.per_cycle));
   if (settings.motions.section < 1 || settings.motions.axial < 0 || settings.modes.count < 1)
-    throw InputError("modes need motions of order 1 or higher, and a count of at least one");
+
+    throw InputError(
+        fmt::format("modes need motions of order 1 or higher in the section (here {}), 0 or higher along the "
+                    "axis (here {}), and a count of at least one (here {})",
+                    settings.motions.section, settings.motions.axial, settings.modes.count));
 }
 
 }  // namespace

@@ -215,8 +215,9 @@ BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
     BOOST_TEST(kept.reused == (!first && slices == 2));  // other slices are other unit loads
     first = false;
     BOOST_TEST(kept.body.arc_wrenches.size() == options.arcs.size());
-    same("entries of the stiffness of the cuts that differ", kept.sector.cut_stiffness, fresh.sector.cut_stiffness);
-    same("entries of the loads on the cuts that differ", kept.sector.cut_load, fresh.sector.cut_load);
+    same("entries of the stiffness of the cuts that differ", kept.sector.interface_stiffness,
+         fresh.sector.interface_stiffness);
+    same("entries of the loads on the cuts that differ", kept.sector.interface_load, fresh.sector.interface_load);
     same("entries of the compliance that differ", kept.sector.compliance, fresh.sector.compliance);
     BOOST_TEST(kept.body.rim.first_load == fresh.body.rim.first_load);
     BOOST_TEST(kept.sector.compliance.rows() == fresh.body.rim.first_load + fresh.body.rim.loads());
