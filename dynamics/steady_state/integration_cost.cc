@@ -1,4 +1,4 @@
-#include "dynamics/steady_state/marching_cost.h"
+#include "dynamics/steady_state/integration_cost.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +10,14 @@
 
 namespace annulus::dynamics {
 
-double marching_seconds(const LumpedSystem& system, double mesh_frequency, double cycles,
-                        const IntegratorOptions& options) {
+double integration_seconds(const LumpedSystem& system, double mesh_frequency, double cycles,
+                           const IntegratorOptions& options) {
   // Measured on stages of 1 to 20 planets (18 to 63 DOFs): a right-hand side, and a step of Newton's method.
   constexpr double per_dof = 1.6e-8, per_mesh = 2.4e-8, overhead = 8e-8, per_cube = 3e-10;
   const auto n = static_cast<double>(system.dofs()), meshes = static_cast<double>(system.meshes().size());
   const double evaluation = overhead + per_dof * n + per_mesh * meshes;
   const double newton = 2 * evaluation + per_cube * std::pow(2 * n, 3) + 1e-8 * n * n;
-  // A mass of next to nothing: its frequency overflows, and no time is enough.
+  // The frequency of a very small mass overflows, and the time is infinite.
   const UntrappedFloatingPoint untrapped;
   const auto choice = choose_integrator(system, options.relative_tolerance);
   if (!std::isfinite(choice.explicit_steps)) return std::numeric_limits<double>::infinity();
@@ -39,7 +39,8 @@ double marching_seconds(const LumpedSystem& system, double mesh_frequency, doubl
   return cycles * std::max(accurate, choice.explicit_steps) * 6 * evaluation;
 }
 
-double marched_cycles(const LumpedSystem& system, double mesh_frequency, int period, const SimulationOptions& options) {
+double integrated_cycles(const LumpedSystem& system, double mesh_frequency, int period,
+                         const SimulationOptions& options) {
   if (options.mesh_cycles) return *options.mesh_cycles;
   const auto [window, whole] = window_length(period, options);
   if (!whole) return 2.0 * window;
