@@ -111,9 +111,9 @@ bool explain_results(const std::string& key) {
       return f.first.title == spec->title && f.first.definition == spec->definition;
     });
     if (same == found.end())
-      found.push_back({*spec, {kind_name(kind.kind)}});
+      found.push_back({*spec, {kind.scene.name}});
     else
-      same->second.emplace_back(kind_name(kind.kind));
+      same->second.emplace_back(kind.scene.name);
   }
   for (const auto& [spec, kinds] : found) fmt::print("{}", explain(spec, kinds));
   return !found.empty();
@@ -196,9 +196,10 @@ void explain_command(const Arguments& arguments) {
   if (arguments.key.empty()) return;
   found = explain_results(arguments.key) || found;
   if (found) return;
+  if (const auto now = renamed_key(arguments.key); !now.empty()) throw InputError(arguments.key + ": is now " + now);
   auto names = all_keys();
   for (const auto& kind : system_kinds())
-    for (const auto& spec : kind.figures()) names.push_back(spec.key);
+    for (auto& key : figure_keys(kind.figures())) names.push_back(std::move(key));
   const std::string near = nearest(arguments.key, names);
   throw InputError(arguments.key + ": there is no such key or result" +
                    (near.empty() ? "" : "; did you mean " + near + "?"));

@@ -26,35 +26,69 @@ function(annulus_set_warnings target)
                          $<$<BOOL:${ANNULUS_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
 
+# Limit of a test's time in seconds: the largest of its labels. Ten times as much under the sanitizers.
+set(ANNULUS_TIMEOUT_unit 120)
+set(ANNULUS_TIMEOUT_verification 300)
+set(ANNULUS_TIMEOUT_pipeline 300)
+set(ANNULUS_TIMEOUT_extremes 300)
+set(ANNULUS_TIMEOUT_slow 1200)
+set(ANNULUS_TIMEOUT_benchmark 1200)
+set(ANNULUS_TIMEOUT_nightly 10800)
+
+# Labels of a test and its timeout:
+#   annulus_label_test(fem.hertz verification fem)
+# Kinds: unit, verification, pipeline, extremes, benchmark. Layers: core, geometry, fem, dynamics, app.
+# slow: more than 20 s of processor time. nightly: hours in all. CMakePresets.json selects by these labels.
+function(annulus_label_test name)
+  set(timeout 0)
+  foreach(label IN LISTS ARGN)
+    if(DEFINED ANNULUS_TIMEOUT_${label} AND ANNULUS_TIMEOUT_${label} GREATER timeout)
+      set(timeout ${ANNULUS_TIMEOUT_${label}})
+    endif()
+  endforeach()
+  if(timeout EQUAL 0)
+    message(FATAL_ERROR "${name}: no timeout for any of the labels ${ARGN}")
+  endif()
+  if(ANNULUS_CHECKED)
+    math(EXPR timeout "10 * ${timeout}")
+  endif()
+  set_tests_properties(${name} PROPERTIES LABELS "${ARGN}" TIMEOUT ${timeout})
+endfunction()
+
 # What tests compare with independent references, for the verification manual (tests/verification_record.h).
 set(ANNULUS_VERIFICATION_RECORDS ${PROJECT_BINARY_DIR}/verification)
 
-# One test program per layer, one CTest entry per Boost.Test suite:
-#   annulus_add_tests(core LINK annulus_core SOURCES a.cc SUITES "unit:errors" "verification:hertz")
-# Each entry of SUITES is label:suite; the suite must exist (an empty selection fails).
+# One test program of all sources in the folder and below, one CTest entry per Boost.Test suite:
+#   annulus_add_tests(core LAYER core LINK annulus_core SUITES unit:csv verification+slow:periodic_curve)
+# Each entry of SUITES is labels:suite. NAME.suites fails when a suite of the sources is not listed. LAYER is the label of
+# all entries; without it, entries have only their own labels.
 function(annulus_add_tests name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "SOURCES;LINK;SUITES" ${ARGN})
-  if(NOT ARG_TIMEOUT)
-    set(ARG_TIMEOUT 300)
-  endif()
-  if(ANNULUS_CHECKED)
-    math(EXPR ARG_TIMEOUT "10 * ${ARG_TIMEOUT}")
-  endif()
-  add_executable(test_${name} ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "LAYER" "LINK;SUITES" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cc)
+  add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE annulus_test_main ${ARG_LINK} Boost::unit_test_framework)
   target_compile_definitions(test_${name} PRIVATE ANNULUS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_compile_options(test_${name} PRIVATE -include ${PROJECT_SOURCE_DIR}/tests/floating_point_traps.h)
   annulus_set_warnings(test_${name})
+  set(suites "")
   foreach(entry IN LISTS ARG_SUITES)
     string(REPLACE ":" ";" parts ${entry})
-    list(GET parts 0 label)
+    list(GET parts 0 labels)
     list(GET parts 1 suite)
+    string(REPLACE "+" ";" labels ${labels})
+    list(GET labels 0 kind)
+    list(APPEND suites ${suite})
     add_test(NAME ${name}.${suite} COMMAND test_${name} --run_test=${suite} --log_level=test_suite)
-    set_tests_properties(${name}.${suite} PROPERTIES LABELS ${label} TIMEOUT ${ARG_TIMEOUT}
+    annulus_label_test(${name}.${suite} ${labels} ${ARG_LAYER})
+    set_tests_properties(${name}.${suite} PROPERTIES
                          ENVIRONMENT ANNULUS_VERIFICATION_RECORD=${ANNULUS_VERIFICATION_RECORDS})
     if(NOT name STREQUAL app)
-      set_property(GLOBAL APPEND PROPERTY ANNULUS_TEST_ENTRIES "${label} ${name} ${suite} $<TARGET_FILE:test_${name}>")
+      set_tests_properties(${name}.${suite} PROPERTIES FIXTURES_REQUIRED verification_records)
+      set_property(GLOBAL APPEND PROPERTY ANNULUS_TEST_ENTRIES "${kind} ${name} ${suite} $<TARGET_FILE:test_${name}>")
       set_property(GLOBAL APPEND PROPERTY ANNULUS_RECORDING_TESTS ${name}.${suite})
     endif()
   endforeach()
+  add_test(NAME ${name}.suites COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:test_${name}> "-DLISTED=${suites}"
+                                       -P ${PROJECT_SOURCE_DIR}/cmake/CheckSuites.cmake)
+  annulus_label_test(${name}.suites unit ${ARG_LAYER})
 endfunction()

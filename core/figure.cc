@@ -11,6 +11,12 @@ const FigureSpec* find_figure(const std::vector<FigureSpec>& specs, const std::s
   return found == specs.end() ? nullptr : &*found;
 }
 
+std::vector<std::string> figure_keys(const std::vector<FigureSpec>& specs) {
+  std::vector<std::string> keys;
+  for (const auto& spec : specs) keys.push_back(spec.key);
+  return keys;
+}
+
 void FigureSet::set(const std::string& key, const Figure& figure, const ErrorParts& parts) {
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.key == key; });
   if (found == entries_.end())

@@ -55,6 +55,8 @@ struct FigureSpec {
 /// The declaration with this key; nullptr when there is none.
 [[nodiscard]] const FigureSpec* find_figure(const std::vector<FigureSpec>& specs, const std::string& key);
 
+[[nodiscard]] std::vector<std::string> figure_keys(const std::vector<FigureSpec>& specs);
+
 /// Results by their keys, in the order in which they were set.
 class FigureSet {
  public:

@@ -5,7 +5,6 @@
 
 #include "fem/body/resolution.h"
 #include "fem/problem/solved_face.h"
-#include "fem/problem/support_sites.h"
 
 namespace annulus::fem {
 namespace {
@@ -51,16 +50,16 @@ double solid_unknowns(const LoadedMeshProblem& problem, const BodyResolution& r,
   if (face.half) return 3 * nodes - nodes_of_section(c, degree);
   if (!wheel) return 3 * nodes;
   const double rim = std::abs(problem.wheel_support_radius - gear.root_radius());
-  if (const auto* held = std::get_if<EndFaceHeld>(&problem.structure)) {
-    const double rows = std::max(1.0, std::round(c.rim_rows * std::min(1.0, held->sleeve_thickness / rim)));
+  const RingBody body = problem.structure.body(problem.wheel_support_radius);
+  if (body.sleeve) {
+    const double rows = std::max(1.0, std::round(c.rim_rows * std::min(1.0, body.sleeve->thickness / rim)));
     nodes += nodes_of_rim(c, rows, degree) * degree * r.sleeve_cells;
-    if (held->hoop)
-      nodes += nodes_of_rim(c, 1, degree) *
-               (degree * std::max(1.0, r.face_cells * held->hoop->width / problem.face_width) + 1);
-  } else if (const auto* flange = std::get_if<FlangeHeld>(&problem.structure)) {
-    nodes +=
-        nodes_of_rim(c, 1, degree) * (degree * std::max(1.0, r.face_cells * flange->width / problem.face_width) + 1);
   }
+  const auto add_band = [&](double width) {
+    nodes += nodes_of_rim(c, 1, degree) * (degree * std::max(1.0, r.face_cells * width / problem.face_width) + 1);
+  };
+  if (body.hoop) add_band(body.hoop->width);
+  if (body.flange) add_band(body.flange->width);
   return 3 * nodes;
 }
 
@@ -103,11 +102,7 @@ double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSett
 
 double support_forces(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
   if (settings.fidelity != Fidelity::solid) return 0;
-  const SupportedRing ring{problem.pair.wheel().teeth(), problem.wheel_support_radius, problem.face_width,
-                           problem.material};
-  SupportSites sites;
-  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure)) sites = pin_sites(*pinned, ring);
-  if (const auto* splined = std::get_if<SplineHeld>(&problem.structure)) sites = spline_sites(*splined, ring);
+  const SupportSites sites = support_sites(problem);
   const int cells = solid_resolution(level, settings.degree, problem.pair.overlap_ratio()).face_cells;
   const auto slices = solved_face(problem, settings).edges(2 * cells).size() - 1;
   double forces = 0;

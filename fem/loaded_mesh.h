@@ -3,6 +3,7 @@
 #include "fem/closed_form/closed_form_error.h"
 #include "fem/problem/loaded_mesh_problem.h"
 #include "fem/problem/loaded_mesh_result.h"
+#include "fem/problem/structures/structures.h"
 
 namespace annulus::fem {
 

@@ -164,8 +164,8 @@ Mesh extrude(const Mesh& plane, const std::vector<Layers>& stacks, const Extrude
         solid.faces.push_back({{cell[0], cell[3], cell[2], cell[1]}, boundary});
       }
       if (k + 1 == slabs.size() || !slabs[k + 1].active[c]) {
-        solid.faces.push_back(
-            {{cell[4], cell[5], cell[6], cell[7]}, k + 1 == slabs.size() ? Boundary::end_high : Boundary::inner});
+        const bool end = k + 1 == slabs.size() && centre_radius(plane, c) >= options.end_high_radius;
+        solid.faces.push_back({{cell[4], cell[5], cell[6], cell[7]}, end ? Boundary::end_high : Boundary::inner});
       }
     }
     for (const auto& edge : edges) {

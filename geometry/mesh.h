@@ -62,6 +62,8 @@ struct ExtrudeOptions {
   /// The lower end of the lowest stack gets `end_low` from this radius outwards, `inner` within: a ring without a
   /// sleeve that is held by the rest of its end face, m.
   double end_low_radius = 0;
+  /// Likewise the upper end of the highest stack and `end_high`.
+  double end_high_radius = 0;
 };
 
 /// Hexahedra from a plane mesh, stacks from low to high z, each starting where the one before ends. Side, flank, ...

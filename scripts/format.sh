@@ -1,8 +1,7 @@
-#!/bin/sh
-# Formats all sources with clang-format; with --check only tells which ones differ, and fails if any does.
-set -eu
+#!/usr/bin/env bash
+# Formats all sources with clang-format; with --check reports which ones differ, and fails if any does.
+set -euo pipefail
 cd "$(dirname "$0")/.."
-mode="-i"
-[ "${1:-}" = "--check" ] && mode="--dry-run --Werror"
-# shellcheck disable=SC2086 # one or two words
-git ls-files -z '*.h' '*.cc' | xargs -0 -r clang-format $mode
+mode=(-i)
+[ "${1:-}" = --check ] && mode=(--dry-run --Werror)
+find core geometry fem dynamics app tests examples \( -name '*.h' -o -name '*.cc' \) -print0 | xargs -0 -r clang-format "${mode[@]}"

@@ -1,22 +1,21 @@
 #!/usr/bin/env bash
-# Fuzzes the scene parser and the readers of stiffness tables and REXS files, each for so many seconds (clang, libFuzzer,
-# sanitizers):
-#   scripts/fuzz.sh [seconds] [scene|table|rexs]
-# A find ends it with an error and stands in build/checked/found. What reaches new code is kept in build/checked/corpus;
-#   scripts/fuzz.sh keep
-# takes of that what adds to tests/fuzz/corpus.
+# Fuzzes the scene parser and the readers of stiffness tables and REXS files (clang, libFuzzer, sanitizers).
+#   scripts/fuzz.sh [seconds] [scene|table|rexs]    each target for this time; default 60 s
+#   scripts/fuzz.sh keep                            copies inputs that reach new code to tests/fuzz/corpus
+# A failure ends it with an error; its input is in build/checked/found. Inputs that reach new code are in
+# build/checked/corpus.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:-60}
 read -r -a targets <<<"${2:-scene table rexs}"
 
-command -v clang++ >/dev/null || { echo "fuzz.sh: needs clang (scripts/install_packages.sh --tests)" >&2; exit 2; }
+command -v clang++ >/dev/null || { echo "fuzz.sh: needs clang (scripts/install_packages.sh --nightly)" >&2; exit 2; }
 mkdir -p build
 cmake --preset checked >build/checked.log 2>&1 || { cat build/checked.log >&2; exit 1; }
 cmake --build build/checked --target fuzz_scene fuzz_table fuzz_rexs
 mkdir -p build/checked/found build/checked/corpus/{scene,table,rexs}
 
-# The seeds that the project has anyway.
+# Scenes and earlier inputs of the project.
 seeds() {
   [ "$1" = scene ] && echo data/scenes
   echo "tests/fuzz/corpus/$1"

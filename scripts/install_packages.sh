@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# Installs what annulus needs on Debian 12, as root or with sudo; quick when all is there.
-#   scripts/install_packages.sh            to be built and to run
-#   scripts/install_packages.sh --tests    to be tested as well (twice as much)
+# Installs the packages that annulus needs on Debian 12, as root or with sudo; a second call takes no time.
+#   scripts/install_packages.sh              to build and run it
+#   scripts/install_packages.sh --tests      for scripts/test.sh too
+#   scripts/install_packages.sh --all        for scripts/test.sh --all too (twice as much)
+#   scripts/install_packages.sh --nightly    for scripts/nightly.sh too
 set -euo pipefail
 
 packages=(
@@ -12,13 +14,19 @@ packages=(
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libspdlog-dev libfmt-dev
   libhdf5-dev libmatio-dev libpugixml-dev librsvg2-dev libjs-chart.js libjs-three
 )
-if [ "${1:-}" = --tests ]; then
-  packages+=(
-    calculix-ccx octave    # what benchmarks compare with
-    python3-h5py chromium  # what reads exports and reports
-    clang libclang-rt-dev libomp-dev clang-format clang-tidy valgrind  # sanitizers, fuzzing, analysis
-  )
-fi
+tests=(python3 clang-format)
+all=(
+  calculix-ccx octave    # benchmarks compare with them
+  python3-h5py chromium  # they read exports and reports
+)
+nightly=(clang libclang-rt-dev libomp-dev clang-tidy valgrind)
+case "${1:-}" in
+  "") ;;
+  --tests) packages+=("${tests[@]}") ;;
+  --all) packages+=("${tests[@]}" "${all[@]}") ;;
+  --nightly) packages+=("${tests[@]}" "${all[@]}" "${nightly[@]}") ;;
+  *) echo "install_packages.sh: unknown option $1" >&2; exit 2 ;;
+esac
 
 missing=()
 for package in "${packages[@]}"; do

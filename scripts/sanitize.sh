@@ -1,12 +1,11 @@
 #!/usr/bin/env bash
-# Builds the program and its tests with the address and undefined-behaviour sanitizers (clang) and runs tests of it:
-#   scripts/sanitize.sh [options of ctest]    default: unit and pipeline tests, but for what says nothing more there:
-#                                             the whole scene of three rings (half an hour), what repeats the runs of
-#                                             other tests (reuse, tradeoff, optimisation: another quarter), packages, the
-#                                             browser, the verification manual
+# Builds the program and its tests with the address and undefined-behaviour sanitizers (clang) and runs tests.
+#   scripts/sanitize.sh [options of ctest]
+# Default: unit and pipeline tests, without the whole scene of three rings (half an hour), without reuse, tradeoff and
+# optimisation, which repeat the runs of other tests (a quarter of an hour), and without packages, browser and manual.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-command -v clang++ >/dev/null || { echo "sanitize.sh: needs clang (scripts/install_packages.sh --tests)" >&2; exit 2; }
+command -v clang++ >/dev/null || { echo "sanitize.sh: needs clang (scripts/install_packages.sh --nightly)" >&2; exit 2; }
 mkdir -p build
 cmake --preset checked >build/checked.log 2>&1 || { cat build/checked.log >&2; exit 1; }
 cmake --build --preset checked --target annulus_cli test_core test_geometry test_fem test_dynamics test_app test_verification

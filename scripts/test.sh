@@ -1,11 +1,19 @@
 #!/usr/bin/env bash
-# Installs the packages, builds everything and runs all tests, those with sanitizers and clang-tidy (analysis.*) too, for
-# which everything is compiled once more; ends with CTest's summary. Options are passed to ctest:
-#   scripts/test.sh -LE analysis    a quarter of an hour less
+# Installs the packages, builds everything and runs tests; ends with CTest's summary.
+#   scripts/test.sh          the quick tests: all suites but those above 20 s of processor time
+#   scripts/test.sh --all    all suites, and the benchmarks as far as they check an accuracy
+# Further options are passed to ctest: scripts/test.sh --all -L '^fem$' runs the suites of fem/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+preset=quick
+packages=--tests
+if [ "${1:-}" = --all ]; then
+  preset=release
+  packages=--all
+  shift
+fi
 
-scripts/install_packages.sh --tests
-cmake --preset release -DANNULUS_BUILD_TESTS=ON -DANNULUS_ANALYSIS=ON
+scripts/install_packages.sh "$packages"
+cmake --preset release -DANNULUS_BUILD_TESTS=ON
 cmake --build --preset release
-ctest --preset release --parallel "$(nproc)" "$@"
+ctest --preset "$preset" --parallel "$(nproc)" "$@"

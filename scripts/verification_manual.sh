@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes docs/verification.md with its plots from what the tests record while they run; about ten minutes.
-#   scripts/verification_manual.sh [options of ctest]    default: all unit and verification tests
-# With options only the tests they name run; the rest is taken from earlier runs.
+# Writes docs/verification.md and its plots from the records of the tests.
+#   scripts/verification_manual.sh [options of ctest]    default: all unit and verification tests, about ten minutes
+# With options only the selected tests run; the other records are those of earlier runs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 cmake --preset release -DANNULUS_BUILD_TESTS=ON
@@ -12,8 +12,8 @@ if [ $# -eq 0 ]; then
   mkdir -p "$records"
   set -- --label-regex '^(unit|verification)$'
 fi
-# Not the tests of the manual itself, which is about to be made.
-ctest --preset release --parallel "$(nproc)" --exclude-regex '^manual\.' "$@"
+# Without the tests of the manual itself, and without the one that removes old records.
+ctest --preset release --parallel "$(nproc)" --exclude-regex '^manual\.' --fixture-exclude-setup '^verification_records$' "$@"
 build/release/tests/manual/verification_manual write --entries build/release/tests/entries.txt --records "$records" \
   --introduction tests/manual/introduction.md --docs docs
 echo "docs/verification.md"

@@ -70,7 +70,7 @@ RunJson read_summary(const fs::path& folder) {
 /// The results that runs of a kind have; nullptr for a name that is none.
 const std::vector<FigureSpec>* specs_of(const std::string& kind) {
   for (const auto& k : system_kinds())
-    if (kind == kind_name(k.kind)) return &k.figures();
+    if (kind == k.scene.name) return &k.figures();
   return nullptr;
 }
 

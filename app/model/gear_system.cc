@@ -21,7 +21,7 @@ Plan GearSystem::plan(int threads) const {
 
 const SystemKind& system_kind(StageKind kind) {
   const auto& kinds = system_kinds();
-  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const SystemKind& k) { return k.kind == kind; });
+  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const SystemKind& k) { return k.scene.id == kind; });
   if (found == kinds.end()) throw InternalError("internal error: a gear system of a kind that is not registered");
   return *found;
 }

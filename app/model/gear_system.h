@@ -7,6 +7,7 @@
 #include "app/plan/cost_plan.h"
 #include "app/plan/mesh_model.h"
 #include "app/scene/scene.h"
+#include "app/scene/scene_kind.h"
 #include "core/figure.h"
 
 namespace annulus::app {
@@ -60,7 +61,7 @@ class GearSystem {
 
 /// A kind of gear system, as it is registered.
 struct SystemKind {
-  StageKind kind;
+  SceneKind scene;                                    ///< its tables, checks and example
   const std::vector<FigureSpec>& (*figures)();        ///< all results, those of its meshes first
   const std::vector<FigureSpec>& (*model_figures)();  ///< those of its lumped model, which studies vary
   std::unique_ptr<GearSystem> (*make)(const Scene& scene);

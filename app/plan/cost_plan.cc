@@ -43,8 +43,7 @@ CostRun coupling_size(const MeshModel& model, int threads) {
   CostRun size;
   const bool solid =
       model.settings.fidelity == fem::Fidelity::solid || model.settings.fidelity == fem::Fidelity::resolved_solid;
-  const bool supported = std::holds_alternative<fem::PinHeld>(model.problem->structure) ||
-                         std::holds_alternative<fem::SplineHeld>(model.problem->structure);
+  const bool supported = fem::on_single_supports(model.problem->structure);
   size.kind = solid ? "coupling_solid" : supported ? "coupling_pins" : "coupling_plane";
   size.level = 1;
   size.cycles = model.positions;
@@ -270,7 +269,7 @@ std::vector<PlannedResponse> planetary_responses(const Scene& scene, const GearG
     computed = true;
     // A ring held all around its outside has no modes as low as the stage's.
     if (may_be_coupled(scene, model) && scene.dynamics->rim_coupling != RimCoupling::statical &&
-        !std::holds_alternative<fem::OutsideHeld>(model.problem->structure))
+        !fem::held_outside(model.problem->structure))
       elastic.push_back(model.ring);
   }
   const auto periods = period_cycles(scene, geometry);

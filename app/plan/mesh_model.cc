@@ -69,11 +69,11 @@ std::string unfit_for_linear(const fem::LoadedMeshProblem& problem) {
   constexpr double nearly_incompressible = 0.4, thin_rim = 2.5, slender_sleeve = 0.3;
   if (problem.material.poisson_ratio > nearly_incompressible)
     return fmt::format("linear ones are too stiff where Poisson's ratio exceeds {}", nearly_incompressible);
-  const auto* sleeve = std::get_if<fem::EndFaceHeld>(&problem.structure);
-  if (sleeve == nullptr) return "";
+  const auto sleeve = problem.structure.body(problem.wheel_support_radius).sleeve;
+  if (!sleeve) return "";
   const auto& gear = problem.pair.wheel();
   if (problem.wheel_support_radius - gear.root_radius() < thin_rim * gear.parameters().module ||
-      sleeve->sleeve_thickness < slender_sleeve * sleeve->free_length)
+      sleeve->thickness < slender_sleeve * sleeve->length)
     return "linear ones are too stiff where a thin rim or a slender sleeve bends";
   return "";
 }
@@ -82,13 +82,13 @@ std::string unfit_for_linear(const fem::LoadedMeshProblem& problem) {
 /// more than 1 % at their first level.
 bool hard_for_linear(const fem::LoadedMeshProblem& problem) {
   if (problem.pair.planet().helix_angle() != 0) return true;
-  return problem.pair.internal() && !std::holds_alternative<fem::OutsideHeld>(problem.structure);
+  return problem.pair.internal() && !fem::held_outside(problem.structure);
 }
 
 /// What the wanted accuracy asks of a mesh whose problem is complete but for phases and loads.
 void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
   model.settings.accuracy = scene.accuracy;
-  model.settings.largest_deflection = 0.25;  // small displacements; what is known beforehand: displacement_checks.h
+  model.settings.largest_deflection = 0.25;  // small displacements; what is known beforehand: small_displacements.h
   const auto& pair = model.problem->pair;
   const double uptake = load_uptake(mean_force, model.problem->face_width, pair.planet().parameters().module,
                                     model.problem->material.youngs_modulus);
@@ -110,31 +110,18 @@ void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
   model.elements = std::move(elements.reason);
 }
 
-std::string plane_reason(const RingInput& ring) {
-  constexpr const char* rest = ": nothing changes along the face width";
-  switch (ring.structure) {
-    case Structure::pinned:
-      return std::string("the pins carry over the full width") + rest;
-    case Structure::bolted:
-      return std::string("the bolts hold over the full width") + rest;
-    case Structure::splined:
-      return std::string("the splines carry over the full width") + rest;
-    case Structure::traditional:
-    case Structure::thin_walled:
-      break;
-  }
-  return std::string("the outer surface is held over the full width") + rest;
+/// Why a plane model suffices for a ring without a reason for a solid one; empty for others.
+std::string plane_reason(const fem::RingStructure& structure) {
+  const auto reason = structure.words().plane_reason;
+  return reason.empty() ? "" : reason + ": nothing changes along the face width";
 }
 
-/// Why the mesh of a ring with single supports repeats after so many teeth.
-std::string repeats_text(const RingInput& ring, int positions) {
-  std::string supports = fmt::format("{} supports at given places", ring.pin_count());
-  if (ring.structure == Structure::splined) supports = fmt::format("{} splines", *ring.splines);
-  if (ring.pins) supports = fmt::format("{} equal supports", *ring.pins);
-  if (ring.has_pins() && ring.pin_count() == 1) supports = "a single support";
-  if (positions == ring.teeth)
-    return fmt::format("{} teeth on {}: no smaller turn repeats the ring", ring.teeth, supports);
-  return fmt::format("{} teeth on {}: the ring repeats after {} teeth", ring.teeth, supports, positions);
+/// Why the mesh of a ring repeats after so many teeth.
+std::string repeats_text(const fem::RingStructure& structure, int teeth, int positions) {
+  if (!fem::on_single_supports(structure)) return "the support is the same behind every tooth: one mesh cycle suffices";
+  const auto supports = structure.words().repetition;
+  if (positions == teeth) return fmt::format("{} teeth on {}: no smaller rotation repeats the ring", teeth, supports);
+  return fmt::format("{} teeth on {}: the ring repeats after {} teeth", teeth, supports, positions);
 }
 
 void add_reason(std::string& reasons, bool applies, const std::string& reason) {
@@ -193,25 +180,8 @@ void add_gear(ContentId& id, const std::string& name, const geometry::Gear& gear
 }
 
 void add_structure(ContentId& id, const fem::RingStructure& structure) {
-  constexpr double absent = -1;
-  id.add("structure", static_cast<double>(structure.index()));
-  if (const auto* sleeve = std::get_if<fem::EndFaceHeld>(&structure)) {
-    id.add("free_length", sleeve->free_length).add("sleeve_thickness", sleeve->sleeve_thickness);
-    if (sleeve->hoop) id.add("hoop_width", sleeve->hoop->width).add("hoop_thickness", sleeve->hoop->thickness);
-  } else if (const auto* pins = std::get_if<fem::PinHeld>(&structure)) {
-    for (const double angle : pins->angles) id.add("pin", angle);
-    id.add("pin_diameter", pins->pin_diameter).add("clearance", pins->clearance).add("free_span", pins->free_span);
-    id.add("pin_stiffness", pins->radial_stiffness.value_or(absent));
-    id.add("pin_tangential_stiffness", pins->tangential_stiffness.value_or(absent));
-    id.add("housing_clearance", pins->housing_clearance.value_or(absent));
-    id.add("unilateral", pins->unilateral ? 1 : 0);
-  } else if (const auto* flange = std::get_if<fem::FlangeHeld>(&structure)) {
-    id.add("flange_width", flange->width).add("flange_radius", flange->outside_radius);
-  } else if (const auto* spline = std::get_if<fem::SplineHeld>(&structure)) {
-    id.add("splines", spline->teeth).add("first_spline", spline->first_tooth_angle);
-    id.add("flank_angle", spline->flank_angle).add("clearance", spline->clearance);
-    id.add("flank_stiffness", spline->flank_stiffness.value_or(absent));
-  }
+  id.add("structure", structure.words().name);
+  for (const auto& [name, value] : structure.parameters()) id.add(name, value);
 }
 
 Decision symmetry_decision(const fem::LoadedMeshProblem& problem, const fem::LoadedMeshSettings& settings) {
@@ -300,44 +270,10 @@ const char* MeshModel::body_name(bool planet) const {
   return planet ? "planet" : mesh == sun_planet ? "sun" : "ring";
 }
 
-fem::RingStructure ring_structure(const RingInput& ring) {
-  switch (ring.structure) {
-    case Structure::traditional:
-      if (ring.flange_width) return fem::FlangeHeld{*ring.flange_width, *ring.flange_diameter / 2};
-      return fem::OutsideHeld{};
-    case Structure::thin_walled: {
-      fem::EndFaceHeld held{.free_length = *ring.free_length, .sleeve_thickness = *ring.sleeve_thickness};
-      if (ring.hoop_width) held.hoop = fem::Hoop{*ring.hoop_width, *ring.hoop_thickness};
-      return held;
-    }
-    case Structure::splined:
-      return fem::SplineHeld{.teeth = *ring.splines,
-                             .flank_angle = *ring.spline_flank_angle,
-                             .clearance = ring.spline_clearance.value_or(0),
-                             .flank_stiffness = ring.spline_stiffness,
-                             .first_tooth_angle = ring.first_spline_angle.value_or(0)};
-    case Structure::pinned:
-    case Structure::bolted:
-      break;
-  }
-  return fem::PinHeld{
-      .angles = ring.pins ? fem::equal_angles(*ring.pins, ring.first_pin_angle.value_or(0)) : ring.pin_angles,
-      .pin_diameter = *ring.pin_diameter,
-      .clearance = ring.pin_clearance.value_or(0),
-      .free_span = ring.pin_free_span.value_or(0),
-      .radial_stiffness = ring.pin_radial_stiffness,
-      .tangential_stiffness = ring.pin_tangential_stiffness,
-      .housing_clearance = ring.housing_clearance,
-      .unilateral = ring.structure == Structure::pinned};
-}
-
 std::string solid_reason(const Scene& scene, const RingInput& ring) {
   std::string reasons;
-  add_reason(reasons, ring.structure == Structure::thin_walled,
-             "the ring hangs on one end face, so the deflection grows toward its free end");
-  add_reason(reasons, ring.flange_width.has_value(),
-             "a flange holds the ring at one end, so the deflection grows toward the other");
-  add_reason(reasons, ring.hoop_width.has_value(), "a hoop stiffens the free end");
+  const std::string structure = ring_structure(ring).words().solid_reason;
+  add_reason(reasons, !structure.empty(), structure);
   const std::string teeth =
       tooth_reasons(scene, scene.planet, "planet", ring, "ring", scene.errors.ring_planet_misalignment);
   add_reason(reasons, !teeth.empty(), teeth);
@@ -389,12 +325,10 @@ MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std:
     set_given(model, shape_text(scene.ring_planet.stiffness));
     return model;
   }
-  set_fidelity(model, scene, solid_reason(scene, input), plane_reason(input));
   const auto structure = ring_structure(input);
-  model.positions = fem::repeating_teeth(structure, input.teeth);
-  model.repeats = input.has_pins() || input.structure == Structure::splined
-                      ? repeats_text(input, model.positions)
-                      : "the support is the same behind every tooth: one mesh cycle tells all";
+  set_fidelity(model, scene, solid_reason(scene, input), plane_reason(structure));
+  model.positions = structure.repeating_teeth(input.teeth);
+  model.repeats = repeats_text(structure, input.teeth, model.positions);
   model.problem = problem_of(scene, ring_geometry.set.ring_mesh(), scene.planet);
   model.problem->wheel_support_radius = ring_geometry.outside_radius;
   model.problem->structure = structure;

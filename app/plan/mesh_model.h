@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/plan/accuracy_choice.h"
+#include "app/plan/ring_structures.h"
 #include "app/scene/scene.h"
 #include "app/stage/gear_geometry.h"
 #include "fem/loaded_mesh.h"
@@ -57,9 +58,6 @@ struct MeshModel {
   /// "planet" or "pinion"; its counterpart "sun", "ring" or "wheel".
   [[nodiscard]] const char* body_name(bool planet) const;
 };
-
-/// What holds a ring, as its elastic body knows it.
-[[nodiscard]] fem::RingStructure ring_structure(const RingInput& ring);
 
 /// Why a mesh needs a solid model: what changes along its face width. Empty when nothing does.
 [[nodiscard]] std::string solid_reason(const Scene& scene, const RingInput& ring);  ///< ring-planet mesh

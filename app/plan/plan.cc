@@ -110,11 +110,12 @@ std::vector<DofPlan> dofs(const Scene& scene) {
 }
 
 void add_single_pin(std::vector<std::string>& list, const RingInput& ring) {
-  if (!ring.has_pins() || ring.pin_count() != 1) return;
+  const auto structure = ring_structure(ring);
+  if (structure.single_supports() != 1) return;
   list.push_back(fmt::format(
       "Ring '{}' has a single {}, which cannot hold it in equilibrium: its rim rests in the bore of the housing, with "
       "a radial play of {} µm (housing_clearance_um).",
-      ring.name, ring.structure == Structure::pinned ? "pin" : "bolt", to_text(*ring.housing_clearance / units::um)));
+      ring.name, structure.words().support, to_text(*ring.housing_clearance / units::um)));
 }
 
 std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometry,

@@ -58,23 +58,6 @@ std::string teeth_words(const std::string& planet, const std::string& wheels) {
       wheels, planet);
 }
 
-std::string structure_words(const RingInput& ring) {
-  switch (ring.structure) {
-    case Structure::traditional:
-      return ring.flange_width ? "held by a flange" : "outer surface held";
-    case Structure::thin_walled:
-      return std::string(ring.free_length.value_or(0) > 0 ? "on a sleeve" : "held at its end face") +
-             (ring.hoop_width ? ", with a hoop" : "");
-    case Structure::pinned:
-      return fmt::format("{} pin{}", ring.pin_count(), ring.pin_count() == 1 ? "" : "s");
-    case Structure::bolted:
-      return fmt::format("{} bolt{}", ring.pin_count(), ring.pin_count() == 1 ? "" : "s");
-    case Structure::splined:
-      break;
-  }
-  return fmt::format("{} splines", ring.splines.value_or(0));
-}
-
 /// Sun and planets of any stage: the planets at their angles, `places` their tooth 0.
 void add_sun_and_planets(TransverseSection& section, const Scene& scene, const GearPair& sun_mesh, double sun_angle,
                          const std::vector<std::pair<double, double>>& planets, const std::string& id) {
@@ -134,14 +117,14 @@ TransverseSection stage_section(const Scene& scene, const GearGeometry& geometry
   const auto& set = made.set;
   const auto stand = geometry::stage_places(set);
   const auto structure = ring_structure(input);
-  TransverseSection section{
-      .title = input.name + ": transverse section",
-      .label = fmt::format("{}: transverse section to scale, sun of {} teeth, {} planets of {}, "
-                           "ring of {}, {}; outside diameter {} mm, centre distance {} mm",
-                           input.name, set.sun().teeth(), set.planets(), set.planet().teeth(), set.ring().teeth(),
-                           structure_words(input), mm_text(2 * made.outside_radius), mm_text(set.centre_distance())),
-      .ring = TransverseSection::Ring{structure, made.outside_radius, stand.ring},
-      .outside_radius = made.outside_radius};
+  TransverseSection section{.title = input.name + ": transverse section",
+                            .label = fmt::format("{}: transverse section to scale, sun of {} teeth, {} planets of {}, "
+                                                 "ring of {}, {}; outside diameter {} mm, centre distance {} mm",
+                                                 input.name, set.sun().teeth(), set.planets(), set.planet().teeth(),
+                                                 set.ring().teeth(), ring_structure(input).words().description,
+                                                 mm_text(2 * made.outside_radius), mm_text(set.centre_distance())),
+                            .ring = TransverseSection::Ring{structure, made.outside_radius, stand.ring},
+                            .outside_radius = made.outside_radius};
   section.gears.push_back({{.gear = set.ring(), .id = id + "-ring", .outside_radius = made.outside_radius},
                            {{Eigen::Vector2d::Zero(), stand.ring}}});
   std::vector<std::pair<double, double>> planets;
@@ -171,7 +154,7 @@ std::string drawings_section(const RunResult& result) {
     const AxialSection axial{
         .title = ring.name + ": axial section of the ring",
         .label = fmt::format("{}: axial section of the ring to scale, {}, face width {} mm, outside diameter {} mm",
-                             ring.name, structure_words(input), mm_text(scene.stage.face_width),
+                             ring.name, ring_structure(input).words().description, mm_text(scene.stage.face_width),
                              mm_text(2 * ring.outside_radius)),
         .ring = ring.set.ring(),
         .outside_radius = ring.outside_radius,
@@ -179,7 +162,7 @@ std::string drawings_section(const RunResult& result) {
     text += figure({to_svg(stage_section(scene, result.geometry, i, id)), to_svg(axial)}, "",
                    fmt::format("<b>{}</b>: {}. Left: transverse section. Right: upper half of the ring in axial "
                                "section, teeth pale; orange: what holds it.",
-                               escape(ring.name), structure_words(input)));
+                               escape(ring.name), ring_structure(input).words().description));
     const auto same =
         std::find_if(rings.begin(), rings.begin() + static_cast<std::ptrdiff_t>(i),
                      [&](const auto& other) { return same_teeth(other.set.ring_mesh(), ring.set.ring_mesh()); });

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/plan/ring_structures.h"
 #include "app/report/interactive_plot.h"
 #include "app/report/report_parts.h"
 
@@ -65,8 +66,8 @@ void continue_to(States& states, double period_deg, int copies) {
 }
 
 /// What the colour of a support means: a pin presses outwards, a bolt pulls as well, a spline flank has two directions.
-double shown_force(const State& s, Structure structure) {
-  return structure == Structure::splined ? std::hypot(s.radial, s.tangential) : s.radial;
+double shown_force(const State& s, fem::ShownForce force) {
+  return force == fem::ShownForce::resultant ? std::hypot(s.radial, s.tangential) : s.radial;
 }
 
 /// Place of the contact between the supports, in their numbers, when these follow each other around the ring.
@@ -93,13 +94,11 @@ std::vector<std::pair<double, double>> contact_line(const States& states) {
   return line;
 }
 
-const char* support_name(Structure structure) {
-  return structure == Structure::pinned ? "pin" : structure == Structure::bolted ? "bolt" : "spline tooth";
-}
-
 /// Support number over ring position. Columns narrower than two pixels are joined: the largest force is shown.
 std::string state_map(const RingInput& input, const MeshResult& mesh) {
-  const auto structure = input.structure;
+  const auto structure = ring_structure(input);
+  const auto words = structure.words();
+  const auto force_shown = structure.drawing(0).shown_force;
   auto states = states_of(mesh);
   constexpr int enough = 24;  // teeth
   const int period = mesh.table.positions();
@@ -122,7 +121,7 @@ std::string state_map(const RingInput& input, const MeshResult& mesh) {
       for (std::size_t j = k; j < end; ++j) {
         const auto& s = states.supports[i][j];
         if (!s.touching) continue;
-        const double force = shown_force(s, structure);
+        const double force = shown_force(s, force_shown);
         if (!cell.value || std::abs(force) > std::abs(*cell.value)) cell.value = force;
       }
       lifted = lifted || !cell.value;
@@ -131,17 +130,15 @@ std::string state_map(const RingInput& input, const MeshResult& mesh) {
     }
   }
   panel.line = contact_line(states);
-  const std::string what = support_name(structure);
-  ColourMap map{
-      .title = fmt::format("{}: {}", input.name, structure == Structure::splined ? "spline teeth" : what + "s"),
-      .x_label = "ring teeth passed by the planet (mesh cycles)",
-      .y_label = what + " number",
-      .value_label = structure == Structure::splined ? "force, kN" : "radial force, kN",
-      .y_range = {0.5, static_cast<double>(count) + 0.5},
-      .y_ticks = static_cast<int>(std::min<std::size_t>(count, 8)),
-      .values = range.range(0),
-      .grey = lifted ? "lifted off" : "",
-      .height = static_cast<int>(std::clamp<std::size_t>(130 + 9 * count, 190, 480))};
+  ColourMap map{.title = fmt::format("{}: {}", input.name, words.supports),
+                .x_label = "ring teeth passed by the planet (mesh cycles)",
+                .y_label = words.support + " number",
+                .value_label = force_shown == fem::ShownForce::resultant ? "force, kN" : "radial force, kN",
+                .y_range = {0.5, static_cast<double>(count) + 0.5},
+                .y_ticks = static_cast<int>(std::min<std::size_t>(count, 8)),
+                .values = range.range(0),
+                .grey = lifted ? "lifted off" : "",
+                .height = static_cast<int>(std::clamp<std::size_t>(130 + 9 * count, 190, 480))};
   map.panels.push_back(std::move(panel));
   return plot_html(map);
 }
@@ -167,17 +164,10 @@ std::string force_plot(const std::string& ring, const MeshResult& mesh) {
                         .height = 320});
 }
 
-std::string caption(Structure structure) {
-  std::string text = "One planet alone at the nominal load travels along the ring, from left to right. Every row is a ";
-  text += support_name(structure);
-  if (structure == Structure::pinned) {
-    text += ", coloured by the force with which the rim presses on it, grey while the rim has lifted off";
-  } else if (structure == Structure::bolted) {
-    text += ", orange while the rim presses outwards on it, blue while the rim pulls";
-  } else {
-    text += ", coloured by the resultant of its flanks, grey while neither of them touches";
-  }
-  return text +
+std::string caption(const fem::RingWords& words) {
+  const std::string text =
+      "One planet alone at the nominal load travels along the ring, from left to right. Every row is a ";
+  return text + words.support + ", " + words.map_caption +
          ". The black line follows the contact of the teeth. Below: the same forces over the distance from the "
          "contact.";
 }
@@ -190,7 +180,7 @@ std::string supports_section(const RunResult& result) {
     const auto& ring = result.rings[i];
     if (ring.mesh.pins.rows.empty()) continue;
     const auto& input = result.scene.rings[i];
-    text += figure({state_map(input, ring.mesh)}, "", caption(input.structure));
+    text += figure({state_map(input, ring.mesh)}, "", caption(ring_structure(input).words()));
     text += figure({force_plot(ring.name, ring.mesh)}, "", "");
   }
   return text.empty() ? "" : "<h2 id=\"supports\">Pins and splines</h2>\n" + text;

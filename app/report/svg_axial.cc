@@ -34,20 +34,33 @@ Blocks blocks_of(const AxialSection& section) {
   const auto& ring = section.ring;
   const double width = ring.parameters().face_width, outside = section.outside_radius;
   Blocks blocks{{0, width, ring.root_radius(), outside}, {0, width, ring.tip_radius(), ring.root_radius()}};
-  if (const auto* sleeve = std::get_if<fem::EndFaceHeld>(&section.structure)) {
-    const double end = -sleeve->free_length, inside = outside - sleeve->sleeve_thickness;
-    if (sleeve->free_length > 0) blocks.more.push_back({end, 0, inside, outside});
-    if (sleeve->hoop)
-      blocks.more.push_back({width - sleeve->hoop->width, width, outside, outside + sleeve->hoop->thickness});
-    blocks.held.push_back({end, end, inside, outside});
-  } else if (const auto* flange = std::get_if<fem::FlangeHeld>(&section.structure)) {
-    blocks.more.push_back({0, std::min(flange->width, width), outside, flange->outside_radius});
-    blocks.held.push_back({0, 0, outside, flange->outside_radius});
-  } else if (const auto* pins = std::get_if<fem::PinHeld>(&section.structure)) {
-    blocks.pins.push_back({0, width, outside - pins->pin_diameter / 2, outside + pins->pin_diameter / 2});
-  } else {
-    blocks.held.push_back({0, width, outside, outside});  // outside held, or its splines
+  const auto body = section.structure.body(outside);
+  const auto drawing = section.structure.drawing(outside);
+  const double end = body.sleeve ? -body.sleeve->length : 0;
+  if (end < 0) blocks.more.push_back({end, 0, body.held_inner_radius, outside});
+  if (body.hoop) blocks.more.push_back({width - body.hoop->width, width, outside, outside + body.hoop->thickness});
+  if (body.flange)
+    blocks.more.push_back({0, std::min(body.flange->width, width), outside, body.flange->outside_radius});
+  switch (body.held) {
+    case fem::HeldSurface::outside:
+      blocks.held.push_back({0, width, outside, outside});
+      break;
+    case fem::HeldSurface::both_end_faces:
+      blocks.held.push_back({width, width, body.held_inner_radius, outside});
+      [[fallthrough]];
+    case fem::HeldSurface::low_end_face:
+      blocks.held.push_back({end, end, body.held_inner_radius, outside});
+      break;
+    case fem::HeldSurface::flange_face:
+      blocks.held.push_back({0, 0, outside, body.flange->outside_radius});
+      break;
+    case fem::HeldSurface::none:
+      if (drawing.teeth) blocks.held.push_back({0, width, outside, outside});
+      break;
   }
+  for (const auto& cylinders : drawing.cylinders)
+    blocks.pins.push_back(
+        {0, width, cylinders.circle_radius - cylinders.diameter / 2, cylinders.circle_radius + cylinders.diameter / 2});
   return blocks;
 }
 
@@ -105,18 +118,15 @@ std::string dimensions(const AxialPage& page, const AxialSection& section, const
     return dimension(page.at(z, from), page.at(z, to), offset, mm_text(to - from));
   };
   std::string svg = below(0, width, "b = ");
-  if (const auto* sleeve = std::get_if<fem::EndFaceHeld>(&section.structure)) {
-    if (sleeve->free_length > 0) svg += above(-sleeve->free_length, 0, outside, "");
-    svg += upright(-sleeve->free_length, outside - sleeve->sleeve_thickness, outside, 22);
-    if (sleeve->hoop) {
-      svg += above(width - sleeve->hoop->width, width, outside + sleeve->hoop->thickness, "");
-      svg += upright(width - sleeve->hoop->width, outside, outside + sleeve->hoop->thickness, 14);
-    }
-  } else {
-    svg += upright(0, section.ring.root_radius(), outside, 22);
+  const auto body = section.structure.body(outside);
+  const double end = body.sleeve ? -body.sleeve->length : 0;
+  if (end < 0) svg += above(end, 0, outside, "");
+  svg += upright(end, body.held_inner_radius > 0 ? body.held_inner_radius : section.ring.root_radius(), outside, 22);
+  if (body.hoop) {
+    svg += above(width - body.hoop->width, width, outside + body.hoop->thickness, "");
+    svg += upright(width - body.hoop->width, outside, outside + body.hoop->thickness, 14);
   }
-  if (const auto* flange = std::get_if<fem::FlangeHeld>(&section.structure))
-    svg += above(0, std::min(flange->width, width), flange->outside_radius, "");
+  if (body.flange) svg += above(0, std::min(body.flange->width, width), body.flange->outside_radius, "");
   return svg;
 }
 
@@ -128,10 +138,12 @@ std::string diameters(const AxialPage& page, const AxialSection& section, const 
   };
   std::vector<Label> labels = {
       {section.ring.tip_radius(), "tip"}, {section.ring.root_radius(), "root"}, {section.outside_radius, "outside"}};
-  if (const auto* flange = std::get_if<fem::FlangeHeld>(&section.structure))
-    labels.push_back({flange->outside_radius, "flange"});
-  if (const auto* sleeve = std::get_if<fem::EndFaceHeld>(&section.structure))
-    if (sleeve->hoop) labels.push_back({section.outside_radius + sleeve->hoop->thickness, "hoop"});
+  const auto body = section.structure.body(section.outside_radius);
+  const auto drawing = section.structure.drawing(section.outside_radius);
+  if (body.held == fem::HeldSurface::both_end_faces)
+    labels.insert(labels.end() - 1, {body.held_inner_radius, "clamped from"});
+  if (body.flange) labels.push_back({body.flange->outside_radius, "flange"});
+  if (body.hoop) labels.push_back({section.outside_radius + body.hoop->thickness, "hoop"});
   constexpr double line = 15;
   double last = 1e9;
   std::string svg;
@@ -144,17 +156,16 @@ std::string diameters(const AxialPage& page, const AxialSection& section, const 
         "x=\"{:.1f}\" y=\"{:.1f}\">⌀ {} {}</text>",
         at.x() + 2, at.y(), at.x() + 24, y, at.x() + 33, y + 4, mm_text(2 * label.radius), label.text);
   }
-  if (const auto* pins = std::get_if<fem::PinHeld>(&section.structure)) {
-    const Eigen::Vector2d at = page.at(all.z_low, all.r_high);
-    svg += fmt::format(
-        "<text x=\"{:.1f}\" y=\"{:.1f}\">{} {} ⌀ {}</text>", at.x(), at.y() - 8, pins->angles.size(),
-        pins->unilateral ? (pins->angles.size() == 1 ? "pin" : "pins") : (pins->angles.size() == 1 ? "bolt" : "bolts"),
-        mm_text(pins->pin_diameter));
+  const Eigen::Vector2d corner = page.at(all.z_low, all.r_high);
+  double above = 8;
+  for (const auto& cylinders : drawing.cylinders) {
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{} {} ⌀ {}</text>", corner.x(), corner.y() - above,
+                       cylinders.angles.size(), cylinders.name, mm_text(cylinders.diameter));
+    above += line;
   }
-  if (const auto* splines = std::get_if<fem::SplineHeld>(&section.structure)) {
-    const Eigen::Vector2d at = page.at(all.z_low, all.r_high);
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{} spline teeth</text>", at.x(), at.y() - 14, splines->teeth);
-  }
+  if (drawing.teeth)
+    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{} {}</text>", corner.x(), corner.y() - 14,
+                       drawing.teeth->angles.size(), drawing.teeth->name);
   return svg;
 }
 

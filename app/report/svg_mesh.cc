@@ -83,7 +83,7 @@ std::string plane_picture(const fem::LoadedMeshProblem& problem, const fem::Load
   const double half_width = 3.4 * wheel.pitch_angle() * wheel_pitch;
   const double low = pair.internal() ? centre + problem.planet_bore_radius : problem.wheel_support_radius;
   const double high = pair.internal() ? problem.wheel_support_radius : centre - problem.planet_bore_radius;
-  const double margin = support_margin(problem.structure);
+  const double margin = support_margin(problem.structure, problem.wheel_support_radius);
   const double width = 2 * half_width / units::mm, height = (high - low + 2 * margin) / units::mm;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.2f} {:.2f} {:.2f} {:.2f}\" role=\"img\" "
@@ -129,12 +129,21 @@ std::string shade(const char* base, double light) {
   return fmt::format("#{:02x}{:02x}{:02x}", channel(16), channel(8), channel(0));
 }
 
-/// The held surface of a ring; a sun is held at its bore, which the teeth hide.
+/// The held surface of a ring; a sun is held at its bore, which the teeth hide. Of two held end faces the lower one
+/// shows.
 std::optional<Boundary> held_boundary(const fem::LoadedMeshProblem& problem) {
   if (!problem.pair.internal()) return std::nullopt;
-  if (std::holds_alternative<fem::OutsideHeld>(problem.structure)) return Boundary::support;
-  if (std::holds_alternative<fem::EndFaceHeld>(problem.structure)) return Boundary::end_low;
-  if (std::holds_alternative<fem::FlangeHeld>(problem.structure)) return Boundary::flange_face;
+  switch (problem.structure.body(problem.wheel_support_radius).held) {
+    case fem::HeldSurface::outside:
+      return Boundary::support;
+    case fem::HeldSurface::low_end_face:
+    case fem::HeldSurface::both_end_faces:
+      return Boundary::end_low;
+    case fem::HeldSurface::flange_face:
+      return Boundary::flange_face;
+    case fem::HeldSurface::none:
+      break;
+  }
   return std::nullopt;
 }
 

@@ -31,8 +31,8 @@ Eigen::AlignedBox2d bodies(const TransverseSection& section) {
     for (const auto& point : body.outline) box.extend(point);
   for (const auto& circle : section.circles) extend(box, circle.centre, circle.radius);
   if (section.ring) {
-    double reach = section.ring->outside_radius + support_margin(section.ring->structure);
-    if (const auto* flange = std::get_if<fem::FlangeHeld>(&section.ring->structure))
+    double reach = section.ring->outside_radius + support_margin(section.ring->structure, section.ring->outside_radius);
+    if (const auto flange = section.ring->structure.body(section.ring->outside_radius).flange)
       reach = std::max(reach, flange->outside_radius);
     extend(box, Eigen::Vector2d::Zero(), reach);
   }
@@ -44,14 +44,12 @@ std::string edges(const DrawingPage& page, const TransverseSection::Ring& ring) 
   constexpr const char* seen = "fill=\"none\" stroke=\"#2c3a48\" stroke-width=\"0.7\"";
   constexpr const char* hidden = "fill=\"none\" stroke=\"#2c3a48\" stroke-width=\"0.7\" stroke-dasharray=\"4 2\"";
   const Eigen::Vector2d axis(0, 0);
-  if (const auto* sleeve = std::get_if<fem::EndFaceHeld>(&ring.structure)) {
-    std::string svg = drawn_circle(page, axis, ring.outside_radius - sleeve->sleeve_thickness, hidden);
-    if (sleeve->hoop) svg += drawn_circle(page, axis, ring.outside_radius + sleeve->hoop->thickness, seen);
-    return svg;
-  }
-  if (const auto* flange = std::get_if<fem::FlangeHeld>(&ring.structure))
-    return drawn_circle(page, axis, flange->outside_radius, hidden);
-  return "";
+  const auto body = ring.structure.body(ring.outside_radius);
+  std::string svg;
+  if (body.held_inner_radius > 0) svg += drawn_circle(page, axis, body.held_inner_radius, hidden);
+  if (body.hoop) svg += drawn_circle(page, axis, ring.outside_radius + body.hoop->thickness, seen);
+  if (body.flange) svg += drawn_circle(page, axis, body.flange->outside_radius, hidden);
+  return svg;
 }
 
 std::string axis_cross(const DrawingPage& page, const Eigen::Vector2d& centre) {

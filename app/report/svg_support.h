@@ -8,10 +8,10 @@
 namespace annulus::app {
 
 /// Air that drawings leave beyond a ring for its supports, m.
-[[nodiscard]] double support_margin(const fem::RingStructure& structure);
+[[nodiscard]] double support_margin(const fem::RingStructure& structure, double outside_radius);
 
-/// What holds a ring in the transverse section: the held outside, pins or bolts, spline teeth, a housing bore; nothing
-/// of sleeves and flanges, which hold it elsewhere. `first`: polar angle of the ring's tooth 0; only what lies within
+/// The supports of a ring in the transverse section: the held outside, pins, bolts and dowels, spline teeth, a housing
+/// bore. Held end faces and flanges lie elsewhere. `first`: polar angle of the ring's tooth 0; only what lies within
 /// `reach` of it is drawn, rad.
 [[nodiscard]] std::string drawn_supports(const DrawingPage& page, const fem::RingStructure& structure,
                                          double outside_radius, double first, double reach);

@@ -7,8 +7,8 @@
 
 namespace annulus::app {
 
-/// What checks of the rules between keys have in common, whatever the kind of stage. Problems are told at the place of
-/// their key.
+/// Base of the checks of values that have to agree, for every kind of gear system (which keys go with which others is
+/// declared in the tables). Problems are reported at the line of their key.
 class KeyChecks {
  public:
   KeyChecks(Scene& scene, std::vector<Problem>& problems) : scene_(scene), problems_(problems) {}
@@ -20,16 +20,12 @@ class KeyChecks {
   /// Written in the scene with a value of the right type and range, or left to its default.
   [[nodiscard]] bool usable(const std::string& key, const std::string& ring = "") const;
   void problem(const std::string& key, const std::string& ring, const std::string& rule);
-  void required_if(bool condition, const std::vector<std::string>& keys, const std::string& ring, const char* why);
-  void forbidden_unless(bool condition, const std::vector<std::string>& keys, const std::string& ring, const char* why);
-
   /// Gives an input that follows from others its value, in the unit of its key.
   void derive(const std::string& key, double value, const char* how);
 
-  /// The keys of one [mesh.*].
-  void mesh(const MeshInput& m, const std::string& path);
-  /// Fixed steps need their number, the others choose it.
-  void integrator();
+  /// A prescribed stiffness stays positive; `harmonic`: the shapes with a cosine wave.
+  void wave(const MeshInput& m, const std::string& path,
+            const std::vector<StiffnessShape>& harmonic = {StiffnessShape::harmonic});
 
   Scene& scene_;
   std::vector<Problem>& problems_;

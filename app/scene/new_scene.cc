@@ -7,8 +7,7 @@
 #include <sstream>
 #include <type_traits>
 
-#include "app/scene/scene_schema.h"
-#include "example_scenes.h"
+#include "app/scene/scene_kind.h"
 
 namespace annulus::app {
 
@@ -48,17 +47,19 @@ std::string comment(const std::string& text) {
 }
 
 /// What stands behind the meaning: "number in mm, 0 < value <= 100 mm; default 3 (why)".
-std::string facts(const Parameter& p, bool required) {
+std::string facts(const Parameter& p) {
   std::string text = p.type_text();
   if (!p.unit.empty()) text += " in " + p.unit;
   if (const auto range = p.range_text(); !range.empty()) text += ", " + range;
-  return text + "; " + (required ? "required" : presence_text(p));
+  text += "; " + presence_text(p);
+  for (const auto& rule : rule_texts(p)) text += "; " + rule;
+  return text;
 }
 
-std::string key_lines(const Parameter& p, StageKind kind, const NewValues& values) {
-  const bool required = p.required(kind);
+std::string key_lines(const Parameter& p, const NewValues& values) {
+  const bool required = p.presence == Parameter::Presence::required;
   const auto given = values.find(p.key());
-  std::string text = comment(p.meaning + " (" + facts(p, required) + ")");
+  std::string text = comment(p.meaning + " (" + facts(p) + ")");
   if (given != values.end()) {
     text += p.name + " = " + given->second.text;
     return text + (given->second.remark.empty() ? "\n" : "    # " + given->second.remark + "\n");
@@ -98,46 +99,41 @@ std::string toml_text(const Value& value) {
 }
 
 NewValues example_values(StageKind kind) {
-  const char* text = kind == StageKind::planetary      ? planetary_example
-                     : kind == StageKind::helical_pair ? helical_pair_example
-                                                       : two_k_v_example;
   NewValues values;
-  for (const auto& input : parse_scene(text, "example.toml").inputs) {
+  for (const auto& input : parse_scene(scene_kind(kind).example, "example.toml").inputs) {
     const auto* p = find_parameter(input.key);
     if (p == nullptr || input.origin != Origin::scene || input.entry > 0 || is_study_table(p->table)) continue;
-    const auto& tables = schema();
+    const auto& tables = schema(kind_name(kind));
     const auto table = std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.path == p->table; });
     if (table->on_request && table->path != "dynamics") continue;
     values[input.key] = {toml_text(input.value)};
   }
   values.erase("reference");
   values["title"] = {"\"" + std::string(kind_name(kind)) + " stage\""};
-  if (kind == StageKind::planetary) values["ring.name"] = {"\"ring\""};
+  if (values.count("ring.name") > 0) values["ring.name"] = {"\"ring\""};
   return values;
 }
 
 std::string new_scene(StageKind kind, const NewValues& values) {
   std::string text =
       comment("A scene for annulus: " + std::string(kind_name(kind)) +
-              ". Every key tells its meaning, unit, range and default; those behind '#' can be left out.");
+              ". Every key stands with its meaning, unit, range and default; those behind '#' can be left out.");
   text += comment(
-      "annulus check FILE tells whether it is right, annulus plan FILE what will be modelled and how long it "
-      "takes, annulus run FILE computes it.");
-  for (const auto& table : schema()) {
-    if (!table.applies_to(kind)) continue;
+      "annulus check FILE validates it, annulus plan FILE shows what will be modelled and how long it takes, annulus "
+      "run FILE computes it.");
+  for (const auto& table : schema(kind_name(kind))) {
     const auto& keys = table.parameters;
-    const bool used = table.path.empty() || std::any_of(keys.begin(), keys.end(), [&](const auto& p) {
-                        return values.count(p.key()) > 0 || (table.required && p.applies_to(kind) && p.required(kind));
-                      });
+    const bool used =
+        table.path.empty() || std::any_of(keys.begin(), keys.end(), [&](const auto& p) {
+          return values.count(p.key()) > 0 || (table.required && p.presence == Parameter::Presence::required);
+        });
     text += "\n";
     if (!table.path.empty()) {
       std::string meaning = table.meaning;
       if (table.repeated) meaning += " One or more.";
       text += comment(meaning) + (used ? "" : "# ") + table.header() + "\n";
     }
-    for (const auto& p : keys) {
-      if (p.applies_to(kind)) text += key_lines(p, kind, values);
-    }
+    for (const auto& p : keys) text += key_lines(p, values);
   }
   return text;
 }

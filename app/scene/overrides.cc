@@ -23,19 +23,19 @@ const Input* find_in(const Scene& scene, const std::string& key, std::size_t ent
 }
 
 bool applies(const Scene& scene, const Parameter& p) {
-  const auto kind = scene.stage.kind;
-  return p.applies_to(kind) && std::any_of(schema().begin(), schema().end(), [&](const Table& table) {
-           return table.path == p.table && table.applies_to(kind);
-         });
+  const auto& tables = schema(kind_name(scene.stage.kind));
+  return std::any_of(tables.begin(), tables.end(), [&](const Table& table) {
+    return table.path == p.table && std::any_of(table.parameters.begin(), table.parameters.end(),
+                                                [&](const Parameter& own) { return own.name == p.name; });
+  });
 }
 
 /// Every path the scene knows, lists without their index.
 std::vector<std::string> all_paths(const Scene& scene) {
   std::vector<std::string> paths;
-  for (const auto& table : schema()) {
-    if (!table.applies_to(scene.stage.kind)) continue;
+  for (const auto& table : schema(kind_name(scene.stage.kind))) {
     for (const auto& p : table.parameters) {
-      if (!numeric(p) || !p.applies_to(scene.stage.kind)) continue;
+      if (!numeric(p)) continue;
       paths.push_back(p.key());
       if (p.table != "ring") continue;
       for (const auto& ring : scene.rings) paths.push_back("ring." + ring.name + "." + p.name);
@@ -60,6 +60,7 @@ InputError unknown(const Scene& scene, const std::string& path, const std::strin
   const auto* known = find_parameter(key);
   if (known && applies(scene, *known))
     return InputError(fmt::format("{}: is {}, not a number that can be varied", path, known->type_text()));
+  if (const auto now = renamed_key(key); !now.empty()) return InputError(fmt::format("{}: is now {}", path, now));
   const std::string near = nearest(key, all_paths(scene));
   return InputError(fmt::format("{}: there is no such numeric input{}{}", path,
                                 known ? fmt::format(" of a stage of kind \"{}\"", kind_name(scene.stage.kind)) : "",
@@ -81,9 +82,12 @@ std::vector<std::size_t> find_rings(const Scene& scene, const std::string& path,
     if (input && input->origin == Origin::scene) rings.push_back(i);
   }
   const Parameter& p = *find_parameter(key);
-  // A default holds for every ring alike.
+  // A default holds for every ring that has it.
   if (rings.empty() && p.presence == Parameter::Presence::defaulted) {
-    for (std::size_t i = 0; i < scene.rings.size(); ++i) rings.push_back(i);
+    for (std::size_t i = 0; i < scene.rings.size(); ++i) {
+      const Input* input = find_in(scene, key, i);
+      if (input && !std::holds_alternative<std::monostate>(input->value)) rings.push_back(i);
+    }
   }
   if (rings.empty())
     throw InputError(fmt::format("{}: no ring of this scene gives it; ring.NAME.{} sets it for one", path, p.name));
@@ -98,12 +102,12 @@ std::size_t list_length(const Scene& scene, const Parameter& p, std::size_t entr
   return p.table == "errors" ? static_cast<std::size_t>(scene.stage.planets) : 0;
 }
 
-std::size_t parse_index(const std::string& path, const std::string& text, std::size_t length, bool planets) {
+/// From 0. `meaning`: of the index, for messages.
+std::size_t parse_index(const std::string& path, const std::string& text, std::size_t length, const char* meaning) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc{} || end != text.data() + text.size() || number < 1 || number > length)
-    throw InputError(fmt::format("{}: [{}] must be a number from 1 to {}{}", path, text, length,
-                                 planets ? ", the number of the planet" : ""));
+    throw InputError(fmt::format("{}: [{}] must be a number from 1 to {}{}", path, text, length, meaning));
   return number - 1;
 }
 
@@ -142,8 +146,9 @@ InputTarget find_input(const Scene& scene, const std::string& path) {
   const bool planets = target.parameter->table == "errors";
   if (!has_index)
     throw InputError(fmt::format("{0}: is a list; name one value, as {0}[1]{1}", path, planets ? " for planet 1" : ""));
-  target.index = parse_index(
-      path, index, list_length(scene, *target.parameter, target.rings.empty() ? 0 : target.rings.front()), planets);
+  target.index =
+      parse_index(path, index, list_length(scene, *target.parameter, target.rings.empty() ? 0 : target.rings.front()),
+                  planets ? ", the number of the planet" : "");
   return target;
 }
 

@@ -35,7 +35,7 @@ struct InputTarget {
 /// The present value in the unit of the key, of the given ring where it is a ring's; nothing when it has none.
 [[nodiscard]] std::optional<double> input_value(const Scene& scene, const InputTarget& target, std::size_t ring = 0);
 
-/// "errors.planet_installation_um[*]" as one path per planet, any other path as itself.
+/// "errors.planet_pin_position_error_um[*]" as one path per planet, any other path as itself.
 [[nodiscard]] std::vector<std::string> expand_planets(const Scene& scene, const std::string& path);
 
 /// One number to be set in one table of the file.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -10,7 +11,7 @@
 #include "app/scene/scene_schema.h"
 #include "core/units.h"
 
-/// The small language in which scene_schema.cc declares the keys of a scene.
+/// The small language in which the tables of a scene are declared.
 namespace annulus::app {
 
 /// Below any body of a gear set; lighter ones on stiff springs have frequencies beyond any number.
@@ -30,34 +31,63 @@ inline constexpr Unit key_units[] = {
 
 template <class T>
 struct Choice {
-  const char* name;
+  std::string name;
   T value;
+  std::string old_name{};  ///< refused with `name`
 };
 
-/// Further properties of a key, chained behind its declaration.
+/// Further properties of a key, chained behind its declaration. Conditions name keys of the same table, keys of others
+/// with their table, and "[tables]" (condition.h).
 class Declared {
  public:
   explicit Declared(Parameter& p) : p_(p) {}
   Declared& required() { return p_.presence = Parameter::Presence::required, *this; }
+  /// A key stored in an optional has its default only where its conditions (only_if) hold.
   Declared& fallback(Value value, const char* why) {
     p_.presence = Parameter::Presence::defaulted;
     p_.default_value = std::move(value);
     p_.note = why;
     return *this;
   }
-  /// Kinds of stages that have this key.
-  Declared& only(std::vector<StageKind> kinds) { return p_.kinds = std::move(kinds), *this; }
-  Declared& required_for(std::vector<StageKind> kinds) { return p_.required_for = std::move(kinds), *this; }
+  /// What absence means.
   Declared& absent(const char* what_then) { return p_.note = what_then, *this; }
+  /// What conditions take this key for when its table is absent.
+  Declared& without_table(const char* value) { return p_.without_table = value, *this; }
+
   Declared& from(double low, double high) { return p_.low = low, p_.high = high, *this; }
   Declared& above(double low, double high) { return p_.low_included = false, from(low, high); }
   /// Most values of a list.
   Declared& longest(std::size_t values) { return p_.longest = values, *this; }
   Declared& infinite() { return p_.may_be_infinite = true, *this; }
+  /// The only permitted texts of a list of texts.
+  Declared& among(std::vector<std::string> names) { return p_.choices = std::move(names), *this; }
+
+  /// Refused elsewhere. A default that holds everywhere may be written everywhere.
+  Declared& only_if(Condition when, const char* why = "") { return add(p_.only_if, std::move(when), why); }
+  Declared& required_if(Condition when, const char* why = "") { return add(p_.required_if, std::move(when), why); }
+  Declared& refused_if(Condition when, const char* why) { return add(p_.refused_if, std::move(when), why); }
+  /// Required there, refused elsewhere.
+  Declared& needed_if(const Condition& when, const char* why = "") { return required_if(when, why).only_if(when, why); }
+  /// Both keys are given, or none.
+  Declared& together_with(const char* key) { return p_.together_with.emplace_back(key), *this; }
+  /// Exactly one is given where the conditions of this key hold: this key, or all of `keys`.
+  Declared& instead_of(std::vector<std::string> keys) { return p_.instead_of = std::move(keys), *this; }
+  /// An earlier name, refused with the present one.
+  Declared& formerly(const char* name) { return p_.old_names.emplace_back(name), *this; }
 
  private:
+  Declared& add(std::vector<KeyRule>& rules, Condition when, const char* why) {
+    rules.push_back({std::move(when), why, {}});
+    return *this;
+  }
+
   Parameter& p_;
 };
+
+template <class T>
+inline constexpr bool is_optional = false;
+template <class T>
+inline constexpr bool is_optional<std::optional<T>> = true;
 
 /// Builds a table whose keys are bound to the members of `Section`.
 template <class Section>
@@ -76,9 +106,14 @@ class Declarations {
   Declarations& optional() { return table_.required = false, *this; }
   /// Optional, and without effect when absent.
   Declarations& on_request() { return table_.on_request = true, optional(); }
-  /// Kinds of stages that have this table.
-  Declarations& only(std::vector<StageKind> kinds) {
-    table_.kinds = std::move(kinds);
+  /// A table of studies, refused without [dynamics].
+  Declarations& study() {
+    table_.role = Table::Role::study;
+    return on_request().only_if(given("[dynamics]"), "studies vary what the lumped model answers");
+  }
+  /// Refused elsewhere.
+  Declarations& only_if(Condition when, const char* why = "") {
+    table_.only_if.push_back({std::move(when), why, {}});
     return *this;
   }
   Table done() { return std::move(table_); }
@@ -86,8 +121,9 @@ class Declarations {
   template <class Base, class T>
   Declared key(const char* name, T Base::*member, const char* meaning) {
     Parameter& p = declare(name, meaning);
-    constexpr bool is = std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>;
-    if constexpr (is) {
+    constexpr bool real = std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>;
+    p.default_where_it_applies = is_optional<T>;
+    if constexpr (real) {
       p.kind = Parameter::Kind::real;
       store(p, member, [si = p.si](const Value& v) { return std::get<double>(v) * si; });
     } else if constexpr (std::is_same_v<T, int> || std::is_same_v<T, std::optional<int>>) {
@@ -115,7 +151,10 @@ class Declarations {
   Declared choice(const char* name, T Base::*member, std::vector<Choice<T>> choices, const char* meaning) {
     Parameter& p = declare(name, meaning);
     p.kind = Parameter::Kind::choice;
-    for (const auto& c : choices) p.choices.emplace_back(c.name);
+    for (const auto& c : choices) {
+      p.choices.push_back(c.name);
+      if (!c.old_name.empty()) p.old_choices.push_back({c.old_name, c.name});
+    }
     store(p, member, [choices = std::move(choices)](const Value& v) {
       const auto& text = std::get<std::string>(v);
       return std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.name == text; })->value;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "app/plan/mesh_model.h"
 #include "app/scene/input_place.h"
 #include "app/scene/scene_limits.h"
 #include "app/stage/reference.h"
@@ -22,7 +21,7 @@ InputError refusal(const Scene& scene, const std::string& key, const std::string
       fmt::format("{}: {} = \"{}\": {}", place_text(scene, key), key, shown(name), without_controls(why)));
 }
 
-/// Does `use` with the file; what is wrong with its content is told with the key that names it.
+/// Applies `use` to the file; what is wrong with its content is reported with the key that names it.
 template <class Use>
 auto with_file(const Scene& scene, const std::string& key, const std::string& name, Use use) {
   const auto file = file_of_scene(scene, key, name);
@@ -31,6 +30,11 @@ auto with_file(const Scene& scene, const std::string& key, const std::string& na
   } catch (const InputError& error) {
     throw refusal(scene, key, name, error.what());
   }
+}
+
+StiffnessTable table_of_file(const Scene& scene, const std::string& mesh, const std::string& name) {
+  return with_file(scene, "mesh." + mesh + ".file", name,
+                   [&](const std::filesystem::path& file) { return import_table(file, mesh); });
 }
 
 }  // namespace
@@ -57,16 +61,16 @@ std::filesystem::path file_of_scene(const Scene& scene, const std::string& key, 
 }
 
 StiffnessTable given_table(const Scene& scene, const std::string& mesh, const MeshInput& input) {
-  return with_file(scene, "mesh." + mesh + ".file", *input.file,
-                   [&](const std::filesystem::path& file) { return import_table(file, mesh); });
+  return table_of_file(scene, mesh, *input.file);
 }
 
 void check_files(const Scene& scene) {
-  for (const auto& [mesh, input] : {std::pair{sun_planet, &scene.sun_planet},
-                                    {ring_planet, &scene.ring_planet},
-                                    {pinion_wheel, &scene.pinion_wheel},
-                                    {arc_pins, &scene.arc_pins}})
-    if (input->stiffness == StiffnessShape::table && input->file) (void)given_table(scene, mesh, *input);
+  const std::string head = "mesh.", tail = ".file";
+  for (const auto& input : scene.inputs) {
+    const auto* name = std::get_if<std::string>(&input.value);
+    if (name == nullptr || !input.key.starts_with(head) || !input.key.ends_with(tail)) continue;
+    (void)table_of_file(scene, input.key.substr(head.size(), input.key.size() - head.size() - tail.size()), *name);
+  }
   if (scene.reference)
     with_file(scene, "reference", *scene.reference, [](const auto& file) { return read_reference(file); });
 }

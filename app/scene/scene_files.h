@@ -15,7 +15,7 @@ namespace annulus::app {
 /// The stiffness table that [mesh.NAME] names. Throws InputError, naming place and key, when it cannot be used.
 [[nodiscard]] StiffnessTable given_table(const Scene& scene, const std::string& mesh, const MeshInput& input);
 
-/// Reads every file the scene names, so that a bad one is told of before time is spent.
+/// Reads every file the scene names, so that a bad one is refused before time is spent. Throws InputError.
 void check_files(const Scene& scene);
 
 }  // namespace annulus::app

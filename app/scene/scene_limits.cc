@@ -48,7 +48,7 @@ class KeyDepth {
       const char c = text_[at_];
       if (c == '\n') {
         ++line_;
-        if (!several_lines) return;  // not closed: the parser will say so
+        if (!several_lines) return;  // not closed: the parser reports it
       } else if (c == '\\' && quote == '"') {
         ++at_;
       } else if (c == quote && (!several_lines || three(quote))) {
@@ -63,10 +63,12 @@ class KeyDepth {
   int line_ = 1;
 };
 
-std::string escaped(const std::string& text, bool keep_lines) {
+enum class LineEnds { keep, escape };
+
+std::string escaped(const std::string& text, LineEnds line_ends) {
   std::string result;
   for (const char c : text) {
-    if (!is_control(c) || (keep_lines && c == '\n'))
+    if (!is_control(c) || (line_ends == LineEnds::keep && c == '\n'))
       result += c;
     else if (c == '\n')
       result += "\\n";
@@ -92,7 +94,7 @@ void check_scene_text(const std::string& text, const std::string& file) {
 }
 
 std::string shown(const std::string& text, std::size_t longest) {
-  std::string result = escaped(text.substr(0, longest + 1), false);
+  std::string result = escaped(text.substr(0, longest + 1), LineEnds::escape);
   if (text.size() <= longest && result.size() <= 2 * longest) return result;
   result.resize(std::min(result.size(), longest));
   // Not in the middle of a character.
@@ -101,7 +103,7 @@ std::string shown(const std::string& text, std::size_t longest) {
   return result + "…";
 }
 
-std::string without_controls(const std::string& text) { return escaped(text, true); }
+std::string without_controls(const std::string& text) { return escaped(text, LineEnds::keep); }
 
 bool has_controls(const std::string& text) { return std::any_of(text.begin(), text.end(), is_control); }
 

@@ -11,8 +11,8 @@ inline constexpr std::size_t largest_scene = 1'000'000;  ///< bytes
 inline constexpr int deepest_key = 16;                   ///< parts of a dotted key or table name
 inline constexpr std::size_t most_tables = 100;          ///< of one array of tables ([[ring]], [[sweep]])
 inline constexpr std::size_t longest_text = 1000;        ///< bytes of one text
-inline constexpr std::size_t longest_list = 1000;        ///< values of one list, unless its key says otherwise
-inline constexpr std::size_t most_problems = 50;         ///< that one message tells of
+inline constexpr std::size_t longest_list = 1000;        ///< values of one list, unless its key allows more
+inline constexpr std::size_t most_problems = 50;         ///< in one message
 
 /// Throws SceneError when the text is too large, or nests keys deeper than its parser could bear.
 void check_scene_text(const std::string& text, const std::string& file);

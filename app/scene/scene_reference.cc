@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
+#include "app/scene/scene_kind.h"
 #include "app/scene/scene_schema.h"
 
 namespace annulus::app {
@@ -16,6 +18,14 @@ const Parameter* find_parameter(const std::string& key) {
   return nullptr;
 }
 
+std::string renamed_key(const std::string& old_key) {
+  for (const auto& table : schema())
+    for (const auto& p : table.parameters)
+      for (const auto& old : p.old_names)
+        if (old_key == (table.path.empty() ? old : table.path + "." + old)) return p.key();
+  return "";
+}
+
 std::vector<std::string> all_keys() {
   std::vector<std::string> keys;
   for (const auto& table : schema()) {
@@ -25,46 +35,90 @@ std::vector<std::string> all_keys() {
 }
 
 const std::vector<StageKind>& stage_kinds() {
-  static const std::vector<StageKind> kinds = {StageKind::planetary, StageKind::helical_pair, StageKind::two_k_v};
+  static const std::vector<StageKind> kinds = [] {
+    std::vector<StageKind> list;
+    for (const auto& kind : scene_kinds()) list.push_back(kind.id);
+    return list;
+  }();
   return kinds;
 }
 
-const char* kind_name(StageKind kind) {
-  switch (kind) {
-    case StageKind::planetary:
-      return "planetary";
-    case StageKind::helical_pair:
-      return "helical_pair";
-    case StageKind::two_k_v:
-      break;
-  }
-  return "two_k_v";
-}
+const char* kind_name(StageKind kind) { return scene_kind(kind).name.c_str(); }
 
-std::string kinds_text(const std::vector<StageKind>& kinds) {
+std::string kinds_text(const std::vector<std::string>& kinds) {
   std::string text;
   for (std::size_t i = 0; i < kinds.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == kinds.size() ? " and " : ", ") + std::string(kind_name(kinds[i]));
+    text += (i == 0 ? "" : i + 1 == kinds.size() ? " and " : ", ") + kinds[i];
   return text;
 }
 
+std::string kinds_text(const std::vector<StageKind>& kinds) {
+  std::vector<std::string> names;
+  for (const auto kind : kinds) names.emplace_back(kind_name(kind));
+  return kinds_text(names);
+}
+
 namespace {
-bool among(StageKind kind, const std::vector<StageKind>& kinds) {
+
+bool among(const std::string& kind, const std::vector<std::string>& kinds) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
+
+/// "only with structure = "pinned" or "bolted" (planetary): why"
+std::string rule_text(const char* verb, const KeyRule& rule, const std::string& table) {
+  return verb + rule.when.text(table) + (rule.kinds.empty() ? "" : " (" + kinds_text(rule.kinds) + ")") +
+         (rule.why.empty() ? "" : ": " + rule.why);
+}
+
+std::string as_sentence(std::string text) {
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text + ".";
+}
+
+/// Rules with the same condition as another one, as those of needed_if.
+bool has_condition_of(const KeyRule& rule, const std::vector<KeyRule>& others, const std::string& table) {
+  return std::any_of(others.begin(), others.end(),
+                     [&](const KeyRule& o) { return o.when.text(table) == rule.when.text(table); });
+}
+
 }  // namespace
 
 bool is_study_table(const std::string& path) {
-  for (const std::string study : {"sweep", "grid", "monte_carlo", "sensitivity", "optimise"}) {
-    if (path == study || path.starts_with(study + ".")) return true;
-  }
-  return false;
+  const auto& tables = schema();
+  return std::any_of(tables.begin(), tables.end(),
+                     [&](const Table& t) { return t.path == path && t.role == Table::Role::study; });
 }
 
-bool Table::applies_to(StageKind kind) const { return kinds.empty() || among(kind, kinds); }
-bool Parameter::applies_to(StageKind stage) const { return kinds.empty() || among(stage, kinds); }
-bool Parameter::required(StageKind stage) const {
-  return applies_to(stage) && (presence == Presence::required || among(stage, required_for));
+bool Table::applies_to(const std::string& kind) const { return kinds.empty() || among(kind, kinds); }
+bool Table::applies_to(StageKind kind) const { return applies_to(kind_name(kind)); }
+bool Parameter::applies_to(const std::string& gear_system) const { return kinds.empty() || among(gear_system, kinds); }
+bool Parameter::applies_to(StageKind stage) const { return applies_to(kind_name(stage)); }
+bool Parameter::required(const std::string& gear_system) const {
+  return applies_to(gear_system) && (presence == Presence::required || among(gear_system, required_for));
+}
+bool Parameter::required(StageKind stage) const { return required(kind_name(stage)); }
+
+std::vector<std::string> rule_texts(const Parameter& p) {
+  std::vector<std::string> list;
+  for (const auto& rule : p.only_if) {
+    const bool needed = has_condition_of(rule, p.required_if, p.table);
+    list.push_back(rule_text(needed ? "required, and permitted only, with " : "only with ", rule, p.table));
+  }
+  for (const auto& rule : p.required_if)
+    if (!has_condition_of(rule, p.only_if, p.table)) list.push_back(rule_text("required by ", rule, p.table));
+  for (const auto& rule : p.refused_if) list.push_back(rule_text("refused beside ", rule, p.table));
+  for (const auto& name : p.together_with) list.push_back("together with " + name);
+  std::string others;
+  for (std::size_t i = 0; i < p.instead_of.size(); ++i)
+    others += (i == 0 ? "" : i + 1 == p.instead_of.size() ? " and " : ", ") + p.instead_of[i];
+  if (!others.empty()) list.push_back("either this or " + others);
+  return list;
+}
+
+std::string choices_text(const Parameter& p) {
+  std::string text = "one of";
+  for (const auto& c : p.choices) text += (c == p.choices.front() ? " \"" : ", \"") + c + "\"";
+  return text;
 }
 
 std::string Parameter::type_text() const {
@@ -82,9 +136,7 @@ std::string Parameter::type_text() const {
     case Kind::choice:
       break;
   }
-  std::string text = "one of";
-  for (const auto& c : choices) text += (c == choices.front() ? " \"" : ", \"") + c + "\"";
-  return text;
+  return choices_text(*this);
 }
 
 bool Parameter::in_range(double x) const {
@@ -111,7 +163,8 @@ std::string presence_text(const Parameter& p) {
       return "required";
     case Parameter::Presence::optional: {
       const std::string kinds = p.required_for.empty() ? "" : "required for " + kinds_text(p.required_for) + ", else ";
-      return kinds + (p.note.empty() ? "optional" : "optional; absent: " + p.note);
+      const std::string word = p.required_if.empty() ? "optional" : "conditional";
+      return kinds + (p.note.empty() ? word : word + "; absent: " + p.note);
     }
     case Parameter::Presence::defaulted:
       break;
@@ -129,6 +182,7 @@ std::string explain(const Parameter& p) {
   if (!p.unit.empty()) text += " in " + p.unit;
   if (const auto range = p.range_text(); !range.empty()) text += "; " + range;
   text += "\n  " + presence_text(p) + "\n";
+  for (const auto& rule : rule_texts(p)) text += "  " + rule + "\n";
   if (!p.kinds.empty()) text += "  for stages of kind " + kinds_text(p.kinds) + "\n";
   return text;
 }
@@ -136,16 +190,19 @@ std::string explain(const Parameter& p) {
 std::string scene_reference() {
   std::string text =
       "# Scene reference\n\n"
-      "Written by `annulus explain --markdown`; the declarations are in `app/scene/scene_schema.cc`.\n"
+      "Written by `annulus explain --markdown`; the declarations are the `*_table*.cc` below `app/scene`.\n"
       "A scene is a TOML file. Every key carries its unit.\n";
   for (const auto& table : schema()) {
     text += fmt::format("\n## {}\n\n{}", table.path.empty() ? "Top level" : "`" + table.header() + "`", table.meaning);
     if (!table.required) text += " Optional.";
+    for (const auto& rule : table.only_if) text += " " + as_sentence(rule_text("only with ", rule, ""));
     if (!table.kinds.empty()) text += " For stages of kind " + kinds_text(table.kinds) + ".";
     text += "\n\n| key | type | range | presence | meaning |\n|---|---|---|---|---|\n";
     for (const auto& p : table.parameters) {
-      text += fmt::format("| `{}` | {} | {} | {} | {}{} |\n", p.name, p.type_text(), p.range_text(), presence_text(p),
-                          p.meaning, p.kinds.empty() ? "" : " For " + kinds_text(p.kinds) + ".");
+      std::string rules;
+      for (const auto& rule : rule_texts(p)) rules += "; " + rule;
+      text += fmt::format("| `{}` | {} | {} | {}{} | {}{} |\n", p.name, p.type_text(), p.range_text(), presence_text(p),
+                          rules, p.meaning, p.kinds.empty() ? "" : " For " + kinds_text(p.kinds) + ".");
     }
   }
   text +=

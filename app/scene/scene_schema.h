@@ -4,16 +4,20 @@
 #include <string>
 #include <vector>
 
+#include "app/scene/condition.h"
 #include "app/scene/scene.h"
 #include "app/scene/scene_limits.h"
 
 namespace annulus::app {
 
-/// One key of a scene file. It is declared once, in scene_schema.cc; parser, validation, `plan`, `explain` and the
-/// scene reference (docs/scene.md) come from that declaration.
+/// One key of a scene file. It is declared once, in the tables of all kinds (common_tables.cc, study_tables.cc) or of
+/// one kind; parser, validation, `plan`, `explain` and the scene reference (docs/scene.md) come from that declaration.
 struct Parameter {
   enum class Kind { integer, real, text, choice, reals, texts };
   enum class Presence { required, optional, defaulted };
+  struct OldChoice {
+    std::string old_name, name;
+  };
 
   std::string table{};  ///< "stage", "mesh.sun_planet"; empty for the top level
   std::string name{};   ///< "module_mm"
@@ -22,20 +26,34 @@ struct Parameter {
   double si = 1;       ///< value in SI units = value in the file x si
   Presence presence = Presence::optional;
   Value default_value{};
-  std::string note{};                     ///< reason of the default, or what absence means
-  std::vector<StageKind> kinds{};         ///< of stages that have this key; empty: those of its table
-  std::vector<StageKind> required_for{};  ///< kinds that cannot do without it, where others can
+  std::string note{};                       ///< reason of the default, or what absence means
+  std::vector<std::string> kinds{};         ///< of gear systems that have this key; empty: those of its table
+  std::vector<std::string> required_for{};  ///< kinds that cannot do without it, where others can
   double low = -rigid, high = rigid;
   bool low_included = true;
   bool may_be_infinite = false;
   std::size_t longest = longest_list;  ///< values of a list
-  std::vector<std::string> choices{};
+  std::vector<std::string> choices{};  ///< permitted texts; empty: any
   std::string meaning{};
+  std::vector<std::string> old_names{};  ///< refused with the present name
+  std::vector<OldChoice> old_choices{};  ///< the same for texts
+  std::string without_table{};           ///< value that conditions see when its table is absent
+
+  // Rules between keys (key_rules.h).
+  std::vector<KeyRule> only_if{};  ///< refused where one of these does not hold
+  std::vector<KeyRule> required_if{};
+  std::vector<KeyRule> refused_if{};
+  std::vector<std::string> together_with{};  ///< keys of the table that are given with this one or not at all
+  std::vector<std::string> instead_of{};     ///< either this key or all of these, where the conditions hold
+  bool default_where_it_applies = false;     ///< the default holds only where `only_if` does
+
   /// Stores a checked value (in file units) into the scene; the index counts the tables of an array ([[ring]]).
   std::function<void(Scene&, std::size_t, const Value&)> store{};
 
   [[nodiscard]] std::string key() const { return table.empty() ? name : table + "." + name; }
+  [[nodiscard]] bool applies_to(const std::string& gear_system) const;
   [[nodiscard]] bool applies_to(StageKind stage) const;
+  [[nodiscard]] bool required(const std::string& gear_system) const;
   [[nodiscard]] bool required(StageKind stage) const;
   [[nodiscard]] std::string type_text() const;      ///< "a whole number", "a list of numbers"
   [[nodiscard]] bool in_range(double value) const;  ///< in the unit of the file
@@ -43,58 +61,58 @@ struct Parameter {
 };
 
 struct Table {
+  enum class Role { model, study };
+
   std::string path{};
   bool repeated = false;    ///< [[path]]: array of tables
   bool required = true;     ///< false: absent as a whole is fine, and then none of its keys applies
   bool on_request = false;  ///< its presence is itself the question: defaults apply only when it is there
+  Role role = Role::model;
   std::string meaning{};
-  std::vector<StageKind> kinds{};  ///< of stages that have this table; empty: all
+  std::vector<std::string> kinds{};  ///< of gear systems that have this table; empty: all
+  std::vector<KeyRule> only_if{};    ///< refused where one of these does not hold
   std::vector<Parameter> parameters{};
   /// Makes room for the tables of an array ([[path]]).
   std::function<void(Scene&, std::size_t)> resize{};
 
+  [[nodiscard]] bool applies_to(const std::string& kind) const;
   [[nodiscard]] bool applies_to(StageKind kind) const;
   [[nodiscard]] std::string header() const { return repeated ? "[[" + path + "]]" : "[" + path + "]"; }
 };
 
 /// All tables in the order of the documentation; the first one, with an empty path, holds the top-level keys.
 [[nodiscard]] const std::vector<Table>& schema();
+/// The tables and keys of one kind of gear system. Throws InternalError when no kind of this name is registered.
+[[nodiscard]] const std::vector<Table>& schema(const std::string& kind);
 /// Tables of the format that this version cannot use yet, with what they will do.
 [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& unavailable_tables();
 
 /// "planetary", as in the file.
 [[nodiscard]] const char* kind_name(StageKind kind);
-/// All of them, in the order of the enumeration.
+/// All of them, in the order of their registration.
 [[nodiscard]] const std::vector<StageKind>& stage_kinds();
 /// "planetary" or "planetary and two_k_v", for messages; empty when there is no restriction.
 [[nodiscard]] std::string kinds_text(const std::vector<StageKind>& kinds);
+[[nodiscard]] std::string kinds_text(const std::vector<std::string>& kinds);
 
 /// Tables that ask for studies: no inputs of the model.
 [[nodiscard]] bool is_study_table(const std::string& path);
 
-/// A gear on a rigid hub, and the stiffness of a mesh (scene_schema.cc).
-[[nodiscard]] Table hub_gear_table(const char* path, const char* meaning, const std::vector<StageKind>& kinds,
-                                   HubGearInput& (*section)(Scene&, std::size_t));
-[[nodiscard]] Table mesh_table(const char* path, const char* meaning, const std::vector<StageKind>& kinds,
-                               MeshInput& (*section)(Scene&, std::size_t));
-
-/// [pinion], [wheel], [mesh.pinion_wheel], [manufacturing_error], [transmission_error] (scene_schema_pair.cc).
-void declare_pair(std::vector<Table>& tables);
-
-/// [[sweep]], [monte_carlo], [[monte_carlo.input]], [sensitivity] (scene_schema_studies.cc).
-void declare_studies(std::vector<Table>& tables);
-
-/// [crank], [arc_gear], [input], [output] of a 2K-V stage (scene_schema_two_k_v.cc).
-void declare_two_k_v(std::vector<Table>& tables);
-
 /// nullptr when there is no such key.
 [[nodiscard]] const Parameter* find_parameter(const std::string& key);
 [[nodiscard]] std::vector<std::string> all_keys();
+/// The present key of an earlier one: "errors.sun_position_error_um" -> "errors.sun_position_error_um"; empty when
+/// there is none.
+[[nodiscard]] std::string renamed_key(const std::string& old_key);
 
 /// The scene reference as Markdown (docs/scene.md), and one key for `annulus explain KEY`.
 [[nodiscard]] std::string scene_reference();
 [[nodiscard]] std::string explain(const Parameter& parameter);
-/// "required", "default 0.3 (steel)", "optional; absent: ...".
+/// "required", "default 0.3 (steel)", "optional; absent: ...", "conditional" (on what: rule_texts).
 [[nodiscard]] std::string presence_text(const Parameter& parameter);
+/// "one of "linear", "logarithmic"".
+[[nodiscard]] std::string choices_text(const Parameter& parameter);
+/// The rules between this key and others, one sentence each; empty without.
+[[nodiscard]] std::vector<std::string> rule_texts(const Parameter& parameter);
 
 }  // namespace annulus::app

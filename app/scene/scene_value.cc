@@ -65,15 +65,15 @@ namespace {
 
 std::string format_problems(const std::string& file, const std::vector<Problem>& problems) {
   std::string text;
-  const std::size_t told = std::min(problems.size(), most_problems);
-  for (std::size_t i = 0; i < told; ++i) {
+  const std::size_t shown_problems = std::min(problems.size(), most_problems);
+  for (std::size_t i = 0; i < shown_problems; ++i) {
     const auto& p = problems[i];
     if (!text.empty()) text += '\n';
     text += file;
     if (p.line > 0) text += fmt::format(":{}:{}", p.line, p.column);
     text += ": " + p.message;
   }
-  if (told < problems.size()) text += "\n" + file + ": there are more problems";
+  if (shown_problems < problems.size()) text += "\n" + file + ": there are more problems";
   return without_controls(text);
 }
 

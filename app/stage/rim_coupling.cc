@@ -64,10 +64,7 @@ const std::string* provenance(const RingCoupling& coupling, const std::string& k
 }
 
 /// A ring on a single pin leans on its housing, now here, now there: no fixed supports hold it.
-bool rests_in_bore(const fem::RingStructure& structure) {
-  const auto* pins = std::get_if<fem::PinHeld>(&structure);
-  return pins != nullptr && pins->angles.size() == 1;
-}
+bool rests_in_bore(const fem::RingStructure& structure) { return structure.single_supports() == 1; }
 
 constexpr const char *id_key = "inputs_id", *error_key = "coupling_error_m_per_N", *seconds_key = "coupling_seconds",
                      *frequency_error_key = "mode_frequency_error_relative", *compliance_file = "ring_compliance.csv";

@@ -13,10 +13,12 @@ namespace annulus::app {
 
 namespace {
 
-constexpr const char* error_bodies[] = {"planet_eccentricity",  "planet_installation",  "sun_eccentricity",
-                                        "sun_installation",     "ring_eccentricity",    "ring_installation",
-                                        "carrier_eccentricity", "carrier_installation", "mesh_error",
-                                        "pinion_error",         "wheel_error"};
+constexpr const char* error_bodies[] = {"planet_eccentricity",  "planet_pin_position_error",
+                                        "sun_eccentricity",     "sun_position_error",
+                                        "ring_eccentricity",    "ring_position_error",
+                                        "carrier_eccentricity", "carrier_position_error",
+                                        "mesh_error",           "pinion_error",
+                                        "wheel_error"};
 
 bool drawn(const Scene& scene, const std::string& path) {
   for (const auto& random : scene.random_inputs) {

@@ -10,4 +10,13 @@ const std::vector<SystemKind>& system_kinds() {
   return kinds;
 }
 
+const std::vector<SceneKind>& scene_kinds() {
+  static const auto kinds = [] {
+    std::vector<SceneKind> list;
+    for (const auto& kind : system_kinds()) list.push_back(kind.scene);
+    return list;
+  }();
+  return kinds;
+}
+
 }  // namespace annulus::app

@@ -90,7 +90,8 @@ std::optional<dynamics::ArcToothMesh> arc_tooth_mesh(const Scene& scene) {
 
 std::optional<Scene> compared_scene(const Scene& scene) {
   std::optional<Scene> changed;
-  for (const auto member : {&Scene::sun_planet, &Scene::arc_pins}) {
+  for (MeshInput Scene::*const member :
+       std::initializer_list<MeshInput Scene::*>{&Scene::sun_planet, &Scene::arc_pins}) {
     if ((scene.*member).compare != Compare::computed || is_computed(scene.*member)) continue;
     if (!changed) changed = scene;
     ((*changed).*member).stiffness = StiffnessShape::computed;

@@ -1,5 +1,7 @@
 #include "dynamics/figures/spectrum.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -11,7 +13,9 @@ namespace annulus::dynamics {
 
 Spectrum spectrum(const Eigen::Ref<const Eigen::VectorXd>& series, int mesh_cycles) {
   const auto n = series.size();
-  if (n < 2 || mesh_cycles < 1) throw InputError("a spectrum needs at least two samples and one mesh cycle");
+  if (n < 2 || mesh_cycles < 1)
+    throw InputError(fmt::format("a spectrum needs at least two samples and one mesh cycle, not {} and {}",
+                                 series.size(), mesh_cycles));
   Eigen::VectorXd copy = series;
   Eigen::VectorXcd lines;
   Eigen::FFT<double> transform;

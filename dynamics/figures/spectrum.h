@@ -10,15 +10,16 @@ struct Spectrum {
   Eigen::VectorXd order;      ///< multiples of the mesh frequency
   Eigen::VectorXd amplitude;  ///< single-sided; order 0 is the mean
 };
+/// Throws InputError for fewer than two samples or one mesh cycle.
 [[nodiscard]] Spectrum spectrum(const Eigen::Ref<const Eigen::VectorXd>& series, int mesh_cycles);
 
 /// A line of a spectrum, read as a sideband of the nearest multiple of the mesh frequency.
 struct SpectralLine {
   double order = 0, amplitude = 0;
   int harmonic = 0;     ///< nearest whole order
-  double sideband = 0;  ///< order - harmonic, in mesh orders; x z_r it counts turns of the carrier
+  double sideband = 0;  ///< order - harmonic, in mesh orders; times z_r: turns of the carrier
 };
-/// The `count` highest lines but the mean, highest first, none below `floor` times the highest.
+/// The `count` highest lines without the mean, highest first, none below `floor` times the highest.
 [[nodiscard]] std::vector<SpectralLine> highest_lines(const Spectrum& spectrum, int count, double floor = 1e-3);
 
 }  // namespace annulus::dynamics

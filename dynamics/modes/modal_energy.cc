@@ -10,11 +10,11 @@ namespace {
 std::string body_of(const std::string& dof) { return dof.substr(0, dof.rfind('_')); }
 
 /// Index of `name`, appended when new.
-Eigen::Index place_of(std::vector<std::string>& names, const std::string& name) {
+Eigen::Index index_of_name(std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
-  const auto place = found - names.begin();
+  const auto index = found - names.begin();
   if (found == names.end()) names.push_back(name);
-  return place;
+  return index;
 }
 
 }  // namespace
@@ -32,14 +32,14 @@ ModalEnergy modal_energy(const LumpedSystem& system, const Eigen::VectorXd& mesh
     stiffness.push_back(spring.stiffness);
   }
   const auto springs = static_cast<Eigen::Index>(vectors.size());
-  const Eigen::MatrixXd closing = system.mesh_vectors();
-  const Eigen::Index meshes = closing.cols();
+  const Eigen::MatrixXd mesh_vectors = system.mesh_vectors();
+  const Eigen::Index meshes = mesh_vectors.cols();
   for (const auto& mesh : system.meshes()) result.elements.push_back(mesh.name);
   const Eigen::MatrixXd coupled = mesh_stiffness_matrix(system, mesh_stiffness);
   if (!system.couplings().empty()) result.elements.emplace_back("ring_body");
 
   std::vector<Eigen::Index> body;
-  for (const auto& dof : system.names()) body.push_back(place_of(result.bodies, body_of(dof)));
+  for (const auto& dof : system.names()) body.push_back(index_of_name(result.bodies, body_of(dof)));
 
   const auto count = static_cast<Eigen::Index>(modes.modes.size());
   result.strain = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(result.elements.size()), count);
@@ -51,7 +51,7 @@ ModalEnergy modal_energy(const LumpedSystem& system, const Eigen::VectorXd& mesh
         const double stretch = vectors[e].dot(mode.shape);
         result.strain(static_cast<Eigen::Index>(e), i) = stiffness[e] * stretch * stretch;
       }
-      const Eigen::VectorXd delta = closing.transpose() * mode.shape, force = coupled * delta;
+      const Eigen::VectorXd delta = mesh_vectors.transpose() * mode.shape, force = coupled * delta;
       result.strain.col(i).segment(springs, meshes) = force.array().square() / mesh_stiffness.array();
       if (!system.couplings().empty())
         result.strain(springs + meshes, i) = delta.dot(force) - result.strain.col(i).segment(springs, meshes).sum();
@@ -76,7 +76,7 @@ std::string element_group(const std::string& element) {
 GroupedEnergy by_group(const ModalEnergy& energy) {
   GroupedEnergy result;
   std::vector<Eigen::Index> group;
-  for (const auto& element : energy.elements) group.push_back(place_of(result.groups, element_group(element)));
+  for (const auto& element : energy.elements) group.push_back(index_of_name(result.groups, element_group(element)));
   result.strain = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(result.groups.size()), energy.strain.cols());
   for (std::size_t e = 0; e < group.size(); ++e)
     result.strain.row(group[e]) += energy.strain.row(static_cast<Eigen::Index>(e));

@@ -21,30 +21,37 @@ Eigen::MatrixXd stiffness_rows(const LumpedSystem& system, const Eigen::VectorXd
   const auto springs = static_cast<Eigen::Index>(system.springs().size());
   const Eigen::Index n = system.dofs(), meshes = mesh_stiffness.size();
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(std::max(springs + meshes, n), n);
-  const auto root = [](double k) {
-    if (!(k >= 0)) throw SolverError("the stiffness is indefinite: a support or mesh stiffness is negative");
+  const auto root = [](double k, const std::string& name) {
+    if (!(k >= 0))
+      throw SolverError(
+          fmt::format("the stiffness is indefinite: {} has {:g} N/m, which must not be negative", name, k));
     return std::sqrt(k);
   };
   for (Eigen::Index i = 0; i < springs; ++i) {
     const auto& spring = system.springs()[static_cast<std::size_t>(i)];
-    for (const auto& [dof, factor] : spring.a) rows(i, dof) += root(spring.stiffness) * factor;
+    for (const auto& [dof, factor] : spring.a) rows(i, dof) += root(spring.stiffness, spring.name) * factor;
   }
-  const Eigen::MatrixXd closing = system.mesh_vectors().transpose();
+  const Eigen::MatrixXd approach = system.mesh_vectors().transpose();
   if (system.couplings().empty()) {
-    for (Eigen::Index m = 0; m < meshes; ++m) rows.row(springs + m) = root(mesh_stiffness[m]) * closing.row(m);
+    for (Eigen::Index m = 0; m < meshes; ++m)
+      rows.row(springs + m) =
+          root(mesh_stiffness[m], system.meshes()[static_cast<std::size_t>(m)].name) * approach.row(m);
     return rows;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> coupled(mesh_stiffness_matrix(system, mesh_stiffness));
-  if (coupled.info() != Eigen::Success) throw SolverError("the stiffness of the coupled meshes has no square root");
+  if (coupled.info() != Eigen::Success)
+    throw SolverError(fmt::format("the stiffness matrix of {} coupled meshes has no eigenvalues", meshes));
   for (Eigen::Index m = 0; m < meshes; ++m)
-    rows.row(springs + m) = root(coupled.eigenvalues()[m]) * coupled.eigenvectors().col(m).transpose() * closing;
+    rows.row(springs + m) =
+        root(coupled.eigenvalues()[m], "a coupling of meshes") * coupled.eigenvectors().col(m).transpose() * approach;
   return rows;
 }
 
 }  // namespace
 
 Eigen::MatrixXd mesh_stiffness_matrix(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness) {
-  require(mesh_stiffness.size() == static_cast<Eigen::Index>(system.meshes().size()), "one stiffness per mesh");
+  require(mesh_stiffness.size() == static_cast<Eigen::Index>(system.meshes().size()),
+          fmt::format("{} stiffnesses for {} meshes", mesh_stiffness.size(), system.meshes().size()));
   Eigen::MatrixXd result = mesh_stiffness.asDiagonal();
   for (const auto& coupling : system.couplings()) {
     const auto n = static_cast<Eigen::Index>(coupling.meshes.size());
@@ -54,10 +61,10 @@ Eigen::MatrixXd mesh_stiffness_matrix(const LumpedSystem& system, const Eigen::V
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = 0; j <= i; ++j, ++k) {
         const auto& curve = coupling.compliance[k];
-        double value = coupling.kept.empty() ? curve.mean() : curve(first.phase_offset);
-        for (const auto& kept : coupling.kept)
-          value -= system.mesh_vector(coupling.meshes[i])[kept.dof] * system.mesh_vector(coupling.meshes[j])[kept.dof] /
-                   kept.stiffness;
+        double value = coupling.retained.empty() ? curve.mean() : curve(first.phase_offset);
+        for (const auto& retained : coupling.retained)
+          value -= system.mesh_vector(coupling.meshes[i])[retained.dof] *
+                   system.mesh_vector(coupling.meshes[j])[retained.dof] / retained.stiffness;
         compliance(i, j) = compliance(j, i) = value;
       }
     // (1/k + c)^-1 = s (1 + s c s)^-1 s with s = sqrt(k): also where a mesh has no stiffness.
@@ -66,9 +73,10 @@ Eigen::MatrixXd mesh_stiffness_matrix(const LumpedSystem& system, const Eigen::V
     const Eigen::MatrixXd scaled = root.asDiagonal() * compliance * root.asDiagonal();
     const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd::Identity(n, n) + scaled);
     if (factor.info() != Eigen::Success)
-      throw SolverError(
-          "the coupling through the ring takes more compliance off its meshes than they have: its elastic modes belong "
-          "to supports held both ways and do not fit a ring that lifts off so much of them");
+      throw SolverError(fmt::format(
+          "the coupling of {} meshes (the first: {}) takes off more compliance than they have. Its elastic modes were "
+          "found with supports that hold in both directions; they do not fit a body that lifts off many supports",
+          n, first.name));
     const Eigen::MatrixXd stiffness =
         root.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(n, n)) * root.asDiagonal();
     for (Eigen::Index i = 0; i < n; ++i)
@@ -87,16 +95,19 @@ Modes modes(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness) {
   Modes result;
   result.dofs = system.names();
   if (system.dofs() == 0) return result;
-  // The frequencies are the singular values of sqrt(k) a^T L^-T, one row per spring and mesh, M = L L^T. Rounding
-  // leaves 1e-16 of the highest frequency of them; of the eigenvalues of K it would leave that share of the highest
-  // square, and soft supports beside stiff ones would be lost.
+  // The frequencies are the singular values of sqrt(k) a^T L^-T, one row per spring and mesh, M = L L^T. Their rounding
+  // error is 1e-16 of the highest frequency. Eigenvalues of K would have that share of the highest square, and soft
+  // supports beside stiff ones would be lost.
   const Eigen::LLT<Eigen::MatrixXd> mass(system.mass());
   const Eigen::MatrixXd rows = stiffness_rows(system, mesh_stiffness);
   const Eigen::JacobiSVD<Eigen::MatrixXd> solver(mass.matrixL().solve(rows.transpose()).transpose(),
                                                  Eigen::ComputeThinV);
   const Eigen::VectorXd& rates = solver.singularValues();
-  if (!rates.allFinite()) throw SolverError("the natural frequencies are not finite numbers");
-  // 1e-15 times the DOFs; below 1e-13 nothing is known but zero.
+  if (!rates.allFinite())
+    throw SolverError(
+        fmt::format("the natural frequencies of {} degrees of freedom are not finite; the first is {} rad/s",
+                    system.dofs(), rates[0]));
+  // 1e-15 times the DOFs; below 1e-13 frequencies are zero.
   const double zero = 1e-13 * rates[0];
   for (Eigen::Index i = rates.size() - 1; i >= 0; --i) {
     Mode mode;
@@ -129,9 +140,9 @@ Eigen::Index neutral_motions(const Modes& found, const Eigen::MatrixXd& stiffnes
 void refuse_unbalanced(const LumpedSystem& system, const Eigen::VectorXd& shape) {
   Eigen::Index most = 0;
   shape.cwiseProduct(system.load()).cwiseAbs().maxCoeff(&most);
-  throw InputError(
-      fmt::format("the load is not balanced: nothing holds {} against it; give it (or what it is coupled to) a support",
-                  system.names()[static_cast<std::size_t>(most)]));
+  throw InputError(fmt::format(
+      "the load is not balanced: no support resists it at {}; give that body, or one coupled to it, a support",
+      system.names()[static_cast<std::size_t>(most)]));
 }
 
 }  // namespace annulus::dynamics

@@ -59,7 +59,7 @@ Method make_method(const OptimiseOptions& o, unsigned seed) {
 }
 
 void check(const std::vector<OptimiseVariable>& variables, const OptimiseOptions& o) {
-  if (variables.empty()) throw InputError("an optimisation needs a variable");
+  if (variables.empty()) throw InputError("an optimisation needs at least one variable, and has none");
   for (const auto& v : variables) {
     const auto refuse = [&](const char* what) {
       throw InputError(fmt::format("{}: bounds {} ... {} {}", v.name, v.low, v.high, what));
@@ -69,7 +69,8 @@ void check(const std::vector<OptimiseVariable>& variables, const OptimiseOptions
     if (v.logarithmic && !(v.low > 0)) refuse("must be positive on a logarithmic scale");
     if (v.whole && (v.low != std::round(v.low) || v.high != std::round(v.high))) refuse("must be whole numbers");
   }
-  if (o.generations < 1) throw InputError("an optimisation needs at least one generation");
+  if (o.generations < 1)
+    throw InputError(fmt::format("an optimisation needs at least one generation, not {}", o.generations));
   if (o.population < 5) throw InputError(fmt::format("a population of {} is too small: at least 5", o.population));
   if (o.optimiser == Optimiser::genetic && o.population % 2 != 0)
     throw InputError(
@@ -77,8 +78,9 @@ void check(const std::vector<OptimiseVariable>& variables, const OptimiseOptions
   if (!(o.elite > 0 && o.elite <= 1)) throw InputError(fmt::format("elite share {} must lie in (0, 1]", o.elite));
   for (const auto& [value, name] : {std::pair{o.crossover, "crossover"}, std::pair{o.mutation, "mutation"}})
     if (!(value >= 0 && value <= 1)) throw InputError(fmt::format("{} rate {} must lie in [0, 1]", name, value));
-  if (o.stop_spread && !(*o.stop_spread >= 0)) throw InputError("the spread to stop at must not be negative");
-  if (!(o.stop_size >= 0)) throw InputError("the size to stop at must not be negative");
+  if (o.stop_spread && !(*o.stop_spread >= 0))
+    throw InputError(fmt::format("the spread {:g} to stop at must not be negative", *o.stop_spread));
+  if (!(o.stop_size >= 0)) throw InputError(fmt::format("the size {:g} to stop at must not be negative", o.stop_size));
 }
 
 double spread_of(const pagmo::population& population) {

@@ -9,7 +9,7 @@
 
 namespace annulus::dynamics {
 
-/// What an optimiser may change.
+/// A quantity that the optimiser varies.
 struct OptimiseVariable {
   std::string name;
   double low = 0, high = 0;
@@ -20,16 +20,17 @@ struct OptimiseVariable {
 
 enum class Optimiser {
   genetic,                ///< pagmo::sga: truncated selection, simulated binary crossover, polynomial mutation, elitism
-  cma_es,                 ///< pagmo::cmaes: Hansen, covariance matrix adaptation, within the bounds
-  differential_evolution  ///< pagmo::de: rand/1/exp, Storn and Price
+  cma_es,                 ///< pagmo::cmaes: covariance matrix adaptation [Hansen2006], within the bounds
+  differential_evolution  ///< pagmo::de: rand/1/exp [StornPrice1997]
 };
 [[nodiscard]] const char* to_text(Optimiser optimiser);
 
-/// Defaults of `generations`, `elite`, `crossover`, `mutation`: Wang et al. (2016), whose binary genetic algorithm is
-/// met by a real-coded one: `elite` is the share of the population that alone is selected as parents (pagmo's
-/// "truncated" selection takes turns among them); parents and children together compete for the next generation, so
-/// the best is never lost; a pair is crossed with probability `crossover`, a gene mutates with probability `mutation`.
-/// The paper does not print its population.
+/// Defaults of `generations`, `elite`, `crossover` and `mutation` are those of [WangLiYaoYi2016], whose genetic
+/// algorithm is binary; here it is real-coded. The paper does not print its population.
+///
+/// `elite` is the share of the population that is selected as parents ("truncated" selection of pagmo takes turns among
+/// them). Parents and children compete for the next generation, so the best is never lost. A pair is crossed with
+/// probability `crossover`, a gene mutates with probability `mutation`.
 struct OptimiseOptions {
   Optimiser optimiser = Optimiser::genetic;
   int generations = 200;  ///< after the first population
@@ -39,8 +40,8 @@ struct OptimiseOptions {
   double elite = 0.2;      ///< in (0, 1]
   double crossover = 0.9;  ///< in [0, 1]
   double mutation = 0.05;  ///< in [0, 1]
-  /// Stops once best and worst of a population without failures differ by no more than this for five generations
-  /// running: the numerical error of the objective, below which differences mean nothing. Absent: never.
+  /// Stops once best and worst of a population without failures differ by no more than this for five generations in a
+  /// row. Meant for the numerical error of the objective. Absent: never.
   std::optional<double> stop_spread{};
   /// Stops once all points of a population lie closer than this share of the range of every variable. 0: never.
   double stop_size = 0;
@@ -50,10 +51,10 @@ struct OptimiseOptions {
 struct OptimiseEvaluation {
   std::vector<double> x;
   double value = std::numeric_limits<double>::quiet_NaN();  ///< not a number: failed
-  std::string trouble;                                      ///< why it failed, empty otherwise
+  std::string trouble;                                      ///< the cause where it failed, else empty
 };
 
-/// State of the population after a generation; 0 is the first population. Failed points do not count in the figures.
+/// State of the population after a generation; 0 is the first population. Failed points are left out of the values.
 struct OptimiseGeneration {
   int generation = 0;
   long evaluations = 0;  ///< computed so far
@@ -68,21 +69,22 @@ struct OptimiseResult {
   double value = 0;       ///< there
   std::vector<OptimiseGeneration> history;
   std::vector<OptimiseEvaluation> evaluations;  ///< computed ones, in order
-  long repeated = 0;                            ///< points that came again and were answered without computing
+  long repeated = 0;                            ///< points that were asked for again and not computed
   long failed = 0;                              ///< evaluations that failed
   std::string stopped;                          ///< why the search ended
 };
 
-/// The value to make small. A point fails by throwing InputError or SolverError (the scene or the response is not
-/// possible there) or by a value that is not finite; it then counts as worse than any other. Other exceptions end the
-/// search.
+/// The value to minimise. A point fails when InputError or SolverError is thrown (the scene or the response is not
+/// possible there) or the value is not finite. It then counts as worse than any other. Other exceptions end the search.
 using Objective = std::function<double(const std::vector<double>& x)>;
 
-/// Smallest value within the bounds. All state is local: searches may run side by side on several threads, each with
-/// its own objective. The points asked for depend on variables, options and earlier values alone, so that a search is
-/// resumed by repeating it with an objective that answers known points from a store. `progress` (may be empty) is
-/// called after every generation.
-/// Throws InputError naming what is wrong with variables or options, SolverError when every point failed.
+/// Smallest value within the bounds. All state is local: searches may run on several threads, each with its own
+/// objective.
+///
+/// The points depend on variables, options and earlier values alone. A search is therefore resumed by repeating it with
+/// an objective that takes known points from a store. `progress` (may be empty) is called after every generation.
+///
+/// Throws InputError for unusable variables or options, SolverError when every point failed.
 [[nodiscard]] OptimiseResult optimise(const std::vector<OptimiseVariable>& variables, const Objective& objective,
                                       const OptimiseOptions& options,
                                       const std::function<void(const OptimiseGeneration&)>& progress = {});
@@ -91,16 +93,17 @@ using Objective = std::function<double(const std::vector<double>& x)>;
 [[nodiscard]] std::optional<long> evaluations_to_reach(const std::vector<OptimiseEvaluation>& evaluations, double value,
                                                        double tolerance);
 
-/// How much the objective moves over everything that was tried.
+/// Range of the objective over all points that were tried.
 struct ObjectiveRange {
   double low = 0, high = 0;
-  double least_meaning = 0;  ///< the difference below which values say nothing
+  double least_meaning = 0;  ///< the difference below which values are equal within their error
   long evaluations = 0;      ///< without failed ones
-  /// high - low <= least_meaning: no best point can be told, whatever the search says.
+  /// high - low <= least_meaning: no point is better than another, whatever the search returns.
   bool flat = false;
-  std::string verdict;  ///< a sentence with the figures
+  std::string verdict;  ///< a sentence with these numbers
 };
-/// `numerical_error`: of the objective, absolute; at least 1e-6 of its size counts.
+/// `numerical_error`: absolute error of the objective; at least 1e-6 of its size is taken. Throws InputError when it is
+/// negative.
 [[nodiscard]] ObjectiveRange objective_range(const std::vector<OptimiseEvaluation>& evaluations,
                                              double numerical_error = 0);
 

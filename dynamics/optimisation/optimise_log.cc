@@ -98,7 +98,8 @@ std::optional<long> evaluations_to_reach(const std::vector<OptimiseEvaluation>& 
 }
 
 ObjectiveRange objective_range(const std::vector<OptimiseEvaluation>& evaluations, double numerical_error) {
-  if (!(numerical_error >= 0)) throw InputError("the numerical error of an objective is not negative");
+  if (!(numerical_error >= 0))
+    throw InputError(fmt::format("the numerical error {:g} of an objective must not be negative", numerical_error));
   ObjectiveRange range;
   range.low = std::numeric_limits<double>::infinity();
   range.high = -range.low;

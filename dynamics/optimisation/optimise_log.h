@@ -6,8 +6,7 @@
 
 namespace annulus::dynamics {
 
-/// The objective as an optimiser sees it: a function on the unit cube that is finite everywhere, computes no point
-/// twice and remembers all.
+/// The objective for an optimiser: a finite function on the unit cube that computes no point twice and stores all.
 class OptimiseLog {
  public:
   OptimiseLog(const std::vector<OptimiseVariable>& variables, const Objective& objective)

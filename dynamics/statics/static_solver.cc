@@ -14,7 +14,7 @@ namespace {
 
 using Contact = LumpedSystem::Contact;
 
-/// State that a deflection asks for, and how far (m) it is inside another state than `held`.
+/// Contact state of a deflection, and its distance (m) from the edge of the state `held`.
 std::pair<Contact, double> wanted_state(double delta, double half_backlash, Contact held) {
   Contact contact = Contact::open;
   if (delta > half_backlash) contact = Contact::drive;
@@ -23,8 +23,8 @@ std::pair<Contact, double> wanted_state(double delta, double half_backlash, Cont
   return {contact, contact == held ? 0.0 : std::abs(delta - edge)};
 }
 
-// An open mesh keeps a billionth of its stiffness, so that an idle planet has a definite place. Its spring is then
-// anchored where it stands and pulls no more: 1e-9 k x half backlash may be more than a light load.
+// A mesh without contact retains a billionth of its stiffness, so that an idle planet has a definite position. Its
+// spring is then anchored there and pulls no more: 1e-9 k x half backlash may be more than a light load.
 constexpr double open_share = 1e-9;
 
 bool is_open(const LumpedSystem& system, int mesh, const LumpedSystem::Workspace& w) {
@@ -58,8 +58,8 @@ void StaticSolver::factorise(const Eigen::MatrixXd& tangent, double t) {
   factor_.compute(base_ + vectors_ * tangent * vectors_.transpose());
   if (factor_.info() != Eigen::Success)
     throw SolverError(fmt::format(
-        "the quasi-static stiffness at t = {:g} s is not positive: a degree of freedom is held by nothing, or a "
-        "coupling takes more compliance off the meshes than they have",
+        "the quasi-static stiffness at t = {:g} s is not positive: a degree of freedom has no support, or a "
+        "coupling subtracts more compliance from the meshes than they have",
         t));
 }
 
@@ -68,7 +68,7 @@ double StaticSolver::residual(double t, const Eigen::VectorXd& q, LumpedSystem::
   for (int m = 0; m < forces_.size(); ++m) {
     w.delta_rate[m] = 0;
     w.force[m] = forces_[m] = w.elastic[m];
-    if (is_open(system_, m, w)) forces_[m] += open_share * w.stiffness[m] * (w.closing[m] - anchor_[m]);
+    if (is_open(system_, m, w)) forces_[m] += open_share * w.stiffness[m] * (w.approach[m] - anchor_[m]);
   }
   residual_ = system_.load() - base_ * q - vectors_ * forces_;
   // A force carries the rounding of the motions and errors it is the difference of.
@@ -80,7 +80,7 @@ double StaticSolver::residual(double t, const Eigen::VectorXd& q, LumpedSystem::
   return terms_.maxCoeff();
 }
 
-void StaticSolver::balance(double t, Eigen::VectorXd& q, LumpedSystem::Workspace& w) {
+void StaticSolver::iterate(double t, Eigen::VectorXd& q, LumpedSystem::Workspace& w) {
   constexpr int steps = 60;
   // Rounding of the residual is some 1e-15 of its terms; Newton's last step falls from 1e-6 to there.
   constexpr double accuracy = 1e-13;
@@ -100,7 +100,8 @@ void StaticSolver::balance(double t, Eigen::VectorXd& q, LumpedSystem::Workspace
       q = from + share * direction;
       scale = residual(t, q, w);
       if (std::abs(direction.dot(residual_)) <= 0.9 * slope || slope <= accuracy * scale * direction.norm()) break;
-      if (share < 1e-6) throw SolverError(fmt::format("no static equilibrium in sight at t = {:g} s", t));
+      if (share < 1e-6)
+        throw SolverError(fmt::format("no descent towards a static equilibrium at t = {:g} s (step {:g})", t, share));
     }
     // Where the terms cancel badly the residual stalls at rounding above the limit: a step that moves nothing ends it.
     if (direction.cwiseAbs().maxCoeff() <= 1e-13 * q.cwiseAbs().maxCoeff()) return;
@@ -129,7 +130,7 @@ Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
   factorise(tangent_, t);
   q = factor_.solve(load);
   for (int attempt = 0; attempt < tries; ++attempt) {
-    balance(t, q, w);
+    iterate(t, q, w);
     int changes = 0, worst = -1;
     double worst_excess = 0;
     for (int m = 0; m < meshes; ++m) {
@@ -150,8 +151,8 @@ Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
       double pull = 0;
       for (int m = 0; m < meshes; ++m)
         if (is_open(system_, m, w)) {
-          pull = std::max(pull, std::abs(open_share * w.stiffness[m] * (w.closing[m] - anchor_[m])));
-          anchor_[m] = w.closing[m];
+          pull = std::max(pull, std::abs(open_share * w.stiffness[m] * (w.approach[m] - anchor_[m])));
+          anchor_[m] = w.approach[m];
         }
       if (pull <= unseen * system_.load().lpNorm<Eigen::Infinity>() || anchored++ == enough) return q;
       continue;

@@ -1,5 +1,7 @@
 #include "dynamics/statistics/sampling.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/distributions/lognormal.hpp>
 #include <boost/math/distributions/normal.hpp>
@@ -20,19 +22,22 @@ std::uint64_t name_hash(std::string_view text) {
   return hash;
 }
 
-/// Probability of [low, high] and the truncated quantile, from the upper tail where that is the smaller one.
+/// The tail that probabilities are taken from: the smaller one loses fewer digits.
+enum class Tail { lower, upper };
+
+/// Probability of [low, high].
 template <class Law>
-double kept(const Law& law, double low, double high, bool upper) {
-  if (upper) return cdf(complement(law, low)) - (std::isinf(high) ? 0 : cdf(complement(law, high)));
+double probability_between(const Law& law, double low, double high, Tail tail) {
+  if (tail == Tail::upper) return cdf(complement(law, low)) - (std::isinf(high) ? 0 : cdf(complement(law, high)));
   return (std::isinf(high) ? 1 : cdf(law, high)) - (std::isinf(low) ? 0 : cdf(law, low));
 }
 
 template <class Law>
 double truncated_quantile(const Law& law, double low, double high, double p) {
-  const bool upper = std::isfinite(low) && low > median(law);
-  const double share = kept(law, low, high, upper);
-  const double x = upper ? quantile(complement(law, cdf(complement(law, low)) - p * share))
-                         : quantile(law, (std::isinf(low) ? 0 : cdf(law, low)) + p * share);
+  const Tail tail = std::isfinite(low) && low > median(law) ? Tail::upper : Tail::lower;
+  const double share = probability_between(law, low, high, tail);
+  const double x = tail == Tail::upper ? quantile(complement(law, cdf(complement(law, low)) - p * share))
+                                       : quantile(law, (std::isinf(low) ? 0 : cdf(law, low)) + p * share);
   return std::clamp(x, low, high);  // rounding of the quantile only
 }
 
@@ -62,36 +67,42 @@ CounterDraws::CounterDraws(std::uint64_t seed, std::string_view quantity) : star
 
 void Distribution::check() const {
   if (std::isnan(mean) || std::isnan(deviation) || std::isnan(low) || std::isnan(high) || !(low < high))
-    throw InputError("the lower end must lie below the upper one");
+    throw InputError(fmt::format("the lower end {:g} must lie below the upper one, {:g} (mean {:g}, deviation {:g})",
+                                 low, high, mean, deviation));
   if (kind == Kind::uniform) {
-    if (!std::isfinite(low) || !std::isfinite(high)) throw InputError("a uniform distribution needs both ends");
+    if (!std::isfinite(low) || !std::isfinite(high))
+      throw InputError(fmt::format("a uniform distribution needs both ends, not {:g} ... {:g}", low, high));
     return;
   }
   if (kind == Kind::rayleigh) {
     if (!std::isfinite(scale) || !(scale > 0))
-      throw InputError("the scale of a Rayleigh distribution must be positive");
+      throw InputError(fmt::format("the scale {:g} of a Rayleigh distribution must be positive", scale));
   } else if (!std::isfinite(deviation) || !(deviation > 0)) {
-    throw InputError("the deviation must be above zero");
+    throw InputError(fmt::format("the deviation {:g} must be above zero", deviation));
   }
-  if (kind == Kind::lognormal && !(mean > 0)) throw InputError("the mean of a lognormal distribution must be positive");
+  if (kind == Kind::lognormal && !(mean > 0))
+    throw InputError(fmt::format("the mean {:g} of a lognormal distribution must be positive", mean));
   const double share = [&] {
     if (kind == Kind::normal) {
       const boost::math::normal law(mean, deviation);
-      return kept(law, low, high, std::isfinite(low) && low > mean);
+      return probability_between(law, low, high, std::isfinite(low) && low > mean ? Tail::upper : Tail::lower);
     }
     if (!(high > 0)) return 0.0;
     if (kind == Kind::rayleigh) {
       const boost::math::rayleigh law(scale);
-      return kept(law, std::max(low, 0.0), high, low > median(law));
+      return probability_between(law, std::max(low, 0.0), high, low > median(law) ? Tail::upper : Tail::lower);
     }
     const auto law = lognormal_law(*this);
-    return kept(law, std::max(low, 0.0), high, low > median(law));
+    return probability_between(law, std::max(low, 0.0), high, low > median(law) ? Tail::upper : Tail::lower);
   }();
-  if (!(share >= 1e-3)) throw InputError("less than a thousandth of the distribution lies between its ends");
+  if (!(share >= 1e-3))
+    throw InputError(fmt::format(
+        "{:.2g} of the distribution lies between its ends {:g} and {:g}; at least 0.001 is needed", share, low, high));
 }
 
 double Distribution::quantile(double probability) const {
-  require(probability > 0 && probability < 1, "quantile of a probability outside (0, 1)");
+  if (!(probability > 0 && probability < 1))
+    require(false, fmt::format("quantile of a probability {:g} outside (0, 1)", probability));
   switch (kind) {
     case Kind::uniform:
       break;

@@ -6,13 +6,13 @@
 
 namespace annulus::dynamics {
 
-/// A number in (0, 1), uniform, that depends on nothing but its three arguments: draws are the same for any thread
-/// count, any order and any number of samples, and a quantity added later leaves the others as they were.
+/// A uniform number in (0, 1) that depends on its three arguments alone. Draws are the same for any thread count, order
+/// and number of samples, and a quantity added later does not change the others.
 [[nodiscard]] double uniform_draw(std::uint64_t seed, std::uint64_t sample, std::string_view quantity);
 
-/// The same for many draws of one quantity, a hundred times as fast: sample i is the i-th output of SplitMix64 (Steele,
-/// Lea and Flood, OOPSLA 2014), which is a function of its counter, from a start that depends on seed and quantity. The
-/// numbers differ from those of uniform_draw.
+/// The same for many draws of one quantity, a hundred times as fast. Sample i is the i-th output of SplitMix64
+/// [SteeleLeaFlood2014], a function of its counter, from a start that depends on seed and quantity. The numbers differ
+/// from those of uniform_draw.
 class CounterDraws {
  public:
   CounterDraws(std::uint64_t seed, std::string_view quantity);
@@ -27,19 +27,19 @@ class CounterDraws {
   std::uint64_t start_;
 };
 
-/// What is known about an uncertain quantity.
+/// Distribution of an uncertain quantity.
 struct Distribution {
   enum class Kind { uniform, normal, lognormal, rayleigh };
   Kind kind = Kind::uniform;
-  double mean = 0, deviation = 0;  ///< of the quantity itself before truncation; lognormal too (not of its logarithm)
-  /// Ends of the uniform distribution; of the others the ends at which they are truncated, that is the distribution
-  /// under the condition low <= value <= high. Values are never moved to an end.
+  /// Mean and standard deviation of the quantity before truncation; for a lognormal one too, not of its logarithm.
+  double mean = 0, deviation = 0;
+  /// Ends of the uniform distribution. The others are truncated there: distributions under the condition low <= value
+  /// <= high. Values are never moved to an end.
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
-  double scale = 0;  ///< rayleigh alone, which has no use for mean and deviation: sqrt(2/pi) x its mean
+  double scale = 0;  ///< Rayleigh only, instead of mean and deviation: sqrt(2/pi) x mean
 
-  /// Throws InputError without ends (uniform), with ends in the wrong order, with a deviation or scale that is not
-  /// positive, a lognormal mean that is not positive, or when the truncation keeps less than a thousandth of the
-  /// distribution.
+  /// Throws InputError for missing ends (uniform), ends in the wrong order, or a deviation, scale or lognormal mean
+  /// that is not positive. At least a thousandth of the distribution must lie between the ends.
   void check() const;
   /// The value below which the quantity lies with this probability in (0, 1).
   [[nodiscard]] double quantile(double probability) const;

@@ -1,5 +1,7 @@
 #include "dynamics/statistics/statistics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -17,7 +19,7 @@ namespace {
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 double mean_of(const std::vector<double>& values) {
-  if (values.empty()) throw InputError("statistics of no values");
+  if (values.empty()) throw InputError("statistics need at least one value, not 0");
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
@@ -48,12 +50,13 @@ Interval mean_interval(const std::vector<double>& values, double confidence) {
 }
 
 Interval quantile_interval(const std::vector<double>& values, double probability, double confidence) {
-  if (values.empty()) throw InputError("statistics of no values");
-  if (!(probability > 0 && probability < 1)) throw InputError("a quantile needs a probability between 0 and 1");
+  if (values.empty()) throw InputError("statistics need at least one value, not 0");
+  if (!(probability > 0 && probability < 1))
+    throw InputError(fmt::format("a quantile needs a probability between 0 and 1, not {:g}", probability));
   const auto n = static_cast<long>(values.size());
-  const double place = probability * static_cast<double>(n - 1);
-  const auto below = static_cast<long>(place);
-  const double part = place - static_cast<double>(below);
+  const double position = probability * static_cast<double>(n - 1);
+  const auto below = static_cast<long>(position);
+  const double part = position - static_cast<double>(below);
   // With B values below the true quantile, order statistic r (from 1) exceeds it when B < r: the lower end is the
   // largest r with P(B <= r - 1) <= alpha/2, the upper end the smallest with P(B <= r - 1) >= 1 - alpha/2.
   const double tail = (1 - confidence) / 2;
@@ -94,7 +97,8 @@ Interval quantile_interval(const std::vector<double>& values, double probability
 
 Interval share_interval(long successes, long trials, double confidence) {
   if (trials < 1 || successes < 0 || successes > trials)
-    throw InputError("a share needs trials, and no more successes");
+    throw InputError(fmt::format("{} successes in {} trials: successes must lie between 0 and the number of trials",
+                                 successes, trials));
   using boost::math::binomial;
   const auto n = static_cast<double>(trials), k = static_cast<double>(successes);
   const double tail = (1 - confidence) / 2;

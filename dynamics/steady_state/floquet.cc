@@ -1,5 +1,7 @@
 #include "dynamics/steady_state/floquet.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
@@ -14,15 +16,16 @@ namespace annulus::dynamics {
 double growth_per_cycle(const LumpedSystem& system, double mesh_frequency, const ResponseWindow& window) {
   const Eigen::Index n = system.dofs();
   require(window.samples_per_cycle > 0 && window.displacement.cols() >= window.samples_per_cycle,
-          "a window of a motion holds a mesh cycle");
+          fmt::format("a window of {} samples must hold a mesh cycle of {}", window.displacement.cols(),
+                      window.samples_per_cycle));
   const Eigen::MatrixXd b = system.mesh_vectors(), fixed = system.stiffness() + system.rotating_stiffness();
   Eigen::VectorXd mean(b.cols());
   for (Eigen::Index m = 0; m < mean.size(); ++m) mean[m] = mean_stiffness(system.meshes()[m].excitation);
   const Modes found = modes(system, mean);
   Eigen::MatrixXd shapes(n, n);
   for (Eigen::Index i = 0; i < n; ++i) shapes.col(i) = found.modes[i].shape;
-  // Rigid displacements act on nothing; kept, they would make a multiplier of one defective, which rounding parts by
-  // its root.
+  // Rigid displacements act on nothing. Included, they would make a multiplier of one defective, which rounding splits
+  // by its root.
   const Eigen::Index free = neutral_motions(found, fixed + b * mean.asDiagonal() * b.transpose(), system.mass());
   const Eigen::Index elastic = n - free;
   const auto bent = shapes.rightCols(elastic);
@@ -43,7 +46,8 @@ double growth_per_cycle(const LumpedSystem& system, double mesh_frequency, const
     map = (state * (w / (mesh_frequency * window.samples_per_cycle))).exp() * map;
   }
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(map, false);
-  if (solver.info() != Eigen::Success) throw SolverError("the Floquet multipliers were not found");
+  if (solver.info() != Eigen::Success)
+    throw SolverError(fmt::format("the Floquet multipliers of {} state variables were not found", map.rows()));
   const double growth = solver.eigenvalues().cwiseAbs().maxCoeff();
   const double rounding = 100 * std::numeric_limits<double>::epsilon() * (1 + w / mesh_frequency);
   return growth <= 1 + rounding ? std::min(growth, 1.0) : growth;

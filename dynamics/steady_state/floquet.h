@@ -5,10 +5,12 @@
 
 namespace annulus::dynamics {
 
-/// Largest magnitude of the Floquet multipliers of one mesh cycle about a periodic motion in which no mesh separates:
-/// how small disturbances grow (above 1: parametric resonance) or die per cycle. From the tangents at the samples of
-/// the window's first cycle, each taken as constant around its sample: undamped motions stay at 1 to rounding, and the
-/// edges of resonances are found to the second order of the spacing.
+/// Largest modulus of the Floquet multipliers of one mesh cycle about a periodic motion without loss of contact. Above
+/// 1 small disturbances grow (parametric resonance), below 1 they die out.
+///
+/// The tangents at the samples of the first cycle of the window are taken as constant around each sample. Undamped
+/// motions stay at 1 to rounding; limits of resonances are accurate to the second order of the spacing. Throws
+/// SolverError when the eigenvalue solver fails.
 [[nodiscard]] double growth_per_cycle(const LumpedSystem& system, double mesh_frequency, const ResponseWindow& window);
 
 }  // namespace annulus::dynamics

@@ -1,5 +1,7 @@
 #include "dynamics/steady_state/frequency_response.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
@@ -24,7 +26,8 @@ FrequencyResponse::FrequencyResponse(const LumpedSystem& system, const Eigen::Ve
       stiffness_(system.stiffness() + system.rotating_stiffness()),
       b_(system.mesh_vectors()) {
   const Eigen::Index n = system.dofs(), meshes = mesh_stiffness.size();
-  require(meshes == static_cast<Eigen::Index>(system.meshes().size()), "one stiffness per mesh");
+  require(meshes == static_cast<Eigen::Index>(system.meshes().size()),
+          fmt::format("{} stiffnesses for {} meshes", meshes, system.meshes().size()));
   stiffness_ += b_ * mesh_stiffness.asDiagonal() * b_.transpose();
   const Modes found = modes(system, mesh_stiffness);
   const Eigen::Index rigid_motions = neutral_motions(found, stiffness_, mass_);
@@ -43,7 +46,10 @@ FrequencyResponse::FrequencyResponse(const LumpedSystem& system, const Eigen::Ve
   const Eigen::PartialPivLU<Eigen::MatrixXd> factor(scale.asDiagonal() * fixed * scale.asDiagonal());
   static_inverse_ = scale.asDiagonal() * factor.inverse() * scale.asDiagonal();
   if (!static_inverse_.allFinite() || !(factor.rcond() > 1e-15))
-    throw SolverError("the stage with mean mesh stiffness is singular: a degree of freedom is held by nothing");
+    throw SolverError(
+        fmt::format("the system with mean mesh stiffness is singular (reciprocal condition {:.1e}): a degree of "
+                    "freedom has no support",
+                    factor.rcond()));
   const UntrappedFloatingPoint untrapped;  // the inverse of a defective matrix is infinite, and not used
   find_eigenvalues(shapes, squares, rigid_motions);
   by_eigenvalues_ = eigenvalues_agree();
@@ -137,7 +143,7 @@ Eigen::MatrixXd FrequencyResponse::transfer_by_eigenvalues(double spacing, Eigen
     }
     column += pair ? 2 : 1;
   }
-  require(column == count, "eigenvalues of a real matrix come in conjugate pairs");
+  require(column == count, fmt::format("{} of {} eigenvalues are conjugate pairs or real", column, count));
   Eigen::Map<Eigen::MatrixXd>(result.data(), size, 2 * lines).noalias() = terms * lines_of_terms;
   return result;
 }

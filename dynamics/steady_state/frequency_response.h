@@ -8,24 +8,25 @@ namespace annulus::dynamics {
 
 /// The system with constant mesh stiffnesses k and all mesh dampers acting, in the frequency domain:
 ///   D(w) = -w^2 M + i w (C + G + sum c b b^T) + K + K_Omega + sum k b b^T.
-/// From the eigenvalues of its state matrix, so that thousands of lines cost little; checked against direct solutions
-/// of D, which take over when the eigenvectors are useless (eigenvalues that coincide, as at critical damping).
+/// The eigenvalues of its state matrix give thousands of lines at little cost. They are compared with solutions of
+/// D(w) x = b at a few frequencies. Such solutions replace them where eigenvectors are useless because eigenvalues
+/// coincide (critical damping).
 ///
-/// Rigid motions (K and the meshes do not resist them) have no definite place: at w = 0 they are fixed by nu^T M q = 0,
-/// as in StaticSolver. What little K_Omega makes of them (a single planet out of balance) is left out there.
+/// Rigid motions, which K and the meshes do not resist, have no definite position. At w = 0 they are fixed by
+/// nu^T M q = 0, as in StaticSolver. The small effect of K_Omega on them (a single planet out of balance) is neglected.
 class FrequencyResponse {
  public:
-  /// Throws SolverError when the mesh stiffnesses leave the system singular at w = 0.
+  /// `mesh_stiffness`: N/m, one per mesh. Throws SolverError when the system is singular at w = 0.
   FrequencyResponse(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness);
 
-  /// Transfer B^T D(w)^-1 B (m/N) from forces on the meshes to their closings at the lines w = j x `spacing` (rad/s), j
-  /// = 1 ... lines: meshes x (2 meshes lines); per line the real part beside the imaginary part.
+  /// Transfer B^T D(w)^-1 B (m/N) from mesh forces to approaches at the lines w = j x `spacing` (rad/s), j = 1 ...
+  /// lines. Shape: meshes x (2 meshes lines), per line the real part beside the imaginary part.
   [[nodiscard]] Eigen::MatrixXd mesh_transfer(double spacing, Eigen::Index lines) const;
 
-  /// Displacements D(w)^-1 B F at the same lines: DOFs x lines, from amplitudes F (N), meshes x lines.
+  /// Displacements D(w)^-1 B F (m, DOFs x lines) at the same lines, from amplitudes F (N, meshes x lines).
   [[nodiscard]] Eigen::MatrixXcd displacements(double spacing, const Eigen::MatrixXcd& forces) const;
 
-  /// D(0)^-1 f for a real force f on the DOFs (N) that does no work on rigid motions.
+  /// D(0)^-1 f (m, one per DOF) for a real force f (N, one per DOF) that does no work on rigid motions.
   [[nodiscard]] Eigen::VectorXd static_displacement(const Eigen::VectorXd& force) const;
 
   /// Mesh vectors b as columns.

@@ -1,5 +1,7 @@
 #include "dynamics/steady_state/harmonic_balance.h"
 
+#include <fmt/format.h>
+
 #include <complex>
 
 #include "core/errors.h"
@@ -15,9 +17,10 @@ using Complex = std::complex<double>;
 HarmonicBalance::HarmonicBalance(const BalanceProblem& problem, double period, Eigen::Index samples)
     : problem_(problem), meshes_(problem.system, period, samples), transform_(static_cast<int>(samples)) {
   require(samples % 4 == 0 && samples / 2 - 1 <= problem.transfer.cols() / (2 * problem.transfer.rows()),
-          "a sampling of the harmonic balance does not fit its transfer functions");
+          fmt::format("{} samples of the harmonic balance do not fit {} lines of its transfer functions", samples,
+                      problem.transfer.cols() / (2 * problem.transfer.rows())));
   lines_.resize(samples / 2 + 1, problem.mean_stiffness.size());
-  closing_lines_ = lines_;
+  approach_lines_ = lines_;
   line_.resize(lines_.rows());
 }
 
@@ -25,7 +28,7 @@ void HarmonicBalance::forward(const Eigen::Ref<const Eigen::MatrixXd>& values, E
   for (Eigen::Index m = 0; m < values.cols(); ++m) transform_.forward(values.col(m).data(), lines.col(m).data());
 }
 
-void HarmonicBalance::respond(Eigen::Ref<Eigen::MatrixXd> closing) {
+void HarmonicBalance::respond(Eigen::Ref<Eigen::MatrixXd> approach) {
   const Eigen::Index meshes = lines_.cols(), last = samples() / 2;
   const double scale = 1.0 / static_cast<double>(samples());
   Eigen::VectorXd real(meshes), imaginary(meshes), sum(meshes), imaginary_sum(meshes);
@@ -43,7 +46,7 @@ void HarmonicBalance::respond(Eigen::Ref<Eigen::MatrixXd> closing) {
     for (Eigen::Index m = 0; m < meshes; ++m) lines_(j, m) = Complex(sum[m], imaginary_sum[m]);
   }
   lines_.row(last).setZero();  // the sign of this line's rate is unknown: it is left out
-  for (Eigen::Index m = 0; m < meshes; ++m) transform_.inverse(lines_.col(m).data(), closing.col(m).data());
+  for (Eigen::Index m = 0; m < meshes; ++m) transform_.inverse(lines_.col(m).data(), approach.col(m).data());
 }
 
 Eigen::MatrixXd HarmonicBalance::rate_of(const Eigen::Ref<const Eigen::MatrixXd>& values) {
@@ -65,38 +68,38 @@ Eigen::MatrixXd HarmonicBalance::linear_solution(const Eigen::MatrixXd& start, c
   for (Eigen::Index m = 0; m < rest.cols(); ++m)
     rest.col(m) -= problem_.mean_stiffness[m] * start.col(m) + problem_.system.meshes()[m].damping * start_rate.col(m);
   forward(rest, lines_);
-  Eigen::MatrixXd closing(rest.rows(), rest.cols());
-  respond(closing);
-  return problem_.static_closing.transpose().replicate(closing.rows(), 1) - closing;
+  Eigen::MatrixXd approach(rest.rows(), rest.cols());
+  respond(approach);
+  return problem_.static_approach.transpose().replicate(approach.rows(), 1) - approach;
 }
 
-void HarmonicBalance::residual(const Eigen::Ref<const Eigen::MatrixXd>& closing, Eigen::Ref<Eigen::MatrixXd> result) {
+void HarmonicBalance::residual(const Eigen::Ref<const Eigen::MatrixXd>& approach, Eigen::Ref<Eigen::MatrixXd> result) {
   const Eigen::Index last = samples() / 2;
   const double scale = problem_.spacing / static_cast<double>(samples());
-  forward(closing, closing_lines_);
-  rate_.resize(closing.rows(), closing.cols());
-  for (Eigen::Index m = 0; m < closing.cols(); ++m) {
+  forward(approach, approach_lines_);
+  rate_.resize(approach.rows(), approach.cols());
+  for (Eigen::Index m = 0; m < approach.cols(); ++m) {
     for (Eigen::Index j = 0; j < last; ++j)
-      line_[j] = closing_lines_(j, m) * Complex(0, static_cast<double>(j) * scale);
+      line_[j] = approach_lines_(j, m) * Complex(0, static_cast<double>(j) * scale);
     line_[last] = 0;
     transform_.inverse(line_.data(), rate_.col(m).data());
   }
-  meshes_.evaluate(closing, rate_, force_);
+  meshes_.evaluate(approach, rate_, force_);
   forward(force_, lines_);
-  for (Eigen::Index m = 0; m < closing.cols(); ++m) {
+  for (Eigen::Index m = 0; m < approach.cols(); ++m) {
     const double k = problem_.mean_stiffness[m], c = problem_.system.meshes()[m].damping * problem_.spacing;
     for (Eigen::Index j = 0; j < last; ++j)
-      lines_(j, m) -= Complex(k, c * static_cast<double>(j)) * closing_lines_(j, m);
+      lines_(j, m) -= Complex(k, c * static_cast<double>(j)) * approach_lines_(j, m);
   }
-  closing_lines_.topRows(last) = lines_.topRows(last) / static_cast<double>(samples());  // for the motion
+  approach_lines_.topRows(last) = lines_.topRows(last) / static_cast<double>(samples());  // for the motion
   respond(result);
-  for (Eigen::Index m = 0; m < closing.cols(); ++m)
-    result.col(m).array() += closing.col(m).array() - problem_.static_closing[m];
+  for (Eigen::Index m = 0; m < approach.cols(); ++m)
+    result.col(m).array() += approach.col(m).array() - problem_.static_approach[m];
 }
 
 void HarmonicBalance::apply_derivative(const Eigen::Ref<const Eigen::MatrixXd>& change,
                                        Eigen::Ref<Eigen::MatrixXd> result) {
-  // result serves as the forces' change first.
+  // `result` holds the change of the forces first.
   meshes_.apply_tangent(change, problem_.mean_stiffness, result);
   for (Eigen::Index m = 0; m < change.cols(); ++m) {
     const double c = problem_.system.meshes()[m].damping;
@@ -126,9 +129,9 @@ void HarmonicBalance::motion(Eigen::MatrixXd& displacement, Eigen::MatrixXd& vel
   const Eigen::Index last = samples() / 2;
   const auto& response = problem_.response;
   const Eigen::MatrixXcd amplitudes =
-      response.displacements(problem_.spacing, -closing_lines_.middleRows(1, last - 1).transpose());
+      response.displacements(problem_.spacing, -approach_lines_.middleRows(1, last - 1).transpose());
   const Eigen::VectorXd mean = response.static_displacement(
-      problem_.system.load() - response.mesh_vectors() * closing_lines_.row(0).real().transpose());
+      problem_.system.load() - response.mesh_vectors() * approach_lines_.row(0).real().transpose());
   displacement.resize(amplitudes.rows(), samples());
   velocity.resize(amplitudes.rows(), samples());
   Eigen::VectorXd values(samples());

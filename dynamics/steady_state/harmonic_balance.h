@@ -8,7 +8,7 @@
 
 namespace annulus::dynamics {
 
-/// What all samplings of one period share.
+/// Data that all samplings of one period have in common.
 struct BalanceProblem {
   const LumpedSystem& system;
   const FrequencyResponse& response;
@@ -16,7 +16,7 @@ struct BalanceProblem {
   double spacing = 0;               ///< rad/s, between the lines
   Eigen::MatrixXd transfer;         ///< of the meshes, at all lines of the finest sampling
   Eigen::MatrixXd static_transfer;  ///< at w = 0
-  Eigen::VectorXd static_closing;   ///< of the load, at w = 0
+  Eigen::VectorXd static_approach;  ///< of the load, at w = 0
 };
 
 /// Residual and derivative of the harmonic balance at one sampling. Matrices: samples x meshes.
@@ -24,11 +24,11 @@ class HarmonicBalance {
  public:
   HarmonicBalance(const BalanceProblem& problem, double period, Eigen::Index samples);
 
-  /// Closings from forces F = k (closing - start) + c (rate - start rate) + `force`: the linear problem.
+  /// Solves the linear problem: approaches from forces F = k (approach - start) + c (rate - start rate) + `force`.
   [[nodiscard]] Eigen::MatrixXd linear_solution(const Eigen::MatrixXd& start, const Eigen::MatrixXd& start_rate,
                                                 const Eigen::MatrixXd& force);
-  /// z + H N(z) - H_0 f; remembers the forces and their derivatives.
-  void residual(const Eigen::Ref<const Eigen::MatrixXd>& closing, Eigen::Ref<Eigen::MatrixXd> result);
+  /// Residual z + H N(z) - H_0 f (m) at the approaches z; stores the forces and their derivatives.
+  void residual(const Eigen::Ref<const Eigen::MatrixXd>& approach, Eigen::Ref<Eigen::MatrixXd> result);
   /// Derivative of the residual at the last `residual`, times `change`.
   void apply_derivative(const Eigen::Ref<const Eigen::MatrixXd>& change, Eigen::Ref<Eigen::MatrixXd> result);
 
@@ -43,14 +43,14 @@ class HarmonicBalance {
   [[nodiscard]] Eigen::Index samples() const { return meshes_.samples(); }
 
  private:
-  /// H times the forces whose spectra stand in `lines_`, into the samples.
-  void respond(Eigen::Ref<Eigen::MatrixXd> closing);
+  /// Writes H times the forces whose spectra are in `lines_` to the samples.
+  void respond(Eigen::Ref<Eigen::MatrixXd> approach);
   void forward(const Eigen::Ref<const Eigen::MatrixXd>& values, Eigen::MatrixXcd& lines);
 
   const BalanceProblem& problem_;
   SampledMeshes meshes_;
   RealTransform transform_;
-  Eigen::MatrixXcd lines_, closing_lines_;  // spectra, up to the Nyquist line, one column per mesh
+  Eigen::MatrixXcd lines_, approach_lines_;  // spectra, up to the Nyquist line, one column per mesh
   Eigen::VectorXcd line_;
   Eigen::MatrixXd rate_, force_;
 };

@@ -18,7 +18,7 @@ namespace annulus::dynamics {
 
 namespace {
 
-/// What KINSOL's callbacks see.
+/// Data of the callbacks of KINSOL.
 struct BalanceIteration {
   HarmonicBalance& balance;
   Eigen::MatrixXd at;  ///< where the residual was evaluated last
@@ -38,20 +38,20 @@ static int annulus_balance(N_Vector u, N_Vector result, void* data) {
 
 static int annulus_balance_derivative(N_Vector v, N_Vector result, N_Vector u, booleantype* new_u, void* data) {
   auto& p = *static_cast<BalanceIteration*>(data);
-  // The line search may have looked elsewhere last.
+  // The line search may have evaluated another point last.
   if (*new_u && p.at != p.matrix(u)) annulus_balance(u, result, data);
   *new_u = SUNFALSE;
   p.balance.apply_derivative(p.matrix(v), p.matrix(result));
   return 0;
 }
 
-/// Most of GMRES at this size; SUNDIALS' own loop does one product at a time.
+/// Most of the time of GMRES at this size; the loop of SUNDIALS does one product at a time.
 static realtype annulus_balance_product(N_Vector a, N_Vector b) {
   using Values = Eigen::Map<const Eigen::VectorXd>;
   return Values(N_VGetArrayPointer(a), NV_LENGTH_S(a)).dot(Values(N_VGetArrayPointer(b), NV_LENGTH_S(b)));
 }
 
-/// KINSOL prints its complaints; here they end in `trouble`.
+/// KINSOL prints its messages; here they go to `trouble`.
 static void annulus_balance_complaint(int, const char*, const char*, char* message, void* data) {
   *static_cast<std::string*>(data) = message;
 }
@@ -71,7 +71,7 @@ class BalanceSolver {
     constexpr int directions = 50;
     solver_ = SUNLinSol_SPGMR(u_, SUN_PREC_NONE, directions, context_);
     memory_ = KINCreate(context_);
-    if (!memory_) throw SolverError("KINSOL could not be set up");
+    if (!memory_) throw SolverError(fmt::format("KINSOL could not be set up for {} unknowns", start.size()));
     KINSetErrHandlerFn(memory_, annulus_balance_complaint, &complaint_);
     KINInit(memory_, annulus_balance, u_);
     KINSetUserData(memory_, &iteration_);
@@ -93,7 +93,7 @@ class BalanceSolver {
   BalanceSolver(const BalanceSolver&) = delete;
   BalanceSolver& operator=(const BalanceSolver&) = delete;
 
-  /// Closings; adds to the iterations and sets residual, converged and trouble.
+  /// Returns the approaches; adds to the iterations and sets residual, converged and trouble.
   Eigen::MatrixXd solve(PeriodicResponse& response) {
     const int flag = options_.max_iterations > 0 ? KINSol(memory_, u_, KIN_LINESEARCH, weights_, weights_) : 0;
     long newton = 0, linear = 0;
@@ -101,15 +101,15 @@ class BalanceSolver {
     KINGetNumLinIters(memory_, &linear);
     response.newton_iterations += static_cast<int>(newton);
     response.linear_iterations += static_cast<int>(linear);
-    // The forces and derivatives of the answer itself, whatever KINSOL tried last.
-    Eigen::MatrixXd closing = iteration_.matrix(u_), residual(closing.rows(), closing.cols());
-    iteration_.balance.residual(closing, residual);
+    // The forces and derivatives of the solution itself: KINSOL may have evaluated another point last.
+    Eigen::MatrixXd approach = iteration_.matrix(u_), residual(approach.rows(), approach.cols());
+    iteration_.balance.residual(approach, residual);
     response.residual = residual.cwiseAbs().maxCoeff() / scale_;
     response.converged = options_.max_iterations > 0 && response.residual <= options_.tolerance;
     if (!response.converged && response.trouble.empty())
       response.trouble = fmt::format("residual {:.1e} after {} iterations with {} samples: {}", response.residual,
-                                     newton, closing.rows(), flag < 0 ? complaint_ : "the steps became too small");
-    return closing;
+                                     newton, approach.rows(), flag < 0 ? complaint_ : "the steps became too small");
+    return approach;
   }
 
  private:
@@ -123,7 +123,7 @@ class BalanceSolver {
   void* memory_ = nullptr;
 };
 
-/// Deflections under load at time 0; an open mesh stands at its edge.
+/// Deflections under load at time 0; a mesh without contact is at the edge of its backlash.
 struct Reference {
   Eigen::VectorXd deflection;
   double scale = 0;  ///< m, largest deformation of a mesh
@@ -150,11 +150,11 @@ Eigen::VectorXd mean_tangents(const LumpedSystem& system, const Eigen::MatrixXd&
   return mean;
 }
 
-void fill(PeriodicResponse& response, HarmonicBalance& balance, const Eigen::MatrixXd& closing) {
-  const Eigen::Index samples = balance.samples(), meshes = closing.cols();
+void fill(PeriodicResponse& response, HarmonicBalance& balance, const Eigen::MatrixXd& approach) {
+  const Eigen::Index samples = balance.samples(), meshes = approach.cols();
   Eigen::MatrixXd force;
   std::vector<LumpedSystem::Contact> contact;
-  balance.meshes().evaluate_at_instants(closing, balance.rate_of(closing), force, contact);
+  balance.meshes().evaluate_at_instants(approach, balance.rate_of(approach), force, contact);
   response.coarse_force = std::move(response.force);
   response.force = force.transpose();
   response.time.resize(samples);
@@ -185,30 +185,36 @@ bool wants_more_samples(const PeriodicResponse& response, const PeriodicOptions&
 
 PeriodicResponse periodic_response(const LumpedSystem& system, double period, int cycles,
                                    const PeriodicOptions& options) {
-  if (!(period > 0) || cycles < 1) throw InputError("a periodic response needs a positive period of whole cycles");
+  if (!(period > 0) || cycles < 1)
+    throw InputError(fmt::format(
+        "a periodic response needs a positive period of whole cycles, not {:g} s and {} cycles", period, cycles));
   if (options.samples_per_cycle < 8 || options.samples_per_cycle % 8 != 0)
-    throw InputError("harmonic balance needs a multiple of 8 samples per mesh cycle");
+    throw InputError(fmt::format("harmonic balance needs a multiple of 8 samples per mesh cycle, not {}",
+                                 options.samples_per_cycle));
   if (!(options.tolerance > 0) || options.max_iterations < 1)
-    throw InputError("harmonic balance needs a positive tolerance and at least one iteration");
-  require(!system.meshes().empty(), "a periodic response needs meshes");
+    throw InputError(
+        fmt::format("harmonic balance needs a positive tolerance and at least one iteration, not {:g} and {}",
+                    options.tolerance, options.max_iterations));
+  require(!system.meshes().empty(),
+          fmt::format("a periodic response needs meshes; the system has {} degrees of freedom alone", system.dofs()));
   if (system.has_moving_vectors()) {
     PeriodicResponse refused;
-    refused.trouble = "mesh vectors that move with the mesh (elastic modes of the ring) need time marching";
+    refused.trouble = "mesh vectors that move with the mesh (elastic modes of the ring) need time integration";
     return refused;
   }
 
   const Eigen::Index samples = static_cast<Eigen::Index>(cycles) * options.samples_per_cycle;
-  // Solving begins with few samples, where iterations cost little, and doubles them: each level starts close to its
-  // answer.
-  constexpr double rough_tolerance = 1e-3, hopeless = 0.1;
+  // The first level has few samples, where iterations cost little. Each next one doubles them and starts close to its
+  // solution.
+  constexpr double rough_tolerance = 1e-3, out_of_reach = 0.1;
   Eigen::Index coarsening = 2;
   while (options.samples_per_cycle % (2 * coarsening) == 0 && options.samples_per_cycle / (2 * coarsening) >= 8)
     coarsening *= 2;
   const Reference reference = reference_of(system);
-  Eigen::MatrixXd closing, rate, force;
+  Eigen::MatrixXd approach, rate, force;
   SampledMeshes at_reference(system, period, samples / coarsening);
-  at_reference.at_deflection(reference.deflection, closing, rate);
-  at_reference.evaluate(closing, rate, force);
+  at_reference.at_deflection(reference.deflection, approach, rate);
+  at_reference.evaluate(approach, rate, force);
   const Eigen::VectorXd mean = mean_tangents(system, at_reference.tangent());
 
   const FrequencyResponse linear(system, mean);
@@ -218,28 +224,28 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
   const auto& b = linear.mesh_vectors();
   for (Eigen::Index m = 0; m < mean.size(); ++m)
     problem.static_transfer.col(m) = b.transpose() * linear.static_displacement(b.col(m));
-  problem.static_closing = b.transpose() * linear.static_displacement(system.load());
+  problem.static_approach = b.transpose() * linear.static_displacement(system.load());
 
   PeriodicResponse response;
-  closing.resize(0, 0);
+  approach.resize(0, 0);
   bool failed = false;
   for (Eigen::Index level = samples / coarsening; level <= samples; level *= 2) {
     HarmonicBalance balance(problem, period, level);
-    if (closing.size() == 0) {
-      balance.meshes().at_deflection(reference.deflection, closing, rate);
-      balance.meshes().evaluate(closing, rate, force);
-      closing = balance.linear_solution(closing, rate, force);
+    if (approach.size() == 0) {
+      balance.meshes().at_deflection(reference.deflection, approach, rate);
+      balance.meshes().evaluate(approach, rate, force);
+      approach = balance.linear_solution(approach, rate, force);
     } else {
-      closing = HarmonicBalance::refined(closing, 2);
+      approach = HarmonicBalance::refined(approach, 2);
     }
     auto level_options = options;
-    // Below the two finest only a start is wanted.
+    // Levels below the two finest only provide a start.
     if (4 * level <= samples) level_options.tolerance = std::max(options.tolerance, rough_tolerance);
-    // What a coarse sampling cannot solve is hopeless, or too dear: the last iterate is then shown as it is.
+    // Where a coarse sampling fails, a finer one would fail or cost too much: the last iterate is returned as it is.
     if (failed) level_options.max_iterations = 0;
-    closing = BalanceSolver(balance, closing, reference.scale, level_options).solve(response);
-    failed = failed || response.residual > std::max(level_options.tolerance, level < samples ? hopeless : 0.0);
-    if (2 * level >= samples) fill(response, balance, closing);
+    approach = BalanceSolver(balance, approach, reference.scale, level_options).solve(response);
+    failed = failed || response.residual > std::max(level_options.tolerance, level < samples ? out_of_reach : 0.0);
+    if (2 * level >= samples) fill(response, balance, approach);
     if (level == samples && options.motion) balance.motion(response.displacement, response.velocity);
   }
   set_sampling_difference(response, options.samples_per_cycle);
@@ -247,11 +253,11 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
     const Eigen::Index level = 2 * response.time.size();
     problem.transfer = linear.mesh_transfer(spacing, level / 2 - 1);
     HarmonicBalance balance(problem, period, level);
-    closing = HarmonicBalance::refined(closing, 2);
+    approach = HarmonicBalance::refined(approach, 2);
     auto finer = response;
-    closing = BalanceSolver(balance, closing, reference.scale, options).solve(finer);
+    approach = BalanceSolver(balance, approach, reference.scale, options).solve(finer);
     if (!finer.converged) break;
-    fill(finer, balance, closing);
+    fill(finer, balance, approach);
     if (options.motion) balance.motion(finer.displacement, finer.velocity);
     set_sampling_difference(finer, 2 * response.samples_per_cycle);
     response = std::move(finer);

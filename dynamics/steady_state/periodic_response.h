@@ -9,13 +9,13 @@
 namespace annulus::dynamics {
 
 struct PeriodicOptions {
-  /// Power of two times anything: samples per mesh cycle; harmonics of the mesh frequency up to half of it are solved.
+  /// Samples per mesh cycle, a multiple of 8. Harmonics of the mesh frequency up to half of it are solved.
   int samples_per_cycle = 32;
-  /// Samples are doubled from there, up to `max_samples_per_cycle`, until that changed no force by more than this (N).
-  /// Without: as many as said.
+  /// Samples are doubled, up to `max_samples_per_cycle`, until that changes no force by more than this (N). Absent: no
+  /// doubling.
   std::optional<double> sampling_tolerance{};
   int max_samples_per_cycle = 256;
-  /// Largest residual of a closing at any sample / largest quasi-static mesh deflection at time 0.
+  /// Largest residual of an approach at any sample / largest quasi-static mesh deflection at time 0.
   double tolerance = 1e-5;
   int max_iterations = 20;  ///< Newton iterations, per level of sampling
   bool motion = true;       ///< also the displacements and velocities of all DOFs
@@ -24,7 +24,7 @@ struct PeriodicOptions {
 /// Periodic steady state.
 struct PeriodicResponse {
   bool converged = false;
-  std::string trouble;                               ///< why it did not converge, empty otherwise
+  std::string trouble;                               ///< the cause where it did not converge, else empty
   double residual = 0;                               ///< as `tolerance`
   int newton_iterations = 0, linear_iterations = 0;  ///< over all levels of sampling
   int samples_per_cycle = 0;                         ///< of the answer
@@ -34,22 +34,23 @@ struct PeriodicResponse {
   Eigen::VectorXd open;                    ///< fraction of the samples without contact, per mesh
   Eigen::MatrixXd displacement, velocity;  ///< m, m/s, DOFs x times; empty without `motion`
   Eigen::MatrixXd coarse_force;            ///< N, solved with half the samples, at every other time
-  /// Largest difference of a force between both samplings (N): bounds the error of the finer one where the spectrum
-  /// decays; with jumps the error of the finer one is about a third of it (second order).
+  /// Largest difference of a force between both samplings (N). It bounds the error of the finer one where the spectrum
+  /// decays. With jumps that error is about a third of it (second order).
   double sampling_difference = 0;
 };
 
-/// Solves for the periodic response directly, by harmonic balance with the nonlinear forces evaluated in time
-/// (alternating frequency-time): the closings z = b^T q at the samples satisfy
-///   z + H N(z) = H_0 f,  N = F(t, z, z') - k z - c z',  H(w) = B^T D(w)^-1 B (FrequencyResponse, mean tangents k),
-/// by Newton's method with GMRES and the exact derivative (KINSOL), first with few samples, then with twice as many
-/// each time; a finer sampling than asked for that does not converge is dropped. Cameron and Griffin, J. Appl. Mech. 56
-/// (1989); Krack and Gross, Harmonic Balance for Nonlinear Vibration Problems (2019).
+/// Periodic response by harmonic balance with the nonlinear forces evaluated in time (alternating frequency-time)
+/// [CameronGriffin1989], [KrackGross2019, ch. 2]. The approaches z = b^T q at the samples satisfy
+///   z + H N(z) = H_0 f,  N = F(t, z, z') - k z - c z',  H(w) = B^T D(w)^-1 B (FrequencyResponse, mean tangents k).
+/// Newton's method with GMRES and the exact derivative (KINSOL) solves them, first with few samples, then with twice as
+/// many each time. A finer sampling than `samples_per_cycle` that does not converge is dropped.
 ///
-/// The excitation must repeat after `period` (s), which spans `cycles` mesh cycles. Stable and unstable solutions alike
-/// are found; the start is the response with constant mesh stiffness. Rigid motions are fixed by nu^T M q = 0 in the
-/// mean over the period. Without convergence the last iterate is returned, with `converged` false; nothing but
-/// `trouble` for a system whose mesh vectors move. Throws InputError when the load is not balanced, SolverError when
+/// The excitation must repeat after `period` (s), which spans `cycles` mesh cycles. The iteration starts from the
+/// response with constant mesh stiffness; it finds stable and unstable solutions. Rigid motions are fixed by
+/// nu^T M q = 0 in the mean over the period.
+///
+/// Without convergence the last iterate is returned with `converged` false. A system whose mesh vectors move gives
+/// `trouble` alone. Throws InputError when period, options or a load out of balance cannot be used, SolverError when
 /// the linear part is singular.
 [[nodiscard]] PeriodicResponse periodic_response(const LumpedSystem& system, double period, int cycles,
                                                  const PeriodicOptions& options = {});

@@ -70,7 +70,7 @@ class PeriodMap {
   /// Periodic state at time 0; rigid displacements zero. Returns the residual, relative.
   double solve(Eigen::VectorXd& z) const {
     const Eigen::Index inner = linear_.inner();
-    // Nothing depends on rigid displacements: their columns are zero, and so many rows say nothing.
+    // Nothing depends on rigid displacements: their columns are zero, and as many rows are redundant.
     const Eigen::MatrixXd matrix = (Eigen::MatrixXd::Identity(known_, known_) - monodromy_).leftCols(inner);
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(matrix);
     z.setZero(linear_.size());
@@ -82,14 +82,15 @@ class PeriodMap {
   [[nodiscard]] double largest_multiplier() const {
     const Eigen::Index inner = linear_.inner();
     Eigen::MatrixXd map = monodromy_.topLeftCorner(inner, inner);
-    // A conserved momentum is a multiplier of exactly one that says nothing: moved to zero (Wielandt).
+    // A conserved momentum is a multiplier of exactly one, without meaning for stability: moved to zero (Wielandt).
     const Eigen::MatrixXd& rows = linear_.conserved();
     if (rows.size() > 0) {
       const Eigen::MatrixXd right = rows.transpose() * (rows * rows.transpose()).inverse();
       map -= right * rows;
     }
     const Eigen::EigenSolver<Eigen::MatrixXd> solver(map, false);
-    if (solver.info() != Eigen::Success) throw SolverError("the Floquet multipliers were not found");
+    if (solver.info() != Eigen::Success)
+      throw SolverError(fmt::format("the Floquet multipliers of {} state variables were not found", map.rows()));
     return solver.eigenvalues().cwiseAbs().maxCoeff();
   }
 
@@ -100,10 +101,10 @@ class PeriodMap {
   Eigen::VectorXd particular_;
 };
 
-/// Goes through the period once from the periodic state and notes what is asked for.
+/// Goes through the period once from the periodic state and stores the results.
 class PeriodWalk {
  public:
-  /// Of the fastest mode between points: cubics and parabolas between are good to 1e-4 of its amplitude.
+  /// Angle of the fastest mode between points: cubics and parabolas are accurate to 1e-4 of its amplitude.
   static constexpr double radians = 0.25;
 
   PeriodWalk(const LumpedSystem& system, PiecewiseSystem& linear, double period, Eigen::Index samples,
@@ -179,12 +180,12 @@ class PeriodWalk {
   }
 
  private:
-  /// Looks for the least penetration between the state noted last, `ahead` seconds before, and this one.
+  /// Searches for the least penetration between the last state, `ahead` seconds before, and this one.
   void note(const Eigen::VectorXd& z, double ahead) {
     now_.noalias() = linear_.penetration() * z;
     slope_.noalias() = linear_.penetration_rate() * z;
     for (Eigen::Index m = 0; m < now_.size(); ++m) {
-      if (system_.meshes()[m].half_backlash.value_or(0.0) == 0) continue;  // a linear mesh never parts
+      if (system_.meshes()[m].half_backlash.value_or(0.0) == 0) continue;  // a linear mesh never loses contact
       const double least = ahead > 0 ? hermite_minimum(last_[m], last_slope_[m], now_[m], slope_[m], ahead) : now_[m];
       if (least >= response_.least_penetration) continue;
       response_.least_penetration = least;
@@ -229,7 +230,7 @@ void judge(const LumpedSystem& system, PiecewiseResponse& response) {
     p.trouble = fmt::format("parametric resonance: the periodic motion is unstable (Floquet multiplier {:.4g})",
                             response.largest_multiplier);
   else if (!(response.least_penetration > 0))
-    p.trouble = fmt::format("the teeth of {} part (by {:.3g} um), which the piecewise linear solution does not follow",
+    p.trouble = fmt::format("{} loses contact (by {:.3g} um), which the piecewise solution does not follow",
                             system.meshes()[response.least_mesh].name, -1e6 * response.least_penetration);
   p.converged = p.trouble.empty();
 }
@@ -267,15 +268,19 @@ bool too_fast_for_piecewise(const LumpedSystem& system, double period, int cycle
 
 PiecewiseResponse piecewise_response(const LumpedSystem& system, double period, int cycles,
                                      const PiecewiseOptions& options) {
-  if (!(period > 0) || cycles < 1) throw InputError("a periodic response needs a positive period of whole cycles");
-  if (options.samples_per_cycle < 1) throw InputError("a periodic response needs a sample per mesh cycle");
+  if (!(period > 0) || cycles < 1)
+    throw InputError(fmt::format(
+        "a periodic response needs a positive period of whole cycles, not {:g} s and {} cycles", period, cycles));
+  if (options.samples_per_cycle < 1)
+    throw InputError(
+        fmt::format("a periodic response needs a sample per mesh cycle, not {}", options.samples_per_cycle));
   PiecewiseResponse response;
   auto& p = response.periodic;
   p.trouble = why_not_piecewise(system, period);
   if (!p.trouble.empty()) return response;
   PiecewiseSystem linear(system);
   if (!linear.neutral()) {
-    p.trouble = "rotation acts on the rigid motions of the system";
+    p.trouble = "terms of the rotating frame act on the rigid motions of the system";
     return response;
   }
   response.solved_cycles = cycles_to_solve(system, linear, period, cycles);
@@ -285,7 +290,8 @@ PiecewiseResponse piecewise_response(const LumpedSystem& system, double period, 
   const double points = solved * linear.fastest() / PeriodWalk::radians;
   if (points > most_points) {
     p.trouble =
-        fmt::format("the fastest motion swings too often within the period: {:.2g} points of every mesh", points);
+        fmt::format("the fastest motion is too fast for the period: {:.2g} points of every mesh, {:.2g} at most",
+                    points, most_points);
     return response;
   }
   const PeriodMap map(linear, pieces);

@@ -1,5 +1,7 @@
 #include "dynamics/steady_state/piecewise_system.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -46,7 +48,8 @@ void PiecewiseSystem::set_modes() {
   for (Eigen::Index m = 0; m < mean.size(); ++m) mean[m] = mean_stiffness(system_.meshes()[m].excitation);
   const Modes found = modes(system_, mean);
   const Eigen::Index n = dofs_;
-  require(n > 0 && found.modes.back().frequency > 0, "a piecewise linear system needs an elastic mode");
+  require(n > 0 && found.modes.back().frequency > 0,
+          fmt::format("a piecewise linear system needs an elastic mode; {} degrees of freedom have none", n));
   const auto first =
       std::find_if(found.modes.begin(), found.modes.end(), [](const Mode& m) { return m.frequency > 0; });
   const Eigen::Index rigid_motions = first - found.modes.begin();

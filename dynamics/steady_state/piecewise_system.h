@@ -9,19 +9,21 @@
 
 namespace annulus::dynamics {
 
-/// A system with closed meshes between the jumps of its stiffnesses as a linear one, z' = A z, one A per combination of
-/// the waves. z = (elastic modal displacements, modal velocities / w, rigid displacements, 1, sin and cos of the error
-/// rates): modes of the mean stiffness about the equilibrium with it, w the highest natural frequency, so that entries
-/// are of like size and no large displacement (backlash) enters.
+/// A system with all meshes in contact, between the jumps of its stiffnesses, as a linear one: z' = A z, with one A per
+/// combination of the rectangular waves.
+///
+/// z = (elastic modal displacements, modal velocities / w, rigid displacements, 1, sin and cos of the error rates). The
+/// modes are those of the mean stiffness about the equilibrium with it; w is the highest natural frequency. Entries are
+/// then of similar size, and no large displacement (backlash) enters.
 class PiecewiseSystem {
  public:
   /// Throws InputError when the load is not balanced.
   explicit PiecewiseSystem(const LumpedSystem& system);
 
-  /// Do rigid motions stay free of force under rotation? Otherwise the state used here is not enough.
+  /// Do rigid motions stay free of force under rotation? Otherwise this state does not suffice.
   [[nodiscard]] bool neutral() const { return neutral_; }
   [[nodiscard]] double fastest() const { return w_; }  ///< rad/s
-  /// Sizes: of the part of the state that forces depend on, of the rigid displacements that follow it, of all.
+  /// Sizes of the part of the state that forces depend on, of the rigid displacements after it, and of the whole.
   [[nodiscard]] Eigen::Index inner() const { return elastic_ + dofs_; }
   [[nodiscard]] Eigen::Index rigid() const { return dofs_ - elastic_; }
   [[nodiscard]] Eigen::Index size() const {
@@ -29,11 +31,11 @@ class PiecewiseSystem {
   }
   [[nodiscard]] bool errors_turn() const { return !rates_.empty(); }
 
-  /// Combination of the waves at this time, made when it is new.
+  /// Index of the combination of the waves at time t (s); a new one is appended.
   [[nodiscard]] int combination(double t);
-  /// exp(A t) over a duration (s); kept.
+  /// exp(A t) over a duration (s); stored for later calls.
   [[nodiscard]] const Eigen::MatrixXd& propagator(int combination, double duration);
-  /// What follows from z linearly: mesh forces, N; deflections beyond half backlash, m; their rates, m/s.
+  /// Linear maps from z to mesh forces (N), deflections beyond half backlash (m) and their rates (m/s).
   [[nodiscard]] const Eigen::MatrixXd& force(int combination) const { return combinations_[combination].force; }
   [[nodiscard]] const Eigen::MatrixXd& penetration() const { return penetration_; }
   [[nodiscard]] const Eigen::MatrixXd& penetration_rate() const { return penetration_rate_; }

@@ -1,5 +1,7 @@
 #include "dynamics/steady_state/real_transform.h"
 
+#include <fmt/format.h>
+
 #include <fftw3.h>
 
 #include <mutex>
@@ -32,7 +34,7 @@ struct RealTransform::Plans {
     const std::scoped_lock lock(planner());
     forward = fftw_plan_dft_r2c_1d(samples, values.data(), fftw(lines.data()), flags);
     inverse = fftw_plan_dft_c2r_1d(samples, fftw(lines.data()), values.data(), flags | FFTW_DESTROY_INPUT);
-    require(forward && inverse, "FFTW plans every length");
+    require(forward && inverse, fmt::format("FFTW made no plan for {} samples", samples));
   }
   ~Plans() {
     const std::scoped_lock lock(planner());
@@ -44,7 +46,7 @@ struct RealTransform::Plans {
 };
 
 RealTransform::RealTransform(int samples) {
-  require(samples > 0, "a transform of no samples");
+  require(samples > 0, fmt::format("a transform needs samples, not {}", samples));
   plans_ = std::make_shared<const Plans>(samples);
 }
 

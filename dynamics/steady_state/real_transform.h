@@ -6,8 +6,8 @@
 namespace annulus::dynamics {
 
 /// Discrete Fourier transform of real periodic samples (FFTW), either way without scaling: lines 0 ... samples/2,
-/// X_j = sum_i x_i exp(-2 pi i j / samples). Results depend on nothing but the values. Objects may be made in any
-/// thread; one object serves any number of threads.
+/// X_j = sum_i x_i exp(-2 pi i j / samples). Results depend on the values alone. Objects may be made in any thread, and
+/// several threads may use one object.
 class RealTransform {
  public:
   explicit RealTransform(int samples);

@@ -1,8 +1,9 @@
 #include "dynamics/steady_state/response_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "core/errors.h"
 #include "dynamics/statics/static_solver.h"
@@ -11,7 +12,7 @@ namespace annulus::dynamics {
 
 namespace {
 
-/// Jumps come with the forces before and after; at the end of the window those before alone, its beginning follows.
+/// Every jump has the forces before and after it. At the end of the window only those before: its beginning follows.
 void set_jumps(ResponseWindow& window, const std::vector<double>& times, const std::vector<double>& forces) {
   const Eigen::Index meshes = window.force.rows(), notes = static_cast<Eigen::Index>(times.size());
   const Eigen::Map<const Eigen::MatrixXd> noted(forces.data(), meshes, notes);
@@ -20,7 +21,7 @@ void set_jumps(ResponseWindow& window, const std::vector<double>& times, const s
   window.force_before.resize(meshes, jumps);
   window.force_after.resize(meshes, jumps);
   if (jumps == 0) return;
-  require(notes % 2 == 1, "jumps come in pairs of forces, the end of a window alone");
+  require(notes % 2 == 1, fmt::format("{} forces at jumps: two per jump and one at the end of a window", notes));
   window.jump_time[0] = window.time[0];
   window.force_before.col(0) = noted.col(notes - 1);
   window.force_after.col(0) = window.force.col(0);
@@ -40,7 +41,8 @@ ResponseRun::ResponseRun(const LumpedSystem& system, double mesh_frequency, int 
       samples_per_cycle_(samples_per_cycle),
       workspace_(system.workspace()),
       integrator_(integrator) {
-  require(integrator_.absolute_tolerance.has_value(), "a run needs an absolute tolerance");
+  require(integrator_.absolute_tolerance.has_value(),
+          fmt::format("a run at {:g} Hz needs an absolute tolerance", mesh_frequency));
   start_from_equilibrium();
 }
 
@@ -62,7 +64,7 @@ void ResponseRun::start_from(const Eigen::VectorXd& displacement, const Eigen::V
   system_.detect_contact(0, state_.q.data(), workspace_);
 }
 
-void ResponseRun::advance(int cycles, ResponseWindow* window, bool track_energy) {
+void ResponseRun::advance(int cycles, ResponseWindow* window, EnergyTracking energy) {
   const double end = (cycles_ + cycles) / mesh_frequency_;
   const int samples = window ? cycles * samples_per_cycle_ : 0;
   if (window) {
@@ -74,7 +76,8 @@ void ResponseRun::advance(int cycles, ResponseWindow* window, bool track_energy)
     window->velocity.resize(system_.dofs(), samples);
     window->open = Eigen::VectorXd::Zero(meshes);
   }
-  const auto sample = [&](int i, const SystemState& state) {
+  IntegrationObserver observer{.samples = samples, .sample = {}, .at_jump = {}, .energy = energy};
+  observer.sample = [&](int i, const SystemState& state) {
     window->time[i] = state.time;
     window->displacement.col(i) = state.q;
     window->velocity.col(i) = state.v;
@@ -85,10 +88,9 @@ void ResponseRun::advance(int cycles, ResponseWindow* window, bool track_energy)
   };
   std::vector<double> jump_time, jump_force;
   const double start = state_.time, spacing = (end - start) / std::max(samples, 1);
-  std::function<void(double)> at_jump;
   if (window) {
     window->after_jump.clear();
-    at_jump = [&](double time) {
+    observer.at_jump = [&](double time) {
       jump_time.push_back(time);
       jump_force.insert(jump_force.end(), workspace_.force.begin(), workspace_.force.end());
       // Rounding of a sample that stands on the jump itself: far below a billionth of the spacing.
@@ -97,7 +99,7 @@ void ResponseRun::advance(int cycles, ResponseWindow* window, bool track_energy)
         window->after_jump.push_back(sample_after);
     };
   }
-  const auto s = integrate(system_, state_, end, integrator_, workspace_, samples, sample, track_energy, at_jump);
+  const auto s = integrate(system_, state_, end, integrator_, workspace_, observer);
   if (window) set_jumps(*window, jump_time, jump_force);
   cycles_ += cycles;
   statistics_.steps += s.steps;
@@ -119,7 +121,7 @@ void ResponseRun::pass_jump() {
 }
 
 void ResponseRun::loosen(double factor) {
-  // At most a tenth: beyond, the comparison would say little.
+  // At most a tenth: with a looser tolerance the comparison would mean little.
   integrator_.relative_tolerance = std::min(0.1, integrator_.relative_tolerance * factor);
   *integrator_.absolute_tolerance *= factor;
   integrator_.fixed_step *= std::pow(factor, 0.25);  // the error of the fixed-step method goes with step^4

@@ -7,23 +7,24 @@
 
 namespace annulus::dynamics {
 
-/// A system on its way: state and workspace, advanced window by window.
+/// A time integration that advances window by window: the system, its state and its workspace.
 class ResponseRun {
  public:
-  /// At time 0, in quasi-static equilibrium: this excites less than a start from rest. `mesh_frequency` (Hz) tells what
-  /// a cycle is.
+  /// Starts at time 0 in quasi-static equilibrium, which excites less vibration than a start from rest.
+  /// `mesh_frequency` (Hz) defines a mesh cycle. The integrator needs an absolute tolerance.
   ResponseRun(const LumpedSystem& system, double mesh_frequency, int samples_per_cycle,
               const IntegratorOptions& integrator);
 
-  /// Begins at time 0 with this state instead.
+  /// Starts at time 0 with this state instead: displacement (m) and velocity (m/s), one entry per DOF.
   void start_from(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity);
   /// Integrates over whole mesh cycles; `window` (may be null) receives the samples.
-  void advance(int cycles, ResponseWindow* window, bool track_energy = false);
-  /// Energy at the end of what has been integrated, a stiffness jump at this very instant not yet done.
+  void advance(int cycles, ResponseWindow* window, EnergyTracking energy = EnergyTracking::off);
   [[nodiscard]] const LumpedSystem& system() const { return system_; }
+  /// Energy (J) of the present state, before a stiffness jump at this very instant.
   [[nodiscard]] double energy();
-  /// Does a stiffness jump at this very instant: whole mesh cycles are where waves jump.
+  /// Applies a stiffness jump at this very instant: rectangular stiffnesses jump at whole mesh cycles.
   void pass_jump();
+  /// Multiplies the tolerances by `factor`; the relative one becomes 0.1 at most.
   void loosen(double factor);
 
   [[nodiscard]] const SystemState& state() const { return state_; }

@@ -20,7 +20,7 @@ SampledMeshes::SampledMeshes(const LumpedSystem& system, double period, Eigen::I
   const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
   tangent_.resize(samples, meshes);
   damping_.resize(samples, meshes);
-  for (auto* v : {&closing_, &rate_, &moved_, &force_}) v->resize(meshes);
+  for (auto* v : {&approach_, &rate_, &moved_, &force_}) v->resize(meshes);
   whole_.resize(system.meshes().size());
   if (!system.couplings().empty()) {
     coupled_.resize(meshes, meshes * samples);
@@ -38,25 +38,25 @@ SampledMeshes::SampledMeshes(const LumpedSystem& system, double period, Eigen::I
   }
 }
 
-void SampledMeshes::at_deflection(const Eigen::VectorXd& delta, Eigen::MatrixXd& closing, Eigen::MatrixXd& rate) {
-  closing.resize(samples_, delta.size());
+void SampledMeshes::at_deflection(const Eigen::VectorXd& delta, Eigen::MatrixXd& approach, Eigen::MatrixXd& rate) {
+  approach.resize(samples_, delta.size());
   rate.resize(samples_, delta.size());
   for (Eigen::Index i = 0; i < samples_; ++i) {
     system_.evaluate_excitation(time(i), workspace_);
     for (Eigen::Index m = 0; m < delta.size(); ++m) {
-      closing(i, m) = delta[m] + workspace_.error[m];
+      approach(i, m) = delta[m] + workspace_.error[m];
       rate(i, m) = workspace_.error_rate[m];
     }
   }
 }
 
-void SampledMeshes::evaluate(const Eigen::MatrixXd& closing, const Eigen::MatrixXd& rate, Eigen::MatrixXd& force) {
-  force.resize(samples_, closing.cols());
+void SampledMeshes::evaluate(const Eigen::MatrixXd& approach, const Eigen::MatrixXd& rate, Eigen::MatrixXd& force) {
+  force.resize(samples_, approach.cols());
   tangent_.setZero();
   damping_.setZero();
   coupled_.setZero();
   for (Eigen::Index i = 0; i < samples_; ++i) {
-    closing_ = closing.row(i);
+    approach_ = approach.row(i);
     rate_ = rate.row(i);
     force_.setZero();
     if (pieces_.empty()) {
@@ -64,7 +64,7 @@ void SampledMeshes::evaluate(const Eigen::MatrixXd& closing, const Eigen::Matrix
     } else {
       for (const auto& piece : pieces_[i]) {
         system_.hold_waves(piece.middle, workspace_);
-        closing_ = closing.row(i) + (piece.middle - time(i)) * rate.row(i);
+        approach_ = approach.row(i) + (piece.middle - time(i)) * rate.row(i);
         add_piece(i, piece);
       }
     }
@@ -76,7 +76,7 @@ void SampledMeshes::add_piece(Eigen::Index sample, const Piece& piece) {
   const double weight = piece.weight, shift = piece.middle - time(sample);
   auto& w = workspace_;
   const auto& meshes = system_.meshes();
-  system_.evaluate_forces(piece.middle, closing_.data(), rate_.data(), w);
+  system_.evaluate_forces(piece.middle, approach_.data(), rate_.data(), w);
   const bool coupled = coupled_.size() != 0;
   if (coupled) {
     system_.tangent_matrix(w, block_);
@@ -110,11 +110,11 @@ void SampledMeshes::add_partial_contact(Eigen::Index sample, const Piece& piece,
   // there is the one at that mean.
   auto& w = workspace_;
   const auto& meshes = system_.meshes();
-  moved_ = closing_;
+  moved_ = approach_;
   bool any = false;
   const auto inside = [&](std::size_t m) {
     const auto i = static_cast<Eigen::Index>(m);
-    const double delta = closing_[i] - w.error[m], swing = std::abs(rate_[i] - w.error_rate[m]) * step_ / 2;
+    const double delta = approach_[i] - w.error[m], swing = std::abs(rate_[i] - w.error_rate[m]) * step_ / 2;
     return std::pair(side * delta - *meshes[m].half_backlash, swing);
   };
   for (std::size_t m = 0; m < meshes.size(); ++m) {
@@ -159,15 +159,15 @@ void SampledMeshes::apply_tangent(const Eigen::Ref<const Eigen::MatrixXd>& chang
   }
 }
 
-void SampledMeshes::evaluate_at_instants(const Eigen::MatrixXd& closing, const Eigen::MatrixXd& rate,
+void SampledMeshes::evaluate_at_instants(const Eigen::MatrixXd& approach, const Eigen::MatrixXd& rate,
                                          Eigen::MatrixXd& force, std::vector<Contact>& contact) {
-  force.resize(samples_, closing.cols());
+  force.resize(samples_, approach.cols());
   contact.resize(static_cast<std::size_t>(force.size()));
   for (Eigen::Index i = 0; i < samples_; ++i) {
-    closing_ = closing.row(i);
+    approach_ = approach.row(i);
     rate_ = rate.row(i);
     if (!pieces_.empty()) system_.hold_waves((time(i) + system_.next_jump(time(i))) / 2, workspace_);
-    system_.evaluate_forces(time(i), closing_.data(), rate_.data(), workspace_);
+    system_.evaluate_forces(time(i), approach_.data(), rate_.data(), workspace_);
     for (Eigen::Index m = 0; m < force.cols(); ++m) {
       force(i, m) = workspace_.force[m];
       contact[m * samples_ + i] = workspace_.contact[m];

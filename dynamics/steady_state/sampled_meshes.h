@@ -8,11 +8,12 @@
 
 namespace annulus::dynamics {
 
-/// The mesh forces as functions of the closings b^T q and their rates, at equidistant times of one period, with their
-/// derivatives. Where a stiffness jumps or teeth meet or part between two samples, a sample stands for the mean over
-/// the time step around it: forces are then continuous in the closings, and the error of the sampling goes down with
-/// the square of the time step instead of the time step. (Meshes that are coupled are not averaged over contact
-/// changes.)
+/// The mesh forces as functions of the approaches b^T q and their rates, at equidistant times of one period, with their
+/// derivatives.
+///
+/// Where a stiffness jumps or contact changes between two samples, a sample stands for the mean over the time step
+/// around it. Forces are then continuous in the approaches, and the sampling error falls with the square of the time
+/// step instead of the time step. Coupled meshes are not averaged over contact changes.
 ///
 /// Matrices: samples x meshes.
 class SampledMeshes {
@@ -21,21 +22,20 @@ class SampledMeshes {
 
   [[nodiscard]] Eigen::Index samples() const { return samples_; }
   [[nodiscard]] double time(Eigen::Index sample) const { return static_cast<double>(sample) * step_; }
-  /// Transmission errors and their rates, and (through `tangent`) the derivatives dF/d delta at deflections `delta`,
-  /// one per mesh and the same at all times.
-  void at_deflection(const Eigen::VectorXd& delta, Eigen::MatrixXd& closing, Eigen::MatrixXd& rate);
+  /// Approaches (m) and rates (m/s) of deflections `delta` (m), one per mesh and the same at all times.
+  void at_deflection(const Eigen::VectorXd& delta, Eigen::MatrixXd& approach, Eigen::MatrixXd& rate);
 
-  /// Forces; remembers their derivatives.
-  void evaluate(const Eigen::MatrixXd& closing, const Eigen::MatrixXd& rate, Eigen::MatrixXd& force);
+  /// Forces (N); stores their derivatives.
+  void evaluate(const Eigen::MatrixXd& approach, const Eigen::MatrixXd& rate, Eigen::MatrixXd& force);
   /// dF/d delta and dF/d delta' of the last evaluation.
   [[nodiscard]] const Eigen::MatrixXd& tangent() const { return tangent_; }
   [[nodiscard]] const Eigen::MatrixXd& damping() const { return damping_; }
-  /// Change of the forces with the closings, sample by sample, less `mean` x change; couplings included.
+  /// Change of the forces with the approaches, sample by sample, minus `mean` x change; couplings included.
   void apply_tangent(const Eigen::Ref<const Eigen::MatrixXd>& change, const Eigen::VectorXd& mean,
                      Eigen::Ref<Eigen::MatrixXd> force) const;
 
-  /// Forces at the very instants (just after a jump), and the contact states.
-  void evaluate_at_instants(const Eigen::MatrixXd& closing, const Eigen::MatrixXd& rate, Eigen::MatrixXd& force,
+  /// Forces (N) at the instants themselves (just after a jump), and the contact states.
+  void evaluate_at_instants(const Eigen::MatrixXd& approach, const Eigen::MatrixXd& rate, Eigen::MatrixXd& force,
                             std::vector<LumpedSystem::Contact>& contact);
 
  private:
@@ -52,8 +52,8 @@ class SampledMeshes {
   std::vector<std::vector<Piece>> pieces_;  // per sample; empty when no stiffness jumps
   Eigen::MatrixXd tangent_, damping_;
   Eigen::MatrixXd coupled_, block_;  // with couplings: meshes x (meshes samples), one block per sample
-  // Of the sample in work, per mesh.
-  Eigen::VectorXd closing_, rate_, moved_, force_;
+  // Present sample, per mesh.
+  Eigen::VectorXd approach_, rate_, moved_, force_;
   std::vector<char> whole_;  // the contact state does not change within the step
 };
 

@@ -7,269 +7,191 @@
 #include <utility>
 
 #include "core/errors.h"
-#include "dynamics/steady_state/floquet.h"
-#include "dynamics/steady_state/piecewise_response.h"
+#include "dynamics/steady_state/periodic_solution.h"
+#include "dynamics/steady_state/window_integration.h"
 
 namespace annulus::dynamics {
 
 namespace {
 
-void check(const SteadyProblem& problem, const SimulationOptions& options) {
+void check_steady(const SteadyProblem& problem, const SimulationOptions& options) {
   if (!std::isfinite(problem.mesh_frequency) || !(problem.mesh_frequency > 0))
-    throw InputError("a time response needs a speed above zero");
+    throw InputError(
+        fmt::format("a time response needs a mesh frequency above zero, not {:g} Hz", problem.mesh_frequency));
   if (problem.period_in_cycles < 1)
-    throw InputError(fmt::format("a period of {} mesh cycles is none", problem.period_in_cycles));
+    throw InputError(fmt::format("a period of {} mesh cycles must be at least 1", problem.period_in_cycles));
   if (!std::isfinite(problem.force_scale) || !(problem.force_scale > 0) || !std::isfinite(problem.stiffness) ||
       !(problem.stiffness > 0))
-    throw InputError("a time response needs a positive scale of force and stiffness to measure differences against");
-  if (options.samples_per_cycle < 4) throw InputError("a time series needs at least 4 samples per mesh cycle");
-  if (options.mesh_cycles && *options.mesh_cycles < 1) throw InputError("a simulation needs at least one mesh cycle");
-  if (!(options.steady_tolerance > 0)) throw InputError("the tolerance of the steady state must be positive");
-  if (options.max_windows < 2) throw InputError("finding the steady state takes at least two windows");
+    throw InputError(
+        fmt::format("a time response needs a positive scale of force (here {:g} N) and stiffness ({:g} N/m)",
+                    problem.force_scale, problem.stiffness));
+  if (options.samples_per_cycle < 4)
+    throw InputError(
+        fmt::format("a time series needs at least 4 samples per mesh cycle, not {}", options.samples_per_cycle));
+  if (options.mesh_cycles && *options.mesh_cycles < 1)
+    throw InputError(fmt::format("a simulation needs at least one mesh cycle, not {}", *options.mesh_cycles));
+  if (!(options.steady_tolerance > 0))
+    throw InputError(fmt::format("the tolerance {:g} of the steady state must be positive", options.steady_tolerance));
+  if (options.max_windows < 2)
+    throw InputError(
+        fmt::format("the search for the steady state takes at least two windows, not {}", options.max_windows));
   if (options.min_window_cycles < 1 || options.max_window_cycles < 1)
-    throw InputError("the evaluated window must be at least one mesh cycle long");
+    throw InputError(fmt::format("the evaluated window must be at least one mesh cycle long, not {} to {}",
+                                 options.min_window_cycles, options.max_window_cycles));
 }
 
-double largest_difference(const ResponseWindow& a, const ResponseWindow& b, double mean_force) {
-  return (a.force - b.force).cwiseAbs().maxCoeff() / mean_force;
-}
-
-/// Windows over which a decay shows.
-constexpr int stretch = 8;
-
-/// Is the tolerance out of reach in `left` more windows at the pace at which the largest differences of eight windows
-/// went down from the eight before? (Chaos: they do not.)
-bool hopeless(const std::vector<double>& differences, int left, double tolerance) {
-  if (static_cast<std::ptrdiff_t>(differences.size()) < 2 * stretch) return false;
-  const auto end = differences.end();
-  const double now = *std::max_element(end - stretch, end), then = *std::max_element(end - 2 * stretch, end - stretch);
-  return now * std::pow(std::min(now / then, 1.0), static_cast<double>(left) / stretch) > tolerance;
-}
-
-/// A run marched window by window, of which the last two are kept.
-class March {
+/// The way to the steady state as a state machine. A step does its work and names the next one:
+///
+///   solve ---- found, taken as it is --------------------------------> accept ----> done
+///     |------- found ---------------> confirm -- agrees ------------------------------|
+///     |                                  |------ differs ----|                        v
+///     |------- not found, unstable or not tried ---------> search -------------> evaluate --> done
+///     |------- not tried, length prescribed or no whole period --> integrate ---------^
+///
+/// Nothing is solved where a length is prescribed or the window holds no whole period.
+class SteadyStateFinder {
  public:
-  March(ResponseRun run, int cycles_per_window) : run_(std::move(run)), cycles_(cycles_per_window) {}
+  SteadyStateFinder(const LumpedSystem& system, const SteadyProblem& problem, const SimulationOptions& options)
+      : system_(system), problem_(problem), options_(options) {
+    const auto [cycles, whole] = window_length(problem.period_in_cycles, options);
+    response_.window_cycles = cycles;
+    response_.whole_period = whole;
+  }
 
-  /// On its way without a window.
-  void pass(int cycles) { run_.advance(cycles, nullptr); }
-  void advance() {
-    std::swap(before_, last_);
-    begin_ = run_.state();
-    run_.pass_jump();
-    at_begin_.emplace(run_);
-    run_.advance(cycles_, &last_, true);
-    ++windows_;
+  SteadyResponse run() {
+    for (Step step = Step::solve; step != Step::done;) step = take(step);
+    return std::move(response_);
   }
-  [[nodiscard]] int windows() const { return windows_; }
-  [[nodiscard]] const ResponseWindow& last() const { return last_; }
-  [[nodiscard]] double difference_to_before(double force_scale) const {
-    return largest_difference(last_, before_, force_scale);
-  }
-  /// The last window and what belongs to it; the run is at its end then.
-  void finish(const SteadyProblem& problem, const SimulationOptions& options, SteadyResponse& response);
 
  private:
-  ResponseRun run_;
-  std::optional<ResponseRun> at_begin_;  ///< of the last window
-  SystemState begin_;
-  ResponseWindow before_, last_;
-  int cycles_ = 0, windows_ = 0;
-};
-
-/// Marches on until successive windows agree. `patient`: as far as `max_windows` even where that will not do.
-bool reach_steady_state(March& march, const SimulationOptions& options, double mean_force, bool patient) {
-  double previous = 0;
-  std::vector<double> differences;
-  bool agreed = false;
-  if (march.windows() == 0) march.advance();
-  for (int i = 1; i < options.max_windows; ++i) {
-    march.advance();
-    const double difference = march.difference_to_before(mean_force);
-    // What a geometric decay at the observed ratio still has ahead; the first difference knows no ratio and has to be
-    // clearly smaller by itself.
-    const double ratio = i > 1 ? difference / previous : 0.9;
-    const bool agrees = difference <= options.steady_tolerance &&
-                        (ratio < 1 ? difference * ratio / (1 - ratio) <= options.steady_tolerance
-                                   // No decay left to see: the differences are the integrator's own.
-                                   : difference <= 0.5 * options.steady_tolerance);
-    // A chaotic motion comes by an unstable periodic one now and then, and leaves it again: once differences have gone
-    // on for so long, one that is small tells nothing.
-    if (agrees && (i < stretch || agreed)) return true;
-    agreed = agrees;
-    previous = difference;
-    differences.push_back(difference);
-    if (!patient && hopeless(differences, options.max_windows - i, options.steady_tolerance)) return false;
-  }
-  return false;
-}
-
-/// The direct solution as a window from time 0, and the forces of the harmonic balance at half the samples.
-struct DirectWindows {
-  ResponseWindow fine;
-  std::optional<ResponseWindow> coarse;
-};
-
-/// The samples right after the jumps of a window from time 0.
-std::vector<Eigen::Index> samples_after_jumps(const LumpedSystem& system, double duration, Eigen::Index samples) {
-  std::vector<Eigen::Index> list;
-  const double spacing = duration / static_cast<double>(samples);
-  for (double t = system.next_jump(0); t < duration; t = system.next_jump(t)) {
-    const auto sample = static_cast<Eigen::Index>(std::ceil(t / spacing - 1e-9));
-    if (sample < samples && (list.empty() || list.back() != sample)) list.push_back(sample);
-  }
-  return list;
-}
-
-/// The jumps of the exact solution, which spans one period of the excitation, over the whole window.
-void set_jumps(const PiecewiseResponse& exact, double duration, int cycles, ResponseWindow& window) {
-  const Eigen::Index jumps = exact.jump_time.size(), periods = cycles / exact.solved_cycles;
-  window.jump_time.resize(periods * jumps);
-  for (Eigen::Index i = 0; i < periods; ++i)
-    window.jump_time.segment(i * jumps, jumps) =
-        exact.jump_time.array() + static_cast<double>(i) * duration / static_cast<double>(periods);
-  window.force_before = exact.force_before.replicate(1, periods);
-  window.force_after = exact.force_after.replicate(1, periods);
-}
-
-/// Absent when teeth part or the motion is unstable; `direct` says so.
-std::optional<DirectWindows> solve_exactly(const LumpedSystem& system, const SteadyProblem& problem, int cycles,
-                                           const SimulationOptions& options, std::optional<DirectSolution>& direct) {
-  const double duration = cycles / problem.mesh_frequency;
-  auto exact = piecewise_response(system, duration, cycles, {options.samples_per_cycle, true});
-  auto& periodic = exact.periodic;
-  direct = DirectSolution{.method = DirectMethod::piecewise,
-                          .converged = periodic.converged,
-                          .trouble = periodic.trouble,
-                          .residual = periodic.residual,
-                          .sampling_difference = periodic.residual,
-                          .largest_multiplier = exact.largest_multiplier};
-  if (!periodic.converged) return std::nullopt;
-  DirectWindows windows;
-  windows.fine = {options.samples_per_cycle,        std::move(periodic.time),     std::move(periodic.force),
-                  std::move(periodic.displacement), std::move(periodic.velocity), std::move(periodic.open)};
-  windows.fine.dense_force = std::move(exact.dense_force);
-  windows.fine.dense_after_jump = std::move(exact.dense_after_jump);
-  windows.fine.after_jump = samples_after_jumps(system, duration, windows.fine.time.size());
-  if (!std::isfinite(system.next_jump(0))) return windows;
-  set_jumps(exact, duration, cycles, windows.fine);
-  return windows;
-}
-
-/// Of a harmonic balance: more where the period is short.
-int most_samples_per_cycle(int period) {
-  constexpr int most = 512, most_of_a_period = 1 << 13;
-  return std::min(most, most_of_a_period / period);
-}
-
-/// Absent when the harmonic balance did not converge; `direct` says so.
-std::optional<DirectWindows> solve_directly(const LumpedSystem& system, const SteadyProblem& problem, int cycles,
-                                            const SimulationOptions& options, std::optional<DirectSolution>& direct) {
-  // Constant stiffness belongs to the harmonic balance as well, which also follows parting teeth there; jumps it meets
-  // to second order only.
-  if (std::isfinite(system.next_jump(0)) && why_not_piecewise(system, cycles / problem.mesh_frequency).empty())
-    return solve_exactly(system, problem, cycles, options, direct);
-  const int period = problem.period_in_cycles;
-  PeriodicOptions periodic_options = options.periodic;
-  periodic_options.samples_per_cycle = options.samples_per_cycle;
-  periodic_options.motion = true;
-  if (options.confirm) {
-    // The error of a sampling is about a third of what halving it changes.
-    periodic_options.sampling_tolerance = 3 * options.steady_tolerance * problem.force_scale;
-    periodic_options.max_samples_per_cycle = most_samples_per_cycle(period);
-  }
-  auto periodic = periodic_response(system, period / problem.mesh_frequency, period, periodic_options);
-  direct = DirectSolution{
-      .converged = periodic.converged,
-      .trouble = periodic.trouble,
-      .residual = periodic.residual,
-      .newton_iterations = periodic.newton_iterations,
-      .linear_iterations = periodic.linear_iterations,
-      // Where the balance with half the samples already holds at the finer ones, no
-      // step is taken and only the residual is known of what is left.
-      .sampling_difference = std::max(periodic.sampling_difference / problem.force_scale, periodic.residual)};
-  if (!periodic.converged) return std::nullopt;
-  // Of the samples that it took those that were asked for, over all periods of the window.
-  const Eigen::Index step = periodic.samples_per_cycle / options.samples_per_cycle;
-  const auto in_window = [&](const Eigen::MatrixXd& values) -> Eigen::MatrixXd {
-    return values(Eigen::all, Eigen::seq(0, Eigen::last, step)).replicate(1, cycles / period);
+  enum class Step {
+    solve,      ///< periodic solution without time integration
+    accept,     ///< the periodic solution stands alone
+    confirm,    ///< one window of time integration from the periodic solution
+    search,     ///< windows until two agree
+    integrate,  ///< a prescribed length, or two windows that hold no whole period
+    evaluate,   ///< energies and errors of the last window
+    done
   };
-  DirectWindows windows;
-  const Eigen::Index samples = static_cast<Eigen::Index>(cycles) * options.samples_per_cycle;
-  windows.fine.samples_per_cycle = options.samples_per_cycle;
-  windows.fine.time = Eigen::VectorXd::LinSpaced(samples + 1, 0, cycles / problem.mesh_frequency).head(samples);
-  windows.fine.force = in_window(periodic.force);
-  windows.fine.displacement = in_window(periodic.displacement);
-  windows.fine.velocity = in_window(periodic.velocity);
-  windows.fine.open = std::move(periodic.open);
-  windows.coarse.emplace();
-  windows.coarse->samples_per_cycle = options.samples_per_cycle / 2;
-  windows.coarse->force = in_window(periodic.coarse_force);
-  return windows;
-}
 
-/// Would the motion stay on the solution of a harmonic balance? From an unstable one it departs too slowly for one
-/// window to tell.
-bool stays(const LumpedSystem& system, const SteadyProblem& problem, const DirectWindows& found,
-           std::optional<DirectSolution>& direct) {
-  const bool parting = found.fine.open.size() > 0 && found.fine.open.maxCoeff() > 0;
-  // A thousandfold growth over a thousand cycles would pass unseen; double zero eigenvalues are 1e-7 from 1.
-  constexpr double still = 1e-4;
-  if (parting || direct->method != DirectMethod::harmonic_balance || system.has_moving_vectors()) return true;
-  direct->largest_multiplier = growth_per_cycle(system, problem.mesh_frequency, found.fine);
-  if (*direct->largest_multiplier <= 1 + still) return true;
-  direct->converged = false;
-  direct->trouble =
-      fmt::format("parametric resonance: disturbances of the periodic motion grow {:.4g} times per mesh cycle",
-                  *direct->largest_multiplier);
-  return false;
-}
-
-/// What a run has booked before `begin`, in a window that did not confirm, is none of this one's.
-void set_energy(const SystemState& begin, const SystemState& end, double before, double after, double resolved,
-                EnergyBalance& energy) {
-  energy.supplied = end.supplied - begin.supplied;
-  energy.dissipated = end.dissipated - begin.dissipated;
-  energy.change = after - before;
-  energy.relative = std::abs(energy.change - energy.supplied + energy.dissipated) /
-                    (energy.dissipated + std::max(std::abs(before), std::abs(after)) + resolved);
-}
-
-/// Energies below this are not known: displacements are to a thousandth from a hundred times their tolerance on, and to
-/// rounding, which matters where backlash is far wider than deflections.
-double resolved_energy(const LumpedSystem& system, const Eigen::VectorXd& displacement, const SteadyProblem& problem,
-                       double relative_tolerance) {
-  const double resolved = 100 * relative_tolerance * problem.force_scale;
-  const Eigen::VectorXd distance = displacement.cwiseAbs();
-  const double rounding = 1e-15 * distance.dot(system.stiffness().cwiseAbs() * distance);
-  return resolved * resolved / (2 * problem.stiffness) + rounding;
-}
-
-/// The energies of the last window are booked, and it is marched once more with a looser integration.
-void March::finish(const SteadyProblem& problem, const SimulationOptions& options, SteadyResponse& response) {
-  require(at_begin_.has_value(), "a march ends with a window");
-  response.begin = begin_;
-  response.end = run_.state();
-  const double resolved =
-      resolved_energy(run_.system(), response.end.q, problem, options.integrator.relative_tolerance);
-  set_energy(response.begin, response.end, at_begin_->energy(), run_.energy(), resolved, response.energy);
-  // Adaptive steps keep it near their tolerance whatever happens; fixed ones may be far too long for what does.
-  constexpr double hopeless = 0.05;
-  if (!(response.energy.relative <= hopeless))
-    throw SolverError(fmt::format("the time integration lost {:.2g} of the energy: {}", response.energy.relative,
-                                  options.integrator.method == Integrator::runge_kutta_4
-                                      ? "its fixed steps are too long (dynamics.steps_per_cycle)"
-                                      : "its tolerance is too loose (dynamics.relative_tolerance)"));
-  if (options.estimate_error) {
-    at_begin_->loosen(10);
-    response.loose.emplace();
-    at_begin_->advance(cycles_, &*response.loose);
+  Step take(Step step) {
+    switch (step) {
+      case Step::solve:
+        return solve();
+      case Step::accept:
+        return accept();
+      case Step::confirm:
+        return confirm();
+      case Step::search:
+        return search();
+      case Step::integrate:
+        return integrate_prescribed();
+      case Step::evaluate:
+        return evaluate();
+      case Step::done:
+        break;
+    }
+    return Step::done;
   }
-  response.best = std::move(last_);
-  if (windows_ > 1) response.before = std::move(before_);
-  response.total_cycles = run_.cycles();
-  response.statistics = run_.statistics();
-}
+
+  /// Can windows repeat, so that there is a steady state to search for?
+  [[nodiscard]] bool searchable() const { return !options_.mesh_cycles && response_.whole_period; }
+
+  Step solve() {
+    if (options_.steady_state == SteadyState::harmonic_balance && searchable()) {
+      periodic_ = find_periodic_solution(system_, problem_, response_.window_cycles, options_);
+      response_.periodic = periodic_.report;
+    }
+    if (periodic_.status != PeriodicStatus::found) return searchable() ? Step::search : Step::integrate;
+    const bool confirmed_anyway = options_.confirm_on_contact_loss && periodic_.loses_contact();
+    return options_.confirm || confirmed_anyway ? Step::confirm : Step::accept;
+  }
+
+  Step accept() {
+    auto& [fine, coarse] = *periodic_.windows;
+    response_.steady = true;
+    response_.begin = response_.end = {0, fine.displacement.col(0), fine.velocity.col(0)};
+    response_.best = std::move(fine);
+    response_.before = std::move(coarse);
+    return Step::done;
+  }
+
+  Step confirm() {
+    auto& windows = start_integration();
+    windows.advance();
+    const double difference = largest_difference(windows.last(), periodic_.windows->fine, problem_.force_scale);
+    response_.steady_difference = difference;
+    response_.steady = response_.confirmed = difference <= options_.steady_tolerance;
+    return response_.confirmed ? Step::evaluate : Step::search;
+  }
+
+  Step search() {
+    auto& windows = integration_ ? *integration_ : start_integration();
+    // All windows only for a response that stands alone and has, or may have, a periodic solution.
+    const bool patient = options_.confirm && periodic_.status != PeriodicStatus::not_found;
+    response_.steady = windows.reach_steady_state(options_, problem_.force_scale,
+                                                  patient ? Effort::all_windows : Effort::until_out_of_reach);
+    response_.steady_difference = windows.difference_to_before(problem_.force_scale);
+    return Step::evaluate;
+  }
+
+  Step integrate_prescribed() {
+    auto& windows = start_integration();
+    const int cycles = response_.window_cycles;
+    const int lead = options_.mesh_cycles ? *options_.mesh_cycles - cycles : cycles;
+    const bool compared = response_.whole_period && lead >= cycles;
+    if (const int skipped = compared ? lead - cycles : lead; skipped > 0) windows.skip(skipped);
+    if (compared) windows.advance();
+    windows.advance();
+    if (compared) response_.steady_difference = windows.difference_to_before(problem_.force_scale);
+    if (compared && options_.mesh_cycles) response_.steady = *response_.steady_difference <= options_.steady_tolerance;
+    return Step::evaluate;
+  }
+
+  Step evaluate() {
+    integration_->finish(problem_, options_, response_);
+    if (response_.confirmed) response_.before = std::move(periodic_.windows->fine);
+    // Without loss of contact there is nothing but an unstable motion: slow growth does not show yet.
+    if (periodic_.status == PeriodicStatus::unstable && response_.best.open.maxCoeff() == 0) response_.steady = false;
+    return Step::done;
+  }
+
+  /// From the periodic solution, else from the start of the problem, else from quasi-static equilibrium.
+  WindowIntegration& start_integration() {
+    ResponseRun run(system_, problem_.mesh_frequency, options_.samples_per_cycle, integrator_options());
+    if (problem_.start) {
+      const auto &q = problem_.start->q, &v = problem_.start->v;
+      if (q.size() != system_.dofs() || v.size() != system_.dofs())
+        throw InputError(
+            fmt::format("a start of the time integration needs {} displacements and velocities, not {} and {}",
+                        system_.dofs(), q.size(), v.size()));
+      run.start_from(q, v);
+    }
+    if (periodic_.windows)
+      run.start_from(periodic_.windows->fine.displacement.col(0), periodic_.windows->fine.velocity.col(0));
+    return integration_.emplace(std::move(run), response_.window_cycles);
+  }
+
+  IntegratorOptions integrator_options() {
+    IntegratorOptions integrator = options_.integrator;
+    if (integrator.method == Integrator::automatic) {
+      response_.integrator = choose_integrator(system_, integrator.relative_tolerance);
+      integrator.method = response_.integrator->method;
+    }
+    if (integrator.method == Integrator::runge_kutta_4)
+      check_fixed_step(system_, problem_.mesh_frequency, integrator.fixed_step);
+    if (!integrator.absolute_tolerance)
+      integrator.absolute_tolerance = 0.1 * integrator.relative_tolerance * problem_.force_scale / problem_.stiffness;
+    return integrator;
+  }
+
+  const LumpedSystem& system_;
+  const SteadyProblem& problem_;
+  const SimulationOptions& options_;
+  SteadyResponse response_;
+  PeriodicSearch periodic_;
+  std::optional<WindowIntegration> integration_;
+};
 
 }  // namespace
 
@@ -295,71 +217,8 @@ int enough_samples(int window_cycles) { return window_cycles > long_window ? 16 
 
 SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& problem,
                                const SimulationOptions& options) {
-  check(problem, options);
-  const auto [cycles, whole] = window_length(problem.period_in_cycles, options);
-  SteadyResponse response;
-  response.window_cycles = cycles;
-  response.whole_period = whole;
-
-  std::optional<DirectWindows> direct;
-  if (options.steady_state == SteadyState::direct && !options.mesh_cycles && whole)
-    direct = solve_directly(system, problem, cycles, options, response.direct);
-  const bool unstable = direct && options.confirm && !stays(system, problem, *direct, response.direct);
-  if (unstable) direct.reset();
-  const bool parting = direct && direct->fine.open.size() > 0 && direct->fine.open.maxCoeff() > 0;
-  if (direct && !options.confirm && !(options.confirm_where_teeth_part && parting)) {
-    response.steady = true;
-    response.begin = response.end = {0, direct->fine.displacement.col(0), direct->fine.velocity.col(0)};
-    response.best = std::move(direct->fine);
-    response.before = std::move(direct->coarse);
-    return response;
-  }
-
-  IntegratorOptions integrator = options.integrator;
-  if (integrator.method == Integrator::automatic) {
-    response.integrator = choose_integrator(system, integrator.relative_tolerance);
-    integrator.method = response.integrator->method;
-  }
-  if (integrator.method == Integrator::runge_kutta_4)
-    check_fixed_step(system, problem.mesh_frequency, integrator.fixed_step);
-  if (!integrator.absolute_tolerance)
-    integrator.absolute_tolerance = 0.1 * integrator.relative_tolerance * problem.force_scale / problem.stiffness;
-  ResponseRun run(system, problem.mesh_frequency, options.samples_per_cycle, integrator);
-  if (problem.start) {
-    if (problem.start->q.size() != system.dofs() || problem.start->v.size() != system.dofs())
-      throw InputError(
-          fmt::format("a start of the time integration needs {} displacements and velocities", system.dofs()));
-    run.start_from(problem.start->q, problem.start->v);
-  }
-  if (direct) run.start_from(direct->fine.displacement.col(0), direct->fine.velocity.col(0));
-  March march(std::move(run), cycles);
-  if (direct) {
-    march.advance();
-    response.steady_difference = largest_difference(march.last(), direct->fine, problem.force_scale);
-    response.steady = response.confirmed = *response.steady_difference <= options.steady_tolerance;
-  }
-  if (!response.confirmed) {
-    if (!options.mesh_cycles && whole) {
-      // One response among many is not worth every effort, nor is one of which the harmonic balance found none either.
-      const bool patient = options.confirm && (!response.direct || direct || unstable);
-      response.steady = reach_steady_state(march, options, problem.force_scale, patient);
-      response.steady_difference = march.difference_to_before(problem.force_scale);
-    } else {
-      // A given length, or windows that do not repeat: no search for the steady state.
-      const int lead = options.mesh_cycles ? *options.mesh_cycles - cycles : cycles;
-      const bool compared = whole && lead >= cycles;
-      if (const int passed = compared ? lead - cycles : lead; passed > 0) march.pass(passed);
-      if (compared) march.advance();
-      march.advance();
-      if (compared) response.steady_difference = march.difference_to_before(problem.force_scale);
-      if (compared && options.mesh_cycles) response.steady = *response.steady_difference <= options.steady_tolerance;
-    }
-  }
-  march.finish(problem, options, response);
-  if (response.confirmed) response.before = std::move(direct->fine);
-  // As long as no teeth part, nothing but an unstable motion is there: what grows slowly has not grown yet.
-  if (unstable && response.best.open.maxCoeff() == 0) response.steady = false;
-  return response;
+  check_steady(problem, options);
+  return SteadyStateFinder(system, problem, options).run();
 }
 
 }  // namespace annulus::dynamics

@@ -6,7 +6,7 @@
 
 namespace annulus::dynamics {
 
-/// A place on equidistant knots that repeat: the piece between two knots and how far along it, in [0, 1).
+/// A position on periodic equidistant knots: the piece between two knots and the local coordinate in it, in [0, 1).
 struct PhaseLocation {
   int piece = 0;
   double local = 0;
@@ -18,7 +18,7 @@ class PhaseGrid {
   PhaseGrid() = default;
   PhaseGrid(double period, int pieces)
       : period_(period), inverse_period_(1 / period), size_(static_cast<double>(pieces)), pieces_(pieces) {}
-  /// `cycles` of any sign and size below 9e18 periods; not a number gives a local coordinate that is none.
+  /// `cycles` may have any sign and up to 9e18 periods; NaN gives a NaN local coordinate.
   [[nodiscard]] PhaseLocation locate(double cycles) const {
     // Conversion to integer instead of std::floor, which is a call on processors without SSE4.1.
     const double turns = cycles * inverse_period_;
@@ -38,19 +38,20 @@ class PhaseGrid {
   int pieces_ = 1;
 };
 
-/// Periodic curves on common knots as polynomials, for fast joint evaluation. Exactly the curves it is made of: where
-/// their knots differ the pieces are divided, not resampled.
+/// Periodic curves as polynomials on common knots, for fast joint evaluation. It reproduces its curves exactly: where
+/// their knots differ, pieces are divided and not resampled.
 class CurveBundle {
  public:
   CurveBundle() = default;
+  /// Periods of the curves are whole mesh cycles.
   explicit CurveBundle(const std::vector<const PeriodicCurve*>& curves);
   [[nodiscard]] const PhaseGrid& grid() const { return grid_; }
-  [[nodiscard]] int width() const { return width_; }
+  [[nodiscard]] int width() const { return width_; }  ///< number of curves
   /// Coefficients of the piece: [power 0 ... 3][curve].
   [[nodiscard]] const double* piece(int index) const {
     return coefficients_.data() + static_cast<std::size_t>(index) * 4 * static_cast<std::size_t>(width_);
   }
-  /// One value and one derivative (per mesh cycle) per curve.
+  /// Writes `width` values and `width` derivatives (per mesh cycle) at `cycles` mesh cycles.
   void evaluate(double cycles, double* values, double* derivatives) const;
   [[nodiscard]] bool same_as(const CurveBundle& other) const {
     return grid_.period() == other.grid_.period() && width_ == other.width_ && coefficients_ == other.coefficients_;

@@ -53,8 +53,8 @@ double miss(const ForceSurface::Value& value, const CurvePoint& point) {
   return std::max(std::abs(value.force / point.force - 1), std::abs(value.tangent / point.tangent - 1));
 }
 
-/// Value and step x tangent of the curve at step k, k = 0 ... cells, the cubic pieces between them passing every load
-/// with its tangent: the smallest change (least squares) of the curve's own values there that does so.
+/// Value and step x tangent of the curve at step k, k = 0 ... cells. The cubic pieces between them pass every load with
+/// its tangent. They result from the smallest change (least squares) of the curve's own values.
 Eigen::VectorXd resampled(const std::vector<CurvePoint>& curve, double step, int cells) {
   Eigen::VectorXd nodes(2 * cells + 2);
   for (int k = 0; k <= cells; ++k) {
@@ -172,16 +172,17 @@ void ForceSurface::check(const StiffnessTable& table) const {
                         table.mesh(), 0.5 * k * step_, i / (4 * grid_.rate())));
 }
 
-ForceSurface::Place ForceSurface::place_of(double mesh_cycles, double g, bool derivative) const {
-  const auto place = grid_.locate(mesh_cycles);
-  Place found;
+ForceSurface::PhaseCoefficients ForceSurface::coefficients_at(double mesh_cycles, double g, AlongPhase kind) const {
+  const auto location = grid_.locate(mesh_cycles);
+  PhaseCoefficients found;
   found.x = std::abs(g) * inverse_step_;
   const int k = cell_of(found.x);
-  const std::size_t cell = index_of(place.piece, k);
+  const std::size_t cell = index_of(location.piece, k);
   found.x -= k;
-  const double p = place.local;
-  const Eigen::RowVector4d powers = derivative ? Eigen::RowVector4d(0, 1, 2 * p, 3 * p * p) * grid_.rate()
-                                               : Eigen::RowVector4d(1, p, p * p, p * p * p);
+  const double p = location.local;
+  const Eigen::RowVector4d powers = kind == AlongPhase::derivative
+                                        ? Eigen::RowVector4d(0, 1, 2 * p, 3 * p * p) * grid_.rate()
+                                        : Eigen::RowVector4d(1, p, p * p, p * p * p);
   const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> c(coefficients_.data() + 16 * cell);
   found.in_g = (powers * c).transpose().array();
   found.energy_below = powers.dot(Eigen::Map<const Eigen::RowVector4d>(energy_.data() + 4 * cell));
@@ -189,12 +190,12 @@ ForceSurface::Place ForceSurface::place_of(double mesh_cycles, double g, bool de
 }
 
 double ForceSurface::energy(double mesh_cycles, double g) const {
-  const auto [c, below, x] = place_of(mesh_cycles, g, false);
+  const auto [c, below, x] = coefficients_at(mesh_cycles, g, AlongPhase::value);
   return below + step_ * x * (c[0] + x * (c[1] / 2 + x * (c[2] / 3 + x * c[3] / 4)));
 }
 
 double ForceSurface::energy_rate(double mesh_cycles, double g) const {
-  const auto [c, below, x] = place_of(mesh_cycles, g, true);
+  const auto [c, below, x] = coefficients_at(mesh_cycles, g, AlongPhase::derivative);
   return below + step_ * x * (c[0] + x * (c[1] / 2 + x * (c[2] / 3 + x * c[3] / 4)));
 }
 

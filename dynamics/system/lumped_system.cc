@@ -95,9 +95,9 @@ bool LumpedSystem::has_moving_vectors() const { return !compiled_->moving.empty(
 LumpedSystem::Workspace LumpedSystem::workspace() const {
   Workspace w;
   for (auto* list :
-       {&w.stiffness, &w.error, &w.error_rate, &w.delta, &w.delta_rate, &w.force, &w.elastic, &w.tangent, &w.closing})
+       {&w.stiffness, &w.error, &w.error_rate, &w.delta, &w.delta_rate, &w.force, &w.elastic, &w.tangent, &w.approach})
     list->assign(meshes_.size(), 0.0);
-  w.place.resize(meshes_.size());
+  w.location.resize(meshes_.size());
   const auto even = [](std::size_t size) { return size + size % 2; };
   w.pairs.assign(2 * names_.size() + even(meshes_.size()) + even(compiled_->moving_dofs.size()), 0.0);
   w.factor.assign(compiled_->moving.size(), 0.0);

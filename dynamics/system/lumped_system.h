@@ -12,26 +12,27 @@
 
 namespace annulus::dynamics {
 
-/// A coordinate as a linear combination of DOFs: sum of factor x DOF. Empty: the coordinate is held.
+/// A coordinate as a linear combination of DOFs: sum of factor x DOF. Empty: the coordinate is fixed.
 using LinearForm = std::vector<std::pair<int, double>>;
 [[nodiscard]] LinearForm operator+(const LinearForm& a, const LinearForm& b);
 [[nodiscard]] LinearForm operator*(double factor, const LinearForm& a);
 
-/// amount x sin(rate t + phase), part of a mesh's transmission error. m, rad/s, rad.
+/// Part of the transmission error of a mesh: amount x sin(rate t + phase), in m, rad/s and rad.
 struct HarmonicError {
   double amount = 0, rate = 0, phase = 0;
 };
 
-/// A part of a mesh vector that changes in time: the closing b^T q gains factor(t) x DOF.
+/// A part of a mesh vector that changes in time: factor(t) x DOF is added to the approach b^T q, where
+/// factor(t) = curve(frequency t + phase_offset of the mesh) + amount x sin(rate t + phase).
 struct MovingShare {
   int dof = 0;
-  PeriodicCurve curve;   ///< of the mesh's cycles, frequency t + phase_offset; added to ...
-  HarmonicError wave{};  ///< ... amount x sin(rate t + phase)
+  PeriodicCurve curve;
+  HarmonicError wave{};
 };
 
-/// One gear mesh, whatever its kind: delta = b^T q - e(t), force on the DOFs -b F,
-/// F = k(t) g(delta) + c delta', g with half backlash; c acts while the teeth touch (or always). With a ForceSurface
-/// k(t) g is replaced by the law Fs(t, g).
+/// One gear mesh of any kind. b^T q is the approach of the bodies and delta = b^T q - e(t) the deflection, both along
+/// the line of action. The force on the DOFs is -b F with F = k(t) g(delta) + c delta', where g takes off half the
+/// backlash. c acts while the teeth are in contact (or always). A ForceSurface replaces k(t) g by its law Fs(t, g).
 struct MeshElement {
   std::string name;
   LinearForm b;
@@ -45,30 +46,33 @@ struct MeshElement {
   std::vector<MovingShare> moving;  ///< at most one per DOF
 };
 
-/// Meshes that act on each other through a common elastic body (the ring): the own law of mesh i meets the deflection
+/// Meshes that act on each other through a common elastic body (the ring). The law of mesh i acts on the deflection
 ///   delta_i - sum_j D_ij(t) F_j,
-/// so the forces F solve a system of equations. F is the elastic force alone: the dampers of the meshes act on the
-/// closing rate of the rigid bodies as without coupling, and do not deflect the common body.
-/// 1/k + D of the closed meshes has to be positive definite (1/k holds the body's give under the mesh itself).
-/// The forces are found by Newton's method to 1e-13; where it fails they are not numbers, which integrators report.
+/// so the forces F solve a system of equations. F is the elastic force alone: dampers of the meshes act on the approach
+/// rate of the rigid bodies as without coupling and do not deflect the common body.
+///
+/// 1/k + D of the meshes in contact must be positive definite; 1/k contains the compliance of the body under the mesh
+/// itself. Newton's method finds the forces to 1e-13. Where it fails they are NaN, which integrators report.
 struct MeshCoupling {
   std::vector<int> meshes;  ///< in the order of add_mesh; at most 20
-  /// D, m/N: the lower triangle row by row ((0,0), (1,0), (1,1), (2,0) ...), of the cycles of the first mesh.
+  /// D, m/N, over the cycles of the first mesh: the lower triangle row by row ((0,0), (1,0), (1,1), (2,0) ...).
   std::vector<PeriodicCurve> compliance;
-  /// Elastic modes of the common body that are DOFs of the system: with the meshes' moving shares in it as factors,
-  /// the static compliance factor_i factor_j / stiffness is taken off D, for the DOF itself contributes it.
-  struct Kept {
+  /// An elastic mode of the common body that is a DOF of the system and contributes its compliance itself. Its static
+  /// compliance factor_i factor_j / stiffness is therefore subtracted from D; the factors are the moving shares of the
+  /// meshes in the DOF.
+  struct RetainedMode {
     int dof = 0;
     double stiffness = 0;  ///< N/m
   };
-  std::vector<Kept> kept;
+  std::vector<RetainedMode> retained;
 };
 
-/// The curves of MeshCoupling::compliance from symmetric matrices, `per_cycle` of them per mesh cycle.
+/// The curves of MeshCoupling::compliance from symmetric matrices (m/N), `per_cycle` of them per mesh cycle. Throws
+/// InputError without a matrix.
 [[nodiscard]] std::vector<PeriodicCurve> compliance_curves(const std::vector<Eigen::MatrixXd>& matrices, int per_cycle);
 
-/// A spring with its damper along a coordinate a: force k a^T q + c a^T q', part of K and C. The name says what it
-/// stands for (sun_support_x, planet1_bearing_radial, ...); energies and bearing forces are given under it.
+/// A spring with its damper along a coordinate a: force k a^T q + c a^T q', part of K and C. The name states the
+/// machine part (sun_support_x, planet1_bearing_radial, ...); energies and bearing forces are reported under it.
 struct SpringElement {
   std::string name;
   LinearForm a;
@@ -79,24 +83,28 @@ struct SpringElement {
 /// M q'' + (C + G) q' + (K + K_Omega) q + sum_m b_m F_m = f, immutable. Built by LumpedSystemBuilder.
 class LumpedSystem {
  public:
-  /// Contact state of a mesh, held between the events the integrator finds.
+  /// Contact state of a mesh, held between the events that the integrator finds.
   enum class Contact : signed char { back = -1, open = 0, drive = 1 };
+  enum class ContactStates {
+    held,      ///< as in the workspace
+    following  ///< set from the deflections
+  };
 
   /// Scratch memory and discrete state of one evaluation thread. Make one per thread with `workspace()`.
   struct Workspace {
     double time = 0;
     bool excitation_valid = false;
-    /// Per mesh at `time`; where a law replaces the stiffness, `stiffness` is the secant at the nominal load.
+    /// One entry per mesh at `time`. Where a law replaces the stiffness, `stiffness` is its secant at the nominal load.
     std::vector<double> stiffness, error, error_rate;
-    std::vector<PhaseLocation> place;              ///< per mesh at `time`, on the grid of its law
+    std::vector<PhaseLocation> location;           ///< per mesh at `time`, on the grid of its law
     std::vector<double> delta, delta_rate, force;  ///< per mesh, of the last evaluation
     std::vector<double> elastic;                   ///< per mesh, force without damping of the last evaluation
     std::vector<double> tangent;                   ///< per mesh, dF/d delta of the last evaluation, N/m
     std::vector<Contact> contact;                  ///< per mesh
-    /// Per mesh: value of a rectangular wave (1 high, 0 low) held up to the next jump; -1: by time.
+    /// Per mesh: value of a rectangular wave (1 high, 0 low) held up to the next jump; -1: from the time.
     std::vector<signed char> wave;
     std::vector<double> factor, factor_rate;  ///< of the moving shares of all meshes at `time`
-    std::vector<double> closing;              ///< per mesh, closing - error of the last evaluation
+    std::vector<double> approach;             ///< per mesh, approach b^T q - e of the last evaluation
     std::vector<double> compliance;           ///< D of all couplings at `time`
     std::vector<double> sine, cosine;         ///< of the error rates and mesh frequencies at `time`
     std::vector<double> pairs;                ///< scratch: (q_j, v_j) of every DOF, then the mesh forces
@@ -104,7 +112,7 @@ class LumpedSystem {
 
   [[nodiscard]] int dofs() const { return static_cast<int>(names_.size()); }
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-  /// Index of a DOF, -1 when it does not exist (held).
+  /// Index of a DOF, -1 when it does not exist (fixed).
   [[nodiscard]] int find(const std::string& name) const;
   [[nodiscard]] const std::vector<MeshElement>& meshes() const { return meshes_; }
   [[nodiscard]] const std::vector<SpringElement>& springs() const { return springs_; }  ///< those that are not all zero
@@ -127,38 +135,40 @@ class LumpedSystem {
   void detect_contact(double t, const double* q, Workspace& workspace) const;
   /// Stiffness, error and error rate of every mesh at time t.
   void evaluate_excitation(double t, Workspace& workspace) const;
-  /// delta, delta' and F of every mesh in its held contact state. No allocation.
+  /// delta, delta' and F of every mesh in its held contact state at time t (s), q (m) and v (m/s) one per DOF. No
+  /// allocation.
   void evaluate_meshes(double t, const double* q, const double* v, Workspace& workspace) const;
-  /// The same from the closings b^T q and their rates (one per mesh, errors not yet taken off), the contact states
-  /// following the deflections instead of being held. No allocation.
-  void evaluate_forces(double t, const double* closing, const double* closing_rate, Workspace& workspace) const;
-  /// Is the elastic force of the last evaluation beyond what the mesh's table covers? -1: in contact below the lowest
-  /// load, +1: above the largest, 0: within, open, or not a law from a table.
+  /// The same from the approaches b^T q (m) and their rates (m/s), one per mesh, from which the errors are not yet
+  /// subtracted. The contact states follow the deflections. No allocation.
+  void evaluate_forces(double t, const double* approach, const double* approach_rate, Workspace& workspace) const;
+  /// Does the elastic force of the last evaluation lie outside the loads of the table? -1: in contact below the lowest
+  /// load, +1: above the largest, 0: inside, out of contact, or not a law from a table.
   [[nodiscard]] int outside_table(int mesh, const Workspace& workspace) const;
-  /// d elastic / d closing of the last evaluation, meshes x meshes, symmetric; diagonal without couplings.
+  /// d elastic / d approach (N/m) of the last evaluation, meshes x meshes, symmetric; diagonal without couplings.
   void tangent_matrix(const Workspace& workspace, Eigen::Ref<Eigen::MatrixXd> result) const;
-  /// State y = (q, v), dy = (v, M^-1 (...)). No allocation.
+  /// Right-hand side for the state y = (q, v) with 2 x DOFs entries: dy = (v, M^-1 (...)). No allocation.
   void rhs(double t, const double* y, double* dy, Workspace& workspace) const;
-  /// d(dy)/dy in the held contact state, column-major 2n x 2n.
+  /// d(dy)/dy in the held contact state, column-major, 2 DOFs x 2 DOFs.
   void jacobian(double t, const double* y, Eigen::Ref<Eigen::MatrixXd> result, Workspace& workspace) const;
 
-  /// Energy (J): kinetic + elastic including the centripetal potential; of the last evaluated mesh state.
+  /// Kinetic + elastic energy (J), including the centripetal potential. Evaluates the meshes.
   [[nodiscard]] double energy(double t, const double* y, Workspace& workspace) const;
-  /// Power (W) put in by loads, errors and stiffness change, and taken out by dampers, at the last rhs evaluation.
+  /// Power (W) supplied by loads, errors and stiffness change and dissipated by dampers, at the last rhs evaluation.
   struct Power {
     double supplied = 0, dissipated = 0;
   };
   [[nodiscard]] Power power(double t, const double* y, const Workspace& workspace) const;
 
-  /// Time of the next jump of a rectangular stiffness strictly after t, or infinity.
+  /// Time (s) of the next jump of a rectangular stiffness strictly after t, or infinity.
   [[nodiscard]] double next_jump(double t) const;
-  /// Holds the rectangular waves at their values at time t (give the middle of the jump-free interval).
+  /// Holds the rectangular waves at their values at time t: the middle of an interval without jumps.
   void hold_waves(double t, Workspace& workspace) const;
 
  private:
   friend class LumpedSystemBuilder;
+  friend class LumpedSystemCompiler;
   struct Compiled;  // flat arrays for the right-hand side, shared by copies
-  void apply_forces(Workspace& workspace, bool held) const;
+  void apply_forces(Workspace& workspace, ContactStates states) const;
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
   std::vector<MeshCoupling> couplings_;
@@ -168,31 +178,35 @@ class LumpedSystem {
   std::shared_ptr<const Compiled> compiled_;
 };
 
-/// Collects bodies, supports, couplings and meshes of any stage.
+/// Collects bodies, supports, couplings and meshes of any system.
 class LumpedSystemBuilder {
  public:
   /// Adds a DOF; its form is {{index, 1}}.
   LinearForm add_dof(const std::string& name);
   /// Adds mass (kg, or inertia / radius^2) to the coordinate: M += m a a^T.
   void add_mass(const LinearForm& coordinate, double mass);
-  /// Plane body in a frame turning with `speed` (rad/s): -2 m Omega y', +2 m Omega x' and -m Omega^2 (x, y).
+  /// Adds a plane body (kg) in a frame that turns with `speed` (rad/s): -2 m Omega y', +2 m Omega x' and
+  /// -m Omega^2 (x, y).
   void add_rotating_mass(const LinearForm& x, const LinearForm& y, double mass, double speed);
-  /// Any symmetric term of the potential: K_Omega += value (a b^T + b a^T)/2.
+  /// Adds a symmetric term (N/m) of the potential: K_Omega += value (a b^T + b a^T)/2.
   void add_rotating_stiffness(const LinearForm& a, const LinearForm& b, double value);
-  /// Spring and damper along a coordinate: K += k a a^T, C += c a a^T.
+  /// Adds a spring (N/m) and a damper (N s/m) along a coordinate: K += k a a^T, C += c a a^T.
   void add_spring(const LinearForm& coordinate, double stiffness, double damping, const std::string& name = {});
-  /// Damper to the housing seen from the turning frame: c (x' - Omega y), c (y' + Omega x); adds the Omega part only.
+  /// Adds the Omega part of a damper (N s/m) to the housing in the turning frame: c (x' - Omega y), c (y' + Omega x).
   void add_housing_damper_rotation(const LinearForm& x, const LinearForm& y, double damping, double speed);
   void add_load(const LinearForm& coordinate, double force);
   void add_mesh(MeshElement mesh);
-  /// Inertia between two coordinates: M += value (a b^T + b a^T).
+  /// Adds inertia (kg) between two coordinates: M += value (a b^T + b a^T).
   void add_mass_coupling(const LinearForm& a, const LinearForm& b, double value);
-  /// Couples meshes added before; a mesh belongs to one coupling at most.
+  /// Couples meshes that were added before. A mesh belongs to one coupling at most.
   void add_mesh_coupling(MeshCoupling coupling);
-  /// Throws InputError when a DOF has no mass or a coupling does not fit its meshes.
+  /// Throws InputError when a DOF has no mass or a coupling or moving share does not fit its meshes and DOFs.
   [[nodiscard]] LumpedSystem build() const;
 
  private:
+  void assemble_matrices(LumpedSystem& system) const;
+  static void check_mass(const LumpedSystem& system);
+
   std::vector<std::string> names_;
   std::vector<MeshElement> meshes_;
   std::vector<MeshCoupling> couplings_;

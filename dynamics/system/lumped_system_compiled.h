@@ -39,7 +39,7 @@ struct CompiledMesh {
 };
 
 struct CompiledShare {
-  int dof = 0, slot = 0;  ///< slot: index into Compiled::moving_freedoms
+  int dof = 0, slot = 0;  ///< slot: index into Compiled::moving_dofs
   double constant = 0;
   SlotTerm wave;
   bool waves = false;
@@ -52,11 +52,11 @@ struct CompiledCoupling {
   double frequency = 0, phase_offset = 0;
   CurveBundle compliance;  ///< lower triangle row by row
   int offset = 0;          ///< of the matrix (column-major) in Workspace::compliance
-  struct Kept {
+  struct RetainedMode {
     double compliance = 0;    ///< of the mode, m/N
     std::vector<int> shares;  ///< of Compiled::moving, one per mesh, -1: none
   };
-  std::vector<Kept> kept;
+  std::vector<RetainedMode> retained;
 };
 
 inline constexpr int largest_coupling = 20;
@@ -65,14 +65,14 @@ using CouplingMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, largest_coupling, largest_coupling>;
 using CouplingVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, largest_coupling, 1>;
 
-/// What the right-hand side reads, without the names and reasons.
+/// Data of the right-hand side in flat arrays.
 struct LumpedSystem::Compiled {
   std::vector<int> row_start, column;      ///< common pattern of ...
   std::vector<double> stiffness, damping;  ///< ... M^-1 (K + K_Omega) and M^-1 (C + G)
   Eigen::VectorXd acceleration;            ///< M^-1 f
-  /// The acceleration less M^-1 f as one sparse matrix: row i is [pair_start[i], pair_start[i + 1]). A column is a pair
-  /// of numbers in Workspace::pairs, (q_j, v_j) first, two mesh forces at a time after them, then two forces on
-  /// moving_freedoms at a time.
+  /// The acceleration without M^-1 f as one sparse matrix: row i is [pair_start[i], pair_start[i + 1]). A column is a
+  /// pair of numbers in Workspace::pairs: first all (q_j, v_j), then two mesh forces at a time, then two forces on
+  /// `moving_dofs` at a time.
   std::vector<int> pair_start, pair_column;
   std::vector<double> pair_factor;
   struct PowerTerm {
@@ -86,7 +86,7 @@ struct LumpedSystem::Compiled {
   std::vector<CompiledMesh> meshes;
   std::vector<CompiledShare> moving;  ///< in the order of the meshes
   std::vector<int> moving_dofs;       ///< each once
-  Eigen::MatrixXd inverse_moving;     ///< columns of M^-1 of moving_freedoms
+  Eigen::MatrixXd inverse_moving;     ///< columns of M^-1 of moving_dofs
   std::vector<CompiledCoupling> couplings;
   std::vector<std::unique_ptr<const CurveBundle>> bundles;  ///< equal ones once
   std::vector<std::shared_ptr<const ForceSurface>> surfaces;
@@ -107,7 +107,7 @@ inline LumpedSystem::Contact contact_of(const CompiledMesh& mesh, double delta) 
   return delta < -mesh.half_backlash ? LumpedSystem::Contact::back : LumpedSystem::Contact::open;
 }
 
-/// Elastic force and tangent of the own law from deflection and contact state in the workspace.
+/// Elastic force and tangent by the law of one mesh, from deflection and contact state in the workspace.
 inline void apply_law(const CompiledMesh& mesh, std::size_t m, LumpedSystem::Workspace& w) {
   const auto contact = w.contact[m];
   if (!mesh.linear && contact == LumpedSystem::Contact::open) {
@@ -116,19 +116,19 @@ inline void apply_law(const CompiledMesh& mesh, std::size_t m, LumpedSystem::Wor
   }
   const double g = penetration(mesh, contact, w.delta[m]);
   const auto value =
-      mesh.surface ? mesh.surface->at(w.place[m], g) : ForceSurface::Value{w.stiffness[m] * g, w.stiffness[m]};
+      mesh.surface ? mesh.surface->at(w.location[m], g) : ForceSurface::Value{w.stiffness[m] * g, w.stiffness[m]};
   w.elastic[m] = value.force;
   w.tangent[m] = value.tangent;
 }
 
-/// D at the time of the workspace, from its moving factors; writes Workspace::compliance.
+/// Writes D at time t, from the moving factors of the workspace, to Workspace::compliance.
 void evaluate_compliance(const CompiledCoupling& coupling, double t, LumpedSystem::Workspace& w);
-/// dD/dt, 1/(N s) m.
+/// dD/dt, m/(N s).
 CouplingMatrix compliance_rate(const CompiledCoupling& coupling, double t, const LumpedSystem::Workspace& w);
-/// Elastic forces of the coupled meshes from Workspace::closing; the contact states held or following.
-void solve_coupling(const CompiledCoupling& coupling, const std::vector<CompiledMesh>& meshes, bool held,
-                    LumpedSystem::Workspace& w);
-/// d elastic / d closing of the coupled meshes.
+/// Elastic forces of the coupled meshes from Workspace::approach.
+void solve_coupling(const CompiledCoupling& coupling, const std::vector<CompiledMesh>& meshes,
+                    LumpedSystem::ContactStates states, LumpedSystem::Workspace& w);
+/// d elastic / d approach of the coupled meshes, N/m.
 CouplingMatrix coupled_tangent(const CompiledCoupling& coupling, const LumpedSystem::Workspace& w);
 
 /// Is the rectangular wave high at this time?

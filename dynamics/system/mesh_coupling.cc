@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -23,7 +25,9 @@ double factor_of(int share, const std::vector<double>& factors) { return share <
 }  // namespace
 
 std::vector<PeriodicCurve> compliance_curves(const std::vector<Eigen::MatrixXd>& matrices, int per_cycle) {
-  if (matrices.empty()) throw InputError("a mesh coupling needs a compliance matrix");
+  if (matrices.empty())
+    throw InputError(
+        fmt::format("a mesh coupling needs at least one compliance matrix for {} positions per mesh cycle", per_cycle));
   std::vector<PeriodicCurve> curves;
   for (Eigen::Index i = 0; i < matrices.front().rows(); ++i)
     for (Eigen::Index j = 0; j <= i; ++j) {
@@ -46,8 +50,9 @@ void evaluate_compliance(const CompiledCoupling& coupling, double t, LumpedSyste
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j <= i; ++j, ++k) {
       double value = c0[k] + x * (c1[k] + x * (c2[k] + x * c3[k]));
-      for (const auto& kept : coupling.kept)
-        value -= kept.compliance * factor_of(kept.shares[i], w.factor) * factor_of(kept.shares[j], w.factor);
+      for (const auto& retained : coupling.retained)
+        value -=
+            retained.compliance * factor_of(retained.shares[i], w.factor) * factor_of(retained.shares[j], w.factor);
       d(i, j) = d(j, i) = value;
     }
 }
@@ -62,20 +67,21 @@ CouplingMatrix compliance_rate(const CompiledCoupling& coupling, double t, const
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j <= i; ++j, ++k) {
       double rate = coupling.frequency * rates[k];
-      for (const auto& kept : coupling.kept)
-        rate -= kept.compliance * (factor_of(kept.shares[i], w.factor_rate) * factor_of(kept.shares[j], w.factor) +
-                                   factor_of(kept.shares[i], w.factor) * factor_of(kept.shares[j], w.factor_rate));
+      for (const auto& retained : coupling.retained)
+        rate -= retained.compliance *
+                (factor_of(retained.shares[i], w.factor_rate) * factor_of(retained.shares[j], w.factor) +
+                 factor_of(retained.shares[i], w.factor) * factor_of(retained.shares[j], w.factor_rate));
       d(i, j) = d(j, i) = rate;
     }
   return d;
 }
 
-// F = law(closing - D F) by Newton's method: (I + K D) dF = law - F with K the tangents of the laws. Laws rise and
+// F = law(approach - D F) by Newton's method: (I + K D) dF = law - F with K the tangents of the laws. Laws rise and
 // 1/K + D is positive on the closed meshes, so there is one solution. From the forces of the last evaluation held
 // linear meshes take one step and laws two or three. Where contact states follow, the equations have kinks and full
 // steps may cycle between states: after some the steps are shortened.
-void solve_coupling(const CompiledCoupling& coupling, const std::vector<CompiledMesh>& meshes, bool held,
-                    LumpedSystem::Workspace& w) {
+void solve_coupling(const CompiledCoupling& coupling, const std::vector<CompiledMesh>& meshes,
+                    LumpedSystem::ContactStates states, LumpedSystem::Workspace& w) {
   constexpr int steps = 80, full_steps = 20;
   constexpr double accuracy = 1e-13, shortened = 0.7;
   const auto n = static_cast<Eigen::Index>(coupling.meshes.size());
@@ -90,11 +96,11 @@ void solve_coupling(const CompiledCoupling& coupling, const std::vector<Compiled
     double scale = 0;
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto m = static_cast<std::size_t>(coupling.meshes[i]);
-      w.delta[m] = w.closing[m] - given[i];
-      if (!held) w.contact[m] = contact_of(meshes[m], w.delta[m]);
+      w.delta[m] = w.approach[m] - given[i];
+      if (states == LumpedSystem::ContactStates::following) w.contact[m] = contact_of(meshes[m], w.delta[m]);
       apply_law(meshes[m], m, w);
       residual[i] = w.elastic[m] - force[i];
-      scale = std::max({scale, std::abs(w.elastic[m]), w.stiffness[m] * std::abs(w.closing[m])});
+      scale = std::max({scale, std::abs(w.elastic[m]), w.stiffness[m] * std::abs(w.approach[m])});
     }
     if (residual.cwiseAbs().maxCoeff() <= accuracy * scale) return;
     CouplingMatrix matrix = d;

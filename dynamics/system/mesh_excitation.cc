@@ -38,29 +38,36 @@ void check(const MeshExcitation& excitation, const std::string& name) {
   const auto check_mean = [&](double mean) {
     if (!std::isfinite(mean) || !(mean > 0)) refuse(fmt::format("mean stiffness {} N/m must be positive", mean));
   };
+  const auto check_phase = [&](double phase) {
+    if (!std::isfinite(phase)) refuse(fmt::format("phase shift {} must be finite", phase));
+  };
   if (const auto* constant = std::get_if<ConstantStiffness>(&excitation)) {
     check_mean(constant->mean);
   } else if (const auto* harmonic = std::get_if<HarmonicStiffness>(&excitation)) {
     check_mean(harmonic->mean);
     if (!(std::abs(harmonic->ripple) < 1))
       refuse(fmt::format("ripple {} must lie within -1 and 1, else the stiffness vanishes", harmonic->ripple));
-    if (!std::isfinite(harmonic->phase_shift)) refuse("the phase is not finite");
+    check_phase(harmonic->phase_shift);
   } else if (const auto* wave = std::get_if<RectangularStiffness>(&excitation)) {
     check_mean(wave->mean);
     if (!(wave->duty > 0 && wave->duty < 1)) refuse(fmt::format("duty {} must lie between 0 and 1", wave->duty));
     if (!(1 + wave->ripple * (1 - wave->duty) > 0 && 1 - wave->ripple * wave->duty > 0))
       refuse(fmt::format("ripple {} with duty {} makes the stiffness vanish", wave->ripple, wave->duty));
-    if (!std::isfinite(wave->phase_shift)) refuse("the phase is not finite");
+    check_phase(wave->phase_shift);
   } else {
     const auto& table = std::get<TableStiffness>(excitation);
     check_mean(table.secant.mean());
     check_mean(table.tangent.mean());
     // The curve may pass its values slightly: 64 points per mesh cycle see any dip that matters.
     for (double x = 0; x < table.secant.period(); x += 1.0 / 64)
-      if (!(table.secant(x) > 0)) refuse(fmt::format("the tabulated stiffness is not positive at phase {}", x));
+      if (!(table.secant(x) > 0))
+        refuse(fmt::format("the tabulated stiffness is {:g} N/m at phase {}; it must be positive", table.secant(x), x));
     if (table.surface && table.surface->grid().period() != std::round(table.secant.period()))
-      refuse("the law of force over deflection and the stiffness differ in their period");
-    if (!std::isfinite(table.phase_shift)) refuse("the phase is not finite");
+      refuse(
+          fmt::format("the period of the law of force over deflection, {:g} mesh cycles, differs from that of the "
+                      "stiffness, {:g}",
+                      table.surface->grid().period(), table.secant.period()));
+    check_phase(table.phase_shift);
   }
 }
 

@@ -21,20 +21,20 @@ struct HarmonicStiffness {
   double phase_shift = 0;  ///< mesh cycles
 };
 
-/// k = mean (1 + ripple (s - duty)), s = 1 while the fractional part of (phase - phase_shift) is below `duty`, else 0.
-/// The integrators restart at the jumps; they are never smoothed.
+/// k = mean (1 + ripple (s - duty)): s = 1 while the fractional part of (phase - phase_shift) is below `duty`, else 0.
+/// The integrators restart at the jumps, which are never smoothed.
 struct RectangularStiffness {
   double mean = 0;         ///< N/m, the mean over a cycle
-  double ripple = 0;       ///< eps; the stiffness has to stay positive
+  double ripple = 0;       ///< eps; the stiffness must stay positive
   double duty = 0.5;       ///< in (0, 1)
   double phase_shift = 0;  ///< mesh cycles
 };
 
-/// Stiffness and unloaded transmission error read from a table (see curves_at_load), in one of two ways:
+/// Stiffness and unloaded transmission error from a table (see curves_at_load), in one of two ways:
 /// - without `surface`: linear, F = k g with the *secant* stiffness at the nominal mesh force. The nominal load then
-///   acts at the tabulated loaded transmission error, but changes of the load meet the wrong stiffness.
+///   acts at the tabulated loaded transmission error, but changes of the load act on the wrong stiffness.
 /// - with `surface`: the law of force over deflection, right at every tabulated load (see ForceSurface).
-/// Modes are small vibrations about the nominal load: `modes` uses the mean of the tangent there, with either.
+/// In both cases `modes` uses the mean tangent: modes are small vibrations about the nominal load.
 struct TableStiffness {
   PeriodicCurve secant;                           ///< N/m
   PeriodicCurve tangent;                          ///< N/m
@@ -43,7 +43,7 @@ struct TableStiffness {
   std::shared_ptr<const ForceSurface> surface{};  ///< absent: linear
 };
 
-/// How one kind of mesh (sun-planet or ring-planet) is excited; every planet's mesh shares it, shifted by its phase.
+/// Excitation of one kind of mesh. Several meshes share it, each shifted by its own phase.
 using MeshExcitation = std::variant<ConstantStiffness, HarmonicStiffness, RectangularStiffness, TableStiffness>;
 
 enum class LoadDependence {
@@ -51,17 +51,17 @@ enum class LoadDependence {
   table,    ///< the law of force over deflection that all loads of the table give
 };
 
-/// TableStiffness at one total normal force. Throws InputError outside the tabulated loads.
+/// TableStiffness at one total normal force `load` (N). Throws InputError outside the tabulated loads.
 [[nodiscard]] TableStiffness table_stiffness(const StiffnessTable& table, double load, double phase_shift = 0,
                                              LoadDependence dependence = LoadDependence::nominal);
 
-/// Mean of the stiffness over its period (secant at the nominal load for tables), N/m.
+/// Mean stiffness over the period, N/m; for tables the secant at the nominal load.
 [[nodiscard]] double mean_stiffness(const MeshExcitation& excitation);
-/// Mean of the stiffness modes use (tangent for tables), N/m.
+/// Mean stiffness for modes, N/m; for tables the tangent at the nominal load.
 [[nodiscard]] double mean_tangent_stiffness(const MeshExcitation& excitation);
 /// Whole mesh cycles after which the excitation repeats.
 [[nodiscard]] int period_in_cycles(const MeshExcitation& excitation);
-/// Throws InputError, naming `name`, when the stiffness is not positive at every phase or a ratio is out of range.
+/// Throws InputError with `name` when the stiffness is not positive at every phase or a ratio is out of range.
 void check(const MeshExcitation& excitation, const std::string& name);
 
 }  // namespace annulus::dynamics

@@ -1,10 +1,10 @@
-// What every evaluation of the right-hand side runs through: no allocation, no library call besides sine and cosine.
+// The inner part of every right-hand side: no allocation, no library call besides sine and cosine.
 #include <algorithm>
 #include <cmath>
 
 #include "dynamics/system/lumped_system.h"
 #include "dynamics/system/lumped_system_compiled.h"
-#include "dynamics/system/pair.h"
+#include "dynamics/system/two_doubles.h"
 
 namespace annulus::dynamics {
 
@@ -45,14 +45,15 @@ void LumpedSystem::evaluate_excitation(double t, Workspace& w) const {
       case CompiledMesh::Kind::table: {
         const double cycles = mesh.frequency * t + mesh.phase_offset;
         const auto& grid = mesh.table->grid();
-        const auto place = grid.locate(cycles);
-        const double x = place.local;
-        const double* p = mesh.table->piece(place.piece);  // (secant, unloaded transmission error) by power
-        const Pair value = pair_at(p) + x * (pair_at(p + 2) + x * (pair_at(p + 4) + x * pair_at(p + 6)));
+        const auto location = grid.locate(cycles);
+        const double x = location.local;
+        const double* p = mesh.table->piece(location.piece);  // (secant, unloaded transmission error) by power
+        const TwoDoubles value =
+            two_doubles_at(p) + x * (two_doubles_at(p + 2) + x * (two_doubles_at(p + 4) + x * two_doubles_at(p + 6)));
         w.stiffness[m] = value[0];
         e += value[1];
         rate += mesh.frequency * grid.rate() * (p[3] + x * (2 * p[5] + 3 * x * p[7]));
-        if (mesh.surface) w.place[m] = mesh.surface->grid().locate(cycles);
+        if (mesh.surface) w.location[m] = mesh.surface->grid().locate(cycles);
         break;
       }
     }
@@ -81,16 +82,16 @@ void LumpedSystem::evaluate_excitation(double t, Workspace& w) const {
   w.excitation_valid = true;
 }
 
-void LumpedSystem::apply_forces(Workspace& w, bool held) const {
+void LumpedSystem::apply_forces(Workspace& w, ContactStates states) const {
   const Compiled& c = *compiled_;
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
     const CompiledMesh& mesh = c.meshes[m];
     if (mesh.coupled) continue;
-    w.delta[m] = w.closing[m];
-    if (!held) w.contact[m] = contact_of(mesh, w.delta[m]);
+    w.delta[m] = w.approach[m];
+    if (states == ContactStates::following) w.contact[m] = contact_of(mesh, w.delta[m]);
     apply_law(mesh, m, w);
   }
-  for (const auto& coupling : c.couplings) solve_coupling(coupling, c.meshes, held, w);
+  for (const auto& coupling : c.couplings) solve_coupling(coupling, c.meshes, states, w);
   for (std::size_t m = 0; m < c.meshes.size(); ++m)
     w.force[m] = w.elastic[m] + acting_damping(c.meshes[m], w.contact[m]) * w.delta_rate[m];
 }
@@ -99,41 +100,42 @@ void LumpedSystem::detect_contact(double t, const double* q, Workspace& w) const
   evaluate_excitation(t, w);
   const Compiled& c = *compiled_;
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
-    double closing = -w.error[m];
-    for (int i = c.b.start[m]; i < c.b.start[m + 1]; ++i) closing += c.b.factor[i] * q[c.b.index[i]];
+    double approach = -w.error[m];
+    for (int i = c.b.start[m]; i < c.b.start[m + 1]; ++i) approach += c.b.factor[i] * q[c.b.index[i]];
     for (int i = c.meshes[m].first_moving; i < c.meshes[m].last_moving; ++i)
-      closing += w.factor[i] * q[c.moving[i].dof];
-    w.closing[m] = closing;
+      approach += w.factor[i] * q[c.moving[i].dof];
+    w.approach[m] = approach;
     w.delta_rate[m] = 0;
   }
-  apply_forces(w, false);
+  apply_forces(w, ContactStates::following);
 }
 
 void LumpedSystem::evaluate_meshes(double t, const double* q, const double* v, Workspace& w) const {
   evaluate_excitation(t, w);
   const Compiled& c = *compiled_;
   double* pairs = w.pairs.data();
-  for (int i = 0; i < dofs(); ++i) store(Pair{q[i], v[i]}, pairs + 2 * i);
+  for (int i = 0; i < dofs(); ++i) store(TwoDoubles{q[i], v[i]}, pairs + 2 * i);
   for (std::size_t m = 0; m < c.meshes.size(); ++m) {
-    Pair closing{-w.error[m], -w.error_rate[m]};
-    for (int i = c.b.start[m]; i < c.b.start[m + 1]; ++i) closing += c.b.factor[i] * pair_at(pairs + 2 * c.b.index[i]);
+    TwoDoubles approach{-w.error[m], -w.error_rate[m]};
+    for (int i = c.b.start[m]; i < c.b.start[m + 1]; ++i)
+      approach += c.b.factor[i] * two_doubles_at(pairs + 2 * c.b.index[i]);
     for (int i = c.meshes[m].first_moving; i < c.meshes[m].last_moving; ++i) {
       const int j = c.moving[i].dof;
-      closing += w.factor[i] * pair_at(pairs + 2 * j) + Pair{0.0, w.factor_rate[i] * q[j]};
+      approach += w.factor[i] * two_doubles_at(pairs + 2 * j) + TwoDoubles{0.0, w.factor_rate[i] * q[j]};
     }
-    w.closing[m] = closing[0];
-    w.delta_rate[m] = closing[1];
+    w.approach[m] = approach[0];
+    w.delta_rate[m] = approach[1];
   }
-  apply_forces(w, true);
+  apply_forces(w, ContactStates::held);
 }
 
-void LumpedSystem::evaluate_forces(double t, const double* closing, const double* closing_rate, Workspace& w) const {
+void LumpedSystem::evaluate_forces(double t, const double* approach, const double* approach_rate, Workspace& w) const {
   evaluate_excitation(t, w);
   for (std::size_t m = 0; m < compiled_->meshes.size(); ++m) {
-    w.closing[m] = closing[m] - w.error[m];
-    w.delta_rate[m] = closing_rate[m] - w.error_rate[m];
+    w.approach[m] = approach[m] - w.error[m];
+    w.delta_rate[m] = approach_rate[m] - w.error_rate[m];
   }
-  apply_forces(w, false);
+  apply_forces(w, ContactStates::following);
 }
 
 void LumpedSystem::rhs(double t, const double* y, double* dy, Workspace& w) const {
@@ -143,7 +145,7 @@ void LumpedSystem::rhs(double t, const double* y, double* dy, Workspace& w) cons
   double* pairs = w.pairs.data();
   const std::size_t meshes = c.meshes.size();
   for (std::size_t m = 0; m < meshes; m += 2)
-    store(Pair{w.force[m], m + 1 < meshes ? w.force[m + 1] : 0.0}, pairs + 2 * n + m);
+    store(TwoDoubles{w.force[m], m + 1 < meshes ? w.force[m + 1] : 0.0}, pairs + 2 * n + m);
   if (!c.moving.empty()) {
     double* forces = pairs + 2 * n + meshes + meshes % 2;
     std::fill_n(forces, c.moving_dofs.size(), 0.0);
@@ -152,9 +154,9 @@ void LumpedSystem::rhs(double t, const double* y, double* dy, Workspace& w) cons
         forces[c.moving[i].slot] += w.factor[i] * w.force[m];
   }
   for (int i = 0; i < n; ++i) {
-    Pair a{c.acceleration[i], 0.0};
+    TwoDoubles a{c.acceleration[i], 0.0};
     for (int j = c.pair_start[i]; j < c.pair_start[i + 1]; ++j)
-      a -= pair_at(&c.pair_factor[2 * j]) * pair_at(pairs + 2 * c.pair_column[j]);
+      a -= two_doubles_at(&c.pair_factor[2 * j]) * two_doubles_at(pairs + 2 * c.pair_column[j]);
     dy[i] = y[n + i];
     dy[n + i] = a[0] + a[1];
   }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
+#include <string>
 
 #include "core/errors.h"
 #include "dynamics/time_integration/integrator_choice.h"
@@ -21,11 +23,14 @@ void check_options(const IntegratorOptions& options) {
   if (!(options.relative_tolerance > 0 && options.relative_tolerance < 1))
     throw InputError(fmt::format("relative tolerance {} must lie between 0 and 1", options.relative_tolerance));
   if (options.absolute_tolerance && !(*options.absolute_tolerance > 0))
-    throw InputError("the absolute tolerance must be positive");
+    throw InputError(fmt::format("absolute tolerance {:g} m must be positive", *options.absolute_tolerance));
   if (options.method == Integrator::runge_kutta_4 && !(options.fixed_step > 0))
-    throw InputError("the fixed-step Runge-Kutta method needs a positive fixed step");
+    throw InputError(
+        fmt::format("the fixed-step Runge-Kutta method needs a positive step, not {:g} s", options.fixed_step));
   if (options.method != Integrator::runge_kutta_4 && options.fixed_step != 0)
-    throw InputError("a fixed step goes with the Runge-Kutta method only; the others choose their steps");
+    throw InputError(
+        fmt::format("a fixed step ({:g} s) belongs to the Runge-Kutta method; other integrators choose their steps",
+                    options.fixed_step));
 }
 
 /// Tolerances of (q, v, energies). Velocities count like a displacement at mesh frequency (or at the highest local
@@ -37,7 +42,9 @@ StateTolerance state_tolerance(const LumpedSystem& system, const IntegratorOptio
     for (const double delta : workspace.delta) displacement = std::max(displacement, std::abs(delta));
     displacement *= 0.1 * options.relative_tolerance;
     if (!(displacement > 0))
-      throw InputError("the start deflects no mesh: give an absolute tolerance, none can be derived");
+      throw InputError(fmt::format(
+          "none of the {} meshes is deflected at the start, so no absolute tolerance can be derived: give one",
+          workspace.delta.size()));
   }
   const int n = system.dofs();
   double frequency = 0;
@@ -50,8 +57,8 @@ StateTolerance state_tolerance(const LumpedSystem& system, const IntegratorOptio
     rate[i] = std::sqrt(stiffness / system.mass()(i, i));
   }
   if (frequency == 0) frequency = rate.maxCoeff() > 0 ? rate.maxCoeff() : 1.0;
-  // Steps may be far longer than vibrations: a velocity counts like the displacement it becomes in the vibration of its
-  // DOF. Held to the pace of the meshes, the implicit method would resolve rounding.
+  // Implicit steps may be far longer than vibrations. A velocity then counts like the displacement it becomes in the
+  // vibration of its DOF. Measured by the mesh frequency, it would make the method resolve rounding.
   const bool implicit = options.method == Integrator::arkode_implicit;
   StateTolerance tolerance;
   tolerance.relative = options.relative_tolerance;
@@ -74,8 +81,8 @@ void apply_roots(const StepperProblem& problem, const std::vector<int>& roots) {
   }
 }
 
-/// Is a held contact state contradicted by more than the accuracy of a located root? (Two roots closer than rounding
-/// after a restart may hide each other.)
+/// Does a deflection contradict a held contact state by more than the accuracy of a located root? (Two roots closer
+/// than rounding after a restart may hide each other.)
 bool contact_contradicted(const StepperProblem& problem) {
   for (const int m : problem.rooted) {
     const double half = *problem.system.meshes()[m].half_backlash, delta = problem.workspace.delta[m];
@@ -100,100 +107,166 @@ double jump_energy(const LumpedSystem& system, double t, double middle, const do
   return after - before;
 }
 
+/// One integration from event to event: roots of the contact, jumps of stiffnesses, samples.
+class Integration {
+ public:
+  Integration(const LumpedSystem& system, SystemState& state, double end, LumpedSystem::Workspace& workspace,
+              const IntegrationObserver& observer)
+      : system_(system),
+        state_(state),
+        workspace_(workspace),
+        observer_(observer),
+        problem_{system, workspace, {}, observer.energy == EnergyTracking::on},
+        start_(state.time),
+        end_(end),
+        time_(state.time),
+        instant_(1e-14 * std::max({std::abs(start_), std::abs(end), end - start_})) {
+    for (std::size_t m = 0; m < system.meshes().size(); ++m)
+      if (system.meshes()[m].half_backlash.value_or(0.0) > 0) problem_.rooted.push_back(static_cast<int>(m));
+  }
+
+  IntegratorStatistics run(const IntegratorOptions& options) {
+    begin(options);
+    emit_samples();
+    stepper_->restart(time_, stop_);
+    while (time_ < end_) {
+      advance();
+      if (time_ >= stop_ && time_ < end_) pass_jump();
+      emit_samples();
+    }
+    finish();
+    return problem_.statistics;
+  }
+
+ private:
+  void begin(const IntegratorOptions& options) {
+    const int n = system_.dofs();
+    stop_ = segment_end();
+    system_.hold_waves((time_ + stop_) / 2, workspace_);
+    system_.detect_contact(time_, state_.q.data(), workspace_);
+    problem_.tolerance = state_tolerance(system_, options, workspace_, state_.q, problem_.size());
+    stepper_ = make_stepper(problem_, options);
+    auto y = stepper_->state();
+    y.head(n) = state_.q;
+    y.segment(n, n) = state_.v;
+    if (problem_.track_energy) y.tail(2) << state_.supplied, state_.dissipated;
+    stretch_ = end_ - start_;
+    constexpr double cycles_per_stretch = 1e4;
+    for (const auto& mesh : system_.meshes())
+      if (mesh.frequency > 0) stretch_ = std::min(stretch_, cycles_per_stretch / mesh.frequency);
+  }
+
+  /// Up to the next sample, jump or contact event.
+  void advance() {
+    // The limit of steps is one per stretch, so that it stops a run without end but not a long one.
+    const double target = std::min(
+        next_sample_ < observer_.samples ? std::min(sample_time(next_sample_), stop_) : stop_, time_ + stretch_);
+    const auto reached = stepper_->advance(target);
+    time_ = stop_ - reached.time < instant_ ? stop_ : reached.time;
+    const auto y = stepper_->state();
+    if (!y.allFinite()) {
+      Eigen::Index first = 0;
+      while (std::isfinite(y[first])) ++first;
+      throw SolverError(
+          fmt::format("the time integration reached {} for {} at t = {:.9g} s", y[first], name_of(first), time_));
+    }
+    if (reached.root) {
+      apply_roots(problem_, stepper_->roots());
+      restart_at_contact();
+    } else if (!problem_.rooted.empty()) {
+      evaluate_meshes();
+      if (!contact_contradicted(problem_)) return;
+      system_.detect_contact(time_, y.data(), workspace_);
+      restart_at_contact();
+    }
+  }
+
+  void restart_at_contact() {
+    ++problem_.statistics.contact_events;
+    if (time_ < stop_) stepper_->restart(time_, stop_);
+  }
+
+  void pass_jump() {
+    stop_ = segment_end();
+    auto y = stepper_->state();
+    const double change = jump_energy(system_, time_, (time_ + stop_) / 2, y.data(), workspace_, observer_.at_jump);
+    if (problem_.track_energy) y[2 * system_.dofs()] += change;
+    ++problem_.statistics.stiffness_restarts;
+    stepper_->restart(time_, stop_);
+  }
+
+  void emit_samples() {
+    for (; next_sample_ < observer_.samples && sample_time(next_sample_) <= time_ + instant_; ++next_sample_) {
+      evaluate_meshes();
+      store();
+      if (observer_.sample) observer_.sample(next_sample_, state_);
+    }
+  }
+
+  void finish() {
+    stepper_->close();
+    if (observer_.at_jump && std::isfinite(system_.next_jump(end_))) {
+      evaluate_meshes();
+      observer_.at_jump(end_);
+    }
+    store();
+  }
+
+  void store() {
+    const int n = system_.dofs();
+    const auto y = stepper_->state();
+    state_.time = time_;
+    state_.q = y.head(n);
+    state_.v = y.segment(n, n);
+    if (!problem_.track_energy) return;
+    state_.supplied = y[2 * n];
+    state_.dissipated = y[2 * n + 1];
+  }
+
+  void evaluate_meshes() {
+    const auto y = stepper_->state();
+    system_.evaluate_meshes(time_, y.data(), y.data() + system_.dofs(), workspace_);
+  }
+
+  [[nodiscard]] double segment_end() const {
+    const double jump = system_.next_jump(time_);
+    return end_ - jump < instant_ ? end_ : jump;
+  }
+  [[nodiscard]] double sample_time(int i) const { return start_ + i * (end_ - start_) / observer_.samples; }
+  [[nodiscard]] std::string name_of(Eigen::Index entry) const {
+    const int n = system_.dofs();
+    if (entry < n) return system_.names()[static_cast<std::size_t>(entry)];
+    return entry < 2 * n ? "the velocity of " + system_.names()[static_cast<std::size_t>(entry - n)] : "an energy";
+  }
+
+  const LumpedSystem& system_;
+  SystemState& state_;
+  LumpedSystem::Workspace& workspace_;
+  const IntegrationObserver& observer_;
+  StepperProblem problem_;
+  std::unique_ptr<Stepper> stepper_;
+  double start_ = 0, end_ = 0, time_ = 0;
+  double instant_ = 0;  ///< s, times closer than this are one: SUNDIALS refuses to integrate over a rounding error
+  double stop_ = 0;     ///< s, next jump of a stiffness, or the end
+  double stretch_ = 0;  ///< s, longest distance of one call of the stepper
+  int next_sample_ = 0;
+};
+
 }  // namespace
 
 IntegratorStatistics integrate(const LumpedSystem& system, SystemState& state, double end,
-                               const IntegratorOptions& given, LumpedSystem::Workspace& workspace, int samples,
-                               const std::function<void(int, const SystemState&)>& sample, bool track_energy,
-                               const std::function<void(double)>& at_jump) {
+                               const IntegratorOptions& given, LumpedSystem::Workspace& workspace,
+                               const IntegrationObserver& observer) {
   check_options(given);
   IntegratorOptions options = given;
   if (options.method == Integrator::automatic)
     options.method = choose_integrator(system, options.relative_tolerance).method;
-  const int n = system.dofs();
-  require(state.q.size() == n && state.v.size() == n, "state and system differ in size");
-  if (!(end > state.time)) throw InputError("an integration must end after its start");
-  StepperProblem problem{system, workspace, {}, track_energy};
-  for (std::size_t m = 0; m < system.meshes().size(); ++m)
-    if (system.meshes()[m].half_backlash.value_or(0.0) > 0) problem.rooted.push_back(static_cast<int>(m));
-
-  const double start = state.time;
-  double t = start;
-  // Times closer than this are one: SUNDIALS refuses to integrate over a distance of rounding.
-  const double instant = 1e-14 * std::max({std::abs(start), std::abs(end), end - start});
-  const auto segment_end = [&] {
-    const double jump = system.next_jump(t);
-    return end - jump < instant ? end : jump;
-  };
-  double stop = segment_end();
-  system.hold_waves((t + stop) / 2, workspace);
-  system.detect_contact(t, state.q.data(), workspace);
-  problem.tolerance = state_tolerance(system, options, workspace, state.q, problem.size());
-  const auto stepper = make_stepper(problem, options);
-  auto y = stepper->state();
-  y.head(n) = state.q;
-  y.segment(n, n) = state.v;
-  if (track_energy) y.tail(2) << state.supplied, state.dissipated;
-
-  const auto store = [&] {
-    state.time = t;
-    state.q = y.head(n);
-    state.v = y.segment(n, n);
-    if (track_energy) {
-      state.supplied = y[2 * n];
-      state.dissipated = y[2 * n + 1];
-    }
-  };
-  double stretch = end - start;
-  constexpr double cycles_per_stretch = 1e4;
-  for (const auto& mesh : system.meshes())
-    if (mesh.frequency > 0) stretch = std::min(stretch, cycles_per_stretch / mesh.frequency);
-  int next = 0;
-  const auto sample_time = [&](int i) { return start + i * (end - start) / samples; };
-  const auto emit = [&] {
-    for (; next < samples && sample_time(next) <= t + instant; ++next) {
-      system.evaluate_meshes(t, y.data(), y.data() + n, workspace);
-      store();
-      if (sample) sample(next, state);
-    }
-  };
-
-  emit();
-  stepper->restart(t, stop);
-  while (t < end) {
-    // The limit of steps is one per stretch, so that it stops a hopeless run but not a long one.
-    const double target = std::min(next < samples ? std::min(sample_time(next), stop) : stop, t + stretch);
-    const auto reached = stepper->advance(target);
-    t = stop - reached.time < instant ? stop : reached.time;
-    if (!y.allFinite()) throw SolverError(fmt::format("the time integration left the numbers at t = {:.9g} s", t));
-    if (reached.root) {
-      apply_roots(problem, stepper->roots());
-      ++problem.statistics.contact_events;
-      if (t < stop) stepper->restart(t, stop);
-    } else if (!problem.rooted.empty()) {
-      system.evaluate_meshes(t, y.data(), y.data() + n, workspace);
-      if (contact_contradicted(problem)) {
-        system.detect_contact(t, y.data(), workspace);
-        ++problem.statistics.contact_events;
-        if (t < stop) stepper->restart(t, stop);
-      }
-    }
-    if (t >= stop && t < end) {
-      stop = segment_end();
-      const double change = jump_energy(system, t, (t + stop) / 2, y.data(), workspace, at_jump);
-      if (track_energy) y[2 * n] += change;
-      ++problem.statistics.stiffness_restarts;
-      stepper->restart(t, stop);
-    }
-    emit();
-  }
-  stepper->close();
-  if (at_jump && std::isfinite(system.next_jump(end))) {
-    system.evaluate_meshes(end, y.data(), y.data() + n, workspace);
-    at_jump(end);
-  }
-  store();
-  return problem.statistics;
+  require(state.q.size() == system.dofs() && state.v.size() == system.dofs(),
+          fmt::format("a state of {} displacements and {} velocities for {} degrees of freedom", state.q.size(),
+                      state.v.size(), system.dofs()));
+  if (!(end > state.time))
+    throw InputError(fmt::format("an integration from {:.9g} s must end later than at {:.9g} s", state.time, end));
+  return Integration(system, state, end, workspace, observer).run(options);
 }
 
 }  // namespace annulus::dynamics

@@ -25,7 +25,7 @@ Eigen::VectorXcd state_eigenvalues(const LumpedSystem& system) {
     stiffness += mean_stiffness(system.meshes()[m].excitation) * b * b.transpose();
   }
   const Eigen::LLT<Eigen::MatrixXd> mass(system.mass());
-  // Velocities / w: entries of like size.
+  // Velocities / w: entries of similar size.
   const Eigen::MatrixXd rates = mass.solve(stiffness);
   const double w = std::sqrt(std::max(rates.cwiseAbs().maxCoeff(), 1e-300));
   Eigen::MatrixXd state = Eigen::MatrixXd::Zero(2 * n, 2 * n);
@@ -33,10 +33,13 @@ Eigen::VectorXcd state_eigenvalues(const LumpedSystem& system) {
   state.bottomLeftCorner(n, n) = -rates / (w * w);
   state.bottomRightCorner(n, n) = -mass.solve(damping) / w;
   if (!state.allFinite())
-    throw InputError(
-        "a stiffness divided by a mass or an inertia is beyond any number: a body is too light or too stiff");
+    throw InputError(fmt::format(
+        "a stiffness divided by a mass or an inertia is no finite number (largest finite rate {:.2g} rad/s): "
+        "a body is too light or too stiff",
+        w));
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(state, false);
-  if (solver.info() != Eigen::Success) throw SolverError("the eigenvalues of the stage were not found");
+  if (solver.info() != Eigen::Success)
+    throw SolverError(fmt::format("the eigenvalues of {} degrees of freedom were not found", n));
   return w * solver.eigenvalues();
 }
 
@@ -45,7 +48,7 @@ double growth(std::complex<double> z) {
   return std::abs(1.0 + z * (1.0 + z * (1.0 / 2 + z * (1.0 / 6 + z * (1.0 / 24 + z * (1.0 / 120 + z / 800.0))))));
 }
 
-/// Of the classical Runge-Kutta method.
+/// Stability function of the classical Runge-Kutta method.
 double classical_growth(std::complex<double> z) {
   return std::abs(1.0 + z * (1.0 + z * (1.0 / 2 + z * (1.0 / 6 + z / 24.0))));
 }
@@ -59,10 +62,10 @@ double stable_reach(std::complex<double> eigenvalue, double (*growth_of)(std::co
   return 6;
 }
 
-/// Explicit steps per mesh cycle from which on the L-stable method is the cheaper one: it takes some hundred steps,
-/// each as dear as thirty to fifty explicit ones, and after a jump of the stiffness follows the fast motion until it
-/// has died to the tolerance, 2/ratio periods of some forty steps. Undamped, that never ends.
-double steps_worth_implicit(const LumpedSystem& system, double damping_ratio) {
+/// Explicit steps per mesh cycle from which on the L-stable method is cheaper. It takes some hundred steps, each at the
+/// cost of thirty to fifty explicit ones. After a jump of the stiffness it follows the fast motion until it has died
+/// out to the tolerance: 2/ratio periods of some forty steps. Without damping that never ends.
+double explicit_steps_of_implicit(const LumpedSystem& system, double damping_ratio) {
   constexpr double smooth = 8000, after_jumps = 4000;
   return smooth + (std::isfinite(system.next_jump(0)) ? after_jumps / damping_ratio : 0.0);
 }
@@ -76,38 +79,38 @@ IntegratorChoice choose_integrator(const LumpedSystem& system, double relative_t
   double frequency = 0;
   for (const auto& mesh : system.meshes()) frequency = std::max(frequency, mesh.frequency);
   if (!(frequency > 0) || system.dofs() == 0) {
-    choice.reason = "explicit Runge-Kutta: nothing meshes that could set a pace";
+    choice.reason = "explicit Runge-Kutta: no mesh sets a frequency";
     return choice;
   }
   const double steps_of_bdf = 75 * std::pow(1e-4 / relative_tolerance, 1.0 / 8);
-  constexpr double dearer = 2, well_damped = 0.3;
+  constexpr double cost_ratio = 2, well_damped = 0.3;
   choice.implicit_step = 1 / (frequency * steps_of_bdf);
-  const double worthwhile = choice.implicit_step / dearer;  // explicit steps shorter than this cost more
+  const double break_even = choice.implicit_step / cost_ratio;  // shorter explicit steps cost more
   const Eigen::VectorXcd eigenvalues = state_eigenvalues(system);
   const double zero = 1e-9 * eigenvalues.cwiseAbs().maxCoeff();
   for (const auto& p : eigenvalues) {
     if (std::abs(p) <= zero || p.real() > 0) continue;
     const double step = stable_reach(p) / std::abs(p);
     choice.stability_step = std::min(choice.stability_step, step);
-    if (step < worthwhile) choice.least_damping = std::min(choice.least_damping, -p.real() / std::abs(p));
+    if (step < break_even) choice.least_damping = std::min(choice.least_damping, -p.real() / std::abs(p));
   }
   const double needed = 1 / (frequency * choice.stability_step);
   choice.explicit_steps = std::max(needed, 1.0);
-  if (choice.stability_step >= worthwhile) {
+  if (choice.stability_step >= break_even) {
     choice.reason = fmt::format(
         "explicit Runge-Kutta: stable with {:.0f} steps per mesh cycle, BDF would take {:.0f}, "
-        "each twice as dear",
+        "each at twice the cost",
         std::ceil(needed), steps_of_bdf);
-  } else if (choice.least_damping < well_damped && needed > steps_worth_implicit(system, choice.least_damping)) {
+  } else if (choice.least_damping < well_damped && needed > explicit_steps_of_implicit(system, choice.least_damping)) {
     choice.method = Integrator::arkode_implicit;
     choice.reason = fmt::format(
         "L-stable Runge-Kutta: stability would ask the explicit method for {:.2g} steps per mesh cycle, most of which "
-        "would follow motions (damping ratio {:.3f}) that have died",
+        "would follow motions (damping ratio {:.3f}) that have died out",
         std::ceil(needed), choice.least_damping);
   } else if (choice.least_damping < well_damped) {
     choice.reason = fmt::format(
         "explicit Runge-Kutta: stiff ({:.0f} steps per mesh cycle for stability), but fast "
-        "motions ring on (damping ratio {:.3f}) and have to be followed",
+        "motions are lightly damped (ratio {:.3f}) and have to be followed",
         std::ceil(needed), choice.least_damping);
   } else {
     choice.method = Integrator::cvode_bdf;

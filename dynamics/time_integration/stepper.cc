@@ -47,8 +47,8 @@ static int annulus_jacobian(realtype t, N_Vector y, N_Vector, SUNMatrix matrix, 
   ++p.statistics.jacobian_evaluations;
   const int n = 2 * p.system.dofs(), size = p.size();
   Eigen::Map<Eigen::MatrixXd> jacobian(SUNDenseMatrix_Data(matrix), size, size);
-  // The energies are integrals beside the system: nothing depends on them, and their own dependence on the state may be
-  // left out of a Newton matrix (they are then corrected, not predicted).
+  // The energies are integrals beside the system: nothing depends on them. Their own dependence on the state is omitted
+  // from the Newton matrix; they are then corrected, not predicted.
   jacobian.setZero();
   p.system.jacobian(t, N_VGetArrayPointer(y), jacobian.topLeftCorner(n, n), p.workspace);
   return 0;
@@ -75,8 +75,8 @@ static int annulus_weights(N_Vector y, N_Vector weights, void* data) {
   return 0;
 }
 
-/// SUNDIALS prints its complaints; here they end in the exception.
-static void annulus_complaint(int, const char*, const char*, char* message, void* data) {
+/// SUNDIALS prints its messages; here they go to the exception.
+static void annulus_sundials_message(int, const char*, const char*, char* message, void* data) {
   *static_cast<std::string*>(data) = message;
 }
 
@@ -84,7 +84,7 @@ static void annulus_complaint(int, const char*, const char*, char* message, void
 
 /// The calls that CVODE, ERKStep and ARKStep share but for their names.
 struct Package {
-  int (*set_complaints)(void*, void (*)(int, const char*, const char*, char*, void*), void*);
+  int (*set_message_handler)(void*, void (*)(int, const char*, const char*, char*, void*), void*);
   int (*set_user_data)(void*, void*);
   int (*set_weights)(void*, int (*)(N_Vector, N_Vector, void*));
   int (*set_max_steps)(void*, long);
@@ -159,11 +159,13 @@ class SundialsStepper : public Stepper {
     use_fast_kernels(y_);
   }
 
-  /// Takes what the package's constructor made, and tells it what is common to all.
+  /// Takes the object made by the package and sets the options common to all.
   void own(void* memory, const IntegratorOptions& options) {
     memory_ = memory;
-    if (!memory_) throw SolverError("a time integrator could not be set up: out of memory");
-    check(package_.set_complaints(memory_, annulus_complaint, &complaint_), 0);
+    if (!memory_)
+      throw SolverError(
+          fmt::format("a time integrator of {} state variables could not be set up: out of memory", problem_.size()));
+    check(package_.set_message_handler(memory_, annulus_sundials_message, &message_), 0);
     check(package_.set_user_data(memory_, &problem_), 0);
     check(package_.set_weights(memory_, annulus_weights), 0);
     check(package_.set_max_steps(memory_, options.max_steps), 0);
@@ -179,7 +181,7 @@ class SundialsStepper : public Stepper {
       throw SolverError(
           fmt::format("time integration failed at t = {:.9g} s: {} (status {}); loosen or tighten the "
                       "tolerance or choose another integrator",
-                      t, complaint_.empty() ? "no reason given" : complaint_, flag));
+                      t, message_.empty() ? "no reason given" : message_, flag));
   }
 
   sundials::Context context_;
@@ -190,7 +192,7 @@ class SundialsStepper : public Stepper {
 
  private:
   std::vector<int> roots_;
-  std::string complaint_;
+  std::string message_;
   bool counting_ = false;
 };
 
@@ -232,7 +234,7 @@ class ExplicitStepper final : public SundialsStepper {
  private:
   void begin(double t, double stop) override {
     check(ERKStepReInit(memory_, annulus_rhs, t, y_), t);
-    // The step that served before the event serves after it.
+    // After the event the integration goes on with the step size from before it.
     if (fixed_step_ == 0 && last_step_ > 0) check(ERKStepSetInitStep(memory_, std::min(last_step_, stop - t)), t);
     check(ERKStepSetStopTime(memory_, stop), t);
   }
@@ -250,7 +252,7 @@ class MultistepStepper final : public SundialsStepper {
     if (memory) check(CVodeInit(memory, annulus_rhs, 0.0, y_), 0);
     own(memory, options);
     if (adams) {
-      // Where Adams' methods are of use, steps are short enough for the fixed point, at a third of Newton's time.
+      // Where Adams methods are useful, steps are short enough for fixed-point iteration, at a third of Newton's time.
       iteration_ = SUNNonlinSol_FixedPoint(y_, 0, context_);
       check(CVodeSetNonlinearSolver(memory_, iteration_), 0);
     } else {
@@ -275,26 +277,26 @@ class MultistepStepper final : public SundialsStepper {
   SUNNonlinearSolver iteration_ = nullptr;
 };
 
-/// Diagonally implicit Runge-Kutta method of order 5, L-stable: steps follow the motion that is there, not the fast one
-/// that might be, however lightly that is damped (BDF is unstable there).
+/// Diagonally implicit Runge-Kutta method of order 5, L-stable. Its steps follow the actual motion and not a possible
+/// fast one, even where that is lightly damped (BDF is unstable there).
 class DiagonallyImplicitStepper final : public SundialsStepper {
  public:
   DiagonallyImplicitStepper(StepperProblem& problem, const IntegratorOptions& options)
       : SundialsStepper(problem, arkstep), newton_(y_, problem.size(), context_) {
     own(ARKStepCreate(nullptr, annulus_rhs, 0.0, y_, context_), options);
     check(ARKStepSetTableNum(memory_, ARKODE_ESDIRK547L2SA_7_4_5, ARKODE_ERK_NONE), 0);
-    // Hermite interpolation multiplies what is left of fast motions by their rates.
+    // Hermite interpolation multiplies the remains of fast motions by their rates.
     check(ARKStepSetInterpolantType(memory_, ARK_INTERP_LAGRANGE), 0);
     check(ARKStepSetLinearSolver(memory_, newton_.solver, newton_.matrix), 0);
     check(ARKStepSetJacFn(memory_, annulus_jacobian), 0);
-    // What Newton's method leaves, stiffness and step multiply into velocities: with the usual tenth of the tolerance
-    // the step control would answer to that. The problem is nearly linear: an iteration more gets there.
+    // Stiffness and step multiply the remaining residual of Newton's method into velocities. With the usual tenth of
+    // the tolerance the step control would react to that. The problem is nearly linear: one more iteration suffices.
     check(ARKStepSetNonlinConvCoef(memory_, 1e-5), 0);
-    // Back from steps a million times longer than the fast motion's takes more than the usual seven refused ones.
+    // Steps a million times longer than the fast motion need more than the usual seven rejections to become short.
     check(ARKStepSetMaxErrTestFails(memory_, 20), 0);
   }
 
-  /// Steps end at `out`: what is asked for is a state of the method, not an interpolated one.
+  /// Steps end at `out`, so that the state is one of the method and not an interpolated one.
   Reached advance(double out) override {
     check(ARKStepSetStopTime(memory_, out), out);
     return SundialsStepper::advance(out);
@@ -309,7 +311,9 @@ class DiagonallyImplicitStepper final : public SundialsStepper {
 }  // namespace
 
 std::unique_ptr<Stepper> make_stepper(StepperProblem& problem, const IntegratorOptions& options) {
-  require(options.method != Integrator::automatic, "the integrator is chosen before the stepper is made");
+  require(options.method != Integrator::automatic,
+          fmt::format("an integrator must be chosen for {} degrees of freedom before a stepper is made",
+                      problem.system.dofs()));
   if (options.method == Integrator::arkode_implicit)
     return std::make_unique<DiagonallyImplicitStepper>(problem, options);
   if (options.method == Integrator::cvode_adams || options.method == Integrator::cvode_bdf)

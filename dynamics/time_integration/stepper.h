@@ -8,14 +8,14 @@
 
 namespace annulus::dynamics {
 
-/// Tolerated error of a state entry y: relative × min(|y|, |y - origin| + extent) + absolute. Where backlash is wide
-/// and the load light, displacements are far larger than the deflections that matter.
+/// Tolerated error of a state entry y: relative × min(|y|, |y - origin| + extent) + absolute. With wide backlash and
+/// light load, displacements are far larger than the deflections that matter.
 struct StateTolerance {
   double relative = 0;
   Eigen::ArrayXd absolute, origin, extent;
 };
 
-/// What the SUNDIALS callbacks see.
+/// Data of the SUNDIALS callbacks.
 struct StepperProblem {
   const LumpedSystem& system;
   LumpedSystem::Workspace& workspace;

@@ -1,5 +1,7 @@
 #include "fem/body/body_plan.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/errors.h"
@@ -9,33 +11,46 @@ namespace annulus::fem {
 BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfile& profile, bool wheel,
                    geometry::Boundary flank, int degree, bool solid, const SolvedFace& face)
     : profile_(profile), face_(face), solid_(solid) {
-  if (wheel) structure_ = problem.structure;
+  const RingStructure structure = wheel ? problem.structure : RingStructure{};
   const double outside = problem.wheel_support_radius;
   rim_.support_radius = wheel ? outside : problem.planet_bore_radius;
   model_.degree = degree;
   model_.flank = flank;
   model_.symmetric_end = face.half;
   const bool helical = profile.gear().helix_angle() != 0;
-  if (const auto* cantilever = std::get_if<EndFaceHeld>(&structure_)) {
-    if (!solid) throw InputError("a ring held at its end face is a solid problem: the plane model cannot model it");
-    model_.held = HeldBoundary::end_low;
-    rim_.circles = {outside - cantilever->sleeve_thickness};
-    if (cantilever->hoop) {
-      rim_.circles.push_back(outside);
-      rim_.support_radius = outside + cantilever->hoop->thickness;
-      model_.outside_radius = outside;
-    }
-  } else if (const auto* flange = std::get_if<FlangeHeld>(&structure_)) {
-    if (!solid) throw InputError("a ring on a flange is a solid problem: the plane model cannot model it");
-    model_.held = HeldBoundary::flange_face;
-    rim_.circles = {outside};
-    rim_.support_radius = flange->outside_radius;
+  const auto words = structure.words();
+  if (!solid && needs_solid(structure))
+    throw InputError(
+        fmt::format("a plane model cannot represent a ring {}: {}", words.description, words.solid_reason));
+  ring_ = structure.body(outside);
+  if (ring_.held_inner_radius > 0) rim_.circles = {ring_.held_inner_radius};
+  if (ring_.hoop || ring_.flange) {
+    rim_.circles.push_back(outside);
+    rim_.support_radius = ring_.hoop ? outside + ring_.hoop->thickness : ring_.flange->outside_radius;
     model_.outside_radius = outside;
-  } else if (!std::holds_alternative<OutsideHeld>(structure_)) {
-    if (helical)
-      throw InputError("helical rings on pins or splines are not modelled: hold the outside or the end face");
-    model_.held = HeldBoundary::none;
-    model_.want_outside = true;
+  }
+  switch (ring_.held) {
+    case HeldSurface::outside:
+      break;
+    case HeldSurface::low_end_face:
+      model_.held = HeldBoundary::end_low;
+      break;
+    case HeldSurface::both_end_faces:
+      // The upper end of a half is its plane of symmetry.
+      model_.held = face.half ? HeldBoundary::end_low : HeldBoundary::both_ends;
+      break;
+    case HeldSurface::flange_face:
+      model_.held = HeldBoundary::flange_face;
+      break;
+    case HeldSurface::none:
+      if (helical)
+        throw InputError(
+            fmt::format("helical rings on pins or splines are not modelled, and this one has {}: hold the "
+                        "outside or the end face",
+                        words.description));
+      model_.held = HeldBoundary::none;
+      model_.want_outside = true;
+      break;
   }
 }
 
@@ -63,38 +78,35 @@ geometry::Mesh BodyPlan::sector(const BodyResolution& resolution, const SolvedFa
     return std::max(1, static_cast<int>(std::lround(resolution.face_cells * length / face_width + half_up)));
   };
   geometry::Layers teeth{0, face_width, resolution.face_cells};
-  if (const auto* cantilever = std::get_if<EndFaceHeld>(&structure_)) {
-    geometry::Layers sleeve{-cantilever->free_length, 0, resolution.sleeve_cells};
+  if (ring_.hoop || ring_.flange) options.outside_radius = rim_.circles.back();
+  if (ring_.held == HeldSurface::both_end_faces) {
+    options.end_low_radius = ring_.held_inner_radius;
+    if (!face.half) options.end_high_radius = ring_.held_inner_radius;
+  }
+  if (ring_.sleeve) {
+    geometry::Layers sleeve{-ring_.sleeve->length, 0, resolution.sleeve_cells};
     sleeve.region = geometry::Mesh::Region::sleeve;
     sleeve.toothed = false;
-    sleeve.radius_low = rim_.circles.front();
-    if (cantilever->hoop) {
-      options.outside_radius = rim_.circles.back();
-      teeth.radius_high = sleeve.radius_high = options.outside_radius;
-    }
-    if (cantilever->free_length > 0)
+    sleeve.radius_low = ring_.held_inner_radius;
+    if (ring_.hoop) sleeve.radius_high = options.outside_radius;
+    if (ring_.sleeve->length > 0)
       stacks.push_back(sleeve);
     else
-      options.end_low_radius = rim_.circles.front();
-    if (cantilever->hoop && cantilever->hoop->width < face_width) {
-      teeth.z_high = face_width - cantilever->hoop->width;
-      teeth.cells = cells(teeth.z_high);
-      stacks.push_back(teeth);
-      teeth = {teeth.z_high, face_width, cells(cantilever->hoop->width)};
-    } else if (cantilever->hoop) {
-      teeth.radius_high = geometry::Layers{}.radius_high;
-    }
-  } else if (const auto* flange = std::get_if<FlangeHeld>(&structure_)) {
-    options.outside_radius = rim_.circles.front();
-    geometry::Layers low{0, std::min(flange->width, face_width), cells(flange->width)};
-    low.band = geometry::Mesh::Region::flange;
-    if (flange->width < face_width) {
-      stacks.push_back(low);
-      teeth = {flange->width, face_width, cells(face_width - flange->width)};
-      teeth.radius_high = options.outside_radius;
-    } else {
-      teeth.band = geometry::Mesh::Region::flange;
-    }
+      options.end_low_radius = ring_.held_inner_radius;
+  }
+  if (ring_.hoop && ring_.hoop->width < face_width) {
+    const double below = face_width - ring_.hoop->width;
+    stacks.push_back({0, below, cells(below)});
+    stacks.back().radius_high = options.outside_radius;
+    teeth = {below, face_width, cells(ring_.hoop->width)};
+  }
+  if (ring_.flange && ring_.flange->width < face_width) {
+    stacks.push_back({0, ring_.flange->width, cells(ring_.flange->width)});
+    stacks.back().band = geometry::Mesh::Region::flange;
+    teeth = {ring_.flange->width, face_width, cells(face_width - ring_.flange->width)};
+    teeth.radius_high = options.outside_radius;
+  } else if (ring_.flange) {
+    teeth.band = geometry::Mesh::Region::flange;
   }
   if (face.half) {
     require(stacks.empty() && teeth.z_high == face_width, "half of a face that is not symmetric");

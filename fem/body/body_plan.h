@@ -39,7 +39,7 @@ class BodyPlan {
   const geometry::ToothProfile& profile_;
   SolvedFace face_;
   bool solid_;
-  RingStructure structure_ = OutsideHeld{};
+  RingBody ring_;
   geometry::Rim rim_;
   SectorModelOptions model_;
 };

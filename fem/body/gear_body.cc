@@ -1,11 +1,11 @@
 #include "fem/body/gear_body.h"
 
 #include <Eigen/Geometry>
-#include <chrono>
 #include <cmath>
 #include <sstream>
 
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "fem/body/sector_bytes.h"
 
 namespace annulus::fem {
@@ -205,9 +205,9 @@ CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry:
                               double support_radius, const Material& material, const GearBodyOptions& options) {
   UnitTooth unit;
   const auto make = [&] {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     unit = condense_unit_tooth(sector_mesh, profile, support_radius, material, options);
-    unit.tooth.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    unit.tooth.seconds = watch.seconds();
   };
   bool reused = false;
   if (options.store != nullptr) {

@@ -37,8 +37,8 @@ struct GearBody {
   std::vector<Port> ports;
   std::vector<Eigen::Vector3d> port_points;
   std::vector<Wrench> arc_wrenches;  ///< of the arc loads, in the sector's frame
-  /// Root land and fillet of the trailing side (from the cut to the form circle) and of the leading side (from the form
-  /// circle to the cut); the rim opposite, where it is free. Empty when stresses are not asked for.
+  /// Root land and fillet of the trailing side (from the interface to the form circle) and of the leading side (from
+  /// the form circle to the interface); the rim opposite, where it is free. Empty when stresses are not asked for.
   StressLine root_low, root_high, rim;
   CyclicCompliance compliance;
   long unknowns = 0;
@@ -64,7 +64,7 @@ struct GearBodyOptions {
   RingExtent extent;
   std::vector<ArcLoad> arcs;  ///< loads on a free outside
   int threads = 1;
-  CondensedStore* store = nullptr;  ///< where condensed teeth are looked for and kept; may be null
+  CondensedStore* store = nullptr;  ///< where tooth superelements are looked for and kept; may be null
 };
 
 /// One tooth by itself: the body without its compliance, and the condensed sector.

@@ -34,8 +34,8 @@ struct ContactCells {
   std::vector<double> edges;  ///< m: places under which a tip edge of either tooth presses, with infinite pressure
   double at_edge = 0;         ///< m, length of the cells there
 };
-/// Section whose flank is meshed for one contact, as thin under the flank as along it. Counts that radial cuts depend
-/// on are those of `regular`.
+/// Section whose flank is meshed for one contact, as thin under the flank as along it. Counts that cyclic interfaces
+/// depend on are those of `regular`.
 [[nodiscard]] geometry::SectorResolution resolving_section(const geometry::Gear& gear,
                                                            const geometry::SectorResolution& regular,
                                                            const ContactCells& contact);

@@ -6,9 +6,9 @@
 namespace annulus::fem {
 
 void write(ByteWriter& out, const CondensedSector& sector) {
-  out.add(sector.dimension).add(sector.pitch_angle).add(sector.ports).add(sector.cut_points);
-  out.add(sector.cut_dofs);
-  out.add(sector.cut_stiffness).add(sector.cut_load).add(sector.compliance);
+  out.add(sector.dimension).add(sector.pitch_angle).add(sector.ports).add(sector.interface_points);
+  out.add(sector.interface_dofs);
+  out.add(sector.interface_stiffness).add(sector.interface_load).add(sector.compliance);
 }
 
 CondensedSector read_sector(ByteReader& in) {
@@ -16,10 +16,10 @@ CondensedSector read_sector(ByteReader& in) {
   in.get(sector.dimension);
   in.get(sector.pitch_angle);
   in.get(sector.ports);
-  in.get(sector.cut_points);
-  in.get(sector.cut_dofs);
-  in.get(sector.cut_stiffness);
-  in.get(sector.cut_load);
+  in.get(sector.interface_points);
+  in.get(sector.interface_dofs);
+  in.get(sector.interface_stiffness);
+  in.get(sector.interface_load);
   in.get(sector.compliance);
   return sector;
 }

@@ -1,16 +1,19 @@
 #include "fem/closed_form/closed_form_mesh.h"
+
+#include <fmt/format.h>
 #include "fem/closed_form/closed_form_error.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "fem/closed_form/tooth_contacts.h"
 #include "fem/condensation/lapack.h"
 #include "fem/problem/plane_strain_error.h"
 #include "fem/problem/problem_check.h"
+#include "fem/problem/tabulated_result.h"
 
 namespace annulus::fem {
 namespace {
@@ -117,7 +120,10 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
   }
   position.entry.lte = solution.rigid[0];
   position.entry.unloaded_te = unloaded;
-  if (!(position.entry.lte > unloaded)) throw SolverError("the loaded transmission error is not positive");
+  if (!(position.entry.lte > unloaded))
+    throw SolverError(fmt::format(
+        "the loaded transmission error, {:.4g} m, does not exceed the unloaded one, {:.4g} m, under {:.4g} N",
+        position.entry.lte, unloaded, load));
   position.entry.stiffness_secant = load / (position.entry.lte - unloaded);
   position.entry.stiffness_tangent = 1 / solution.tangent(0, 0);
 
@@ -146,8 +152,7 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
 
 void ClosedFormRun::add_supports(const Eigen::VectorXd& force, LoadedPosition& position) const {
   // Two supports belong to each pin or spline tooth; the bore's, which follow, are not pins.
-  const auto* pins = std::get_if<PinHeld>(&problem_.structure);
-  const std::size_t count = pins != nullptr ? pins->angles.size() : supports_.size() / 2;
+  const auto count = static_cast<std::size_t>(problem_.structure.single_supports());
   for (std::size_t q = 0; q < count; ++q) {
     PinState state;
     for (const std::size_t i : {2 * q, 2 * q + 1}) {
@@ -185,12 +190,11 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
                                    const RimModel& rim) {
   check_problem(problem, Fidelity::closed_form);
   lapack::use_one_thread();  // thousands of small systems: threads would wait for each other more than they work
-  const auto start = std::chrono::steady_clock::now();
-  const auto since = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  const int cycles = repeating_teeth(problem.structure, problem.pair.wheel().teeth());
+  const Stopwatch watch;
+  const int cycles = problem.structure.repeating_teeth(problem.pair.wheel().teeth());
   const int loads = static_cast<int>(problem.loads.size());
   const ClosedFormRun run(problem, rim);
-  const double condensed = since();
+  const double condensed = watch.seconds();
   auto positions = run.solve(cycles, settings);
   const auto yielding = bending_errors(problem, settings, rim, cycles, positions);
   for (std::size_t i = 0; i < positions.size(); ++i) {
@@ -199,35 +203,19 @@ LoadedMeshResult solve_closed_form(const LoadedMeshProblem& problem, const Loade
     entry.error_relative = entry.error_parts.total();
   }
 
-  const std::size_t table_size = static_cast<std::size_t>(cycles) * problem.phases * loads;
-  std::vector<StiffnessEntry> entries;
-  std::vector<double> ring_angles;
-  ring_angles.reserve(cycles);
-  for (std::size_t i = 0; i < table_size; ++i) entries.push_back(positions[i].entry);
-  for (int c = 0; c < cycles; ++c)
-    ring_angles.push_back(positions[static_cast<std::size_t>(c) * problem.phases * loads].ring_angle);
-  StiffnessTable table(problem.pair.internal() ? "ring_planet" : "sun_planet", problem.phases, std::move(ring_angles),
-                       problem.loads, std::move(entries));
-  LoadedMeshResult result{std::move(table), std::move(positions)};
+  LoadedMeshResult result = tabulated(problem, std::move(positions));
   result.level = 0;
-  for (std::size_t i = 0; i < result.positions.size(); ++i) {
-    const auto& p = result.positions[i];
-    result.reciprocity_relative = std::max(result.reciprocity_relative, p.reciprocity_relative);
+  for (std::size_t i = 0; i < result.positions.size(); ++i)
     if (i % loads == static_cast<std::size_t>(loads) / 2)
       result.worst_error_relative =
-          std::max(result.worst_error_relative, p.entry.error_relative - plane_strain_error(problem));
-  }
-  for (int l = 0; l < loads; ++l)
-    result.closure_relative =
-        std::max(result.closure_relative,
-                 std::abs(result.positions[table_size + l].entry.lte / result.positions[l].entry.lte - 1));
+          std::max(result.worst_error_relative, result.positions[i].entry.error_relative - plane_strain_error(problem));
   if (!run.supports().empty()) result.pin_stiffness = run.supports().front().stiffness;
-  if (const auto* pins = std::get_if<PinHeld>(&problem.structure)) result.pin_angles = pins->angles;
-  if (const auto* spline = std::get_if<SplineHeld>(&problem.structure))
-    result.pin_angles = equal_angles(spline->teeth, spline->first_tooth_angle);
+  // The frame of the solve is the mirror image of the real ring.
+  for (int pin = 0; pin < problem.structure.single_supports(); ++pin)
+    result.pin_angles.push_back(-run.supports()[2 * static_cast<std::size_t>(pin)].angle);
   result.slice_edges = {0, problem.face_width};
   result.condense_seconds = condensed;
-  result.contact_seconds = since() - condensed;
+  result.contact_seconds = watch.seconds() - condensed;
   return result;
 }
 

@@ -1,23 +1,17 @@
 #include "fem/closed_form/ring_supports.h"
 
+#include <fmt/format.h>
+
 #include "core/errors.h"
-#include "fem/problem/support_sites.h"
 
 namespace annulus::fem {
 
 std::vector<RingSupport> ring_supports(const RingStructure& structure, double outside_radius, double width,
                                        int ring_teeth, const Material& material) {
-  if (std::holds_alternative<OutsideHeld>(structure)) return {};
-  const SupportedRing ring{ring_teeth, outside_radius, width, material};
-  SupportSites sites;
-  if (const auto* pins = std::get_if<PinHeld>(&structure))
-    sites = pin_sites(*pins, ring);
-  else if (const auto* spline = std::get_if<SplineHeld>(&structure))
-    sites = spline_sites(*spline, ring);
-  else
-    throw InputError(
-        "a ring held at an end face or a flange bends along its width, for which the closed form has no honest "
-        "formula: use model = \"solid\"");
+  if (needs_solid(structure))
+    throw InputError(fmt::format("formulas cannot represent a ring {}: {}; use model = \"solid\"",
+                                 structure.words().description, structure.words().solid_reason));
+  const SupportSites sites = structure.supports({ring_teeth, outside_radius, width, material});
   std::vector<RingSupport> supports;
   for (const auto& site : sites.sites)
     for (const auto& direction : site.directions)

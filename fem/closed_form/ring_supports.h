@@ -20,7 +20,7 @@ struct RingSupport {
   bool unilateral = true;
 };
 
-/// The supports of a ring, those of the finite-element models (pin_sites(), spline_sites()): pins give two each
+/// The supports of a ring, those of the finite-element models (RingStructure::supports): pins give two each
 /// (radial, tangential), spline teeth two each (their flanks), in that order; a housing bore adds one per tooth of the
 /// ring after them. Angles are those of the frame of the solve. `outside_radius` and `width` in m. Empty when the
 /// outside is held.

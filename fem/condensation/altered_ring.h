@@ -8,7 +8,8 @@
 namespace annulus::fem {
 
 /// A ring of equal sectors in which a few neighbours have been replaced by sectors that differ inside but share their
-/// radial cuts: teeth with a mesh of their own. Exact: the replacement is a change of low rank of the composed ring.
+/// cyclic interfaces: teeth with a mesh of their own. Exact: the replacement is a change of low rank of the composed
+/// ring.
 class AlteredRing {
  public:
   /// `most`: largest number of neighbours that will be replaced at once.
@@ -19,8 +20,8 @@ class AlteredRing {
   [[nodiscard]] Eigen::MatrixXd compliance(const std::vector<const CondensedSector*>& replaced) const;
 
  private:
-  Eigen::MatrixXd regular_stiffness_;            // of the two cuts, both in the frames of their own sectors
-  std::vector<Eigen::MatrixXd> cut_compliance_;  // offsets 0 ... most
+  Eigen::MatrixXd regular_stiffness_;                  // of the two interfaces, both in the frames of their own sectors
+  std::vector<Eigen::MatrixXd> interface_compliance_;  // offsets 0 ... most
 };
 
 }  // namespace annulus::fem

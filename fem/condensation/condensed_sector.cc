@@ -1,5 +1,7 @@
 #include "fem/condensation/condensed_sector.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
@@ -33,12 +35,12 @@ Eigen::SparseMatrix<double> load_columns(const SectorModel& model, const SectorL
 }  // namespace
 
 bool CondensedSector::symmetric() const {
-  return std::any_of(cut_dofs.begin(), cut_dofs.end(), [this](int free) { return free < dimension; });
+  return std::any_of(interface_dofs.begin(), interface_dofs.end(), [this](int free) { return free < dimension; });
 }
 
 void CondensedSector::turn_columns(Eigen::MatrixXd& matrix, Eigen::Index first) const {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(pitch_angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  for (const int free : cut_dofs) {
+  for (const int free : interface_dofs) {
     matrix.middleCols(first, free) = (matrix.middleCols(first, free) * turn.topLeftCorner(free, free)).eval();
     first += free;
   }
@@ -51,7 +53,7 @@ CondensedSector condense(const SectorModel& model, const SectorLoads& loads, boo
   sector.pitch_angle = model.pitch_angle;
   sector.ports = static_cast<int>(loads.ports.size());
 
-  // Retained: the DOFs of both cuts first, then what only the ports touch.
+  // Retained: the DOFs of both interfaces first, then what only the ports touch.
   std::vector<int> retained;
   std::map<int, int> place;
   const auto keep = [&](int row) {
@@ -60,24 +62,24 @@ CondensedSector condense(const SectorModel& model, const SectorLoads& loads, boo
   for (const auto* side : {&model.low_nodes, &model.high_nodes})
     for (const int node : *side)
       for (int c = 0; c < dim; ++c) keep(model.dof[node * dim + c]);
-  const int cuts = static_cast<int>(retained.size());
+  const int interfaces = static_cast<int>(retained.size());
   const auto free_components = [&](int node) {
     int count = 0;
     while (count < dim && model.dof[node * dim + count] >= 0) ++count;
     return count;
   };
   for (const int node : model.low_nodes) {
-    sector.cut_points.push_back(model.nodes[node]);
-    sector.cut_dofs.push_back(free_components(node));
+    sector.interface_points.push_back(model.nodes[node]);
+    sector.interface_dofs.push_back(free_components(node));
   }
-  bool matching = cuts == 2 * std::accumulate(sector.cut_dofs.begin(), sector.cut_dofs.end(), 0);
+  bool matching = interfaces == 2 * std::accumulate(sector.interface_dofs.begin(), sector.interface_dofs.end(), 0);
   for (std::size_t i = 0; i < model.high_nodes.size(); ++i)
-    matching &= sector.cut_dofs[i] >= 2 && free_components(model.high_nodes[i]) == sector.cut_dofs[i];
-  require(matching, "the radial cuts have unequal degrees of freedom");
+    matching &= sector.interface_dofs[i] >= 2 && free_components(model.high_nodes[i]) == sector.interface_dofs[i];
+  require(matching, "the cyclic interfaces have unequal degrees of freedom");
   for (const auto& port : loads.ports)
     for (int c = 0; c < dim; ++c)
       if (port.direction[c] != 0) keep(model.dof[port.node * dim + c]);
-  const int kept = static_cast<int>(retained.size()), inner = kept - cuts;
+  const int kept = static_cast<int>(retained.size()), inner = kept - interfaces;
 
   // A floating sector can move rigidly: its complement is singular and needs the shift, of the size of its entries.
   const double shift = floating ? model.stiffness.diagonal().mean() : 0.0;
@@ -94,13 +96,17 @@ CondensedSector condense(const SectorModel& model, const SectorLoads& loads, boo
   if (others > 0) on_retained.rightCols(others) = s.loads;
 
   Eigen::MatrixXd factor = s.matrix.bottomRightCorner(inner, inner);
-  if (!lapack::cholesky(factor)) throw SolverError("the condensed stiffness of a tooth is not positive definite");
-  Eigen::MatrixXd to_cuts = s.matrix.bottomLeftCorner(inner, cuts);
-  lapack::solve_lower(factor, to_cuts);
+  if (!lapack::cholesky(factor))
+    throw SolverError(
+        fmt::format("the stiffness of a tooth superelement ({} inner degrees of freedom) is not positive "
+                    "definite",
+                    inner));
+  Eigen::MatrixXd to_interfaces = s.matrix.bottomLeftCorner(inner, interfaces);
+  lapack::solve_lower(factor, to_interfaces);
   Eigen::MatrixXd from_loads = on_retained.bottomRows(inner);
   lapack::solve_lower(factor, from_loads);
-  sector.cut_stiffness = s.matrix.topLeftCorner(cuts, cuts) - lapack::gram(to_cuts);
-  sector.cut_load = on_retained.topRows(cuts) - lapack::transpose_product(to_cuts, from_loads);
+  sector.interface_stiffness = s.matrix.topLeftCorner(interfaces, interfaces) - lapack::gram(to_interfaces);
+  sector.interface_load = on_retained.topRows(interfaces) - lapack::transpose_product(to_interfaces, from_loads);
   sector.compliance =
       lapack::transpose_product(from_loads, Eigen::MatrixXd(from_loads.leftCols(loads.acting_columns())));
   if (others > 0) sector.compliance.bottomRightCorner(others, acting) += s.compliance;
@@ -118,7 +124,7 @@ CondensedSector combine_loads(CondensedSector sector, int first, const Eigen::Ma
     result.rightCols(after) = matrix.rightCols(after);
     return result;
   };
-  sector.cut_load = in_columns(sector.cut_load);
+  sector.interface_load = in_columns(sector.interface_load);
   const Eigen::MatrixXd transposed = in_columns(sector.compliance).transpose();
   sector.compliance = in_columns(transposed).transpose();
   return sector;

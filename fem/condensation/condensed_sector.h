@@ -24,21 +24,21 @@ struct SectorLoads {
   [[nodiscard]] int acting_columns() const { return static_cast<int>(ports.size() + acting.size()); }
 };
 
-/// A sector reduced exactly to its two radial cuts (low, then high) and its loads: ports, acting, observed.
+/// A sector reduced exactly to its two cyclic interfaces (low, then high) and its loads: ports, acting, observed.
 struct CondensedSector {
   int dimension = 2;
   double pitch_angle = 0;
-  std::vector<Eigen::Vector3d> cut_points;  ///< of the low cut
-  std::vector<int> cut_dofs;                ///< of every cut point: its first displacements, x and y, mostly z; sum m
-  Eigen::MatrixXd cut_stiffness;            ///< 2m x 2m, low DOFs then high ones
-  Eigen::MatrixXd cut_load;                 ///< 2m x loads: load on the cuts equivalent to a unit load
-  Eigen::MatrixXd compliance;               ///< loads x (ports and acting), with both cuts held
+  std::vector<Eigen::Vector3d> interface_points;  ///< of the low interface
+  std::vector<int> interface_dofs;      ///< of every interface point: its first displacements, x and y, mostly z; sum m
+  Eigen::MatrixXd interface_stiffness;  ///< 2m x 2m, low DOFs then high ones
+  Eigen::MatrixXd interface_load;       ///< 2m x loads: load on the interfaces equivalent to a unit load
+  Eigen::MatrixXd compliance;           ///< loads x (ports and acting), with both interfaces held
   int ports = 0;
 
   /// Whether some points stay in a plane of symmetry: the ring can then neither tilt nor move along its axis.
   [[nodiscard]] bool symmetric() const;
-  /// The columns of displacements of a cut, from `first` on, turned from the frame of its own sector into that of the
-  /// sector before: times the rotation by the pitch.
+  /// The columns of displacements of a interface, from `first` on, turned from the frame of its own sector into that of
+  /// the sector before: times the rotation by the pitch.
   void turn_columns(Eigen::MatrixXd& matrix, Eigen::Index first) const;
 };
 

@@ -23,15 +23,16 @@ std::pair<int, bool> locate(int offset, int sectors, int max_offset) {
   return {d, mirrored};
 }
 
-/// Inverses of the harmonics h = first, first + step, ... summed to compliances between cuts: m^2 x offsets.
-Eigen::MatrixXd sum_harmonics(const HarmonicMatrix& cuts, double pitch, int sectors, int offsets, int first, int step) {
+/// Inverses of the harmonics h = first, first + step, ... summed to compliances between interfaces: m^2 x offsets.
+Eigen::MatrixXd sum_harmonics(const HarmonicMatrix& interfaces, double pitch, int sectors, int offsets, int first,
+                              int step) {
   constexpr int chunk = 8;  // harmonics summed by one matrix product
-  const auto m = cuts.load_low().rows();
+  const auto m = interfaces.load_low().rows();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(m * m, offsets);
   Eigen::MatrixXd inverses(m * m, 2 * chunk), turns(2 * chunk, offsets);
   const int harmonics = sectors / 2 + 1;
   for (int h = first, k = 0; h < harmonics; h += step) {
-    Eigen::MatrixXcd matrix = cuts.factor(h);
+    Eigen::MatrixXcd matrix = interfaces.factor(h);
     lapack::invert_from_cholesky(matrix);
     const Eigen::VectorXcd entries = matrix.reshaped();
     inverses.col(2 * k) = entries.real();
@@ -54,20 +55,20 @@ Eigen::MatrixXd sum_harmonics(const HarmonicMatrix& cuts, double pitch, int sect
 
 }  // namespace
 
-CyclicCompliance::CyclicCompliance(int sectors, int ports, int max_offset, std::vector<Eigen::MatrixXd> cuts,
+CyclicCompliance::CyclicCompliance(int sectors, int ports, int max_offset, std::vector<Eigen::MatrixXd> interfaces,
                                    Eigen::MatrixXd low, Eigen::MatrixXd high, Eigen::MatrixXd within)
     : sectors_(sectors),
-      cuts_(std::move(cuts)),
+      interfaces_(std::move(interfaces)),
       low_(std::move(low)),
       high_(std::move(high)),
       within_(std::move(within)) {
   const Eigen::MatrixXd port_low = low_.leftCols(ports), port_high = high_.leftCols(ports);
   for (int d = 0; d <= max_offset; ++d) {
-    Eigen::MatrixXd at_low = Eigen::MatrixXd::Zero(cut_size(), ports), at_high = at_low;
-    add_cut_displacement(d, port_low, at_low);
-    add_cut_displacement(d - 1, port_high, at_low);
-    add_cut_displacement(d + 1, port_low, at_high);
-    add_cut_displacement(d, port_high, at_high);
+    Eigen::MatrixXd at_low = Eigen::MatrixXd::Zero(interface_size(), ports), at_high = at_low;
+    add_interface_displacement(d, port_low, at_low);
+    add_interface_displacement(d - 1, port_high, at_low);
+    add_interface_displacement(d + 1, port_low, at_high);
+    add_interface_displacement(d, port_high, at_high);
     blocks_.push_back(lapack::transpose_product(port_low, at_low) + lapack::transpose_product(port_high, at_high));
   }
   blocks_.front() += within_.topLeftCorner(ports, ports);
@@ -79,13 +80,13 @@ Eigen::MatrixXd CyclicCompliance::block(int offset) const {
   return mirrored ? Eigen::MatrixXd(blocks_[d].transpose()) : blocks_[d];
 }
 
-void CyclicCompliance::add_cut_displacement(int offset, const Eigen::MatrixXd& cut_load,
-                                            Eigen::MatrixXd& displacement) const {
-  const auto [d, mirrored] = locate(offset, sectors_, max_cut_offset());
+void CyclicCompliance::add_interface_displacement(int offset, const Eigen::MatrixXd& interface_load,
+                                                  Eigen::MatrixXd& displacement) const {
+  const auto [d, mirrored] = locate(offset, sectors_, max_interface_offset());
   if (mirrored)
-    displacement += lapack::transpose_product(cuts_[d], cut_load);
+    displacement += lapack::transpose_product(interfaces_[d], interface_load);
   else
-    lapack::add_product(cuts_[d], cut_load, displacement);
+    lapack::add_product(interfaces_[d], interface_load, displacement);
 }
 
 CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, const RingExtent& extent, bool floating,
@@ -102,11 +103,12 @@ CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, const 
   for (int group = 1; group < harmonic_groups; ++group) partial.front() += partial[group];
 
   const auto m = harmonics.load_low().rows();
-  std::vector<Eigen::MatrixXd> cuts;
-  cuts.reserve(offsets);
-  for (int d = 0; d < offsets; ++d) cuts.emplace_back(partial.front().col(d).reshaped(m, m));
-  return {sectors,          sector.ports, max_offset, std::move(cuts), harmonics.load_low(), harmonics.load_high(),
-          sector.compliance};
+  std::vector<Eigen::MatrixXd> interfaces;
+  interfaces.reserve(offsets);
+  for (int d = 0; d < offsets; ++d) interfaces.emplace_back(partial.front().col(d).reshaped(m, m));
+  return {
+      sectors,          sector.ports, max_offset, std::move(interfaces), harmonics.load_low(), harmonics.load_high(),
+      sector.compliance};
 }
 
 }  // namespace annulus::fem

@@ -34,17 +34,17 @@ const Eigen::MatrixXd& CyclicFlexibility::block(int offset) const {
 
 CyclicFlexibility compose_loads(const CondensedSector& sector, int sectors, bool floating, double scale, int threads) {
   require(sectors >= 3, "a ring needs at least three sectors");
-  const HarmonicMatrix cuts(sector, floating);
+  const HarmonicMatrix interfaces(sector, floating);
   const auto loads = sector.compliance.cols();
-  const Eigen::MatrixXcd low = cuts.load_low().leftCols(loads), high = cuts.load_high().leftCols(loads);
+  const Eigen::MatrixXcd low = interfaces.load_low().leftCols(loads), high = interfaces.load_high().leftCols(loads);
   const Eigen::MatrixXcd within = sector.compliance.topRows(loads);
   std::vector<Eigen::MatrixXcd> harmonics(sectors / 2 + 1);
   for_each_harmonic_group(threads, [&](int group) {
     for (int h = group; h < static_cast<int>(harmonics.size()); h += harmonic_groups) {
-      // A load of the sector before acts on its high cut.
-      Eigen::MatrixXcd on_cut = low + std::polar(1.0, -h * sector.pitch_angle) * high;
-      lapack::solve_lower(cuts.factor(h), on_cut);
-      const Eigen::MatrixXcd sum = scale * (within + on_cut.adjoint() * on_cut);
+      // A load of the sector before acts on its high interface.
+      Eigen::MatrixXcd on_interface = low + std::polar(1.0, -h * sector.pitch_angle) * high;
+      lapack::solve_lower(interfaces.factor(h), on_interface);
+      const Eigen::MatrixXcd sum = scale * (within + on_interface.adjoint() * on_interface);
       harmonics[h] = 0.5 * (sum + sum.adjoint());
     }
   });

@@ -8,7 +8,7 @@
 namespace annulus::fem {
 
 /// Compliance between the loads of a ring of N equal sectors, harmonic by harmonic: for a few loads per sector far
-/// cheaper than CyclicCompliance, which couples the cuts.
+/// cheaper than CyclicCompliance, which couples the interfaces.
 ///
 /// Loads f e^(i h s pitch) on sectors s give displacements F_h f e^(i h s pitch) of their work partners, all in the
 /// frames of their own sectors. F_h is Hermitian, F_(N-h) its conjugate.

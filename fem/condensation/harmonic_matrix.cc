@@ -14,17 +14,17 @@
 namespace annulus::fem {
 namespace {
 
-/// Rigid motions of the whole ring that have circumferential harmonic `h`, seen at the low cut in the sector's frame:
-/// axial translation and rotation about the axis for h = 0; translation and tilt, as x + i y, for h = 1.
+/// Rigid motions of the whole ring that have circumferential harmonic `h`, seen at the low interface in the sector's
+/// frame: axial translation and rotation about the axis for h = 0; translation and tilt, as x + i y, for h = 1.
 std::vector<Eigen::VectorXcd> harmonic_rigid_motions(const CondensedSector& sector, int harmonic) {
   const bool out_of_plane = sector.dimension == 3 && !sector.symmetric();
   std::vector<Eigen::VectorXcd> motions;
   const auto add = [&](const auto& displacement) {
-    Eigen::VectorXcd motion(sector.cut_stiffness.rows() / 2);
+    Eigen::VectorXcd motion(sector.interface_stiffness.rows() / 2);
     Eigen::Index row = 0;
-    for (std::size_t n = 0; n < sector.cut_points.size(); ++n) {
-      const Eigen::Vector3cd& u = displacement(sector.cut_points[n]);
-      for (int c = 0; c < sector.cut_dofs[n]; ++c) motion[row++] = u[c];
+    for (std::size_t n = 0; n < sector.interface_points.size(); ++n) {
+      const Eigen::Vector3cd& u = displacement(sector.interface_points[n]);
+      for (int c = 0; c < sector.interface_dofs[n]; ++c) motion[row++] = u[c];
     }
     motions.push_back(motion);
   };
@@ -50,18 +50,18 @@ std::vector<Eigen::VectorXcd> harmonic_rigid_motions(const CondensedSector& sect
 }  // namespace
 
 HarmonicMatrix::HarmonicMatrix(const CondensedSector& sector, bool floating) : sector_(sector), floating_(floating) {
-  const auto m = sector.cut_stiffness.rows() / 2;
+  const auto m = sector.interface_stiffness.rows() / 2;
   // Columns of the turned basis: u_high = Q v_next.
   const auto turn_columns = [&](Eigen::MatrixXd matrix) {
     sector.turn_columns(matrix, 0);
     return matrix;
   };
-  const Eigen::MatrixXd half = turn_columns(sector.cut_stiffness.bottomRightCorner(m, m));
+  const Eigen::MatrixXd half = turn_columns(sector.interface_stiffness.bottomRightCorner(m, m));
   const Eigen::MatrixXd high_high = turn_columns(half.transpose());
-  diagonal_ = sector.cut_stiffness.topLeftCorner(m, m) + high_high;
-  coupling_ = turn_columns(sector.cut_stiffness.topRightCorner(m, m));
-  load_low_ = sector.cut_load.topRows(m);
-  load_high_ = turn_columns(sector.cut_load.bottomRows(m).transpose()).transpose();
+  diagonal_ = sector.interface_stiffness.topLeftCorner(m, m) + high_high;
+  coupling_ = turn_columns(sector.interface_stiffness.topRightCorner(m, m));
+  load_low_ = sector.interface_load.topRows(m);
+  load_high_ = turn_columns(sector.interface_load.bottomRows(m).transpose()).transpose();
 }
 
 Eigen::MatrixXcd HarmonicMatrix::factor(int harmonic) const {

@@ -7,8 +7,8 @@
 
 namespace annulus::fem {
 
-/// The stiffness of the radial cuts of a ring of equal sectors, one Hermitian matrix per circumferential harmonic: the
-/// displacements of cut s are v e^(i h s pitch), each seen in the frame of its own sector.
+/// The stiffness of the cyclic interfaces of a ring of equal sectors, one Hermitian matrix per circumferential
+/// harmonic: the displacements of interface s are v e^(i h s pitch), each seen in the frame of its own sector.
 class HarmonicMatrix {
  public:
   /// `floating`: an artificial stiffness is added against the rigid motions of the ring alone (harmonics 0 and 1).
@@ -17,7 +17,9 @@ class HarmonicMatrix {
 
   /// Its Cholesky factor (lower). Throws SolverError when the ring is not held against the harmonic.
   [[nodiscard]] Eigen::MatrixXcd factor(int harmonic) const;
-  [[nodiscard]] const Eigen::MatrixXd& load_low() const { return load_low_; }    ///< loads on the own cut, m x loads
+  [[nodiscard]] const Eigen::MatrixXd& load_low() const {
+    return load_low_;
+  }  ///< loads on the own interface, m x loads
   [[nodiscard]] const Eigen::MatrixXd& load_high() const { return load_high_; }  ///< on the next, in its frame
 
  private:

@@ -26,6 +26,17 @@ struct CholmodWorkspace {
   CholmodWorkspace& operator=(const CholmodWorkspace&) = delete;
 };
 
+/// A factor and the workspace it belongs to.
+struct CholmodFactor {
+  CholmodWorkspace workspace;
+  cholmod_factor* factor = nullptr;
+  CholmodFactor() = default;
+  ~CholmodFactor() { cholmod_free_factor(&factor, &workspace.common); }
+  CholmodFactor(const CholmodFactor&) = delete;
+  CholmodFactor& operator=(const CholmodFactor&) = delete;
+};
+struct SparseCholesky::Impl : CholmodFactor {};
+
 namespace {
 
 /// A view of the lower triangle for CHOLMOD; the arrays stay with the Eigen matrix.
@@ -79,7 +90,7 @@ Eigen::MatrixXd solve_with(cholmod_factor* factor, int system, const Eigen::Matr
 
 /// Forward solves L y = P b of loads a few at a time: y of the interior enters the compliance, y of the retained
 /// DOFs times their own factor is the load that they see.
-/// `rank`: place of a row of L among the retained ones in order of elimination, -1 inside.
+/// `rank`: number of a row of L among the retained ones in order of elimination, -1 inside.
 void condense_loads(cholmod_factor* factor, const Eigen::MatrixXd& retained_factor, const std::vector<int>& rank,
                     const Eigen::SparseMatrix<double>& loads, int acting, cholmod_common& common,
                     SchurComplement& result) {
@@ -117,13 +128,143 @@ void condense_loads(cholmod_factor* factor, const Eigen::MatrixXd& retained_fact
   }
 }
 
-}  // namespace
-
-struct SparseCholesky::Impl {
-  CholmodWorkspace workspace;
-  cholmod_factor* factor = nullptr;
-  ~Impl() { cholmod_free_factor(&factor, &workspace.common); }
+/// The DOFs of a matrix, parted into retained and interior ones.
+struct Partition {
+  std::vector<int> retained, interior;                    ///< DOFs
+  std::vector<int> number_among_retained, number_inside;  ///< of every DOF; -1 for the others
 };
+
+/// Throws InternalError when a DOF is retained twice.
+Partition partition_of(int dofs, const std::vector<int>& retained) {
+  Partition partition{retained, {}, std::vector<int>(dofs, -1), std::vector<int>(dofs, -1)};
+  for (std::size_t k = 0; k < retained.size(); ++k) {
+    require(partition.number_among_retained[retained[k]] < 0, "a degree of freedom is retained twice");
+    partition.number_among_retained[retained[k]] = static_cast<int>(k);
+  }
+  partition.interior.reserve(dofs - retained.size());
+  for (int i = 0; i < dofs; ++i)
+    if (partition.number_among_retained[i] < 0) {
+      partition.number_inside[i] = static_cast<int>(partition.interior.size());
+      partition.interior.push_back(i);
+    }
+  return partition;
+}
+
+/// Lower triangle of the interior block.
+Eigen::SparseMatrix<double> interior_block(const Eigen::SparseMatrix<double>& matrix, const Partition& partition) {
+  const auto& inside = partition.number_inside;
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(matrix.nonZeros()) / 2 + inside.size());
+  for (int column = 0; column < matrix.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
+      if (it.row() >= column && inside[column] >= 0 && inside[it.row()] >= 0)
+        entries.emplace_back(inside[it.row()], inside[column], it.value());
+  const auto size = static_cast<int>(partition.interior.size());
+  Eigen::SparseMatrix<double> block(size, size);
+  block.setFromTriplets(entries.begin(), entries.end());
+  return block;
+}
+
+/// Fill-reducing ordering of the interior, as numbers inside.
+std::vector<int> interior_ordering(const Eigen::SparseMatrix<double>& matrix, const Partition& partition,
+                                   cholmod_common& common) {
+  std::vector<int> order(partition.interior.size());
+  if (order.empty()) return order;
+  Eigen::SparseMatrix<double> block = interior_block(matrix, partition);
+  cholmod_sparse view = lower_view(block);
+  // Nested dissection pays for itself in three dimensions and on large plane sectors. Rows of linear and quadratic
+  // plane elements have 32 entries at most in the mean, those of linear hexahedra 38 at least, however few cells lie
+  // across.
+  constexpr int most_entries_in_the_plane = 35;
+  const bool plane = matrix.nonZeros() < static_cast<Eigen::Index>(most_entries_in_the_plane) * matrix.rows();
+  const std::size_t small = plane ? 60000 : 3000;
+  if (order.size() <= small) {
+    require(cholmod_amd(&view, nullptr, 0, order.data(), &common) != 0, "the fill-reducing ordering failed");
+    return order;
+  }
+  // METIS seeds and draws from the C library's one random generator: side by side, two calls would disturb each
+  // other's orderings and with them the last digits of the result.
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  require(cholmod_metis(&view, nullptr, 0, 1, order.data(), &common) != 0, "the fill-reducing ordering failed");
+  return order;
+}
+
+/// Factorises a matrix, its lower triangle given, with the retained DOFs eliminated after the interior.
+void factorise_retained_last(CholmodFactor& cholesky, Eigen::SparseMatrix<double>& lower,
+                             const std::vector<int>& interior_order, const Partition& partition) {
+  std::vector<int> permutation;
+  permutation.reserve(static_cast<std::size_t>(lower.rows()));
+  for (const int i : interior_order) permutation.push_back(partition.interior[i]);
+  permutation.insert(permutation.end(), partition.retained.begin(), partition.retained.end());
+  auto& common = cholesky.workspace.common;
+  cholmod_sparse view = lower_view(lower);
+  common.nmethods = 1;
+  common.method[0].ordering = CHOLMOD_GIVEN;
+  cholesky.factor = cholmod_analyze_p(&view, permutation.data(), nullptr, 0, &common);
+  if (cholesky.factor != nullptr) cholmod_factorize(&view, cholesky.factor, &common);
+  check_factor(cholesky.workspace, cholesky.factor, "stiffness matrix of the sector");
+}
+
+/// Numbers of the retained DOFs in the order of their elimination. CHOLMOD postorders the elimination tree: columns of
+/// independent interior branches may stand between the retained ones, and where the interior falls into pieces the
+/// retained DOFs change their own order.
+struct EliminationRanks {
+  std::vector<int> of_retained;  ///< by number among the retained ones
+  std::vector<int> of_row;       ///< by row of the factor; -1 inside
+};
+
+EliminationRanks elimination_ranks(const cholmod_factor& factor, const Partition& partition) {
+  const auto* order = static_cast<const int*>(factor.Perm);
+  const int n = static_cast<int>(factor.n);
+  EliminationRanks ranks{std::vector<int>(partition.retained.size()), std::vector<int>(n, -1)};
+  int next = 0;
+  for (int row = 0; row < n; ++row)
+    if (const int number = partition.number_among_retained[order[row]]; number >= 0)
+      ranks.of_retained[number] = ranks.of_row[row] = next++;
+  return ranks;
+}
+
+/// The columns of the retained DOFs, read out of the supernodes: lower triangular, by rank.
+Eigen::MatrixXd retained_factor(const cholmod_factor& factor, const EliminationRanks& ranks) {
+  const auto kept = static_cast<Eigen::Index>(ranks.of_retained.size());
+  Eigen::MatrixXd trailing = Eigen::MatrixXd::Zero(kept, kept);
+  const auto* first_column = static_cast<const int*>(factor.super);
+  const auto* row_start = static_cast<const int*>(factor.pi);
+  const auto* value_start = static_cast<const int*>(factor.px);
+  const auto* rows = static_cast<const int*>(factor.s);
+  const auto* values = static_cast<const double*>(factor.x);
+  for (std::size_t s = 0; s < factor.nsuper; ++s) {
+    const int height = row_start[s + 1] - row_start[s];
+    for (int column = first_column[s]; column < first_column[s + 1]; ++column) {
+      const int rank = ranks.of_row[column];
+      if (rank < 0) continue;
+      const int local = column - first_column[s];
+      for (int r = local; r < height; ++r) {
+        const int row_rank = ranks.of_row[rows[row_start[s] + r]];
+        if (row_rank < rank)
+          throw InternalError("internal error: a retained degree of freedom was not eliminated last");
+        trailing(row_rank, rank) =
+            values[static_cast<std::ptrdiff_t>(value_start[s]) + static_cast<std::ptrdiff_t>(local) * height + r];
+      }
+    }
+  }
+  return trailing;
+}
+
+/// From the order of elimination to the order in which the DOFs are retained.
+void restore_order(const std::vector<int>& rank, SchurComplement& result) {
+  if (std::is_sorted(rank.begin(), rank.end())) return;
+  const auto kept = static_cast<int>(rank.size());
+  const Eigen::MatrixXd matrix_by_rank = std::move(result.matrix), loads_by_rank = std::move(result.loads);
+  result.matrix.resize(kept, kept);
+  for (int j = 0; j < kept; ++j)
+    for (int i = 0; i < kept; ++i) result.matrix(i, j) = matrix_by_rank(rank[i], rank[j]);
+  result.loads.resize(kept, loads_by_rank.cols());
+  for (int i = 0; i < kept && loads_by_rank.cols() > 0; ++i) result.loads.row(i) = loads_by_rank.row(rank[i]);
+}
+
+}  // namespace
 
 SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& matrix) : impl_(std::make_unique<Impl>()) {
   Eigen::SparseMatrix<double> lower = matrix.triangularView<Eigen::Lower>();
@@ -144,108 +285,24 @@ Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_hand_sides) c
 
 SchurComplement schur_complement(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& retained,
                                  double shift_retained, const Eigen::SparseMatrix<double>& loads, int acting) {
-  const int n = static_cast<int>(matrix.rows()), kept = static_cast<int>(retained.size());
-  std::vector<int> position(n, -1);  // place of a DOF among the retained ones
-  for (int k = 0; k < kept; ++k) {
-    require(position[retained[k]] < 0, "a degree of freedom is retained twice");
-    position[retained[k]] = k;
-  }
-  std::vector<int> interior;
-  interior.reserve(n - kept);
-  std::vector<int> place_inside(n, -1);
-  for (int i = 0; i < n; ++i)
-    if (position[i] < 0) {
-      place_inside[i] = static_cast<int>(interior.size());
-      interior.push_back(i);
-    }
-
-  CholmodWorkspace workspace;
-  auto& common = workspace.common;
-
-  // A fill-reducing ordering of the interior alone, the retained DOFs appended.
-  std::vector<Eigen::Triplet<double>> inside;
-  inside.reserve(static_cast<std::size_t>(matrix.nonZeros()) / 2 + n);
-  for (int column = 0; column < n; ++column)
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, column); it; ++it)
-      if (it.row() >= column && place_inside[column] >= 0 && place_inside[it.row()] >= 0)
-        inside.emplace_back(place_inside[it.row()], place_inside[column], it.value());
-  Eigen::SparseMatrix<double> interior_matrix(static_cast<int>(interior.size()), static_cast<int>(interior.size()));
-  interior_matrix.setFromTriplets(inside.begin(), inside.end());
-  inside = {};
-  cholmod_sparse interior_view = lower_view(interior_matrix);
-  std::vector<int> interior_order(interior.size());
-  // Nested dissection pays for itself in three dimensions and on large plane sectors. Rows of linear and quadratic
-  // plane elements have 32 entries at most in the mean, those of linear hexahedra 38 at least, however few cells lie
-  // across.
-  constexpr int most_entries_in_the_plane = 35;
-  const std::size_t small = matrix.nonZeros() < static_cast<Eigen::Index>(most_entries_in_the_plane) * n ? 60000 : 3000;
-  const bool ordered = [&] {
-    if (interior.empty()) return true;
-    if (interior.size() <= small) return cholmod_amd(&interior_view, nullptr, 0, interior_order.data(), &common) != 0;
-    // METIS seeds and draws from the C library's one random generator: side by side, two calls would disturb each
-    // other's orderings and with them the last digits of the result.
-    static std::mutex one_at_a_time;
-    const std::lock_guard lock(one_at_a_time);
-    return cholmod_metis(&interior_view, nullptr, 0, 1, interior_order.data(), &common) != 0;
-  }();
-  require(ordered, "the fill-reducing ordering failed");
-  std::vector<int> permutation;
-  permutation.reserve(n);
-  for (const int i : interior_order) permutation.push_back(interior[i]);
-  permutation.insert(permutation.end(), retained.begin(), retained.end());
-
+  const Partition partition = partition_of(static_cast<int>(matrix.rows()), retained);
+  CholmodFactor cholesky;
+  auto& common = cholesky.workspace.common;
+  const auto interior_order = interior_ordering(matrix, partition, common);
   Eigen::SparseMatrix<double> lower = matrix.triangularView<Eigen::Lower>();
   if (shift_retained > 0)
     for (const int i : retained) lower.coeffRef(i, i) += shift_retained;
-  cholmod_sparse view = lower_view(lower);
-  common.nmethods = 1;
-  common.method[0].ordering = CHOLMOD_GIVEN;
-  cholmod_factor* factor = cholmod_analyze_p(&view, permutation.data(), nullptr, 0, &common);
-  if (factor != nullptr) cholmod_factorize(&view, factor, &common);
-  check_factor(workspace, factor, "stiffness matrix of the sector");
+  factorise_retained_last(cholesky, lower, interior_order, partition);
 
-  // Read the columns of the retained DOFs out of the supernodes. CHOLMOD postorders the elimination tree: columns
-  // of independent interior branches may stand between the retained ones, and where the interior falls into pieces the
-  // retained DOFs change their own order.
-  const auto* order = static_cast<const int*>(factor->Perm);
-  std::vector<int> rank(kept), rank_of_row(n, -1);
-  int ranks = 0;
-  for (int column = 0; column < n; ++column)
-    if (position[order[column]] >= 0) rank[position[order[column]]] = rank_of_row[column] = ranks++;
-  Eigen::MatrixXd trailing = Eigen::MatrixXd::Zero(kept, kept);
-  const auto* first_column = static_cast<const int*>(factor->super);
-  const auto* row_start = static_cast<const int*>(factor->pi);
-  const auto* value_start = static_cast<const int*>(factor->px);
-  const auto* rows = static_cast<const int*>(factor->s);
-  const auto* values = static_cast<const double*>(factor->x);
-  for (std::size_t s = 0; s < factor->nsuper; ++s) {
-    const int height = row_start[s + 1] - row_start[s];
-    for (int column = first_column[s]; column < first_column[s + 1]; ++column) {
-      if (position[order[column]] < 0) continue;
-      const int k = rank[position[order[column]]];
-      const int local = column - first_column[s];
-      for (int r = local; r < height; ++r) {
-        const int retained_row = position[order[rows[row_start[s] + r]]];
-        require(retained_row >= 0 && rank[retained_row] >= k,
-                "the retained degrees of freedom were not eliminated last");
-        trailing(rank[retained_row], k) =
-            values[static_cast<std::ptrdiff_t>(value_start[s]) + static_cast<std::ptrdiff_t>(local) * height + r];
-      }
-    }
-  }
+  const EliminationRanks ranks = elimination_ranks(*cholesky.factor, partition);
+  Eigen::MatrixXd trailing = retained_factor(*cholesky.factor, ranks);
   SchurComplement result;
-  if (loads.cols() > 0) condense_loads(factor, trailing, rank_of_row, loads, acting, common, result);
-  cholmod_free_factor(&factor, &common);
+  if (loads.cols() > 0) condense_loads(cholesky.factor, trailing, ranks.of_row, loads, acting, common, result);
+  cholmod_free_factor(&cholesky.factor, &common);  // the largest piece of memory, before the product
   trailing.transposeInPlace();
   result.matrix = lapack::gram(trailing);  // L L^T
   result.matrix.diagonal().array() -= shift_retained;
-  if (std::is_sorted(rank.begin(), rank.end())) return result;
-  const Eigen::MatrixXd matrix_by_rank = std::move(result.matrix), loads_by_rank = std::move(result.loads);
-  result.matrix.resize(kept, kept);
-  for (int j = 0; j < kept; ++j)
-    for (int i = 0; i < kept; ++i) result.matrix(i, j) = matrix_by_rank(rank[i], rank[j]);
-  result.loads.resize(kept, loads_by_rank.cols());
-  for (int i = 0; i < kept && loads_by_rank.cols() > 0; ++i) result.loads.row(i) = loads_by_rank.row(rank[i]);
+  restore_order(ranks.of_retained, result);
   return result;
 }
 

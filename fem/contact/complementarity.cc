@@ -1,5 +1,7 @@
 #include "fem/contact/complementarity.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 
@@ -22,7 +24,8 @@ bool solve_active(const ComplementarityProblem& p, const std::vector<int>& set, 
     e.row(j) = p.rigid.row(set[j]);
     g[j] = p.gap[set[j]];
   }
-  if (!lapack::cholesky(c)) throw SolverError("the contact compliance is not positive definite");
+  if (!lapack::cholesky(c))
+    throw SolverError(fmt::format("the compliance of {} contacts and supports is not positive definite", n));
   Eigen::MatrixXd right(n, rigid + 1);
   right << e, g;
   lapack::solve_lower(c, right);
@@ -55,7 +58,8 @@ ComplementaritySolution solve_complementarity(const ComplementarityProblem& prob
   for (s.iterations = 1; s.iterations <= most_blocks; ++s.iterations) {
     const auto set = indices_of(s.active);
     if (!solve_active(problem, set, s)) {
-      if (static_cast<int>(set.size()) == n) throw SolverError("the contacts and supports cannot carry the load");
+      if (static_cast<int>(set.size()) == n)
+        throw SolverError(fmt::format("all {} contacts and supports together cannot carry the load", n));
       s.active.assign(n, true);
       continue;
     }
@@ -69,7 +73,9 @@ ComplementaritySolution solve_complementarity(const ComplementarityProblem& prob
     s.active = std::move(next);
   }
   s.active = primal_active_set(problem);
-  if (!solve_active(problem, indices_of(s.active), s)) throw SolverError("the contacts leave the ring free to move");
+  if (!solve_active(problem, indices_of(s.active), s))
+    throw SolverError(fmt::format("{} of {} contacts and supports touch and leave the ring free to move",
+                                  indices_of(s.active).size(), n));
   return s;
 }
 

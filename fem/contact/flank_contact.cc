@@ -1,5 +1,7 @@
 #include "fem/contact/flank_contact.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
@@ -110,7 +112,10 @@ std::pair<double, double> FlankContact::opposite(double planet_roll, double cont
 FlankContact::Match FlankContact::match(double planet_roll, double contact_roll) const {
   const auto [roll, gap] = opposite(planet_roll, contact_roll);
   if (!(roll > 0 && std::isfinite(roll)))
-    throw SolverError("no point of the wheel flank lies opposite to the planet flank");
+    throw SolverError(
+        fmt::format("no point of the wheel flank lies opposite to the planet flank at the roll length "
+                    "{:.6g} mm, the theoretical contact at {:.6g} mm",
+                    1e3 * planet_roll, 1e3 * contact_roll));
   return {roll, gap + planet_.modification(planet_roll) + wheel_.modification(roll)};
 }
 

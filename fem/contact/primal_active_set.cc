@@ -1,5 +1,7 @@
 #include "fem/contact/primal_active_set.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/QR>
 #include <algorithm>
 #include <optional>
@@ -71,7 +73,7 @@ std::vector<bool> primal_active_set(const ComplementarityProblem& p) {
   ContactTolerances zero(p);
   const Eigen::Index n = p.gap.size(), rigid = p.rigid.cols();
   const auto start = carrying_forces(p);
-  if (!start) throw SolverError("the contacts and supports cannot carry the load");
+  if (!start) throw SolverError(fmt::format("all {} contacts and supports together cannot carry the load", n));
   Eigen::VectorXd force = *start;
   std::vector<bool> active(n);
   for (Eigen::Index i = 0; i < n; ++i) active[i] = !p.unilateral[i] || force[i] > 0;
@@ -111,7 +113,7 @@ std::vector<bool> primal_active_set(const ComplementarityProblem& p) {
     if (enters < 0) return active;
     active[enters] = true;
   }
-  throw SolverError("the contact set did not settle in " + std::to_string(most) + " exchanges");
+  throw SolverError(fmt::format("the set of {} contacts did not settle in {} exchanges", n, most));
 }
 
 }  // namespace annulus::fem

@@ -73,7 +73,10 @@ Eigen::MatrixXd SupportPlan::own_compliance() const {
 }
 
 SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
-    : plan_(std::move(plan)), ring_(ring), on_sector_(ring.teeth), cuts_(std::make_unique<Cut[]>(ring.teeth)) {
+    : plan_(std::move(plan)),
+      ring_(ring),
+      on_sector_(ring.teeth),
+      interfaces_(std::make_unique<Interface[]>(ring.teeth)) {
   const bool solid = ring.axial_stations() > 1, tilts = solid && !plan_.half_face();
   const auto& edges = plan_.slice_edges();
   const double width = edges.back() - edges.front();
@@ -109,24 +112,24 @@ SupportRow::SupportRow(SupportPlan plan, const GearBody& ring)
   compliance_ += plan_.own_compliance();
 }
 
-const Eigen::MatrixXd& SupportRow::at_cut(int cut) const {
-  const int number = tooth_number(cut);
-  auto& slot = cuts_[number];
+const Eigen::MatrixXd& SupportRow::at_interface(int interface) const {
+  const int number = tooth_number(interface);
+  auto& slot = interfaces_[number];
   std::call_once(slot.formed, [&] {
     const auto& c = ring_.compliance;
-    slot.displacement = Eigen::MatrixXd::Zero(c.cut_size(), size());
+    slot.displacement = Eigen::MatrixXd::Zero(c.interface_size(), size());
     for (int sector = 0; sector < ring_.teeth; ++sector) {
       const auto& here = on_sector_[sector];
       const auto count = static_cast<Eigen::Index>(here.force.size());
       if (count == 0) continue;
-      Eigen::MatrixXd low(c.cut_size(), count), high(c.cut_size(), count);
+      Eigen::MatrixXd low(c.interface_size(), count), high(c.interface_size(), count);
       for (Eigen::Index i = 0; i < count; ++i) {
         low.col(i) = c.low().col(ring_.first_arc() + here.arc[i]);
         high.col(i) = c.high().col(ring_.first_arc() + here.arc[i]);
       }
-      Eigen::MatrixXd displacement = Eigen::MatrixXd::Zero(c.cut_size(), count);
-      c.add_cut_displacement(number - sector, low, displacement);
-      c.add_cut_displacement(number - sector - 1, high, displacement);
+      Eigen::MatrixXd displacement = Eigen::MatrixXd::Zero(c.interface_size(), count);
+      c.add_interface_displacement(number - sector, low, displacement);
+      c.add_interface_displacement(number - sector - 1, high, displacement);
       for (Eigen::Index i = 0; i < count; ++i) slot.displacement.col(here.force[i]) += displacement.col(i);
     }
     slot.displacement *= per_width_;
@@ -137,8 +140,8 @@ const Eigen::MatrixXd& SupportRow::at_cut(int cut) const {
 Eigen::MatrixXd SupportRow::at_loads(int sector, int first, int count) const {
   const auto& c = ring_.compliance;
   Eigen::MatrixXd result =
-      lapack::transpose_product(Eigen::MatrixXd(c.low().middleCols(first, count)), at_cut(sector)) +
-      lapack::transpose_product(Eigen::MatrixXd(c.high().middleCols(first, count)), at_cut(sector + 1));
+      lapack::transpose_product(Eigen::MatrixXd(c.low().middleCols(first, count)), at_interface(sector)) +
+      lapack::transpose_product(Eigen::MatrixXd(c.high().middleCols(first, count)), at_interface(sector + 1));
   const auto& here = on_sector_[tooth_number(sector)];
   for (std::size_t i = 0; i < here.force.size(); ++i)
     result.col(here.force[i]) += per_width_ * c.within().col(ring_.first_arc() + here.arc[i]).segment(first, count);
@@ -160,7 +163,7 @@ Eigen::MatrixXd SupportRow::at_ports(int tooth, const Eigen::MatrixXd& port_weig
   const Eigen::MatrixXd low = lapack::product(c.low().leftCols(ports), port_weights);
   const Eigen::MatrixXd high = lapack::product(c.high().leftCols(ports), port_weights);
   Eigen::MatrixXd result =
-      lapack::transpose_product(low, at_cut(tooth)) + lapack::transpose_product(high, at_cut(tooth + 1));
+      lapack::transpose_product(low, at_interface(tooth)) + lapack::transpose_product(high, at_interface(tooth + 1));
   const auto& here = on_sector_[tooth_number(tooth)];
   for (std::size_t i = 0; i < here.force.size(); ++i)
     result.col(here.force[i]) +=

@@ -65,12 +65,12 @@ class SupportRow {
   /// Displacement of loads of a tooth under unit support forces, m/N: the work of `port_weights` (ports x k) is asked
   /// for; k x forces.
   [[nodiscard]] Eigen::MatrixXd at_ports(int tooth, const Eigen::MatrixXd& port_weights) const;
-  /// Displacements of cut `cut` under unit support forces, m/N: m x forces. Formed when first asked for.
-  [[nodiscard]] const Eigen::MatrixXd& at_cut(int cut) const;
+  /// Displacements of interface `interface` under unit support forces, m/N: m x forces. Formed when first asked for.
+  [[nodiscard]] const Eigen::MatrixXd& at_interface(int interface) const;
   /// Work of loads first ... first + count - 1 of a sector under unit support forces, per N: count x forces.
   [[nodiscard]] Eigen::MatrixXd at_loads(int sector, int first, int count) const;
 
-  /// The part of such work that passes inside the sector, its cuts held, under given support forces: count.
+  /// The part of such work that passes inside the sector, its interfaces held, under given support forces: count.
   [[nodiscard]] Eigen::VectorXd within_sector(int sector, int first, int count, const Eigen::VectorXd& forces) const;
 
   /// What forces mean for pins (or spline teeth), and for the patches of a housing bore.
@@ -90,11 +90,11 @@ class SupportRow {
   Eigen::MatrixXd compliance_, resultants_;
   Eigen::VectorXd gap_;
   std::vector<bool> unilateral_;
-  struct Cut {
+  struct Interface {
     std::once_flag formed;
     Eigen::MatrixXd displacement;
   };
-  std::unique_ptr<Cut[]> cuts_;
+  std::unique_ptr<Interface[]> interfaces_;
 };
 
 }  // namespace annulus::fem

@@ -10,7 +10,7 @@ namespace annulus::fem {
 
 /// A unit force spread over an arc of the outside of a ring and over a slice of its width, seen by one sector.
 struct ArcLoad {
-  double centre = 0;      ///< rad, polar angle of the middle of the arc in the sector's frame, may lie beyond its cuts
+  double centre = 0;      ///< rad, polar angle of the middle in the sector's frame, may lie beyond its interfaces
   double half_arc = 0;    ///< rad
   double direction = 0;   ///< rad, of the force, polar angle in the sector's frame
   bool parabolic = true;  ///< density 3/4 (1 - x^2) over x in [-1, 1]; else uniform

@@ -85,43 +85,47 @@ StressSurface make_stress_surface(const std::vector<SurfaceStress>& surface, con
   return result;
 }
 
-geometry::Boundary boundary_of(HeldBoundary held) {
+std::vector<geometry::Boundary> boundaries_of(HeldBoundary held) {
   switch (held) {
     case HeldBoundary::support:
-      return geometry::Boundary::support;
+      return {geometry::Boundary::support};
     case HeldBoundary::end_low:
-      return geometry::Boundary::end_low;
+      return {geometry::Boundary::end_low};
+    case HeldBoundary::both_ends:
+      return {geometry::Boundary::end_low, geometry::Boundary::end_high};
     case HeldBoundary::flange_face:
-      return geometry::Boundary::flange_face;
+      return {geometry::Boundary::flange_face};
     case HeldBoundary::none:
       break;
   }
-  return geometry::Boundary::none;  // no face of a mesh
+  return {};
 }
 
 template <int dim>
-SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile& profile, double support_radius,
-                       const Material& material, const SectorModelOptions& options) {
-  const auto project = [&profile, support_radius, &options](geometry::Boundary boundary, const Eigen::Vector3d& point) {
-    return profile.project_solid(boundary, point, support_radius, options.outside_radius);
-  };
-  const ElasticProblem<dim> problem(mesh, project, material, options.degree, options.refinements);
-
-  SectorModel model;
-  model.dimension = dim;
-  model.pitch_angle = profile.gear().pitch_angle();
+std::vector<Eigen::Vector3d> nodes_of(const ElasticProblem<dim>& problem) {
+  std::vector<Eigen::Vector3d> nodes;
+  nodes.reserve(problem.node_points().size());
   for (const auto& p : problem.node_points()) {
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     for (int c = 0; c < dim; ++c) point[c] = p[c];
-    model.nodes.push_back(point);
+    nodes.push_back(point);
   }
+  return nodes;
+}
 
-  std::vector<bool> held(model.nodes.size(), false);
-  for (const int n : problem.boundary_nodes(boundary_of(options.held))) held[n] = true;
-  require(dim == 3 || !options.symmetric_end, "a plane sector has no end");
-  std::vector<bool> in_symmetry(model.nodes.size(), false);
-  if (options.symmetric_end)
-    for (const int n : problem.boundary_nodes(geometry::Boundary::end_high)) in_symmetry[n] = true;
+/// Which nodes lie on one of the boundaries.
+template <int dim>
+std::vector<bool> on_boundaries(const ElasticProblem<dim>& problem, const std::vector<geometry::Boundary>& boundaries) {
+  std::vector<bool> result(problem.node_points().size(), false);
+  for (const auto boundary : boundaries)
+    for (const int n : problem.boundary_nodes(boundary)) result[n] = true;
+  return result;
+}
+
+/// Numbers the DOFs that are not held (of a plane of symmetry the axial ones are) and takes their stiffness.
+template <int dim>
+void add_free_stiffness(const ElasticProblem<dim>& problem, const std::vector<bool>& held,
+                        const std::vector<bool>& in_symmetry, SectorModel& model) {
   std::vector<int> row_of_dof(problem.dofs(), -1);
   model.dof.assign(model.nodes.size() * dim, -1);
   int rows = 0;
@@ -140,7 +144,13 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
         if (row_of_dof[it.row()] >= 0) entries.emplace_back(row_of_dof[it.row()], row_of_dof[column], it.value());
   model.stiffness.resize(rows, rows);
   model.stiffness.setFromTriplets(entries.begin(), entries.end());
+}
 
+/// Matches the nodes of both cyclic interfaces; wholly held ones are left out. Throws InternalError where a node has no
+/// partner within 1e-9 of the support radius (m).
+template <int dim>
+void add_cyclic_interfaces(const ElasticProblem<dim>& problem, const std::vector<bool>& held, double support_radius,
+                           SectorModel& model) {
   const double same_height = axial_round_off(model.nodes);
   const auto radial_axial_order = [&](int a, int b) {
     const auto &p = model.nodes[a], &q = model.nodes[b];
@@ -153,37 +163,62 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
     side->erase(std::remove_if(side->begin(), side->end(), [&](int n) { return held[n]; }), side->end());
     std::sort(side->begin(), side->end(), radial_axial_order);
   }
-  require(model.low_nodes.size() == model.high_nodes.size(), "the two radial cuts do not match");
+  require(model.low_nodes.size() == model.high_nodes.size(), "the two cyclic interfaces do not match");
   const Eigen::AngleAxisd pitch(model.pitch_angle, Eigen::Vector3d::UnitZ());
   for (std::size_t i = 0; i < model.low_nodes.size(); ++i)
     require((pitch * model.nodes[model.low_nodes[i]] - model.nodes[model.high_nodes[i]]).norm() < 1e-9 * support_radius,
-            "a node of one radial cut has no partner on the other");
+            "a node of one cyclic interface has no partner on the other");
+}
+
+/// Root on both sides, and the rim where its surface is free.
+template <int dim>
+void add_stress_surfaces(const ElasticProblem<dim>& problem, double twist, const SectorModelOptions& options,
+                         const std::vector<bool>& in_symmetry, SectorModel& model) {
+  using geometry::Boundary;
+  const auto surface = [&](const std::vector<Boundary>& boundaries, double low, double high) {
+    auto stress = problem.surface_stress(boundaries);
+    // The other half has the opposite shear there: their mean is none.
+    for (auto& s : stress)
+      if (in_symmetry[s.node]) s.shear.clear();
+    return make_stress_surface(stress, model.nodes, options.degree, twist, low, high);
+  };
+  const std::vector<Boundary> root = {Boundary::trailing_fillet, Boundary::leading_fillet, Boundary::root};
+  model.root_low = surface(root, -M_PI, 0);
+  model.root_high = surface(root, 0, M_PI);
+  // A hoop or a flange goes beyond the ring's own outside.
+  const bool band = std::isfinite(options.outside_radius);
+  if (options.held != HeldBoundary::support)
+    model.rim = surface({band ? Boundary::outside : Boundary::support}, -M_PI, M_PI);
+}
+
+template <int dim>
+SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile& profile, double support_radius,
+                       const Material& material, const SectorModelOptions& options) {
+  require(dim == 3 || !options.symmetric_end, "a plane sector has no end");
+  const auto project = [&profile, support_radius, &options](geometry::Boundary boundary, const Eigen::Vector3d& point) {
+    return profile.project_solid(boundary, point, support_radius, options.outside_radius);
+  };
+  const ElasticProblem<dim> problem(mesh, project, material, options.degree, options.refinements);
+
+  SectorModel model;
+  model.dimension = dim;
+  model.pitch_angle = profile.gear().pitch_angle();
+  model.nodes = nodes_of(problem);
+  const auto held = on_boundaries(problem, boundaries_of(options.held));
+  const auto in_symmetry =
+      options.symmetric_end ? on_boundaries(problem, {geometry::Boundary::end_high}) : std::vector(held.size(), false);
+  add_free_stiffness(problem, held, in_symmetry, model);
+  add_cyclic_interfaces(problem, held, support_radius, model);
 
   model.flank = make_trace(problem.boundary_nodes(options.flank), model.nodes, options.degree,
                            [&](const Eigen::Vector3d& p) { return profile.roll_length_at(std::hypot(p.x(), p.y())); });
   const double twist = dim == 3 ? profile.twist() : 0;
-  using geometry::Boundary;
   if (options.want_outside)
-    model.outside = make_trace(problem.boundary_nodes(Boundary::support), model.nodes, options.degree,
+    model.outside = make_trace(problem.boundary_nodes(geometry::Boundary::support), model.nodes, options.degree,
                                [twist](const Eigen::Vector3d& p) { return polar_angle(p, twist); });
   if (options.want_mass) model.nodal_mass = problem.nodal_mass();
   if (options.want_field) model.field = problem.vertex_field();
-  if (options.want_stress) {
-    const auto surface = [&](const std::vector<Boundary>& boundaries, double low, double high) {
-      auto stress = problem.surface_stress(boundaries);
-      // The other half has the opposite shear there: their mean is none.
-      for (auto& s : stress)
-        if (in_symmetry[s.node]) s.shear.clear();
-      return make_stress_surface(stress, model.nodes, options.degree, twist, low, high);
-    };
-    const std::vector<Boundary> root = {Boundary::trailing_fillet, Boundary::leading_fillet, Boundary::root};
-    model.root_low = surface(root, -M_PI, 0);
-    model.root_high = surface(root, 0, M_PI);
-    // A hoop or a flange goes beyond the ring's own outside.
-    const bool band = std::isfinite(options.outside_radius);
-    if (options.held != HeldBoundary::support)
-      model.rim = surface({band ? Boundary::outside : Boundary::support}, -M_PI, M_PI);
-  }
+  if (options.want_stress) add_stress_surfaces(problem, twist, options, in_symmetry, model);
   return model;
 }
 

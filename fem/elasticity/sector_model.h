@@ -39,7 +39,7 @@ struct VertexField {
 };
 
 /// Which boundary of a sector is held.
-enum class HeldBoundary { none, support, end_low, flange_face };
+enum class HeldBoundary { none, support, end_low, flange_face, both_ends };
 
 /// One discretised tooth sector, free of deal.II: stiffness over the DOFs that are not held, and the nodes that
 /// matter to the outside.
@@ -49,7 +49,7 @@ struct SectorModel {
   Eigen::SparseMatrix<double> stiffness;
   std::vector<Eigen::Vector3d> nodes;
   std::vector<int> dof;                    ///< [node * dimension + component] -> row of `stiffness`, or -1 when held
-  std::vector<int> low_nodes, high_nodes;  ///< matched pairs on the two radial cuts, wholly held nodes left out
+  std::vector<int> low_nodes, high_nodes;  ///< matched pairs on the two cyclic interfaces, wholly held nodes left out
   TraceGrid flank;                         ///< of the contact flank
   TraceGrid outside;                       ///< of the support circle (empty when held)
   StressSurface root_low, root_high;       ///< root land and fillet of the trailing (y < 0) and of the leading side

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/stopwatch.h"
 #include "fem/levels/level.h"
 #include "fem/levels/mesh_bodies.h"
 #include "fem/recovery/field_recovery.h"
@@ -130,7 +131,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
     return position;
   };
   SolvedLevel result;
-  const bool one_cycle = repeating_teeth(problem.structure, problem.pair.wheel().teeth()) == 1;
+  const bool one_cycle = problem.structure.repeating_teeth(problem.pair.wheel().teeth()) == 1;
   const double compared = accept ? compared_share(problem) : 1;
   solve_positions(problem, settings, false, one_cycle, solve, part_of(progress, 0, compared), result.positions);
   if (accept) result.contact_error = contact_error(problem, flanks, bodies, options, result.positions);

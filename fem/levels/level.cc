@@ -39,7 +39,7 @@ void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings&
                      const SolvePosition& solve, const ProgressFunction& progress,
                      std::vector<LoadedPosition>& positions) {
   const int loads = static_cast<int>(problem.loads.size()), phases = problem.phases;
-  const int cycles = repeating_teeth(problem.structure, problem.pair.wheel().teeth());
+  const int cycles = problem.structure.repeating_teeth(problem.pair.wheel().teeth());
   positions.resize(static_cast<std::size_t>(cycles * phases + 1) * loads);
   // Chained: one task per load, neighbouring phases warm-start each other. Otherwise one task per load and phase, in
   // which the pins move on from cycle to cycle.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <vector>
 
@@ -18,21 +17,12 @@ namespace annulus::fem {
 [[nodiscard]] bool is_compared(const LoadedMeshProblem& problem, int phase, int load);
 
 /// What one level of resolution of a loaded mesh gives.
-struct SolvedLevel {
+struct SolvedLevel : SolvedBodies, SolveCost {
   /// [cycle][phase 0 ... phases][load]: the last phase of the last cycle is the closure, inner ends of cycles are not
   /// solved twice. A stiffness of 0 says that the position was left out.
   std::vector<LoadedPosition> positions;
-  std::vector<StressCurve> stress_curves;
-  std::vector<BodyField> fields;
-  geometry::Mesh planet_sector, wheel_sector;
-  bool half_face = false;
-  long unknowns = 0;
   /// Relative, of the stiffness, by the discretised pressure alone; 0 where the pressure is refined with the cells.
   double contact_error = 0;
-  double pin_stiffness = 0;
-  std::vector<double> pin_angles, slice_edges;
-  double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0, saved_seconds = 0;
-  int condensed_teeth = 0, reused_teeth = 0;
 };
 
 using ProgressFunction = std::function<void(double fraction)>;
@@ -62,16 +52,5 @@ using SolvePosition = std::function<LoadedPosition(int cycle, int phase, int loa
 void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, bool table, bool chained,
                      const SolvePosition& solve, const ProgressFunction& progress,
                      std::vector<LoadedPosition>& positions);
-
-/// Wall seconds since the construction.
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace annulus::fem

@@ -1,22 +1,18 @@
 #include "fem/levels/mesh_bodies.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <optional>
 #include <thread>
 
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "fem/body/body_plan.h"
 #include "fem/condensation/lapack.h"
 
 namespace annulus::fem {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// What is to be condensed: kept as data so that meshing (gmsh, serial) and condensing (parallel) can be apart.
 struct Task {
@@ -29,17 +25,32 @@ struct Task {
   bool reused = false;
 };
 
-void condense_all(std::vector<Task>& tasks, const Material& material, int threads) {
+/// The tasks of one gear.
+struct GearTasks {
+  Task body;
+  std::optional<Task> fine, coarse;  // plane sections, from which the near field of a solid body comes
+};
+
+/// In the order in which they are started.
+std::vector<Task*> all_tasks(GearTasks& planet, GearTasks& wheel) {
+  std::vector<Task*> tasks = {&planet.body, &wheel.body};
+  for (auto* gear : {&planet, &wheel})
+    for (auto* section : {&gear->fine, &gear->coarse})
+      if (*section) tasks.push_back(&**section);
+  return tasks;
+}
+
+void condense_all(const std::vector<Task*>& tasks, const Material& material, int threads) {
   std::vector<std::exception_ptr> failures(tasks.size());
   const auto condense_one = [&](std::size_t i) {
     try {
-      auto& t = tasks[i];
-      const auto start = std::chrono::steady_clock::now();
+      auto& t = *tasks[i];
+      const Stopwatch watch;
       CondensedTooth tooth = condense_tooth(t.mesh, *t.profile, t.support_radius, material, t.options);
       t.reused = tooth.reused;
-      if (t.reused) t.saved_seconds = std::max(0.0, tooth.seconds - seconds_since(start));
+      if (t.reused) t.saved_seconds = std::max(0.0, tooth.seconds - watch.seconds());
       t.body = compose_body(std::move(tooth), t.options);
-      t.seconds = seconds_since(start);
+      t.seconds = watch.seconds();
     } catch (...) {
       failures[i] = std::current_exception();
     }
@@ -56,113 +67,127 @@ void condense_all(std::vector<Task>& tasks, const Material& material, int thread
 }
 
 /// What the reused teeth saved of the time of condense_all.
-double saved_seconds(const std::vector<Task>& tasks, int threads) {
+double saved_seconds(const std::vector<Task*>& tasks, int threads) {
   double with = 0, without = 0;
-  for (const auto& t : tasks) {
-    const double own = t.seconds, fresh = t.seconds + t.saved_seconds;
+  for (const auto* t : tasks) {
+    const double own = t->seconds, fresh = t->seconds + t->saved_seconds;
     with = threads > 1 ? std::max(with, own) : with + own;
     without = threads > 1 ? std::max(without, fresh) : without + fresh;
   }
   return without - with;
 }
 
-/// The supports of a floating ring; none when the structure holds the ring.
-std::optional<SupportSites> support_sites(const LoadedMeshProblem& problem) {
-  const SupportedRing ring{problem.pair.wheel().teeth(), problem.wheel_support_radius, problem.face_width,
-                           problem.material};
-  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure)) return pin_sites(*pinned, ring);
-  if (const auto* splined = std::get_if<SplineHeld>(&problem.structure)) return spline_sites(*splined, ring);
-  return std::nullopt;
+/// Meshes the bodies of a level.
+class TaskMaker {
+ public:
+  TaskMaker(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level)
+      : settings_(settings),
+        level_(level),
+        solid_(settings.fidelity == Fidelity::solid),
+        solid_counts_(solid_ ? solid_resolution(level, settings.degree, problem.pair.overlap_ratio())
+                             : BodyResolution{}) {}
+
+  [[nodiscard]] const BodyResolution& solid_counts() const { return solid_counts_; }
+
+  /// `supports`: of a floating gear.
+  [[nodiscard]] GearTasks make(const BodyPlan& plan, const std::optional<SupportPlan>& supports) const {
+    GearTasks tasks{body(plan, supports), {}, {}};
+    if (solid_) {
+      // The far fields of both sections are equal: their difference is the near field.
+      tasks.fine = section(plan, plane_resolution(plan.profile().gear(), level_).section);
+      tasks.coarse = section(plan, solid_counts_.section);
+    }
+    return tasks;
+  }
+
+ private:
+  [[nodiscard]] Task body(const BodyPlan& plan, const std::optional<SupportPlan>& supports) const {
+    const BodyResolution counts =
+        solid_ ? solid_counts_ : plane_resolution(plan.profile().gear(), level_, settings_.degree);
+    Task task{plan.sector(counts), &plan.profile(), plan.support_radius(), {}};
+    task.options.sector = plan.model();
+    task.options.store = settings_.store.get();
+    task.options.sector.want_stress = true;
+    task.options.threads = solid_ ? settings_.threads : 1;
+    if (plan.floating()) task.options.arcs = supports->arcs();
+    // In the plane the coupling all around costs little, and stresses are wanted there.
+    task.options.extent.whole_ring = plan.floating() || !solid_;
+    return task;
+  }
+
+  [[nodiscard]] Task section(const BodyPlan& plan, const geometry::SectorResolution& resolution) const {
+    Task task{plan.section(resolution), &plan.profile(), plan.support_radius(), {}};
+    task.options.sector = plan.near_field_model();
+    task.options.store = settings_.store.get();
+    return task;
+  }
+
+  const LoadedMeshSettings& settings_;
+  int level_;
+  bool solid_;
+  BodyResolution solid_counts_;
+};
+
+std::optional<NearField> near_field(const GearTasks& tasks) {
+  if (!tasks.fine) return std::nullopt;
+  const auto compliance = [](const GearBody& body) -> Eigen::MatrixXd {
+    return body.compliance.block(0).topLeftCorner(body.flank_ports(), body.flank_ports());
+  };
+  const GearBody &fine = tasks.fine->body, &coarse = tasks.coarse->body;
+  return NearField{fine.flank, coarse.flank, compliance(fine), compliance(coarse)};
 }
+
+BodySource source_of(const Task& task) { return {task.mesh, task.profile, task.support_radius, task.options.sector}; }
 
 }  // namespace
 
 MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& flanks,
                         const LoadedMeshSettings& settings, int level) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch meshing;
   const auto& pair = problem.pair;
   const bool solid = settings.fidelity == Fidelity::solid;
   const SolvedFace face = solved_face(problem, settings);
-  const BodyPlan planet(problem, flanks.planet(), false, geometry::Boundary::leading_flank, settings.degree, solid,
-                        face);
-  const BodyPlan wheel(problem, flanks.wheel(), true, flanks.wheel_flank(), settings.degree, solid, face);
-  const BodyResolution solid_counts =
-      solid ? solid_resolution(level, settings.degree, pair.overlap_ratio()) : BodyResolution{};
+  const BodyPlan planet_plan(problem, flanks.planet(), false, geometry::Boundary::leading_flank, settings.degree, solid,
+                             face);
+  const BodyPlan wheel_plan(problem, flanks.wheel(), true, flanks.wheel_flank(), settings.degree, solid, face);
+  const TaskMaker maker(problem, settings, level);
+  const BodyResolution& counts = maker.solid_counts();
   std::optional<SupportPlan> supports;
-  if (const auto sites = support_sites(problem))
+  if (wheel_plan.floating())
     // A slice per layer of elements: unilateral on its own.
-    supports.emplace(*sites, pair.wheel().teeth(), face.edges(std::max(1, solid_counts.face_cells)), face.half);
-
-  std::vector<Task> tasks;
-  const auto add_body = [&](const BodyPlan& plan) {
-    const BodyResolution counts =
-        solid ? solid_counts : plane_resolution(plan.profile().gear(), level, settings.degree);
-    Task task{plan.sector(counts), &plan.profile(), plan.support_radius(), {}};
-    task.options.sector = plan.model();
-    task.options.store = settings.store.get();
-    task.options.sector.want_stress = true;
-    task.options.threads = solid ? settings.threads : 1;
-    if (plan.floating()) task.options.arcs = supports->arcs();
-    // In the plane the coupling all around costs little, and stresses are wanted there.
-    task.options.extent.whole_ring = plan.floating() || !solid;
-    tasks.push_back(std::move(task));
-  };
-  const auto add_section = [&](const BodyPlan& plan, const geometry::SectorResolution& resolution) {
-    Task task{plan.section(resolution), &plan.profile(), plan.support_radius(), {}};
-    task.options.sector = plan.near_field_model();
-    task.options.store = settings.store.get();
-    tasks.push_back(std::move(task));
-  };
-  add_body(planet);
-  add_body(wheel);
-  if (solid)
-    // The near field of a solid body comes from plane bodies: the far field cancels.
-    for (const auto* plan : {&planet, &wheel}) {
-      add_section(*plan, plane_resolution(plan->profile().gear(), level).section);
-      add_section(*plan, solid_counts.section);
-    }
+    supports.emplace(support_sites(problem), pair.wheel().teeth(), face.edges(std::max(1, counts.face_cells)),
+                     face.half);
+  GearTasks planet = maker.make(planet_plan, {}), wheel = maker.make(wheel_plan, supports);
 
   MeshBodies bodies;
-  bodies.mesh_seconds = seconds_since(start);
-  const auto condense_start = std::chrono::steady_clock::now();
+  bodies.mesh_seconds = meshing.seconds();
+  const Stopwatch condensing;
   lapack::use_one_thread();
+  const auto tasks = all_tasks(planet, wheel);
   condense_all(tasks, problem.material, settings.threads);
-  for (const auto& task : tasks) ++(task.reused ? bodies.reused_teeth : bodies.condensed_teeth);
+  for (const auto* task : tasks) ++(task->reused ? bodies.reused_teeth : bodies.condensed_teeth);
   bodies.saved_seconds = saved_seconds(tasks, settings.threads);
   bodies.face = face;
-  bodies.slice_edges = face.edges(solid ? slices_per_cell(problem, settings.degree) * solid_counts.face_cells : 1);
-  const auto near_field = [&](std::size_t fine, std::size_t coarse) {
-    const auto compliance = [&](std::size_t index) -> Eigen::MatrixXd {
-      const GearBody& body = tasks[index].body;
-      return body.compliance.block(0).topLeftCorner(body.flank_ports(), body.flank_ports());
-    };
-    return NearField{tasks[fine].body.flank, tasks[coarse].body.flank, compliance(fine), compliance(coarse)};
-  };
-  bodies.unknowns = tasks[0].body.unknowns + tasks[1].body.unknowns;
-  const auto source = [&](const Task& task) {
-    return BodySource{task.mesh, task.profile, task.support_radius, task.options.sector};
-  };
-  bodies.planet_source = source(tasks[0]);
-  bodies.wheel_source = source(tasks[1]);
-  bodies.planet_sector = face.half ? planet.whole_sector(solid_counts) : std::move(tasks[0].mesh);
-  bodies.wheel_sector = face.half ? wheel.whole_sector(solid_counts) : std::move(tasks[1].mesh);
-  std::optional<NearField> planet_near_field, wheel_near_field;
-  if (solid) {
-    planet_near_field = near_field(2, 3);
-    wheel_near_field = near_field(4, 5);
-  }
+  bodies.slice_edges = face.edges(solid ? slices_per_cell(problem, settings.degree) * counts.face_cells : 1);
+  bodies.unknowns = planet.body.body.unknowns + wheel.body.body.unknowns;
+  bodies.planet_source = source_of(planet.body);
+  bodies.wheel_source = source_of(wheel.body);
+  bodies.planet_sector = face.half ? planet_plan.whole_sector(counts) : std::move(planet.body.mesh);
+  bodies.wheel_sector = face.half ? wheel_plan.whole_sector(counts) : std::move(wheel.body.mesh);
   const double slant = 1 / std::cos(pair.planet().base_helix_angle());
-  bodies.planet =
-      std::make_unique<CondensedBody>(std::move(tasks[0].body), pair.planet().base_radius(), problem.material,
-                                      bodies.slice_edges, std::move(planet_near_field), slant);
-  bodies.wheel = std::make_unique<CondensedBody>(std::move(tasks[1].body), pair.wheel().base_radius(), problem.material,
-                                                 bodies.slice_edges, std::move(wheel_near_field), slant);
+  const auto condensed = [&](GearTasks& gear, double base_radius) {
+    auto near = near_field(gear);
+    return std::make_unique<CondensedBody>(std::move(gear.body.body), base_radius, problem.material, bodies.slice_edges,
+                                           std::move(near), slant);
+  };
+  bodies.planet = condensed(planet, pair.planet().base_radius());
+  bodies.wheel = condensed(wheel, pair.wheel().base_radius());
   if (supports) bodies.supports = std::make_unique<SupportRow>(std::move(*supports), bodies.wheel->body());
   const double nu = problem.material.poisson_ratio;
   bodies.planet_stress = std::make_unique<StressRecovery>(bodies.planet->body(), problem.face_width, nu, nullptr);
   bodies.wheel_stress =
       std::make_unique<StressRecovery>(bodies.wheel->body(), problem.face_width, nu, bodies.supports.get());
-  bodies.condense_seconds = seconds_since(condense_start);
+  bodies.condense_seconds = condensing.seconds();
   return bodies;
 }
 

@@ -1,11 +1,16 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "fem/body/body_plan.h"
 #include "fem/condensation/altered_ring.h"
 #include "fem/condensation/lapack.h"
 #include "fem/contact/contact_system.h"
+#include "fem/contact/hertz.h"
+#include "fem/contact/pair_search.h"
 #include "fem/levels/level.h"
 
 namespace annulus::fem {
@@ -98,10 +103,16 @@ struct Exchangeable {
 };
 
 void refuse_what_is_not_resolved(const LoadedMeshProblem& problem) {
-  if (std::holds_alternative<PinHeld>(problem.structure) || std::holds_alternative<SplineHeld>(problem.structure))
-    throw InputError("the resolved model does not cover rings on pins or splines: use the plane or solid model");
+  if (on_single_supports(problem.structure))
+    throw InputError(
+        fmt::format("the resolved model does not cover rings on pins or splines, and the ring has {}: use "
+                    "the plane or solid model",
+                    problem.structure.words().description));
   if (problem.pair.planet().helix_angle() != 0)
-    throw InputError("the resolved model does not cover helical gears: use the solid model");
+    throw InputError(
+        fmt::format("the resolved model does not cover helical gears, here of {:.4g} degrees: use the solid "
+                    "model",
+                    problem.pair.planet().helix_angle() * 180 / M_PI));
 }
 
 /// The gears of a resolved mesh.
@@ -141,7 +152,7 @@ ResolvedMesh::Places ResolvedMesh::places(const std::vector<std::pair<int, doubl
   Places result;
   for (const auto& [index, roll] : pairs) {
     PlaceOfContact planet_place;
-    planet_place.half_width = ContactSystem::half_width(flanks, roll, load / problem.face_width, problem.material);
+    planet_place.half_width = hertz_half_width(flanks, roll, load / problem.face_width, problem.material);
     planet_place.roll = roll;
     const double centre = flanks.nearest_roll(roll, flanks.domain(roll));
     const auto opposite = flanks.match(centre, roll);
@@ -162,10 +173,10 @@ ResolvedMesh::Places ResolvedMesh::places(const std::vector<std::pair<int, doubl
 }
 
 LoadedPosition ResolvedMesh::solve(double phase, double load) const {
-  const auto pairs = ContactSystem::possible_pairs(flanks, phase);
+  const auto pairs = possible_pairs(flanks, phase);
   require(static_cast<int>(pairs.size()) <= most_pairs, "more tooth pairs than the resolved model exchanges");
-  const int first = ContactSystem::wheel_tooth(flanks, pairs.front().first, 0);
-  const int last = ContactSystem::wheel_tooth(flanks, pairs.back().first, 0);
+  const int first = wheel_tooth(flanks, pairs.front().first, 0);
+  const int last = wheel_tooth(flanks, pairs.back().first, 0);
   ContactOptions options;
   options.misalignment = problem.misalignment;
   options.half_face = face.half;

@@ -18,14 +18,23 @@ class CondensedStore;
 struct LoadedMeshProblem {
   geometry::GearPair pair;
   Material material;
-  double face_width = 0;                    ///< m, common
-  double planet_bore_radius = 0;            ///< m, rigid hub
-  double wheel_support_radius = 0;          ///< m: bore of the sun (rigid hub) or outside radius of the ring
-  RingStructure structure = OutsideHeld{};  ///< ring mesh only
-  double misalignment = 0;                  ///< m over the face width, normal to the flanks, > 0 opens towards +z
-  std::vector<double> loads{};              ///< N, total normal forces, strictly increasing
-  int phases = 16;                          ///< positions per mesh cycle
+  double face_width = 0;            ///< m, common
+  double planet_bore_radius = 0;    ///< m, rigid hub
+  double wheel_support_radius = 0;  ///< m: bore of the sun (rigid hub) or outside radius of the ring
+  RingStructure structure{};        ///< ring mesh only; the outside held unless set
+  double misalignment = 0;          ///< m over the face width, normal to the flanks, > 0 opens towards +z
+  std::vector<double> loads{};      ///< N, total normal forces, strictly increasing
+  int phases = 16;                  ///< positions per mesh cycle
 };
+
+/// The wheel, as its supports see it.
+[[nodiscard]] inline SupportedRing supported_ring(const LoadedMeshProblem& problem) {
+  return {problem.pair.wheel().teeth(), problem.wheel_support_radius, problem.face_width, problem.material};
+}
+/// The single supports of the wheel; none where a surface holds it. Throws InputError when they cannot hold it.
+[[nodiscard]] inline SupportSites support_sites(const LoadedMeshProblem& problem) {
+  return problem.structure.supports(supported_ring(problem));
+}
 
 enum class Fidelity { closed_form, plane, solid, resolved_plane, resolved_solid };
 
@@ -47,7 +56,7 @@ struct LoadedMeshSettings {
   bool want_fields = false;                         ///< of condensed models: LoadedMeshResult::fields
   int threads = 1;                                  ///< changes the time, never the result
   std::function<void(double fraction)> progress{};  ///< called now and then with the finished fraction
-  /// Where condensed teeth are looked for and kept; may be null. They depend neither on loads and phases nor on the
+  /// Where tooth superelements are looked for and kept; may be null. They depend neither on loads and phases nor on the
   /// places, the number and the stiffness of supports, nor on modifications of the flanks.
   std::shared_ptr<CondensedStore> store{};
 };

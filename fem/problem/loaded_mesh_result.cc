@@ -10,4 +10,14 @@ double BodyField::von_mises(std::size_t vertex) const {
                    3 * (xy * xy + yz * yz + zx * zx));
 }
 
+SolveCost& SolveCost::operator+=(const SolveCost& other) {
+  mesh_seconds += other.mesh_seconds;
+  condense_seconds += other.condense_seconds;
+  contact_seconds += other.contact_seconds;
+  saved_seconds += other.saved_seconds;
+  condensed_teeth += other.condensed_teeth;
+  reused_teeth += other.reused_teeth;
+  return *this;
+}
+
 }  // namespace annulus::fem

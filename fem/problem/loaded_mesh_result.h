@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/stiffness_table.h"
@@ -83,16 +84,9 @@ struct BodyField {
   [[nodiscard]] double von_mises(std::size_t vertex) const;  ///< Pa
 };
 
-struct LoadedMeshResult {
-  StiffnessTable table;
-  std::vector<LoadedPosition> positions;  ///< at every load, [ring tooth][phase][load], then the closure positions
-  double closure_relative = 0;            ///< |LTE(phase 1) - LTE(phase 0)| / LTE over all loads
-  double reciprocity_relative = 0;        ///< largest over the positions
-  geometry::Mesh planet_sector{}, wheel_sector{};  ///< as solved
-  int level = 1;                                   ///< level of resolution reached
-  int degree = 2;                                  ///< of the elements of that level
-  /// Largest estimated error at the middle load, plane strain not counted: what the accuracy is about.
-  double worst_error_relative = 0;
+/// Both bodies as one level of resolution solved them, with their supports, and what was recovered in them.
+struct SolvedBodies {
+  geometry::Mesh planet_sector{}, wheel_sector{};
   bool half_face = false;             ///< solved on half of the face width; all figures are those of the whole
   long unknowns = 0;                  ///< DOFs of the two sectors
   double pin_stiffness = 0;           ///< N/m per pin or spline flank as used; 0 without
@@ -100,9 +94,30 @@ struct LoadedMeshResult {
   std::vector<double> slice_edges{};  ///< m, z of the slices of the face width
   std::vector<StressCurve> stress_curves{};
   std::vector<BodyField> fields{};  ///< of both bodies, if wanted, where the wheel's root is stressed most
+};
+
+/// Wall time of a solve and its tooth superelements.
+struct SolveCost {
   double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0;
-  int condensed_teeth = 0, reused_teeth = 0;  ///< made, and read from the store, on all levels; none by resolved models
   double saved_seconds = 0;                   ///< that condense_seconds would be longer without the store
+  int condensed_teeth = 0, reused_teeth = 0;  ///< made, and read from the store; none by resolved models
+
+  SolveCost& operator+=(const SolveCost& other);
+};
+
+/// A loaded mesh; its cost is that of all levels, its bodies those of the last one.
+struct LoadedMeshResult : SolvedBodies, SolveCost {
+  LoadedMeshResult(StiffnessTable stiffness, std::vector<LoadedPosition> solved)
+      : table(std::move(stiffness)), positions(std::move(solved)) {}
+
+  StiffnessTable table;
+  std::vector<LoadedPosition> positions;  ///< at every load, [ring tooth][phase][load], then the closure positions
+  double closure_relative = 0;            ///< |LTE(phase 1) - LTE(phase 0)| / LTE over all loads
+  double reciprocity_relative = 0;        ///< largest over the positions
+  int level = 1;                          ///< level of resolution reached
+  int degree = 2;                         ///< of the elements of that level
+  /// Largest estimated error at the middle load, plane strain not counted: what the accuracy is about.
+  double worst_error_relative = 0;
 };
 
 }  // namespace annulus::fem

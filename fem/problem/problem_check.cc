@@ -5,25 +5,38 @@
 #include <cmath>
 
 #include "core/errors.h"
-#include "fem/problem/support_sites.h"
 
 namespace annulus::fem {
 
 void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
-  if (problem.loads.empty() || problem.phases < 2) throw InputError("a loaded mesh needs a load and two phases");
+  if (problem.loads.empty() || problem.phases < 2)
+    throw InputError(fmt::format("a loaded mesh needs a load and two phases, and has {} and {}", problem.loads.size(),
+                                 problem.phases));
   for (std::size_t i = 0; i < problem.loads.size(); ++i)
     if (!(problem.loads[i] > (i > 0 ? problem.loads[i - 1] : 0.0)))
-      throw InputError("the loads of a stiffness table have to be positive and strictly increasing");
-  if (!problem.pair.internal() && !std::holds_alternative<OutsideHeld>(problem.structure))
-    throw InputError("a ring structure belongs to the ring mesh");
+      throw InputError(
+          fmt::format("the loads of a stiffness table have to be positive and strictly increasing: load {} "
+                      "is {:.6g} N after {:.6g} N",
+                      i + 1, problem.loads[i], i > 0 ? problem.loads[i - 1] : 0.0));
+  if (!problem.pair.internal() && !held_outside(problem.structure))
+    throw InputError(fmt::format("a ring structure ({}) belongs to the ring mesh, and the pair is external",
+                                 problem.structure.words().description));
   if (fidelity == Fidelity::solid || fidelity == Fidelity::resolved_solid) return;
   for (const auto* gear : {&problem.pair.planet(), &problem.pair.wheel()}) {
     if (gear->parameters().lead_crowning != 0 || gear->parameters().lead_slope != 0)
-      throw InputError("lead modifications need a load distribution over the face width: use model = \"solid\"");
-    if (gear->helix_angle() != 0) throw InputError("helical gears need solid bodies: use model = \"solid\"");
+      throw InputError(
+          fmt::format("lead modifications (crowning {:.4g} um, slope {:.4g} um) need a load distribution "
+                      "over the face width: use model = \"solid\"",
+                      1e6 * gear->parameters().lead_crowning, 1e6 * gear->parameters().lead_slope));
+    if (gear->helix_angle() != 0)
+      throw InputError(fmt::format("helical gears (here of {:.4g} degrees) need solid bodies: use model = \"solid\"",
+                                   gear->helix_angle() * 180 / M_PI));
   }
   if (problem.misalignment != 0)
-    throw InputError("misalignment needs a load distribution over the face width: use model = \"solid\"");
+    throw InputError(
+        fmt::format("a misalignment of {:.4g} um needs a load distribution over the face width: use model "
+                    "= \"solid\"",
+                    1e6 * problem.misalignment));
 }
 
 void check_deflection(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
@@ -40,25 +53,19 @@ void check_deflection(const LoadedMeshProblem& problem, const LoadedMeshSettings
 }
 
 double turn_on_supports(const LoadedMeshProblem& problem, double force) {
-  const auto& gear = problem.pair.wheel();
-  const double outside = problem.wheel_support_radius, lever = gear.base_radius();
-  const SupportedRing ring{gear.teeth(), outside, problem.face_width, problem.material};
+  const double outside = problem.wheel_support_radius, lever = problem.pair.wheel().base_radius();
+  const SupportSites supports = support_sites(problem);
   double stiffness = 0, play = 0;
-  if (const auto* spline = std::get_if<SplineHeld>(&problem.structure)) {
-    // One of both flanks of every tooth.
-    for (const auto& site : spline_sites(*spline, ring).sites) {
-      const auto& flank = site.directions.front();
-      stiffness += flank.total_stiffness() * std::pow(flank.counter_clockwise * outside, 2);
-      play = flank.clearance / flank.counter_clockwise / outside;
-    }
-  } else if (const auto* pins = std::get_if<PinHeld>(&problem.structure)) {
-    // On a single pin it turns until it leans on its housing, which shifts its centre and turns it, at worst both
-    // alike.
-    if (pins->angles.size() == 1) play = pins->housing_clearance.value_or(0) * (1 / outside + 1 / lever);
-    for (const auto& site : pin_sites(*pins, ring).sites)
-      for (const auto& direction : site.directions)
+  // Of the two flanks of a spline tooth one resists.
+  for (const auto& site : supports.sites)
+    for (const auto& direction : site.directions)
+      if (direction.counter_clockwise > 0) {
         stiffness += direction.total_stiffness() * std::pow(direction.counter_clockwise * outside, 2);
-  }
+        play = direction.clearance / direction.counter_clockwise / outside;
+      }
+  // On a single pin the ring rotates until it leans on its housing, which shifts its centre and rotates it, at worst
+  // both equally.
+  if (supports.pins == 1) play = supports.sites.back().directions.front().clearance * (1 / outside + 1 / lever);
   return play * lever + force * lever * lever / stiffness;
 }
 

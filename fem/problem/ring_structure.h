@@ -1,67 +1,116 @@
 #pragma once
 
-#include <optional>
-#include <variant>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
+
+#include "fem/problem/ring_body.h"
+#include "fem/problem/support_sites.h"
 
 namespace annulus::fem {
 
 /// Outer surface held over the full face width.
-struct OutsideHeld {};
-
-/// A toothless flange around the lower end of the ring; its end face is bolted down beyond the outside diameter (a
-/// closed joint: held both ways), the outside above it is free.
-struct FlangeHeld {
-  double width = 0;           ///< m, axial, from the lower end face of the teeth
-  double outside_radius = 0;  ///< m, of the flange
+struct OutsideHeld {
+  [[nodiscard]] RingBody body(double outside_radius) const;
+  [[nodiscard]] RingWords words() const;
+  [[nodiscard]] std::vector<std::pair<std::string, double>> parameters() const;
+  [[nodiscard]] RingDrawing drawing(double outside_radius) const;
 };
 
-/// A toothless band around the outside of the rim at its free end.
-struct Hoop {
-  double width = 0;      ///< m, axial
-  double thickness = 0;  ///< m, radial, beyond the outside diameter
+/// What holds a ring: a value of one of the types in fem/problem/structures/, or of any type with the member functions
+/// below. A type that is held by a surface leaves out supports(), single_supports() and repeating_teeth(). Nobody else
+/// needs to know which type it is. Copies share the immutable value.
+class RingStructure {
+ public:
+  RingStructure() : RingStructure(OutsideHeld{}) {}
+  template <class Type, class = std::enable_if_t<!std::is_same_v<std::decay_t<Type>, RingStructure>>>
+  RingStructure(Type type) : value_(std::make_shared<const Holder<Type>>(std::move(type))) {}
+
+  /// Elastic body and held surface of a ring of this outside radius, m.
+  [[nodiscard]] RingBody body(double outside_radius) const { return value_->body(outside_radius); }
+  [[nodiscard]] RingWords words() const { return value_->words(); }
+  /// Parameters on which a solution depends, by name, SI.
+  [[nodiscard]] std::vector<std::pair<std::string, double>> parameters() const { return value_->parameters(); }
+  [[nodiscard]] RingDrawing drawing(double outside_radius) const { return value_->drawing(outside_radius); }
+  /// Single supports of the outside; none where a surface is held. Angles have the opposite sign of the real ring's:
+  /// the frame of the solve is its mirror image. Throws InputError when they cannot hold the ring in equilibrium.
+  [[nodiscard]] SupportSites supports(const SupportedRing& ring) const { return value_->supports(ring); }
+  /// Whether the ring floats on single supports (pins, bolts, splines).
+  [[nodiscard]] bool floating() const { return value_->floating(); }
+  /// Number of pins, bolts or spline teeth; 0 where a surface is held.
+  [[nodiscard]] int single_supports() const { return value_->single_supports(); }
+  /// The smallest number of teeth by which a ring of `teeth` teeth can be rotated so that its structure looks the same:
+  /// its contact repeats after so many mesh cycles.
+  [[nodiscard]] int repeating_teeth(int teeth) const { return value_->repeating_teeth(teeth); }
+
+  /// The value, when it is a `Type`; null otherwise.
+  template <class Type>
+  [[nodiscard]] const Type* as() const {
+    const auto* holder = dynamic_cast<const Holder<Type>*>(value_.get());
+    return holder ? &holder->type : nullptr;
+  }
+
+ private:
+  struct Interface {
+    virtual ~Interface() = default;
+    [[nodiscard]] virtual RingBody body(double outside_radius) const = 0;
+    [[nodiscard]] virtual RingWords words() const = 0;
+    [[nodiscard]] virtual std::vector<std::pair<std::string, double>> parameters() const = 0;
+    [[nodiscard]] virtual RingDrawing drawing(double outside_radius) const = 0;
+    [[nodiscard]] virtual SupportSites supports(const SupportedRing& ring) const = 0;
+    [[nodiscard]] virtual bool floating() const = 0;
+    [[nodiscard]] virtual int single_supports() const = 0;
+    [[nodiscard]] virtual int repeating_teeth(int teeth) const = 0;
+  };
+
+  template <class Type, class = void>
+  struct OnSingleSupports : std::false_type {};
+  template <class Type>
+  struct OnSingleSupports<Type, std::void_t<decltype(&Type::supports)>> : std::true_type {};
+
+  template <class Type>
+  struct Holder final : Interface {
+    explicit Holder(Type value) : type(std::move(value)) {}
+    [[nodiscard]] RingBody body(double outside_radius) const override { return type.body(outside_radius); }
+    [[nodiscard]] RingWords words() const override { return type.words(); }
+    [[nodiscard]] std::vector<std::pair<std::string, double>> parameters() const override { return type.parameters(); }
+    [[nodiscard]] RingDrawing drawing(double outside_radius) const override { return type.drawing(outside_radius); }
+    [[nodiscard]] SupportSites supports([[maybe_unused]] const SupportedRing& ring) const override {
+      if constexpr (OnSingleSupports<Type>::value)
+        return type.supports(ring);
+      else
+        return {};
+    }
+    [[nodiscard]] bool floating() const override { return OnSingleSupports<Type>::value; }
+    [[nodiscard]] int single_supports() const override {
+      if constexpr (OnSingleSupports<Type>::value)
+        return type.single_supports();
+      else
+        return 0;
+    }
+    [[nodiscard]] int repeating_teeth([[maybe_unused]] int teeth) const override {
+      if constexpr (OnSingleSupports<Type>::value)
+        return type.repeating_teeth(teeth);
+      else
+        return 1;
+    }
+    Type type;
+  };
+
+  std::shared_ptr<const Interface> value_;
 };
 
-/// Cantilever: a toothless sleeve continues the rim below the teeth, its end face is held, the outside is free.
-struct EndFaceHeld {
-  double free_length = 0;       ///< m, sleeve between the held face and the teeth; 0: they stand on the held face
-  double sleeve_thickness = 0;  ///< m, at the outside diameter
-  std::optional<Hoop> hoop{};   ///< stiffens the free end
-};
-
-/// Pins between the outside diameter and a rigid housing. A pin sits in a groove: it resists radial motion of the rim
-/// outwards only (it lifts off inwards) and tangential motion both ways; `unilateral = false` holds it both ways
-/// (bolted).
-struct PinHeld {
-  std::vector<double> angles;                    ///< rad, of every pin, from the centre of tooth 0
-  double pin_diameter = 0;                       ///< m
-  double clearance = 0;                          ///< m, radial play
-  double free_span = 0;                          ///< m, of pin between ring and housing: there it bends and shears
-  std::optional<double> radial_stiffness{};      ///< N/m per pin; absent: derived from the pin
-  std::optional<double> tangential_stiffness{};  ///< N/m per pin; absent: as radial
-  std::optional<double> housing_clearance{};     ///< m, radial play of the rim in a housing bore; absent: no bore
-  bool unilateral = true;
-};
-
-/// Spline teeth around the outside in a rigid mate: each of their flanks is a unilateral support along its normal.
-struct SplineHeld {
-  int teeth = 0;
-  double flank_angle = 0;                   ///< rad, between the flank and the radius at the outside diameter
-  double clearance = 0;                     ///< m, normal to each flank
-  std::optional<double> flank_stiffness{};  ///< N/m per flank; absent: derived
-  double first_tooth_angle = 0;             ///< rad, from the centre of tooth 0 of the ring
-};
-
-using RingStructure = std::variant<OutsideHeld, EndFaceHeld, PinHeld, FlangeHeld, SplineHeld>;
-
-/// `count` equally spaced angles, rad.
-[[nodiscard]] std::vector<double> equal_angles(int count, double first);
-
-/// Whether the ring rests on single supports (pins, bolts, splines) instead of being held by a surface.
-[[nodiscard]] bool on_single_supports(const RingStructure& structure);
-
-/// The smallest number of teeth by which a ring of `teeth` teeth can be turned so that its structure looks the same:
-/// its contact repeats after so many mesh cycles.
-[[nodiscard]] int repeating_teeth(const RingStructure& structure, int teeth);
+/// Whether the ring floats on single supports (pins, bolts, splines).
+[[nodiscard]] inline bool on_single_supports(const RingStructure& structure) { return structure.floating(); }
+/// Whether something changes along the face width, which plane models and formulas cannot represent.
+[[nodiscard]] inline bool needs_solid(const RingStructure& structure) {
+  return !structure.words().solid_reason.empty();
+}
+/// Whether the outer surface is held all around over the full face width.
+[[nodiscard]] inline bool held_outside(const RingStructure& structure) {
+  return structure.as<OutsideHeld>() != nullptr;
+}
 
 }  // namespace annulus::fem

@@ -31,9 +31,7 @@ std::string asymmetry_of_face(const LoadedMeshProblem& problem) {
   if (problem.misalignment != 0) return "misaligned flanks";
   if (!symmetric_lead(pair.planet(), problem.face_width) || !symmetric_lead(pair.wheel(), problem.face_width))
     return "a lead modification that differs on both sides of the middle";
-  if (std::holds_alternative<EndFaceHeld>(problem.structure)) return "held at one end face";
-  if (std::holds_alternative<FlangeHeld>(problem.structure)) return "held by a flange at one end";
-  return "";
+  return problem.structure.words().asymmetry;
 }
 
 SolvedFace solved_face(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings) {

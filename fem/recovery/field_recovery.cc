@@ -12,8 +12,8 @@
 namespace annulus::fem {
 
 struct FieldRecovery::Interior {
-  std::vector<int> low, high;  // rows of the stiffness on the cuts, in the order of the condensed sector
-  std::vector<int> place;      // row of the stiffness -> row of the interior, or -1 on a cut
+  std::vector<int> low, high;  // rows of the stiffness on the interfaces, in the order of the condensed sector
+  std::vector<int> place;      // row of the stiffness -> row of the interior, or -1 on a interface
   int size = 0;
   Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> factor;
 };
@@ -52,13 +52,14 @@ FieldRecovery::FieldRecovery(const GearBody& body, const BodySource& source, con
   };
   in.low = rows_of(model_.low_nodes);
   in.high = rows_of(model_.high_nodes);
-  require(static_cast<int>(in.low.size()) == body.compliance.cut_size(), "a sector unlike the one that was condensed");
+  require(static_cast<int>(in.low.size()) == body.compliance.interface_size(),
+          "a sector unlike the one that was condensed");
   in.place.assign(static_cast<std::size_t>(model_.stiffness.rows()), 0);
   for (const auto* side : {&in.low, &in.high})
     for (const int row : *side) in.place[row] = -1;
   for (auto& p : in.place)
     if (p == 0) p = in.size++;
-  // Rows keep their order: every column is copied without those on the cuts.
+  // Rows keep their order: every column is copied without those on the interfaces.
   Eigen::SparseMatrix<double> inner(in.size, in.size);
   inner.reserve(model_.stiffness.nonZeros());
   for (int column = 0; column < model_.stiffness.outerSize(); ++column) {
@@ -75,16 +76,16 @@ FieldRecovery::FieldRecovery(const GearBody& body, const BodySource& source, con
 
 FieldRecovery::~FieldRecovery() = default;
 
-Eigen::MatrixXd FieldRecovery::cut_displacement(int cut, const std::vector<ToothForces>& teeth,
-                                                const Eigen::VectorXd& supports) const {
+Eigen::MatrixXd FieldRecovery::interface_displacement(int interface, const std::vector<ToothForces>& teeth,
+                                                      const Eigen::VectorXd& supports) const {
   const auto& c = body_.compliance;
   const int ports = body_.flank_ports();
-  Eigen::MatrixXd v = Eigen::MatrixXd::Zero(c.cut_size(), 1);
+  Eigen::MatrixXd v = Eigen::MatrixXd::Zero(c.interface_size(), 1);
   for (const auto& t : teeth) {
-    c.add_cut_displacement(cut - t.tooth, per_width_ * c.low().leftCols(ports) * t.ports, v);
-    c.add_cut_displacement(cut - t.tooth - 1, per_width_ * c.high().leftCols(ports) * t.ports, v);
+    c.add_interface_displacement(interface - t.tooth, per_width_ * c.low().leftCols(ports) * t.ports, v);
+    c.add_interface_displacement(interface - t.tooth - 1, per_width_ * c.high().leftCols(ports) * t.ports, v);
   }
-  if (supports_ != nullptr) v += supports_->at_cut(cut) * supports;
+  if (supports_ != nullptr) v += supports_->at_interface(interface) * supports;
   return v;
 }
 
@@ -92,11 +93,11 @@ Eigen::VectorXd FieldRecovery::sector_displacement(int sector, const std::vector
                                                    const Eigen::VectorXd& supports) const {
   const auto& in = *interior_;
   const int dim = model_.dimension;
-  const Eigen::MatrixXd low = cut_displacement(sector, teeth, supports),
-                        high = cut_displacement(sector + 1, teeth, supports);
+  const Eigen::MatrixXd low = interface_displacement(sector, teeth, supports),
+                        high = interface_displacement(sector + 1, teeth, supports);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(model_.stiffness.rows()), f = u;
   for (std::size_t i = 0; i < in.low.size(); ++i) u[in.low[i]] = low(static_cast<Eigen::Index>(i), 0);
-  // The high cut is seen in the frame of the next sector.
+  // The high interface is seen in the frame of the next sector.
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(model_.pitch_angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   for (std::size_t i = 0, node = 0; i < in.high.size(); ++node) {
     int free = 0;
@@ -145,8 +146,8 @@ BodyField FieldRecovery::field(const std::vector<ToothForces>& teeth, const Cont
   constexpr int most_vertices = 20000;
   const int fit = std::max(3, most_vertices / static_cast<int>(grid.nodes.size()));
   // As far as the body was composed.
-  const bool whole = body_.compliance.max_cut_offset() == body_.teeth / 2;
-  const int farthest = whole ? body_.teeth : body_.compliance.max_cut_offset() - 1;
+  const bool whole = body_.compliance.max_interface_offset() == body_.teeth / 2;
+  const int farthest = whole ? body_.teeth : body_.compliance.max_interface_offset() - 1;
   const int first = std::max(low->tooth - fit / 2, high->tooth - farthest);
   const int last = std::min({high->tooth + fit / 2, low->tooth + farthest, first + body_.teeth - 1});
   const double side = mirrored ? -1 : 1;

@@ -12,8 +12,8 @@
 
 namespace annulus::fem {
 
-/// Displacement and stress inside a condensed body: its sectors solved once more, their cuts moved as the composed
-/// body moves them. Exact for the discretised body, as the condensation is.
+/// Displacement and stress inside a condensed body: its sectors solved once more, their interfaces moved as the
+/// composed body moves them. Exact for the discretised body, as the condensation is.
 class FieldRecovery {
  public:
   /// `body` was made of `source`; `supports` may be null. All of them are referred to.
@@ -33,10 +33,10 @@ class FieldRecovery {
   [[nodiscard]] const SectorModel& model() const { return model_; }
 
  private:
-  struct Interior;  // the factorised sector, its cuts held
+  struct Interior;  // the factorised sector, its interfaces held
 
-  [[nodiscard]] Eigen::MatrixXd cut_displacement(int cut, const std::vector<ToothForces>& teeth,
-                                                 const Eigen::VectorXd& supports) const;
+  [[nodiscard]] Eigen::MatrixXd interface_displacement(int interface, const std::vector<ToothForces>& teeth,
+                                                       const Eigen::VectorXd& supports) const;
 
   const GearBody& body_;
   const SupportRow* supports_;

@@ -41,9 +41,10 @@ std::map<int, Eigen::VectorXd> StressRecovery::by_sector(const std::vector<Tooth
                                                          const Eigen::VectorXd& supports) const {
   const auto& c = body_.compliance;
   const int ports = body_.flank_ports();
-  std::map<int, Eigen::MatrixXd> cut_loads;
-  const auto add_load = [&](int cut, const Eigen::VectorXd& load) {
-    auto& sum = cut_loads.try_emplace(number(cut), Eigen::MatrixXd::Zero(c.cut_size(), 1)).first->second;
+  std::map<int, Eigen::MatrixXd> interface_loads;
+  const auto add_load = [&](int interface, const Eigen::VectorXd& load) {
+    auto& sum =
+        interface_loads.try_emplace(number(interface), Eigen::MatrixXd::Zero(c.interface_size(), 1)).first->second;
     sum += load;
   };
   int first_tooth = teeth.front().tooth, last_tooth = first_tooth;
@@ -53,20 +54,20 @@ std::map<int, Eigen::VectorXd> StressRecovery::by_sector(const std::vector<Tooth
     first_tooth = std::min(first_tooth, t.tooth);
     last_tooth = std::max(last_tooth, t.tooth);
   }
-  const bool all_around = body_.axial_stations() == 1 && c.max_cut_offset() == c.sectors() / 2;
-  const int reach = std::min(6, c.max_cut_offset() - 1);
+  const bool all_around = body_.axial_stations() == 1 && c.max_interface_offset() == c.sectors() / 2;
+  const int reach = std::min(6, c.max_interface_offset() - 1);
   const int first = all_around ? 0 : last_tooth - reach, last = all_around ? body_.teeth - 1 : first_tooth + reach;
 
-  const auto cut_displacement = [&](int cut) {
-    Eigen::MatrixXd v = Eigen::MatrixXd::Zero(c.cut_size(), 1);
-    for (const auto& [loaded, load] : cut_loads) c.add_cut_displacement(cut - loaded, load, v);
-    if (supports_ != nullptr) v += supports_->at_cut(cut) * supports;
+  const auto interface_displacement = [&](int interface) {
+    Eigen::MatrixXd v = Eigen::MatrixXd::Zero(c.interface_size(), 1);
+    for (const auto& [loaded, load] : interface_loads) c.add_interface_displacement(interface - loaded, load, v);
+    if (supports_ != nullptr) v += supports_->at_interface(interface) * supports;
     return v;
   };
   std::map<int, Eigen::VectorXd> result;
-  Eigen::MatrixXd at_low = cut_displacement(first);
+  Eigen::MatrixXd at_low = interface_displacement(first);
   for (int sector = first; sector <= last; ++sector) {
-    Eigen::MatrixXd at_high = cut_displacement(sector + 1);
+    Eigen::MatrixXd at_high = interface_displacement(sector + 1);
     Eigen::VectorXd stress = c.low().middleCols(first_load_, loads_).transpose() * at_low +
                              c.high().middleCols(first_load_, loads_).transpose() * at_high;
     for (const auto& t : teeth)

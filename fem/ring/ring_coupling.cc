@@ -28,9 +28,8 @@ struct Level {
   bool reused = false;  // the condensed sector
 };
 
-bool needs_solid(const LoadedMeshProblem& problem) {
-  return std::holds_alternative<EndFaceHeld>(problem.structure) ||
-         std::holds_alternative<FlangeHeld>(problem.structure) || problem.pair.wheel().helix_angle() != 0;
+bool solved_as_solid(const LoadedMeshProblem& problem) {
+  return needs_solid(problem.structure) || problem.pair.wheel().helix_angle() != 0;
 }
 
 /// The ring as it is solved: the mirror image turns the hand of a helical one.
@@ -41,14 +40,8 @@ geometry::Gear mirrored(const geometry::Gear& gear) {
 }
 
 std::optional<SupportPlan> support_plan(const LoadedMeshProblem& problem) {
-  const int teeth = problem.pair.wheel().teeth();
-  const SupportedRing ring{teeth, problem.wheel_support_radius, problem.face_width, problem.material};
-  const std::vector<double> whole_width = {0, problem.face_width};
-  if (const auto* pinned = std::get_if<PinHeld>(&problem.structure))
-    return SupportPlan(pin_sites(*pinned, ring), teeth, whole_width);
-  if (const auto* splined = std::get_if<SplineHeld>(&problem.structure))
-    return SupportPlan(spline_sites(*splined, ring), teeth, whole_width);
-  return std::nullopt;
+  if (!on_single_supports(problem.structure)) return std::nullopt;
+  return SupportPlan(support_sites(problem), problem.pair.wheel().teeth(), {0, problem.face_width});
 }
 
 /// Mesh forces of all planets, planet 0 at `position`: teeth x planets.
@@ -90,7 +83,7 @@ Eigen::MatrixXd teeth_compliance(const RingFlexibility& ring, const RingOnSuppor
 Level solve_level(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead, double load,
                   const RingCouplingSettings& settings, int level) {
   const auto planets = static_cast<Eigen::Index>(teeth_ahead.size());
-  const bool solid = needs_solid(problem);
+  const bool solid = solved_as_solid(problem);
   const geometry::ToothProfile profile(mirrored(problem.pair.wheel()));
   const BodyPlan body(problem, profile, true, geometry::Boundary::trailing_flank, settings.degree, solid,
                       {problem.face_width, false});
@@ -113,7 +106,7 @@ Level solve_level(const LoadedMeshProblem& problem, const std::vector<double>& t
   std::optional<RingOnSupports> supported;
   if (plan) supported.emplace(ring, *plan);
   const Eigen::VectorXd loads = Eigen::VectorXd::Constant(planets, load);
-  const int positions = repeating_teeth(problem.structure, ring.teeth) * settings.per_cycle;
+  const int positions = problem.structure.repeating_teeth(ring.teeth) * settings.per_cycle;
   std::vector<bool> touching;
   for (int i = 0; i < positions; ++i) {
     const Eigen::MatrixXd patterns = mesh_forces(static_cast<double>(i) / settings.per_cycle, teeth_ahead, ring.teeth);
@@ -151,7 +144,10 @@ Level solve_level(const LoadedMeshProblem& problem, const std::vector<double>& t
 
 void check_places(const std::vector<double>& teeth_ahead, int teeth) {
   if (teeth_ahead.empty() || teeth_ahead.front() != 0)
-    throw InputError("the coupling of ring meshes needs planets, the first of them 0 teeth ahead");
+
+    throw InputError(teeth_ahead.empty() ? "the coupling of ring meshes needs planets, and there are none"
+                                         : fmt::format("the first planet has to stand 0 teeth ahead of itself, not {}",
+                                                       teeth_ahead.front()));
   // The four teeth that share one mesh force are not those of the next planet.
   constexpr double apart = 4;
   for (std::size_t n = 0; n < teeth_ahead.size(); ++n) {
@@ -167,15 +163,20 @@ void check_places(const std::vector<double>& teeth_ahead, int teeth) {
 void check(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead, double load,
            const RingCouplingSettings& settings) {
   if (!problem.pair.internal()) throw InputError("the coupling of ring meshes needs a planet-ring pair");
-  const int last = needs_solid(problem) ? last_solid_level : last_plane_level;
+  const int last = solved_as_solid(problem) ? last_solid_level : last_plane_level;
   if (settings.level < 1 || settings.level > last)
     throw InputError(fmt::format("level {} is not available: 1 to {} are", settings.level, last));
   check_places(teeth_ahead, problem.pair.wheel().teeth());
   if (!std::isfinite(load) || !(load > 0))
     throw InputError(fmt::format("a mesh load of {} N: it has to be positive", load));
-  if (settings.per_cycle < 1) throw InputError("at least one ring position per mesh cycle is needed");
+  if (settings.per_cycle < 1)
+    throw InputError(fmt::format("{} ring positions per mesh cycle: at least one is needed", settings.per_cycle));
   if (settings.motions.section < 1 || settings.motions.axial < 0 || settings.modes.count < 1)
-    throw InputError("modes need motions of order 1 or higher, and a count of at least one");
+
+    throw InputError(
+        fmt::format("modes need motions of order 1 or higher in the section (here {}), 0 or higher along the "
+                    "axis (here {}), and a count of at least one (here {})",
+                    settings.motions.section, settings.motions.axial, settings.modes.count));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct RingCouplingSettings {
   ModeLimits modes;
   MotionOrder motions;                      ///< of a sector's inertia, their section order at least 1
   int threads = 1;                          ///< changes the time, never the result
-  std::shared_ptr<CondensedStore> store{};  ///< where condensed teeth are looked for and kept; may be null
+  std::shared_ptr<CondensedStore> store{};  ///< where tooth superelements are looked for and kept; may be null
 };
 
 struct SolvedRingCoupling {

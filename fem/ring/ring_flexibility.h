@@ -42,7 +42,7 @@ struct RingFlexibilityOptions {
   MotionOrder motions;
   std::vector<ArcLoad> arcs;
   int threads = 1;
-  CondensedStore* store = nullptr;  ///< where condensed teeth are looked for and kept; may be null
+  CondensedStore* store = nullptr;  ///< where tooth superelements are looked for and kept; may be null
 };
 
 [[nodiscard]] RingFlexibility make_ring_flexibility(const BodyPlan& plan, const BodyResolution& resolution,

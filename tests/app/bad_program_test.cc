@@ -19,8 +19,8 @@ std::set<std::string> content_of(const std::filesystem::path& folder) {
 
 /// Refused with this status, a message that holds `word`, nothing said as if it had worked, and no file more than
 /// before.
-void check_refused(const std::filesystem::path& folder, const std::string& arguments, const std::string& word,
-                   int status = 2) {
+void check_program_refused(const std::filesystem::path& folder, const std::string& arguments, const std::string& word,
+                           int status = 2) {
   const auto before = content_of(folder);
   const auto outcome = test::run_program(folder, arguments);
   BOOST_TEST_CONTEXT(arguments.substr(0, 100)) {
@@ -43,17 +43,17 @@ BOOST_AUTO_TEST_CASE(every_command_refuses_a_bad_scene_and_writes_nothing) {
   write_file(folder.path() / "scene.toml", test::replaced(test::quick_scene(), "module_mm = 3.8", "module_mm = 1e300"));
   for (const std::string command : {"run", "solve", "dynamics", "tradeoff", "plan", "check"}) {
     const bool out = command != "plan" && command != "check";
-    check_refused(folder.path(), command + " scene.toml" + (out ? " -o out" : ""),
-                  "scene.toml:5:1: stage.module_mm = 1e300: must be in range: 0.05 <= value <= 100 mm\n");
+    check_program_refused(folder.path(), command + " scene.toml" + (out ? " -o out" : ""),
+                          "scene.toml:5:1: stage.module_mm = 1e300: must be in range: 0.05 <= value <= 100 mm\n");
   }
-  check_refused(folder.path(), "run scene.toml", "scene.toml:5:1:");  // its own OUT
+  check_program_refused(folder.path(), "run scene.toml", "scene.toml:5:1:");  // its own OUT
 }
 
 BOOST_AUTO_TEST_CASE(bad_scenes_of_every_class) {
   const test::TemporaryFolder folder("bad_classes");
   const auto refuse = [&](const std::string& text, const std::string& word) {
     write_file(folder.path() / "scene.toml", text);
-    check_refused(folder.path(), "run scene.toml -o out", word);
+    check_program_refused(folder.path(), "run scene.toml -o out", word);
   };
   const auto with = [](const std::string& what, const std::string& by) {
     return test::replaced(test::quick_scene(), what, by);
@@ -85,20 +85,20 @@ BOOST_AUTO_TEST_CASE(what_is_no_scene_file) {
   write_file(folder.path() / "scene.toml", test::quick_scene());
   write_file(folder.path() / "taken", "");
   for (const std::string command : commands_with_out) {
-    check_refused(folder.path(), command + " nowhere.toml -o out", "nowhere.toml: cannot be read");
-    check_refused(folder.path(), command + " deeper -o out", "deeper: cannot be read");
-    check_refused(folder.path(), command + " -o out", "scene is required");
+    check_program_refused(folder.path(), command + " nowhere.toml -o out", "nowhere.toml: cannot be read");
+    check_program_refused(folder.path(), command + " deeper -o out", "deeper: cannot be read");
+    check_program_refused(folder.path(), command + " -o out", "scene is required");
   }
-  check_refused(folder.path(), "run scene.toml -o taken", "--out taken: ");
-  check_refused(folder.path(), "run scene.toml -o taken/out", "is not a folder");
-  check_refused(folder.path(), "run scene.toml -o /proc/out", "/proc");
-  check_refused(folder.path(), "run scene.toml -o out --budget soon", "--budget soon");
-  check_refused(folder.path(), "run scene.toml -o out --max-time 0s", "--max-time 0s");
-  check_refused(folder.path(), "run scene.toml -o out --max-memory much", "--max-memory much");
-  check_refused(folder.path(), "run scene.toml -o out --max-memory nanGB", "--max-memory nanGB");
-  check_refused(folder.path(), "run scene.toml -o out --threads x", "--threads");
-  check_refused(folder.path(), "run scene.toml -o out --no-such-option", "--no-such-option");
-  check_refused(folder.path(), "run /dev/zero -o out", "1000000 bytes");
+  check_program_refused(folder.path(), "run scene.toml -o taken", "--out taken: ");
+  check_program_refused(folder.path(), "run scene.toml -o taken/out", "is not a folder");
+  check_program_refused(folder.path(), "run scene.toml -o /proc/out", "/proc");
+  check_program_refused(folder.path(), "run scene.toml -o out --budget soon", "--budget soon");
+  check_program_refused(folder.path(), "run scene.toml -o out --max-time 0s", "--max-time 0s");
+  check_program_refused(folder.path(), "run scene.toml -o out --max-memory much", "--max-memory much");
+  check_program_refused(folder.path(), "run scene.toml -o out --max-memory nanGB", "--max-memory nanGB");
+  check_program_refused(folder.path(), "run scene.toml -o out --threads x", "--threads");
+  check_program_refused(folder.path(), "run scene.toml -o out --no-such-option", "--no-such-option");
+  check_program_refused(folder.path(), "run /dev/zero -o out", "1000000 bytes");
 }
 
 BOOST_AUTO_TEST_CASE(too_much_is_refused_with_the_figures) {
@@ -106,8 +106,8 @@ BOOST_AUTO_TEST_CASE(too_much_is_refused_with_the_figures) {
   const auto refuse = [&](const std::string& text, const std::string& arguments,
                           const std::vector<std::string>& words) {
     write_file(folder.path() / "scene.toml", text);
-    for (const auto& word : words) check_refused(folder.path(), "run scene.toml -o out" + arguments, word, 3);
-    check_refused(folder.path(), "plan scene.toml" + arguments, words.front(), 3);
+    for (const auto& word : words) check_program_refused(folder.path(), "run scene.toml -o out" + arguments, word, 3);
+    check_program_refused(folder.path(), "plan scene.toml" + arguments, words.front(), 3);
   };
   // Searches of ten thousand million points, tens of milliseconds each.
   refuse(test::quick_scene() +

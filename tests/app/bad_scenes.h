@@ -47,6 +47,9 @@ inline std::string computed_set() {
   add("pins", "pinned", "pins = 24\npin_diameter_mm = 15.5\npin_clearance_um = 3\nfirst_pin_angle_deg = 1\n");
   add("bolts", "bolted", "pin_angles_deg = [0, 90, 180, 270]\npin_diameter_mm = 15.5\n");
   add("spline", "splined", "splines = 54\nspline_clearance_um = 2\n");
+  add("clamped", "clamped",
+      "clamp_inner_diameter_mm = 640\nbolts = 36\nbolt_circle_diameter_mm = 652\nbolt_diameter_mm = 9\ndowels = 6\n"
+      "dowel_diameter_mm = 8\n");
   return text;
 }
 

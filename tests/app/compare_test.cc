@@ -56,7 +56,7 @@ std::string finished(const fs::path& folder, const json& summary) {
   return folder.string();
 }
 
-void check_refused(const std::vector<std::string>& folders, const std::vector<std::string>& words) {
+void check_comparison_refused(const std::vector<std::string>& folders, const std::vector<std::string>& words) {
   BOOST_CHECK_EXCEPTION((void)app::read_finished_runs(folders), InputError, [&](const InputError& error) {
     bool all = true;
     for (const auto& word : words) {
@@ -68,7 +68,7 @@ void check_refused(const std::vector<std::string>& folders, const std::vector<st
   });
 }
 
-bool contains(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+bool has_text(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
 
 std::vector<std::string> rows_with(const std::string& csv, const std::string& head) {
   std::vector<std::string> rows;
@@ -95,22 +95,22 @@ BOOST_AUTO_TEST_CASE(differences_are_held_against_the_error_bars_together) {
                                at("equal", 1e9, 0.02), finished(folder.path() / "unknown", unknown)});
   const auto text = app::comparison_text(runs);
   const std::string what = "  mean stiffness, ring mesh, N/µm: ";
-  BOOST_TEST(contains(text, what + "'apart' 1050 is 5 % larger than 'first' 1000, more than the error bars together"));
-  BOOST_TEST(contains(text, what + "'first' 1000 and 'near' 1015 differ by less than the error bars"));
-  BOOST_TEST(contains(text, what + "'first' and 'equal' are the same"));
-  BOOST_TEST(contains(text, what + "'first' 1000 and 'unknown' 2000 have no known error"));
-  BOOST_TEST(contains(text, "1000 ± 10"));
-  BOOST_TEST(contains(text, "12.50 s, 346 MB, 1 results read back"));
+  BOOST_TEST(has_text(text, what + "'apart' 1050 is 5 % larger than 'first' 1000, more than the error bars together"));
+  BOOST_TEST(has_text(text, what + "'first' 1000 and 'near' 1015 differ by less than the error bars"));
+  BOOST_TEST(has_text(text, what + "'first' and 'equal' are the same"));
+  BOOST_TEST(has_text(text, what + "'first' 1000 and 'unknown' 2000 have no known error"));
+  BOOST_TEST(has_text(text, "1000 ± 10"));
+  BOOST_TEST(has_text(text, "12.50 s, 346 MB, 1 results read back"));
 
   const auto csv = app::comparison_csv(runs);
   const auto rows = rows_with(csv, "\"mean stiffness, ring mesh\",N/µm,");
   BOOST_TEST_REQUIRE(rows.size() == 5U);
-  BOOST_TEST(contains(rows[0], ",first,1000,10,,,"));
-  BOOST_TEST(contains(rows[4], ",unknown,2000,,1000,,"));
+  BOOST_TEST(has_text(rows[0], ",first,1000,10,,,"));
+  BOOST_TEST(has_text(rows[4], ",unknown,2000,,1000,,"));
   // The largest dynamic factor with its own error, the first frequency above zero.
-  BOOST_TEST(contains(rows_with(csv, "\"dynamic factor, largest of all sun meshes\"").at(0), ",first,1.3,0.01,"));
-  BOOST_TEST(contains(rows_with(csv, "natural frequency 1,Hz").at(0), ",first,400,2,"));
-  BOOST_TEST(contains(rows_with(csv, "natural frequency 2,Hz").at(0), ",first,500,,"));
+  BOOST_TEST(has_text(rows_with(csv, "\"dynamic factor, largest of all sun meshes\"").at(0), ",first,1.3,0.01,"));
+  BOOST_TEST(has_text(rows_with(csv, "natural frequency 1,Hz").at(0), ",first,400,2,"));
+  BOOST_TEST(has_text(rows_with(csv, "natural frequency 2,Hz").at(0), ",first,500,,"));
   BOOST_TEST(rows_with(csv, "natural frequency 3,Hz").empty());
 }
 
@@ -129,19 +129,19 @@ BOOST_AUTO_TEST_CASE(inputs_that_differ_are_listed_and_no_others) {
   BOOST_TEST((inputs[1].values == std::vector<std::string>{"–", "24", "–"}));
   // Rings are named where a run has several.
   const auto page = app::comparison_html(runs);
-  for (const char* name : {"a: held", "a: pinned", ">b<", "Set &lt;1&gt;"}) BOOST_TEST(contains(page, name), name);
-  BOOST_TEST(!contains(page, "<1>"));
-  BOOST_TEST(contains(page, "Above the ideal"));
-  BOOST_TEST(contains(page, "load sharing, a: pinned"));
+  for (const char* name : {"a: held", "a: pinned", ">b<", "Set &lt;1&gt;"}) BOOST_TEST(has_text(page, name), name);
+  BOOST_TEST(!has_text(page, "<1>"));
+  BOOST_TEST(has_text(page, "Above the ideal"));
+  BOOST_TEST(has_text(page, "load sharing, a: pinned"));
   // Nothing from outside.
-  for (const char* outside : {"src=\"", "href=\"http", "url("}) BOOST_TEST(!contains(page, outside), outside);
+  for (const char* outside : {"src=\"", "href=\"http", "url("}) BOOST_TEST(!has_text(page, outside), outside);
   // A run of an earlier version has no inputs: that is told, and nothing is made of it.
   auto old = summary_of({{"held", ring_of(1e9, 0.01, 1.2, 0.01)}});
   old.erase("inputs");
   old.erase("kind");
   const auto with_old = app::read_finished_runs({b, finished(folder.path() / "old", old)});
   BOOST_TEST(app::differing_inputs(with_old).empty());
-  BOOST_TEST(contains(app::unknown_inputs_text(with_old), "not known of old"));
+  BOOST_TEST(has_text(app::unknown_inputs_text(with_old), "not known of old"));
 }
 
 BOOST_AUTO_TEST_CASE(runs_are_named_as_shortly_as_tells_them_apart) {
@@ -163,39 +163,41 @@ BOOST_AUTO_TEST_CASE(folders_that_cannot_be_compared_are_refused) {
     app::keep_finished_run(place, "id", "text");
     return place;
   };
-  check_refused({}, {"two finished runs"});
-  check_refused({good}, {"good", "two finished runs"});
-  check_refused({good, good + "/../good/"}, {"good/", "twice"});
-  check_refused({good, "/nowhere/out"}, {"/nowhere/out", "no such folder", "annulus run"});
-  check_refused({good, good + "/summary.json"}, {"summary.json", "not a folder"});
+  check_comparison_refused({}, {"two finished runs"});
+  check_comparison_refused({good}, {"good", "two finished runs"});
+  check_comparison_refused({good, good + "/../good/"}, {"good/", "twice"});
+  check_comparison_refused({good, "/nowhere/out"}, {"/nowhere/out", "no such folder", "annulus run"});
+  check_comparison_refused({good, good + "/summary.json"}, {"summary.json", "not a folder"});
   fs::create_directories(folder.path() / "empty");
-  check_refused({good, (folder.path() / "empty").string()}, {"empty", "holds no run"});
+  check_comparison_refused({good, (folder.path() / "empty").string()}, {"empty", "holds no run"});
   fs::create_directories(folder.path() / "begun" / "condensed");
-  check_refused({(folder.path() / "begun").string(), good}, {"begun", "not finished", "goes on where it stopped"});
+  check_comparison_refused({(folder.path() / "begun").string(), good},
+                           {"begun", "not finished", "goes on where it stopped"});
   const auto text = summary.dump(1);
-  check_refused({good, with("cut", text.substr(0, text.size() / 2))}, {"cut/summary.json", "damaged", "again"});
-  check_refused({good, with("none", "")}, {"none/summary.json", "damaged"});
+  check_comparison_refused({good, with("cut", text.substr(0, text.size() / 2))},
+                           {"cut/summary.json", "damaged", "again"});
+  check_comparison_refused({good, with("none", "")}, {"none/summary.json", "damaged"});
   for (
       const char* foreign :
       {"[]", "5", "null", "{}", R"({"name": "package", "version": "1"})",
        R"({"title": "t", "annulus_version": "1", "accuracy_wanted": 1, "rings": 5})",
        R"({"title": "t", "annulus_version": "1", "accuracy_wanted": 1, "rings": {"r": 5}, "timings_s": {}, "peak_memory_MB": 1})",
        R"({"title": "t", "annulus_version": "1", "accuracy_wanted": 1, "kind": "turbine"})"})
-    check_refused({good, with("foreign", foreign)},
-                  {"foreign/summary.json", "not a summary of annulus", "annulus run"});
+    check_comparison_refused({good, with("foreign", foreign)},
+                             {"foreign/summary.json", "not a summary of annulus", "annulus run"});
   auto wrong = summary;
   wrong["rings"]["r"]["load_sharing"]["sun_planet"]["averaged"]["value"] = "much";
-  check_refused({good, with("wrong", wrong.dump())}, {"wrong/summary.json", "must be number"});
+  check_comparison_refused({good, with("wrong", wrong.dump())}, {"wrong/summary.json", "must be number"});
   // A note that is missing, and files that a later run has begun to change.
   const auto no_note = finished(folder.path() / "no_note", summary);
   fs::remove(fs::path(no_note) / "run.json");
-  check_refused({good, no_note}, {"no_note", "not finished", "no run.json"});
+  check_comparison_refused({good, no_note}, {"no_note", "not finished", "no run.json"});
   const auto changed = finished(folder.path() / "changed", summary);
   write_file(fs::path(changed) / "stiffness.csv", "old");
   app::keep_finished_run(changed, "id", "text");
   BOOST_CHECK_NO_THROW((void)app::read_finished_runs({good, changed}));
   write_file(fs::path(changed) / "stiffness.csv", "longer");
-  check_refused({good, changed}, {"changed", "stiffness.csv has changed since"});
+  check_comparison_refused({good, changed}, {"changed", "stiffness.csv has changed since"});
   fs::remove(fs::path(changed) / "stiffness.csv");  // room was made: nothing is unfinished
   BOOST_CHECK_NO_THROW((void)app::read_finished_runs({good, changed}));
 }
@@ -215,8 +217,8 @@ BOOST_AUTO_TEST_CASE(finished_runs_of_the_program) {
   run("stiff", test::replaced(test::quick_scene(), "planet_N_per_m = 1e9", "planet_N_per_m = 2e9"));
   const auto outcome = test::run_program(folder.path(), "compare soft stiff -o pages/both.html");
   BOOST_TEST_REQUIRE(outcome.status == 0, outcome.err);
-  BOOST_TEST(contains(outcome.out, "pages/both.html"));
-  BOOST_TEST(contains(outcome.out, "supports.planet_N_per_m"));
+  BOOST_TEST(has_text(outcome.out, "pages/both.html"));
+  BOOST_TEST(has_text(outcome.out, "supports.planet_N_per_m"));
   int pictures = 0;
   for (const auto& entry : fs::directory_iterator(folder.path() / "pages" / "both_pictures")) {
     ++pictures;
@@ -236,7 +238,7 @@ BOOST_AUTO_TEST_CASE(finished_runs_of_the_program) {
   }
   const auto begin = page.find("id=\"inputs\""), end = page.find("id=\"cost\"");
   const auto inputs = page.substr(begin, end - begin);
-  BOOST_TEST(contains(inputs, "supports.planet_N_per_m"));
+  BOOST_TEST(has_text(inputs, "supports.planet_N_per_m"));
   std::size_t keys = 0;
   for (auto at = inputs.find("<code>"); at != std::string::npos; at = inputs.find("<code>", at + 1)) ++keys;
   BOOST_TEST(keys == 1U);
@@ -248,16 +250,16 @@ BOOST_AUTO_TEST_CASE(finished_runs_of_the_program) {
   run("reducer2", "accuracy = 0.02\n" + test::reducer_scene());
   const auto pairs = test::run_program(folder.path(), "compare pair pair2 -o pairs.html");
   BOOST_TEST(pairs.status == 0, pairs.err);
-  BOOST_TEST(contains(pairs.out, "largest mesh force, kN"));
-  BOOST_TEST(contains(pairs.out, "stage.pinion_torque_Nm"));
+  BOOST_TEST(has_text(pairs.out, "largest mesh force, kN"));
+  BOOST_TEST(has_text(pairs.out, "stage.pinion_torque_Nm"));
   const auto reducers = test::run_program(folder.path(), "compare reducer reducer2 -o reducers.html");
   BOOST_TEST(reducers.status == 0, reducers.err);
-  BOOST_TEST(contains(reducers.out, "torsional stiffness at the output, N m/rad"));
+  BOOST_TEST(has_text(reducers.out, "torsional stiffness at the output, N m/rad"));
 
   const auto refused = [&](const std::string& arguments, const std::string& word) {
     const auto bad = test::run_program(folder.path(), "compare " + arguments);
     BOOST_TEST(bad.status == 2, arguments);
-    BOOST_TEST(contains(bad.err, word), bad.err);
+    BOOST_TEST(has_text(bad.err, word), bad.err);
     BOOST_TEST(std::count(bad.err.begin(), bad.err.end(), '\n') == 1, bad.err);
     BOOST_TEST(bad.out.empty());
     BOOST_TEST(!fs::exists(folder.path() / "bad.html"));

@@ -231,6 +231,11 @@ BOOST_AUTO_TEST_CASE(axial_sections_show_every_structure) {
       std::string::npos);
   BOOST_TEST(svg_of("structure = \"bolted\"\npins = 12\npin_diameter_mm = 10").find(">12 bolts ⌀ 10<") !=
              std::string::npos);
+  const auto clamped = svg_of(
+      "structure = \"clamped\"\nclamp_inner_diameter_mm = 640\nbolts = 36\nbolt_circle_diameter_mm = 652\n"
+      "bolt_diameter_mm = 9\ndowels = 6\ndowel_diameter_mm = 8");
+  for (const char* figure : {">11.8<", "⌀ 640 clamped from", ">36 bolts ⌀ 9<", ">6 dowels ⌀ 8<"})
+    BOOST_TEST(clamped.find(figure) != std::string::npos, figure);
   BOOST_TEST(times(held, "<g") == times(held, "</g>"));
 }
 

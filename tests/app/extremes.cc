@@ -95,7 +95,7 @@ std::vector<std::string> broken_rules(const fem::LoadedMeshProblem& problem, con
   const auto rule = [&](bool holds, const std::string& what) {
     if (!holds && std::find(broken.begin(), broken.end(), what) == broken.end()) broken.push_back(what);
   };
-  const auto* pins = std::get_if<fem::PinHeld>(&problem.structure);
+  const auto* pins = problem.structure.as<fem::PinHeld>();
   rule(!result.positions.empty(), "there are positions");
   // Gaps are differences of places: what they are known to.
   const double place = 1e-15 * problem.pair.wheel().tip_radius();

@@ -157,8 +157,8 @@ Edits teeth(int sun, int planet, int planets, double pressure_angle = 20) {
   return {{"stage", "planets", number(planets)},
           {"stage", "pressure_angle_deg", number(pressure_angle)},
           {"stage", "centre_distance_mm", number(module * (sun + planet) / 2)},
-          {"errors", "planet_installation_um", zeros},
-          {"errors", "planet_installation_phase_deg", zeros},
+          {"errors", "planet_pin_position_error_um", zeros},
+          {"errors", "planet_pin_position_error_phase_deg", zeros},
           {"sun", "teeth", number(sun)},
           {"sun", "bore_diameter_mm", number(0.4 * module * sun)},
           {"planet", "teeth", number(planet)},
@@ -270,7 +270,7 @@ BOOST_AUTO_TEST_CASE(sizes) {
                         {"stage", "centre_distance_mm", number(24 * module)},
                         {"stage", "face_width_mm", number(15 * module)},
                         {"stage", "power_kW", number(200 * std::pow(module / 4, 3))},
-                        {"errors", "planet_installation_um", "[0, 0, 0, 0]"},
+                        {"errors", "planet_pin_position_error_um", "[0, 0, 0, 0]"},
                         {"sun", "bore_diameter_mm", number(10 * module)},
                         {"planet", "bore_diameter_mm", number(11.25 * module)},
                         {"ring", "tip_diameter_mm", number(70.5 * module)},
@@ -352,7 +352,7 @@ BOOST_AUTO_TEST_CASE(loads) {
             values_of("stage", "pinion_torque_Nm", {0, -600, 1e-9}, [](double T) { return T > 0; })},
            pair_scene(formulas));
   run_axis({"errors beyond the teeth",
-            {{"installation", {{"errors", "planet_installation_um", "[0, 0, 10000, 0]"}}, Expected::refused},
+            {{"installation", {{"errors", "planet_pin_position_error_um", "[0, 0, 10000, 0]"}}, Expected::refused},
              {"eccentricity", {{"errors", "planet_eccentricity_um", "[0, -2001, 0, 0]"}}, Expected::refused},
              {"sun", {{"errors", "sun_eccentricity_um", "2001"}}, Expected::refused},
              {"half a module", {{"errors", "ring_eccentricity_um", "2000"}}}}},
@@ -400,7 +400,7 @@ BOOST_AUTO_TEST_CASE(errors_larger_than_the_deflection) {
                                                    {"mesh.ring_planet", "stiffness", "\"harmonic\""},
                                                    {"mesh.ring_planet", "mean_N_per_m", "1.3e9"},
                                                    {"mesh.ring_planet", "ripple", "0.13"}});
-  const auto installation = [](const char* um) { return KeyValue{"errors", "planet_installation_um", um}; };
+  const auto installation = [](const char* um) { return KeyValue{"errors", "planet_pin_position_error_um", um}; };
   const Edits light = {{"stage", "power_kW", "1"}};
   Tally tally;
   for (const auto& [what, edits, carried] : std::initializer_list<std::tuple<std::string, Edits, bool>>{

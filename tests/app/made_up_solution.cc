@@ -17,8 +17,8 @@ bool over_face_width(const app::MeshModel& model) {
 }
 
 std::vector<double> angles_of(const fem::RingStructure& structure) {
-  if (const auto* pins = std::get_if<fem::PinHeld>(&structure)) return pins->angles;
-  if (const auto* spline = std::get_if<fem::SplineHeld>(&structure))
+  if (const auto* pins = structure.as<fem::PinHeld>()) return pins->angles;
+  if (const auto* spline = structure.as<fem::SplineHeld>())
     return fem::equal_angles(spline->teeth, spline->first_tooth_angle);
   return {};
 }
@@ -28,7 +28,7 @@ fem::PinState pin_state(const fem::RingStructure& structure, double from_contact
   const double at = std::remainder(from_contact - 0.2, 2 * pi);
   const double radial = load * std::exp(-at * at / 0.05) * std::cos(6 * at);
   const double tangential = 0.3 * load * std::exp(-at * at / 0.4);
-  const auto* pins = std::get_if<fem::PinHeld>(&structure);
+  const auto* pins = structure.as<fem::PinHeld>();
   if (pins && !pins->unilateral) return {true, radial, tangential};
   return {radial > 1, radial > 1 ? radial : 0, tangential};
 }
@@ -113,9 +113,8 @@ fem::LoadedMeshResult made_up_solution(const app::MeshModel& model) {
       }
     }
   }
-  fem::LoadedMeshResult result{
-      .table = StiffnessTable(model.mesh, problem.phases, ring_angles, problem.loads, std::move(entries)),
-      .positions = std::move(positions)};
+  fem::LoadedMeshResult result(
+      StiffnessTable(model.mesh, problem.phases, ring_angles, problem.loads, std::move(entries)), std::move(positions));
   result.pin_angles = pins;
   result.slice_edges = edges;
   result.stress_curves = curves(problem.pair.internal(), solid ? 1.3 : 1);

@@ -19,7 +19,7 @@ namespace {
 
 /// Planets at fault by what does not turn with them: the windows are short.
 std::string searched_scene(const std::string& optimise) {
-  auto text = test::replaced(test::quick_scene(), "planet_eccentricity_um", "planet_installation_um");
+  auto text = test::replaced(test::quick_scene(), "planet_eccentricity_um", "planet_pin_position_error_um");
   return test::replaced(text, "mesh_cycles = 110\n", "") + optimise;
 }
 
@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(searches_that_cannot_be_are_refused) {
       {"generations = 6", "generations = 0", "optimise.generations", "1"},
       {"generations = 6", "generations = 6.5", "optimise.generations", "whole"},
       {"population = 6", "population = 7", "optimise.population", "even"},
-      {"population = 6", "population = 6\nweights = [1, 2]", "optimise.weights", "2 weights for 1 figure"},
+      {"population = 6", "population = 6\nweights = [1, 2]", "optimise.weights", "2 weights for 1 result"},
       {"population = 6", "population = 6\nring = \"no such\"", "optimise.ring", "no ring"},
       {"population = 6", "population = 6\nelite = 0", "optimise.elite", "0"},
       {"population = 6", "population = 6\nmutation = nan", "optimise.mutation = nan", "0 <= value <= 1"},

@@ -240,7 +240,7 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused_with_place_and_remedy) {
        "pinion_total_um = 0\npinion_tooth_to_tooth_um = 0", "manufacturing_error.pinion_total_um = 0",
        "must be above 0"},
       {"[manufacturing_error]", "[manufacturing_error]\nreading = \"pinion_envelop\"",
-       "manufacturing_error.reading = pinion_envelop", "did you mean \"pinion_envelope\"?"},
+       "manufacturing_error.reading = \"pinion_envelop\"", "did you mean \"pinion_envelope\"?"},
       {"[manufacturing_error]", "[errors]\nmesh_error_um = 5\n[manufacturing_error]", "errors.mesh_error_um = 5",
        "reading = \"none\""},
       {"[manufacturing_error]", "[manufacturing_error]\nsamples = 100\nprobability = 0.999",
@@ -259,7 +259,7 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused_with_place_and_remedy) {
       {"[dynamics]", "[transmission_error]\npinion_torques_Nm = [1, -2]\n[dynamics]",
        "transmission_error.pinion_torques_Nm", "0 < each value"},
       {"[dynamics]", "[transmission_error]\npinion_torques_Nm = [5, 5]\n[dynamics]",
-       "transmission_error.pinion_torques_Nm", "stands there twice"},
+       "transmission_error.pinion_torques_Nm", "the same value twice"},
       {"[dynamics]", "[dynamics]\nintegrator = \"runge_kutta_4\"", "dynamics.steps_per_cycle", "runge_kutta_4"},
       {"[dynamics]", "[dynamics]\nrim_coupling = \"none\"", "dynamics.rim_coupling", "belongs to planetary"},
       {"[dynamics]", "[[sweep]]\ninput = \"stage.sun_speed_rpm\"\nvalues = [1]\n[dynamics]",
@@ -291,7 +291,7 @@ BOOST_AUTO_TEST_CASE(what_needs_several_changes_is_refused_too) {
   const auto computed =
       test::replaced(test::quick_pair(), "stiffness = \"iso_6336\"\nripple = 0.05", "stiffness = \"computed\"");
   refused(test::replaced(computed, "bore_diameter_mm = 150\n", ""),
-          "pinion.bore_diameter_mm: is required because the mesh is computed");
+          "pinion.bore_diameter_mm: is required by mesh.pinion_wheel.stiffness = \"computed\"");
   refused(test::replaced(computed, "pinion_torque_Nm = 20000", "pinion_torque_Nm = -5"),
           "must be above 0 with a tabulated stiffness");
   refused(test::replaced(computed, "title", "model = \"plane\"\ntitle"),

@@ -244,6 +244,7 @@ BOOST_AUTO_TEST_CASE(structures_their_fidelity_and_why) {
   check("flange", "solid", 1, "flange");
   check("thin-walled", "solid", 1, "one end face");
   check("thin-walled-hoop", "solid", 1, "hoop");
+  check("clamped", "solid", 1, "clamped at both end faces");
   check("pins24", "plane", 27, "pins");
   check("bolts24", "plane", 27, "bolts");
   check("irregular-pins", "plane", 54, "pins");  // a third of 162
@@ -257,15 +258,18 @@ BOOST_AUTO_TEST_CASE(structures_their_fidelity_and_why) {
              std::string::npos);
 
   const auto structure = [&](const std::string& ring) { return mesh(ring).problem->structure; };
-  const auto flange = std::get<fem::FlangeHeld>(structure("flange"));
+  const auto flange = *structure("flange").as<fem::FlangeHeld>();
   BOOST_TEST(flange.outside_radius == 0.37, boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(std::get<fem::EndFaceHeld>(structure("thin-walled-hoop")).hoop.has_value());
-  BOOST_TEST(!std::get<fem::EndFaceHeld>(structure("thin-walled")).hoop.has_value());
-  const auto pin = std::get<fem::PinHeld>(structure("one-pin"));
+  BOOST_TEST(structure("thin-walled-hoop").as<fem::EndFaceHeld>()->hoop.has_value());
+  BOOST_TEST(!structure("thin-walled").as<fem::EndFaceHeld>()->hoop.has_value());
+  const auto pin = *structure("one-pin").as<fem::PinHeld>();
   BOOST_TEST(*pin.housing_clearance == 30e-6, boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(!std::get<fem::PinHeld>(structure("bolts24")).unilateral);
-  const auto spline = std::get<fem::SplineHeld>(structure("splined"));
+  BOOST_TEST(!structure("bolts24").as<fem::PinHeld>()->unilateral);
+  const auto spline = *structure("splined").as<fem::SplineHeld>();
   BOOST_TEST(spline.teeth == 54);
+  const auto clamped = *structure("clamped").as<fem::Clamped>();
+  BOOST_TEST(clamped.inner_radius == 0.32, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(clamped.bolts == 36);
   BOOST_TEST(spline.clearance == 5e-6, boost::test_tools::tolerance(1e-15));
 }
 
@@ -419,6 +423,7 @@ BOOST_AUTO_TEST_CASE(identity_follows_every_structure_key) {
   BOOST_TEST(changed("pins24", [](auto& r) { r.pin_tangential_stiffness = 1e9; }));
   BOOST_TEST(changed("pins24", [](auto& r) { r.housing_clearance = 0; }));
   BOOST_TEST(changed("pins24", [](auto& r) { r.structure = app::Structure::bolted; }));
+  BOOST_TEST(changed("clamped", [](auto& r) { r.clamp_inner_diameter = 0.645; }));
   BOOST_TEST(changed("splined", [](auto& r) { r.splines = 27; }));
   BOOST_TEST(changed("splined", [](auto& r) { r.spline_flank_angle = 0.6; }));
   BOOST_TEST(changed("splined", [](auto& r) { r.spline_clearance = 0; }));

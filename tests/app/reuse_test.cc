@@ -25,11 +25,11 @@ std::string pinned_scene() {
   text = test::replaced(text, "planet_N_per_m = 1e9\n", "planet_N_per_m = 1e9\nring_N_per_m = 1e9\n");
   text = test::replaced(text, "[mesh.ring_planet]\nstiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294\n",
                         "");
-  text = test::replaced(text, "planet_eccentricity_um", "planet_installation_um");
+  text = test::replaced(text, "planet_eccentricity_um", "planet_pin_position_error_um");
   return test::replaced(text, "mesh_cycles = 110\n", "mesh_cycles = 4\n");
 }
 
-app::RunResult run_text(const std::string& text, const std::filesystem::path& out) {
+app::RunResult run_reusing(const std::string& text, const std::filesystem::path& out) {
   log::set_level(log::Level::quiet);
   return app::run(app::parse_scene(text, "scene.toml"), {.out = out, .threads = 2});
 }
@@ -49,14 +49,14 @@ BOOST_AUTO_TEST_SUITE(reuse)
 BOOST_AUTO_TEST_CASE(a_second_run_computes_nothing) {
   const test::TemporaryFolder folder("reuse_second");
   const auto text = pinned_scene() + "[[sweep]]\ninput = \"supports.sun_N_per_m\"\nvalues = [1e7, 2e7]\n";
-  const auto first = run_text(text, folder.path());
+  const auto first = run_reusing(text, folder.path());
   BOOST_TEST(has(first.reuse->computed(), mesh_of_ring));
   BOOST_TEST(has(first.reuse->computed(), dynamics_of));
   BOOST_TEST(first.reuse->reused().empty());
   BOOST_TEST(first.reuse->counted(app::condensed_teeth).computed > 0);
   BOOST_TEST(first.reuse->counted(app::study_responses).computed == 2);
 
-  const auto second = run_text(text, folder.path());
+  const auto second = run_reusing(text, folder.path());
   BOOST_TEST(second.reuse->computed().empty());
   BOOST_TEST((second.reuse->reused() == first.reuse->computed()));
   for (const auto& [things, count] : second.reuse->counts()) BOOST_TEST(count.computed == 0, things);
@@ -73,11 +73,11 @@ BOOST_AUTO_TEST_CASE(a_second_run_computes_nothing) {
 
 BOOST_AUTO_TEST_CASE(an_input_of_the_dynamics_solves_no_mesh) {
   const test::TemporaryFolder folder("reuse_dynamics");
-  (void)run_text(pinned_scene(), folder.path());
+  (void)run_reusing(pinned_scene(), folder.path());
   for (const auto& [what, by] : {std::pair{"half_backlash_um = 50", "half_backlash_um = 60"},
                                  {"sun_N_per_m = 1e7", "sun_N_per_m = 3e7"},
-                                 {"planet_installation_um = [15", "planet_installation_um = [25"}}) {
-    const auto changed = run_text(test::replaced(pinned_scene(), what, by), folder.path());
+                                 {"planet_pin_position_error_um = [15", "planet_pin_position_error_um = [25"}}) {
+    const auto changed = run_reusing(test::replaced(pinned_scene(), what, by), folder.path());
     BOOST_TEST(has(changed.reuse->reused(), mesh_of_ring), by);
     BOOST_TEST(has(changed.reuse->computed(), dynamics_of), by);
     BOOST_TEST(changed.reuse->counted(app::condensed_teeth).computed == 0, by);
@@ -87,18 +87,18 @@ BOOST_AUTO_TEST_CASE(an_input_of_the_dynamics_solves_no_mesh) {
 
 BOOST_AUTO_TEST_CASE(other_pins_condense_no_tooth) {
   const test::TemporaryFolder folder("reuse_pins"), fresh("reuse_fresh");
-  (void)run_text(pinned_scene(), folder.path());
+  (void)run_reusing(pinned_scene(), folder.path());
   int case_number = 0;
   for (const auto& [what, by] :
        {std::pair{"pins = 81", "pins = 54\nfirst_pin_angle_deg = 0.7\npin_clearance_um = 3"},
         {"structure = \"pinned\"", "structure = \"bolted\"\npin_radial_stiffness_N_per_m = 4e9"}}) {
     const auto text = test::replaced(pinned_scene(), what, by);
-    const auto changed = run_text(text, folder.path());
+    const auto changed = run_reusing(text, folder.path());
     BOOST_TEST(has(changed.reuse->computed(), mesh_of_ring), by);
     BOOST_TEST(changed.reuse->counted(app::condensed_teeth).computed == 0, by);
     BOOST_TEST(changed.reuse->counted(app::condensed_teeth).reused > 0, by);
     const auto alone_in = fresh.path() / std::to_string(case_number++);
-    const auto alone = run_text(text, alone_in);
+    const auto alone = run_reusing(text, alone_in);
     BOOST_TEST(alone.reuse->counted(app::condensed_teeth).computed > 0, by);
     const auto rows = [](const std::filesystem::path& out) {
       return Csv::read(out / "held/stiffness_ring_planet.csv").rows;

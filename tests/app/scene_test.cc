@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(pins_by_number_or_by_place) {
   check_ring_refused("pinned", d + "pin_angles_deg = [0, 400]", "pin_angles_deg",
                      {"[ 0, 400 ]", "value 2", "-360 <= each value <= 360 °"});
   check_ring_refused("bolted", d + "pin_angles_deg = [-90, 0, 270]", "pin_angles_deg",
-                     {"pins 1 and 3 (-90° and 270°) are at the same place"});
+                     {"pins 1 and 3 (-90° and 270°) have the same angular position"});
   // 2° on 663.6 mm are 11.58 mm, less than the diameter of 15 mm.
   check_ring_refused("pinned", d + "pin_angles_deg = [0, 90, 92]", "pin_angles_deg",
                      {"pins 2 and 3", "overlap", "11.58 mm", "pin_diameter_mm = 15"});
@@ -229,6 +229,37 @@ BOOST_AUTO_TEST_CASE(splines) {
                      {"0 < value <= 1e14 N/m"});
   check_ring_refused("splined", "splines = 54\npins = 24", "pins = 24", {"\"pinned\" or \"bolted\""});
   check_ring_refused("traditional", "splines = 54", "splines = 54", {"only with structure = \"splined\""});
+}
+
+BOOST_AUTO_TEST_CASE(clamped_rings) {
+  const std::string clamp = "clamp_inner_diameter_mm = 640\n", number = "bolts = 36\n",
+                    circle = "bolt_circle_diameter_mm = 652\n", diameter = "bolt_diameter_mm = 9\n";
+  const std::string all = clamp + number + circle + diameter;
+  const auto scene = app::parse_scene(ring_with("clamped", all), "s");
+  const auto& ring = scene.rings.front();
+  BOOST_TEST(*ring.clamp_inner_diameter == 0.64, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(*ring.first_bolt_angle == 0.0);
+  BOOST_TEST(!ring.dowels.has_value());
+  BOOST_CHECK_NO_THROW((void)app::parse_scene(ring_with("clamped", all + "dowels = 6\ndowel_diameter_mm = 8\n"), "s"));
+
+  check_ring_refused("clamped", number + circle + diameter, "[[ring]]",
+                     {"ring.clamp_inner_diameter_mm", "is required"});
+  check_ring_refused("clamped", clamp + circle + diameter, "[[ring]]", {"ring.bolts", "is required"});
+  check_ring_refused("traditional", clamp, "clamp_inner", {"only with structure = \"clamped\""});
+  check_ring_refused("clamped", all + "pins = 24", "pins = 24", {"\"pinned\" or \"bolted\""});
+  check_ring_refused("clamped", "clamp_inner_diameter_mm = 664\n" + number + circle + diameter, "clamp_inner",
+                     {"smaller than the outside diameter", "value < 663.6 mm"});
+  // A hole of 9 mm between 640 and 663.6 mm.
+  check_ring_refused("clamped", clamp + number + "bolt_circle_diameter_mm = 645\n" + diameter, "bolt_circle",
+                     {"649 mm <= value <= 654.6 mm"});
+  // 1° on 652 mm are 5.69 mm.
+  check_ring_refused("clamped", clamp + "bolts = 360\n" + circle + diameter, "bolts = 360",
+                     {"overlap", "5.69 mm", "bolt_diameter_mm = 9"});
+  check_ring_refused("clamped", all + "dowels = 4", "dowels = 4", {"needs ring.dowel_diameter_mm"});
+  check_ring_refused("clamped", all + "dowels = 37\ndowel_diameter_mm = 8", "dowels = 37", {"value <= bolts = 36"});
+  // Halfway between 200 bolts, 5.121 mm from either.
+  check_ring_refused("clamped", clamp + "bolts = 200\n" + circle + diameter + "dowels = 4\ndowel_diameter_mm = 8",
+                     "dowel_diameter_mm", {"5.121 mm away", "value <= 1.24"});
 }
 
 BOOST_AUTO_TEST_CASE(flanges_and_hoops_come_in_pairs) {
@@ -328,8 +359,10 @@ BOOST_AUTO_TEST_CASE(every_key_is_documented) {
     BOOST_TEST(!table.meaning.empty());
     for (const auto& p : table.parameters) {
       BOOST_TEST(p.meaning.size() > 3U, p.key());
-      // What an absent key means has to be said, and so has the reason of a default (a title needs none).
-      if (p.presence != app::Parameter::Presence::required && p.name != "title") BOOST_TEST(!p.note.empty(), p.key());
+      // What an absent key means has to be documented, and so has the reason of a default (a title needs none).
+      const bool needed = !p.required_if.empty() || !p.required_for.empty();
+      if (p.presence == app::Parameter::Presence::optional) BOOST_TEST((needed || !p.note.empty()), p.key());
+      if (p.presence == app::Parameter::Presence::defaulted && p.name != "title") BOOST_TEST(!p.note.empty(), p.key());
       if (p.kind == app::Parameter::Kind::real && p.presence == app::Parameter::Presence::required)
         BOOST_TEST(!p.range_text().empty(), p.key());
     }

@@ -102,8 +102,8 @@ rim_thickness_mm = 24
 mass_kg = 14
 inertia_kg_m2 = 0.35
 [errors]
-planet_installation_um = [10, 0, 0, 0]
-planet_installation_phase_deg = [90, 0, 0, 0]
+planet_pin_position_error_um = [10, 0, 0, 0]
+planet_pin_position_error_phase_deg = [90, 0, 0, 0]
 [supports]
 sun_N_per_m = 1e8
 planet_N_per_m = 1e9

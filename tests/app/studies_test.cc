@@ -18,7 +18,7 @@ namespace {
 
 /// Installation errors alone: they stand still on the carrier, so the windows are short.
 std::string short_scene() {
-  auto text = test::replaced(test::quick_scene(), "planet_eccentricity_um", "planet_installation_um");
+  auto text = test::replaced(test::quick_scene(), "planet_eccentricity_um", "planet_pin_position_error_um");
   return test::replaced(text, "mesh_cycles = 110\n", "mesh_cycles = 20\n");
 }
 
@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(samples_are_the_same_for_any_number_of_threads_and_samples)
   BOOST_TEST((Csv::read(file("more", "held")).rows == early.rows));
   // Both rings have the same draws; another seed has others.
   const auto& samples = one.studies.monte_carlo->variants;
-  const std::string phase = "errors_planet_installation_phase_deg_3";
+  const std::string phase = "errors_planet_pin_position_error_phase_deg_3";
   BOOST_TEST(column(samples[0].samples, phase) == column(samples[1].samples, phase), boost::test_tools::per_element());
   const auto seeded = run_text(test::replaced(text + few_samples, "seed = 5", "seed = 6"), folder.path() / "one");
   BOOST_TEST(column(seeded.studies.monte_carlo->variants[0].samples, phase)[0] != column(samples[0].samples, phase)[0]);
@@ -216,8 +216,8 @@ BOOST_AUTO_TEST_CASE(two_planets_of_unknown_phase_have_a_known_spread) {
     for (const double x : column(ring.samples, figure)) BOOST_TEST((x > 1 - 1e-4 && x < 1 + 2.01 * scale));
   }
   // Every sample by itself: the closed form at the phases it says it drew.
-  const auto phase1 = column(ring.samples, "errors_planet_installation_phase_deg_1"),
-             phase2 = column(ring.samples, "errors_planet_installation_phase_deg_2"),
+  const auto phase1 = column(ring.samples, "errors_planet_pin_position_error_phase_deg_1"),
+             phase2 = column(ring.samples, "errors_planet_pin_position_error_phase_deg_2"),
              sharing = column(ring.samples, "sun_planet_load_sharing_quasi_static");
   for (std::size_t i = 0; i < sharing.size(); ++i) {
     const double shift = (a - r) / 2;  // planets at 0 and 180 degrees

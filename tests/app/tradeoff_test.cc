@@ -47,11 +47,11 @@ app::VariantTrade made_up_ring() {
 }
 
 /// A light set of gears whose meshes are computed.
-std::string computed_scene() {
+std::string computed_ring_scene() {
   auto text = test::quick_scene();
   const auto begin = text.find("[mesh.sun_planet]"), end = text.find("[dynamics]");
   text.erase(begin, end - begin);
-  text = test::replaced(text, "planet_eccentricity_um", "planet_installation_um");
+  text = test::replaced(text, "planet_eccentricity_um", "planet_pin_position_error_um");
   text = test::replaced(text, "[carrier]\n", "bore_diameter_mm = 172\n[carrier]\n");
   text = test::replaced(text, "[planet]\n", "bore_diameter_mm = 130\n[planet]\n");
   return test::replaced(text, "mesh_cycles = 110\n", "");
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(a_ring_on_which_everything_fails_is_reported) {
 }
 
 BOOST_AUTO_TEST_CASE(settings_keep_the_problem_but_for_what_they_set) {
-  const auto scene = app::parse_scene(computed_scene(), "scene.toml");
+  const auto scene = app::parse_scene(computed_ring_scene(), "scene.toml");
   const auto planned = app::ring_mesh_model(scene, app::make_geometry(scene), 0);
   const double nominal = planned.problem->loads[planned.nominal_load()];
   int finest = 0;
@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(settings_keep_the_problem_but_for_what_they_set) {
 BOOST_AUTO_TEST_CASE(errors_fall_toward_the_finest_and_measurements_are_kept, *in_a_process_of_its_own) {
   log::set_level(log::Level::quiet);
   const test::TemporaryFolder folder("tradeoff");
-  const auto scene = app::parse_scene(computed_scene(), "scene.toml");
+  const auto scene = app::parse_scene(computed_ring_scene(), "scene.toml");
   const app::RunOptions options{.out = folder.path(), .threads = 1};
   app::TradeLists lists;
   lists.mesh = [](const app::MeshModel&, bool needs_solid) {
@@ -248,7 +248,7 @@ BOOST_AUTO_TEST_CASE(given_stiffness_leaves_the_motion, *in_a_process_of_its_own
   const test::TemporaryFolder folder("tradeoff_given");
   const auto text = test::replaced(test::quick_scene(), "mesh_cycles = 110\n", "");
   const auto scene =
-      app::parse_scene(test::replaced(text, "planet_eccentricity_um", "planet_installation_um"), "s.toml");
+      app::parse_scene(test::replaced(text, "planet_eccentricity_um", "planet_pin_position_error_um"), "s.toml");
   const auto trade = app::measure_tradeoff(scene, {.out = folder.path() / "planetary", .threads = 1});
   BOOST_TEST_REQUIRE(trade.variants.size() == 1U);
   const auto errors = motion_errors(trade.variants.front());

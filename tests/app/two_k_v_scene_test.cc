@@ -96,7 +96,8 @@ BOOST_AUTO_TEST_CASE(bad_values_are_refused_with_place_and_remedy) {
 }
 
 BOOST_AUTO_TEST_CASE(rules_between_keys) {
-  refused("face_width_mm = 10\n", "face_width_mm = 10\nhelix_angle_deg = 12\n", "stage.helix_angle_deg = 12", "give 0");
+  refused("face_width_mm = 10\n", "face_width_mm = 10\nhelix_angle_deg = 12\n", "stage.helix_angle_deg = 12",
+          "must be 0");
   refused("profile_shift = -0.45", "profile_shift = 0.1", "planet.profile_shift = 0.1", "must be -0.45");
   refused("inertia_kg_m2 = 9.2e-8", "inertia_kg_m2 = 9.2e-8\nmass_kg = 0.01", "sun.mass_kg = 0.01", "leave it out");
   refused("pin_circle_diameter_mm = 80", "pin_circle_diameter_mm = 50", "arc_gear.pin_circle_diameter_mm = 50",

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "core/errors.h"
-#include "fem/closed_form/closed_form_mesh.h"
 #include "fem/closed_form/closed_form_error.h"
+#include "fem/closed_form/closed_form_mesh.h"
 #include "fem/loaded_mesh.h"
 
 namespace {

@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
       {"law, coupled", table_stiffness(sun, load, 0, LoadDependence::table),
        table_stiffness(ring, load, 0, LoadDependence::table), coupled_ring(stage.planets(), stage.ring_teeth)},
   };
-  fmt::print("{:<14} {:>8} {:>12} {:>12} {:>8}\n", "mesh", "degrees_of_freedom", "ns", "dense, ns", "ratio");
+  fmt::print("{:<14} {:>8} {:>12} {:>12} {:>8}\n", "mesh", "DOFs", "ns", "dense, ns", "ratio");
   bool right = true;
   for (const auto& c : cases) {
     stage.sun_mesh = c.sun;

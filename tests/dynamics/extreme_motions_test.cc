@@ -6,7 +6,7 @@
 
 #include "core/errors.h"
 #include "dynamics/statics/static_solver.h"
-#include "dynamics/steady_state/marching_cost.h"
+#include "dynamics/steady_state/integration_cost.h"
 #include "dynamics/systems/planetary/planetary_modes.h"
 #include "dynamics/systems/planetary/response.h"
 #include "dynamics/time_integration/integrate.h"
@@ -249,7 +249,7 @@ BOOST_AUTO_TEST_CASE(light_loads_are_balanced_to_rounding) {
   }
 }
 
-// Unequal planets on held centres share by their paths alone: L = 1 + max K (mean error - error) / F (models.md A).
+// Unequal planets on held centres share by their paths alone: L = 1 + max K (mean error - error) / F.
 BOOST_AUTO_TEST_CASE(unequal_planet_spacing) {
   auto stage = with_supports(rigid);
   stage.planet.bearing_radial = stage.planet.bearing_tangential = 1e9;
@@ -282,12 +282,12 @@ BOOST_AUTO_TEST_CASE(unequal_planet_spacing) {
 }
 
 // Predicted within a factor of five of what it takes (of the processor, beside others).
-BOOST_AUTO_TEST_CASE(the_time_of_marching_is_predicted) {
+BOOST_AUTO_TEST_CASE(the_time_of_integration_is_predicted) {
   const auto stage = stages::ring_paper();
   const auto system = assemble(stage);
   const double frequency = stage.mesh_frequency();
-  const double some = marching_seconds(system, frequency, 1000, {});
-  BOOST_TEST(std::abs(marching_seconds(system, frequency, 1e6, {}) / some - 1000) <= 1e-6);
+  const double some = integration_seconds(system, frequency, 1000, {});
+  BOOST_TEST(std::abs(integration_seconds(system, frequency, 1e6, {}) / some - 1000) <= 1e-6);
   SimulationOptions options;
   options.mesh_cycles = 1000;
   options.estimate_error = false;
@@ -301,8 +301,8 @@ BOOST_AUTO_TEST_CASE(the_time_of_marching_is_predicted) {
   slow.carrier_speed /= 100;
   IntegratorOptions explicit_method;
   explicit_method.method = Integrator::arkode_explicit;
-  BOOST_TEST(marching_seconds(assemble(slow), slow.mesh_frequency(), 1, explicit_method) >
-             20 * marching_seconds(system, frequency, 1, explicit_method));
+  BOOST_TEST(integration_seconds(assemble(slow), slow.mesh_frequency(), 1, explicit_method) >
+             20 * integration_seconds(system, frequency, 1, explicit_method));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -37,7 +37,7 @@ BOOST_AUTO_TEST_CASE(turning_costs_nothing) {
   const auto found = modes(pair).modes;
   BOOST_TEST(found[0].frequency == 0.0);
   BOOST_TEST(found[1].frequency > 100.0);
-  // models.md B: the resonance near 1.3 kHz.
+  // docs/helical_pair.md: the resonance near 1.3 kHz.
   record.close("highest natural frequency", "Hz", found[5].frequency, 1300.0, 0.03, "given as near 1.3 kHz");
 }
 
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(periods_and_formulas) {
                std::tan(pairs::helix) * std::cos(pairs::transverse_pressure()), 1e-10, "rounding");
   // 14 N/(mm um) cos 14 deg (0.75 1.6 + 0.25) x 150 mm = 2.955 kN/um
   record.close("mesh stiffness: 14 N/(mm um) cos 14 deg (0.75 x 1.6 + 0.25) x 150 mm", "N/m",
-               iso_6336_mesh_stiffness(0.15, 1.6, pairs::helix), 2.95455e9, 1e-5, "digits of the reference");
+               iso_6336_mesh_stiffness({0.15, 1.6, pairs::helix}), 2.95455e9, 1e-5, "digits of the reference");
 }
 
 BOOST_AUTO_TEST_CASE(bad_input_is_refused) {
@@ -154,8 +154,8 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused) {
   refused([](HelicalPair& p) { p.pinion_torque = std::nan(""); });
   refused([](HelicalPair& p) { p.mesh_error.phase = std::nan(""); });
   refused([](HelicalPair& p) { p.half_backlash = -1e-6; });
-  BOOST_CHECK_THROW((void)iso_6336_mesh_stiffness(0.15, 0.9, 0), InputError);
-  BOOST_CHECK_THROW((void)iso_6336_mesh_stiffness(0, 1.6, 0), InputError);
+  BOOST_CHECK_THROW((void)iso_6336_mesh_stiffness({0.15, 0.9, 0}), InputError);
+  BOOST_CHECK_THROW((void)iso_6336_mesh_stiffness({0, 1.6, 0}), InputError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

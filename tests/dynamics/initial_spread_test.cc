@@ -37,9 +37,9 @@ BOOST_AUTO_TEST_CASE(all_starts_lead_to_the_one_exact_motion_where_it_is_the_onl
   const auto exact = evaluate_point(stage, {.simulation = {}, .motion = false});
   record.close("load sharing coefficient, sun meshes", "", spread.starts[0].sun_planet.instantaneous,
                exact.sun_planet.instantaneous, 1e-3, "windows that count as steady");
-  // The peak of the ring meshes stands between samples of the march.
+  // The peak of the ring meshes stands between samples of the time integration.
   record.close("load sharing coefficient, ring meshes", "", spread.starts[0].ring_planet.instantaneous,
-               exact.ring_planet.instantaneous, 5e-3, "peak between samples of the march");
+               exact.ring_planet.instantaneous, 5e-3, "peak between samples of the time integration");
 }
 
 // Below a resonance gap makes soft, a motion with closed teeth and one that loses contact stand side by side.

@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(every_tabulated_load_deflects_to_its_transmission_error) {
     }
 }
 
-BOOST_AUTO_TEST_CASE(loads_outside_the_table_are_told) {
+BOOST_AUTO_TEST_CASE(loads_outside_the_table_are_reported) {
   annulus::test::Verification record("Loads outside a table of 0.25 to 1.75 times the nominal load",
                                      "the ends of the table: -1 below, 0 within, 1 above");
   const BentTable bent;
@@ -147,21 +147,21 @@ BOOST_AUTO_TEST_CASE(tangent_matrix_is_the_derivative_of_the_forces) {
   const auto system = assemble(stage_with_law());
   const int meshes = static_cast<int>(system.meshes().size());
   auto workspace = system.workspace();
-  Eigen::VectorXd closing = Eigen::VectorXd::LinSpaced(meshes, -1e-4, 1.5e-4);
+  Eigen::VectorXd approach = Eigen::VectorXd::LinSpaced(meshes, -1e-4, 1.5e-4);
   const Eigen::VectorXd rate = Eigen::VectorXd::Zero(meshes);
-  system.evaluate_forces(0.004, closing.data(), rate.data(), workspace);
+  system.evaluate_forces(0.004, approach.data(), rate.data(), workspace);
   Eigen::MatrixXd tangent(meshes, meshes);
   system.tangent_matrix(workspace, tangent);
   const double h = 1e-9;
   for (int j = 0; j < meshes; ++j) {
-    const double value = closing[j];
-    closing[j] = value + h;
-    system.evaluate_forces(0.004, closing.data(), rate.data(), workspace);
+    const double value = approach[j];
+    approach[j] = value + h;
+    system.evaluate_forces(0.004, approach.data(), rate.data(), workspace);
     Eigen::VectorXd column = Eigen::Map<const Eigen::VectorXd>(workspace.elastic.data(), meshes);
-    closing[j] = value - h;
-    system.evaluate_forces(0.004, closing.data(), rate.data(), workspace);
+    approach[j] = value - h;
+    system.evaluate_forces(0.004, approach.data(), rate.data(), workspace);
     column = (column - Eigen::Map<const Eigen::VectorXd>(workspace.elastic.data(), meshes)) / (2 * h);
-    closing[j] = value;
+    approach[j] = value;
     record.at_most("difference of a column over the mean stiffness", "",
                    (column - tangent.col(j)).cwiseAbs().maxCoeff() / 1.87e9, 1e-6, "rounding and curvature");
   }
@@ -230,7 +230,7 @@ BOOST_AUTO_TEST_CASE(energy_changes_by_what_is_supplied_and_dissipated) {
   const double before = system.energy(0, y.data(), workspace);
   IntegratorOptions options;
   options.relative_tolerance = 1e-10;
-  integrate(system, state, 0.01, options, workspace, 0, {}, true);
+  integrate(system, state, 0.01, options, workspace, {.energy = EnergyTracking::on});
   y << state.q, state.v;
   const double after = system.energy(state.time, y.data(), workspace);
   BOOST_TEST(state.dissipated > 0);

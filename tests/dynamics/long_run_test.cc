@@ -24,13 +24,14 @@ long resident_kilobytes() {
   return 0;
 }
 
-struct Marched {
+struct Integrated {
   IntegratorStatistics statistics;
   double seconds = 0, worst = 0;  ///< N, largest force difference to the periodic response
 };
 
 /// One error period from the periodic response, sampled.
-Marched march(const PlanetaryStage& stage, const PeriodicResponse& periodic, Integrator method, double tolerance) {
+Integrated integrated_in_time(const PlanetaryStage& stage, const PeriodicResponse& periodic, Integrator method,
+                              double tolerance) {
   const auto system = assemble(stage);
   auto workspace = system.workspace();
   SystemState state;
@@ -39,14 +40,14 @@ Marched march(const PlanetaryStage& stage, const PeriodicResponse& periodic, Int
   IntegratorOptions options;
   options.method = method;
   options.relative_tolerance = tolerance;
-  Marched result;
+  Integrated result;
   const double begin = processor_time();
-  result.statistics = integrate(system, state, stage.error_period() / stage.mesh_frequency(), options, workspace,
-                                static_cast<int>(periodic.time.size()), [&](int i, const SystemState&) {
-                                  for (Eigen::Index m = 0; m < periodic.force.rows(); ++m)
-                                    result.worst =
-                                        std::max(result.worst, std::abs(workspace.force[m] - periodic.force(m, i)));
-                                });
+  result.statistics =
+      integrate(system, state, stage.error_period() / stage.mesh_frequency(), options, workspace,
+                {.samples = static_cast<int>(periodic.time.size()), .sample = [&](int i, const SystemState&) {
+                   for (Eigen::Index m = 0; m < periodic.force.rows(); ++m)
+                     result.worst = std::max(result.worst, std::abs(workspace.force[m] - periodic.force(m, i)));
+                 }});
   result.seconds = processor_time() - begin;
   return result;
 }
@@ -69,8 +70,8 @@ BOOST_AUTO_TEST_CASE(the_chosen_integrator_is_the_cheaper_one) {
     const auto other = expected == Integrator::cvode_bdf ? Integrator::arkode_explicit : Integrator::cvode_bdf;
     const auto periodic = periodic_response(stage, options);
     BOOST_TEST(periodic.converged);
-    const auto chosen = march(stage, periodic, choice.method, tolerance),
-               rejected = march(stage, periodic, other, tolerance);
+    const auto chosen = integrated_in_time(stage, periodic, choice.method, tolerance),
+               rejected = integrated_in_time(stage, periodic, other, tolerance);
     // Measured factors: three for metal, five for the stiff stage.
     BOOST_TEST(chosen.seconds < rejected.seconds);
     // Local errors within the tolerance add up over the decay time of the stage: a hundred of them.
@@ -117,7 +118,7 @@ class SmallRun {
   }
   template <class Sample>
   IntegratorStatistics integrate_to(double end, int samples, Sample sample) {
-    return integrate(system_, state_, end, options_, workspace_, samples, sample);
+    return integrate(system_, state_, end, options_, workspace_, {.samples = samples, .sample = sample});
   }
 
  private:

@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(readings_of_95_percent_of_the_paper) {
   record.near("scale of the tooth-to-tooth error", "um", problem.eta_2(0) / units::um, 1.901, 5e-4, digits);
   record.near("divisor", "", exact_divisor(), 6.817, 5e-4, digits);
   const auto result = dynamics::manufacturing_error(problem);
-  // models.md B, made from the rounded scales: half a unit of the second decimal and some.
+  // Reference values from rounded scales: half a unit of the second decimal and some.
   const auto is = [&](const char* name, double expected) {
     record.near(std::string("95 % of ") + name, "um", result.at(name).exact / units::um, expected, 6e-3,
                 "half a unit of the second decimal, rounded scales");
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(draws_follow_their_laws) {
     record.at_most("envelope", "", kolmogorov(envelope, [&](double x) { return envelope_probability(x, a, b); }), bound,
                    origin);
     record.at_most("crest", "", kolmogorov(crest, [&](double x) { return crest_probability(x, a, b); }), bound, origin);
-    // The test can tell: a law ten per cent wider is refused.
+    // The test is sharp: a law ten per cent wider is refused.
     BOOST_TEST(kolmogorov(d.error, [&](double x) { return normal_probability(x / (1.1 * deviation)); }) > bound);
   }
 }

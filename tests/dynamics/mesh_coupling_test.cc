@@ -85,12 +85,12 @@ BOOST_AUTO_TEST_CASE(two_meshes_by_hand) {
   const Eigen::Matrix2d d = (Eigen::Matrix2d() << 0, d12, d12, 0).finished();
   auto system = pair_of_meshes(d, {});
   auto w = system.workspace();
-  const Eigen::Vector2d closing(30e-6, 20e-6), rate(0.1, 0.2);
-  system.evaluate_forces(0, closing.data(), rate.data(), w);
+  const Eigen::Vector2d approach(30e-6, 20e-6), rate(0.1, 0.2);
+  system.evaluate_forces(0, approach.data(), rate.data(), w);
   // F1/k1 + d F2 = x1, F2/k2 + d F1 = x2
   const double determinant = 1 / (k1 * k2) - d12 * d12;
-  const double f1 = (closing[0] / k2 - d12 * closing[1]) / determinant;
-  const double f2 = (closing[1] / k1 - d12 * closing[0]) / determinant;
+  const double f1 = (approach[0] / k2 - d12 * approach[1]) / determinant;
+  const double f2 = (approach[1] / k1 - d12 * approach[0]) / determinant;
   record.near("first force over the solution", "", w.elastic[0] / f1, 1, 1e-12, "rounding");
   record.near("second force over the solution", "", w.elastic[1] / f2, 1, 1e-12, "rounding");
   BOOST_TEST(std::abs(w.delta[0] / (f1 / k1) - 1) <= 1e-12);  // what the mesh's own law meets
@@ -208,9 +208,9 @@ BOOST_AUTO_TEST_CASE(forces_solve_their_equations_in_every_contact_state) {
   int open = 0, closed = 0;
   for (int i = 0; i < 200; ++i) {
     const double t = i * 1.7e-4;
-    Eigen::VectorXd closing(10);
-    for (int m = 0; m < 10; ++m) closing[m] = uniform(engine);
-    system.evaluate_forces(t, closing.data(), rate.data(), w);
+    Eigen::VectorXd approach(10);
+    for (int m = 0; m < 10; ++m) approach[m] = uniform(engine);
+    system.evaluate_forces(t, approach.data(), rate.data(), w);
     int k = 0;
     Eigen::MatrixXd d(5, 5);
     for (int n = 0; n < 5; ++n)
@@ -218,7 +218,7 @@ BOOST_AUTO_TEST_CASE(forces_solve_their_equations_in_every_contact_state) {
     const Eigen::VectorXd force = Eigen::Map<const Eigen::VectorXd>(w.elastic.data() + 5, 5);
     const auto& surface = *std::get<TableStiffness>(stage.ring_mesh).surface;
     for (int n = 0; n < 5; ++n) {
-      const double own = closing[5 + n] - w.error[5 + n] - d.row(n).dot(force);
+      const double own = approach[5 + n] - w.error[5 + n] - d.row(n).dot(force);
       const double half = 50e-6, g = own > half ? own - half : own < -half ? own + half : 0;
       const double phase = stage.mesh_frequency() * t - stage.ring_phase_lag[n];
       record.near("force over the largest force", "", force[n] / force.cwiseAbs().maxCoeff(),
@@ -261,22 +261,22 @@ BOOST_AUTO_TEST_CASE(jacobian_and_tangent_matrix_are_derivatives) {
       record.at_most("difference of a column of the Jacobian over its own largest entry", "",
                      difference / (1 + jacobian.col(j).cwiseAbs().maxCoeff()), 1e-4, "rounding and curvature");
     }
-    Eigen::VectorXd closing = Eigen::VectorXd::LinSpaced(10, -1e-4, 1.5e-4);
+    Eigen::VectorXd approach = Eigen::VectorXd::LinSpaced(10, -1e-4, 1.5e-4);
     const Eigen::VectorXd rate = Eigen::VectorXd::Zero(10);
     Eigen::MatrixXd tangent(10, 10);
-    system.evaluate_forces(t, closing.data(), rate.data(), w);
+    system.evaluate_forces(t, approach.data(), rate.data(), w);
     system.tangent_matrix(w, tangent);
     BOOST_TEST((tangent - tangent.transpose()).cwiseAbs().maxCoeff() == 0.0);
     const double h = 1e-9;
     for (int j = 0; j < 10; ++j) {
-      const double value = closing[j];
-      closing[j] = value + h;
-      system.evaluate_forces(t, closing.data(), rate.data(), w);
+      const double value = approach[j];
+      approach[j] = value + h;
+      system.evaluate_forces(t, approach.data(), rate.data(), w);
       Eigen::VectorXd column = Eigen::Map<const Eigen::VectorXd>(w.elastic.data(), 10);
-      closing[j] = value - h;
-      system.evaluate_forces(t, closing.data(), rate.data(), w);
+      approach[j] = value - h;
+      system.evaluate_forces(t, approach.data(), rate.data(), w);
       column = (column - Eigen::Map<const Eigen::VectorXd>(w.elastic.data(), 10)) / (2 * h);
-      closing[j] = value;
+      approach[j] = value;
       record.at_most("difference of a column of the tangent over the mean stiffness", "",
                      (column - tangent.col(j)).cwiseAbs().maxCoeff() / 1.87e9, 1e-5, "rounding and curvature");
     }
@@ -296,7 +296,7 @@ BOOST_AUTO_TEST_CASE(right_hand_side_with_moving_vectors_is_the_matrix_equation)
   system.rhs(t, y.data(), dy.data(), w);
   Eigen::VectorXd force = system.load() - (system.damping() + system.gyroscopic()) * y.tail(n) -
                           (system.stiffness() + system.rotating_stiffness()) * y.head(n);
-  const auto closing_at = [&](double time, const Eigen::VectorXd& q, int m) {
+  const auto approach_at = [&](double time, const Eigen::VectorXd& q, int m) {
     auto other = system.workspace();
     system.evaluate_excitation(time, other);
     return system.mesh_vector(m, time).dot(q) - other.error[m];
@@ -304,11 +304,12 @@ BOOST_AUTO_TEST_CASE(right_hand_side_with_moving_vectors_is_the_matrix_equation)
   for (int m = 0; m < 10; ++m) {
     const auto b = system.mesh_vector(m, t);
     force -= b * w.force[m];
-    record.at_most("closing, difference", "m", std::abs(w.closing[m] - closing_at(t, y.head(n), m)), 1e-17, "rounding");
+    record.at_most("approach, difference", "m", std::abs(w.approach[m] - approach_at(t, y.head(n), m)), 1e-17,
+                   "rounding");
     const double rate =
-        (closing_at(t + h, y.head(n) + h * y.tail(n), m) - closing_at(t - h, y.head(n) - h * y.tail(n), m)) / (2 * h);
+        (approach_at(t + h, y.head(n) + h * y.tail(n), m) - approach_at(t - h, y.head(n) - h * y.tail(n), m)) / (2 * h);
     // eps x 1e-4 m / 1e-7 s, and the curvature of the errors (55 cycles): far below 1e-8 m/s of 0.1 m/s.
-    record.at_most("rate of closing against central differences", "m/s", std::abs(w.delta_rate[m] - rate), 1e-8,
+    record.at_most("rate of approach against central differences", "m/s", std::abs(w.delta_rate[m] - rate), 1e-8,
                    "rounding over the step");
   }
   const Eigen::VectorXd residual = system.mass() * dy.tail(n) - force;
@@ -352,7 +353,7 @@ BOOST_AUTO_TEST_CASE(energy_changes_by_what_is_supplied_and_dissipated) {
     const double before = system.energy(0, y.data(), w);
     IntegratorOptions options;
     options.relative_tolerance = 1e-10;
-    integrate(system, state, 0.01, options, w, 0, {}, true);
+    integrate(system, state, 0.01, options, w, {.energy = EnergyTracking::on});
     y << state.q, state.v;
     const double after = system.energy(state.time, y.data(), w);
     const double moved = std::abs(state.supplied) + state.dissipated + before;

@@ -225,7 +225,7 @@ BOOST_AUTO_TEST_CASE(one_and_two_planets) {
 }
 
 // With the centres held and the ring fixed the planets' own motions are one frequency N - 1 times for any N from 2 on;
-// rotational and planet modes are told apart also where a frequency is shared.
+// rotational and planet modes are distinguished also where a frequency is shared.
 BOOST_AUTO_TEST_CASE(held_centres) {
   annulus::test::Verification record("Planet modes with the centres held, one to six planets",
                                      "symmetry: 3 frequencies, N - 1 times each");
@@ -252,8 +252,8 @@ BOOST_AUTO_TEST_CASE(held_centres) {
 }
 
 // Three planets between floating bodies: 18 DOFs, 13 springs, so one rotation and two pairs of translations cost
-// nothing. They share a frequency and are told apart.
-BOOST_AUTO_TEST_CASE(rigid_motions_are_told_apart) {
+// nothing. They share a frequency and are distinguished.
+BOOST_AUTO_TEST_CASE(rigid_motions_are_distinguished) {
   annulus::test::Verification record("Motions of three planets between floating bodies that cost nothing",
                                      "counted by hand: 18 degrees of freedom, 13 springs");
   auto stage = stages::lin_parker(3);

@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(logarithmic_variables_spend_equal_effort_on_every_decade) {
   BOOST_TEST(std::abs(low - 500) < 64);  // four standard deviations of a fair coin
 }
 
-BOOST_AUTO_TEST_CASE(a_failing_region_is_left_counted_and_told) {
+BOOST_AUTO_TEST_CASE(a_failing_region_is_left_counted_and_reported) {
   const auto objective = [](const std::vector<double>& x) {
     if (x[0] > 0.5) throw InputError("no such stage");
     if (x[1] > 1) return std::numeric_limits<double>::quiet_NaN();

@@ -18,7 +18,7 @@ using Complex = std::complex<double>;
 
 /// The harmonic balance alone. 256 samples: the parabola through the highest three then meets the top of a sine to
 /// 1e-8.
-SimulationOptions direct() {
+SimulationOptions unconfirmed() {
   SimulationOptions options;
   options.confirm = false;
   options.samples_per_cycle = 256;
@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(torsional_pair_follows_its_frequency_response) {
     pair.pinion_speed = speed * units::rpm;
     const double w = 2 * std::numbers::pi * pair.mesh_frequency(), e = pair.mesh_error.amount;
     const Complex delta = amplitude(w, e), force = Complex(k, w * damping) * delta;
-    const auto r = evaluate_pair(pair, direct());
+    const auto r = evaluate_pair(pair, unconfirmed());
     BOOST_TEST(r.total_cycles == 0);
     BOOST_TEST(r.static_force == pair.pinion_torque / (pair.pinion.radius * c), close);
     record.close("largest mesh force", "N", r.force_max.value, r.static_force + std::abs(force), 1e-6, top);
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(six_dofs_follow_their_dynamic_stiffness) {
       Complex(w * w) * system.mass().cast<Complex>() + law * (b * b.transpose()).cast<Complex>();
   const Eigen::VectorXcd q = dynamic.partialPivLu().solve(law * pair.mesh_error.amount * b.cast<Complex>());
   const auto at = [&](const char* name) { return q[system.find(name)]; };
-  const auto r = evaluate_pair(pair, direct());
+  const auto r = evaluate_pair(pair, unconfirmed());
   const double force = std::abs(law * (b.cast<Complex>().dot(q) - pair.mesh_error.amount));
   const auto larger = [&](const char* one, const char* other) {
     return w * w * std::max(std::abs(at(one)), std::abs(at(other)));
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(force_is_the_mean_and_linear_in_the_error) {
   const auto swing = [&](double error, double torque) {
     pair.mesh_error.amount = error;
     pair.pinion_torque = torque;
-    const auto r = evaluate_pair(pair, direct());
+    const auto r = evaluate_pair(pair, unconfirmed());
     BOOST_TEST(r.force_mean == r.static_force, close);
     return r.force_max.value - r.static_force;
   };
@@ -130,15 +130,15 @@ BOOST_AUTO_TEST_CASE(force_is_the_mean_and_linear_in_the_error) {
   record.close("amplitude at twice the torque", "N", swing(5e-6, 40e3), one, 1e-6, top);
 }
 
-BOOST_AUTO_TEST_CASE(marching_confirms_and_books_its_energy) {
-  test::Verification record("Helical pair marched", "balance of energy; mean force of statics");
+BOOST_AUTO_TEST_CASE(time_integration_confirms_and_balances_its_energy) {
+  test::Verification record("Helical pair integrated in time", "balance of energy; mean force of statics");
   const auto r = evaluate_pair(pairs::error_paper());
   BOOST_TEST(r.confirmed);
   BOOST_TEST(r.steady);
   // The integrator's 1e-6 over a few hundred steps.
   record.at_most("energy balance, relative", "", r.energy.relative, 1e-4, "integrator: some hundred steps of 1e-6");
   record.close("mean force", "N", r.force_mean, r.static_force, 1e-4, "integrator: some hundred steps of 1e-6");
-  const auto quick = evaluate_pair(pairs::error_paper(), direct());
+  const auto quick = evaluate_pair(pairs::error_paper(), unconfirmed());
   // Two methods, to the sum of their estimates.
   const auto agree = [](const Figure& a, const Figure& b) { return std::abs(a.value - b.value) <= a.error + b.error; };
   BOOST_TEST(agree(r.force_max, quick.force_max));
@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(slow_turning_is_quasi_static) {
   auto pair = pairs::error_paper();
   pair.pinion.error = {20e-6, 0.4};
   pair.pinion_speed = 1 * units::rpm;
-  auto options = direct();
+  auto options = unconfirmed();
   options.samples_per_cycle = 64;
   const auto r = evaluate_pair(pair, options);
   // (0.35 Hz / 292 Hz)^2 and the damping are some 1e-5.
@@ -168,17 +168,17 @@ BOOST_AUTO_TEST_CASE(back_flanks_mirror_the_drive_flanks) {
   test::Verification record("Helical pair driven on the back flanks", "symmetry: mirror image of the drive flanks");
   auto pair = pairs::error_paper();
   pair.half_backlash = 60e-6;
-  const auto drive = evaluate_pair(pair, direct());
+  const auto drive = evaluate_pair(pair, unconfirmed());
   pair.pinion_torque *= -1;
   pair.mesh_error.amount *= -1;
-  const auto back = evaluate_pair(pair, direct());
+  const auto back = evaluate_pair(pair, unconfirmed());
   record.close("smallest force against the largest one", "N", back.force_min.value, -drive.force_max.value, 1e-6, top);
   BOOST_TEST(back.force_max.value == -drive.force_min.value, close);
   record.close("dynamic factor", "", back.dynamic_factor.value, drive.dynamic_factor.value, 1e-6, top);
   BOOST_TEST(back.dynamic.relative.mean == -drive.dynamic.relative.mean, close);
   // Without separation the backlash is not felt, and is not part of the transmission error.
   pair = pairs::error_paper();
-  const auto none = evaluate_pair(pair, direct());
+  const auto none = evaluate_pair(pair, unconfirmed());
   BOOST_TEST(none.force_max.value == drive.force_max.value, close);
   BOOST_TEST(none.dynamic.transmission_error.largest.value == drive.dynamic.transmission_error.largest.value, close);
 }
@@ -186,9 +186,9 @@ BOOST_AUTO_TEST_CASE(back_flanks_mirror_the_drive_flanks) {
 BOOST_AUTO_TEST_CASE(errors_alone_move_an_unloaded_pair) {
   annulus::test::Verification record("A pair without load on its errors", "superposition: the system is linear");
   auto pair = linear(pairs::error_paper());
-  const auto loaded = evaluate_pair(pair, direct());
+  const auto loaded = evaluate_pair(pair, unconfirmed());
   pair.pinion_torque = 0;
-  const auto r = evaluate_pair(pair, direct());
+  const auto r = evaluate_pair(pair, unconfirmed());
   record.close("largest mesh force", "N", r.force_max.value, loaded.force_max.value - loaded.static_force, 1e-6,
                "rounding of the solve");
   record.at_most("mean force over the largest", "", std::abs(r.force_mean) / r.force_max.value, 1e-6,
@@ -201,14 +201,14 @@ BOOST_AUTO_TEST_CASE(errors_alone_move_an_unloaded_pair) {
   BOOST_CHECK_THROW((void)evaluate_pair(pair), InputError);
 }
 
-BOOST_AUTO_TEST_CASE(lost_contact_is_marched) {
-  test::Verification record("A lightly loaded helical pair near its resonance, marched",
+BOOST_AUTO_TEST_CASE(loss_of_contact_is_integrated_in_time) {
+  test::Verification record("A lightly loaded helical pair near its resonance, integrated in time",
                             "balance of energy; a swing that reaches zero doubles the static force");
   auto pair = pairs::error_paper();
   pair.half_backlash = 100e-6;
   pair.pinion_torque = 2000;
   pair.pinion_speed = 3600 * units::rpm;  // near the resonance
-  auto options = direct();
+  auto options = unconfirmed();
   options.samples_per_cycle = 64;
   const auto r = evaluate_pair(pair, options);
   BOOST_TEST(r.contact_loss > 0.0);
@@ -231,7 +231,7 @@ BOOST_AUTO_TEST_CASE(shares_have_their_closed_forms) {
   auto pair = pairs::error_paper();
   pair.half_backlash = 100e-6;
   const double c = std::cos(pair.base_helix_angle), k = mean_stiffness(pair.mesh), force = pair.static_force();
-  const auto s = transmission_error_shares(pair, direct());
+  const auto s = transmission_error_shares(pair, unconfirmed());
   record.close("errors alone", "m", s.errors_alone.quasi_static, 2 * pair.mesh_error.amount / c, 1e-6, top);
   record.close("stiffness alone", "m", s.stiffness_alone.quasi_static, force / c * (1 / (0.95 * k) - 1 / (1.05 * k)),
                1e-6, top);
@@ -247,7 +247,7 @@ BOOST_AUTO_TEST_CASE(shares_have_their_closed_forms) {
   // No load, no bending: the errors are all there is.
   pair.pinion_torque = 0;
   pair.half_backlash.reset();
-  const auto idle = transmission_error_shares(pair, direct());
+  const auto idle = transmission_error_shares(pair, unconfirmed());
   BOOST_TEST(idle.stiffness_alone.dynamic == 0.0);
   BOOST_TEST(idle.error_share().quasi_static == 1.0, close);
   BOOST_TEST(std::abs(idle.load_deflection) < 1e-12);

@@ -13,8 +13,8 @@ inline constexpr double helix = 14 * units::deg, pressure = 20 * units::deg, mod
 inline double transverse_pressure() { return std::atan(std::tan(pressure) / std::cos(helix)); }
 inline double reference_radius(int teeth) { return module * teeth / (2 * std::cos(helix)); }
 
-/// The pair of the manufacturing-error paper (table 1; models.md B for what it does not print): 21/37 teeth. Transverse
-/// contact ratio 1.6, 1500 r/min and 20 kN m assumed.
+/// The pair of the manufacturing-error paper (table 1; docs/helical_pair.md for the inputs that it does not print):
+/// 21/37 teeth. Transverse contact ratio 1.6, 1500 r/min and 20 kN m assumed.
 inline HelicalPair error_paper() {
   HelicalPair p;
   const auto gear = [](int teeth, double mass) {
@@ -24,7 +24,7 @@ inline HelicalPair error_paper() {
   p.pinion = gear(21, 205);
   p.wheel = gear(37, 289);
   p.base_helix_angle = base_helix_angle(helix, pressure);
-  p.mesh = HarmonicStiffness{iso_6336_mesh_stiffness(0.15, 1.6, helix), 0.05, 0};
+  p.mesh = HarmonicStiffness{iso_6336_mesh_stiffness({0.15, 1.6, helix}), 0.05, 0};
   p.mesh_error = {13.1e-6, 0};
   p.mesh_damping_ratio = 0.08;
   p.bearing_damping_ratio = 0.05;

@@ -62,8 +62,9 @@ LoadSharingPair load_sharing(const PiecewiseResponse& r) {
           largest([](const Eigen::MatrixXd& f) { return f.bottomRows(3); })};
 }
 
-/// Largest difference of the mesh forces to a march of tight tolerance from the exact state, over one period / mean.
-double difference_to_marching(const PlanetaryStage& stage, const PiecewiseResponse& exact, double tolerance) {
+/// Largest difference of the mesh forces to a time integration of tight tolerance from the exact state, over one period
+/// / mean.
+double difference_to_time_integration(const PlanetaryStage& stage, const PiecewiseResponse& exact, double tolerance) {
   const auto system = assemble(stage);
   auto workspace = system.workspace();
   SystemState state{0, exact.periodic.displacement.col(0), exact.periodic.velocity.col(0)};
@@ -73,10 +74,10 @@ double difference_to_marching(const PlanetaryStage& stage, const PiecewiseRespon
   options.absolute_tolerance = tolerance * 1e-7;  // deflections are some 1e-6 m
   double difference = 0;
   integrate(system, state, exact.solved_cycles / stage.mesh_frequency(), options, workspace,
-            static_cast<int>(exact.periodic.time.size()), [&](int i, const SystemState&) {
-              for (Eigen::Index m = 0; m < exact.periodic.force.rows(); ++m)
-                difference = std::max(difference, std::abs(workspace.force[m] - exact.periodic.force(m, i)));
-            });
+            {.samples = static_cast<int>(exact.periodic.time.size()), .sample = [&](int i, const SystemState&) {
+               for (Eigen::Index m = 0; m < exact.periodic.force.rows(); ++m)
+                 difference = std::max(difference, std::abs(workspace.force[m] - exact.periodic.force(m, i)));
+             }});
   return difference / stage.mean_mesh_force();
 }
 
@@ -156,8 +157,8 @@ BOOST_AUTO_TEST_CASE(force_of_a_gear_pair_has_its_closed_form) {
   BOOST_TEST(std::abs(place.mean()) <= 1e-15);
 }
 
-// A theorem of models.md C: moving every body by its part of the gap leaves equations without backlash, and without
-// errors these scale with the torque.
+// Theorem (docs/backlash_optimisation.md): moving every body by its part of the gap leaves equations without backlash,
+// and without errors these scale with the torque.
 BOOST_AUTO_TEST_CASE(load_sharing_depends_on_neither_backlash_nor_torque_while_no_mesh_separates) {
   test::Verification record("Load sharing without errors depends on neither backlash nor torque",
                             "theorem: each body moved by its part of the gap leaves equations without backlash, which "
@@ -177,10 +178,10 @@ BOOST_AUTO_TEST_CASE(load_sharing_depends_on_neither_backlash_nor_torque_while_n
         record.near("load sharing coefficient, sun meshes", "", l.sun, reference.sun, 1e-10, "rounding");
         record.near("load sharing coefficient, ring meshes", "", l.ring, reference.ring, 1e-10, "rounding");
       }
-  // The march sees it too. It carries the gap (up to 1 mm) in its displacements: rounding of a deflection of 1e-6 m and
-  // a tolerance of 1e-9 of it leave some 1e-7.
+  // Time integration shows it too. It carries the gap (up to 1 mm) in its displacements: rounding of a deflection of
+  // 1e-6 m and a tolerance of 1e-9 of it leave some 1e-7.
   SimulationOptions options;
-  options.steady_state = SteadyState::marching;
+  options.steady_state = SteadyState::time_integration;
   options.integrator.relative_tolerance = 1e-9;
   options.integrator.absolute_tolerance = 1e-16;
   options.steady_tolerance = 1e-8;
@@ -191,16 +192,17 @@ BOOST_AUTO_TEST_CASE(load_sharing_depends_on_neither_backlash_nor_torque_while_n
     const auto r = simulate(stage, options);
     BOOST_TEST(r.steady);
     // 1e-3 by the exact solution's peaks, looked for between the samples here: the jump itself is exact.
-    record.near("load sharing coefficient, sun meshes, marched", "", r.sun_planet.load_sharing.instantaneous.value,
-                reference.sun, 1e-6, "integrator: 1e-9 of some 1e-6 m beside a gap of 1 mm");
+    record.near("load sharing coefficient, sun meshes, time integration", "",
+                r.sun_planet.load_sharing.instantaneous.value, reference.sun, 1e-6,
+                "integrator: 1e-9 of some 1e-6 m beside a gap of 1 mm");
   }
 }
 
-BOOST_AUTO_TEST_CASE(marching_at_tight_tolerance_follows_the_exact_response) {
+BOOST_AUTO_TEST_CASE(time_integration_at_tight_tolerance_follows_the_exact_response) {
   test::Verification record("Exact response to jumping stiffness of the backlash paper's stage",
                             "time integration by ARKODE, tolerance 1e-10");
   auto stage = stages::backlash_paper();
-  const double plain = difference_to_marching(stage, piecewise_response(stage), 1e-10);
+  const double plain = difference_to_time_integration(stage, piecewise_response(stage), 1e-10);
   record.at_most("largest difference of a mesh force over the mean, no errors", "", plain, 1e-7,
                  "tolerance x steps of a period");
   // With errors of every kind that turn: sine and cosine as part of the state; period z_p.
@@ -209,36 +211,37 @@ BOOST_AUTO_TEST_CASE(marching_at_tight_tolerance_follows_the_exact_response) {
   BOOST_TEST(r.solved_cycles == 39);
   BOOST_TEST(r.periodic.converged);
   record.at_most("largest difference of a mesh force over the mean, errors that turn", "",
-                 difference_to_marching(stage, r, 1e-10), 1e-6, "tolerance x steps of 39 mesh cycles");
+                 difference_to_time_integration(stage, r, 1e-10), 1e-6, "tolerance x steps of 39 mesh cycles");
 }
 
-BOOST_AUTO_TEST_CASE(parting_teeth_and_parametric_resonance_are_told) {
-  test::Verification record("Exact solutions that would pull or do not last",
-                            "sign of the sampled forces; marching, in which a disturbance grows until teeth part");
+BOOST_AUTO_TEST_CASE(contact_loss_and_parametric_resonance_are_reported) {
+  test::Verification record(
+      "Exact solutions that would pull or do not last",
+      "sign of the sampled forces; time integration, in which a disturbance grows until contact is lost");
   auto stage = stages::backlash_paper();
   const double base = stage.carrier_speed;
   stage.carrier_speed = base * 5250 / 1500;
-  const auto parting = piecewise_response(stage);
-  BOOST_TEST(parting.solved);
-  BOOST_TEST(parting.stable);
-  record.at_most("least penetration where teeth part", "m", parting.least_penetration, 0, "its sign");
-  BOOST_TEST(parting.least_penetration < 0);
-  BOOST_TEST(!parting.periodic.converged);
+  const auto separating = piecewise_response(stage);
+  BOOST_TEST(separating.solved);
+  BOOST_TEST(separating.stable);
+  record.at_most("least penetration with loss of contact", "m", separating.least_penetration, 0, "its sign");
+  BOOST_TEST(separating.least_penetration < 0);
+  BOOST_TEST(!separating.periodic.converged);
   // The sampled forces of the solution agree with the sign of the penetration: it would pull.
-  record.at_most("least sampled force where teeth part", "N", parting.dense_force.minCoeff(), 0, "its sign");
-  BOOST_TEST(parting.dense_force.minCoeff() < 0);
+  record.at_most("least sampled force with loss of contact", "N", separating.dense_force.minCoeff(), 0, "its sign");
+  BOOST_TEST(separating.dense_force.minCoeff() < 0);
   stage.carrier_speed = base * 20700 / 1500;
   const auto unstable = piecewise_response(stage);
   BOOST_TEST(!unstable.stable);
   record.at_least("least penetration at a parametric resonance", "m", unstable.least_penetration, 0, "its sign");
   BOOST_TEST(unstable.least_penetration > 0);
   BOOST_TEST(unstable.periodic.trouble.find("parametric resonance") != std::string::npos);
-  // And so does marching: a small disturbance grows until teeth part.
+  // So does time integration: a small disturbance grows until contact is lost.
   SimulationOptions options;
   options.mesh_cycles = 400;
-  const auto marched = simulate(stage, options);
-  record.at_least("times a mesh opens or closes when marched there", "",
-                  static_cast<double>(marched.statistics.contact_events), 1, "the disturbance grows");
+  const auto integrated = simulate(stage, options);
+  record.at_least("contact events in the time integration there", "",
+                  static_cast<double>(integrated.statistics.contact_events), 1, "the disturbance grows");
 }
 
 BOOST_AUTO_TEST_CASE(simulation_takes_the_exact_solution_and_confirms_it) {
@@ -248,8 +251,8 @@ BOOST_AUTO_TEST_CASE(simulation_takes_the_exact_solution_and_confirms_it) {
   stage.sun_mesh = RectangularStiffness{4.5e8, 0.35, 0.6, 0.003};
   stage.ring_mesh = RectangularStiffness{5.5e8, 0.25, 0.6, 0.003};
   const auto r = simulate(stage);
-  BOOST_REQUIRE(r.direct.has_value());
-  BOOST_TEST((r.direct->method == DirectMethod::piecewise));
+  BOOST_REQUIRE(r.periodic.has_value());
+  BOOST_TEST((r.periodic->method == PeriodicMethod::piecewise));
   BOOST_TEST(r.confirmed);
   BOOST_TEST(*r.steady_difference <= 1e-4);
   SimulationOptions alone;
@@ -260,8 +263,8 @@ BOOST_AUTO_TEST_CASE(simulation_takes_the_exact_solution_and_confirms_it) {
   const auto& sharing = exact.sun_planet.load_sharing.instantaneous;
   record.close("instantaneous coefficient, sun meshes", "", sharing.value, reference.sun, 1e-9, "rounding");
   BOOST_TEST(sharing.value > load_sharing_instantaneous(exact.series.force.topRows(3)));
-  record.close("the same, confirmed by marching", "", r.sun_planet.load_sharing.instantaneous.value, sharing.value,
-               1e-5, "tolerance of the integrator");
+  record.close("the same, confirmed by time integration", "", r.sun_planet.load_sharing.instantaneous.value,
+               sharing.value, 1e-5, "tolerance of the integrator");
 }
 
 BOOST_AUTO_TEST_CASE(averages_take_each_side_of_a_jump_up_to_it) {
@@ -285,7 +288,7 @@ BOOST_AUTO_TEST_CASE(equal_planets_share_equally_on_average) {
   test::Verification record("Averaged load sharing of equal planets without errors",
                             "symmetry: all carry the same over a mesh cycle");
   // Without errors planet n does what planet 1 does a third of a mesh cycle off: over a whole cycle all carry the same.
-  // So exactly, and marched for a hundred cycles where teeth part: there jumps come late in time.
+  // So exactly, and integrated for a hundred cycles with loss of contact: there jumps come late in time.
   for (const double speed : {1.0, 5200.0 / 1500}) {
     auto stage = stages::backlash_paper();
     stage.carrier_speed *= speed;
@@ -294,7 +297,7 @@ BOOST_AUTO_TEST_CASE(equal_planets_share_equally_on_average) {
       options.samples_per_cycle = samples;
       const auto r = simulate(stage, options);
       BOOST_TEST(r.steady);
-      BOOST_TEST((r.direct->converged == (speed == 1)));
+      BOOST_TEST((r.periodic->converged == (speed == 1)));
       for (const auto* kind : {&r.sun_planet, &r.ring_planet}) {
         const auto& averaged = kind->load_sharing.averaged;
         BOOST_TEST(averaged.value >= 1 - 1e-12);

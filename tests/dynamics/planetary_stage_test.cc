@@ -84,10 +84,10 @@ BOOST_AUTO_TEST_CASE(kinematics_come_from_the_gears) {
 BOOST_AUTO_TEST_CASE(error_period_is_the_common_period) {
   auto stage = stages::ring_paper();
   for (auto& e : stage.planet_errors) e.eccentricity = {};
-  BOOST_TEST(stage.error_period() == 1);  // installation errors of planets stand still in the carrier frame
+  BOOST_TEST(stage.error_period() == 1);  // pin position errors of planets stand still in the carrier frame
   stage.sun.errors.eccentricity.amount = 1e-6;
   BOOST_TEST(stage.error_period() == 48);
-  stage.ring.errors.installation.amount = 1e-6;
+  stage.ring.errors.position.amount = 1e-6;
   BOOST_TEST(stage.error_period() == 16 * 3 * 27);  // lcm(48, 162)
   stage.sun.errors = {};
   stage.ring.errors = {};
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(errors_act_like_displacements_of_their_body) {
       stage.planet_errors.assign(5, {});
       const double c = stage.carrier_speed, th = 0.7;
       BodyErrors errors;
-      (kind % 2 ? errors.installation : errors.eccentricity) = {wr, th};
+      (kind % 2 ? errors.position : errors.eccentricity) = {wr, th};
       if (kind < 2) stage.planet_errors[3] = errors;
       if (kind / 2 == 1) stage.sun.errors = errors;
       if (kind / 2 == 2) stage.ring.errors = errors;

@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(patterns_of_known_motions) {
   BOOST_TEST((section_pattern(still, 1).kind == SectionKind::period_1));
 }
 
-// The section of a stage with constant stiffness and no damping: forces and closings are k (closing - half backlash).
+// The section of a stage with constant stiffness and no damping: forces are k (deflection - half backlash).
 BOOST_AUTO_TEST_CASE(section_of_a_stage) {
   auto stage = stages::ring_paper();
   stage.sun_mesh = ConstantStiffness{1.4e9};
@@ -74,13 +74,13 @@ BOOST_AUTO_TEST_CASE(section_of_a_stage) {
   BOOST_REQUIRE(section.points.cols() == 55);
   BOOST_REQUIRE(section.quantities.size() == 22U);
   BOOST_TEST(section.quantities[1] == "sun_y_m");
-  BOOST_TEST(section.quantities[2] == "sun_planet1_closing_m");
+  BOOST_TEST(section.quantities[2] == "sun_planet1_deflection_m");
   BOOST_TEST(section.quantities[21] == "ring_planet5_force_N");
   for (int c = 0; c < 55; ++c) {
     BOOST_TEST(section.points(0, c) == response.series.displacement(0, 64 * c));
     for (int m = 0; m < 10; ++m) {
       const double force = (m < 5 ? 1.4e9 : 1.9e9) * (section.points(2 + m, c) - 50e-6);
-      BOOST_TEST(std::abs(section.points(12 + m, c) - force) <= 1e-9 * 60e3);  // rounding of the closing
+      BOOST_TEST(std::abs(section.points(12 + m, c) - force) <= 1e-9 * 60e3);  // rounding of the deflection
     }
   }
   for (int m = 0; m < 10; ++m)

@@ -54,16 +54,16 @@ BOOST_AUTO_TEST_CASE(base_scene_reaches_its_steady_state) {
   BOOST_TEST(std::abs(r.series.time[0] - (r.total_cycles - 55) / r.mesh_frequency) <= 1e-12);
 }
 
-// Three ways to the same steady state: directly, directly and confirmed, by marching from rest.
-BOOST_AUTO_TEST_CASE(direct_solution_and_marching_agree) {
-  annulus::test::Verification record("Harmonic balance and marching to the same steady state", "each other");
+// Three ways to the same steady state: harmonic balance, harmonic balance confirmed, time integration from rest.
+BOOST_AUTO_TEST_CASE(harmonic_balance_and_time_integration_agree) {
+  annulus::test::Verification record("Harmonic balance and time integration to the same steady state", "each other");
   auto stage = stages::ring_paper();
   stage.planet_errors[1].eccentricity.phase = 2;
   auto options = quick();
   const auto confirmed = simulate(stage, options);
   BOOST_TEST(confirmed.confirmed);
   BOOST_TEST(confirmed.total_cycles == 55);
-  BOOST_REQUIRE((confirmed.direct && confirmed.direct->converged));
+  BOOST_REQUIRE((confirmed.periodic && confirmed.periodic->converged));
   // The integrator's tolerance of 1e-6 times some, and what 16 harmonics leave out.
   BOOST_TEST(*confirmed.steady_difference <= 1e-5);
   options.confirm = false;
@@ -85,12 +85,12 @@ BOOST_AUTO_TEST_CASE(direct_solution_and_marching_agree) {
   options.keep_series = false;
   BOOST_TEST(simulate(stage, options).series.force.size() == 0);
   options = quick();
-  options.steady_state = SteadyState::marching;
-  const auto marched = simulate(stage, options);
-  BOOST_TEST(marched.steady);
-  BOOST_TEST((!marched.direct && !marched.confirmed));
+  options.steady_state = SteadyState::time_integration;
+  const auto integrated = simulate(stage, options);
+  BOOST_TEST(integrated.steady);
+  BOOST_TEST((!integrated.periodic && !integrated.confirmed));
   for (const auto& [a, b] :
-       {std::pair(direct.sun_planet, marched.sun_planet), std::pair(direct.ring_planet, marched.ring_planet)}) {
+       {std::pair(direct.sun_planet, integrated.sun_planet), std::pair(direct.ring_planet, integrated.ring_planet)}) {
     const auto agree = [](const Figure& x, const Figure& y) {
       return std::abs(x.value - y.value) <= x.error + y.error;
     };
@@ -100,25 +100,25 @@ BOOST_AUTO_TEST_CASE(direct_solution_and_marching_agree) {
   }
 }
 
-// At a tenth of the torque teeth part everywhere and harmonic balance gives up; marching settles all the same, also
+// At a tenth of the torque contact is lost everywhere and harmonic balance fails; time integration settles, also
 // when no confirmation was asked for.
-BOOST_AUTO_TEST_CASE(marching_takes_over_where_harmonic_balance_fails) {
-  annulus::test::Verification record("A tenth of the torque: marched where harmonic balance gives up",
-                                     "two windows of an error period, which have to agree; teeth part");
+BOOST_AUTO_TEST_CASE(time_integration_takes_over_where_harmonic_balance_fails) {
+  annulus::test::Verification record("A tenth of the torque: time integration where harmonic balance fails",
+                                     "two windows of an error period, which have to agree; contact is lost");
   auto stage = stages::ring_paper();
   stage.sun_torque *= 0.1;
   auto options = quick();
   options.confirm = false;
   options.periodic.max_iterations = 3;
   const auto r = simulate(stage, options);
-  BOOST_REQUIRE(r.direct.has_value());
-  BOOST_TEST(!r.direct->converged);
-  BOOST_TEST(!r.direct->trouble.empty());
+  BOOST_REQUIRE(r.periodic.has_value());
+  BOOST_TEST(!r.periodic->converged);
+  BOOST_TEST(!r.periodic->trouble.empty());
   BOOST_TEST(r.steady);
   BOOST_TEST(!r.confirmed);
-  record.at_least("mesh cycles marched", "", r.total_cycles, 110, "two error periods of 55");
+  record.at_least("mesh cycles integrated", "", r.total_cycles, 110, "two error periods of 55");
   record.at_least("times a mesh opens or closes", "", static_cast<double>(r.statistics.contact_events), 1,
-                  "teeth part");
+                  "contact is lost");
 }
 
 // The error that is stated covers the distance to a much finer run.
@@ -218,7 +218,7 @@ BOOST_AUTO_TEST_CASE(contact_is_lost_and_counted_at_light_load) {
   options.mesh_cycles = 165;
   const auto r = simulate(stage, options);
   record.at_least("times a mesh opens or closes", "", static_cast<double>(r.statistics.contact_events), 1,
-                  "teeth part");
+                  "contact is lost");
   double loss = 0;
   for (const auto& branch : r.sun_planet.branches) loss = std::max(loss, branch.contact_loss);
   BOOST_TEST(loss > 0.0);
@@ -263,7 +263,7 @@ BOOST_AUTO_TEST_CASE(a_mostly_torsional_stage_with_jumping_stiffness) {
   stage.ring_mesh = RectangularStiffness{5.5e8, 0.25, 0.6, 0};
   stage.planet_errors.clear();
   const auto r = simulate(stage, quick());
-  record.near("degrees_of_freedom", "", static_cast<double>(r.series.dofs.size()), 3 + 1 + 5, 0, "counted by hand");
+  record.near("degrees of freedom", "", static_cast<double>(r.series.dofs.size()), 3 + 1 + 5, 0, "counted by hand");
   BOOST_TEST(r.steady);
   record.near("mesh cycles of the window", "", r.window_cycles, 20, 0, "the least asked for");
   // Phases of 0.2 cycles, duty 0.6, sun and ring alike: five instants a cycle, less one at the end of each window.
@@ -316,7 +316,7 @@ BOOST_AUTO_TEST_CASE(windows_that_cannot_be_compared_say_so) {
   const auto limited = simulate(stage, options);
   BOOST_TEST(!limited.whole_period);
   record.near("mesh cycles of the window, 20 allowed", "", limited.window_cycles, 20, 0, "counted by hand");
-  record.near("mesh cycles marched, windows of 20", "", limited.total_cycles, 40, 0, "counted by hand: two windows");
+  record.near("mesh cycles integrated, windows of 20", "", limited.total_cycles, 40, 0, "counted by hand: two windows");
 }
 
 BOOST_AUTO_TEST_CASE(unusable_requests_are_refused) {

@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(at_rest_they_are_the_real_modes) {
   annulus::test::Verification record("Complex modes at rest", "the symmetric eigenproblem, another solver");
   const auto stage = turning(5);
   const auto real = annulus::dynamics::modes(stage);
-  const auto found = annulus::dynamics::rotating_modes(stage, false);
+  const auto found = annulus::dynamics::rotating_modes(stage, ModeDamping::undamped);
   BOOST_TEST((found.dofs == real.dofs));
   BOOST_REQUIRE(found.modes.size() == real.modes.size());
   const auto mass = assemble(stage).mass();
@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(single_mass_in_the_turning_frame) {
     auto stage = single_mass(2e6, 0.02);  // sqrt(k/m) = 1000 rad/s
     stage.carrier_speed = speed;
     const double omega = 1000, zeta = 0.02;
-    auto found = annulus::dynamics::rotating_modes(stage, false);
+    auto found = annulus::dynamics::rotating_modes(stage, ModeDamping::undamped);
     const auto lowest_pair = [&] {
       std::vector<RotatingMode> pair;
       for (const auto& mode : found.modes)
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(single_mass_in_the_turning_frame) {
         BOOST_TEST(std::abs(mode.shape[1] / mode.shape[0] * mode.shape[1] / mode.shape[0] + 1.0) <= 1e-6);
 
     // The damper stands in the housing: lambda = -zeta omega +- i omega sqrt(1 - zeta^2) turned by -+ i Omega.
-    found = annulus::dynamics::rotating_modes(stage, true);
+    found = annulus::dynamics::rotating_modes(stage, ModeDamping::damped);
     pair = lowest_pair();
     const double damped = omega * std::sqrt(1 - zeta * zeta);
     record.near("backward whirl, damped", "rad/s", pair[0].frequency * turn, damped - speed, 1e-6, origin);
@@ -101,16 +101,16 @@ BOOST_AUTO_TEST_CASE(structure_at_speed) {
   annulus::test::Verification record("Modes of three to seven planets at speed, with and without dampers",
                                      "symmetry: 6 rotational, 12 translational and 3 (N - 3) planet modes, as at rest");
   for (int planets = 3; planets <= 7; ++planets)
-    for (const bool damped : {false, true}) {
+    for (const auto damping : {ModeDamping::undamped, ModeDamping::damped}) {
       auto stage = turning(planets);
       stage.carrier_speed = 500;
       stage.mesh_damping_ratio = 0.05;
       stage.support_damping_ratio = 0.02;
       std::map<ModeKind, int> count;
-      const auto found = annulus::dynamics::rotating_modes(stage, damped);
+      const auto found = annulus::dynamics::rotating_modes(stage, damping);
       for (const auto& mode : found.modes) {
         ++count[mode.kind];
-        if (damped && mode.frequency > 0) BOOST_TEST(mode.damping_ratio > 0.0);
+        if (damping == ModeDamping::damped && mode.frequency > 0) BOOST_TEST(mode.damping_ratio > 0.0);
       }
       record.near("lowest frequency", "Hz", found.modes.front().frequency, 0, 0, "turning as a whole stays free");
       record.at_least("second frequency", "Hz", found.modes[1].frequency, 1, "far above rounding");
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(modes_solve_the_quadratic_eigenproblem) {
   Eigen::MatrixXd rate = system.damping() + system.gyroscopic();
   for (int m = 0; m < 10; ++m)
     rate += system.meshes()[m].damping * system.mesh_vector(m) * system.mesh_vector(m).transpose();
-  const auto found = annulus::dynamics::rotating_modes(stage, true);
+  const auto found = annulus::dynamics::rotating_modes(stage, ModeDamping::damped);
   for (const auto& mode : found.modes) {
     if (mode.frequency == 0) continue;
     const double imaginary = turn * mode.frequency;
@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(campbell_of_a_single_mass) {
     for (int i = 0; i <= 20; ++i) {
       record.near("frequency along a curve", "rad/s", curve.frequency[i] * turn, 1000 + std::round(slope) * speeds[i],
                   1e-6, "meshes of 1e-3 N/m shift 1e-9 of it");
-      BOOST_TEST(curve.likeness[i] > 0.99);
+      BOOST_TEST(curve.mac[i] > 0.99);
     }
   }
   BOOST_TEST(forward == 1);
@@ -194,8 +194,8 @@ BOOST_AUTO_TEST_CASE(campbell_follows_curves_through_crossings) {
   BOOST_REQUIRE(diagram.curves.size() == 24U);
   for (const auto& curve : diagram.curves) {
     for (std::size_t i = 1; i < speeds.size(); ++i) {
-      record.at_least("likeness of the shapes of two speeds", "", curve.likeness[i], 0.5, "no other curve is as like");
-      BOOST_TEST(curve.likeness[i] > 0.5);
+      record.at_least("modal assurance criterion of two speeds", "", curve.mac[i], 0.5, "no other curve is as like");
+      BOOST_TEST(curve.mac[i] > 0.5);
     }
     // Continuous in slope: the second difference stays below what a jump to a neighbour would make of it.
     for (std::size_t i = 2; i < speeds.size(); ++i) {
@@ -209,7 +209,7 @@ BOOST_AUTO_TEST_CASE(campbell_follows_curves_through_crossings) {
   std::vector<double> last;
   for (const auto& curve : diagram.curves) last.push_back(curve.frequency.back());
   std::sort(last.begin(), last.end());
-  const auto found = annulus::dynamics::rotating_modes(stage, false);
+  const auto found = annulus::dynamics::rotating_modes(stage, ModeDamping::undamped);
   for (std::size_t i = 0; i < last.size(); ++i)
     record.near("frequency at the last speed", "Hz", last[i], found.modes[i].frequency, 0, "the same modes");
   // Each crossing lies on its curve and its line.

@@ -11,8 +11,8 @@
 /// Stages the tests share.
 namespace annulus::dynamics::stages {
 
-/// The stage of the ring paper (tables 1 to 3; models.md A for what it does not print): 48/55/162 teeth, five planets,
-/// harmonic stiffness, eccentricities and installation errors of the planets with all phases zero.
+/// The stage of the ring paper (tables 1 to 3; docs/ring_types.md for the inputs that it does not print): 48/55/162
+/// teeth, five planets, harmonic stiffness, eccentricities and pin position errors of the planets with all phases zero.
 inline PlanetaryStage ring_paper() {
   PlanetaryStage s;
   s.sun_teeth = 48;
@@ -38,11 +38,11 @@ inline PlanetaryStage ring_paper() {
   s.carrier.mass = 400.1;
   s.carrier.inertia = 15.3193;
   s.carrier.support = 1e9;
-  const double eccentricity[] = {15, 36, 17, 38, 19}, installation[] = {11, 32, 13, 34, 15};
+  const double eccentricity[] = {15, 36, 17, 38, 19}, pin_position[] = {11, 32, 13, 34, 15};
   const auto fraction = [](double x) { return x - std::floor(x); };
   for (int n = 0; n < 5; ++n) {
     s.planet_angles.push_back(2 * std::numbers::pi * n / 5);
-    s.planet_errors.push_back({{eccentricity[n] * units::um, 0}, {installation[n] * units::um, 0}});
+    s.planet_errors.push_back({{eccentricity[n] * units::um, 0}, {pin_position[n] * units::um, 0}});
     // Parker and Lin 2004: the meshes of planet n follow those of planet 0 by z_s/N (sun) and -z_r/N (ring) cycles.
     s.sun_phase_lag.push_back(fraction(48.0 * n / 5));
     s.ring_phase_lag.push_back(fraction(-162.0 * n / 5));
@@ -71,9 +71,9 @@ inline PlanetaryStage lin_parker(int planets) {
   return s;
 }
 
-/// The reducer of the backlash paper (models.md C): 26/39/106 teeth, three planets, rectangular stiffnesses, no errors.
-/// Ring held; planets, carrier and sun free to turn, the sun floating: 7 DOFs. Printed are equivalent masses I/r^2,
-/// r base radii and (r_bs + r_br)/2 for the carrier; the planets' own mass is taken as part of the carrier's.
+/// The reducer of the backlash paper [WangLiYaoYi2016]: 26/39/106 teeth, three planets, rectangular stiffnesses, no
+/// errors. Ring held; planets, carrier and sun free to turn, the sun floating: 7 DOFs. Printed are equivalent masses
+/// I/r^2, r base radii and (r_bs + r_br)/2 for the carrier; the planets' own mass is taken as part of the carrier's.
 /// Not printed: the phase between sun and ring mesh, here none.
 inline PlanetaryStage backlash_paper() {
   PlanetaryStage s;

@@ -35,12 +35,12 @@ LumpedSystem swinging(double swing, double load) {
 
 const SteadyProblem problem{frequency, 1, 1000, mesh_stiffness};
 
-BOOST_AUTO_TEST_CASE(moving_mesh_vectors_are_marched) {
+BOOST_AUTO_TEST_CASE(moving_mesh_vectors_are_integrated_in_time) {
   test::Verification record("Steady state with a moving mesh vector", "balance of energy");
   const auto moving = dynamics::steady_response(swinging(0.2, 1000), problem);
-  BOOST_REQUIRE(moving.direct.has_value());
-  BOOST_TEST(!moving.direct->converged);
-  BOOST_TEST(!moving.direct->trouble.empty());
+  BOOST_REQUIRE(moving.periodic.has_value());
+  BOOST_TEST(!moving.periodic->converged);
+  BOOST_TEST(!moving.periodic->trouble.empty());
   BOOST_TEST(moving.steady);
   BOOST_TEST(!moving.confirmed);
   BOOST_TEST(moving.total_cycles > moving.window_cycles);
@@ -66,7 +66,8 @@ BOOST_AUTO_TEST_CASE(load_may_be_zero_or_reversed) {
   const auto none = dynamics::steady_response(swinging(0, 0), problem);
   const auto back = dynamics::steady_response(swinging(0, -1000), problem);
   const double share = mesh_stiffness / (mesh_stiffness + ground);
-  // Linear: the load adds its static part and nothing else. Harmonic balance and marching agree to 1e-3 of the scale.
+  // Linear: the load adds its static part and nothing else. Harmonic balance and time integration agree to 1e-3 of the
+  // scale.
   for (const auto* r : {&forward, &none, &back}) BOOST_TEST(r->confirmed);
   const double error = (forward.best.force - none.best.force).array().operator-(1000 * share).abs().maxCoeff() +
                        (back.best.force - none.best.force).array().operator+(1000 * share).abs().maxCoeff();
@@ -75,14 +76,14 @@ BOOST_AUTO_TEST_CASE(load_may_be_zero_or_reversed) {
   BOOST_TEST(error < 1e-2);
 }
 
-BOOST_AUTO_TEST_CASE(windows_tell_what_they_compare_with) {
-  test::Verification record("Windows of a direct solution and of a short march",
+BOOST_AUTO_TEST_CASE(windows_state_their_comparison) {
+  test::Verification record("Windows of a harmonic balance and of a short time integration",
                             "counted by hand from what was asked for");
   SimulationOptions options;
   options.confirm = false;
   const auto system = swinging(0, 1000);
   const auto direct = dynamics::steady_response(system, problem, options);
-  record.near("mesh cycles integrated, direct solution", "", direct.total_cycles, 0, 0, "none");
+  record.near("mesh cycles integrated, harmonic balance", "", direct.total_cycles, 0, 0, "none");
   BOOST_REQUIRE(direct.before.has_value());
   record.near("samples over those it is compared with", "",
               static_cast<double>(direct.best.force.cols()) / static_cast<double>(direct.before->force.cols()), 2, 0,
@@ -116,8 +117,8 @@ LumpedSystem lifting() {
   return builder.build();
 }
 
-// What 16 samples miss where teeth part is far more than marching is held to: the balance takes more for itself.
-BOOST_AUTO_TEST_CASE(balances_are_sampled_as_finely_as_marching_confirms) {
+// With loss of contact 16 samples err far more than time integration may: the harmonic balance takes more samples.
+BOOST_AUTO_TEST_CASE(harmonic_balance_is_sampled_as_finely_as_its_confirmation_needs) {
   const auto system = lifting();
   const SteadyProblem lifted{slow, 1, 30, 5e4};
   SimulationOptions options;

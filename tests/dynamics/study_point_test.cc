@@ -12,7 +12,7 @@ namespace annulus::dynamics {
 
 namespace {
 
-/// Central bodies held, constant stiffness, installation errors of the planets alone: nothing moves.
+/// Central bodies held, constant stiffness, pin position errors of the planets alone: nothing moves.
 PlanetaryStage held_centres() {
   auto stage = stages::ring_paper();
   for (auto* body : {&stage.sun, &stage.ring, &stage.carrier}) body->support = rigid;
@@ -29,7 +29,7 @@ PlanetaryStage held_centres() {
 BOOST_AUTO_TEST_SUITE(study_point)
 
 BOOST_AUTO_TEST_CASE(held_centres_share_after_the_closed_form) {
-  // models.md A: L = 1 + max_n K_path (mean(e) - e_n) / F
+  // Closed form: L = 1 + max_n K_path (mean(e) - e_n) / F
   test::Verification record("Load sharing of a point of a study, central bodies held",
                             "closed form: L = 1 + max K (mean error - error_n) / F");
   const auto stage = held_centres();
@@ -94,23 +94,23 @@ BOOST_AUTO_TEST_CASE(motion_is_that_of_the_time_series) {
   BOOST_TEST(bare.ring_planet.dynamic_factor == point.ring_planet.dynamic_factor);
 }
 
-BOOST_AUTO_TEST_CASE(points_agree_with_marching) {
-  test::Verification record("Load sharing of a point of a study", "marching to the steady state");
+BOOST_AUTO_TEST_CASE(points_agree_with_time_integration) {
+  test::Verification record("Load sharing of a point of a study", "time integration to the steady state");
   const auto stage = stages::ring_paper();
-  SimulationOptions marching;
-  marching.steady_state = SteadyState::marching;
-  const auto marched = simulate(stage, marching);
+  SimulationOptions stepped;
+  stepped.steady_state = SteadyState::time_integration;
+  const auto integrated = simulate(stage, stepped);
   // Sampling (64 or 32 per cycle, peaks refined) and steady_tolerance: 1e-3 of the mean force.
   const char* origin = "sampling and steady state: 1e-3 of the mean force";
   for (const bool motion : {true, false}) {
     const auto point = evaluate_point(stage, {.simulation = {}, .motion = motion});
     BOOST_TEST(point.steady);
-    record.close("averaged, sun meshes", "", point.sun_planet.averaged, marched.sun_planet.load_sharing.averaged.value,
-                 2e-3, origin);
+    record.close("averaged, sun meshes", "", point.sun_planet.averaged,
+                 integrated.sun_planet.load_sharing.averaged.value, 2e-3, origin);
     record.close("instantaneous, ring meshes", "", point.ring_planet.instantaneous,
-                 marched.ring_planet.load_sharing.instantaneous.value, 2e-3, origin);
+                 integrated.ring_planet.load_sharing.instantaneous.value, 2e-3, origin);
     record.close("quasi-static, sun meshes", "", point.sun_planet.quasi_static,
-                 marched.sun_planet.load_sharing.quasi_static.value, 2e-3, origin);
+                 integrated.sun_planet.load_sharing.quasi_static.value, 2e-3, origin);
   }
 }
 

@@ -8,7 +8,7 @@
 
 namespace annulus::dynamics::stages {
 
-/// The 2K-V-6 reducer: what the paper prints, and the assumed base values of models.md D. Output held.
+/// The 2K-V-6 reducer: what the paper prints, and the assumed values of docs/arc_tooth_2kv.md. Output held.
 inline TwoKVStage reducer() {
   TwoKVStage s;
   s.sun_teeth = 10;

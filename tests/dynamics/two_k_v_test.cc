@@ -30,8 +30,8 @@ Eigen::MatrixXd stiffness_of(const TwoKVStage& stage) {
   return stiffness_with_meshes(system, mesh_stiffness(stage));
 }
 
-/// V of models.md D with all base values, q = [th_i, th_s, th_p1, th_p2, th_h1, th_h2, th_a1, th_a2, th_o, X_p1, X_p2,
-/// X_a1, X_a2].
+/// V of [QiFangLi2004, eq. (6)], corrected, with all base values, q = [th_i, th_s, th_p1, th_p2, th_h1, th_h2, th_a1,
+/// th_a2, th_o, X_p1, X_p2, X_a1, X_a2].
 double potential(const Eigen::VectorXd& q, double crank_angle) {
   const double pi = std::numbers::pi, alpha = 20 * pi / 180, m = 1e-3, a = 0.9e-3;
   const double r_bs = m * 10 / 2 * std::cos(alpha), r_bp = m * 34 / 2 * std::cos(alpha), r_c = m * 44 / 2;
@@ -224,7 +224,7 @@ BOOST_AUTO_TEST_CASE(energy_of_free_vibration) {
     options.absolute_tolerance = 1e-15;
     options.method = Integrator::arkode_explicit;
     const double before = energy();
-    integrate(system, state, 5e-3, options, workspace, 0, {}, true);
+    integrate(system, state, 5e-3, options, workspace, {.energy = EnergyTracking::on});
     const double after = energy();
     // The integrator's error over some 150 periods of the highest mode, and of the energies that follow its steps.
     record.near("change of energy over the energy", "", (after - before) / before, state.supplied / before, 2e-6,

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "fem/closed_form/closed_form_mesh.h"
 #include "fem/closed_form/closed_form_error.h"
+#include "fem/closed_form/closed_form_mesh.h"
 #include "ring_paper_problems.h"
 #include "tests/verification_record.h"
 
@@ -369,7 +369,7 @@ BOOST_AUTO_TEST_CASE(the_supports_carry_what_the_planet_presses_on_the_ring) {
     const auto problem = ring_mesh(structure, 2);
     const auto result = solve_closed_form(problem, {});
     check_invariants(result);
-    const bool bore = structure.index() == 2 && result.pin_angles.size() == 1;
+    const bool bore = structure.single_supports() == 1;
     double worst_force = 0, worst_moment = 0;
     for (const auto& p : result.positions) {
       BOOST_TEST_REQUIRE(p.pins.size() == result.pin_angles.size());

@@ -8,6 +8,7 @@
 #include "fem/closed_form/line_contact.h"
 #include "fem/contact/complementarity.h"
 #include "fem/contact/contact_system.h"
+#include "fem/contact/hertz.h"
 #include "ring_paper.h"
 #include "tests/verification_record.h"
 

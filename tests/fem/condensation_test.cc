@@ -99,14 +99,16 @@ Eigen::VectorXd unit_load(const DiscretisedBody& ring, const GearBody& body, int
 }
 
 /// Largest difference of the compliances between some ports of some teeth, relative to the largest compliance.
-double worst_difference(const Case& c, Boundary held) {
+double worst_difference(const Case& c, const std::vector<Boundary>& held) {
   const GearBody body = condensed(c);
   const DiscretisedBody ring = monolithic(c);
   std::vector<bool> fixed(ring.stiffness.rows(), false);
-  const auto held_nodes = ring.boundary_nodes(held);
-  BOOST_TEST_REQUIRE(!held_nodes.empty());
-  for (const int n : held_nodes)
-    for (int d = 0; d < ring.dimension; ++d) fixed[ring.dof[n * ring.dimension + d]] = true;
+  for (const auto boundary : held) {
+    const auto held_nodes = ring.boundary_nodes(boundary);
+    BOOST_TEST_REQUIRE(!held_nodes.empty());
+    for (const int n : held_nodes)
+      for (int d = 0; d < ring.dimension; ++d) fixed[ring.dof[n * ring.dimension + d]] = true;
+  }
   const FreeSystem system(ring.stiffness, fixed);
 
   const int teeth = c.gear.teeth(), last = static_cast<int>(body.ports.size()) - 1;
@@ -145,12 +147,12 @@ BOOST_AUTO_TEST_CASE(plane_gears_held_at_the_bore) {
   annulus::test::Verification record("Plane gears composed of condensed sectors", whole_matrix);
   for (const int teeth : {18, 19})
     check_monolithic(record, teeth == 18 ? "18 teeth" : "19 teeth",
-                     worst_difference(plane_case(GearKind::external, teeth), Boundary::support));
+                     worst_difference(plane_case(GearKind::external, teeth), {Boundary::support}));
 }
 
 BOOST_AUTO_TEST_CASE(plane_ring_held_outside) {
   annulus::test::Verification record("A plane ring composed of condensed sectors", whole_matrix);
-  check_monolithic(record, "41 teeth", worst_difference(plane_case(GearKind::internal, 41), Boundary::support));
+  check_monolithic(record, "41 teeth", worst_difference(plane_case(GearKind::internal, 41), {Boundary::support}));
 }
 
 BOOST_AUTO_TEST_CASE(other_degrees_and_refinements_of_the_elements) {
@@ -158,7 +160,7 @@ BOOST_AUTO_TEST_CASE(other_degrees_and_refinements_of_the_elements) {
   for (const int degree : {1, 3}) {
     auto c = plane_case(GearKind::external, 19);
     c.options.sector.degree = degree;
-    check_monolithic(record, degree == 1 ? "degree 1" : "degree 3", worst_difference(c, Boundary::support));
+    check_monolithic(record, degree == 1 ? "degree 1" : "degree 3", worst_difference(c, {Boundary::support}));
   }
 }
 
@@ -166,7 +168,7 @@ BOOST_AUTO_TEST_CASE(solid_gear_held_at_the_bore) {
   annulus::test::Verification record("A solid gear composed of condensed sectors", whole_matrix);
   auto c = plane_case(GearKind::external, 17);
   c.sector = extrude(c.sector, {{0, 0.01, 2}});
-  check_monolithic(record, "17 teeth", worst_difference(c, Boundary::support));
+  check_monolithic(record, "17 teeth", worst_difference(c, {Boundary::support}));
 }
 
 BOOST_AUTO_TEST_CASE(thin_walled_ring_held_at_the_end_of_its_sleeve) {
@@ -186,7 +188,26 @@ BOOST_AUTO_TEST_CASE(thin_walled_ring_held_at_the_end_of_its_sleeve) {
   sleeve.radius_low = sleeve_radius;
   c.sector = extrude(c.sector, {sleeve, {0, 0.01, 2}});
   c.options.sector.held = HeldBoundary::end_low;
-  check_monolithic(record, "29 teeth", worst_difference(c, Boundary::end_low));
+  check_monolithic(record, "29 teeth", worst_difference(c, {Boundary::end_low}));
+}
+
+BOOST_AUTO_TEST_CASE(solid_ring_clamped_at_both_end_faces) {
+  annulus::test::Verification record("A ring clamped at the rims of both end faces composed of condensed sectors",
+                                     whole_matrix);
+  auto c = plane_case(GearKind::internal, 29);
+  const double inner = c.gear.root_radius() + 2e-3;
+  annulus::geometry::SectorResolution coarse;
+  coarse.flank_cells = 2;
+  coarse.fillet_cells = 2;
+  coarse.thickness_cells = 2;
+  coarse.root_cells = 1;
+  coarse.rim_cells = 2;
+  c.sector = annulus::geometry::make_sector_mesh(c.gear, {c.support_radius, {inner}}, coarse);
+  annulus::geometry::ExtrudeOptions options;
+  options.end_low_radius = options.end_high_radius = inner;
+  c.sector = extrude(c.sector, {{0, 0.01, 3}}, options);
+  c.options.sector.held = HeldBoundary::both_ends;
+  check_monolithic(record, "29 teeth", worst_difference(c, {Boundary::end_low, Boundary::end_high}));
 }
 
 /// Rigid supports over an arc, at angles without symmetry that straddle the borders of sectors as well.

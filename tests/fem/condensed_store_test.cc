@@ -206,7 +206,7 @@ BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
   for (const auto& [pins, slices] : {std::pair{81, 2}, {54, 2}, {24, 2}, {24, 1}}) {
     std::vector<double> edges = {0, width};
     if (slices == 2) edges.insert(edges.begin() + 1, width / 2);
-    const auto sites = pin_sites(paper_pins(pins, 0.01), {162, ring_outside, width, problem.material});
+    const auto sites = paper_pins(pins, 0.01).supports({162, ring_outside, width, problem.material});
     options.arcs = annulus::fem::SupportPlan(sites, 162, edges).arcs();
     options.store = store.get();
     const auto kept = condense_tooth(mesh, profile, ring_outside, problem.material, options);
@@ -215,8 +215,9 @@ BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
     BOOST_TEST(kept.reused == (!first && slices == 2));  // other slices are other unit loads
     first = false;
     BOOST_TEST(kept.body.arc_wrenches.size() == options.arcs.size());
-    same("entries of the stiffness of the cuts that differ", kept.sector.cut_stiffness, fresh.sector.cut_stiffness);
-    same("entries of the loads on the cuts that differ", kept.sector.cut_load, fresh.sector.cut_load);
+    same("entries of the stiffness of the cuts that differ", kept.sector.interface_stiffness,
+         fresh.sector.interface_stiffness);
+    same("entries of the loads on the cuts that differ", kept.sector.interface_load, fresh.sector.interface_load);
     same("entries of the compliance that differ", kept.sector.compliance, fresh.sector.compliance);
     BOOST_TEST(kept.body.rim.first_load == fresh.body.rim.first_load);
     BOOST_TEST(kept.sector.compliance.rows() == fresh.body.rim.first_load + fresh.body.rim.loads());

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contact_bench.h"
+#include "fem/contact/hertz.h"
 #include "ring_paper_problems.h"
 #include "tests/verification_record.h"
 

@@ -8,6 +8,7 @@
 
 #include "contact_bench.h"
 #include "core/errors.h"
+#include "fem/contact/hertz.h"
 #include "ring_paper.h"
 #include "ring_paper_problems.h"
 #include "tests/verification_record.h"

@@ -8,6 +8,7 @@
 #include "fem/condensation/sparse_schur.h"
 #include "fem/contact/complementarity.h"
 #include "fem/contact/contact_system.h"
+#include "fem/contact/hertz.h"
 #include "fem/elasticity/trace_basis.h"
 #include "structured_mesh.h"
 #include "tests/verification_record.h"

@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "fem/contact/contact_system.h"
+#include "fem/contact/pair_search.h"
 #include "fem/levels/error_estimate.h"
 #include "ring_paper_problems.h"
 #include "tests/verification_record.h"
@@ -58,7 +59,7 @@ BOOST_AUTO_TEST_CASE(pairs_left_out_are_out_of_reach) {
     int left_out = 0;
     double nearest = std::numeric_limits<double>::infinity();
     for (const auto& p : result.positions)
-      for (const auto& [pair, roll] : annulus::fem::ContactSystem::possible_pairs(flanks, p.mesh_phase)) {
+      for (const auto& [pair, roll] : annulus::fem::possible_pairs(flanks, p.mesh_phase)) {
         if (std::find(p.pair_roll.begin(), p.pair_roll.end(), roll) != p.pair_roll.end()) continue;
         ++left_out;
         nearest =

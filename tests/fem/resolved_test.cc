@@ -36,9 +36,9 @@ CondensedTooth tooth(double fraction) {
 /// it.
 Eigen::MatrixXd assembled(const CondensedSector& regular, int sectors,
                           const std::vector<const CondensedSector*>& replaced) {
-  const Eigen::Index m = regular.cut_stiffness.rows() / 2;
+  const Eigen::Index m = regular.interface_stiffness.rows() / 2;
   Eigen::Index ports = 0;
-  for (const auto* s : replaced) ports += s->cut_load.cols();
+  for (const auto* s : replaced) ports += s->interface_load.cols();
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(sectors * m, sectors * m);
   Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(sectors * m, ports), result = Eigen::MatrixXd::Zero(ports, ports);
   Eigen::Index at = 0;
@@ -49,7 +49,7 @@ Eigen::MatrixXd assembled(const CondensedSector& regular, int sectors,
     Eigen::MatrixXd turn = Eigen::MatrixXd::Zero(2 * m, 2 * m);
     for (Eigen::Index n = 0; n < 2 * m; n += 2)
       turn.block(n, n, 2, 2) = Eigen::Rotation2Dd(i * regular.pitch_angle).toRotationMatrix();
-    const Eigen::MatrixXd k = turn * s.cut_stiffness * turn.transpose(), l = turn * s.cut_load;
+    const Eigen::MatrixXd k = turn * s.interface_stiffness * turn.transpose(), l = turn * s.interface_load;
     const Eigen::Index low = i * m, high = ((i + 1) % sectors) * m;
     stiffness.block(low, low, m, m) += k.topLeftCorner(m, m);
     stiffness.block(high, high, m, m) += k.bottomRightCorner(m, m);

@@ -49,8 +49,7 @@ SolvedRingCoupling solve(const RingStructure& structure, int planets, int per_cy
 struct PinnedRing {
   template <class Pins>
   PinnedRing(const LoadedMeshProblem& problem, const Pins& pins)
-      : plan(annulus::fem::pin_sites(pins, {162, ring_outside, problem.face_width, problem.material}), 162,
-             {0, problem.face_width}),
+      : plan(pins.supports({162, ring_outside, problem.face_width, problem.material}), 162, {0, problem.face_width}),
         flexibility(flexibility_of(problem, plan)),
         supported(flexibility, plan) {}
 

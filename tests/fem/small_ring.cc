@@ -8,6 +8,7 @@
 #include <random>
 
 #include "fem/condensation/sparse_schur.h"
+#include "fem/problem/structures/pin_held.h"
 #include "geometry/sector_mesh.h"
 
 namespace annulus::tests {
@@ -102,7 +103,7 @@ fem::SupportPlan small_ring_pins(int teeth, std::vector<double> angles, double r
   pins.tangential_stiffness = tangential;
   pins.unilateral = unilateral;
   const double outside = small_gear(teeth).root_radius() + rim;
-  return {fem::pin_sites(pins, {teeth, outside, width, {}}), teeth, {0, width}};
+  return {pins.supports({teeth, outside, width, {}}), teeth, {0, width}};
 }
 
 SmallRing small_ring(int teeth, SmallHeld held, const fem::MotionOrder& motions, const fem::SupportPlan* plan) {

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "contact_bench.h"
+#include "fem/contact/hertz.h"
+#include "fem/contact/pair_search.h"
 #include "ring_paper_problems.h"
 #include "tests/verification_record.h"
 
@@ -20,8 +22,7 @@ class Gaps {
   Gaps(const annulus::fem::FlankContact& flanks, int steps) {
     for (int i = 0; i <= steps; ++i) {
       gaps_.emplace_back();
-      for (const auto& [index, roll] :
-           annulus::fem::ContactSystem::possible_pairs(flanks, static_cast<double>(i) / steps))
+      for (const auto& [index, roll] : annulus::fem::possible_pairs(flanks, static_cast<double>(i) / steps))
         gaps_.back()[index] = flanks.smallest_gap(roll);
     }
   }

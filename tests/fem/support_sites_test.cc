@@ -1,4 +1,4 @@
-#include "fem/problem/support_sites.h"
+#include "fem/problem/structures/structures.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -33,7 +33,7 @@ BOOST_AUTO_TEST_CASE(pins_are_elastic_in_series_and_as_given) {
   pins.angles = equal_angles(3, 0.1);
   pins.pin_diameter = 0.01;
   pins.free_span = 0.004;
-  const auto derived = pin_sites(pins, ring);
+  const auto derived = pins.supports(ring);
   BOOST_TEST(derived.pins == 3);
   const auto& radial = derived.sites[1].directions[0];
   const double local = derived_pin_stiffness(ring.material, ring.face_width);
@@ -43,34 +43,34 @@ BOOST_AUTO_TEST_CASE(pins_are_elastic_in_series_and_as_given) {
   BOOST_TEST(radial.unilateral);
   BOOST_TEST(!derived.sites[1].directions[1].unilateral);
   pins.radial_stiffness = 3e9;
-  BOOST_TEST(pin_sites(pins, ring).sites[0].directions[1].stiffness == 3e9);
-  BOOST_TEST(std::isinf(pin_sites(pins, ring).sites[0].directions[1].end_stiffness));
+  BOOST_TEST(pins.supports(ring).sites[0].directions[1].stiffness == 3e9);
+  BOOST_TEST(std::isinf(pins.supports(ring).sites[0].directions[1].end_stiffness));
   pins.tangential_stiffness = 2e9;
-  BOOST_TEST(pin_sites(pins, ring).sites[0].directions[0].stiffness == 3e9);
-  BOOST_TEST(pin_sites(pins, ring).sites[0].directions[1].stiffness == 2e9);
+  BOOST_TEST(pins.supports(ring).sites[0].directions[0].stiffness == 3e9);
+  BOOST_TEST(pins.supports(ring).sites[0].directions[1].stiffness == 2e9);
 }
 
 BOOST_AUTO_TEST_CASE(a_single_pin_needs_a_housing) {
   PinHeld pins;
   pins.angles = {0.3};
   pins.pin_diameter = 0.01;
-  BOOST_CHECK_THROW((void)pin_sites(pins, ring), annulus::InputError);
+  BOOST_CHECK_THROW((void)pins.supports(ring), annulus::InputError);
   pins.unilateral = false;
-  BOOST_CHECK_THROW((void)pin_sites(pins, ring), annulus::InputError);
+  BOOST_CHECK_THROW((void)pins.supports(ring), annulus::InputError);
   pins.housing_clearance = 10e-6;
-  const auto sites = pin_sites(pins, ring);
+  const auto sites = pins.supports(ring);
   BOOST_TEST(sites.sites.size() == 61U);
   BOOST_TEST(sites.pins == 1);
   for (int i = 1; i < 61; ++i) BOOST_TEST(sites.sites[i].directions.at(0).clearance == 10e-6);
   pins.angles.clear();
-  BOOST_CHECK_THROW((void)pin_sites(pins, ring), annulus::InputError);
+  BOOST_CHECK_THROW((void)pins.supports(ring), annulus::InputError);
 }
 
 BOOST_AUTO_TEST_CASE(spline_flanks_press_along_their_normals) {
   SplineHeld spline;
   spline.teeth = 20;
   spline.flank_angle = 0.5;
-  const auto sites = spline_sites(spline, ring);
+  const auto sites = spline.supports(ring);
   BOOST_TEST(sites.pins == 20);
   for (const auto& site : sites.sites) {
     BOOST_TEST_REQUIRE(site.directions.size() == 2U);
@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(spline_flanks_press_along_their_normals) {
     BOOST_TEST(site.directions[0].counter_clockwise == -site.directions[1].counter_clockwise);
   }
   spline.teeth = 2;
-  BOOST_CHECK_THROW((void)spline_sites(spline, ring), annulus::InputError);
+  BOOST_CHECK_THROW((void)spline.supports(ring), annulus::InputError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

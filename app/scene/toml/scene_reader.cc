@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "app/scene/scene_checks.h"
+#include "app/scene/scene_kind.h"
 #include "app/scene/scene_limits.h"
 #include "app/scene/scene_schema.h"
 #include "app/scene/toml/tables.h"
@@ -17,22 +18,18 @@ class Reader {
  public:
   Reader(const toml::table& root, const std::filesystem::path& file) : root_(root) {
     scene_.file = file;
-    // Which keys there are depends on the kind; a wrong one is told about where it stands.
+    // Which keys there are depends on the kind; a wrong one is reported where its value is read.
     const auto name = root["stage"]["kind"].value<std::string>();
-    for (const auto kind : stage_kinds()) {
-      if (name && *name == kind_name(kind)) kind_ = kind;
+    for (const auto& kind : scene_kinds()) {
+      if (name && *name == kind.name) kind_ = &kind;
     }
   }
 
   Scene read() {
     check_root_keys();
+    for (const auto& table : schema(kind_->name)) read_table(table);
     for (const auto& table : schema()) {
-      if (table.applies_to(kind_)) {
-        read_table(table);
-      } else if (const auto* node = root_.at_path(table.path).node()) {
-        problem(place_of(node->source()), fmt::format("{}: has no meaning for a stage of kind \"{}\"; it belongs to {}",
-                                                      table.header(), kind_name(kind_), kinds_text(table.kinds)));
-      }
+      if (!table.applies_to(kind_->name)) refuse_table(table);
     }
     if (!hopeless()) read_assumed();
     if (!hopeless()) complete_and_check(scene_, problems_);
@@ -46,6 +43,13 @@ class Reader {
   void problem(Place at, std::string message) { problems_.push_back({at.line, at.column, std::move(message)}); }
   /// A file that is no scene has something wrong in every line.
   [[nodiscard]] bool hopeless() const { return problems_.size() > most_problems; }
+
+  /// A table of other kinds.
+  void refuse_table(const Table& table) {
+    if (const auto* node = root_.at_path(table.path).node())
+      problem(place_of(node->source()), fmt::format("{}: has no meaning for a stage of kind \"{}\"; it belongs to {}",
+                                                    table.header(), kind_->name, kinds_text(table.kinds)));
+  }
 
   void read_table(const Table& table) {
     const toml::node* node = table.path.empty() ? &root_ : root_.at_path(table.path).node();
@@ -82,10 +86,18 @@ class Reader {
 
   [[nodiscard]] bool needs_presence(const Table& table) const {
     if (table.on_request) return true;
-    for (const auto& p : table.parameters) {
-      if (p.required(kind_)) return true;
-    }
-    return false;
+    return std::any_of(table.parameters.begin(), table.parameters.end(),
+                       [&](const Parameter& p) { return p.required(kind_->name); });
+  }
+
+  /// What is wrong with a key that only other kinds have, or with an earlier name; empty for all other words.
+  [[nodiscard]] std::string refusal(const Table& table, const std::string& name) const {
+    const std::string key = table.path.empty() ? name : table.path + "." + name;
+    if (const auto* other = find_parameter(key))
+      return fmt::format("has no meaning for a stage of kind \"{}\"; it belongs to {}: leave it out", kind_->name,
+                         kinds_text(other->kinds));
+    const auto now = renamed_key(key);
+    return now.empty() ? "" : fmt::format("is now `{}`", now);
   }
 
   void read_keys(const Table& table, const toml::table& entry, std::size_t index, const std::string& ring) {
@@ -94,23 +106,17 @@ class Reader {
       if (hopeless()) return;
       Input input{.key = p.key(), .ring = ring, .unit = p.unit, .meaning = p.meaning, .entry = index};
       const auto found = entry.find(p.name);
-      if (!p.applies_to(kind_)) {
-        if (found == entry.end()) continue;
-        problem(place_of(found->first.source()),
-                fmt::format("{} = {}: has no meaning for a stage of kind \"{}\"; it belongs to {}", p.key(),
-                            node_text(found->second), kind_name(kind_), kinds_text(p.kinds)));
-        continue;
-      }
       if (found == entry.end()) {
         const Place at = place_of(entry.source());
-        if (p.required(kind_)) {
+        if (p.required(kind_->name)) {
           problem(at, fmt::format("{}: is missing{}; must be {}. {}", p.key(),
                                   ring.empty() ? "" : " for ring '" + shown(ring) + "'", expected_text(p), p.meaning));
           continue;
         }
         input.origin = Origin::default_value;
         input.note = p.note;
-        input.value = p.default_value;
+        if (!p.default_where_it_applies)
+          input.value = p.default_value;  // the others follow with the rules between keys
         input.line = at.line;
         input.column = at.column;
       } else {
@@ -139,8 +145,10 @@ class Reader {
       const std::string name(key.str());
       if (std::find(names.begin(), names.end(), name) != names.end() || is_table(name)) continue;
       if (hopeless()) return;
-      problem(place_of(key.source()), fmt::format("{}.{} = {}: unknown key{}", table.path, shown(name), node_text(node),
-                                                  suggestion(table.path, name, names)));
+      const auto refused = refusal(table, name);
+      problem(place_of(key.source()),
+              fmt::format("{}.{} = {}: {}", table.path, shown(name), node_text(node),
+                          refused.empty() ? "unknown key" + suggestion(table.path, name, names) : refused));
     }
   }
 
@@ -174,7 +182,9 @@ class Reader {
           fmt::format("{}: unknown {}", shown(name), node.is_table() || node.is_array_of_tables() ? "table" : "key");
       const auto& later = unavailable_tables();
       const auto match = std::find_if(later.begin(), later.end(), [&](const auto& t) { return t.first == name; });
-      if (match != later.end()) {
+      if (const auto refused = refusal(schema().front(), name); !refused.empty()) {
+        what = fmt::format("{} = {}: {}", shown(name), node_text(node), refused);
+      } else if (match != later.end()) {
         what = fmt::format("[{}] ({}) is not yet available in this version", name, match->second);
       } else {
         what += suggestion("", name, names);
@@ -193,7 +203,7 @@ class Reader {
     for (const auto& table : schema()) {
       if (!table.path.starts_with("mesh.")) continue;
       all.push_back(table.path);
-      if (table.applies_to(kind_)) of_kind.push_back(table.path);
+      if (table.applies_to(kind_->name)) of_kind.push_back(table.path);
     }
     for (const auto& [key, node] : *mesh) {
       const std::string name = "mesh." + std::string(key.str());
@@ -231,9 +241,7 @@ class Reader {
       } else if (const auto rule = text_rule(*reason); !rule.empty()) {
         problem(at, fmt::format("assumed.{}: {}", shown(path), rule));
       } else if (!find_parameter(path)) {
-        const std::string near = nearest(path, all_keys());
-        problem(at, fmt::format("assumed.{}: there is no such key{}", shown(path),
-                                near.empty() ? "" : "; did you mean " + near + "?"));
+        problem(at, fmt::format("assumed.{}: {}", shown(path), unknown_key(path)));
       } else {
         bool has_value = false;
         for (auto& input : scene_.inputs) {
@@ -242,14 +250,20 @@ class Reader {
           has_value = true;
         }
         scene_.assumed[path] = *reason;
-        // A key that was refused is not set either, and its problem is told already.
+        // A key that was refused is not set either, and its problem is reported already.
         if (!has_value && !refused_) problem(at, fmt::format("assumed.{}: this scene does not set it", shown(path)));
       }
     }
   }
 
+  static std::string unknown_key(const std::string& path) {
+    if (const auto now = renamed_key(path); !now.empty()) return fmt::format("is now `{}`", now);
+    const std::string near = nearest(path, all_keys());
+    return "there is no such key" + (near.empty() ? "" : "; did you mean " + near + "?");
+  }
+
   const toml::table& root_;
-  StageKind kind_ = StageKind::planetary;
+  const SceneKind* kind_ = &scene_kinds().front();
   Scene scene_;
   std::vector<Problem> problems_;
   bool refused_ = false;  ///< something had a problem before [assumed] was read

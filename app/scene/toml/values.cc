@@ -17,6 +17,15 @@ std::string too_long(const Parameter& p, std::size_t size) {
   return fmt::format("has {} values, at most {} are possible", size, p.longest);
 }
 
+/// "must be one of ..." for a text that is none of the permitted ones; empty for those.
+std::string choice_rule(const Parameter& p, const std::string& text) {
+  if (p.choices.empty() || std::find(p.choices.begin(), p.choices.end(), text) != p.choices.end()) return "";
+  for (const auto& old : p.old_choices)
+    if (text == old.old_name) return fmt::format("is now \"{}\"", old.name);
+  const std::string near = nearest(text, p.choices);
+  return "must be " + choices_text(p) + (near.empty() ? "" : "; did you mean \"" + near + "\"?");
+}
+
 }  // namespace
 
 Place place_of(const toml::source_region& source) {
@@ -86,6 +95,8 @@ std::string read_value(const Parameter& p, const toml::node& node, Value& value)
         list.push_back(**item);
       }
       if (!array) return "must be " + expected_text(p);
+      for (std::size_t i = 0; i < list.size(); ++i)
+        if (auto rule = choice_rule(p, list[i]); !rule.empty()) return fmt::format("value {} {}", i + 1, rule);
       value = std::move(list);
       break;
     }
@@ -96,10 +107,8 @@ std::string read_value(const Parameter& p, const toml::node& node, Value& value)
       break;
     case Parameter::Kind::choice: {
       const auto text = node.value<std::string>();
-      if (!text || std::find(p.choices.begin(), p.choices.end(), *text) == p.choices.end()) {
-        const std::string near = text ? nearest(*text, p.choices) : "";
-        return "must be " + p.type_text() + (near.empty() ? "" : "; did you mean \"" + near + "\"?");
-      }
+      if (!text) return "must be " + expected_text(p);
+      if (auto rule = choice_rule(p, *text); !rule.empty()) return rule;
       value = *text;
       break;
     }

@@ -4,9 +4,10 @@
 
 #include "app/pair/pair_run.h"
 #include "app/plan/plan.h"
-#include "app/scene/displacement_checks.h"
-#include "app/scene/rim_checks.h"
+#include "app/scene/helical_pair/pair_geometry_checks.h"
+#include "app/scene/helical_pair/pair_scene.h"
 #include "app/tradeoff/trade_subject.h"
+#include "example_scenes.h"
 
 namespace annulus::app {
 
@@ -50,10 +51,15 @@ class PairSystem final : public GearSystem {
   void describe(Plan& plan) const override { describe_pair(scene(), make_pair_geometry(scene()), plan); }
 };
 
+/// Results that a search can optimise.
+std::vector<std::string> result_keys() { return figure_keys(dynamics::pair_figures()); }
+
 }  // namespace
 
 SystemKind helical_pair_kind() {
-  return {StageKind::helical_pair, pair_run_figures, dynamics::pair_figures,
+  return {{"helical_pair", StageKind::helical_pair, pair_tables, check_pair_scene, result_keys, helical_pair_example},
+          pair_run_figures,
+          dynamics::pair_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PairSystem>(scene); }};
 }
 

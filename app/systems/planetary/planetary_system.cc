@@ -4,13 +4,14 @@
 
 #include "app/plan/cost_plan.h"
 #include "app/plan/plan.h"
-#include "app/scene/displacement_checks.h"
-#include "app/scene/rim_checks.h"
+#include "app/scene/planetary/planetary_geometry_checks.h"
+#include "app/scene/planetary/planetary_scene.h"
 #include "app/stage/mesh_figures.h"
 #include "app/stage/planetary_run.h"
 #include "app/study/planetary_subject.h"
 #include "app/tradeoff/trade_subject.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
+#include "example_scenes.h"
 
 namespace annulus::app {
 
@@ -80,10 +81,15 @@ const std::vector<FigureSpec>& figures() {
   return list;
 }
 
+/// Results that a search can optimise.
+std::vector<std::string> result_keys() { return figure_keys(dynamics::planetary_figures()); }
+
 }  // namespace
 
 SystemKind planetary_kind() {
-  return {StageKind::planetary, figures, dynamics::planetary_figures,
+  return {{"planetary", StageKind::planetary, planetary_tables, check_planetary_scene, result_keys, planetary_example},
+          figures,
+          dynamics::planetary_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PlanetarySystem>(scene); }};
 }
 

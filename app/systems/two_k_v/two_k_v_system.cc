@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include "app/plan/plan.h"
-#include "app/scene/displacement_checks.h"
-#include "app/scene/rim_checks.h"
+#include "app/scene/two_k_v/two_k_v_geometry_checks.h"
+#include "app/scene/two_k_v/two_k_v_scene.h"
 #include "app/tradeoff/trade_subject.h"
 #include "app/two_k_v/two_k_v_run.h"
 #include "dynamics/systems/two_k_v/two_k_v_figures.h"
+#include "example_scenes.h"
 
 namespace annulus::app {
 
@@ -50,10 +51,15 @@ class TwoKVSystem final : public GearSystem {
   void describe(Plan& plan) const override { describe_two_k_v(scene(), plan); }
 };
 
+/// Results that a search can optimise.
+std::vector<std::string> result_keys() { return figure_keys(dynamics::two_k_v_figures()); }
+
 }  // namespace
 
 SystemKind two_k_v_kind() {
-  return {StageKind::two_k_v, two_k_v_run_figures, dynamics::two_k_v_figures,
+  return {{"two_k_v", StageKind::two_k_v, two_k_v_tables, check_two_k_v_scene, result_keys, two_k_v_example},
+          two_k_v_run_figures,
+          dynamics::two_k_v_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<TwoKVSystem>(scene); }};
 }
 

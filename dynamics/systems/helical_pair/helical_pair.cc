@@ -20,13 +20,13 @@ void check_gear(const PairGear& gear, const std::string& name) {
   check_positive(gear.mass, name + " mass");
   check_positive(gear.inertia, name + " inertia");
   check_positive(gear.radius, name + " base radius");
-  check_support(gear.bearing_transverse, name + " bearing stiffness (transverse)", false);
-  check_support(gear.bearing_axial, name + " bearing stiffness (axial)", false);
+  check_support(gear.bearing_transverse, name + " bearing stiffness (transverse)", ZeroStiffness::refused);
+  check_support(gear.bearing_axial, name + " bearing stiffness (axial)", ZeroStiffness::refused);
 }
 
 void check_wave(const ErrorWave& wave, const std::string& name) {
   if (!std::isfinite(wave.amount) || !std::isfinite(wave.phase))
-    throw InputError(name + ": amount or phase is not finite");
+    throw InputError(fmt::format("{}: amount {} m and phase {} rad must be finite", name, wave.amount, wave.phase));
 }
 
 struct PairCoordinates {
@@ -36,15 +36,15 @@ struct PairCoordinates {
 PairCoordinates add_gear(LumpedSystemBuilder& builder, const PairGear& gear, double damping_ratio,
                          const std::string& name) {
   PairCoordinates c;
-  const auto place = [&](double bearing, const char* dof, const char* direction) {
+  const auto add_translation = [&](double bearing, const char* dof, const char* direction) {
     if (bearing == rigid) return LinearForm{};
     LinearForm own = builder.add_dof(name + dof);
     builder.add_mass(own, gear.mass);
     builder.add_spring(own, bearing, critical_share(damping_ratio, bearing, gear.mass), name + direction);
     return own;
   };
-  c.y = place(gear.bearing_transverse, "_y", "_bearing_transverse");
-  c.z = place(gear.bearing_axial, "_z", "_bearing_axial");
+  c.y = add_translation(gear.bearing_transverse, "_y", "_bearing_transverse");
+  c.z = add_translation(gear.bearing_axial, "_z", "_bearing_axial");
   c.u = builder.add_dof(name + "_u");
   builder.add_mass(c.u, gear.inertia / (gear.radius * gear.radius));
   return c;
@@ -96,15 +96,16 @@ void HelicalPair::check() const {
   check_not_negative(mesh_damping_ratio, "mesh damping ratio");
   check_not_negative(bearing_damping_ratio, "bearing damping ratio");
   check_not_negative(pinion_speed, "pinion speed");
-  if (!std::isfinite(pinion_torque)) throw InputError("the pinion torque is not finite");
+  if (!std::isfinite(pinion_torque))
+    throw InputError(fmt::format("pinion torque {} N m must be finite", pinion_torque));
 }
 
 double base_helix_angle(double helix_angle, double normal_pressure_angle) {
   return std::asin(std::sin(helix_angle) * std::cos(normal_pressure_angle));
 }
 
-double iso_6336_mesh_stiffness(double face_width, double transverse_contact_ratio, double helix_angle,
-                               double single_stiffness) {
+double iso_6336_mesh_stiffness(const Iso6336Mesh& mesh) {
+  const auto [face_width, transverse_contact_ratio, helix_angle, single_stiffness] = mesh;
   check_positive(face_width, "face width");
   check_positive(single_stiffness, "single stiffness");
   if (!std::isfinite(transverse_contact_ratio) || !(transverse_contact_ratio >= 1))

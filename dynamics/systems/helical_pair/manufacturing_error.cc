@@ -70,9 +70,10 @@ void ErrorProblem::check() const {
           fmt::format("{}: the tooth-to-tooth deviation {} m must be positive and below the total one, {} m",
                       gear_names[g], gear.tooth_to_tooth, gear.total));
   }
-  if (!std::isfinite(divisor) || !(divisor > 0)) throw InputError("the divisor of the deviations must be positive");
-  if (samples < 1) throw InputError("a Monte Carlo simulation needs at least one sample");
-  if (bins < 1) throw InputError("a histogram needs at least one bin");
+  if (!std::isfinite(divisor) || !(divisor > 0))
+    throw InputError(fmt::format("the divisor {:g} of the deviations must be positive", divisor));
+  if (samples < 1) throw InputError(fmt::format("a Monte Carlo simulation needs at least one sample, not {}", samples));
+  if (bins < 1) throw InputError(fmt::format("a histogram needs at least one bin, not {}", bins));
   for (const double p : {probability, confidence})
     if (!(p > 0 && p < 1)) throw InputError(fmt::format("probability {} must lie between 0 and 1", p));
 }
@@ -86,9 +87,9 @@ ErrorSamples draw_errors(const ErrorProblem& problem, int gear) {
   const auto n = static_cast<std::size_t>(problem.samples);
   ErrorSamples s{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
   for (std::size_t i = 0; i < n; ++i) {
-    s.x_1[i] = eta_1 * std::sqrt(-2 * std::log(x_1(i)));  // (4)
+    s.x_1[i] = eta_1 * std::sqrt(-2 * std::log(x_1(i)));  // [LiuZhangZhangWangWang2020, eq. (4)]
     s.x_2[i] = eta_2 * std::sqrt(-2 * std::log(x_2(i)));
-    s.angle[i] = 2 * std::numbers::pi * angle(i);  // (9)
+    s.angle[i] = 2 * std::numbers::pi * angle(i);  // [LiuZhangZhangWangWang2020, eq. (9)]
     s.error[i] = s.x_1[i] * std::sin(s.angle[i]) + s.x_2[i] * std::sin(teeth * s.angle[i]);
   }
   return s;

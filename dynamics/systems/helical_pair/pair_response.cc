@@ -1,5 +1,7 @@
 #include "dynamics/systems/helical_pair/pair_response.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -186,9 +188,12 @@ SteadyResponse pair_steady_state(const HelicalPair& pair, const LumpedSystem& sy
 
 PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& options) {
   const LumpedSystem system = assemble(pair);
-  if (!(pair.pinion_speed > 0)) throw InputError("a time response of a pair needs a speed above zero");
+  if (!(pair.pinion_speed > 0))
+    throw InputError(
+        fmt::format("a time response of a pair needs a speed above zero, not {:g} rad/s", pair.pinion_speed));
   if (pair.pinion_torque == 0 && error_force(pair) == 0)
-    throw InputError("neither torque nor errors: nothing moves the pair");
+    throw InputError(
+        "a time response of a pair needs a torque or errors: torque 0 N m and errors of 0 m excite nothing");
   auto found = pair_steady_state(pair, system, options);
 
   PairResponse response;

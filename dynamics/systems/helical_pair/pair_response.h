@@ -14,9 +14,9 @@ struct PairAccelerations {
   Figure line_of_action;  ///< y''
   Figure axial;           ///< z''
   Figure rotation;        ///< r theta''
-  /// Of the teeth in mesh, |(u'' + y'', z'')| of the pinion, |(u'' - y'', z'')| of the wheel: what a pickup on the rim
-  /// would see without the centripetal part. The paper does not say which acceleration its figure 4 shows; this one is
-  /// taken for it.
+  /// Acceleration of the teeth in mesh, |(u'' + y'', z'')| of the pinion and |(u'' - y'', z'')| of the wheel: the
+  /// signal of a sensor on the rim without the centripetal part. [LiuZhangZhangWangWang2020] does not state which
+  /// acceleration its figure 4 shows; this one is compared with it.
   Figure tooth;
 };
 
@@ -27,15 +27,15 @@ struct MotionFigures {
   Figure largest;  ///< magnitude, the mean included
 };
 
-/// Turning both gears freely leaves each of these alone. Measured from where the loaded flanks just touch (half the
-/// backlash taken off); without a torque from the middle of the backlash.
+/// Motions that free rotation of both gears does not change. They are zero where the loaded flanks just touch (half the
+/// backlash taken off), and without a torque in the middle of the backlash.
 struct PairMotions {
-  MotionFigures transmission_error;  ///< u_1 + u_2: how far the wheel lags behind the pinion, at the base circles
-  MotionFigures relative;            ///< y_1 + u_1 - y_2 + u_2, (10): with the bending of shafts and bearings
+  MotionFigures transmission_error;  ///< u_1 + u_2: lag of the wheel behind the pinion, at the base circles
+  MotionFigures relative;  ///< y_1 + u_1 - y_2 + u_2 [LiuZhangZhangWangWang2020, eq. (10)]: with shafts and bearings
 };
 
-/// Where contact is lost the damper holds the parting teeth back up to the last instant and its force then ends in a
-/// jump: force_min, unlike force_max, then depends on where the samples fall, which its error does not tell.
+/// Where contact is lost, the damper force on the separating teeth acts up to the last instant and then ends in a jump.
+/// force_min, unlike force_max, then depends on the times of the samples, which its error does not contain.
 struct PairResponse : SteadyOutcome {
   double mesh_frequency = 0;    ///< Hz
   double static_force = 0;      ///< N, T_1/(r_1 cos b)
@@ -49,14 +49,15 @@ struct PairResponse : SteadyOutcome {
   TimeSeries series;         ///< with `keep_series`
 };
 
-/// Steady state of the pair and its figures. The error of a figure adds up what the sampling misses and the differences
-/// to the harmonic balance or the window before and to a looser integration. Where the harmonic balance stands alone,
-/// its largest force difference to half the samples stands for the latter, divided by the mass that it accelerates or
-/// times the static compliance of the motion.
+/// Steady state of the pair and its results. The error of a result is the sum of the sampling error, the difference to
+/// the harmonic balance or the window before, and the difference to a looser integration. Where the harmonic balance
+/// stands alone, its largest force difference to half the samples replaces the latter. It is divided by the accelerated
+/// mass, or multiplied by the static compliance of the motion.
 ///
-/// options.confirm = false is for grids: the balance then is taken as it stands while the teeth touch all the time,
-/// over two periods or `min_window_cycles` if less. Where they part several motions may be possible and marching
-/// decides. Throws InputError without speed, or without both torque and errors, and what `steady_response` throws.
+/// options.confirm = false is meant for grids. While contact is never lost, the harmonic balance is then taken as it
+/// is, over two periods or `min_window_cycles` if less. With loss of contact several motions may exist, and time
+/// integration decides. Throws InputError without speed, or without both torque and errors, and what `steady_response`
+/// throws.
 [[nodiscard]] PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& options = {});
 
 /// Peak-to-peak transmission error u_1 + u_2, m.
@@ -64,14 +65,14 @@ struct PeakToPeak {
   double dynamic = 0, quasi_static = 0;
 };
 
-/// Where the transmission error comes from.
+/// Contributions to the transmission error.
 struct TransmissionErrorShares {
   PeakToPeak all;
   PeakToPeak errors_alone;     ///< at constant mean stiffness: manufacturing errors alone
   PeakToPeak stiffness_alone;  ///< without manufacturing errors; the unloaded error of a table stays
-  double load_deflection = 0;  ///< m, mean of the quasi-static u_1 + u_2: what the load bends, 0 without a torque
+  double load_deflection = 0;  ///< m, mean of the quasi-static u_1 + u_2: deflection under the load
 
-  /// Share of the errors in the whole range: errors alone / all. Both causes need not add up to 1: they have phases.
+  /// Contribution of the errors: errors alone / all. Both contributions need not add up to 1, because they have phases.
   [[nodiscard]] PeakToPeak error_share() const {
     return {errors_alone.dynamic / all.dynamic, errors_alone.quasi_static / all.quasi_static};
   }

@@ -39,7 +39,7 @@ PlaneBody add_central(LumpedSystemBuilder& builder, const PlanetaryStage& stage,
   return c;
 }
 
-/// Planet n at phi: its own DOFs where the bearing gives way, else the carrier's motion at its place.
+/// Planet n at phi: its own DOFs where the bearing gives way, else the carrier's motion at its bearing.
 PlaneBody add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, const PlaneBody& carrier, double phi,
                      const std::string& name) {
   const auto& body = stage.planet;
@@ -47,15 +47,15 @@ PlaneBody add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, 
   const LinearForm translation = -std::sin(phi) * carrier.x + std::cos(phi) * carrier.y;
   const LinearForm tangential = translation + carrier.u;
   PlaneBody p;
-  const auto place = [&](double bearing, const LinearForm& seat, const char* dof, const char* direction) {
+  const auto add_translation = [&](double bearing, const LinearForm& seat, const char* dof, const char* direction) {
     if (bearing == rigid) return seat;
     LinearForm own = builder.add_dof(name + dof);
-    builder.add_spring(own + (-1.0) * seat, bearing,  // (20), (21)
+    builder.add_spring(own + (-1.0) * seat, bearing,  // [HuFangXuShen2021, eqs. (20), (21)]
                        critical_share(stage.support_damping_ratio, bearing, body.mass), name + direction);
     return own;
   };
-  p.x = place(body.bearing_radial, radial, "_x", "_bearing_radial");
-  p.y = place(body.bearing_tangential, tangential, "_y", "_bearing_tangential");
+  p.x = add_translation(body.bearing_radial, radial, "_x", "_bearing_radial");
+  p.y = add_translation(body.bearing_tangential, tangential, "_y", "_bearing_tangential");
   p.u = builder.add_dof(name + "_u");
   builder.add_mass(p.u, body.inertia / (body.radius * body.radius));
 
@@ -71,7 +71,7 @@ PlaneBody add_planet(LumpedSystemBuilder& builder, const PlanetaryStage& stage, 
   return p;
 }
 
-/// 1/m_e = r_1^2/I_1 + r_2^2/I_2 (31); a body that cannot turn counts as infinitely heavy.
+/// 1/m_e = r_1^2/I_1 + r_2^2/I_2 [HuFangXuShen2021, eq. (31)]; a body that cannot turn counts as infinitely heavy.
 double equivalent_mass(const PlanetaryStage& stage, const CentralBody& wheel) {
   const auto& planet = stage.planet;
   double inverse = planet.radius * planet.radius / planet.inertia;
@@ -81,9 +81,9 @@ double equivalent_mass(const PlanetaryStage& stage, const CentralBody& wheel) {
 
 bool ring_in_housing(const PlanetaryStage& stage) { return stage.ring_coupling && !stage.ring_coupling->modes.empty(); }
 
-/// What an inertial coupling in the mass of the ring's elastic body is in the mass the stage gives the ring: the share
-/// of the mass that takes part in a mode stays. (A stage may leave out a flange, or sit its mass at another radius;
-/// mixing both masses could make more mass move than there is.)
+/// Converts an inertial coupling from the mass of the ring's elastic body to the mass of the ring in the stage. The
+/// share of the mass that moves in a mode stays the same. (A stage may omit a flange or place its mass at another
+/// radius; a mixture of both masses could move more mass than there is.)
 double in_mass_of_stage(double coupling, double stage_mass, double elastic_mass) {
   return elastic_mass > 0 ? coupling * std::sqrt(stage_mass / elastic_mass) : coupling;
 }
@@ -109,8 +109,9 @@ std::vector<LinearForm> add_ring_modes(LumpedSystemBuilder& builder, const Plane
   return dofs;
 }
 
-/// Shares of the ring's motion in the closing of the mesh at angle psi = phi_n + a_r (16), the carrier turning past the
-/// housing: -sin(psi + Omega t) x + cos(psi + Omega t) y + sum of closings at the tooth in mesh x modal amplitude.
+/// Shares of the ring's motion in the approach of the mesh at angle psi = phi_n + a_r [HuFangXuShen2021, eq. (16)],
+/// while the carrier turns past the housing: -sin(psi + Omega t) x + cos(psi + Omega t) y + sum of displacement of the
+/// mode at the tooth in mesh x modal amplitude.
 std::vector<MovingShare> ring_shares(const PlanetaryStage& stage, const PlaneBody& ring,
                                      const std::vector<LinearForm>& modes, double psi) {
   std::vector<MovingShare> shares;
@@ -128,7 +129,7 @@ MeshCoupling coupling_of(const PlanetaryStage& stage, const std::vector<LinearFo
   for (int n = 0; n < stage.planets(); ++n) coupling.meshes.push_back(stage.planets() + n);
   coupling.compliance = compliance_curves(stage.ring_coupling->compliance, stage.ring_coupling->per_cycle);
   for (std::size_t k = 0; k < modes.size(); ++k)
-    coupling.kept.push_back(
+    coupling.retained.push_back(
         {modes[k].front().first, std::pow(2 * std::numbers::pi * stage.ring_coupling->modes[k].frequency, 2)});
   return coupling;
 }
@@ -175,9 +176,10 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
     const double phi = stage.planet_angles[n];
     const auto number = std::to_string(n + 1);
     const PlaneBody& p = planets[n];
-    const LinearForm sun_b = sun.u + (-std::sin(phi - as)) * sun.x + std::cos(phi - as) * sun.y + p.u +  // (15)
+    // [HuFangXuShen2021, eqs. (15), (16)]
+    const LinearForm sun_b = sun.u + (-std::sin(phi - as)) * sun.x + std::cos(phi - as) * sun.y + p.u +
                              (-std::sin(as)) * p.x + (-std::cos(as)) * p.y;
-    const LinearForm ring_b = ring.u + (-std::sin(phi + ar)) * (housing ? none : ring.x) +  // (16)
+    const LinearForm ring_b = ring.u + (-std::sin(phi + ar)) * (housing ? none : ring.x) +
                               std::cos(phi + ar) * (housing ? none : ring.y) + (-1.0) * p.u + std::sin(ar) * p.x +
                               (-std::cos(ar)) * p.y;
     builder.add_mesh(mesh("sun_planet" + number, sun_b, stage.sun_mesh, stage.sun, stage.sun_half_backlash,
@@ -190,7 +192,7 @@ LumpedSystem assemble(const PlanetaryStage& stage) {
   for (auto& element : ring_meshes) builder.add_mesh(std::move(element));
   if (stage.ring_coupling) builder.add_mesh_coupling(coupling_of(stage, ring_modes));
 
-  // The carrier's load from virtual work: equal to T_c / a with T_c = T_s (1 + z_r/z_s), but balanced to rounding, so
+  // The carrier's load from virtual work equals T_c / a with T_c = T_s (1 + z_r/z_s). It is balanced to rounding, so
   // that a stage free to turn does not creep away.
   const double sun_force = stage.sun_torque / stage.sun.radius;
   builder.add_load(sun.u, sun_force);

@@ -1,5 +1,7 @@
 #include "dynamics/systems/planetary/bearing_forces.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -11,15 +13,18 @@ namespace annulus::dynamics {
 
 namespace {
 
-/// Motion of the stage over time by DOF or spring; what does not move gives zeros.
+/// Motion of the stage over time by DOF or spring; rigid ones give zeros.
 class Motion {
  public:
   Motion(const PlanetaryStage& stage, const TimeSeries& series) : system_(assemble(stage)), series_(series) {
-    require(series.dofs == system_.names(), "a time series of this stage");
-    require(series.force.rows() == 2 * stage.planets(), "two mesh forces per planet");
+    require(series.dofs == system_.names(),
+            fmt::format("a time series of {} degrees of freedom belongs to another stage than this one of {}",
+                        series.dofs.size(), system_.dofs()));
+    require(series.force.rows() == 2 * stage.planets(),
+            fmt::format("{} mesh forces for {} planets, which have two each", series.force.rows(), stage.planets()));
   }
 
-  [[nodiscard]] Eigen::RowVectorXd place(const std::string& dof) const { return row(series_.displacement, dof); }
+  [[nodiscard]] Eigen::RowVectorXd displacement(const std::string& dof) const { return row(series_.displacement, dof); }
   [[nodiscard]] Eigen::RowVectorXd velocity(const std::string& dof) const { return row(series_.velocity, dof); }
   [[nodiscard]] Eigen::RowVectorXd acceleration(const std::string& dof) {
     if (acceleration_.size() == 0) accelerate();
@@ -65,35 +70,45 @@ class Motion {
   Eigen::MatrixXd acceleration_;
 };
 
-/// Place, velocity and acceleration of planet n in its radial or tangential coordinate, whether it has the DOF or
-/// rides on the carrier.
-struct Course {
-  Eigen::RowVectorXd place, velocity, acceleration;
+enum class Direction { radial, tangential };
+
+Direction across(Direction direction) {
+  return direction == Direction::radial ? Direction::tangential : Direction::radial;
+}
+
+/// Motion of planet n in its radial or tangential coordinate, whether it has the DOF or rides on the carrier.
+struct PlanetCourse {
+  Eigen::RowVectorXd displacement, velocity, acceleration;
 };
 
-Course planet_course(const PlanetaryStage& stage, Motion& motion, int n, bool radial) {
+PlanetCourse planet_course(const PlanetaryStage& stage, Motion& motion, int n, Direction direction) {
+  const bool radial = direction == Direction::radial;
   const auto dof = "planet" + std::to_string(n + 1) + (radial ? "_x" : "_y");
-  if (motion.moves(dof)) return {motion.place(dof), motion.velocity(dof), motion.acceleration(dof)};
+  if (motion.moves(dof)) return {motion.displacement(dof), motion.velocity(dof), motion.acceleration(dof)};
   const double phi = stage.planet_angles[n];
   const double x = radial ? std::cos(phi) : -std::sin(phi), y = radial ? std::sin(phi) : std::cos(phi);
   const double u = radial ? 0 : 1;
-  return {x * motion.place("carrier_x") + y * motion.place("carrier_y") + u * motion.place("carrier_u"),
+  return {x * motion.displacement("carrier_x") + y * motion.displacement("carrier_y") +
+              u * motion.displacement("carrier_u"),
           x * motion.velocity("carrier_x") + y * motion.velocity("carrier_y") + u * motion.velocity("carrier_u"),
           x * motion.acceleration("carrier_x") + y * motion.acceleration("carrier_y") +
               u * motion.acceleration("carrier_u")};
 }
 
-/// Force on the pin from m (x'' - 2 Omega y' - Omega^2 x) = -sum b F - pin force, and alike for y.
+/// Force on the pin from m (x'' - 2 Omega y' - Omega^2 x) = -sum b F - pin force, and likewise for y.
 Eigen::RowVectorXd pin_force_by_equilibrium(const PlanetaryStage& stage, const TimeSeries& series, Motion& motion,
-                                            int n, bool radial) {
+                                            int n, Direction direction) {
+  const bool radial = direction == Direction::radial;
   const double as = stage.sun_working_angle, ar = stage.ring_working_angle;
   const double sun_b = radial ? -std::sin(as) : -std::cos(as), ring_b = radial ? std::sin(ar) : -std::cos(ar);
   const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
-  const Course own = planet_course(stage, motion, n, radial), other = planet_course(stage, motion, n, !radial);
-  Eigen::RowVectorXd place = own.place;
-  if (!radial) place -= motion.place("carrier_u");  // the centrifugal force turns with the carrier
+  const PlanetCourse own = planet_course(stage, motion, n, direction),
+                     other = planet_course(stage, motion, n, across(direction));
+  Eigen::RowVectorXd displacement = own.displacement;
+  if (!radial) displacement -= motion.displacement("carrier_u");  // the centrifugal force turns with the carrier
   const Eigen::RowVectorXd inertia =
-      stage.planet.mass * (own.acceleration + (radial ? -2 : 2) * speed * other.velocity - speed * speed * place);
+      stage.planet.mass *
+      (own.acceleration + (radial ? -2 : 2) * speed * other.velocity - speed * speed * displacement);
   return -sun_b * series.force.row(n) - ring_b * series.force.row(stage.planets() + n) - inertia;
 }
 
@@ -102,18 +117,19 @@ BearingForces pin_forces(const PlanetaryStage& stage, const TimeSeries& series, 
   result.radial.resize(stage.planets(), series.time.size());
   result.tangential.resize(stage.planets(), series.time.size());
   for (int n = 0; n < stage.planets(); ++n)
-    for (const bool radial : {true, false}) {
+    for (const auto direction : {Direction::radial, Direction::tangential}) {
+      const bool radial = direction == Direction::radial;
       const auto name = "planet" + std::to_string(n + 1) + (radial ? "_bearing_radial" : "_bearing_tangential");
       const auto* spring = motion.spring(name);
       (radial ? result.radial : result.tangential).row(n) =
-          spring ? motion.force(*spring) : pin_force_by_equilibrium(stage, series, motion, n, radial);
+          spring ? motion.force(*spring) : pin_force_by_equilibrium(stage, series, motion, n, direction);
     }
   if (stage.rotating_frame)
     result.radial.array() += stage.planet.mass * stage.carrier.radius * stage.carrier_speed * stage.carrier_speed;
   return result;
 }
 
-/// Sum of what acts on the body without its supports.
+/// Sum of all forces on the body without its supports.
 SupportReaction applied(const PlanetaryStage& stage, const TimeSeries& series, Motion& motion, CentralMember member) {
   const auto zero = Eigen::VectorXd::Zero(series.time.size());
   SupportReaction sum{zero, zero, zero};
@@ -131,7 +147,7 @@ SupportReaction applied(const PlanetaryStage& stage, const TimeSeries& series, M
   for (int n = 0; n < stage.planets(); ++n) {
     const double psi = stage.planet_angles[n] + (sun ? -stage.sun_working_angle : stage.ring_working_angle);
     const Eigen::VectorXd force = series.force.row(sun ? n : stage.planets() + n).transpose();
-    sum.x += std::sin(psi) * force;  // -b F, (15) and (16)
+    sum.x += std::sin(psi) * force;  // -b F [HuFangXuShen2021, eqs. (15), (16)]
     sum.y -= std::cos(psi) * force;
     sum.torque -= (sun ? stage.sun : stage.ring).radius * force;
   }
@@ -163,9 +179,9 @@ SupportReaction support_reaction(const PlanetaryStage& stage, const TimeSeries& 
   }
   const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
   if (const auto* spring = motion.spring(name + "_support_x"))
-    result.x = (motion.force(*spring) - spring->damping * speed * motion.place(name + "_y")).transpose();
+    result.x = (motion.force(*spring) - spring->damping * speed * motion.displacement(name + "_y")).transpose();
   if (const auto* spring = motion.spring(name + "_support_y"))
-    result.y = (motion.force(*spring) + spring->damping * speed * motion.place(name + "_x")).transpose();
+    result.y = (motion.force(*spring) + spring->damping * speed * motion.displacement(name + "_x")).transpose();
   if (const auto* spring = motion.spring(name + "_support_u"))
     result.torque = body.radius * motion.force(*spring).transpose();
   return result;

@@ -7,8 +7,8 @@
 
 namespace annulus::dynamics {
 
-/// Forces of the planets on their pins, N, one row per planet, one column per time; radial outwards and tangential in
-/// the sense of rotation, in the frame of the carrier. The mean tangential force is T_c / (N a).
+/// Forces of the planets on their pins, N, planets x times: radial outwards and tangential in the sense of rotation, in
+/// the frame of the carrier. The mean tangential force is T_c / (N a).
 struct BearingForces {
   Eigen::MatrixXd radial, tangential;
   [[nodiscard]] Eigen::MatrixXd resultant() const {
@@ -16,14 +16,15 @@ struct BearingForces {
   }
 };
 
-/// From springs and dampers of the bearings, k X + c X'; of rigid bearings from the equilibrium of the planet. The
-/// centrifugal force m a Omega^2 is part of the radial force (unless the stage leaves out the rotating frame).
+/// Elastic bearings: force of springs and dampers, k X + c X'. Rigid bearings: from the equilibrium of the planet. The
+/// centrifugal force m a Omega^2 is part of the radial force, unless the stage neglects the rotating frame. `series`
+/// must belong to the stage.
 [[nodiscard]] BearingForces bearing_forces(const PlanetaryStage& stage, const TimeSeries& series);
 
 enum class CentralMember { sun, ring, carrier };
 
-/// What a central body puts on the housing through its supports, one value per time: k x + c (x' - Omega y) and so on,
-/// of rigid supports the sum of what the meshes (the planets, for the carrier) put on the body.
+/// Reaction of the supports of a central body on the housing, one value per time: k x + c (x' - Omega y) and so on. For
+/// rigid supports it is the sum of the forces of the meshes (of the planets, for the carrier) on the body.
 struct SupportReaction {
   Eigen::VectorXd x, y;    ///< N, in the frame of the carrier
   Eigen::VectorXd torque;  ///< N m

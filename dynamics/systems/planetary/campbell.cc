@@ -1,5 +1,7 @@
 #include "dynamics/systems/planetary/campbell.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -17,9 +19,9 @@ bool one_frequency(const RotatingMode& a, const RotatingMode& b) {
   return std::abs(a.frequency - b.frequency) <= 1e-9 * std::max(a.frequency, b.frequency);
 }
 
-/// |a_i^H M b_j|^2 of shapes normalised to 1, rows of modes of one frequency added up: such modes may be any mixture of
-/// each other, and their space is what continues.
-Eigen::MatrixXd likeness(const RotatingModes& before, const RotatingModes& after, const Eigen::MatrixXd& mass) {
+/// Modal assurance criterion |a_i^H M b_j|^2 of shapes normalised to 1. Rows of modes of one frequency are added up:
+/// such modes are any basis of their space, and the space continues.
+Eigen::MatrixXd mac_matrix(const RotatingModes& before, const RotatingModes& after, const Eigen::MatrixXd& mass) {
   const auto n = static_cast<Eigen::Index>(before.modes.size());
   Eigen::MatrixXcd a(n, n), b(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -34,21 +36,21 @@ Eigen::MatrixXd likeness(const RotatingModes& before, const RotatingModes& after
   return result.cwiseMin(1.0);
 }
 
-/// For each mode of `before` its continuation in `after`: the likest pairs first. Likeness in steps of a hundredth, so
-/// that among modes of equal likeness (a pair at rest) the nearer frequency decides, then the order.
+/// For each mode of `before` its continuation in `after`: pairs with the largest MAC first. The MAC is rounded to
+/// hundredths, so that among modes of equal MAC (a pair at rest) the nearer frequency decides, then the order.
 std::vector<std::size_t> continuation(const RotatingModes& before, const RotatingModes& after,
-                                      const Eigen::MatrixXd& alike) {
+                                      const Eigen::MatrixXd& mac) {
   const std::size_t n = before.modes.size();
   std::vector<std::tuple<double, double, std::size_t, std::size_t>> pairs;
   pairs.reserve(n * n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
-      pairs.emplace_back(-std::round(100 * alike(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))),
+      pairs.emplace_back(-std::round(100 * mac(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))),
                          std::abs(before.modes[i].frequency - after.modes[j].frequency), i, j);
   std::sort(pairs.begin(), pairs.end());
   std::vector<std::size_t> next(n, n);
   std::vector<bool> taken(n, false);
-  for (const auto& [unlikeness, distance, i, j] : pairs)
+  for (const auto& [negative_mac, distance, i, j] : pairs)
     if (next[i] == n && !taken[j]) {
       next[i] = j;
       taken[j] = true;
@@ -58,7 +60,7 @@ std::vector<std::size_t> continuation(const RotatingModes& before, const Rotatin
 
 /// See CriticalSpeed::participation.
 double participation(const PlanetaryStage& stage, const LumpedSystem& system, const RotatingModes& modes,
-                     std::size_t place, int order) {
+                     std::size_t position, int order) {
   const int planets = stage.planets();
   double result = 0;
   for (const int first : {0, planets}) {
@@ -68,13 +70,13 @@ double participation(const PlanetaryStage& stage, const LumpedSystem& system, co
       b.col(n) = system.mesh_vector(first + n);
       pull[n] = std::polar(1.0, 2 * std::numbers::pi * order * system.meshes()[first + n].phase_offset);
     }
-    // Of modes of one frequency the combination that is excited.
+    // The combination of modes of one frequency that is excited.
     Eigen::VectorXcd shape = Eigen::VectorXcd::Zero(system.dofs());
     for (const auto& mode : modes.modes)
-      if (one_frequency(mode, modes.modes[place])) shape += mode.shape * mode.shape.dot(b * pull);
-    const Eigen::VectorXcd closing = b.transpose() * shape;
-    // Shapes have unit kinetic energy: a closing of 1e-9 is rounding.
-    if (shape.norm() > 1e-9) result = std::max(result, std::abs(closing.dot(pull)) / closing.cwiseAbs().sum());
+      if (one_frequency(mode, modes.modes[position])) shape += mode.shape * mode.shape.dot(b * pull);
+    const Eigen::VectorXcd approach = b.transpose() * shape;
+    // Shapes have unit kinetic energy: a approach of 1e-9 is rounding.
+    if (shape.norm() > 1e-9) result = std::max(result, std::abs(approach.dot(pull)) / approach.cwiseAbs().sum());
   }
   return result;
 }
@@ -83,15 +85,21 @@ double participation(const PlanetaryStage& stage, const LumpedSystem& system, co
 
 std::vector<std::size_t> continued_modes(const RotatingModes& before, const RotatingModes& after,
                                          const Eigen::MatrixXd& mass) {
-  require(before.modes.size() == after.modes.size(), "modes of one stage");
-  return continuation(before, after, likeness(before, after, mass));
+  require(before.modes.size() == after.modes.size(),
+          fmt::format("{} and {} modes do not belong to one stage", before.modes.size(), after.modes.size()));
+  return continuation(before, after, mac_matrix(before, after, mass));
 }
 
 Campbell campbell(const PlanetaryStage& stage, const std::vector<double>& speeds, const CampbellOptions& options) {
   if (speeds.empty() || speeds.front() < 0 || options.orders < 0)
-    throw InputError("a Campbell diagram needs speeds of zero or more and no negative number of orders");
+    throw InputError(fmt::format(
+        "a Campbell diagram needs speeds of zero or more and orders of zero or more; it has {} speeds, the first {:g} "
+        "rad/s, and {} orders",
+        speeds.size(), speeds.empty() ? 0.0 : speeds.front(), options.orders));
   for (std::size_t i = 1; i < speeds.size(); ++i)
-    if (!(speeds[i] > speeds[i - 1])) throw InputError("the speeds of a Campbell diagram must rise");
+    if (!(speeds[i] > speeds[i - 1]))
+      throw InputError(fmt::format("the speeds of a Campbell diagram must rise; {:g} rad/s follows {:g} rad/s",
+                                   speeds[i], speeds[i - 1]));
   PlanetaryStage at = stage;
   Campbell result;
   result.speeds = speeds;
@@ -100,27 +108,26 @@ Campbell campbell(const PlanetaryStage& stage, const std::vector<double>& speeds
   result.curves.resize(n);
 
   RotatingModes before;
-  std::vector<std::size_t> place(n);  // of each curve in the modes of the speed before
-  std::iota(place.begin(), place.end(), std::size_t{0});
+  std::vector<std::size_t> position(n);  // of each curve in the modes of the speed before
+  std::iota(position.begin(), position.end(), std::size_t{0});
   for (std::size_t s = 0; s < speeds.size(); ++s) {
     at.carrier_speed = speeds[s];
     result.mesh_frequency.push_back(at.mesh_frequency());
-    auto now = rotating_modes(at, options.damped);
-    Eigen::MatrixXd alike;
+    auto now = rotating_modes(at, options.damping);
+    Eigen::MatrixXd mac;
     std::vector<std::size_t> next(n);
     if (s > 0) {
-      alike = likeness(before, now, system.mass());
-      next = continuation(before, now, alike);
+      mac = mac_matrix(before, now, system.mass());
+      next = continuation(before, now, mac);
     }
     for (std::size_t c = 0; c < n; ++c) {
       auto& curve = result.curves[c];
-      const std::size_t old = place[c];
-      if (s > 0) place[c] = next[old];
-      const auto& mode = now.modes[place[c]];
+      const std::size_t old = position[c];
+      if (s > 0) position[c] = next[old];
+      const auto& mode = now.modes[position[c]];
       curve.frequency.push_back(mode.frequency);
       curve.damping_ratio.push_back(mode.damping_ratio);
-      curve.likeness.push_back(s > 0 ? alike(static_cast<Eigen::Index>(old), static_cast<Eigen::Index>(place[c]))
-                                     : 1.0);
+      curve.mac.push_back(s > 0 ? mac(static_cast<Eigen::Index>(old), static_cast<Eigen::Index>(position[c])) : 1.0);
       if (s <= 1) curve.kind = mode.kind;
       if (s == 0) continue;
       for (int h = 1; h <= options.orders; ++h) {
@@ -131,7 +138,7 @@ Campbell campbell(const PlanetaryStage& stage, const std::vector<double>& speeds
         const double part = gap_before / (gap_before - gap);
         result.crossings.push_back({static_cast<int>(c), h, speeds[s - 1] + part * (speeds[s] - speeds[s - 1]),
                                     (1 - part) * curve.frequency[s - 1] + part * curve.frequency[s],
-                                    participation(stage, system, now, place[c], h)});
+                                    participation(stage, system, now, position[c], h)});
       }
     }
     before = std::move(now);

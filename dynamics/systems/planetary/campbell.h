@@ -8,34 +8,35 @@
 namespace annulus::dynamics {
 
 struct CampbellOptions {
-  int orders = 5;       ///< mesh orders 1 ... whose crossings are listed
-  bool damped = false;  ///< with the dampers of the stage
+  int orders = 5;  ///< mesh orders 1 ... whose crossings are listed
+  ModeDamping damping = ModeDamping::undamped;
 };
 
-/// One natural frequency over the speeds, followed by the likeness of its shape.
+/// One natural frequency over the speeds, followed by the modal assurance criterion (MAC) [AllemangBrown1982] of its
+/// shape.
 struct CampbellCurve {
   ModeKind kind = ModeKind::mixed;  ///< at the first speed above zero
   std::vector<double> frequency;    ///< Hz, one per speed
   std::vector<double> damping_ratio;
   /// Modal assurance criterion between the shapes at this speed and the one before (1 at the first).
-  std::vector<double> likeness;
+  std::vector<double> mac;
 };
 
-/// A mesh order that meets a natural frequency.
+/// Speed at which a mesh order equals a natural frequency.
 struct CriticalSpeed {
   int curve = 0;             ///< index into `Campbell::curves`
   int order = 0;             ///< multiple of the mesh frequency
   double carrier_speed = 0;  ///< rad/s, between two speeds by linear interpolation
   double frequency = 0;      ///< Hz
-  /// |sum of phi^H b_n e^(-2 pi i order lag_n)| / sum |phi^H b_n|, the larger of sun and ring meshes: 0 where the
-  /// phases of the meshes keep this order from exciting the mode (Parker and Lin 2004) or the mode whirls against it, 1
-  /// where all meshes pull together. Of modes of one frequency: their combination that is excited most. Errors of the
-  /// gears excite beyond it.
+  /// |sum of phi^H b_n e^(-2 pi i order lag_n)| / sum |phi^H b_n|, the larger of sun and ring meshes. 0: the phases of
+  /// the meshes prevent this order from exciting the mode [ParkerLin2004], or the mode whirls against it. 1: all meshes
+  /// excite it together. For modes of one frequency: their combination that is excited most. Errors of the gears excite
+  /// beyond it.
   double participation = 0;
 };
 
-/// For each mode of `before` the index of its continuation in `after` (the same stage at another speed or damping), by
-/// likeness of the shapes, likest pairs first; among equally like ones the nearer frequency. `mass` is M of the stage.
+/// For each mode of `before` the index of its continuation in `after`, the same stage at another speed or damping.
+/// Pairs with the largest MAC come first; among pairs of equal MAC the nearer frequency. `mass` is M of the stage.
 [[nodiscard]] std::vector<std::size_t> continued_modes(const RotatingModes& before, const RotatingModes& after,
                                                        const Eigen::MatrixXd& mass);
 
@@ -46,9 +47,9 @@ struct Campbell {
   std::vector<CriticalSpeed> crossings;  ///< rising speed
 };
 
-/// Natural frequencies in the carrier frame over rising speeds (rad/s). Curves may cross; where two of one kind veer
-/// away from each other the shapes decide, so the steps must be finer than the veering.
-/// Throws InputError for speeds that do not rise or are negative, and what `rotating_modes` throws.
+/// Natural frequencies in the carrier frame over rising speeds (rad/s). Curves may cross. Where two of one kind veer,
+/// the shapes decide, so the steps must be finer than the veering. Throws InputError for speeds that do not rise or are
+/// negative, and what `rotating_modes` throws.
 [[nodiscard]] Campbell campbell(const PlanetaryStage& stage, const std::vector<double>& speeds,
                                 const CampbellOptions& options = {});
 

@@ -1,5 +1,7 @@
 #include "dynamics/systems/planetary/initial_spread.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -74,10 +76,13 @@ void widen(ValueRange& range, double value) {
 
 InitialSpread initial_spread(const PlanetaryStage& stage, const InitialSpreadOptions& options) {
   if (options.random_starts < 0 || !(options.factor > 0) || !(options.same > 0))
-    throw InputError("a spread over initial conditions needs a positive size of starts and share of sameness");
+    throw InputError(
+        fmt::format("a spread over initial conditions needs a positive size of starts ({:g}), a positive share of "
+                    "sameness ({:g}) and no negative number of starts ({})",
+                    options.factor, options.same, options.random_starts));
   const StartSampler sampler(stage, options);
   PointOptions point{.simulation = options.simulation, .motion = false};
-  point.simulation.steady_state = SteadyState::marching;
+  point.simulation.steady_state = SteadyState::time_integration;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr ValueRange nothing{infinity, -infinity};
   InitialSpread spread{

@@ -13,13 +13,13 @@ struct InitialSpreadOptions {
   /// of a vibration of that size at mesh frequency.
   double factor = 3;
   std::uint64_t seed = 1;
-  /// Motions are one when none of their figures (load sharing, dynamic factor, contact loss) differs by more than this
-  /// share; steady windows agree far better.
+  /// Two motions are the same when none of their results (load sharing, dynamic factor, contact loss) differs by more
+  /// than this share; steady windows agree far better.
   double same = 5e-3;
-  SimulationOptions simulation{};  ///< marched always
+  SimulationOptions simulation{};  ///< always by time integration
 };
 
-/// The motion one start leads to.
+/// The motion that one start leads to.
 struct InitialStart {
   bool steady = false;
   int attractor = -1;  ///< index, in the order found; -1: not steady
@@ -30,7 +30,7 @@ struct ValueRange {
   double low = 0, high = 0;
 };
 
-/// Where several motions are possible, the figures depend on the start and none of them stands for the stage.
+/// Results over several starts. Where several motions exist, no single one represents the stage.
 struct InitialSpread {
   std::vector<InitialStart> starts;  ///< the static one first
   int attractors = 0;                ///< distinct steady motions
@@ -39,8 +39,8 @@ struct InitialSpread {
   ValueRange contact_loss;                         ///< largest of all meshes, over all starts
 };
 
-/// Marches the stage to its steady state from several starts. Depends on stage, options and seed alone. Throws what
-/// `simulate` throws, InputError for options that are not usable.
+/// Integrates the stage in time to its steady state from several starts. The result depends on stage, options and seed
+/// alone. Throws what `simulate` throws, and InputError for unusable options.
 [[nodiscard]] InitialSpread initial_spread(const PlanetaryStage& stage, const InitialSpreadOptions& options = {});
 
 }  // namespace annulus::dynamics

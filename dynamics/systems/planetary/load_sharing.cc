@@ -1,5 +1,7 @@
 #include "dynamics/systems/planetary/load_sharing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -18,14 +20,15 @@ double largest_share(const Eigen::Ref<const Eigen::VectorXd>& force) {
 }  // namespace
 
 double load_sharing_instantaneous(const Eigen::Ref<const Eigen::MatrixXd>& force) {
-  require(force.size() > 0, "load sharing of no force");
+  require(force.size() > 0, fmt::format("load sharing of {} planets at {} times", force.rows(), force.cols()));
   double largest = 0;
   for (Eigen::Index i = 0; i < force.cols(); ++i) largest = std::max(largest, largest_share(force.col(i)));
   return largest;
 }
 
 double load_sharing_averaged(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_per_cycle) {
-  require(samples_per_cycle > 0 && force.cols() >= samples_per_cycle, "load sharing over less than a mesh cycle");
+  require(samples_per_cycle > 0 && force.cols() >= samples_per_cycle,
+          fmt::format("load sharing over {} samples needs a mesh cycle of {}", force.cols(), samples_per_cycle));
   // Sum over the sliding cycle; sliding accumulates rounding of about columns x eps, far below any use.
   Eigen::VectorXd sum = force.leftCols(samples_per_cycle).rowwise().sum();
   double largest = largest_share(sum);
@@ -44,9 +47,12 @@ Eigen::MatrixXd load_sharing_over_time(const Eigen::Ref<const Eigen::MatrixXd>& 
 
 QuasiStatic quasi_static(const PlanetaryStage& stage, int positions_per_cycle, int max_cycles) {
   if (positions_per_cycle < 1 || max_cycles < 1)
-    throw InputError("quasi-static analysis needs at least one position and one mesh cycle");
+    throw InputError(fmt::format("quasi-static analysis needs at least one position and one mesh cycle, not {} and {}",
+                                 positions_per_cycle, max_cycles));
   if (!(stage.carrier_speed > 0))
-    throw InputError("quasi-static positions follow from the carrier speed: it must be positive");
+    throw InputError(
+        fmt::format("quasi-static positions follow from the carrier speed, {:g} rad/s, which must be positive",
+                    stage.carrier_speed));
   const LumpedSystem system = assemble(stage);
   StaticSolver solver(system);
   auto workspace = system.workspace();

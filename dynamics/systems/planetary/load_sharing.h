@@ -14,16 +14,16 @@ struct LoadSharing {
   Figure quasi_static;   ///< ... every position, without inertia and damping
 };
 
-/// Largest N F_n / sum F over all columns; `force` has one row per planet. Infinite when a sum is not positive: the
-/// stage carries no load at that instant and its share is unbounded.
+/// Largest N F_n / sum F over all columns; `force` (N) has one row per planet. Infinite when a sum is not positive: the
+/// stage then carries no load at that instant.
 [[nodiscard]] double load_sharing_instantaneous(const Eigen::Ref<const Eigen::MatrixXd>& force);
 /// The same after a running mean over `samples_per_cycle` columns.
 [[nodiscard]] double load_sharing_averaged(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_per_cycle);
 /// N F_n / sum F over time, one row per planet.
 [[nodiscard]] Eigen::MatrixXd load_sharing_over_time(const Eigen::Ref<const Eigen::MatrixXd>& force);
 
-/// Quasi-static mesh forces: K q + sum b k g(b^T q - e(t)) = f at equidistant positions from time 0 on, over the error
-/// period or the first `max_cycles` mesh cycles of it.
+/// Quasi-static mesh forces: K q + sum b k g(b^T q - e(t)) = f at equidistant positions from time 0 on. They span the
+/// error period or its first `max_cycles` mesh cycles.
 struct QuasiStatic {
   Eigen::MatrixXd sun_force, ring_force;  ///< N, one row per planet, one column per position
 };

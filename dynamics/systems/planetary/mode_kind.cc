@@ -1,5 +1,7 @@
 #include "dynamics/systems/planetary/mode_kind.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <vector>
@@ -72,7 +74,8 @@ Matrix KindSorter::separate(const Matrix& shapes) const {
   const Matrix form = unlike.adjoint() * unlike + 2 * translation.adjoint() * translation;
   const Matrix gram = shapes.adjoint() * mass_ * shapes;
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(form, gram);
-  if (solver.info() != Eigen::Success) throw SolverError("shapes of a multiple natural frequency are not independent");
+  if (solver.info() != Eigen::Success)
+    throw SolverError(fmt::format("{} shapes of a multiple natural frequency are not independent", shapes.cols()));
   return shapes * solver.eigenvectors();
 }
 

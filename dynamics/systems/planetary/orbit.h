@@ -16,7 +16,7 @@ struct Orbit {
   double extent = 0;                     ///< largest distance from that mean
   double largest = 0;                    ///< largest distance from the axis of the housing
 };
-/// Of "sun", "ring" or "carrier"; zeros when its support is rigid.
+/// `body`: "sun", "ring" or "carrier". The orbit is zero when its support is rigid.
 [[nodiscard]] Orbit orbit(const PlanetaryStage& stage, const TimeSeries& series, const std::string& body = "sun");
 
 }  // namespace annulus::dynamics

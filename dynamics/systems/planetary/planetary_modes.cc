@@ -4,11 +4,11 @@ namespace annulus::dynamics {
 
 namespace {
 
-/// Turns the shapes of every multiple frequency so that each is of one kind.
+/// Combines the shapes of every multiple frequency so that each is of one kind.
 void separate_multiples(const KindSorter& sorter, std::vector<Mode>& modes) {
   for (std::size_t begin = 0, end = 0; begin < modes.size(); begin = end) {
-    // Rounding parts equal frequencies by some 1e-15 of the highest; different kinds that close are one for every
-    // purpose.
+    // Rounding splits equal frequencies by some 1e-15 of the highest; different kinds so close together are equal for
+    // every purpose.
     constexpr double same = 1e-9, of_the_highest = 1e-14;
     for (end = begin + 1; end < modes.size(); ++end)
       if (modes[end].frequency - modes[begin].frequency >

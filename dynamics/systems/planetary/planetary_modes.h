@@ -16,13 +16,13 @@ struct PlanetaryModes : Modes {
 };
 
 /// Undamped natural frequencies and mode shapes with the mean tangent mesh stiffness, all teeth in contact, without
-/// rotation (Omega = 0). Shapes of one multiple frequency are turned so that each is of one kind.
+/// rotation (Omega = 0). Shapes of one multiple frequency are combined so that each is of one kind.
 /// Throws InputError when the stage cannot be assembled, SolverError when the stiffness is indefinite.
 [[nodiscard]] PlanetaryModes modes(const PlanetaryStage& stage);
 
 /// Mean tangent stiffness of every mesh of the assembled stage, N/m, in the order of its meshes.
 [[nodiscard]] Eigen::VectorXd mean_mesh_stiffness(const PlanetaryStage& stage);
-/// Where the energy of the modes of `modes(stage)` sits.
+/// Distribution of the energy of the modes of `modes(stage)`.
 [[nodiscard]] ModalEnergy modal_energy(const PlanetaryStage& stage, const Modes& modes);
 
 }  // namespace annulus::dynamics

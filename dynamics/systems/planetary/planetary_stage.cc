@@ -17,21 +17,21 @@ namespace annulus::dynamics {
 namespace {
 
 void check_errors(const BodyErrors& errors, const std::string& name) {
-  for (const auto& d : {errors.eccentricity, errors.installation})
+  for (const auto& d : {errors.eccentricity, errors.position})
     if (!std::isfinite(d.amount) || !std::isfinite(d.phase))
-      throw InputError(name + ": an error or phase is not finite");
+      throw InputError(fmt::format("{}: error {} m and phase {} rad must be finite", name, d.amount, d.phase));
 }
 
 void check_central(const CentralBody& body, const std::string& name) {
   check_positive(body.mass, name + " mass");
   check_positive(body.inertia, name + " inertia");
   check_positive(body.radius, name + " radius");
-  check_support(body.support, name + " support", true);
-  check_support(body.torsional_support, name + " torsional support", true);
+  check_support(body.support, name + " support", ZeroStiffness::allowed);
+  check_support(body.torsional_support, name + " torsional support", ZeroStiffness::allowed);
   check_errors(body.errors, name);
 }
 
-bool has_errors(const BodyErrors& errors) { return errors.eccentricity.exists() || errors.installation.exists(); }
+bool has_errors(const BodyErrors& errors) { return errors.eccentricity.exists() || errors.position.exists(); }
 
 bool any_errors(const PlanetaryStage& stage) {
   return has_errors(stage.sun.errors) || has_errors(stage.ring.errors) || has_errors(stage.carrier.errors) ||
@@ -49,17 +49,20 @@ void check_coupling(const RingCoupling& coupling, const PlanetaryStage& stage) {
     refuse(fmt::format("{} compliance matrices do not fill mesh cycles at {} per cycle", matrices, coupling.per_cycle));
   for (const auto& matrix : coupling.compliance) {
     if (matrix.rows() != stage.planets() || matrix.cols() != stage.planets() || !matrix.allFinite())
-      refuse("a compliance matrix is not planets x planets finite numbers");
+      refuse(fmt::format("a compliance matrix is {} x {}; it must hold {} x {} finite numbers", matrix.rows(),
+                         matrix.cols(), stage.planets(), stage.planets()));
     // Tolerates what a file of a few digits leaves of the symmetry.
-    if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() > 1e-6 * matrix.cwiseAbs().maxCoeff())
-      refuse("a compliance matrix is not symmetric");
+    const double difference = (matrix - matrix.transpose()).cwiseAbs().maxCoeff();
+    if (difference > 1e-6 * matrix.cwiseAbs().maxCoeff())
+      refuse(fmt::format("a compliance matrix differs from its transpose by {:g} m/N", difference));
   }
   for (const auto& mode : coupling.modes) {
     check_positive(mode.frequency, "ring coupling: frequency of a mode");
     if (static_cast<int>(mode.closing.size()) != coupling.ring_teeth)
-      refuse(fmt::format("a mode has {} closings for {} teeth", mode.closing.size(), coupling.ring_teeth));
+      refuse(fmt::format("a mode has {} displacements for {} teeth", mode.closing.size(), coupling.ring_teeth));
     for (const double value : {mode.translation_x, mode.translation_y, mode.rotation})
-      if (!std::isfinite(value)) refuse("a mode's inertial coupling is not finite");
+      if (!std::isfinite(value))
+        refuse(fmt::format("the inertial coupling {} of the mode at {:g} Hz is not finite", value, mode.frequency));
   }
 }
 
@@ -72,7 +75,7 @@ MeshError sum_of(const std::vector<HarmonicError>& errors, double time) {
   return e;
 }
 
-// A stage that stands (for its modes) may go without numbers of teeth.
+// A stage at rest (for its modes) needs no numbers of teeth.
 double rate_of_planet(const PlanetaryStage& s) {
   return s.carrier_speed == 0 ? 0 : -s.carrier_speed * s.ring_teeth / s.planet_teeth;
 }
@@ -86,20 +89,20 @@ void add(std::vector<HarmonicError>& list, double sign, const Deviation& deviati
 
 }  // namespace
 
-// A displacement d of the planet's toothing opens the sun mesh by d . n_s, n_s = (-sin(phi_n - a_s), cos(phi_n - a_s)):
-// with delta = ... - e this is e = +|d| sin(angle of d - phi_n + a_s). A displacement of the sun closes it: e = -...
-// Ring mesh alike with n_r = (-sin(phi_n + a_r), cos(phi_n + a_r)).
+// A displacement d of the planet's toothing reduces the deflection of the sun mesh by d . n_s, n_s = (-sin(phi_n -
+// a_s), cos(phi_n - a_s)). With delta = ... - e this is e = +|d| sin(angle of d - phi_n + a_s). A displacement of the
+// sun increases it: e = -... The ring mesh likewise with n_r = (-sin(phi_n + a_r), cos(phi_n + a_r)).
 std::vector<HarmonicError> sun_mesh_errors(const PlanetaryStage& s, int n) {
   std::vector<HarmonicError> list;
   const double phi = s.planet_angles[n], alpha = s.sun_working_angle, turn = -s.carrier_speed;
   if (!s.planet_errors.empty()) {
     add(list, +1, s.planet_errors[n].eccentricity, rate_of_planet(s), alpha);
-    add(list, +1, s.planet_errors[n].installation, 0, alpha - phi);
+    add(list, +1, s.planet_errors[n].position, 0, alpha - phi);
   }
   add(list, -1, s.sun.errors.eccentricity, rate_of_sun(s), alpha - phi);
-  add(list, -1, s.sun.errors.installation, turn, alpha - phi);
+  add(list, -1, s.sun.errors.position, turn, alpha - phi);
   add(list, +1, s.carrier.errors.eccentricity, 0, alpha - phi);
-  add(list, +1, s.carrier.errors.installation, turn, alpha - phi);
+  add(list, +1, s.carrier.errors.position, turn, alpha - phi);
   return list;
 }
 
@@ -108,12 +111,12 @@ std::vector<HarmonicError> ring_mesh_errors(const PlanetaryStage& s, int n) {
   const double phi = s.planet_angles[n], alpha = s.ring_working_angle, turn = -s.carrier_speed;
   if (!s.planet_errors.empty()) {
     add(list, +1, s.planet_errors[n].eccentricity, rate_of_planet(s), -alpha);
-    add(list, +1, s.planet_errors[n].installation, 0, -alpha - phi);
+    add(list, +1, s.planet_errors[n].position, 0, -alpha - phi);
   }
   add(list, -1, s.ring.errors.eccentricity, turn, -alpha - phi);
-  add(list, -1, s.ring.errors.installation, turn, -alpha - phi);
+  add(list, -1, s.ring.errors.position, turn, -alpha - phi);
   add(list, +1, s.carrier.errors.eccentricity, 0, -alpha - phi);
-  add(list, +1, s.carrier.errors.installation, turn, -alpha - phi);
+  add(list, +1, s.carrier.errors.position, turn, -alpha - phi);
   return list;
 }
 
@@ -142,7 +145,7 @@ int PlanetaryStage::error_period() const {
   const auto eccentric = [](const BodyErrors& e) { return e.eccentricity.exists(); };
   if (std::any_of(planet_errors.begin(), planet_errors.end(), eccentric)) period = std::lcm(period, planet_teeth);
   if (sun.errors.eccentricity.exists()) period = std::lcm(period, sun_teeth);
-  if (sun.errors.installation.exists() || has_errors(ring.errors) || carrier.errors.installation.exists())
+  if (sun.errors.position.exists() || has_errors(ring.errors) || carrier.errors.position.exists())
     period = std::lcm(period, ring_teeth);
   return period;
 }
@@ -154,11 +157,11 @@ void PlanetaryStage::check() const {
   check_positive(planet.mass, "planet mass");
   check_positive(planet.inertia, "planet inertia");
   check_positive(planet.radius, "planet radius");
-  check_support(planet.bearing_radial, "planet bearing stiffness (radial)", false);
-  check_support(planet.bearing_tangential, "planet bearing stiffness (tangential)", false);
-  if (planets() < 1) throw InputError("a planetary stage needs at least one planet");
+  check_support(planet.bearing_radial, "planet bearing stiffness (radial)", ZeroStiffness::refused);
+  check_support(planet.bearing_tangential, "planet bearing stiffness (tangential)", ZeroStiffness::refused);
+  if (planets() < 1) throw InputError(fmt::format("a planetary stage needs at least one planet, not {}", planets()));
   for (const double angle : planet_angles)
-    if (!std::isfinite(angle)) throw InputError("a planet angle is not finite");
+    if (!std::isfinite(angle)) throw InputError(fmt::format("planet angle {} rad must be finite", angle));
   const auto per_planet = [&](std::size_t size, const std::string& name) {
     if (size != 0 && size != planet_angles.size())
       throw InputError(fmt::format("{} has {} values for {} planets", name, size, planets()));
@@ -179,14 +182,18 @@ void PlanetaryStage::check() const {
   check_not_negative(mesh_damping_ratio, "mesh damping ratio");
   check_not_negative(support_damping_ratio, "support damping ratio");
   check_not_negative(carrier_speed, "carrier speed");
-  if (!std::isfinite(sun_torque)) throw InputError("the sun torque is not finite");
+  if (!std::isfinite(sun_torque)) throw InputError(fmt::format("sun torque {} N m must be finite", sun_torque));
   // Without teeth there are natural frequencies, but no mesh frequency, torque ratio or rate of the errors.
   if ((carrier_speed > 0 || sun_torque != 0 || any_errors(*this)) &&
       !(sun_teeth > 0 && planet_teeth > 0 && ring_teeth > 0))
-    throw InputError("speed, torque and errors need the numbers of teeth of sun, planet and ring");
+    throw InputError(
+        fmt::format("speed, torque and errors need the numbers of teeth of sun, planet and ring, not {}, {} and {}",
+                    sun_teeth, planet_teeth, ring_teeth));
   if (sun_torque != 0) {
     if (sun.torsional_support == rigid)
-      throw InputError("the sun cannot turn (rigid torsional support), so its torque would not reach the meshes");
+      throw InputError(fmt::format(
+          "the sun cannot turn (rigid torsional support), so its torque of {:g} N m would not reach the meshes",
+          sun_torque));
     // Per metre of carrier motion the sun moves (cos a_s + cos a_r) metres: virtual work against the tooth ratio.
     const double ratio = carrier.radius * (std::cos(sun_working_angle) + std::cos(ring_working_angle)) / sun.radius;
     const double expected = 1 + static_cast<double>(ring_teeth) / sun_teeth;

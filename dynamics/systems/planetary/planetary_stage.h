@@ -24,14 +24,16 @@ struct Deviation {
 };
 
 /// Errors of one body.
-/// Eccentricity: centre of the toothing seen from the centre of rotation; turns with the body. Its phase is measured
-/// in the body's own frame, at time 0: for a planet from the line sun centre - planet centre outwards, for sun, ring
-/// and carrier from the x axis (towards planet 0 at time 0).
-/// Installation: centre of rotation seen from its nominal place, phase from the x axis at time 0. It stands still on
-/// the carrier for a planet and in the housing for sun, ring and carrier.
+///
+/// Eccentricity: vector from the centre of rotation to the centre of the toothing. It turns with the body. Its phase is
+/// measured in the frame of the body at time 0. For a planet it starts at the line from sun centre to planet centre,
+/// for sun, ring and carrier at the x axis (towards planet 0).
+///
+/// Position: vector from the nominal to the actual centre of rotation, phase from the x axis at time 0. For a planet it
+/// is the pin position error and fixed to the carrier; for sun, ring and carrier it is fixed in the housing.
 struct BodyErrors {
   Deviation eccentricity;
-  Deviation installation;
+  Deviation position;
 };
 
 /// Sun, ring or carrier. Coordinates x, y (m) in the carrier-fixed frame and u = radius x rotation (m).
@@ -50,19 +52,20 @@ struct PlanetBody {
   double mass = 0;     ///< kg
   double inertia = 0;  ///< kg m^2
   double radius = 0;   ///< m, base radius
-  /// Bearing stiffness planet - carrier, N/m. `rigid` (both) drops x and y: the planet then rides on the carrier, to
+  /// Bearing stiffness planet - carrier, N/m. `rigid` (both) drops x and y: the planet then moves with the carrier, to
   /// which its mass is added.
   double bearing_radial = rigid;
   double bearing_tangential = rigid;
 };
 
-/// A planetary stage, ring held in the housing, as lumped masses; SI. Models.md A, after "Analysis and comparison of
-/// the flexible and load sharing and dynamic load factor of the type of ring gear", eqs. (15) to (39), corrected.
+/// A planetary stage with its ring in the housing, as lumped masses; SI. After [HuFangXuShen2021, eqs. (15) to (39)],
+/// corrected:
 ///
 ///   delta_sn = u_s - x_s sin(phi_n - a_s) + y_s cos(phi_n - a_s) + u_n - x_n sin a_s - y_n cos a_s - e_sn     (15)
 ///   delta_rn = u_r - x_r sin(phi_n + a_r) + y_r cos(phi_n + a_r) - u_n + x_n sin a_r - y_n cos a_r - e_rn     (16)
 ///
-/// delta > 0 closes a mesh; x_n is radial and y_n tangential. A value type: change it, assemble it again.
+/// delta > 0 presses the flanks together; x_n is radial and y_n tangential. A value type: change it and assemble it
+/// again.
 struct PlanetaryStage {
   CentralBody sun, ring, carrier;
   PlanetBody planet;
@@ -78,48 +81,54 @@ struct PlanetaryStage {
   /// f t - ring_phase_lag[n] + ring_tooth_offset[n]. Empty: all zero (planets in phase).
   std::vector<double> sun_phase_lag, ring_phase_lag, ring_tooth_offset;
 
-  /// How the ring meshes act on each other through the ring; absent: they do not. With modes of the ring each becomes a
-  /// DOF ring_mode1, ring_mode2, ... (modal amplitude, kg^1/2 m; damping ratio `support_damping_ratio`), and
-  /// ring_x, ring_y are then measured in the housing, in which the modes stand: no gyroscopic and centripetal terms for
-  /// the ring, and mesh vectors that turn past it with the carrier. The axes of carrier and ring agree at time 0.
+  /// Coupling of the ring meshes through the ring; absent: none.
+  ///
+  /// With modes of the ring each mode becomes a DOF ring_mode1, ring_mode2, ... (modal amplitude, kg^1/2 m; damping
+  /// ratio `support_damping_ratio`). ring_x and ring_y are then measured in the housing, in which the modes stand
+  /// still: the ring has no gyroscopic and centripetal terms, and the mesh vectors turn past it with the carrier. The
+  /// axes of carrier and ring agree at time 0.
   std::shared_ptr<const RingCoupling> ring_coupling;
 
-  /// Half the total normal backlash of the sun and of the ring meshes, m. Absent: the teeth never part (a linear mesh,
-  /// pulling included).
+  /// Half the total normal backlash of the sun and of the ring meshes, m. Absent: the teeth never lose contact (a
+  /// linear mesh, which also pulls).
   std::optional<double> sun_half_backlash, ring_half_backlash;
   void set_half_backlash(std::optional<double> both) { sun_half_backlash = ring_half_backlash = both; }
-  double mesh_damping_ratio = 0;     ///< zeta in c = 2 zeta sqrt(k_mean m_e), 1/m_e = r_1^2/I_1 + r_2^2/I_2   (31, 34)
-  double support_damping_ratio = 0;  ///< zeta in c = 2 zeta sqrt(k m), supports and planet bearings alike
-  /// Damping acts only while the teeth touch; true: always, as printed in (30), which lets open meshes push and pull.
+  /// zeta in c = 2 zeta sqrt(k_mean m_e), 1/m_e = r_1^2/I_1 + r_2^2/I_2 [HuFangXuShen2021, eqs. (31), (34)].
+  double mesh_damping_ratio = 0;
+  double support_damping_ratio = 0;  ///< zeta in c = 2 zeta sqrt(k m), supports and planet bearings
+  /// false: damping acts only in contact. true: always, as printed in [HuFangXuShen2021, eq. (30)]; meshes without
+  /// contact then pull.
   bool damping_without_contact = false;
 
   double carrier_speed = 0;  ///< Omega_c, rad/s, >= 0
   double sun_torque = 0;     ///< T_s, N m; the carrier bears -T_s (1 + z_r/z_s)
-  /// Terms of the rotating frame: gyroscopic, centripetal, dampers to the housing c(x' - Omega y). The centripetal term
-  /// of a planet is -m Omega^2 (x_n, y_n - u_c): with the centrifugal preload of the planet bearings taken into
-  /// account, turning the whole stage costs nothing. (The printed -m Omega^2 y_n makes the rotation drift away
-  /// exponentially.)
+  /// Terms of the rotating frame: gyroscopic, centripetal, dampers to the housing c(x' - Omega y).
+  ///
+  /// The centripetal term of a planet is -m Omega^2 (x_n, y_n - u_c), which contains the centrifugal preload of the
+  /// planet bearings. A rotation of the whole stage then needs no energy. The printed
+  /// -m Omega^2 y_n makes the rotation drift away exponentially.
   bool rotating_frame = true;
 
   [[nodiscard]] int planets() const { return static_cast<int>(planet_angles.size()); }
   [[nodiscard]] double mesh_frequency() const;   ///< Hz: z_r Omega_c / 2 pi
   [[nodiscard]] double mean_mesh_force() const;  ///< N: T_s / (N r_bs), of every sun and ring mesh
   [[nodiscard]] double carrier_torque() const;   ///< N m: T_s (1 + z_r/z_s), positive number
-  /// Whole mesh cycles after which excitation and errors repeat: z_p with planet eccentricities, z_s with a sun
-  /// eccentricity, z_r with errors standing in the housing or modes of the ring, the periods of the tables and of the
-  /// coupling; their least common multiple.
+  /// Mesh cycles after which excitation and errors repeat. It is the least common multiple of z_p (planet
+  /// eccentricities), z_s (sun eccentricity), z_r (errors fixed in the housing, modes of the ring) and the periods of
+  /// tables and coupling.
   [[nodiscard]] int error_period() const;
 
-  /// Throws InputError naming the quantity when the stage cannot be assembled.
+  /// Throws InputError with name and value of the quantity when the stage cannot be assembled.
   void check() const;
 };
 
-/// Transmission error e (m) of mesh n at time t (s) from eccentricities and installation errors alone, and de/dt (m/s).
+/// Transmission error e (m) of mesh n at time t (s) from eccentricities and position errors alone, and de/dt (m/s),
+/// after [HuFangXuShen2021, eq. (22)], corrected. E, th: eccentricity, A: position error.
 ///   planet:  e_sn = E sin(w t + th + a_s),           e_rn = E sin(w t + th - a_r),   w = -(z_r/z_p) Omega_c
 ///            e_sn = A sin(th - phi_n + a_s),         e_rn = A sin(th - phi_n - a_r)
-///   sun:     e_sn = -E sin(w t + th - phi_n + a_s),  w = (z_r/z_s) Omega_c; installation: w = -Omega_c
-///   ring:    e_rn = -E sin(w t + th - phi_n - a_r),  w = -Omega_c, installation alike
-///   carrier: as a planet's displacement: + ..., eccentricity w = 0, installation w = -Omega_c
+///   sun:     e_sn = -E sin(w t + th - phi_n + a_s),  w = (z_r/z_s) Omega_c; position: w = -Omega_c
+///   ring:    e_rn = -E sin(w t + th - phi_n - a_r),  w = -Omega_c, position likewise
+///   carrier: as a displacement of the planet: + ..., eccentricity w = 0, position w = -Omega_c
 struct MeshError {
   double value = 0, rate = 0;
 };
@@ -129,9 +138,9 @@ struct MeshError {
 /// Fills teeth, base radii, carrier radius, working and planet angles, phase lags and tooth offsets.
 void set_kinematics(PlanetaryStage& stage, const geometry::PlanetarySet& set);
 
-/// The stage as elements. DOFs in the order sun, ring, carrier, planet1 ... planetN, each x, y, u as far as they
-/// exist, named sun_x, sun_y, sun_u, ..., planet1_x, ..., then ring_mode1, ...; meshes sun_planet1 ... sun_planetN,
-/// ring_planet1 ...
+/// The stage as elements. DOFs in the order sun, ring, carrier, planet1 ... planetN, each with x, y, u unless rigid,
+/// named sun_x, sun_y, sun_u, ..., planet1_x, ..., then ring_mode1, ... Meshes: sun_planet1 ... sun_planetN,
+/// ring_planet1 ... Throws what `check` throws.
 [[nodiscard]] LumpedSystem assemble(const PlanetaryStage& stage);
 
 }  // namespace annulus::dynamics

@@ -1,5 +1,7 @@
 #include "dynamics/systems/planetary/poincare.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -9,9 +11,13 @@
 namespace annulus::dynamics {
 
 PoincareSection poincare_section(const PlanetaryStage& stage, const TimeSeries& series, int samples_per_cycle) {
-  require(samples_per_cycle > 0 && series.time.size() >= samples_per_cycle, "a section of less than a mesh cycle");
+  require(samples_per_cycle > 0 && series.time.size() >= samples_per_cycle,
+          fmt::format("a section needs a mesh cycle of {} samples; the series has {}", samples_per_cycle,
+                      series.time.size()));
   const LumpedSystem system = assemble(stage);
-  require(series.dofs == system.names(), "a time series of this stage");
+  require(series.dofs == system.names(),
+          fmt::format("a time series of {} degrees of freedom belongs to another stage than this one of {}",
+                      series.dofs.size(), system.dofs()));
   const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
   PoincareSection result;
   std::vector<int> sun;
@@ -20,7 +26,7 @@ PoincareSection poincare_section(const PlanetaryStage& stage, const TimeSeries& 
       sun.push_back(i);
       result.quantities.push_back(dof + "_m");
     }
-  for (const auto& mesh : system.meshes()) result.quantities.push_back(mesh.name + "_closing_m");
+  for (const auto& mesh : system.meshes()) result.quantities.push_back(mesh.name + "_deflection_m");
   for (const auto& mesh : system.meshes()) result.quantities.push_back(mesh.name + "_force_N");
 
   const auto first = static_cast<Eigen::Index>(sun.size());
@@ -55,8 +61,10 @@ std::string to_string(SectionKind kind) {
 }
 
 SectionPattern section_pattern(const PoincareSection& section, int error_period, double tolerance) {
-  require(error_period > 0 && tolerance > 0, "a section needs an error period and a tolerance");
-  // Relative to the largest swing of its unit: a quantity that hardly moves beside its like says nothing.
+  require(
+      error_period > 0 && tolerance > 0,
+      fmt::format("a section needs a positive error period and tolerance, not {} and {:g}", error_period, tolerance));
+  // Relative to the largest swing of its unit: a quantity that hardly moves in comparison is not significant.
   const auto unit_of = [&](Eigen::Index r) {
     const auto& name = section.quantities[static_cast<std::size_t>(r)];
     return name.substr(name.rfind('_') + 1);

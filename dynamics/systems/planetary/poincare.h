@@ -12,19 +12,20 @@ namespace annulus::dynamics {
 
 /// The state once per mesh cycle.
 struct PoincareSection {
-  std::vector<std::string> quantities;  ///< sun_x_m, sun_y_m, then of every mesh closing_m, force_N
+  std::vector<std::string> quantities;  ///< sun_x_m, sun_y_m, then of every mesh deflection_m, force_N
   Eigen::MatrixXd points;               ///< quantities x mesh cycles
   Eigen::VectorXd swing;                ///< per quantity, largest less smallest value over the whole series
 };
-/// A mesh's closing is b^T q - e(t), its dynamic transmission error. Sun coordinates are absent when it is held.
+/// The deflection of a mesh is b^T q - e(t), its dynamic transmission error. Sun coordinates are absent when it is
+/// rigid.
 [[nodiscard]] PoincareSection poincare_section(const PlanetaryStage& stage, const TimeSeries& series,
                                                int samples_per_cycle);
 
 enum class SectionKind {
   period_1,   ///< repeats as the excitation does, with every error period
   period_n,   ///< repeats with several error periods: subharmonic
-  irregular,  ///< does not repeat within half the section: quasi-periodic, chaotic, or not yet settled
-  undecided,  ///< fewer than two error periods were seen
+  irregular,  ///< does not repeat within half the section: quasi-periodic, chaotic, or still transient
+  undecided,  ///< the section holds fewer than two error periods
 };
 [[nodiscard]] std::string to_string(SectionKind kind);
 
@@ -32,8 +33,8 @@ struct SectionPattern {
   SectionKind kind = SectionKind::undecided;
   std::optional<int> period;  ///< mesh cycles after which the points repeat
   int clusters = 0;           ///< points that differ by more than the tolerance
-  /// Largest difference, relative to that swing, between points one period apart (the best multiple of the error period
-  /// when none repeats).
+  /// Largest difference, relative to that swing, between points one period apart. Where nothing repeats, the least over
+  /// the multiples of the error period.
   double spread = 0;
 };
 /// `error_period` in mesh cycles; `tolerance` relative to the largest swing among the quantities of one unit.

@@ -1,5 +1,7 @@
 #include "dynamics/systems/planetary/response.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -12,8 +14,12 @@ namespace {
 
 void check_simulation(const PlanetaryStage& stage) {
   stage.check();
-  if (!(stage.carrier_speed > 0)) throw InputError("a time response needs a speed above zero");
-  if (!(stage.sun_torque > 0)) throw InputError("a time response needs a positive sun torque (drive flanks loaded)");
+  if (!(stage.carrier_speed > 0))
+    throw InputError(
+        fmt::format("a time response needs a carrier speed above zero, not {:g} rad/s", stage.carrier_speed));
+  if (!(stage.sun_torque > 0))
+    throw InputError(fmt::format("a time response needs a positive sun torque (drive flanks loaded), not {:g} N m",
+                                 stage.sun_torque));
 }
 
 /// Mean over each mesh cycle; columns span whole cycles.
@@ -61,13 +67,17 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
 }
 
 PeriodicResponse periodic_response(const PlanetaryStage& stage, const PeriodicOptions& options) {
-  if (!(stage.carrier_speed > 0)) throw InputError("a periodic response needs a speed above zero");
+  if (!(stage.carrier_speed > 0))
+    throw InputError(
+        fmt::format("a periodic response needs a carrier speed above zero, not {:g} rad/s", stage.carrier_speed));
   const int cycles = stage.error_period();
   return periodic_response(assemble(stage), cycles / stage.mesh_frequency(), cycles, options);
 }
 
 PiecewiseResponse piecewise_response(const PlanetaryStage& stage, const PiecewiseOptions& options) {
-  if (!(stage.carrier_speed > 0)) throw InputError("a periodic response needs a speed above zero");
+  if (!(stage.carrier_speed > 0))
+    throw InputError(
+        fmt::format("a periodic response needs a carrier speed above zero, not {:g} rad/s", stage.carrier_speed));
   const int cycles = stage.error_period();
   return piecewise_response(assemble(stage), cycles / stage.mesh_frequency(), cycles, options);
 }

@@ -36,17 +36,22 @@ struct DynamicResponse : SteadyOutcome {
   TimeSeries series;
 };
 
-/// Periodic steady state of the stage and its figures: solved for directly and confirmed by marching over one window
-/// from there (two independent methods); where they disagree, no balance is found or the error period is longer than
-/// `max_window_cycles`, by marching alone. The error of a figure adds up what the sampling misses, the change from the
-/// harmonic balance or the window before and, with `estimate_error`, the change under a looser integration. An infinite
-/// load sharing means instants at which the stage carries no load. Throws InputError when the stage or the options are
-/// not usable (no speed, no torque, an unbalanced load: nothing holds the ring), SolverError when the integrator fails.
+/// Periodic steady state of the stage and its results. Two independent methods, harmonic balance and time integration
+/// over one window, confirm each other. Time integration goes on alone where they disagree, where no harmonic balance
+/// is found or where the error period is longer than `max_window_cycles`.
+///
+/// The error of a result is the sum of the sampling error and the difference to the harmonic balance or the window
+/// before. With `estimate_error` the difference to a looser integration is added. An infinite load sharing means
+/// instants without load.
+///
+/// Throws InputError when the stage or the options are not usable (no speed, no torque, a load out of balance because
+/// no support resists it), SolverError when the integrator fails.
 [[nodiscard]] DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& options = {});
 
 /// Harmonic balance of the stage alone, over its error period. Throws InputError without a speed above zero.
 [[nodiscard]] PeriodicResponse periodic_response(const PlanetaryStage& stage, const PeriodicOptions& options = {});
-/// Exact solution of a stage with piecewise constant stiffness, over its error period. Throws InputError alike.
+/// Exact solution of a stage with piecewise constant stiffness, over its error period. Throws InputError without a
+/// speed above zero.
 [[nodiscard]] PiecewiseResponse piecewise_response(const PlanetaryStage& stage, const PiecewiseOptions& options = {});
 
 }  // namespace annulus::dynamics

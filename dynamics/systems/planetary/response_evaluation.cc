@@ -14,7 +14,7 @@ Peak sharing_peak(const Eigen::Ref<const Eigen::MatrixXd>& force) {
   const double sampled = load_sharing_instantaneous(force);
   if (!std::isfinite(sampled)) return {sampled, sampled};
   Peak peak = peak_of_rows(load_sharing_over_time(force));
-  // Where one branch after the other carries everything, parabolas overshoot what branches that only push can share.
+  // Where one branch after the other carries the whole load, parabolas overshoot the largest possible share.
   if (force.minCoeff() >= 0)
     peak.refined = std::max(peak.sampled, std::min(peak.refined, static_cast<double>(force.rows())));
   return peak;
@@ -35,14 +35,14 @@ Peak averaged_peak(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_p
 
 Peak highest(const Peak& a, const Peak& b) { return {std::max(a.sampled, b.sampled), std::max(a.refined, b.refined)}; }
 
-/// Of the meshes of one kind in a window, both sides of jumps included.
+/// The meshes of one kind in a window, with both sides of jumps.
 struct KindWindow {
   const ResponseWindow& window;
   Eigen::Index first, planets;
 
   [[nodiscard]] auto force() const { return window.force.middleRows(first, planets); }
   [[nodiscard]] bool jumps() const { return window.jumps(); }
-  /// What peaks are looked for in, and where it jumps.
+  /// Curves for the search of peaks, and their jumps.
   [[nodiscard]] auto curves() const {
     return (window.dense_force.size() > 0 ? window.dense_force : window.force).middleRows(first, planets);
   }
@@ -59,7 +59,7 @@ struct KindWindow {
     if (!jumps()) return averaged_peak(force(), window.samples_per_cycle);
     return averaged_peak(averaging_force(window).middleRows(first, planets), window.samples_per_cycle);
   }
-  /// What every second sample says: behind jumps the trapezoidal rule is no longer exact to rounding.
+  /// From every second sample: behind jumps the trapezoidal rule is no longer exact to rounding.
   [[nodiscard]] Peak averaged_coarsely() const {
     if (!jumps() || window.samples_per_cycle % 2 != 0) return averaged();
     const Eigen::Index samples = window.force.cols() / 2;
@@ -96,9 +96,11 @@ struct KindWindow {
 
 Peak operator/(const Peak& peak, double scale) { return {peak.sampled / scale, peak.refined / scale}; }
 
-/// Without inertia forces follow every jump at once: positions are all there is.
-Peak quasi_static_peak(const Eigen::MatrixXd& force, bool jumps) {
-  if (!jumps) return sharing_peak(force);
+enum class CurveKind { smooth, with_jumps };
+
+/// Without inertia the forces follow every jump at once, so no parabola fits between the positions.
+Peak quasi_static_peak(const Eigen::MatrixXd& force, CurveKind kind) {
+  if (kind == CurveKind::smooth) return sharing_peak(force);
   const double sampled = load_sharing_instantaneous(force);
   return {sampled, sampled};
 }
@@ -113,7 +115,8 @@ MeshKindResult evaluate_meshes(const ResponseEvidence& evidence, Eigen::Index fi
   auto& sharing = result.load_sharing;
   sharing.instantaneous = figure(best.sharing(), {before.sharing(), loose.sharing()});
   sharing.averaged = figure(best.averaged(), {before.averaged(), loose.averaged(), best.averaged_coarsely()});
-  sharing.quasi_static = figure(quasi_static_peak(quasi_static_force, best.jumps()), {});
+  sharing.quasi_static =
+      figure(quasi_static_peak(quasi_static_force, best.jumps() ? CurveKind::with_jumps : CurveKind::smooth), {});
   for (Eigen::Index p = 0; p < planets; ++p) {
     const double f = evidence.mean_force;
     BranchResult branch;

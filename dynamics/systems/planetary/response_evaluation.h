@@ -4,13 +4,13 @@
 
 namespace annulus::dynamics {
 
-/// What the figures and their errors come from: the best window, and others whose figures should be the same.
+/// The best window, and others whose results should be equal: their differences are errors.
 struct ResponseEvidence {
   const ResponseWindow &best, &before, &loose;
   double mean_force = 0;
 };
 
-/// Figures of the meshes first ... first + planets - 1.
+/// Results of the meshes first ... first + planets - 1. `quasi_static_force`: N, planets x positions.
 [[nodiscard]] MeshKindResult evaluate_meshes(const ResponseEvidence& evidence, Eigen::Index first, Eigen::Index planets,
                                              const Eigen::MatrixXd& quasi_static_force);
 

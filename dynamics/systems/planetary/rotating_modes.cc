@@ -1,5 +1,7 @@
 #include "dynamics/systems/planetary/rotating_modes.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -13,17 +15,17 @@ namespace annulus::dynamics {
 
 namespace {
 
-/// Below this share of the largest |lambda| nothing is known but zero: a rigid motion is a double eigenvalue with one
-/// eigenvector, which rounding parts by the root of 1e-16.
+/// Eigenvalues below this share of the largest |lambda| are zero. A rigid motion is a double eigenvalue with one
+/// eigenvector, which rounding splits by the root of 1e-16.
 constexpr double nothing = 1e-6;
 
 struct Matrices {
   Eigen::MatrixXd rate, stiffness;  ///< C + G, K + K_Omega with the meshes
 };
 
-Matrices matrices_of(const PlanetaryStage& stage, const LumpedSystem& system, bool damped) {
+Matrices matrices_of(const PlanetaryStage& stage, const LumpedSystem& system, ModeDamping damping) {
   Matrices m{system.gyroscopic(), stiffness_with_meshes(system, mean_mesh_stiffness(stage))};
-  if (!damped) {
+  if (damping == ModeDamping::undamped) {
     m.stiffness += (system.rotating_stiffness() + system.rotating_stiffness().transpose()) / 2;  // no circulatory part
     return m;
   }
@@ -40,10 +42,10 @@ RotatingMode mode_of(std::complex<double> value, double largest) {
   return mode;
 }
 
-/// Equal frequencies, turned so that each shape is of one kind.
+/// Combines the shapes of equal frequencies so that each is of one kind.
 void separate_multiples(const KindSorter& sorter, std::vector<RotatingMode>& modes) {
   for (std::size_t begin = 0, end = 0; begin < modes.size(); begin = end) {
-    // The unsymmetric solver parts equal eigenvalues by about 1e-14 of the largest.
+    // The unsymmetric solver splits equal eigenvalues by about 1e-14 of the largest.
     const auto same = [&](const RotatingMode& a, const RotatingMode& b) {
       return b.frequency - a.frequency <= 1e-9 * b.frequency && std::abs(b.damping_ratio - a.damping_ratio) <= 1e-9;
     };
@@ -59,17 +61,19 @@ void separate_multiples(const KindSorter& sorter, std::vector<RotatingMode>& mod
 
 }  // namespace
 
-RotatingModes rotating_modes(const PlanetaryStage& stage, bool damped) {
+RotatingModes rotating_modes(const PlanetaryStage& stage, ModeDamping damping) {
   const LumpedSystem system = assemble(stage);
   RotatingModes result{stage.carrier_speed, system.names(), {}};
   const Eigen::Index n = system.dofs();
   if (n == 0) return result;
   // In the modal coordinates of the stage at rest, time in units of the highest frequency, all entries are about one
   // and the masses drop out.
-  const auto matrices = matrices_of(stage, system, damped);
+  const auto matrices = matrices_of(stage, system, damping);
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> rest(
       stiffness_with_meshes(system, mean_mesh_stiffness(stage)), system.mass());
-  if (rest.info() != Eigen::Success) throw SolverError("the eigenvalue solver for the natural frequencies failed");
+  if (rest.info() != Eigen::Success)
+    throw SolverError(
+        fmt::format("the eigenvalue solver failed for the natural frequencies of {} degrees of freedom", n));
   const Eigen::MatrixXd& basis = rest.eigenvectors();
   const double unit = std::sqrt(rest.eigenvalues().cwiseAbs().maxCoeff());
   Eigen::MatrixXd state = Eigen::MatrixXd::Zero(2 * n, 2 * n);
@@ -77,7 +81,8 @@ RotatingModes rotating_modes(const PlanetaryStage& stage, bool damped) {
   state.bottomLeftCorner(n, n) = -basis.transpose() * matrices.stiffness * basis / (unit * unit);
   state.bottomRightCorner(n, n) = -basis.transpose() * matrices.rate * basis / unit;
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(state);
-  if (solver.info() != Eigen::Success) throw SolverError("the eigenvalue solver for the turning stage failed");
+  if (solver.info() != Eigen::Success)
+    throw SolverError(fmt::format("the eigenvalue solver failed for the stage at {:g} rad/s", stage.carrier_speed));
 
   // One of each conjugate pair; eigenvalues without one (real, or zero) in pairs by size, given by the one nearer zero.
   const Eigen::VectorXcd values = solver.eigenvalues() * unit;
@@ -91,7 +96,8 @@ RotatingModes rotating_modes(const PlanetaryStage& stage, bool damped) {
   std::sort(others.begin(), others.end(),
             [&](Eigen::Index a, Eigen::Index b) { return std::abs(values[a]) < std::abs(values[b]); });
   for (std::size_t i = 0; i < others.size(); i += 2) oscillating.push_back(others[i]);
-  require(static_cast<Eigen::Index>(oscillating.size()) == n, "one mode per degree of freedom");
+  require(static_cast<Eigen::Index>(oscillating.size()) == n,
+          fmt::format("{} modes of {} degrees of freedom", oscillating.size(), n));
 
   for (const Eigen::Index i : oscillating) {
     RotatingMode mode = mode_of(values[i], largest);

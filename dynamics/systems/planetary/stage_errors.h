@@ -7,7 +7,7 @@
 
 namespace annulus::dynamics {
 
-/// Terms of e_sn and e_rn from eccentricities and installation errors (signs: see sun_mesh_error).
+/// Terms of e_sn and e_rn from eccentricities and position errors (signs: see sun_mesh_error).
 [[nodiscard]] std::vector<HarmonicError> sun_mesh_errors(const PlanetaryStage& stage, int n);
 [[nodiscard]] std::vector<HarmonicError> ring_mesh_errors(const PlanetaryStage& stage, int n);
 

@@ -23,7 +23,7 @@ KindFigures figures_of(const MeshKindResult& kind) {
 }
 
 /// Samples per mesh cycle of figures that are compared, at most `wanted` where all is smooth. Jumps set off vibrations
-/// of the highest modes, whose peaks need close samples where time is marched (measured: 32 samples miss by 1 %).
+/// of the highest modes, whose peaks need close samples in a time integration (measured: 32 samples err by 1 %).
 int samples_of_point(const PlanetaryStage& stage, int wanted) {
   constexpr int after_jumps = 128;
   for (const auto* mesh : {&stage.sun_mesh, &stage.ring_mesh})
@@ -32,11 +32,11 @@ int samples_of_point(const PlanetaryStage& stage, int wanted) {
   return std::min(wanted, enough_samples(stage.error_period()));
 }
 
-/// The one place that decides how the response of a point is found: directly, without confirmation, as long as no mesh
-/// opens. With contact lost several motions may be possible, and marching decides which one it is.
+/// Decides how the response of a point is found: by harmonic balance without confirmation while no mesh loses contact.
+/// With loss of contact several motions may exist, and time integration decides between them.
 DynamicResponse response_of_point(const PlanetaryStage& stage, const PointOptions& options) {
   SimulationOptions simulation = options.simulation;
-  simulation.estimate_error = false;  // the nominal run has the error; a study compares
+  simulation.estimate_error = false;  // the nominal run estimates the error; a study compares
   simulation.confirm = false;
   simulation.keep_series = options.motion;
   if (!options.motion && !simulation.mesh_cycles)
@@ -44,7 +44,7 @@ DynamicResponse response_of_point(const PlanetaryStage& stage, const PointOption
   auto response = simulate(stage, simulation);
   const bool opens =
       std::max(figures_of(response.sun_planet).contact_loss, figures_of(response.ring_planet).contact_loss) > 0;
-  // What was marched already needs no second look.
+  // A response that was integrated in time needs no second one.
   if (!opens || simulation.mesh_cycles || response.total_cycles > 0) return response;
   simulation.confirm = true;
   return simulate(stage, simulation);
@@ -116,10 +116,10 @@ PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& opt
   return figures;
 }
 
-const char* point_method() { return "direct 3"; }
+const char* point_method() { return "harmonic balance 3"; }
 
 double point_seconds(int planets, int error_period) {
-  // Measured with five planets and 55 mesh cycles: 50 ms, solved directly.
+  // Measured with five planets and 55 mesh cycles: 50 ms by harmonic balance.
   constexpr double per_cycle_and_planet = 2e-4;
   return per_cycle_and_planet * planets * std::max(20, error_period);
 }

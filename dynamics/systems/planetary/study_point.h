@@ -6,7 +6,7 @@
 
 namespace annulus::dynamics {
 
-/// Root mean square about the mean and whole range of a motion over the window, m.
+/// Root mean square about the mean and peak to peak of a motion over the window, m.
 struct MotionRange {
   double rms = 0, peak_to_peak = 0;
 };
@@ -24,14 +24,14 @@ struct PoincarePoint {
   double deflection = 0;  ///< m
 };
 
-/// What a study (sweep, sensitivity, Monte Carlo) keeps of one response.
+/// Results of one response that a study (sweep, sensitivity, Monte Carlo) stores.
 struct PointFigures {
   KindFigures sun_planet, ring_planet;
   bool steady = false;
   int window_cycles = 0;
   // Only with PointOptions::motion:
-  MotionRange
-      sun{};  ///< of the sun's centre: distance from its mean place; range: the wider one of x and y. NaN when held
+  /// Distance of the sun's centre from its mean position; peak to peak: the larger one of x and y. NaN when rigid.
+  MotionRange sun{};
   MotionRange sun_mesh{}, ring_mesh{};    ///< deflection of the mesh that moves most
   std::vector<double> frequencies{};      ///< Hz, the lowest distinct natural frequencies above zero
   std::vector<PoincarePoint> poincare{};  ///< one per mesh cycle of the window, `poincare_cycles` at most
@@ -44,13 +44,13 @@ struct PointOptions {
   int poincare_cycles = 200;  ///< at most
 };
 
-/// Response and figures of one stage. Throws what `simulate` and `modes` throw.
+/// Response and results of one stage. Throws what `simulate` and `modes` throw.
 [[nodiscard]] PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& options);
 
-/// How responses of studies are found; enters the identity of kept results.
+/// Method and version of the responses of studies; part of the identity of stored results.
 [[nodiscard]] const char* point_method();
 
-/// Rough wall time of evaluate_point in seconds on one core, for plans: the window is `error_period` mesh cycles.
+/// Rough time of evaluate_point on one core (s); the window is `error_period` mesh cycles.
 [[nodiscard]] double point_seconds(int planets, int error_period);
 
 }  // namespace annulus::dynamics

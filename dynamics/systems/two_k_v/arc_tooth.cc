@@ -167,7 +167,9 @@ ArcToothPosition arc_position(const ArcToothMesh& mesh, double torque, double ph
 
 StiffnessTable arc_stiffness_table(const ArcToothMesh& mesh, const std::vector<double>& torques, int phases) {
   mesh.check();
-  if (torques.empty() || phases < 1) throw InputError("arc-tooth mesh: a table needs a torque and a phase");
+  if (torques.empty() || phases < 1)
+    throw InputError(
+        fmt::format("arc-tooth mesh: a table needs a torque and a phase, not {} and {}", torques.size(), phases));
   std::vector<double> loads;
   loads.reserve(torques.size());
   for (const double torque : torques) loads.push_back(torque / mesh.pitch_radius());

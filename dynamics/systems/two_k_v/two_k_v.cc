@@ -28,10 +28,12 @@ void TwoKVStage::check() const {
   const auto positive = [&](double value, const char* name, const char* unit) {
     if (!std::isfinite(value) || !(value > 0)) refuse(fmt::format("{} {:g} {} must be positive", name, value, unit));
   };
-  const auto not_negative = [&](double value, const char* name, const char* unit, bool may_be_rigid) {
-    if (!(value >= 0) || (std::isinf(value) && !may_be_rigid))
-      refuse(fmt::format("{} {:g} {} must be zero or positive{}", name, value, unit,
-                         may_be_rigid ? ", or infinite (held)" : " and finite"));
+  const auto not_negative = [&](double value, const char* name, const char* unit) {
+    if (!(value >= 0) || std::isinf(value))
+      refuse(fmt::format("{} {:g} {} must be zero or positive and finite", name, value, unit));
+  };
+  const auto support = [&](double value, const char* name) {
+    if (!(value >= 0)) refuse(fmt::format("{} {:g} N m/rad must be zero or positive, or infinite (held)", name, value));
   };
   const auto at_least = [&](int value, int least, const char* name) {
     if (value < least) refuse(fmt::format("{} {}; at least {} needed", value, name, least));
@@ -62,15 +64,15 @@ void TwoKVStage::check() const {
   positive(arc_bearing, "arc gear bearing stiffness", "N/m");
   dynamics::check(sun_mesh, "2K-V stage: sun mesh");
   dynamics::check(arc_mesh, "2K-V stage: arc mesh");
-  not_negative(input_support, "input support", "N m/rad", true);
-  not_negative(output_support, "output support", "N m/rad", true);
-  not_negative(mesh_damping_ratio, "mesh damping ratio", "", false);
-  not_negative(support_damping_ratio, "support damping ratio", "", false);
-  not_negative(sun_half_backlash.value_or(0), "half backlash of the sun mesh", "m", false);
-  not_negative(arc_half_backlash.value_or(0), "half backlash of the arc mesh", "m", false);
-  if (!std::isfinite(crank_angle)) refuse("the crank angle is not finite");
-  not_negative(output_speed, "output speed", "rad/s", false);
-  not_negative(output_torque, "output torque", "N m", false);
+  support(input_support, "input support");
+  support(output_support, "output support");
+  not_negative(mesh_damping_ratio, "mesh damping ratio", "");
+  not_negative(support_damping_ratio, "support damping ratio", "");
+  not_negative(sun_half_backlash.value_or(0), "half backlash of the sun mesh", "m");
+  not_negative(arc_half_backlash.value_or(0), "half backlash of the arc mesh", "m");
+  if (!std::isfinite(crank_angle)) refuse(fmt::format("crank angle {} rad must be finite", crank_angle));
+  not_negative(output_speed, "output speed", "rad/s");
+  not_negative(output_torque, "output torque", "N m");
 }
 
 Eigen::VectorXd dof_radii(const TwoKVStage& stage, const LumpedSystem& system) {

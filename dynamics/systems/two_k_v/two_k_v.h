@@ -9,25 +9,24 @@
 
 namespace annulus::dynamics {
 
-/// A 2K-V reducer: sun and planets, each planet on a crank shaft of the output carrier, and arc-tooth (or cycloid)
-/// gears on the eccentrics of the cranks, which roll on the pins of the housing. SI. Models.md D, after "Dynamic
-/// modeling on arc toothed 2K-V reducer", eq. (6), corrected:
+/// A 2K-V reducer: sun and planets, each planet on a crank shaft of the output carrier. Arc-tooth (or cycloid) gears on
+/// the eccentrics of the cranks roll on the pins of the housing. SI. After [QiFangLi2004, eq. (6)], corrected:
 ///
 ///   V = 1/2 k_is (th_i - th_s)^2 +
 ///       sum_i [1/2 k_p (r_bs th_s + r_bp th_pi - X_pi cos alpha)^2 + 1/2 k_ph (th_pi - th_hi)^2 +
 ///              1/2 k_ha (X_pi - r_c th_o)^2] +
 ///       sum_ij 1/2 k_b |(X_aj - a th_hi) v_j + (r_c th_aj - X_pi) t_i|^2 + sum_j 1/2 k_a (X_aj + a z_a th_aj)^2
 ///
-/// Frame: fixed to the output carrier. The cranks stand still in it, at phi_i = 2 pi i/n, t_i = (-sin phi_i, cos
-/// phi_i); v_j = (-sin Theta_j, cos Theta_j) is across the eccentricity of gear j, Theta_j = Theta + 2 pi j/m. All th
-/// are absolute rotations, X_pi is the way of a crank's centre along t_i, X_aj of an arc gear's centre along v_j (both
-/// along directions of the frame; its inertia terms are left out, as in the paper). One turn of the output, th_o = 1,
-/// turns
+/// The frame is fixed to the output carrier. The cranks stand still in it, at phi_i = 2 pi i/n, with t_i = (-sin phi_i,
+/// cos phi_i). v_j = (-sin Theta_j, cos Theta_j) is perpendicular to the eccentricity of gear j, Theta_j = Theta +
+/// 2 pi j/m. All th are absolute rotations. X_pi is the displacement of a crank's centre along t_i, X_aj that of an arc
+/// gear's centre along v_j. Inertia terms of the turning frame are neglected, as in the paper. A rotation th_o = 1 of
+/// the output turns
 ///   arc gears by 1, cranks and planets by -z_a, sun and input by 1 + (z_p/z_s) z_b (the ratio),
 /// X_p = r_c, X_a = -a z_a. So Theta, an angle against the carrier, turns at -(z_a + 1) = -z_b times the output speed.
 ///
-/// DOFs are lengths as everywhere in the program: u = r th with r_bs (input, sun), r_bp (planets), a (cranks), r_c
-/// (arc gears, output). A value type: change it, assemble it again.
+/// All DOFs are lengths: u = r th with r_bs (input, sun), r_bp (planets), a (cranks), r_c (arc gears, output). A value
+/// type: change it and assemble it again.
 struct TwoKVStage {
   int sun_teeth = 0, planet_teeth = 0;
   int arc_teeth = 0;  ///< z_a
@@ -53,12 +52,13 @@ struct TwoKVStage {
   double input_support = 0;   ///< N m/rad to the housing; 0: free, `rigid`: held
   double output_support = 0;  ///< likewise; the paper holds the output
 
-  /// Half the total backlash, m, along the line of action and the tangent of the pitch point. Absent: never part.
+  /// Half the total backlash, m, along the line of action and the tangent of the pitch point. Absent: never loses
+  /// contact.
   std::optional<double> sun_half_backlash, arc_half_backlash;
   bool damping_without_contact = false;
   /// zeta in c = 2 zeta sqrt(k m_e), 1/m_e = b^T M^-1 b of the element (the mean over its directions in a bearing).
   double mesh_damping_ratio = 0;
-  double support_damping_ratio = 0;  ///< shafts, bearings and supports alike
+  double support_damping_ratio = 0;  ///< shafts, bearings and supports
 
   double crank_angle = 0;    ///< Theta at time 0, rad
   double output_speed = 0;   ///< rad/s, >= 0
@@ -76,17 +76,20 @@ struct TwoKVStage {
   [[nodiscard]] double mean_arc_mesh_force() const;  ///< N: (T - T/ratio)/(m a z_b), tangential
   [[nodiscard]] double arc_torque() const;           ///< N m about the centre of one arc gear: that force x a z_a
 
-  /// Throws InputError naming the quantity when the stage cannot be assembled.
+  /// Throws InputError with name and value of the quantity when the stage cannot be assembled.
   void check() const;
 };
 
-/// The stage as elements, at Theta = crank_angle at time 0 and turning with it. DOFs input_u, sun_u, planet1_u ...,
-/// crank1_u ..., arc1_u ..., output_u, planet1_x ..., arc1_x ... (held ones left out). Meshes: sun_planet1 ...,
-/// arc_pins1 ... (delta = -(X_a + a z_a th_a): the load closes it), then crank1_arc1_tangential (along t_1),
-/// crank1_arc1_radial ...: bearings as linear meshes, for their vectors turn with v_j. Springs: input_shaft,
-/// planet1_shaft, crank1_bearing, ..., input_support_u, output_support_u.
+/// The stage as elements. Theta = crank_angle at time 0 and turns with the crank.
+/// - DOFs: input_u, sun_u, planet1_u ..., crank1_u ..., arc1_u ..., output_u, planet1_x ..., arc1_x ... (rigid ones
+/// left
+///   out).
+/// - Meshes: sun_planet1 ..., arc_pins1 ... (delta = -(X_a + a z_a th_a), positive under load), then
+///   crank1_arc1_tangential (along t_1), crank1_arc1_radial ...: bearings as linear meshes, whose vectors turn with
+///   v_j.
+/// - Springs: input_shaft, planet1_shaft, crank1_bearing, ..., input_support_u, output_support_u.
 /// Mesh phases follow the crank: sun mesh i at -z_p Theta/2 pi - z_s phi_i/2 pi cycles, pins of arc gear j at
-/// -z_a Theta/2 pi - z_b j/m.
+/// -z_a Theta/2 pi - z_b j/m. Throws what `check` throws.
 [[nodiscard]] LumpedSystem assemble(const TwoKVStage& stage);
 
 /// Length per radian of every DOF, m; 1 for the translations: angle = displacement / radius.

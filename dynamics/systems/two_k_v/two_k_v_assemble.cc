@@ -34,8 +34,12 @@ class TwoKVAssembler {
   }
 
  private:
-  Turning turning(const std::string& name, double inertia, double radius, bool held = false) {
-    if (held) return {{}, radius, 0};
+  /// A body whose rotation a rigid support may hold.
+  Turning supported(const std::string& name, double inertia, double radius, double support) {
+    return support == rigid ? Turning{{}, radius, 0} : turning(name, inertia, radius);
+  }
+
+  Turning turning(const std::string& name, double inertia, double radius) {
     Turning body{builder_.add_dof(name + "_u"), radius, radius * radius / inertia};
     builder_.add_mass(body.u, inertia / (radius * radius));
     return body;
@@ -49,7 +53,7 @@ class TwoKVAssembler {
 
   void add_dofs() {
     const double r_c = stage_.crank_circle_radius();
-    input_ = turning("input", stage_.input_inertia, stage_.sun_base_radius(), stage_.input_support == rigid);
+    input_ = supported("input", stage_.input_inertia, stage_.sun_base_radius(), stage_.input_support);
     sun_ = turning("sun", stage_.sun_inertia, stage_.sun_base_radius());
     const auto numbered = [](const char* body, int i) { return body + std::to_string(i + 1); };
     for (int i = 0; i < stage_.cranks; ++i)
@@ -57,7 +61,7 @@ class TwoKVAssembler {
     for (int i = 0; i < stage_.cranks; ++i)
       cranks_.push_back(turning(numbered("crank", i), stage_.crank_inertia, stage_.eccentricity));
     for (int j = 0; j < stage_.arc_gears; ++j) arcs_.push_back(turning(numbered("arc", j), stage_.arc_inertia, r_c));
-    output_ = turning("output", stage_.output_inertia, r_c, stage_.output_support == rigid);
+    output_ = supported("output", stage_.output_inertia, r_c, stage_.output_support);
     for (int i = 0; i < stage_.cranks; ++i)
       planet_x_.push_back(moving_centre(numbered("planet", i), stage_.planet_mass));
     for (int j = 0; j < stage_.arc_gears; ++j) arc_x_.push_back(moving_centre(numbered("arc", j), stage_.arc_mass));
@@ -105,7 +109,8 @@ class TwoKVAssembler {
         mesh("sun_planet" + std::to_string(i + 1), sun_.u + planets_[i].u + (-along) * planet_x_[i], stage_.sun_mesh,
              sun_.inverse_mass + planets_[i].inverse_mass + along * along / stage_.planet_mass);
     element.frequency = stage_.sun_mesh_frequency();
-    element.phase_offset = -(stage_.planet_teeth * stage_.crank_angle + stage_.sun_teeth * place(i)) / full_turn;
+    element.phase_offset =
+        -(stage_.planet_teeth * stage_.crank_angle + stage_.sun_teeth * crank_position(i)) / full_turn;
     element.half_backlash = stage_.sun_half_backlash;
     builder_.add_mesh(std::move(element));
   }
@@ -121,10 +126,10 @@ class TwoKVAssembler {
     builder_.add_mesh(std::move(element));
   }
 
-  /// |(X_a - a th_h) v_j + (r_c th_a - X_p) t_i|^2 in components along t_i and along the radius of the crank's place:
+  /// |(X_a - a th_h) v_j + (r_c th_a - X_p) t_i|^2 in components along t_i and along the radius of the crank:
   /// v_j.t_i = cos(Theta_j - phi_i), v_j.(cos phi_i, sin phi_i) = -sin(Theta_j - phi_i).
   void add_arc_bearing(int i, int j) {
-    const double angle = stage_.crank_angle + full_turn * (j + 1) / stage_.arc_gears - place(i);
+    const double angle = stage_.crank_angle + full_turn * (j + 1) / stage_.arc_gears - crank_position(i);
     const double rate = stage_.crank_rate();
     const LinearForm along_t = arcs_[j].u + (-1.0) * planet_x_[i], along_v = arc_x_[j] + (-1.0) * cranks_[i].u;
     // Half the trace of B^T M^-1 B, B the two vectors.
@@ -149,7 +154,7 @@ class TwoKVAssembler {
   }
 
   /// phi_i
-  [[nodiscard]] double place(int i) const { return full_turn * (i + 1) / stage_.cranks; }
+  [[nodiscard]] double crank_position(int i) const { return full_turn * (i + 1) / stage_.cranks; }
 
   const TwoKVStage& stage_;
   LumpedSystemBuilder builder_;

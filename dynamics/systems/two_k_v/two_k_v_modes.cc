@@ -40,13 +40,14 @@ Eigen::VectorXd frozen_tangents(const LumpedSystem& system, FrozenStiffness froz
 /// Stiffness seen from one DOF, N m/rad.
 double stiffness_seen_from(const std::string& dof, const TwoKVStage& stage, FrozenStiffness frozen) {
   const LumpedSystem system = assemble(stage);
-  const int place = system.find(dof);
+  const int index = system.find(dof);
   const Eigen::LLT<Eigen::MatrixXd> factor(stiffness_with_meshes(system, frozen_tangents(system, frozen)));
   if (factor.info() != Eigen::Success)
-    throw SolverError("the torsional stiffness of the 2K-V stage is not positive at this crank angle");
-  const double radius = dof_radii(stage, system)[place];
-  const Eigen::VectorXd moved = factor.solve(Eigen::VectorXd::Unit(system.dofs(), place));
-  return radius * radius / moved[place];
+    throw SolverError(fmt::format(
+        "the torsional stiffness of the 2K-V stage is not positive at a crank angle of {:g} rad", stage.crank_angle));
+  const double radius = dof_radii(stage, system)[index];
+  const Eigen::VectorXd moved = factor.solve(Eigen::VectorXd::Unit(system.dofs(), index));
+  return radius * radius / moved[index];
 }
 
 void check_count(int count) {

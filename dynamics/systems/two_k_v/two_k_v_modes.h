@@ -10,7 +10,7 @@
 
 namespace annulus::dynamics {
 
-/// Which mesh stiffness a frozen position has.
+/// Mesh stiffness of a frozen position.
 enum class FrozenStiffness {
   mean,        ///< mean tangent over the mesh cycle: only the directions of the bearings change with the crank
   at_position  ///< tangent at the mesh phases of the position
@@ -23,8 +23,8 @@ enum class FrozenStiffness {
 [[nodiscard]] Modes modes(const TwoKVStage& stage, FrozenStiffness frozen = FrozenStiffness::mean);
 [[nodiscard]] ModalEnergy modal_energy(const TwoKVStage& stage, const Modes& modes,
                                        FrozenStiffness frozen = FrozenStiffness::mean);
-/// What a mode is: "body on group", the body (group of bodies: planet, crank, arc, ...) with most kinetic energy and
-/// the group of elements (by_group) with most strain energy; "rigid" without strain.
+/// Name of a mode, "body on group", or "rigid" without strain. The body (planet, crank, arc, ...) has most kinetic
+/// energy, the group of elements (by_group) most strain energy.
 [[nodiscard]] std::string mode_name(const ModalEnergy& energy, Eigen::Index mode);
 
 /// Modes over one turn of the crank against the carrier.
@@ -37,8 +37,8 @@ struct CrankModes {
 [[nodiscard]] CrankModes modes_over_crank(const TwoKVStage& stage, int count,
                                           FrozenStiffness frozen = FrozenStiffness::at_position);
 
-/// Static torsional stiffness by condensation, over one turn of the crank. As the train without deformation costs no
-/// energy, the stiffness seen from the output with the input held is ratio^2 times the other one, at every angle.
+/// Static torsional stiffness by condensation, over one turn of the crank. The rigid motion of the train needs no
+/// energy, so the stiffness at the output with the input held is ratio^2 times the other one, at every angle.
 struct TorsionalStiffness {
   Eigen::VectorXd angle;        ///< rad
   Eigen::VectorXd from_output;  ///< N m/rad, input held; the output's own support left out
@@ -47,6 +47,7 @@ struct TorsionalStiffness {
   /// (max - min)/mean
   [[nodiscard]] double ripple() const { return (from_output.maxCoeff() - from_output.minCoeff()) / mean(); }
 };
+/// Throws InputError for a count below 1, SolverError when the stiffness is not positive.
 [[nodiscard]] TorsionalStiffness torsional_stiffness(const TwoKVStage& stage, int count,
                                                      FrozenStiffness frozen = FrozenStiffness::at_position);
 

@@ -1,5 +1,7 @@
 #include "dynamics/systems/two_k_v/two_k_v_response.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -123,7 +125,7 @@ std::optional<double> shoot_for_start(const TwoKVStage& stage, const LumpedSyste
   const auto found = shoot(system, problem.period_in_cycles / problem.mesh_frequency, guess, shooting);
   const bool rigid_motion_exists = stage.input_support == 0 && stage.output_support == 0;
   const double multiplier = std::abs(found.multipliers[rigid_motion_exists ? 2 : 0]);
-  // From an unstable orbit the motion departs, sooner or later: marching from elsewhere finds where to.
+  // From an unstable orbit the motion departs sooner or later. Time integration from elsewhere finds its destination.
   constexpr double accuracy = 1e-3;  // of multipliers from differences; an undamped motion neither grows nor dies
   if (found.converged && multiplier <= 1 + accuracy) problem.start = found.start;
   return multiplier;
@@ -141,10 +143,16 @@ int period_in_crank_turns(const TwoKVStage& stage) {
 
 TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options) {
   stage.check();
-  if (!(stage.output_speed > 0)) throw InputError("2K-V stage: a time response needs an output speed above zero");
-  if (!(stage.output_torque > 0)) throw InputError("2K-V stage: a time response needs an output torque above zero");
+  if (!(stage.output_speed > 0))
+    throw InputError(fmt::format("2K-V stage: a time response needs an output speed above zero, not {:g} rad/s",
+                                 stage.output_speed));
+  if (!(stage.output_torque > 0))
+    throw InputError(fmt::format("2K-V stage: a time response needs an output torque above zero, not {:g} N m",
+                                 stage.output_torque));
   if (stage.input_support == rigid && stage.output_support == rigid)
-    throw InputError("2K-V stage: with input and output held no torque acts; leave one end free");
+    throw InputError(
+        fmt::format("2K-V stage: with input and output held the torque of {:g} N m does not act; leave one end free",
+                    stage.output_torque));
   const LumpedSystem system = assemble(stage);
   const double arc_force = stage.mean_arc_mesh_force();
   SteadyProblem problem{stage.sun_mesh_frequency(), period_in_crank_turns(stage) * stage.planet_teeth, arc_force,

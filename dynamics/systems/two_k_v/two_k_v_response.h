@@ -12,14 +12,14 @@
 
 namespace annulus::dynamics {
 
-/// theta_o - theta_i/ratio, rad: how far the output lags or leads the input.
+/// theta_o - theta_i/ratio, rad: lead of the output.
 struct OutputError {
   Eigen::VectorXd series;  ///< over the window
   double mean = 0;         ///< the wind-up under the torque
   Figure peak_to_peak;
 };
 
-/// Figures of one mesh.
+/// Results of one mesh.
 struct TwoKVMeshResult {
   Figure dynamic_factor_max;      ///< max F/mean mesh force, peaks refined between the samples
   double dynamic_factor_min = 0;  ///< min F/mean mesh force
@@ -35,7 +35,7 @@ struct ArcBearingResult {
 
 struct TwoKVResponse {
   double crank_frequency = 0, sun_mesh_frequency = 0, arc_mesh_frequency = 0;  ///< Hz, in the frame of the carrier
-  double mean_sun_force = 0, mean_arc_force = 0;                               ///< N, what the factors refer to
+  double mean_sun_force = 0, mean_arc_force = 0;                               ///< N, reference of the factors
   int crank_turns = 0;                                                         ///< in the window
   OutputError dynamic;
   OutputError quasi_static;           ///< K(t) q = f at `quasi_static_time`: the error of the changing stiffness alone
@@ -44,27 +44,28 @@ struct TwoKVResponse {
   std::vector<ArcBearingResult> arc_bearings;
   Spectrum error_spectrum;  ///< of the dynamic error, rad; orders count turns of the crank. Empty where the window
                             ///< holds no whole turns
-  /// Mean torque of the sun meshes on the sun, change of the momentum of sun and input included, against T/ratio;
-  /// absent where the input has a support.
+  /// Relative difference between T/ratio and the mean torque of the sun meshes, with the change of the momentum of sun
+  /// and input. Absent where the input has a support.
   std::optional<double> torque_balance_relative;
-  /// Largest amount of a Floquet multiplier of one period but the double unit one of a rigid motion: below 1 the motion
-  /// is stable, above 1 the changing stiffness feeds it. Absent without shooting.
+  /// Largest modulus of a Floquet multiplier of one period, without the double unit one of a rigid motion. Below 1 the
+  /// motion is stable, above 1 the changing stiffness feeds it. Absent without shooting.
   std::optional<double> largest_multiplier;
   SteadyOutcome steady;
   TimeSeries series;  ///< empty without `keep_series`
 };
 
-/// Turns of the crank against the carrier after which all repeats. One turn moves every sun mesh on by z_p whole
-/// cycles, every arc mesh by z_a, and brings the directions of the bearings back: one, unless a table spans several
-/// cycles.
+/// Turns of the crank against the carrier after which everything repeats: one, unless a table spans several cycles. One
+/// turn moves every sun mesh on by z_p whole cycles and every arc mesh by z_a, and restores the bearing directions.
 [[nodiscard]] int period_in_crank_turns(const TwoKVStage& stage);
 
-/// Periodic steady state at output_speed under output_torque (both > 0) with everything that changes in time: mesh
-/// stiffnesses and bearing directions. Found by shooting (the first mode dies slowly: the dampers of stiff bearings
-/// take little from a motion that hardly strains them, and marching alone would wait hundreds of crank turns), then
-/// marched on until windows repeat; with `mesh_cycles` by marching from quasi-static equilibrium alone. Cycles of the
-/// options are those of the sun meshes. Throws InputError when no torque acts (both ends held) or the load is not
-/// balanced.
+/// Periodic steady state at output_speed under output_torque (both > 0), with mesh stiffnesses and bearing directions
+/// that change in time.
+///
+/// It is found by shooting and confirmed by time integration until windows repeat. Time integration alone would take
+/// hundreds of crank turns, because dampers of stiff bearings damp the first mode little. With `mesh_cycles` it runs
+/// from quasi-static equilibrium alone. Cycles of the options are those of the sun meshes.
+///
+/// Throws InputError without speed or torque, when both ends are held, or when the load is not balanced.
 [[nodiscard]] TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options = {});
 
 }  // namespace annulus::dynamics

@@ -95,20 +95,21 @@ void scale_mesh(MeshExcitation& excitation, double factor, std::string_view name
 const Mode& first_mode(const Modes& found) {
   for (const auto& mode : found.modes)
     if (mode.frequency > 0) return mode;
-  throw SolverError("the 2K-V stage has no natural frequency above zero");
+  throw SolverError(
+      fmt::format("none of the {} natural frequencies of the 2K-V stage is above zero", found.modes.size()));
 }
 
-/// d ln f/d ln p of mode `place`: the share of the strain energy of the elements the input acts through, halved, or
+/// d ln f/d ln p of `mode`: the share of the strain energy of the elements the input acts through, halved, or
 /// minus that of the kinetic energy.
-double exact_sensitivity(const RealInput& input, const ModalEnergy& energy, const Modes& found, Eigen::Index place,
+double exact_sensitivity(const RealInput& input, const ModalEnergy& energy, const Modes& found, Eigen::Index mode,
                          const LumpedSystem& system) {
   double share = 0;
   if (input.enters == Enters::stiffness) {
     for (std::size_t e = 0; e < energy.elements.size(); ++e)
-      if (element_group(energy.elements[e]) == input.part) share += energy.strain(static_cast<Eigen::Index>(e), place);
+      if (element_group(energy.elements[e]) == input.part) share += energy.strain(static_cast<Eigen::Index>(e), mode);
     return share / 2;
   }
-  const auto& shape = found.modes[place].shape;  // phi^T M phi = 1, M is diagonal
+  const auto& shape = found.modes[mode].shape;  // phi^T M phi = 1, M is diagonal
   for (int i = 0; i < system.dofs(); ++i) {
     const auto& name = system.names()[i];
     if (element_group(name) == input.part && name.ends_with(input.suffix))
@@ -117,7 +118,7 @@ double exact_sensitivity(const RealInput& input, const ModalEnergy& energy, cons
   return -share / 2;
 }
 
-/// Of first_frequency, relative step 1e-4: the error of second order is some 1e-8, that of rounding 1e-9.
+/// Sensitivity of first_frequency with a relative step of 1e-4: the error of second order is some 1e-8, rounding 1e-9.
 double difference_sensitivity(const TwoKVStage& stage, const std::string& input) {
   constexpr double step = 1e-4;
   return std::log(first_frequency(stage, input, std::exp(step)) / first_frequency(stage, input, std::exp(-step))) /
@@ -182,7 +183,7 @@ std::vector<FrequencySensitivity> first_frequency_sensitivities(const TwoKVStage
   const LumpedSystem system = assemble(stage);
   const Modes found = modes(stage);
   const ModalEnergy energy = modal_energy(stage, found);
-  const auto place = static_cast<Eigen::Index>(&first_mode(found) - found.modes.data());
+  const auto mode = static_cast<Eigen::Index>(&first_mode(found) - found.modes.data());
   std::vector<FrequencySensitivity> result;
   for (const auto& input : real_inputs) {
     if (!counts(stage, input)) continue;
@@ -190,7 +191,7 @@ std::vector<FrequencySensitivity> first_frequency_sensitivities(const TwoKVStage
     if (input.enters == Enters::otherwise)
       result.push_back({name, difference_sensitivity(stage, name), false});
     else
-      result.push_back({name, exact_sensitivity(input, energy, found, place, system), true});
+      result.push_back({name, exact_sensitivity(input, energy, found, mode, system), true});
   }
   std::stable_sort(result.begin(), result.end(),
                    [](const auto& a, const auto& b) { return std::abs(a.value) > std::abs(b.value); });

@@ -1,0 +1,134 @@
+#include "app/scene/common_tables.h"
+
+#include "app/scene/scene_declare.h"
+#include "app/scene/scene_kind.h"
+
+namespace annulus::app {
+
+namespace {
+
+Table top_level_table() {
+  Declarations<Scene> top("", "The whole scene.", [](Scene& s, std::size_t) -> Scene& { return s; });
+  top.key("title", &Scene::title, "Title of the report.").fallback(std::string("Planetary stage"), "");
+  top.key("accuracy", &Scene::accuracy, "Wanted relative accuracy of the mesh stiffness.")
+      .fallback(0.01, "well below the spread of unknown inputs such as support stiffnesses")
+      .from(1e-5, 0.2);
+  top.choice(
+         "model", &Scene::fidelity,
+         {{"automatic", Fidelity::automatic},
+          {"closed_form", Fidelity::closed_form},
+          {"plane", Fidelity::plane},
+          {"solid", Fidelity::solid},
+          {"resolved", Fidelity::resolved}},
+         "Kind of model of the elastic bodies: closed_form, tooth and curved-beam formulas, seconds, its error is "
+         "not controlled; plane or solid, finite elements with condensed flanks; resolved, the contact patch itself "
+         "is meshed, plane or solid as the scene requires.")
+      .fallback(std::string("automatic"), "the cheapest with a controlled error that the scene permits")
+      .formerly("rung");
+  top.key("reference", &Scene::reference, "File of published values to compare with, relative to the scene.")
+      .absent("no comparison");
+  return top.done();
+}
+
+Table stage_table() {
+  Declarations<StageInput> stage("stage", "The gear set and its operating point.",
+                                 [](Scene& s, std::size_t) -> StageInput& { return s.stage; });
+  std::vector<Choice<StageKind>> kinds;
+  for (const auto& kind : scene_kinds()) kinds.push_back({kind.name, kind.id});
+  stage.choice("kind", &StageInput::kind, kinds, "Kind of stage.").required();
+  stage.key("module_mm", &StageInput::module, "Module.").required().from(0.05, 100);
+  stage.key("pressure_angle_deg", &StageInput::pressure_angle, "Pressure angle of the basic rack.")
+      .required()
+      .from(10, 35);
+  stage
+      .key("helix_angle_deg", &StageInput::helix_angle,
+           "Helix angle at the reference circle; positive: planets, ring and pinion right-handed, sun and wheel "
+           "left-handed. The module, pressure angle and profile shifts are then those of the normal section; forces "
+           "and transmission errors of a planetary stage those of the transverse one.")
+      .fallback(0.0, "spur gears")
+      .from(-45, 45);
+  stage.key("face_width_mm", &StageInput::face_width, "Common face width.").required().above(0, 5000);
+  return stage.done();
+}
+
+Table material_table() {
+  Declarations<MaterialInput> material("material", "Material of all gears.",
+                                       [](Scene& s, std::size_t) -> MaterialInput& { return s.material; });
+  material.key("youngs_modulus_GPa", &MaterialInput::youngs_modulus, "Young's modulus.").required().from(1e-6, 2000);
+  material.key("poisson_ratio", &MaterialInput::poisson_ratio, "Poisson's ratio.")
+      .fallback(0.3, "steel")
+      .from(0, 0.4999);
+  material.key("density_kg_per_m3", &MaterialInput::density, "Density; only used to check masses.")
+      .fallback(7850.0, "steel")
+      .from(100, 30000);
+  return material.done();
+}
+
+void declare_integration(Declarations<DynamicsInput>& lumped) {
+  lumped
+      .choice("integrator", &DynamicsInput::integrator,
+              {{"automatic", dynamics::Integrator::automatic},
+               {"explicit", dynamics::Integrator::arkode_explicit},
+               {"adams", dynamics::Integrator::cvode_adams},
+               {"bdf", dynamics::Integrator::cvode_bdf},
+               {"implicit", dynamics::Integrator::arkode_implicit},
+               {"runge_kutta_4", dynamics::Integrator::runge_kutta_4}},
+              "Time integration. explicit: Runge-Kutta of order 5 with adaptive steps (ARKODE); adams, bdf: CVODE; "
+              "implicit: L-stable Runge-Kutta of order 5 (ARKODE), for speeds so low that vibrations decay within a "
+              "mesh cycle; runge_kutta_4: the classical method with fixed steps, as in the papers; automatic: "
+              "explicit, bdf or implicit by stiffness ratio and damping.")
+      .fallback(std::string("automatic"), "the faster one of those that are accurate");
+  lumped.key("steps_per_cycle", &DynamicsInput::steps_per_cycle, "Steps per mesh cycle.")
+      .from(10, 1e6)
+      .needed_if(is("integrator", {"runge_kutta_4"}), "its steps are fixed; the other methods choose theirs");
+  lumped.key("mesh_cycles", &DynamicsInput::mesh_cycles, "Mesh cycles to integrate.")
+      .from(1, 1e6)
+      .absent("until the periodic steady state is reached, then one error period");
+  lumped.key("relative_tolerance", &DynamicsInput::relative_tolerance, "Relative tolerance of the time integration.")
+      .from(1e-12, 1e-2)
+      .absent("planetary stages: a ten-thousandth of the wanted accuracy, 1e-8 to 1e-5; else 1e-6");
+}
+
+Table dynamics_table() {
+  Declarations<DynamicsInput> lumped("dynamics", "The lumped model; absent: meshes and stiffness only.",
+                                     [](Scene& s, std::size_t) -> DynamicsInput& {
+                                       if (!s.dynamics) s.dynamics.emplace();
+                                       return *s.dynamics;
+                                     });
+  lumped.optional();
+  lumped
+      .key("half_backlash_um", &DynamicsInput::half_backlash, "Half the backlash along the line of action, every mesh.")
+      .required()
+      .from(0, 1e4);
+  lumped.key("mesh_damping_ratio", &DynamicsInput::mesh_damping_ratio, "Damping ratio ζ of every mesh: c = 2ζ√(k m_e).")
+      .required()
+      .from(0, 2);
+  lumped.key("support_damping_ratio", &DynamicsInput::support_damping_ratio, "Damping ratio of every bearing.")
+      .required()
+      .from(0, 2);
+  lumped
+      .choice("mesh_damping", &DynamicsInput::mesh_damping,
+              {{"in_contact", MeshDamping::in_contact}, {"always", MeshDamping::always}},
+              "When mesh damping acts. `always` is the literal form of the papers; it lets separated flanks pull.")
+      .fallback(std::string("in_contact"), "separated flanks exert no force");
+  lumped
+      .choice("load_dependence", &DynamicsInput::load_dependence,
+              {{"table", dynamics::LoadDependence::table}, {"nominal", dynamics::LoadDependence::nominal}},
+              "Force of a mesh with a stiffness table. table: force as a function of deflection through all tabulated "
+              "loads; nominal: linear, with the secant stiffness at the mean mesh force.")
+      .fallback(std::string("table"), "right at whatever load the mesh carries at the moment");
+  declare_integration(lumped);
+  return lumped.done();
+}
+
+}  // namespace
+
+std::vector<Table> first_common_tables() { return {top_level_table(), stage_table(), material_table()}; }
+
+std::vector<Table> last_common_tables() {
+  auto tables = study_tables();
+  tables.insert(tables.begin(), dynamics_table());
+  return tables;
+}
+
+}  // namespace annulus::app

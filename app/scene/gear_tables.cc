@@ -1,0 +1,60 @@
+#include "app/scene/gear_tables.h"
+
+namespace annulus::app {
+
+Declared declare_centre_distance(Declarations<StageInput>& stage) {
+  Declared key = stage.key("centre_distance_mm", &StageInput::centre_distance,
+                           "Working centre distance of sun and planet, or of pinion and wheel.");
+  key.above(0, 1e5);
+  return key;
+}
+
+void declare_planets(Declarations<StageInput>& stage) {
+  stage.key("planets", &StageInput::planets, "Number of planets.").from(1, 50).required();
+}
+
+Declarations<MeshInput> declare_mesh(const char* path, const char* meaning, MeshInput& (*section)(Scene&, std::size_t),
+                                     const MeshKeys& keys) {
+  Declarations<MeshInput> t(path, meaning, section);
+  t.optional();
+  std::vector<Choice<StiffnessShape>> shapes = {{"computed", StiffnessShape::computed},
+                                                {"constant", StiffnessShape::constant},
+                                                {"harmonic", StiffnessShape::harmonic},
+                                                {"rectangular", StiffnessShape::rectangular},
+                                                {"table", StiffnessShape::table}};
+  shapes.insert(shapes.end(), keys.more_shapes.begin(), keys.more_shapes.end());
+  t.choice("stiffness", &MeshInput::stiffness, shapes,
+           "Where the mesh stiffness comes from; everything but `computed` replaces the finite-element solve.")
+      .required()
+      .without_table("computed");
+  t.key("mean_N_per_m", &MeshInput::mean, "Mean stiffness of one mesh.")
+      .from(1e-3, 1e13)
+      .needed_if(is("stiffness", {"constant", "harmonic", "rectangular"}));
+  const std::vector<std::string> waves = {"harmonic", "rectangular"};
+  auto with_ripple = waves;
+  with_ripple.insert(with_ripple.end(), keys.more_waves.begin(), keys.more_waves.end());
+  t.key("ripple", &MeshInput::ripple,
+        "Relative ripple: k = mean (1 + ripple cos 2π phase), or mean (1 + ripple (s(phase) - duty)) with s = 1 during "
+        "the fraction `duty` and else 0.")
+      .from(0, 10)
+      .required_if(is("stiffness", waves))
+      .only_if(is("stiffness", with_ripple))
+      .absent(keys.constant_shape);
+  t.key("duty", &MeshInput::duty, "Fraction of the mesh cycle in which the rectangular wave is high.")
+      .above(0, 1)
+      .needed_if(is("stiffness", {"rectangular"}));
+  t.key("phase", &MeshInput::phase, "Lag of this wave in mesh cycles, on top of the phasing derived from the geometry.")
+      .from(-1, 1)
+      .only_if(is("stiffness", with_ripple))
+      .absent("no lag");
+  t.key("half_backlash_um", &MeshInput::half_backlash, "Half the backlash of this mesh along the line of action.")
+      .from(0, 1e4)
+      .absent("that of [dynamics]");
+  t.key("file", &MeshInput::file,
+        "Stiffness table (CSV), relative to the scene: one that annulus wrote, or columns of another program "
+        "(docs/exchange.md): mesh_phase and stiffness_N_per_m, or lte_um and load_N.")
+      .needed_if(is("stiffness", {"table"}));
+  return t;
+}
+
+}  // namespace annulus::app

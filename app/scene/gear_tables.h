@@ -1,0 +1,97 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/scene/scene_declare.h"
+
+/// Keys that several kinds of gear systems have, for their tables.
+namespace annulus::app {
+
+enum class Flanks { external, internal };
+
+/// teeth, profile_shift
+template <class Section>
+void declare_teeth(Declarations<Section>& t, Flanks flanks) {
+  t.key("teeth", &Section::teeth, "Number of teeth.").required().from(5, 2000);
+  t.key("profile_shift", &Section::profile_shift,
+        flanks == Flanks::internal ? "Profile shift in modules; positive moves the tooth space outwards."
+                                   : "Profile shift in modules; positive moves the rack outwards.")
+      .required()
+      .from(-2, 3);
+}
+
+/// mass_kg
+template <class Section>
+Declared declare_mass(Declarations<Section>& t, const char* meaning = "Mass.") {
+  Declared key = t.key("mass_kg", &Section::mass, meaning);
+  key.from(lightest_kg, 1e6).required_if(given("[dynamics]"));
+  return key;
+}
+
+/// inertia_kg_m2
+template <class Section>
+Declared declare_inertia(Declarations<Section>& t, const char* meaning = "Moment of inertia about the axis.") {
+  Declared key = t.key("inertia_kg_m2", &Section::inertia, meaning);
+  key.from(least_inertia_kg_m2, 1e6);
+  return key;
+}
+
+/// From tip_diameter_mm to lead_slope_um.
+template <class Section>
+void declare_flanks(Declarations<Section>& t, Flanks flanks) {
+  t.key("tip_diameter_mm", &Section::tip_diameter, "Tip diameter.")
+      .above(0, 1e5)
+      .absent("addendum of one module beyond the profile shift (ISO 53)");
+  t.key("root_diameter_mm", &Section::root_diameter, "Root diameter.")
+      .above(0, 1e5)
+      .absent("dedendum of 1.25 modules beyond the profile shift (ISO 53)");
+  t.key("root_fillet_factor", &Section::root_fillet_factor,
+        flanks == Flanks::internal
+            ? "Radius of the root fillet in modules; limited to the full circle between the flanks."
+            : "Tip radius of the generating rack in modules.")
+      .fallback(0.38, "ISO 53 profile A")
+      .above(0, 0.6);
+  const auto modification = [&](const char* name, double Section::*member, const char* meaning) {
+    return t.key(name, member, meaning).fallback(0.0, "unmodified flanks");
+  };
+  modification("tip_relief_um", &Section::tip_relief, "Linear tip relief, normal to the flank.").from(0, 1000);
+  modification("tip_relief_length_mm", &Section::tip_relief_length,
+               "Length of the tip relief along the line of action.")
+      .from(0, 1000);
+  modification("profile_crowning_um", &Section::profile_crowning,
+               "Parabolic crowning at both ends of the flank's profile.")
+      .from(0, 1000);
+  modification("lead_crowning_um", &Section::lead_crowning,
+               "Parabolic crowning along the face width, removed at both ends. The mesh becomes solid.")
+      .from(0, 1000);
+  modification("lead_slope_um", &Section::lead_slope,
+               "Slope along the face width, end to end; positive removes material towards +z, the free end of a "
+               "thin_walled ring. The mesh becomes solid.")
+      .from(-1000, 1000);
+}
+
+/// bore_diameter_mm, required where a mesh of this gear is computed.
+template <class Section>
+void declare_bore(Declarations<Section>& t, const Condition& computed) {
+  t.key("bore_diameter_mm", &Section::bore_diameter, "Diameter of the bore, where the body meets a rigid hub.")
+      .above(0, 1e5)
+      .required_if(computed, "a computed body ends at its bore; or prescribe the stiffness of the mesh");
+}
+
+/// centre_distance_mm of [stage].
+[[nodiscard]] Declared declare_centre_distance(Declarations<StageInput>& stage);
+/// planets of [stage].
+void declare_planets(Declarations<StageInput>& stage);
+
+/// The keys of one [mesh.NAME].
+struct MeshKeys {
+  std::vector<Choice<StiffnessShape>> more_shapes{};  ///< besides computed and the prescribed ones
+  std::vector<std::string> more_waves{};              ///< of these shapes, those that may have a ripple and a phase
+  const char* constant_shape = "";                    ///< what a shape of `more_waves` is without a ripple
+};
+[[nodiscard]] Declarations<MeshInput> declare_mesh(const char* path, const char* meaning,
+                                                   MeshInput& (*section)(Scene&, std::size_t),
+                                                   const MeshKeys& keys = {});
+
+}  // namespace annulus::app

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/system/mesh_excitation.h"
+#include "dynamics/time_integration/integrate.h"
+
+namespace annulus::app {
+
+/// Inputs that several kinds of gear systems have, in SI units.
+
+enum class StageKind { planetary, helical_pair, two_k_v };
+enum class Fidelity { automatic, closed_form, plane, solid, resolved };
+enum class Compare { none, computed };
+enum class StiffnessShape { computed, constant, harmonic, rectangular, table, iso_6336, closed_form };
+enum class MeshDamping { in_contact, always };
+enum class RimCoupling { automatic, none, statical, elastic };
+
+inline constexpr double rigid = std::numeric_limits<double>::infinity();
+
+struct StageInput {
+  StageKind kind = StageKind::planetary;
+  int planets = 0;
+  std::vector<double> planet_angles;  ///< rad; empty: equally spaced
+  double module = 0, pressure_angle = 0, helix_angle = 0, face_width = 0, centre_distance = 0;
+  double power = 0;
+  std::optional<double> sun_speed, carrier_speed;  ///< rad/s; exactly one is given
+  double pinion_torque = 0, pinion_speed = 0;      ///< helical_pair
+};
+
+struct MaterialInput {
+  double youngs_modulus = 0, poisson_ratio = 0, density = 0;
+};
+
+/// What sun, planet and ring have in common.
+struct GearInput {
+  int teeth = 0;
+  double profile_shift = 0;
+  std::optional<double> mass, inertia;
+  std::optional<double> tip_diameter, root_diameter;
+  double root_fillet_factor = 0;
+  double tip_relief = 0, tip_relief_length = 0, profile_crowning = 0;
+  double lead_crowning = 0, lead_slope = 0;
+};
+
+struct HubGearInput : GearInput {
+  std::optional<double> bore_diameter;
+};
+
+/// An eccentricity turns with its body; a position error (`installation`) is fixed in the housing or on the carrier.
+struct ErrorInput {
+  std::vector<double> planet_eccentricity, planet_eccentricity_phase, planet_installation, planet_installation_phase;
+  double sun_eccentricity = 0, sun_eccentricity_phase = 0, sun_installation = 0, sun_installation_phase = 0;
+  double ring_eccentricity = 0, ring_eccentricity_phase = 0, ring_installation = 0, ring_installation_phase = 0;
+  double carrier_eccentricity = 0, carrier_eccentricity_phase = 0;
+  double carrier_installation = 0, carrier_installation_phase = 0;
+  double sun_planet_misalignment = 0, ring_planet_misalignment = 0;  ///< over the face width, normal to the flanks
+  // Of a helical pair: waves along the normal of the flanks, at mesh frequency and once per turn.
+  std::optional<double> mesh_error;
+  double mesh_error_phase = 0;
+  double pinion_error = 0, pinion_error_phase = 0, wheel_error = 0, wheel_error_phase = 0;
+  double pinion_wheel_misalignment = 0;
+};
+
+/// Mesh stiffness prescribed instead of computed.
+struct MeshInput {
+  StiffnessShape stiffness = StiffnessShape::computed;
+  Compare compare = Compare::none;  ///< two_k_v only
+  std::optional<double> mean, ripple, duty, phase;
+  std::optional<double> half_backlash;  ///< instead of that of [dynamics]
+  std::optional<std::string> file;
+  std::optional<double> single_stiffness;  ///< c' of ISO 6336-1, Pa
+};
+
+struct DynamicsInput {
+  double half_backlash = 0;
+  double mesh_damping_ratio = 0, support_damping_ratio = 0;
+  MeshDamping mesh_damping = MeshDamping::in_contact;
+  dynamics::LoadDependence load_dependence = dynamics::LoadDependence::table;
+  RimCoupling rim_coupling = RimCoupling::automatic;
+  dynamics::Integrator integrator = dynamics::Integrator::automatic;
+  std::optional<int> steps_per_cycle;  ///< runge_kutta_4 only
+  std::optional<int> mesh_cycles;
+  std::optional<double> relative_tolerance;  ///< of the time integration; absent: what the accuracy asks for
+};
+
+}  // namespace annulus::app

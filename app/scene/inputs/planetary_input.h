@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/scene/inputs/common_input.h"
+
+namespace annulus::app {
+
+enum class Structure { traditional, thin_walled, pinned, bolted, splined, clamped };
+
+struct CarrierInput {
+  std::optional<double> mass, inertia;
+};
+
+struct RingInput : GearInput {
+  std::string name;
+  Structure structure = Structure::traditional;
+  std::optional<double> outside_diameter, rim_thickness;                            ///< exactly one is given
+  std::optional<double> flange_width, flange_diameter;                              ///< both or none
+  std::optional<double> free_length, sleeve_thickness, hoop_width, hoop_thickness;  ///< hoop: both or none
+  std::optional<int> pins;                                                          ///< this or `pin_angles`
+  std::vector<double> pin_angles;
+  std::optional<double> first_pin_angle, pin_diameter, pin_clearance, pin_free_span, housing_clearance;
+  std::optional<double> pin_radial_stiffness, pin_tangential_stiffness;
+  std::optional<int> splines;
+  std::optional<double> first_spline_angle, spline_flank_angle, spline_clearance, spline_stiffness;
+  std::optional<int> bolts, dowels;  ///< dowels: with their diameter or none
+  std::optional<double> clamp_inner_diameter, bolt_circle_diameter, bolt_diameter, first_bolt_angle, dowel_diameter;
+
+  [[nodiscard]] bool has_pins() const { return structure == Structure::pinned || structure == Structure::bolted; }
+  [[nodiscard]] int pin_count() const {
+    return pin_angles.empty() ? pins.value_or(0) : static_cast<int>(pin_angles.size());
+  }
+};
+
+/// N/m; `rigid` drops the DOF. Torsional values are in the coordinate u = base radius x angle.
+struct SupportInput {
+  double sun = rigid, ring = rigid, carrier = rigid, planet = rigid;
+  double sun_torsional = 0, ring_torsional = rigid, carrier_torsional = 0;
+};
+
+/// What the scene of a planetary stage has besides stage, material, errors and dynamics.
+struct PlanetaryInput {
+  CarrierInput carrier;
+  std::vector<RingInput> rings;
+  SupportInput supports;
+  MeshInput ring_planet;
+};
+
+}  // namespace annulus::app

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace annulus::app {
+
+enum class SweepScale { linear, logarithmic };
+enum class ErrorPhases { given, unknown };
+enum class Goal { smallest, largest };
+enum class RandomKind { uniform, normal, lognormal };
+
+/// One input run through a row of values. Values of studies are in the unit of their input, as in the file.
+struct SweepInput {
+  std::string input;               ///< key path (overrides.h)
+  std::optional<double> from, to;  ///< these and `count`, or `values`
+  std::optional<int> count;
+  SweepScale scale = SweepScale::linear;
+  std::vector<double> values;
+
+  [[nodiscard]] std::vector<double> points() const;
+};
+
+/// Two inputs run through all combinations of their values.
+struct GridInput {
+  SweepInput x, y;
+};
+
+/// An uncertain input.
+struct RandomInput {
+  std::string input;  ///< key path; `[*]` draws for every planet by itself
+  RandomKind distribution = RandomKind::uniform;
+  std::optional<double> low, high, mean, deviation;
+};
+
+struct MonteCarloInput {
+  int samples = 0, seed = 0;
+  ErrorPhases phases = ErrorPhases::unknown;
+};
+
+/// An input that an optimiser may change.
+struct VariableInput {
+  std::string input;  ///< key path
+  double low = 0, high = 0;
+  SweepScale scale = SweepScale::linear;
+};
+
+struct OptimiseInput {
+  std::vector<std::string> objective;  ///< columns of figures
+  std::vector<double> weights;         ///< one per figure; empty: their mean
+  Goal goal = Goal::smallest;
+  std::optional<std::string> ring;      ///< absent: the first one
+  std::vector<std::string> optimisers;  ///< names of dynamics::Optimiser
+  int generations = 0, population = 0, repeats = 0, seed = 0;
+  double elite = 0, crossover = 0, mutation = 0;
+  int starts = 0;  ///< initial conditions tried before and after
+};
+
+struct SensitivityInput {
+  std::vector<std::string> inputs;  ///< empty: the supports, damping ratios and backlash
+  double factor = 0;
+};
+
+/// The studies that a scene requests, whatever its kind.
+struct StudyInput {
+  std::vector<SweepInput> sweeps;
+  std::vector<GridInput> grids;
+  std::optional<MonteCarloInput> monte_carlo;
+  std::vector<RandomInput> random_inputs;
+  std::optional<SensitivityInput> sensitivity;
+  std::optional<OptimiseInput> optimise;
+  std::vector<VariableInput> variables;  ///< of [optimise]
+};
+
+}  // namespace annulus::app

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "app/scene/scene_schema.h"
+
+namespace annulus::app {
+
+/// What the scene of a planetary stage has besides the common tables.
+[[nodiscard]] std::vector<Table> planetary_tables();
+/// [[ring]] with the keys of every ring structure (ring_table.cc).
+[[nodiscard]] Table ring_table();
+
+/// Lists of one value per planet get their zeros; values that have to agree are checked.
+void check_planetary_scene(Scene& scene, std::vector<Problem>& problems);
+
+}  // namespace annulus::app

@@ -1,0 +1,178 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "app/scene/overrides.h"
+#include "app/scene/scene_checks.h"
+#include "app/scene/scene_kind.h"
+#include "app/scene/scene_limits.h"
+
+namespace annulus::app {
+
+std::vector<double> SweepInput::points() const {
+  if (!values.empty() || !from || !to || !count) return values;
+  std::vector<double> list;
+  const bool logarithmic = scale == SweepScale::logarithmic;
+  const double a = logarithmic ? std::log(*from) : *from, b = logarithmic ? std::log(*to) : *to;
+  for (int i = 0; i < *count; ++i) {
+    const double x = a + (b - a) * i / (*count - 1);
+    list.push_back(i == 0 ? *from : i + 1 == *count ? *to : logarithmic ? std::exp(x) : x);
+  }
+  return list;
+}
+
+namespace {
+
+class StudyChecker {
+ public:
+  StudyChecker(const Scene& scene, std::vector<Problem>& problems) : scene_(scene), problems_(problems) {}
+
+  void run() {
+    for (std::size_t i = 0; i < scene_.sweeps.size(); ++i) row("sweep.", scene_.sweeps[i], i);
+    for (std::size_t i = 0; i < scene_.grids.size(); ++i) grid(scene_.grids[i], i);
+    for (std::size_t i = 0; i < scene_.random_inputs.size(); ++i) random(scene_.random_inputs[i], i);
+    optimise();
+    if (scene_.sensitivity) {
+      for (const auto& path : scene_.sensitivity->inputs) input("sensitivity.inputs", 0, path);
+    }
+  }
+
+ private:
+  [[nodiscard]] const Input* find(const std::string& key, std::size_t entry) const {
+    for (const auto& input : scene_.inputs) {
+      if (input.key == key && input.entry == entry) return &input;
+    }
+    return nullptr;
+  }
+  [[nodiscard]] bool given(const std::string& key, std::size_t entry) const {
+    const Input* input = find(key, entry);
+    return input && input->origin == Origin::scene;
+  }
+
+  void problem(const std::string& key, std::size_t entry, const std::string& rule) {
+    const Input* input = find(key, entry);
+    std::string head = key;
+    if (input && input->origin == Origin::scene) head += " = " + shown(to_text(input->value));
+    problems_.push_back({input ? input->line : 0, input ? input->column : 0, head + ": " + rule});
+  }
+
+  bool input(const std::string& key, std::size_t entry, const std::string& path) {
+    try {
+      (void)find_input(scene_, path);
+      return true;
+    } catch (const InputError& error) {
+      std::string what = error.what();
+      const Input* named = find(key, entry);
+      // "sweep.input = PATH: PATH: ..." would say it twice.
+      if (named && to_text(named->value) == path && what.starts_with(path + ": ")) what.erase(0, path.size() + 2);
+      problem(key, entry, what);
+      return false;
+    }
+  }
+
+  /// `table` with the prefix of its keys: "sweep.", "grid.x_".
+  void row(const std::string& table, const SweepInput& s, std::size_t i) {
+    if (!input(table + "input", i, s.input)) return;
+    if (given(table + "values", i)) {
+      if (s.values.empty()) return problem(table + "values", i, "needs at least one value");
+      const std::set<double> distinct(s.values.begin(), s.values.end());
+      if (distinct.size() != s.values.size())
+        return problem(table + "values", i, "contains the same value twice; leave one out");
+    } else if (*s.from == *s.to) {
+      return problem(table + "to", i, "must differ from `from`");
+    }
+    const auto points = s.points();
+    const auto& parameter = *find_input(scene_, s.input).parameter;
+    for (const double x : points) {
+      if (parameter.in_range(x)) continue;
+      const bool listed = given(table + "values", i);
+      return problem(table + (listed         ? "values"
+                              : x == *s.from ? "from"
+                                             : "to"),
+                     i, fmt::format("{} = {} must be in range: {}", s.input, to_text(x), parameter.range_text()));
+    }
+    if (s.scale == SweepScale::logarithmic && *std::min_element(points.begin(), points.end()) <= 0)
+      problem(table + "scale", i, "needs values above 0; use \"linear\"");
+  }
+
+  void grid(const GridInput& g, std::size_t i) {
+    row("grid.x_", g.x, i);
+    row("grid.y_", g.y, i);
+    if (g.x.input == g.y.input) problem("grid.y_input", i, "must differ from x_input");
+    constexpr std::size_t most_points = 100'000;
+    const auto count = [](const SweepInput& s) {
+      return s.values.empty() ? static_cast<std::size_t>(s.count.value_or(0)) : s.values.size();
+    };
+    if (count(g.x) * count(g.y) > most_points)
+      problem("grid.x_input", i,
+              fmt::format("has {} x {} points, at most {} are possible; take fewer values", count(g.x), count(g.y),
+                          most_points));
+  }
+
+  void random(const RandomInput& r, std::size_t i) {
+    const std::string table = "monte_carlo.input.";
+    for (const auto& path : expand_planets(scene_, r.input)) {
+      if (!input(table + "input", i, path)) return;
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (scene_.random_inputs[j].input == r.input)
+        return problem(table + "input", i, "is declared twice: each input has one distribution; leave one out");
+    }
+  }
+
+  void optimise() {
+    if (!scene_.optimise) return;
+    const auto& o = *scene_.optimise;
+    const auto known = scene_kind(scene_.stage.kind).results();
+    if (o.objective.empty()) problem("optimise.objective", 0, "needs at least one result");
+    for (const auto& figure : o.objective) {
+      if (std::find(known.begin(), known.end(), figure) != known.end()) continue;
+      const std::string near = nearest(figure, known);
+      problem("optimise.objective", 0,
+              fmt::format("there is no result \"{}\"; {}", figure,
+                          near.empty() ? "the columns of dynamics/sweep_1.csv are the results"
+                                       : "did you mean \"" + near + "\"?"));
+    }
+    if (!o.weights.empty() && o.weights.size() != o.objective.size())
+      problem(
+          "optimise.weights", 0,
+          fmt::format("needs one weight per result: {} weights for {} results", o.weights.size(), o.objective.size()));
+    if (o.optimisers.empty()) problem("optimise.optimisers", 0, "needs at least one");
+    if (o.population % 2) problem("optimise.population", 0, "must be even: parents are crossed in pairs");
+    if (o.ring &&
+        std::none_of(scene_.rings.begin(), scene_.rings.end(), [&](const auto& r) { return r.name == *o.ring; }))
+      problem("optimise.ring", 0, "there is no ring of this name in the scene");
+    if (scene_.variables.empty()) problem("optimise.objective", 0, "needs an [[optimise.variable]] at least");
+    for (std::size_t i = 0; i < scene_.variables.size(); ++i) variable(scene_.variables[i], i);
+  }
+
+  void variable(const VariableInput& v, std::size_t i) {
+    const std::string table = "optimise.variable.";
+    if (!input(table + "input", i, v.input)) return;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (scene_.variables[j].input == v.input) return problem(table + "input", i, "is declared twice; leave one out");
+    }
+    const auto& parameter = *find_input(scene_, v.input).parameter;
+    for (const auto& [key, value] : {std::pair{"low", v.low}, {"high", v.high}}) {
+      if (!parameter.in_range(value))
+        problem(table + key, i, fmt::format("{} must be in range: {}", v.input, parameter.range_text()));
+    }
+    if (!(v.low < v.high)) problem(table + "high", i, "must be larger than low");
+    if (v.scale == SweepScale::logarithmic && v.low <= 0)
+      problem(table + "scale", i, "needs values above 0; use \"linear\"");
+    const bool whole = parameter.kind == Parameter::Kind::integer;
+    if (whole && (v.low != std::floor(v.low) || v.high != std::floor(v.high)))
+      problem(table + "low", i, v.input + " is a whole number, so must be its limits");
+  }
+
+  const Scene& scene_;
+  std::vector<Problem>& problems_;
+};
+
+}  // namespace
+
+void check_study_keys(const Scene& scene, std::vector<Problem>& problems) { StudyChecker(scene, problems).run(); }
+
+}  // namespace annulus::app

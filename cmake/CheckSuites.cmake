@@ -1,0 +1,22 @@
+# Fails when the suites of a Boost.Test program are not the listed ones:
+#   cmake -DPROGRAM=... -DLISTED="csv;files" -P CheckSuites.cmake
+cmake_minimum_required(VERSION 3.25)
+execute_process(COMMAND ${PROGRAM} --list_content OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "${PROGRAM} --list_content: ${result}\n${output}")
+endif()
+# Suites begin their line, cases are indented.
+string(REGEX MATCHALL "(^|\n)[A-Za-z0-9_]+\\*" lines "${output}")
+set(suites "")
+foreach(line IN LISTS lines)
+  string(REGEX REPLACE "[\n*]" "" suite "${line}")
+  list(APPEND suites ${suite})
+  if(NOT suite IN_LIST LISTED)
+    message(SEND_ERROR "the suite ${suite} is not in SUITES of CMakeLists.txt: ctest does not run it")
+  endif()
+endforeach()
+foreach(suite IN LISTS LISTED)
+  if(NOT suite IN_LIST suites)
+    message(SEND_ERROR "the suite ${suite} of CMakeLists.txt does not exist")
+  endif()
+endforeach()

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "dynamics/steady_state/response_window.h"
+#include "dynamics/steady_state/steady_response.h"
+
+namespace annulus::dynamics {
+
+/// A periodic solution over one evaluated window from time 0.
+struct PeriodicWindows {
+  ResponseWindow fine;
+  std::optional<ResponseWindow> coarse;  ///< harmonic balance alone: the forces found with half the samples
+};
+
+enum class PeriodicStatus {
+  not_tried,  ///< time integration alone was asked for, or the window holds no whole period
+  not_found,  ///< no convergence, or the exact solution loses contact or is unstable
+  unstable,   ///< found, but disturbances of it grow
+  found
+};
+
+/// A periodic solution, without any time integration.
+struct PeriodicSearch {
+  PeriodicStatus status = PeriodicStatus::not_tried;
+  std::optional<PeriodicSolution> report;  ///< absent when not tried
+  std::optional<PeriodicWindows> windows;  ///< present when found
+
+  /// Does any mesh lose contact in the solution that was found?
+  [[nodiscard]] bool loses_contact() const;
+};
+
+/// Searches for the periodic solution over `cycles` mesh cycles, whole periods of the problem. Systems with jumps of
+/// constant stiffnesses are solved exactly, all others by harmonic balance. With `options.confirm` the harmonic balance
+/// takes as many samples as the time integration needs to confirm it, and its stability is examined.
+[[nodiscard]] PeriodicSearch find_periodic_solution(const LumpedSystem& system, const SteadyProblem& problem,
+                                                    int cycles, const SimulationOptions& options);
+
+}  // namespace annulus::dynamics

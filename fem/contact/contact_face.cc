@@ -1,0 +1,41 @@
+#include "fem/contact/contact_face.h"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+
+namespace annulus::fem {
+
+ContactFace::ContactFace(const FlankContact& flanks, std::vector<double> slice_edges, double misalignment)
+    : flanks_(flanks),
+      slice_edges_(std::move(slice_edges)),
+      normal_factor_(std::cos(flanks.pair().planet().base_helix_angle())),
+      roll_per_z_(fem::roll_per_z(flanks)) {
+  const double width = this->width();
+  for (std::size_t s = 0; s + 1 < slice_edges_.size(); ++s) {
+    const auto gap = [&](double z) {
+      return flanks_.planet().lead_modification(z) + flanks_.wheel().lead_modification(z) +
+             misalignment * (z / width - 0.5);
+    };
+    // Without load the flanks touch where the gap is smallest, not where its mean is: a convex curve has one such
+    // place.
+    const double low = slice_edges_[s], high = slice_edges_[s + 1];
+    const double inside = boost::math::tools::brent_find_minima(gap, low, high, 30).second;
+    smallest_lead_gap_.push_back(std::min({gap(low), gap(high), inside}));
+    lead_gap_.push_back(boost::math::quadrature::gauss<double, 7>::integrate(gap, low, high) / (high - low));
+  }
+}
+
+double ContactFace::smallest_lead_gap() const {
+  return *std::min_element(smallest_lead_gap_.begin(), smallest_lead_gap_.end());
+}
+
+double ContactFace::slice_roll(int slice) const {
+  const double middle = (slice_edges_.front() + slice_edges_.back()) / 2;
+  return roll_per_z_ * ((slice_edges_[slice] + slice_edges_[slice + 1]) / 2 - middle);
+}
+
+double roll_per_z(const FlankContact& flanks) { return flanks.planet().twist() * flanks.pair().planet().base_radius(); }
+
+}  // namespace annulus::fem

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "fem/contact/flank_contact.h"
+
+namespace annulus::fem {
+
+/// The face width of a gear mesh in slices, with the gaps between unloaded flanks that vary along it.
+class ContactFace {
+ public:
+  /// `flanks` are referred to; `slice_edges` (m) ascend; `misalignment` (m) as in LoadedMeshProblem.
+  ContactFace(const FlankContact& flanks, std::vector<double> slice_edges, double misalignment);
+
+  [[nodiscard]] const FlankContact& flanks() const { return flanks_; }
+  [[nodiscard]] const std::vector<double>& slice_edges() const { return slice_edges_; }      ///< m
+  [[nodiscard]] double width() const { return slice_edges_.back() - slice_edges_.front(); }  ///< m
+  /// m, normal to the flanks, by lead modifications and misalignment: mean over a slice, and least in it.
+  [[nodiscard]] double lead_gap(int slice) const { return lead_gap_[slice]; }
+  [[nodiscard]] double smallest_lead_gap(int slice) const { return smallest_lead_gap_[slice]; }
+  [[nodiscard]] double smallest_lead_gap() const;  ///< m, of all slices
+  /// cos(base helix angle): normal approach of the flanks per transmission error.
+  [[nodiscard]] double normal_factor() const { return normal_factor_; }
+  [[nodiscard]] bool helical() const { return roll_per_z_ != 0; }
+  /// m, planet roll at the contact in the middle of a slice beyond that in the middle of the face.
+  [[nodiscard]] double slice_roll(int slice) const;
+
+ private:
+  const FlankContact& flanks_;
+  std::vector<double> slice_edges_;
+  std::vector<double> lead_gap_, smallest_lead_gap_;
+  double normal_factor_;
+  double roll_per_z_;
+};
+
+/// Change of the planet's roll at the contact along the face width: tan(base helix angle), signed.
+[[nodiscard]] double roll_per_z(const FlankContact& flanks);
+
+}  // namespace annulus::fem

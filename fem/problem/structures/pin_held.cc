@@ -1,0 +1,123 @@
+#include "fem/problem/structures/pin_held.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.h"
+
+namespace annulus::fem {
+namespace {
+
+/// Does a rotation by `angle` map the angles onto themselves?
+bool maps_onto_itself(const std::vector<double>& angles, double angle) {
+  constexpr double tolerance = 1e-9;
+  return std::all_of(angles.begin(), angles.end(), [&](double own) {
+    return std::any_of(angles.begin(), angles.end(), [&](double other) {
+      return std::abs(std::remainder(own + angle - other, 2 * M_PI)) < tolerance;
+    });
+  });
+}
+
+}  // namespace
+
+RingBody PinHeld::body(double /*outside_radius*/) const {
+  RingBody body;
+  body.held = HeldSurface::none;
+  return body;
+}
+
+RingWords PinHeld::words() const {
+  const int count = single_supports();
+  RingWords words;
+  words.name = unilateral ? "pinned" : "bolted";
+  words.support = unilateral ? "pin" : "bolt";
+  words.supports = words.support + "s";
+  words.description = std::to_string(count) + " " + (count == 1 ? words.support : words.supports);
+  words.plane_reason = unilateral ? "the pins carry over the full width" : "the bolts hold over the full width";
+  if (count == 1)
+    words.repetition = "a single support";
+  else if (count > 0 && maps_onto_itself(angles, 2 * M_PI / count))
+    words.repetition = std::to_string(count) + " equal supports";
+  else
+    words.repetition = std::to_string(count) + " supports at given places";
+  words.map_caption = unilateral
+                          ? "coloured by the force with which the rim presses on it, grey while the rim has lifted off"
+                          : "orange while the rim presses outwards on it, blue while the rim pulls";
+  return words;
+}
+
+std::vector<std::pair<std::string, double>> PinHeld::parameters() const {
+  constexpr double absent = -1;
+  std::vector<std::pair<std::string, double>> list;
+  for (const double angle : angles) list.emplace_back("pin", angle);
+  list.insert(list.end(), {{"pin_diameter", pin_diameter},
+                           {"clearance", clearance},
+                           {"free_span", free_span},
+                           {"pin_stiffness", radial_stiffness.value_or(absent)},
+                           {"pin_tangential_stiffness", tangential_stiffness.value_or(absent)},
+                           {"housing_clearance", housing_clearance.value_or(absent)}});
+  return list;
+}
+
+RingDrawing PinHeld::drawing(double outside_radius) const {
+  RingDrawing drawing;
+  const auto own = words();
+  drawing.cylinders = {{angles.size() == 1 ? own.support : own.supports, angles, outside_radius, pin_diameter}};
+  if (housing_clearance) drawing.bore = RingDrawing::Bore::around_outside;
+  return drawing;
+}
+
+SupportSites PinHeld::supports(const SupportedRing& ring) const {
+  if (angles.empty()) throw InputError("a pinned ring needs at least one pin");
+  if (angles.size() == 1 && !housing_clearance)
+    throw InputError(
+        "a ring on one pin turns about it and cannot be in equilibrium without a housing bore around it: give the "
+        "housing's clearance, or a second pin");
+  const double local = derived_pin_stiffness(ring.material, ring.face_width);
+  SupportDirection radial, tangential;
+  radial.unilateral = unilateral;
+  radial.clearance = clearance;
+  radial.stiffness = radial_stiffness.value_or(local);
+  if (!radial_stiffness) radial.end_stiffness = pin_span_stiffness(ring.material, pin_diameter, free_span);
+  tangential = radial;
+  tangential.inward = 0;
+  tangential.counter_clockwise = 1;
+  tangential.unilateral = false;
+  tangential.clearance = 0;
+  if (tangential_stiffness) {
+    tangential.stiffness = *tangential_stiffness;
+    tangential.end_stiffness = std::numeric_limits<double>::infinity();
+  }
+  SupportSites result;
+  result.pins = single_supports();
+  for (const double angle : angles)
+    result.sites.push_back({-angle, pin_diameter / 2 / ring.outside_radius, true, {radial, tangential}});
+  if (housing_clearance) {
+    SupportDirection bore;
+    bore.clearance = *housing_clearance;
+    bore.stiffness = local;  // the width of a squeezed prism over its height does not depend on its size
+    const double pitch = 2 * M_PI / ring.teeth;
+    for (int tooth = 0; tooth < ring.teeth; ++tooth) result.sites.push_back({-tooth * pitch, pitch / 2, false, {bore}});
+  }
+  return result;
+}
+
+int PinHeld::repeating_teeth(int teeth) const {
+  for (int turned = 1; turned < teeth; ++turned)
+    if (teeth % turned == 0 && maps_onto_itself(angles, 2 * M_PI * turned / teeth)) return turned;
+  return teeth;
+}
+
+double derived_pin_stiffness(const Material& material, double length) {
+  return M_PI * material.youngs_modulus * length / (4 * (1 - material.poisson_ratio * material.poisson_ratio));
+}
+
+double pin_span_stiffness(const Material& material, double diameter, double span) {
+  if (span <= 0) return std::numeric_limits<double>::infinity();
+  const double E = material.youngs_modulus, nu = material.poisson_ratio;
+  const double second_moment = M_PI * std::pow(diameter, 4) / 64, area = M_PI * diameter * diameter / 4;
+  const double kappa = 6 * (1 + nu) / (7 + 6 * nu), shear_modulus = E / (2 * (1 + nu));
+  return 2 / (std::pow(span, 3) / (12 * E * second_moment) + span / (kappa * shear_modulus * area));
+}
+
+}  // namespace annulus::fem
