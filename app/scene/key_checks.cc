@@ -43,9 +43,9 @@ void KeyChecks::derive(const std::string& key, double value, const char* how) {
 
 void KeyChecks::wave(const MeshInput& m, const std::string& path, const std::vector<StiffnessShape>& harmonic) {
   if (std::find(harmonic.begin(), harmonic.end(), m.stiffness) != harmonic.end() && m.ripple && *m.ripple >= 1)
-    problem(path + ".ripple", "", "must be below 1: the stiffness would become negative");
+    problem(path + ".ripple", "", "must stay below 1: the stiffness would become negative");
   if (m.stiffness == StiffnessShape::rectangular && m.ripple && m.duty && *m.ripple * *m.duty >= 1)
-    problem(path + ".ripple", "", "times duty must be below 1: the stiffness would become negative");
+    problem(path + ".ripple", "", "times duty must stay below 1: the stiffness would become negative");
 }
 
 }  // namespace annulus::app

@@ -85,6 +85,10 @@ class Union {
       }
       if (table.kinds.size() == kinds_) table.kinds.clear();
     }
+    // Tables of one kind stand before those that end every scene.
+    const auto last = last_common_tables();
+    std::stable_partition(tables_.begin(), tables_.end(),
+                          [&](const Table& table) { return by_path(last, table.path) == last.end(); });
     return std::move(tables_);
   }
 

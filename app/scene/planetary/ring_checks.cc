@@ -107,7 +107,7 @@ class RingChecker : KeyChecks {
   void check_clamp(const RingInput& ring) {
     const auto radius = outside(ring);
     if (radius && ring.clamp_inner_diameter && *ring.clamp_inner_diameter >= 2 * *radius)
-      problem(
+      return problem(
           "ring.clamp_inner_diameter_mm", ring.name,
           fmt::format("must be smaller than the outside diameter, value < {} mm", to_text(2 * *radius / units::mm, 7)));
     if (ring.clamp_inner_diameter && ring.bolt_circle_diameter && ring.bolt_diameter && ring.bolts) bolt_circle(ring);
