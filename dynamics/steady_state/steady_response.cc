@@ -42,13 +42,16 @@ void check_steady(const SteadyProblem& problem, const SimulationOptions& options
 
 /// The way to the steady state as a state machine. A step does its work and names the next one:
 ///
-///   solve ---- found, taken as it is --------------------------------> accept ----> done
-///     |------- found ---------------> confirm -- agrees ------------------------------|
-///     |                                  |------ differs ----|                        v
-///     |------- not found, unstable or not tried ---------> search -------------> evaluate --> done
-///     |------- not tried, length prescribed or no whole period --> integrate ---------^
-///
-/// Nothing is solved where a length is prescribed or the window holds no whole period.
+///   solve     -> accept      found, and no confirmation is wanted
+///             -> confirm     found
+///             -> search      not found, unstable, or not tried because time integration alone is wanted
+///             -> integrate   not tried because a length is prescribed or the window holds no whole period
+///   accept    -> done
+///   confirm   -> evaluate    time integration agrees
+///             -> search      it differs
+///   search    -> evaluate
+///   integrate -> evaluate
+///   evaluate  -> done
 class SteadyStateFinder {
  public:
   SteadyStateFinder(const LumpedSystem& system, const SteadyProblem& problem, const SimulationOptions& options)
