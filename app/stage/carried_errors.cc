@@ -62,16 +62,16 @@ MeshResult with_table(const MeshResult& mesh, TableChange change) {
 
 /// The harmonic balance is the motion to compare where it alone was asked, and where marching stayed on it.
 bool taken_directly(const DynamicResponse& nominal) {
-  return nominal.direct && nominal.direct->converged && (nominal.confirmed || nominal.total_cycles == 0);
+  return nominal.periodic && nominal.periodic->converged && (nominal.confirmed || nominal.total_cycles == 0);
 }
 
 /// How all stages of the comparison are solved.
 dynamics::SimulationOptions comparing_options(const DynamicResponse& nominal, dynamics::SimulationOptions options) {
-  if (nominal.direct)
+  if (nominal.periodic)
     options.samples_per_cycle = std::min(options.samples_per_cycle, dynamics::enough_samples(nominal.window_cycles));
   options.estimate_error = false;
   options.keep_series = false;
-  if (!options.mesh_cycles && (!nominal.direct || !nominal.steady)) {
+  if (!options.mesh_cycles && (!nominal.periodic || !nominal.steady)) {
     // No steady state to compare, or one too long to march through again and again: all marched alike for a while,
     // from the nominal motion on, so that only what the change does has to settle.
     constexpr int lead = 60, evaluated = 110;
@@ -84,7 +84,7 @@ dynamics::SimulationOptions comparing_options(const DynamicResponse& nominal, dy
   // A small change leads from the nominal motion to the one beside it within a few windows, and to no other.
   if (options.confirm && !options.mesh_cycles) {
     constexpr int few = 8;
-    options.steady_state = dynamics::SteadyState::marching;
+    options.steady_state = dynamics::SteadyState::time_integration;
     options.start = nominal.begin;
     options.max_windows = std::min(options.max_windows, few);
   }
@@ -97,7 +97,7 @@ class Comparison {
   Comparison(const DynamicResponse& nominal, const dynamics::SimulationOptions& options, const StageTables& tables)
       : options_(comparing_options(nominal, options)), tables_(tables), figures_(values_of(nominal).size()) {
     // Where the nominal motion was solved like those of the changed tables, it is what they are compared with.
-    const bool marched = options_.steady_state == dynamics::SteadyState::marching;
+    const bool marched = options_.steady_state == dynamics::SteadyState::time_integration;
     if (!options_.mesh_cycles && options_.samples_per_cycle == options.samples_per_cycle &&
         (marched || nominal.total_cycles == 0))
       base_ = Base{values_of(nominal), nominal.steady};
