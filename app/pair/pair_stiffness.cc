@@ -68,9 +68,9 @@ std::string pair_solid_reason(const Scene& scene, const PairGeometry& geometry) 
 }
 
 double iso_pair_stiffness(const Scene& scene, const PairGeometry& geometry) {
-  return dynamics::iso_6336_mesh_stiffness(scene.stage.face_width, geometry.gears.contact_ratio(),
-                                           scene.stage.helix_angle,
-                                           scene.pinion_wheel.single_stiffness.value_or(steel_single_stiffness));
+  return dynamics::iso_6336_mesh_stiffness({scene.stage.face_width, geometry.gears.contact_ratio(),
+                                            scene.stage.helix_angle,
+                                            scene.pinion_wheel.single_stiffness.value_or(steel_single_stiffness)});
 }
 
 std::string no_closed_form(const Scene& scene) {

@@ -11,7 +11,7 @@
 #include "app/stage/rim_coupling.h"
 #include "app/stage/stage_response.h"
 #include "app/study/planetary_subject.h"
-#include "dynamics/steady_state/marching_cost.h"
+#include "dynamics/steady_state/integration_cost.h"
 #include "dynamics/systems/planetary/study_point.h"
 #include "fem/cost_size.h"
 #include "fem/loaded_mesh.h"
@@ -220,8 +220,8 @@ std::vector<double> marching_seconds(const Scene& scene, const GearGeometry& geo
   for (const auto& stage : rough_stages(scene, geometry)) {
     const auto options = simulation_options(scene, stage);
     const auto system = assemble(stage);
-    const double cycles = dynamics::marched_cycles(system, stage.mesh_frequency(), periods[seconds.size()], options);
-    seconds.push_back(dynamics::marching_seconds(system, stage.mesh_frequency(), cycles, options.integrator));
+    const double cycles = dynamics::integrated_cycles(system, stage.mesh_frequency(), periods[seconds.size()], options);
+    seconds.push_back(dynamics::integration_seconds(system, stage.mesh_frequency(), cycles, options.integrator));
   }
   return seconds;
 }

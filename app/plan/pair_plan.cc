@@ -9,7 +9,7 @@
 #include "app/plan/cost_plan.h"
 #include "app/stage/stiff_supports.h"
 #include "core/units.h"
-#include "dynamics/steady_state/marching_cost.h"
+#include "dynamics/steady_state/integration_cost.h"
 
 namespace annulus::app {
 
@@ -145,7 +145,7 @@ double pair_marching_seconds(const Scene& scene) {
   const auto options = pair_simulation(scene);
   const int cycles = scene.dynamics->mesh_cycles.value_or(
       std::min(std::max(pair.error_period(), options.min_window_cycles), options.max_window_cycles));
-  return dynamics::marching_seconds(assemble(pair), pair.mesh_frequency(), cycles, options.integrator);
+  return dynamics::integration_seconds(assemble(pair), pair.mesh_frequency(), cycles, options.integrator);
 }
 
 void describe_pair(const Scene& scene, const PairGeometry& geometry, Plan& plan) {

@@ -6,7 +6,7 @@
 #include "app/plan/cost_plan.h"
 #include "app/two_k_v/two_k_v_run.h"
 #include "core/units.h"
-#include "dynamics/steady_state/marching_cost.h"
+#include "dynamics/steady_state/integration_cost.h"
 
 namespace annulus::app {
 
@@ -149,8 +149,8 @@ double two_k_v_marching_seconds(const Scene& scene) {
   const double turns = 2.0 * system.dofs() + 2;
   const double cycles =
       scene.dynamics->mesh_cycles.value_or(1) * (scene.dynamics->mesh_cycles ? 1.0 : turns * scene.planet.teeth);
-  return dynamics::marching_seconds(system, stage.sun_mesh_frequency(), cycles,
-                                    two_k_v_simulation(scene, stage).integrator);
+  return dynamics::integration_seconds(system, stage.sun_mesh_frequency(), cycles,
+                                       two_k_v_simulation(scene, stage).integrator);
 }
 
 void describe_two_k_v(const Scene& scene, Plan& plan) {

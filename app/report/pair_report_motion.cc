@@ -158,14 +158,14 @@ std::string pair_quality_section(const PairRunResult& result) {
   if (result.response) {
     const auto& f = result.response->figures;
     std::string how = "marched";
-    if (f.direct && f.direct->converged)
+    if (f.periodic && f.periodic->converged)
       how = fmt::format(
           "{} ({} Newton iterations; half the samples change a force by {:.1e} of the mean){}",
-          f.direct->method == dynamics::DirectMethod::piecewise ? "exactly, piece by piece" : "harmonic balance",
-          f.direct->newton_iterations, f.direct->sampling_difference,
+          f.periodic->method == dynamics::PeriodicMethod::piecewise ? "exactly, piece by piece" : "harmonic balance",
+          f.periodic->newton_iterations, f.periodic->sampling_difference,
           f.confirmed ? ", confirmed by time integration over one window" : "");
-    else if (f.direct)
-      how = "marched: the direct solution failed (" + f.direct->trouble + ")";
+    else if (f.periodic)
+      how = "marched: the direct solution failed (" + f.periodic->trouble + ")";
     HtmlTable table{.head = {"how the response was found", "window", "integrated", "steady", "energy balance", "steps"},
                     .rows = {{escape(how), fmt::format("{} mesh cycles", f.window_cycles),
                               fmt::format("{} mesh cycles", f.total_cycles), f.steady ? "yes" : "no",

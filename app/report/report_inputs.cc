@@ -66,14 +66,14 @@ std::string solution_notes(const RunResult& result) {
     if (!ring.response) continue;
     const auto& f = ring.response->figures;
     std::string how = "marched for the given time";
-    if (f.direct)
+    if (f.periodic)
       how = f.confirmed ? fmt::format(
                               "solved directly ({} Newton iterations; half the samples change a force by {:.1e} of "
                               "the mean) and confirmed by time integration over one window",
-                              f.direct->newton_iterations, f.direct->sampling_difference)
-            : f.total_cycles == 0 ? "solved directly"
-            : f.direct->converged ? "marched: the direct solution was not confirmed"
-                                  : "marched: the direct solution failed (" + f.direct->trouble + ")";
+                              f.periodic->newton_iterations, f.periodic->sampling_difference)
+            : f.total_cycles == 0   ? "solved directly"
+            : f.periodic->converged ? "marched: the direct solution was not confirmed"
+                                    : "marched: the direct solution failed (" + f.periodic->trouble + ")";
     list += fmt::format("<li>{}: {}.{}</li>\n", escape(ring.name), escape(how),
                         f.integrator ? " Integrator: " + escape(f.integrator->reason) : "");
     beyond(escape(ring.name) + ", sun meshes", result.sun_mesh, f, f.sun_planet);

@@ -151,8 +151,8 @@ std::string sections(const RunResult& result) {
     Plot plot{.title = ring->name, .x_label = "sun mesh closing, µm", .y_label = "ring mesh closing, µm"};
     for (int n = 0; n < result.scene.stage.planets; ++n) {
       plot.series.push_back({.label = fmt::format("planet {}", n + 1),
-                             .x = micrometres(column_values(csv, fmt::format("sun_planet{}_closing_m", n + 1))),
-                             .y = micrometres(column_values(csv, fmt::format("ring_planet{}_closing_m", n + 1))),
+                             .x = micrometres(column_values(csv, fmt::format("sun_planet{}_deflection_m", n + 1))),
+                             .y = micrometres(column_values(csv, fmt::format("ring_planet{}_deflection_m", n + 1))),
                              .colour = static_cast<std::size_t>(n),
                              .style = Series::Style::dots});
     }

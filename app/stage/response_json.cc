@@ -126,7 +126,7 @@ StageMotion motion_of(const ResponseJson& json) {
   return m;
 }
 
-ResponseJson direct_json(const std::optional<dynamics::DirectSolution>& direct) {
+ResponseJson direct_json(const std::optional<dynamics::PeriodicSolution>& direct) {
   if (!direct) return nullptr;
   return {{"converged", direct->converged},
           {"trouble", direct->trouble},
@@ -136,9 +136,9 @@ ResponseJson direct_json(const std::optional<dynamics::DirectSolution>& direct) 
           {"sampling_difference", number(direct->sampling_difference)}};
 }
 
-std::optional<dynamics::DirectSolution> direct_of(const ResponseJson& json) {
+std::optional<dynamics::PeriodicSolution> direct_of(const ResponseJson& json) {
   if (json.is_null()) return std::nullopt;
-  dynamics::DirectSolution direct;
+  dynamics::PeriodicSolution direct;
   direct.converged = json.at("converged");
   direct.trouble = json.at("trouble");
   direct.newton_iterations = json.at("newton_iterations");
@@ -163,7 +163,7 @@ std::string response_json(const StageResponse& response, const std::string& id) 
       {"steady", f.steady},
       {"steady_difference", number(f.steady_difference.value_or(std::numeric_limits<double>::quiet_NaN()))},
       {"confirmed", f.confirmed},
-      {"direct", direct_json(f.direct)},
+      {"direct", direct_json(f.periodic)},
       {"integrator_reason", f.integrator ? ResponseJson(f.integrator->reason) : ResponseJson(nullptr)},
       {"sun_planet", kind_json(f.sun_planet, response.errors.sun_planet)},
       {"ring_planet", kind_json(f.ring_planet, response.errors.ring_planet)},
@@ -190,7 +190,7 @@ std::optional<StageResponse> parse_response_json(const std::filesystem::path& fi
   f.steady = json.at("steady");
   if (const auto& d = json.at("steady_difference"); !d.is_null()) f.steady_difference = number(d);
   f.confirmed = json.at("confirmed");
-  f.direct = direct_of(json.at("direct"));
+  f.periodic = direct_of(json.at("direct"));
   if (const auto& reason = json.at("integrator_reason"); !reason.is_null()) f.integrator.emplace().reason = reason;
   f.sun_planet = kind_result(json.at("sun_planet"));
   f.ring_planet = kind_result(json.at("ring_planet"));

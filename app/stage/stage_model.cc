@@ -44,7 +44,7 @@ void add_coupling(ContentId& id, const RingCoupling& coupling) {
 
 void add_deviation(ContentId& id, const std::string& name, const dynamics::BodyErrors& e) {
   id.add(name + ".E", e.eccentricity.amount).add(name + ".E_phase", e.eccentricity.phase);
-  id.add(name + ".A", e.installation.amount).add(name + ".A_phase", e.installation.phase);
+  id.add(name + ".A", e.position.amount).add(name + ".A_phase", e.position.phase);
 }
 
 void add_body(ContentId& id, const std::string& name, const dynamics::CentralBody& body) {
@@ -146,7 +146,7 @@ dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamic
   const auto choice = motion_choice(scene.accuracy);
   options.samples_per_cycle = choice.samples_per_cycle;
   options.confirm = choice.confirm;
-  options.confirm_where_teeth_part = true;
+  options.confirm_on_contact_loss = true;
   options.steady_tolerance = std::max(options.steady_tolerance, choice.steady_tolerance);
   if (!scene.dynamics->relative_tolerance) options.integrator.relative_tolerance = choice.relative_tolerance;
   // A ring on p pins repeats only after z_r / gcd(z_r, p) teeth, and with the planets after hundreds of mesh cycles:
@@ -191,7 +191,7 @@ std::string response_id(const dynamics::PlanetaryStage& stage, const dynamics::S
   id.add("method", static_cast<int>(options.integrator.method)).add("tolerance", options.integrator.relative_tolerance);
   id.add("cycles", options.mesh_cycles.value_or(0)).add("steady", options.steady_tolerance);
   id.add("samples", options.samples_per_cycle).add("windows", options.max_windows);
-  id.add("confirm", options.confirm ? 1 : 0).add("where_parting", options.confirm_where_teeth_part ? 1 : 0);
+  id.add("confirm", options.confirm ? 1 : 0).add("where_parting", options.confirm_on_contact_loss ? 1 : 0);
   id.add("max_window", options.max_window_cycles);
   return id.id();
 }

@@ -47,9 +47,9 @@ void add_energies(StageModes& result, const dynamics::PlanetaryStage& stage, con
 
 /// Frequency and damping ratio at the operating speed, each mode followed from rest by its shape.
 void add_operating_speed(StageModes& result, dynamics::PlanetaryStage stage) {
-  const auto turning = dynamics::rotating_modes(stage, true);
+  const auto turning = dynamics::rotating_modes(stage, dynamics::ModeDamping::damped);
   stage.carrier_speed = 0;
-  const auto rest = dynamics::rotating_modes(stage, false);
+  const auto rest = dynamics::rotating_modes(stage, dynamics::ModeDamping::undamped);
   const auto next = dynamics::continued_modes(rest, turning, dynamics::assemble(stage).mass());
   for (std::size_t i = 0; i < result.list.size(); ++i) {
     result.list[i].damped_frequency = turning.modes[next[i]].frequency;

@@ -126,7 +126,7 @@ std::vector<MotionSetting> motion_settings(double mesh_frequency, int period) {
          }});
   for (auto& setting : marching) {
     setting.apply = [how = std::move(setting.apply)](Options& o) {
-      o.steady_state = dynamics::SteadyState::marching;
+      o.steady_state = dynamics::SteadyState::time_integration;
       how(o);
     };
     list.push_back(std::move(setting));

@@ -30,7 +30,7 @@ bool any_error(const StiffnessTable& table) {
 
 /// The harmonic balance is the motion to compare where it alone was asked, and where time integration stayed on it.
 bool taken_directly(const SteadyOutcome& nominal) {
-  return nominal.direct && nominal.direct->converged && (nominal.confirmed || nominal.total_cycles == 0);
+  return nominal.periodic && nominal.periodic->converged && (nominal.confirmed || nominal.total_cycles == 0);
 }
 
 /// Evaluates the model on changed tables.
@@ -112,10 +112,10 @@ Differences interpolation_differences(Comparison& comparison, const TabulatedMod
 ComparisonOptions comparison_options(const SteadyOutcome& nominal, const SimulationOptions& options) {
   ComparisonOptions result{.simulation = options};
   auto& o = result.simulation;
-  if (nominal.direct) o.samples_per_cycle = std::min(o.samples_per_cycle, enough_samples(nominal.window_cycles));
+  if (nominal.periodic) o.samples_per_cycle = std::min(o.samples_per_cycle, enough_samples(nominal.window_cycles));
   o.estimate_error = false;
   o.keep_series = false;
-  if (!o.mesh_cycles && (!nominal.direct || !nominal.steady)) {
+  if (!o.mesh_cycles && (!nominal.periodic || !nominal.steady)) {
     // No steady state to compare, or one too long to integrate again and again: all are integrated alike for a while,
     // from the nominal motion on, so that only what the change does has to settle.
     constexpr int lead = 60, evaluated = 110;
@@ -129,13 +129,13 @@ ComparisonOptions comparison_options(const SteadyOutcome& nominal, const Simulat
   // A small change leads from the nominal motion to the one beside it within a few windows, and to no other.
   if (o.confirm && !o.mesh_cycles) {
     constexpr int few = 8;
-    o.steady_state = SteadyState::marching;
+    o.steady_state = SteadyState::time_integration;
     o.start = nominal.begin;
     o.max_windows = std::min(o.max_windows, few);
   }
   result.seeks_steady_state = !o.mesh_cycles;
   result.nominal_alike = !o.mesh_cycles && o.samples_per_cycle == options.samples_per_cycle &&
-                         (o.steady_state == SteadyState::marching || nominal.total_cycles == 0);
+                         (o.steady_state == SteadyState::time_integration || nominal.total_cycles == 0);
   return result;
 }
 

@@ -83,7 +83,7 @@ int measure(const Options& options) {
         return 2 * std::numbers::pi * uniform_draw(1, static_cast<std::uint64_t>(i), fmt::format("{} {}", what, n));
       };
       sample.planet_errors[n].eccentricity.phase = draw("eccentricity");
-      sample.planet_errors[n].installation.phase = draw("installation");
+      sample.planet_errors[n].position.phase = draw("installation");
     }
     PointOptions point;
     point.motion = false;

@@ -46,7 +46,7 @@ void pair_grid(int points) {
   SimulationOptions direct;
   direct.confirm = direct.keep_series = direct.estimate_error = false;
   SimulationOptions marching = direct;
-  marching.steady_state = SteadyState::marching;
+  marching.steady_state = SteadyState::time_integration;
   for (const double half_backlash : {0.0, 100e-6}) {
     auto pair = pairs::error_paper();
     pair.half_backlash.reset();
@@ -77,7 +77,7 @@ void pair_grid(int points) {
 /// The objective of the backlash search. At the paper's load no tooth parts; above 5000 r/min they do.
 void reducer_search(int evaluations) {
   SimulationOptions marching;
-  marching.steady_state = SteadyState::marching;
+  marching.steady_state = SteadyState::time_integration;
   marching.estimate_error = marching.keep_series = false;
   for (const double rpm : {1500.0, 5200.0}) {
     auto stage = stages::backlash_paper();

@@ -68,13 +68,15 @@ BOOST_AUTO_TEST_CASE(free_bodies_have_motions_of_exactly_no_frequency) {
   BOOST_TEST(frequencies[6] > 100);
 }
 
-/// Time measured in other units: what took a second takes `unit`. Masses grow with its square, or stiffness, forces and
+enum class Scaled { mass, stiffness };
+
+/// The stage with time in other units: a second becomes `unit`. Masses grow with its square, or stiffness, forces and
 /// loads fall with it.
-PlanetaryStage in_time_unit(double unit, bool by_mass) {
+PlanetaryStage in_time_unit(double unit, Scaled scaled) {
   auto stage = stages::ring_paper();
   const double square = unit * unit;
   stage.carrier_speed /= unit;
-  if (by_mass) {
+  if (scaled == Scaled::mass) {
     for (auto* body : {&stage.sun, &stage.ring, &stage.carrier}) body->mass *= square, body->inertia *= square;
     stage.planet.mass *= square, stage.planet.inertia *= square;
     return stage;
@@ -106,10 +108,10 @@ BOOST_AUTO_TEST_CASE(any_unit_of_time_gives_the_same_answer) {
     if (light) BOOST_TEST(answer.statistics.contact_events > 0);
     // A power of two multiplies without rounding: what is left of the difference is what depends on the unit.
     for (const double unit : {1e-6, 1e6, std::ldexp(1.0, -20), std::ldexp(1.0, 20)})
-      for (const bool by_mass : {false, true}) {
-        auto stage = in_time_unit(unit, by_mass);
+      for (const auto scaled : {Scaled::stiffness, Scaled::mass}) {
+        auto stage = in_time_unit(unit, scaled);
         if (light) stage.sun_torque /= 50;
-        const double force = by_mass ? 1 : unit * unit;
+        const double force = scaled == Scaled::mass ? 1 : unit * unit;
         if (!light) {
           const auto other = all_frequencies(stage);
           for (std::size_t i = 0; i < other.size(); ++i)

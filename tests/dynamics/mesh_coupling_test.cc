@@ -69,10 +69,11 @@ std::shared_ptr<RingCoupling> coupling(double scale, int modes, int planets = 5,
   return c;
 }
 
-PlanetaryStage stage_with(std::shared_ptr<const RingCoupling> ring_coupling, bool law = true) {
+PlanetaryStage stage_with(std::shared_ptr<const RingCoupling> ring_coupling,
+                          LoadDependence ring = LoadDependence::table) {
   auto stage = stages::ring_paper();
   const double load = stage.mean_mesh_force();
-  if (law)
+  if (ring == LoadDependence::table)
     stage.ring_mesh =
         table_stiffness(tables::BentTable{.nominal = load, .positions = 3}.table(), load, 0, LoadDependence::table);
   stage.ring_coupling = std::move(ring_coupling);
@@ -417,7 +418,7 @@ BOOST_AUTO_TEST_CASE(a_ring_in_the_housing_moves_as_in_the_carrier_frame) {
 BOOST_AUTO_TEST_CASE(natural_frequencies_of_a_ring_mode) {
   annulus::test::Verification record("An elastic mode of the ring coupled by inertia to its translation",
                                      "closed form: quadratic for two frequencies");
-  auto stage = stage_with(coupling(0, 1), false);
+  auto stage = stage_with(coupling(0, 1), LoadDependence::nominal);
   const auto system = assemble(stage);
   const int mode = system.find("ring_mode1"), x = system.find("ring_x");
   BOOST_REQUIRE(mode == system.dofs() - 1);
@@ -458,7 +459,7 @@ BOOST_AUTO_TEST_CASE(the_right_hand_side_does_not_allocate) {
 }
 
 BOOST_AUTO_TEST_CASE(the_period_holds_the_coupling) {
-  auto stage = stage_with(coupling(1e-10, 0), false);
+  auto stage = stage_with(coupling(1e-10, 0), LoadDependence::nominal);
   stage.planet_errors.clear();
   annulus::test::Verification record("Period of a stage whose meshes are coupled through the ring",
                                      "counted by hand: three ring positions; with a mode all 162 teeth");
