@@ -7,7 +7,6 @@
 #include "app/plan/cost_actual.h"
 #include "app/progress.h"
 #include "app/report/report.h"
-#include "app/report/report_files.h"
 #include "app/scene/input_place.h"
 #include "app/scene/scene_files.h"
 #include "app/stage/summary.h"
@@ -248,7 +247,7 @@ RunResult run(const Scene& scene, const RunOptions& given) {
   keep_costs(result.cost);
   std::filesystem::create_directories(options.out);
   write_file(options.out / "summary.json", summary_json(result));
-  write_report(options.out / "report.html", report_html(result));
+  write_report(options.out / "report.html", stage_report(result));
   return result;
 }
 

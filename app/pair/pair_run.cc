@@ -1,5 +1,6 @@
 #include "app/pair/pair_run.h"
-#include "app/report/report_files.h"
+#include "app/report/helical_pair/pair_report_parts.h"
+#include "app/report/page.h"
 
 #include <fmt/format.h>
 
@@ -275,7 +276,7 @@ PairRunResult run_pair(const Scene& scene, const RunOptions& given) {
   });
   keep_costs(result.cost);
   write_file(options.out / "summary.json", pair_summary_json(result));
-  write_report(options.out / "report.html", pair_report_html(result));
+  write_report(options.out / "report.html", pair_report(result));
   return result;
 }
 

@@ -85,6 +85,5 @@ PairRunResult run_pair(const Scene& scene, const RunOptions& options);
 
 [[nodiscard]] std::string pair_summary_json(const PairRunResult& result);  ///< pair_summary.cc
 [[nodiscard]] std::string pair_summary_text(const PairRunResult& result);
-[[nodiscard]] std::string pair_report_html(const PairRunResult& result);  ///< pair_report.cc
 
 }  // namespace annulus::app

@@ -29,9 +29,4 @@ void keep_costs(const PlanCost& done);
 /// Predicted and actual time of every step as a JSON object.
 [[nodiscard]] std::string cost_json(const PlanCost& done);
 
-/// Predicted and actual time of every step as HTML; empty when nothing was computed.
-[[nodiscard]] std::string predicted_and_actual_html(const PlanCost& planned, const PlanCost& done,
-                                                    double peak_memory_MB);
-[[nodiscard]] std::string predicted_and_actual_html(const RunResult& result);
-
 }  // namespace annulus::app

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "app/report/svg_plot.h"
+#include "app/report/plot/curves.h"
 #include "core/units.h"
 
 namespace annulus::app {

@@ -1,5 +1,6 @@
 #include "app/two_k_v/two_k_v_run.h"
-#include "app/report/report_files.h"
+#include "app/report/page.h"
+#include "app/report/two_k_v/reducer_report_parts.h"
 
 #include <fmt/format.h>
 
@@ -152,7 +153,7 @@ TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& given) {
   keep_costs(result.cost);
   std::filesystem::create_directories(options.out);
   write_file(options.out / "summary.json", two_k_v_summary(result));
-  write_report(options.out / "report.html", two_k_v_report(result));
+  write_report(options.out / "report.html", reducer_report(result));
   return result;
 }
 

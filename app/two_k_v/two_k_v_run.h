@@ -57,7 +57,6 @@ TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options);
 /// Time integration of one response: of `mesh_cycles`, else of the turns of the crank that shooting takes.
 [[nodiscard]] double two_k_v_marching_seconds(const Scene& scene);
 
-[[nodiscard]] std::string two_k_v_report(const TwoKVResult& result);   ///< HTML (two_k_v_report.cc)
 [[nodiscard]] std::string two_k_v_summary(const TwoKVResult& result);  ///< JSON (two_k_v_summary.cc)
 [[nodiscard]] std::string two_k_v_text(const TwoKVResult& result);     ///< for standard output
 

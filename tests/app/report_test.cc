@@ -4,8 +4,8 @@
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
-#include "app/report/report_parts.h"
-#include "app/report/svg_map.h"
+#include "app/report/planetary/stage_report_parts.h"
+#include "app/report/plot/map.h"
 #include "app/stage/summary.h"
 #include "tests/app/made_up_solution.h"
 #include "tests/app/scenes.h"
@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(scale_goes_both_ways_below_zero) {
 
 BOOST_AUTO_TEST_CASE(supports_show_who_touches) {
   const auto result = run_of("ring_structures");
-  const auto section = app::supports_section(result);
+  const auto section = app::html(app::supports_section(result));
   check_svg(section);
   for (const auto* title :
        {"pins24: pins", "bolts24: bolts", "irregular-pins: pins", "one-pin: pins", "splined: spline teeth"})
@@ -86,11 +86,11 @@ BOOST_AUTO_TEST_CASE(supports_show_who_touches) {
   // Without pins there is no section.
   auto held = result;
   held.rings.erase(held.rings.begin() + 1, held.rings.end());
-  BOOST_TEST(app::supports_section(held).empty());
+  BOOST_TEST(app::supports_section(held).blocks.empty());
 }
 
 BOOST_AUTO_TEST_CASE(contact_shows_face_width_pressure_and_stress) {
-  const auto section = app::contact_section(run_of("misaligned_set"));
+  const auto section = app::html(app::contact_section(run_of("misaligned_set")));
   check_svg(section);
   BOOST_TEST(contains(section, "Load over the face width"));
   BOOST_TEST(contains(section, "thin-walled (KHβ 1.5)"));
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(contact_shows_face_width_pressure_and_stress) {
 BOOST_AUTO_TEST_CASE(plane_meshes_show_their_pressure_as_lines) {
   auto result = run_of("ring_structures");
   result.rings.erase(result.rings.begin() + 1, result.rings.end());
-  const auto section = app::contact_section(result);
+  const auto section = app::html(app::contact_section(result));
   check_svg(section);
   BOOST_TEST(!contains(section, "Load over the face width"));
   BOOST_TEST(contains(section, "roll length from the theoretical contact point"));
@@ -117,9 +117,9 @@ BOOST_AUTO_TEST_CASE(nothing_is_shown_of_what_is_not_known) {
   };
   strip(result.sun_mesh);
   for (auto& ring : result.rings) strip(ring.mesh);
-  BOOST_TEST(app::contact_section(result).empty());
-  BOOST_TEST(app::supports_section(result).empty());
-  const auto page = app::report_html(result);
+  BOOST_TEST(app::contact_section(result).blocks.empty());
+  BOOST_TEST(app::supports_section(result).blocks.empty());
+  const auto page = app::page_html(app::stage_report(result));
   BOOST_TEST(!contains(page, "#contact"));
   BOOST_TEST(!contains(page, "#supports"));
 }
@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(summary_has_the_peaks_with_their_position) {
 }
 
 BOOST_AUTO_TEST_CASE(whole_page) {
-  const auto page = app::report_html(run_of("misaligned_set"));
+  const auto page = app::page_html(app::stage_report(run_of("misaligned_set")));
   check_svg(page.substr(page.find("<main>")));
   BOOST_TEST(contains(page, "face load factor K<sub>Hβ</sub>, largest"));
   BOOST_TEST(contains(page, "root stress of the ring, tension, largest, MPa"));
