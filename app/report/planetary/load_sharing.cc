@@ -12,43 +12,34 @@ namespace {
 
 std::string branch(const char* mesh, int planet) { return fmt::format("{}{}", mesh, planet + 1); }
 
-/// One plot per ring on one scale, with one line per planet read from `table` of the response.
-struct Lines {
-  const Csv StageResponse::*table;
-  std::string line, low, high;  ///< suffixes of the columns; empty: none
-  double cycles = shown_cycles;
-};
-
-Pictures per_planet(const RunResult& result, const char* mesh, const Lines& lines, const char* y_label,
-                    const Text& caption) {
-  const int planets = result.scene.stage.planets;
-  std::vector<Plot> plots;
-  RangeFinder range;
-  range.add(1);
-  for (const auto* ring : rings_with_response(result)) {
-    const Csv& csv = (*ring->response).*(lines.table);
-    Plot plot{.title = ring->name,
-              .x_label = "mesh cycle of the evaluated window",
-              .y_label = y_label,
-              .levels = {{1.0, ""}}};
-    for (int n = 0; n < planets; ++n) {
-      const auto name = branch(mesh, n);
-      Series series{.label = fmt::format("planet {}", n + 1),
-                    .x = column_values(csv, "mesh_cycle", lines.cycles),
-                    .y = column_values(csv, name + lines.line, lines.cycles),
-                    .colour = static_cast<std::size_t>(n)};
-      if (!lines.low.empty()) {
-        series.low = column_values(csv, name + lines.low, lines.cycles);
-        series.high = column_values(csv, name + lines.high, lines.cycles);
-      }
-      range.add(series.y);
-      range.add(series.low);
-      range.add(series.high);
-      plot.series.push_back(std::move(series));
-    }
-    plots.push_back(std::move(plot));
-  }
-  return {on_one_scale(plots, range), planet_legend(planets), caption};
+PlanetLines sharing_lines(const char* mesh) {
+  return {.table = [](const StageResponse& r) -> const Csv& { return r.load_sharing; },
+          .stem = mesh,
+          .line = "_averaged",
+          .low = "",
+          .high = "",
+          .y_label = "N F / ΣF",
+          .level = 1};
+}
+PlanetLines factor_lines(const char* mesh) {
+  return {.table = [](const StageResponse& r) -> const Csv& { return r.dynamic_factor; },
+          .stem = mesh,
+          .line = "_max",
+          .low = "_min",
+          .high = "_max",
+          .y_label = "F / mean mesh force",
+          .level = 1};
+}
+/// The first mesh cycles at full resolution.
+PlanetLines waveform_lines(const char* mesh, const Csv StageResponse::*table, const char* y_label) {
+  return {.table = [table](const StageResponse& r) -> const Csv& { return r.*table; },
+          .stem = mesh,
+          .line = "",
+          .low = "",
+          .high = "",
+          .y_label = y_label,
+          .cycles = 6,
+          .level = 1};
 }
 
 dynamics::Spectrum spectrum_of(const RingResult& ring, const std::string& branch) {
@@ -161,32 +152,28 @@ Section dynamics_section(const RunResult& result) {
     section.blocks = paragraph("Not asked for.");
     return section;
   }
-  const Lines sharing{&StageResponse::load_sharing, "_averaged", "", ""};
-  const Lines factor{&StageResponse::dynamic_factor, "_max", "_min", "_max"};
-  const Lines waveform{&StageResponse::waveform, "", "", "", 6};
-  const Lines sharing_waveform{&StageResponse::sharing_waveform, "", "", "", 6};
-  const char *shares = "N F / ΣF", *relative = "F / mean mesh force";
   const char* first_cycles = "The first six mesh cycles of the window, at full resolution.";
   const std::string cut =
       fmt::format(" Windows longer than {:.0f} mesh cycles are cut here; the files hold them whole.", shown_cycles);
-  section.blocks =
-      heading("Load sharing of the sun meshes") +
-      per_planet(
-          result, sun_planet, sharing, shares,
-          "Each planet's part of the power, forces averaged over a mesh cycle. The coefficient is the highest point." +
-              cut) +
-      per_planet(result, sun_planet, sharing_waveform, shares, first_cycles) +
-      heading("Load sharing of the ring meshes") +
-      per_planet(result, ring_planet, sharing, shares, "The same for the ring meshes.") +
-      per_planet(result, ring_planet, sharing_waveform, shares, first_cycles) +
-      heading("Dynamic factor of the sun meshes") +
-      per_planet(result, sun_planet, factor, relative,
-                 "Line: largest force of each mesh cycle; band: down to the smallest." + cut) +
-      per_planet(result, sun_planet, waveform, relative, first_cycles) + heading("Dynamic factor of the ring meshes") +
-      per_planet(result, ring_planet, factor, relative, "As above.") +
-      per_planet(result, ring_planet, waveform, relative, first_cycles) + error_bars(result) +
-      heading("Spectrum of the mesh forces") + paragraph("Sun mesh") + spectra(result, sun_planet) +
-      paragraph("Ring mesh") + spectra(result, ring_planet);
+  auto& blocks = section.blocks;
+  const auto add_meshes = [&](const char* mesh, const std::string& words, const std::string& what,
+                              const PlanetLines& lines, const Csv StageResponse::*waveform,
+                              const std::string& caption) {
+    blocks += heading(what + words) + planet_lines(result, lines, caption) +
+              planet_lines(result, waveform_lines(mesh, waveform, lines.y_label), first_cycles);
+  };
+  const std::string share = "Load sharing of the ", factor = "Dynamic factor of the ";
+  add_meshes(sun_planet, "sun meshes", share, sharing_lines(sun_planet), &StageResponse::sharing_waveform,
+             "Each planet's part of the power, forces averaged over a mesh cycle. The coefficient is the highest "
+             "point." +
+                 cut);
+  add_meshes(ring_planet, "ring meshes", share, sharing_lines(ring_planet), &StageResponse::sharing_waveform,
+             "The same for the ring meshes.");
+  add_meshes(sun_planet, "sun meshes", factor, factor_lines(sun_planet), &StageResponse::waveform,
+             "Line: largest force of each mesh cycle; band: down to the smallest." + cut);
+  add_meshes(ring_planet, "ring meshes", factor, factor_lines(ring_planet), &StageResponse::waveform, "As above.");
+  blocks += error_bars(result) + heading("Spectrum of the mesh forces") + paragraph("Sun mesh") +
+            spectra(result, sun_planet) + paragraph("Ring mesh") + spectra(result, ring_planet);
   return section;
 }
 

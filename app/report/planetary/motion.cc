@@ -52,30 +52,16 @@ PageTable motion_table(const RunResult& result) {
 }
 
 Pictures pin_forces(const RunResult& result) {
-  std::vector<Plot> plots;
-  RangeFinder range;
-  for (const auto* ring : rings_with_response(result)) {
-    const Csv& csv = ring->response->motion.bearing_forces;
-    Plot plot{.title = ring->name, .x_label = "mesh cycle of the evaluated window", .y_label = "force on the pin, kN"};
-    for (int n = 0; n < result.scene.stage.planets; ++n) {
-      const auto name = fmt::format("planet{}_resultant_", n + 1);
-      Series s{.label = fmt::format("planet {}", n + 1),
-               .x = column_values(csv, "mesh_cycle", shown_cycles),
-               .y = column_values(csv, name + "max_N", shown_cycles),
-               .low = column_values(csv, name + "min_N", shown_cycles),
-               .colour = static_cast<std::size_t>(n)};
-      for (auto* list : {&s.y, &s.low}) {
-        for (auto& f : *list) f /= 1e3;
-        range.add(*list);
-      }
-      s.high = s.y;
-      plot.series.push_back(std::move(s));
-    }
-    plots.push_back(std::move(plot));
-  }
-  return {on_one_scale(plots, range), planet_legend(result.scene.stage.planets),
-          "Resultant of the radial and tangential force, the planet's centrifugal force included. Line: largest of "
-          "each mesh cycle; band: down to the smallest."};
+  return planet_lines(result,
+                      {.table = [](const StageResponse& r) -> const Csv& { return r.motion.bearing_forces; },
+                       .stem = "planet",
+                       .line = "_resultant_max_N",
+                       .low = "_resultant_min_N",
+                       .high = "_resultant_max_N",
+                       .y_label = "force on the pin, kN",
+                       .scale = 1e-3},
+                      "Resultant of the radial and tangential force, the planet's centrifugal force included. Line: "
+                      "largest of each mesh cycle; band: down to the smallest.");
 }
 
 /// Equal ranges for both axes around the middle of the data, one for all plots.

@@ -41,6 +41,35 @@ Legend planet_legend(int planets) {
   return legend;
 }
 
+Pictures planet_lines(const RunResult& result, const PlanetLines& lines, const Text& caption) {
+  const int planets = result.scene.stage.planets;
+  std::vector<Plot> plots;
+  RangeFinder range;
+  if (lines.level) range.add(*lines.level);
+  for (const auto* ring : rings_with_response(result)) {
+    const Csv& csv = lines.table(*ring->response);
+    Plot plot{.title = ring->name, .x_label = "mesh cycle of the evaluated window", .y_label = lines.y_label};
+    if (lines.level) plot.levels.emplace_back(*lines.level, "");
+    for (int n = 0; n < planets; ++n) {
+      const auto values = [&](const std::string& suffix) {
+        return column_values(csv, fmt::format("{}{}{}", lines.stem, n + 1, suffix), lines.cycles, lines.scale);
+      };
+      Series series{.label = fmt::format("planet {}", n + 1),
+                    .x = column_values(csv, "mesh_cycle", lines.cycles),
+                    .y = values(lines.line),
+                    .colour = static_cast<std::size_t>(n)};
+      if (!lines.low.empty()) {
+        series.low = values(lines.low);
+        series.high = values(lines.high);
+      }
+      for (const auto* list : {&series.y, &series.low, &series.high}) range.add(*list);
+      plot.series.push_back(std::move(series));
+    }
+    plots.push_back(std::move(plot));
+  }
+  return {on_one_scale(plots, range), planet_legend(planets), caption};
+}
+
 Page stage_report(const RunResult& result) {
   const auto& scene = result.scene;
   const auto meshes = titled_meshes(result);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +23,17 @@ namespace annulus::app {
 [[nodiscard]] std::vector<const RingResult*> rings_with_response(const RunResult& result);
 /// One colour per planet.
 [[nodiscard]] Legend planet_legend(int planets);
+/// A line per planet in a plot per ring, all on one scale, read from a table of the response over its mesh cycles.
+struct PlanetLines {
+  std::function<const Csv&(const StageResponse&)> table;
+  std::string stem;             ///< of the columns, before the number of the planet
+  std::string line, low, high;  ///< suffixes of the columns; empty: none
+  const char* y_label = "";
+  double scale = 1;
+  double cycles = shown_cycles;
+  std::optional<double> level{};  ///< reference line, always in the range
+};
+[[nodiscard]] Pictures planet_lines(const RunResult& result, const PlanetLines& lines, const Text& caption);
 
 // geometry.cc
 [[nodiscard]] Section drawings_section(const RunResult& result);  ///< the gears to scale
