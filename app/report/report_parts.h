@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "app/pipeline.h"
 #include "app/report/section.h"
 #include "app/stage/measured.h"
+#include "dynamics/steady_state/steady_response.h"
 
 /// The sections of report pages, made from the results alone. A section without blocks has nothing to show and is left
 /// out.
@@ -57,6 +59,13 @@ inline constexpr double shown_cycles = 110;
 [[nodiscard]] Section inputs_section(const Plan& plan);  ///< every input with its origin, the assumed ones first
 /// Invariants of the contact solves; meshes that were not computed have none.
 [[nodiscard]] Blocks mesh_checks(const std::vector<std::pair<std::string, const MeshResult*>>& meshes);
+/// How responses were found and how well: method, window, balances.
+struct NamedOutcome {
+  std::string name;
+  const dynamics::SteadyOutcome* outcome = nullptr;
+  double force_balance = std::numeric_limits<double>::quiet_NaN();  ///< relative; NaN: not known
+};
+[[nodiscard]] Blocks solution_checks(const std::vector<NamedOutcome>& responses);
 /// Predicted and actual cost of the steps, wall time of the stages and the peak of the memory.
 [[nodiscard]] Blocks cost_blocks(const PlanCost& planned, const PlanCost& done,
                                  const std::vector<std::pair<std::string, double>>& timings, double peak_memory_MB);

@@ -218,8 +218,8 @@ Blocks pair_verdict(const PairRunResult& result) {
             : "",
         measured(f.acceleration.tooth.value, f.acceleration.tooth.error),
         measured(1e6 * te.peak_to_peak.value, 1e6 * te.peak_to_peak.error), um_text(te.mean),
-        f.contact_loss > 0 ? fmt::format(" The teeth part for {:.2g} % of the time.", 100 * f.contact_loss)
-                           : std::string(" The teeth never part.")));
+        f.contact_loss > 0 ? fmt::format(" The teeth lose contact for {:.2g} % of the time.", 100 * f.contact_loss)
+                           : std::string(" The teeth never lose contact.")));
     if (!f.steady)
       blocks += paragraph("No periodic steady state was reached; the figures hold for the evaluated window only.");
   }
@@ -237,10 +237,10 @@ Blocks pair_verdict(const PairRunResult& result) {
     return std::count_if(all.begin(), all.end(), [&](const auto& c) { return c.agrees == what; });
   };
   if (!all.empty())
-    blocks += paragraph(
-        phrase("Conclusions of the paper behind this model, held against these numbers: {} hold, {} fail, {} cannot be "
-               "decided ({}).",
-               count(true), count(false), count(std::nullopt), link("details", "conclusions")));
+    blocks += paragraph(phrase(
+        "Conclusions of the paper behind this model, compared with these numbers: {} hold, {} fail, {} cannot be "
+        "decided ({}).",
+        count(true), count(false), count(std::nullopt), link("details", "conclusions")));
   if (!result.response) blocks += paragraph("Mesh stiffness and error law only.");
   return verdict_box(blocks);
 }

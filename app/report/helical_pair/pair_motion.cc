@@ -137,11 +137,11 @@ Section pair_modes_section(const PairRunResult& result) {
   for (std::size_t i = 0; i < modes.modes.size(); ++i) {
     const auto& mode = modes.modes[i];
     const bool free = mode.frequency == 0;
-    const double omega = 2 * std::numbers::pi * mode.frequency, closing = system.mesh_vector(0).dot(mode.shape);
+    const double omega = 2 * std::numbers::pi * mode.frequency, approach = system.mesh_vector(0).dot(mode.shape);
     std::vector<Text> cells = {
         fmt::format("{}", i + 1), free ? "0 " + muted("free rotation") : Text(fmt::format("{:.1f}", mode.frequency)),
         free ? "–" : fmt::format("{:.0f}", 60 * mode.frequency / result.scene.pinion.teeth),
-        free ? "–" : fmt::format("{:.0f} %", 100 * stiffness * closing * closing / (omega * omega))};
+        free ? "–" : fmt::format("{:.0f} %", 100 * stiffness * approach * approach / (omega * omega))};
     for (Eigen::Index k = 0; k < mode.shape.size(); ++k)
       cells.emplace_back(fmt::format("{:.0f} %", 100 * system.mass()(k, k) * mode.shape[k] * mode.shape[k]));
     table.rows.push_back(std::move(cells));
@@ -156,22 +156,7 @@ Section pair_modes_section(const PairRunResult& result) {
 
 Section pair_quality_section(const PairRunResult& result) {
   Blocks blocks;
-  if (result.response) {
-    const auto& f = result.response->figures;
-    std::string how = "marched";
-    if (f.direct && f.direct->converged)
-      how = fmt::format(
-          "{} ({} Newton iterations; half the samples change a force by {:.1e} of the mean){}",
-          f.direct->method == dynamics::DirectMethod::piecewise ? "exactly, piece by piece" : "harmonic balance",
-          f.direct->newton_iterations, f.direct->sampling_difference,
-          f.confirmed ? ", confirmed by time integration over one window" : "");
-    else if (f.direct)
-      how = "marched: the direct solution failed (" + f.direct->trouble + ")";
-    blocks += PageTable{
-        .head = {"how the response was found", "window", "integrated", "steady", "energy balance", "steps"},
-        .rows = {{how, fmt::format("{} mesh cycles", f.window_cycles), fmt::format("{} mesh cycles", f.total_cycles),
-                  f.steady ? "yes" : "no", small_text(f.energy.relative), fmt::format("{}", f.statistics.steps)}}};
-  }
+  if (result.response) blocks = solution_checks({{"pair", &result.response->figures}});
   return {"quality", "Checks and cost",
           blocks + cost_blocks(result.plan.cost, result.cost, result.timings, result.peak_memory_MB)};
 }

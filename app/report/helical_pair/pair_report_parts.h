@@ -16,7 +16,7 @@ namespace annulus::app {
 [[nodiscard]] Section drawings_section(const PairRunResult& result);  ///< the gears to scale
 // conclusions.cc
 [[nodiscard]] Blocks pair_verdict(const PairRunResult& result);  ///< what came out, in plain words
-/// The paper's conclusions held against the numbers.
+/// The paper's conclusions compared with the numbers.
 [[nodiscard]] Section pair_conclusions_section(const PairRunResult& result);
 // causes.cc
 [[nodiscard]] Section pair_shares_section(const PairRunResult& result);  ///< causes of the transmission error

@@ -75,7 +75,7 @@ std::optional<ColourMap> one_map(const GridResult& grid, const StudyFigure& figu
                    .height = 300};
 }
 
-/// Where the teeth part, and where the largest acceleration lies.
+/// Where the teeth lose contact, and where the largest acceleration lies.
 Paragraph map_words(const StudyResults& studies, const GridResult& grid) {
   const auto loss = find_figure(studies.figures, "contact_loss"),
              acceleration = find_figure(studies.figures, "acceleration_max_m_per_s2");
@@ -88,9 +88,10 @@ Paragraph map_words(const StudyResults& studies, const GridResult& grid) {
       top = i;
   }
   const auto nx = grid.x.size();
-  return {fmt::format("The acceleration is largest, {} m/s², at {} {} and {} {}. The teeth part at {} of {} points.",
-                      to_text(points[top].value(acceleration), 4), to_text(grid.x[top % nx], 5), grid.x_unit,
-                      to_text(grid.y[top / nx], 5), grid.y_unit, parted, points.size())};
+  return {fmt::format(
+      "The acceleration is largest, {} m/s², at {} {} and {} {}. The teeth lose contact at {} of {} points.",
+      to_text(points[top].value(acceleration), 4), to_text(grid.x[top % nx], 5), grid.x_unit,
+      to_text(grid.y[top / nx], 5), grid.y_unit, parted, points.size())};
 }
 
 }  // namespace

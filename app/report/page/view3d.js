@@ -1,4 +1,4 @@
-// Deformed bodies that can be turned. The drawing is three.js; the picture stays until someone asks for more.
+// Deformed bodies that can be rotated. The drawing is three.js; the picture stays until someone asks for more.
 (() => {
   'use strict';
   if (typeof THREE === 'undefined') return;
@@ -78,7 +78,7 @@
     });
     const label = document.createElement('label');
     label.className = 'tools shown';
-    label.append('displacement ', slider, ' · drag: turn · wheel: nearer · right button: shift');
+    label.append('displacement ', slider, ' · drag: rotate · wheel: zoom · right button: shift');
     box.insertBefore(renderer.domElement, svg);
     box.append(label);
     box.classList.add('awake');
@@ -90,14 +90,14 @@
     const button = document.createElement('button');
     button.type = 'button';
     button.className = 'turn';
-    button.textContent = 'turn it';
+    button.textContent = 'Rotate (3-D)';
     button.addEventListener('click', () => {
       if (box.view) return;
       try {
         box.view = makeView(box, JSON.parse(box.querySelector('script').textContent));
         button.remove();
       } catch (error) {
-        button.textContent = 'this browser draws nothing in space (WebGL): ' + error.message;
+        button.textContent = 'this browser has no WebGL: ' + error.message;
       }
     });
     box.append(button);

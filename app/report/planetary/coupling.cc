@@ -24,7 +24,7 @@ std::string name_of(RimCoupling model) {
 Section coupling_section(const RunResult& result) {
   PageTable size, effect;
   size.head = {"ring", "another mesh's load moves a mesh by at most, of what its own does",
-               "first elastic mode of the ring, Hz (waves)", "taken", "why"};
+               "first elastic mode of the ring, Hz (waves)", "coupling applied", "why"};
   effect.head = {"ring",
                  "coupling",
                  "load sharing, averaged",
@@ -62,13 +62,14 @@ Section coupling_section(const RunResult& result) {
       size;
   if (!effect.rows.empty())
     section.blocks +=
-        paragraph(fmt::format("What it changes. All rows were marched alike and evaluated over {} mesh cycles, which "
+        paragraph(fmt::format("What it changes. All rows were integrated in time with the same settings and evaluated "
+                              "over {} mesh cycles, which "
                               "need not be a whole period: they compare with each other, not with the key figures.",
                               cycles)) +
         effect;
   if (!negligible.empty())
     section.blocks +=
-        paragraph(fmt::format("What it changes was not looked at for '{}': less than a tenth of the wanted accuracy.",
+        paragraph(fmt::format("What it changes was not computed for '{}': less than a tenth of the wanted accuracy.",
                               fmt::join(negligible, "', '")));
   return section;
 }

@@ -105,7 +105,7 @@ Blocks stage_verdict(const RunResult& result) {
       return std::count_if(all.begin(), all.end(), [&](const Verdict& v) { return v.outcome == o; });
     };
     blocks += paragraph(
-        phrase("Published statements held against these numbers: {} agree, {} do not, {} cannot be decided ({}).",
+        phrase("Published statements compared with these numbers: {} agree, {} do not, {} cannot be decided ({}).",
                count(Verdict::Outcome::agrees), count(Verdict::Outcome::disagrees), count(Verdict::Outcome::undecided),
                link("details", "comparison")));
   }

@@ -120,7 +120,8 @@ Blocks poincare_sections(const RunResult& result) {
   std::vector<Plot> plots;
   for (const auto* ring : rings_with_response(result)) {
     const auto& csv = ring->response->motion.poincare;
-    Plot plot{.title = ring->name, .x_label = "sun mesh closing, µm", .y_label = "ring mesh closing, µm"};
+    Plot plot{
+        .title = ring->name, .x_label = "approach of the sun mesh, µm", .y_label = "approach of the ring mesh, µm"};
     for (int n = 0; n < result.scene.stage.planets; ++n) {
       plot.series.push_back({.label = fmt::format("planet {}", n + 1),
                              .x = micrometres(csv, fmt::format("sun_planet{}_closing_m", n + 1)),

@@ -4,7 +4,7 @@
 
 namespace annulus::app {
 
-/// Colours are told apart in so many steps; odd: the middle one is the neutral colour of a scale both ways.
+/// A scale has so many steps of colour; odd: the middle one is the neutral colour of a scale both ways.
 inline constexpr int colour_levels = 33;
 
 /// "#c7e9b4", of a place in [0, 1] on a scale from nothing to much, and on one from below zero to above.

@@ -14,29 +14,44 @@ namespace annulus::app {
 
 namespace {
 
-/// Keeps first, smallest, largest and last value of every pixel column of a long ascending series.
+/// Points of a long ascending series, reduced to the first, smallest, largest and last of every part; all points of a
+/// short one. `end_of`: index behind the part that begins at an index.
+template <class End>
+std::vector<std::size_t> reduced_points(const std::vector<double>& x, const std::vector<double>& y, std::size_t parts,
+                                        End end_of) {
+  std::vector<std::size_t> points;
+  if (x.size() <= 4 * parts || !std::is_sorted(x.begin(), x.end())) {
+    for (std::size_t i = 0; i < x.size(); ++i) points.push_back(i);
+    return points;
+  }
+  for (std::size_t begin = 0, end = 0; begin < x.size(); begin = end) {
+    end = end_of(begin);
+    std::size_t low = begin, high = begin;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (y[i] < y[low]) low = i;
+      if (y[i] > y[high]) high = i;
+    }
+    for (const std::size_t i : std::set<std::size_t>{begin, low, high, end - 1}) points.push_back(i);
+  }
+  return points;
+}
+
+/// The points that a picture needs: parts are columns of pixels.
 std::vector<std::size_t> visible_points(const Frame& frame, const std::vector<double>& x,
                                         const std::vector<double>& y) {
-  std::vector<std::size_t> kept;
-  const auto columns = static_cast<std::size_t>(frame.right - frame.left);
-  if (x.size() <= 4 * columns || !std::is_sorted(x.begin(), x.end())) {
-    for (std::size_t i = 0; i < x.size(); ++i) kept.push_back(i);
-    return kept;
-  }
-  for (std::size_t begin = 0; begin < x.size();) {
+  return reduced_points(x, y, static_cast<std::size_t>(frame.right - frame.left), [&](std::size_t begin) {
     const double column = std::floor(frame.at_x(x[begin]));
-    std::size_t end = begin, low = begin, high = begin;
-    for (; end < x.size() && std::floor(frame.at_x(x[end])) == column; ++end) {
-      if (y[end] < y[low]) low = end;
-      if (y[end] > y[high]) high = end;
-    }
-    std::vector<std::size_t> column_points = {begin, low, high, end - 1};
-    std::sort(column_points.begin(), column_points.end());
-    column_points.erase(std::unique(column_points.begin(), column_points.end()), column_points.end());
-    kept.insert(kept.end(), column_points.begin(), column_points.end());
-    begin = end;
-  }
-  return kept;
+    std::size_t end = begin + 1;
+    while (end < x.size() && std::floor(frame.at_x(x[end])) == column) ++end;
+    return end;
+  });
+}
+
+/// The points that page.js gets: parts are equal numbers of points.
+std::vector<std::size_t> points_for_zoom(const Series& s) {
+  constexpr std::size_t steps = 1000;
+  std::size_t step = 0;
+  return reduced_points(s.x, s.y, steps, [&](std::size_t) { return ++step * s.x.size() / steps; });
 }
 
 std::string path(const Frame& frame, const std::vector<double>& x, const std::vector<double>& y) {
@@ -199,31 +214,10 @@ std::string to_svg(const Plot& plot) {
 
 namespace {
 
-nlohmann::json numbers(const std::vector<double>& values, const std::vector<std::size_t>& kept) {
+nlohmann::json numbers(const std::vector<double>& values, const std::vector<std::size_t>& points) {
   auto list = nlohmann::json::array();
-  for (const std::size_t i : kept) list.push_back(plot_number(values[i]));
+  for (const std::size_t i : points) list.push_back(plot_number(values[i]));
   return list;
-}
-
-/// First, smallest, largest and last of each of many steps of a long series; all of a short one.
-std::vector<std::size_t> kept_points(const Series& s) {
-  constexpr std::size_t steps = 1000;
-  std::vector<std::size_t> kept;
-  if (s.x.size() <= 4 * steps || !std::is_sorted(s.x.begin(), s.x.end())) {
-    for (std::size_t i = 0; i < s.x.size(); ++i) kept.push_back(i);
-    return kept;
-  }
-  for (std::size_t step = 0; step < steps; ++step) {
-    const std::size_t begin = step * s.x.size() / steps, end = (step + 1) * s.x.size() / steps;
-    const auto [low, high] = std::minmax_element(s.y.begin() + static_cast<std::ptrdiff_t>(begin),
-                                                 s.y.begin() + static_cast<std::ptrdiff_t>(end));
-    std::vector<std::size_t> of_step = {begin, static_cast<std::size_t>(low - s.y.begin()),
-                                        static_cast<std::size_t>(high - s.y.begin()), end - 1};
-    std::sort(of_step.begin(), of_step.end());
-    of_step.erase(std::unique(of_step.begin(), of_step.end()), of_step.end());
-    kept.insert(kept.end(), of_step.begin(), of_step.end());
-  }
-  return kept;
 }
 
 const char* style_name(Series::Style style) {
@@ -252,13 +246,13 @@ nlohmann::json plot_data(const Plot& plot) {
   if (plot.x_range) data["x_range"] = {plot.x_range->low, plot.x_range->high};
   if (plot.y_range) data["y_range"] = {plot.y_range->low, plot.y_range->high};
   for (const auto& s : plot.series) {
-    const auto kept = kept_points(s);
+    const auto points = points_for_zoom(s);
     nlohmann::json series = {
         {"label", s.label}, {"colour", palette(s.colour)}, {"style", style_name(s.style)}, {"dashed", s.dashed},
-        {"size", s.size},   {"x", numbers(s.x, kept)},     {"y", numbers(s.y, kept)}};
+        {"size", s.size},   {"x", numbers(s.x, points)},   {"y", numbers(s.y, points)}};
     if (!s.low.empty() && s.low.size() == s.x.size() && s.high.size() == s.x.size()) {
-      series["low"] = numbers(s.low, kept);
-      series["high"] = numbers(s.high, kept);
+      series["low"] = numbers(s.low, points);
+      series["high"] = numbers(s.high, points);
     }
     data["series"].push_back(std::move(series));
   }

@@ -10,6 +10,29 @@
 
 namespace annulus::app {
 
+namespace {
+
+std::string solution_text(const dynamics::SteadyOutcome& found) {
+  std::string text = "time integration";
+  if (found.direct) {
+    const auto& direct = *found.direct;
+    const std::string method = direct.method == dynamics::DirectMethod::piecewise
+                                   ? "exact solution between jumps of the stiffness"
+                                   : "harmonic balance";
+    if (!direct.converged)
+      text += ": the " + method + " failed (" + direct.trouble + ")";
+    else if (!found.confirmed && found.total_cycles > 0)
+      text += ": the " + method + " was not confirmed";
+    else
+      text = fmt::format("{} ({} Newton iterations; half the samples change a force by {:.1e} of the mean){}", method,
+                         direct.newton_iterations, direct.sampling_difference,
+                         found.confirmed ? ", confirmed by time integration over one window" : "");
+  }
+  return found.integrator ? text + ". Integrator: " + found.integrator->reason : text;
+}
+
+}  // namespace
+
 std::string measured(double value, double error) {
   if (!std::isfinite(value)) return "not known";
   error = std::abs(error);
@@ -105,6 +128,20 @@ Blocks mesh_checks(const std::vector<std::pair<std::string, const MeshResult*>>&
              "Invariants of every contact solve, the worst over all positions and loads; relative unless a unit is "
              "given. Worst cell: scaled Jacobian, 1 for a rectangle, 0 for a collapsed cell.") +
          table;
+}
+
+Blocks solution_checks(const std::vector<NamedOutcome>& responses) {
+  PageTable table{.head = {"response", "found by", "steady state", "evaluated window", "integrated", "force balance",
+                           "energy balance", "steps"}};
+  for (const auto& [name, found, force_balance] : responses)
+    table.rows.push_back({name, solution_text(*found),
+                          std::string(found->steady ? "reached" : "not reached") +
+                              (found->steady_difference ? fmt::format(" ({:.1e})", *found->steady_difference) : ""),
+                          fmt::format("{} mesh cycles{}", found->window_cycles,
+                                      found->whole_period ? "" : ", less than an error period"),
+                          fmt::format("{} mesh cycles", found->total_cycles), small_text(force_balance),
+                          small_text(found->energy.relative), fmt::format("{}", found->statistics.steps)});
+  return table.rows.empty() ? Blocks() : Blocks(table);
 }
 
 Blocks cost_blocks(const PlanCost& planned, const PlanCost& done,

@@ -55,7 +55,7 @@ const Reference::Value* published_frequency(const TwoKVResult& result, std::size
 }
 
 /// What an agreement with the published first frequency proves; nothing when none is published.
-std::optional<Text> worth(const TwoKVResult& result) {
+std::optional<Text> agreement_text(const TwoKVResult& result) {
   if (!published_frequency(result, 0)) return std::nullopt;
   const double f = result.own.vibration->first_frequency();
   const auto part = assumed_part(result);
@@ -117,7 +117,7 @@ Blocks reducer_verdict(const TwoKVResult& result) {
       mode_words(v.names[first_elastic_mode(v)]), to_text(e.input_inertia, 4), to_text(e.stiffness, 4),
       e.input_frequency, e.train_frequency);
   Blocks blocks = paragraph(first);
-  if (const auto text = worth(result)) blocks += paragraph(*text + " " + link("More", "comparison"));
+  if (const auto text = agreement_text(result)) blocks += paragraph(*text + " " + link("More", "comparison"));
   blocks += paragraph(phrase(
       "Torsional stiffness from the output: {}, wind-up under the load {} arc seconds, lost motion {} arc seconds.",
       bold(to_text(v.torsion.mean() * arc_minute, 4) + " N m/arc minute"), to_text(v.lost.wind_up / arc_second, 4),
@@ -157,10 +157,10 @@ Section reducer_figures(const TwoKVResult& result) {
 
 /// Whether a computed value agrees with the published one.
 Text agreement(double computed, const Reference::Value& published) {
-  constexpr double told = 1e-4;  // below, the numbers are equal
+  constexpr double rounding = 1e-4;  // below, the numbers are equal
   Text text = std::abs(computed / published.value - 1) <= published.within ? tag(Text::Look::agrees, "agrees")
                                                                            : tag(Text::Look::disagrees, "disagrees");
-  if (published.within >= told) text += " " + muted("within " + to_text(100 * published.within) + " %");
+  if (published.within >= rounding) text += " " + muted("within " + to_text(100 * published.within) + " %");
   return text;
 }
 
@@ -184,7 +184,7 @@ Section reducer_comparison(const TwoKVResult& result) {
     table.rows.push_back(std::move(row));
   }
   section.blocks = source_blocks(*result.reference) + table;
-  if (const auto text = worth(result)) section.blocks += paragraph(*text + strongest_inputs(result));
+  if (const auto text = agreement_text(result)) section.blocks += paragraph(*text + strongest_inputs(result));
   return section;
 }
 
