@@ -53,6 +53,9 @@ inline constexpr double shown_cycles = 110;
 [[nodiscard]] Blocks answer_picture(const std::vector<RingQuantity>& quantities, const std::vector<std::string>& names);
 
 // sections/shared.cc, sections/meshes.cc: the same for all kinds of gear systems
+/// A page of a run: version, scene and `stage_words` in the line below the title; the sections group after group.
+[[nodiscard]] Page scene_page(const Scene& scene, const Text& stage_words, const Blocks& summary,
+                              const std::vector<std::vector<Section>>& groups);
 /// Source, DOI and note of the published results.
 [[nodiscard]] Blocks source_blocks(const Reference& reference);
 [[nodiscard]] Section model_section(const Plan& plan);   ///< what was modelled and why

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "app/content_id.h"
 #include "app/report/planetary/stage_report_parts.h"
 #include "app/report/report.h"
 #include "core/units.h"
@@ -73,25 +72,17 @@ Pictures planet_lines(const RunResult& result, const PlanetLines& lines, const T
 Page stage_report(const RunResult& result) {
   const auto& scene = result.scene;
   const auto meshes = titled_meshes(result);
-  Page page{.title = scene.title,
-            .sub = phrase("annulus {} · scene {} · {} planets, {} kW at {} r/min of the sun", version(),
-                          code(scene.file.filename().string()), scene.stage.planets, to_text(scene.stage.power / 1e3),
-                          to_text(result.geometry.operating_point.sun_speed / units::rpm, 6)),
-            .summary = stage_verdict(result),
-            .sections = {drawings_section(result),
-                         key_figures_section(result),
-                         comparison_section(result),
-                         {"meshes", "Meshes", mesh_pictures(meshes)},
-                         fields_section(meshes),
-                         stiffness_section(result),
-                         supports_section(result),
-                         contact_section(result),
-                         dynamics_section(result)}};
-  for (auto& section : study_sections(scene, result.studies)) page.sections.push_back(std::move(section));
-  for (const auto& section : {coupling_section(result), motion_section(result), modes_section(result),
-                              model_section(result.plan), inputs_section(result.plan), quality_section(result)})
-    page.sections.push_back(section);
-  return page;
+  return scene_page(
+      scene,
+      fmt::format("{} planets, {} kW at {} r/min of the sun", scene.stage.planets, to_text(scene.stage.power / 1e3),
+                  to_text(result.geometry.operating_point.sun_speed / units::rpm, 6)),
+      stage_verdict(result),
+      {{drawings_section(result), key_figures_section(result), comparison_section(result),
+        Section{"meshes", "Meshes", mesh_pictures(meshes)}, fields_section(meshes), stiffness_section(result),
+        supports_section(result), contact_section(result), dynamics_section(result)},
+       study_sections(scene, result.studies),
+       {coupling_section(result), motion_section(result), modes_section(result), model_section(result.plan),
+        inputs_section(result.plan), quality_section(result)}});
 }
 
 }  // namespace annulus::app

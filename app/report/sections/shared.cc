@@ -54,6 +54,15 @@ std::string with_unit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + ", " + unit;
 }
 
+Page scene_page(const Scene& scene, const Text& stage_words, const Blocks& summary,
+                const std::vector<std::vector<Section>>& groups) {
+  Page page{.title = scene.title,
+            .sub = phrase("annulus {} · scene {} · {}", version(), code(scene.file.filename().string()), stage_words),
+            .summary = summary};
+  for (const auto& sections : groups) page.sections.insert(page.sections.end(), sections.begin(), sections.end());
+  return page;
+}
+
 Blocks source_blocks(const Reference& reference) {
   return paragraph(reference.source + (reference.doi.empty() ? "" : ", doi:" + reference.doi) + ".") +
          paragraph(reference.note);

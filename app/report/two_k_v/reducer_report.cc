@@ -7,7 +7,6 @@
 #include <map>
 #include <optional>
 
-#include "app/content_id.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -227,19 +226,16 @@ std::string mode_words(const std::string& name) {
 Page reducer_report(const TwoKVResult& result) {
   const auto& scene = result.scene();
   const auto& shown = result.computed ? *result.computed : result.own;
-  Page page{.title = scene.title,
-            .sub = phrase("annulus {} · scene {} · ratio {}, {} N m at {} r/min of the output", version(),
-                          code(scene.file.filename().string()), to_text(two_k_v_kinematics(scene).ratio(), 6),
-                          to_text(scene.output.torque, 5), to_text(scene.output.speed / units::rpm, 5)),
-            .summary = reducer_verdict(result),
-            .sections = {drawings_section(result), reducer_figures(result), reducer_comparison(result),
-                         frequencies_section(result), first_frequency_section(result), torsion_section(result),
-                         reducer_motion_section(result), reducer_meshes_section(result),
-                         fields_section({{"Sun mesh", &shown.tables.sun}})}};
-  for (auto& section : study_sections(scene, result.studies)) page.sections.push_back(std::move(section));
-  for (const auto& section : {model_section(result.plan), inputs_section(result.plan), reducer_quality(result)})
-    page.sections.push_back(section);
-  return page;
+  return scene_page(
+      scene,
+      fmt::format("ratio {}, {} N m at {} r/min of the output", to_text(two_k_v_kinematics(scene).ratio(), 6),
+                  to_text(scene.output.torque, 5), to_text(scene.output.speed / units::rpm, 5)),
+      reducer_verdict(result),
+      {{drawings_section(result), reducer_figures(result), reducer_comparison(result), frequencies_section(result),
+        first_frequency_section(result), torsion_section(result), reducer_motion_section(result),
+        reducer_meshes_section(result), fields_section({{"Sun mesh", &shown.tables.sun}})},
+       study_sections(scene, result.studies),
+       {model_section(result.plan), inputs_section(result.plan), reducer_quality(result)}});
 }
 
 }  // namespace annulus::app
