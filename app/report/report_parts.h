@@ -32,7 +32,7 @@ struct CycleCurve {
   std::vector<double> solved_cycles, solved;
   double mean = 0;
 };
-/// `pieces`: points of the curve between two solved positions.
+/// `pieces`: of the curve between two solved positions; 1: the positions themselves.
 [[nodiscard]] CycleCurve cycle_curve(const MeshResult& mesh, const std::function<double(const StiffnessEntry&)>& pick,
                                      int pieces);
 [[nodiscard]] double secant_N_per_um(const StiffnessEntry& entry);

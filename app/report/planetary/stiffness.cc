@@ -10,8 +10,12 @@ namespace annulus::app {
 
 namespace {
 
-/// Points of a curve between two solved positions.
-int pieces_of(const MeshResult& mesh) { return mesh.table.positions() > 1 ? 4 : 10; }
+/// Pieces of a curve between two solved positions. A prescribed wave is sampled densely already, and a rectangular one
+/// must not be rounded.
+int pieces_of(const MeshResult& mesh) {
+  if (!mesh.model.computed()) return 1;
+  return mesh.table.positions() > 1 ? 4 : 10;
+}
 
 /// The curve as a line with its band, and dots where it was solved when there are few enough to tell apart.
 void add_curve(Plot& plot, const std::string& label, const CycleCurve& c, std::size_t colour, bool dots) {

@@ -22,8 +22,6 @@ CycleCurve cycle_curve(const MeshResult& mesh, const std::function<double(const 
     curve.solved.push_back(pick(e));
     error.push_back(e.error_relative);
   }
-  // A prescribed wave is sampled densely already, and a rectangular one must not be rounded.
-  if (!mesh.model.computed()) pieces = 1;
   const PeriodicCurve through(curve.solved, phases);
   curve.mean = through.mean();
   for (int i = 0; i <= total * pieces; ++i) {

@@ -12,7 +12,7 @@ namespace {
 
 bool made(const MeshResult& mesh) { return mesh.model.fidelity != "given"; }
 
-/// Secant at the nominal load over one cycle, N/µm; closed.
+/// Secant at the nominal load over one cycle, N/µm; closed. A prescribed wave is sampled densely already.
 Series stiffness_curve(const MeshResult& mesh, const ShownCase& shown) {
   const auto curve = cycle_curve(mesh, secant_N_per_um, made(mesh) ? 8 : 1);
   return {.label = shown.name, .x = curve.cycles, .y = curve.value, .colour = shown.colour};
