@@ -16,7 +16,7 @@
 #include "app/pipeline.h"
 #include "app/plan/cost_budget.h"
 #include "app/plan/run_limits.h"
-#include "app/report/report_files.h"
+#include "app/report/page.h"
 #include "app/results/figure_table.h"
 #include "app/scene/new_scene.h"
 #include "app/scene/scene_files.h"
@@ -173,7 +173,7 @@ void compare_command(const Arguments& arguments) {
   const auto runs = read_finished_runs(arguments.folders);
   if (page.has_parent_path()) std::filesystem::create_directories(page.parent_path());
   const auto pictures = page.stem().string() + "_pictures";
-  write_report(page, comparison_html(runs), pictures);
+  write_report(page, comparison_page(runs), pictures);
   write_file(table, comparison_csv(runs));
   fmt::print("{}table   {}\npage    {}\npictures {}\n", comparison_text(runs), table.string(), page.string(),
              (page.parent_path() / pictures).string());

@@ -7,7 +7,7 @@
 #include "app/content_id.h"
 #include "app/model/gear_system.h"
 #include "app/plan/cost_actual.h"
-#include "app/report/report_files.h"
+#include "app/report/page.h"
 #include "app/results/figure_table.h"
 #include "app/scene/inputs_json.h"
 #include "app/scene/scene_files.h"

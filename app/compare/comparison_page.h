@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/compare/compared_run.h"
+#include "app/report/page.h"
 
 /// Finished runs side by side, in every form.
 namespace annulus::app {
@@ -11,6 +12,7 @@ namespace annulus::app {
 [[nodiscard]] std::string comparison_text(const std::vector<ComparedRun>& runs);  ///< for standard output
 /// One row per figure and variant: SI values, errors, and what they say against the first variant.
 [[nodiscard]] std::string comparison_csv(const std::vector<ComparedRun>& runs);
+[[nodiscard]] Page comparison_page(const std::vector<ComparedRun>& runs);
 [[nodiscard]] std::string comparison_html(const std::vector<ComparedRun>& runs);  ///< a self-contained page
 
 }  // namespace annulus::app

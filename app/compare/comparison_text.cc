@@ -12,13 +12,6 @@ namespace annulus::app {
 
 namespace {
 
-/// `measured` without HTML.
-std::string plain(double value, double error) {
-  std::string text = measured(value, error);
-  if (const auto at = text.find("&lt;"); at != std::string::npos) text.replace(at, 4, "<");
-  return text;
-}
-
 /// Padded by characters, not by bytes.
 std::string column(const std::string& text, std::size_t width) {
   const auto characters =
@@ -41,7 +34,7 @@ std::string comparison_text(const std::vector<ComparedRun>& runs) {
     for (const auto* variant : variants) {
       const auto found = std::find_if(quantity.rings.begin(), quantity.rings.end(),
                                       [&](const Measured& m) { return m.ring == variant->name; });
-      text += column(found == quantity.rings.end() ? "–" : plain(found->value, found->error),
+      text += column(found == quantity.rings.end() ? "–" : measured(found->value, found->error),
                      std::max(least_width, variant->name.size() + 2));
     }
     text += "\n";

@@ -8,6 +8,7 @@
 
 #include "app/model/run_options.h"
 #include "app/plan/plan.h"
+#include "app/report/section.h"
 #include "app/stage/mesh_result.h"
 #include "app/stage/reference.h"
 #include "app/study/study_result.h"
@@ -57,8 +58,8 @@ struct SystemRun {
   [[nodiscard]] virtual Json summary() const = 0;
   /// The results in a few lines for the standard output.
   [[nodiscard]] virtual std::string text() const = 0;
-  /// report.html
-  [[nodiscard]] virtual std::string report() const = 0;
+  /// The page of report.html.
+  [[nodiscard]] virtual Page report() const = 0;
 
  protected:
   SystemRun() = default;

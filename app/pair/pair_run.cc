@@ -1,4 +1,5 @@
 #include "app/pair/pair_run.h"
+#include "app/report/helical_pair/pair_report_parts.h"
 
 #include <fmt/format.h>
 
@@ -256,7 +257,7 @@ std::unique_ptr<StudySubject> PairRunResult::subject(const RunOptions& options) 
   return std::make_unique<PairSubject>(*this, options);
 }
 
-std::string PairRunResult::report() const { return pair_report_html(*this); }
+Page PairRunResult::report() const { return pair_report(*this); }
 
 PairRunResult run_pair(const Scene& scene, const RunOptions& options) {
   PairRunResult result(scene);

@@ -66,7 +66,7 @@ struct PairRunResult final : SystemRun {
   [[nodiscard]] std::unique_ptr<StudySubject> subject(const RunOptions& options) const override;
   [[nodiscard]] Json summary() const override;      // pair_summary.cc
   [[nodiscard]] std::string text() const override;  // pair_summary.cc
-  [[nodiscard]] std::string report() const override;
+  [[nodiscard]] Page report() const override;
 };
 
 /// All steps of a run of a scene of this kind.
@@ -85,6 +85,5 @@ void describe_pair(const Scene& scene, const PairGeometry& geometry, Plan& plan)
 /// The responses of a run, as one step: the scene's own, and those that part the transmission error by its causes.
 [[nodiscard]] std::vector<PlannedResponse> pair_responses(const Scene& scene, int threads);
 
-[[nodiscard]] std::string pair_report_html(const PairRunResult& result);  ///< pair_report.cc
 
 }  // namespace annulus::app

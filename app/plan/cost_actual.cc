@@ -7,8 +7,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "app/report/report_parts.h"
-#include "app/report/svg_plot.h"
 #include "fem/cost_size.h"
 
 namespace annulus::app {
@@ -84,19 +82,6 @@ std::string cost_json(const PlanCost& done) {
                              {"predicted_s", known(step.predicted.seconds)},
                              {"actual_s", step.actual->seconds()}});
   return json.dump();
-}
-
-std::string predicted_and_actual_html(const SystemRun& run) {
-  const auto& done = run.cost;
-  if (done.empty()) return "";
-  HtmlTable table{
-      .head = {"step", "predicted time", "actual time", "predicted peak memory"}, .rows = {}, .css_class = "numbers"};
-  for (const auto& step : done.steps)
-    table.rows.push_back({escape(step.label), duration_text(step.predicted.seconds),
-                          duration_text(step.actual->seconds()),
-                          step.kind == CostKind::coupling ? "–" : memory_text(step.predicted.peak_MB)});
-  return "<p>Cost of the steps that were not reused, as predicted before the run and as measured: " +
-         escape(cost_sentence(run)) + ".</p>\n" + html(table);
 }
 
 }  // namespace annulus::app

@@ -23,7 +23,4 @@ void keep_costs(const PlanCost& done);
 /// Predicted and actual time of every step as a JSON object.
 [[nodiscard]] std::string cost_json(const PlanCost& done);
 
-/// Predicted and actual time of every step as HTML; empty when nothing was computed.
-[[nodiscard]] std::string predicted_and_actual_html(const SystemRun& run);
-
 }  // namespace annulus::app

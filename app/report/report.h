@@ -1,12 +1,11 @@
 #pragma once
 
-#include <string>
-
 #include "app/stage/planetary_run.h"
+#include "app/report/page.h"
 
 namespace annulus::app {
 
-/// report.html: one self-contained page without external references.
-[[nodiscard]] std::string report_html(const RunResult& result);
+/// report.html of a planetary stage.
+[[nodiscard]] Page stage_report(const RunResult& result);
 
 }  // namespace annulus::app

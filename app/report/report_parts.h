@@ -1,103 +1,92 @@
 #pragma once
 
+#include <functional>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "app/report/svg_plot.h"
-#include "app/stage/measured.h"
 #include "app/stage/planetary_run.h"
+#include "app/report/section.h"
+#include "app/stage/measured.h"
+#include "dynamics/steady_state/steady_response.h"
 
-/// The parts of report.html, each a piece of HTML made from the results alone.
+/// The sections of report pages, made from the results alone. A section without blocks has nothing to show and is left
+/// out.
 namespace annulus::app {
 
 /// "1.364 ± 0.012": as many digits as the error leaves, five when there is no error.
 [[nodiscard]] std::string measured(double value, double error);
+/// "1.2e-10"; "–" for what is not known.
+[[nodiscard]] std::string small_text(double x);
+/// `text` with a unit behind a comma when there is one.
+[[nodiscard]] std::string with_unit(const std::string& text, const std::string& unit);
 
-struct HtmlTable {
-  std::vector<std::string> head;
-  std::vector<std::vector<std::string>> rows;  ///< cells are HTML
-  std::string css_class{};
+// sections/shared_plots.cc: what several sections draw
+/// The plots on one y axis.
+[[nodiscard]] std::vector<Picture> on_one_scale(std::vector<Plot> plots, const RangeFinder& range);
+/// One quantity of a stiffness table over the mesh cycles at the nominal load: the solved positions, and the periodic
+/// curve through them that the dynamics uses, with the estimated error around it.
+struct CycleCurve {
+  std::vector<double> cycles, value, low, high;
+  std::vector<double> solved_cycles, solved;
+  double mean = 0;
 };
-[[nodiscard]] std::string html(const HtmlTable& table);
-
-[[nodiscard]] std::string cost_html(const std::vector<std::pair<std::string, double>>& timings, double peak_memory_MB);
-/// Invariants of a contact solve, for `mesh_check_table`.
-[[nodiscard]] std::vector<std::string> mesh_check_row(const std::string& label, const MeshResult& mesh);
-[[nodiscard]] HtmlTable mesh_check_table();
-
-/// Plots side by side under one legend and one caption (HTML).
-[[nodiscard]] std::string figure(const std::vector<std::string>& pictures, const std::string& legend,
-                                 const std::string& caption);
-/// All meshes of a run with a name for people, the rings' first, then the sun's; the index is their colour.
-[[nodiscard]] std::vector<std::pair<std::string, const MeshResult*>> all_meshes(const RunResult& result);
-
-/// Legend shared by the plots of a figure: label and palette index.
-[[nodiscard]] std::string legend_html(const std::vector<std::pair<std::string, std::size_t>>& entries);
-
-/// A part of a report page; without text it is left out.
-struct Section {
-  std::string anchor, name, text;
-};
-/// The whole page: title, line below it, verdict, links and sections, group after group. `title` and `sub` are HTML.
-[[nodiscard]] std::string report_page(const std::string& title, const std::string& sub, const std::string& verdict,
-                                      const std::vector<std::vector<Section>>& groups);
-
-/// The rings whose dynamics were asked for.
-[[nodiscard]] std::vector<const RingResult*> rings_with_response(const RunResult& result);
-/// A column of a table, of the rows whose first column lies below `rows_to`.
-[[nodiscard]] std::vector<double> column_values(const Csv& csv, const std::string& name, double rows_to = 1e99);
-/// One colour per planet.
-[[nodiscard]] std::string planet_legend(int planets);
+/// `pieces`: of the curve between two solved positions; 1: the positions themselves.
+[[nodiscard]] CycleCurve cycle_curve(const MeshResult& mesh, const std::function<double(const StiffnessEntry&)>& pick,
+                                     int pieces);
+[[nodiscard]] double secant_N_per_um(const StiffnessEntry& entry);
+/// Mean over all positions of a table at one of its loads.
+[[nodiscard]] double mean_at_load(const StiffnessTable& table, std::size_t load,
+                                  const std::function<double(const StiffnessEntry&)>& pick);
+/// A column of a table, of the rows whose first column lies below `rows_to`, each value times `scale`.
+[[nodiscard]] std::vector<double> column_values(const Csv& csv, const std::string& name, double rows_to = 1e99,
+                                                double scale = 1);
 /// Mesh cycles shown of a window: two error periods of planets with 55 teeth; longer windows are cut in the plots.
 inline constexpr double shown_cycles = 110;
 
-// report_tables.cc
-[[nodiscard]] std::string verdict_section(const RunResult& result);  ///< what came out, in plain words
+// sections/answers.cc
 /// What the stiffness of the ring mesh, load sharing and dynamic factors of several rings say, and the last two in one
 /// picture: by how much the most loaded planet and the largest dynamic load exceed the ideal. `names`: of the rings, in
 /// the order of their colours.
-[[nodiscard]] std::string answer_sentences(const std::vector<RingQuantity>& quantities);
-[[nodiscard]] std::string answer_picture(const std::vector<RingQuantity>& quantities,
-                                         const std::vector<std::string>& names);
-[[nodiscard]] std::string key_figures_section(const RunResult& result);
-[[nodiscard]] std::string comparison_section(const RunResult& result);  ///< with the published results
-// report_inputs.cc
-[[nodiscard]] std::string model_section(const RunResult& result);  ///< what was modelled and why
-[[nodiscard]] std::string inputs_section(
-    const RunResult& result);  ///< every input with its origin, the assumed ones first
-[[nodiscard]] std::string model_section(const Plan& plan);
-[[nodiscard]] std::string inputs_section(const Plan& plan);
-[[nodiscard]] std::string quality_section(const RunResult& result);  ///< invariants, timings, versions
-// report_fields.cc: deformation and stress; empty where nothing was solved
-[[nodiscard]] std::string fields_section(const RunResult& result);
-/// Of meshes with their titles; those that are null or were given have none.
-[[nodiscard]] std::string fields_section(const std::vector<std::pair<std::string, const MeshResult*>>& meshes);
-// report_stiffness.cc
-[[nodiscard]] std::string meshes_section(const RunResult& result);
-[[nodiscard]] std::string stiffness_section(const RunResult& result);        ///< transmission error, stiffness, shares
-[[nodiscard]] std::string stiffness_error_section(const RunResult& result);  ///< their errors by cause
-// report_supports.cc
-[[nodiscard]] std::string supports_section(const RunResult& result);  ///< pins, bolts and splines; empty without
-// report_contact.cc
-[[nodiscard]] std::string contact_section(const RunResult& result);  ///< face width, pressure, stress; empty if unknown
-// report_dynamics.cc
-[[nodiscard]] std::string dynamics_section(const RunResult& result);  ///< load sharing, dynamic factors, spectra
-// report_spread.cc, report_sweeps.cc, report_grids.cc, report_sensitivity.cc, report_optimise.cc; empty where the scene
-// does not ask
-[[nodiscard]] std::string spread_section(const StudyResults& studies);  ///< Monte Carlo samples
-[[nodiscard]] std::string sweeps_section(const Scene& scene, const StudyResults& studies);
-[[nodiscard]] std::string grids_section(const Scene& scene, const StudyResults& studies);
-[[nodiscard]] std::string sensitivity_section(const StudyResults& studies);
-[[nodiscard]] std::string optimise_section(const StudyResults& studies);
+[[nodiscard]] Blocks answer_sentences(const std::vector<RingQuantity>& quantities);
+[[nodiscard]] Blocks answer_picture(const std::vector<RingQuantity>& quantities, const std::vector<std::string>& names);
+
+// sections/shared.cc, sections/meshes.cc: the same for all kinds of gear systems
+/// A page of a run: version, scene and `stage_words` in the line below the title; the sections group after group.
+[[nodiscard]] Page scene_page(const Scene& scene, const Text& stage_words, const Blocks& summary,
+                              const std::vector<std::vector<Section>>& groups);
+/// Source, DOI and note of the published results.
+[[nodiscard]] Blocks source_blocks(const Reference& reference);
+[[nodiscard]] Section model_section(const Plan& plan);   ///< what was modelled and why
+[[nodiscard]] Section inputs_section(const Plan& plan);  ///< every input with its origin, the assumed ones first
+/// Invariants of the contact solves; meshes that were not computed have none.
+[[nodiscard]] Blocks mesh_checks(const std::vector<std::pair<std::string, const MeshResult*>>& meshes);
+/// How responses were found and how well: method, window, balances.
+struct NamedOutcome {
+  std::string name;
+  const dynamics::SteadyOutcome* outcome = nullptr;
+  double force_balance = std::numeric_limits<double>::quiet_NaN();  ///< relative; NaN: not known
+};
+[[nodiscard]] Blocks solution_checks(const std::vector<NamedOutcome>& responses);
+/// Predicted and actual cost of the steps, wall time of the stages and the peak of the memory.
+[[nodiscard]] Blocks cost_blocks(const SystemRun& run);
+/// Deformation and stress of meshes with their titles; those that are null or were not solved have none.
+[[nodiscard]] Section fields_section(const std::vector<std::pair<std::string, const MeshResult*>>& meshes);
+/// Pictures of the finite-element meshes, each with its title and caption; empty without any.
+[[nodiscard]] Blocks mesh_pictures(const std::vector<std::pair<std::string, const MeshResult*>>& meshes);
+/// Errors of the stiffness of meshes by cause; empty when none was computed.
+[[nodiscard]] Blocks stiffness_errors(const std::vector<std::pair<std::string, const MeshResult*>>& meshes);
+
+// sections/spread.cc, sweeps.cc, grids.cc, sensitivity.cc, optimise.cc
+[[nodiscard]] Section spread_section(const StudyResults& studies);  ///< Monte Carlo samples
+[[nodiscard]] Section sweeps_section(const Scene& scene, const StudyResults& studies);
+[[nodiscard]] Section grids_section(const Scene& scene, const StudyResults& studies);
+[[nodiscard]] Section sensitivity_section(const StudyResults& studies);
+[[nodiscard]] Section optimise_section(const StudyResults& studies);
 /// All of these, in their order on the page.
 [[nodiscard]] std::vector<Section> study_sections(const Scene& scene, const StudyResults& studies);
 /// One colour per variant; empty for a kind without variants.
-[[nodiscard]] std::string variant_legend(const StudyResults& studies);
-// report_coupling.cc
-[[nodiscard]] std::string coupling_section(const RunResult& result);  ///< of the planets through the ring
-// report_motion.cc
-[[nodiscard]] std::string motion_section(const RunResult& result);  ///< bearing forces, sun orbit, Poincaré section
-// report_modes.cc
-[[nodiscard]] std::string modes_section(const RunResult& result);  ///< frequencies, shapes, Campbell diagram
+[[nodiscard]] Legend variant_legend(const StudyResults& studies);
 
 }  // namespace annulus::app

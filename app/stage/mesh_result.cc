@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "app/content_id.h"
-#include "app/report/field_view.h"
-#include "app/report/svg_mesh.h"
+#include "app/report/drawings/field_view.h"
+#include "app/report/drawings/mesh.h"
 #include "app/stage/mesh_tables.h"
 #include "core/files.h"
 

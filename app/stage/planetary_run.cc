@@ -184,7 +184,7 @@ std::unique_ptr<StudySubject> RunResult::subject(const RunOptions& options) cons
   return std::make_unique<PlanetarySubject>(*this, options);
 }
 
-std::string RunResult::report() const { return report_html(*this); }
+Page RunResult::report() const { return stage_report(*this); }
 
 RunResult run(const Scene& scene, const RunOptions& options) {
   RunResult result(scene);

@@ -37,7 +37,7 @@ struct RunResult final : SystemRun {
   [[nodiscard]] std::unique_ptr<StudySubject> subject(const RunOptions& options) const override;
   [[nodiscard]] Json summary() const override;      // summary.cc
   [[nodiscard]] std::string text() const override;  // summary.cc
-  [[nodiscard]] std::string report() const override;
+  [[nodiscard]] Page report() const override;
 };
 
 /// Stiffness table of the sun mesh or of a ring mesh with its coupling: read back if unchanged, else solved, packed and

@@ -7,7 +7,7 @@
 
 #include "app/content_id.h"
 #include "app/plan/cost_plan.h"
-#include "app/report/interactive_plot.h"
+#include "app/report/page.h"
 #include "app/report/report_parts.h"
 #include "app/scene/overrides.h"
 #include "core/csv.h"
@@ -31,8 +31,7 @@ std::string cheapest_text(const VariantTrade& variant, TradePart part, double ac
   const auto* p = variant.cheapest(part, accuracy);
   if (!p) return fmt::format("For {}: no setting but the finest.", percent(accuracy));
   return fmt::format("For {}: {}; {}, {:.0f} MB; errors up to {} ({}).", percent(accuracy), setting_text(*p),
-                     duration_text(p->cost.wall), p->cost.peak_memory_MB, percent(p->error()),
-                     variant.title(p->worst()->key));
+                     duration_text(p->cost.wall), p->cost.peak_memory_MB, percent(p->error()), variant.title(p->worst()->key));
 }
 
 /// "The planner, asked for 1 %: 3.1 s, 400 MB; errors up to 0.2 % (...)".
@@ -41,7 +40,8 @@ std::string planned_text(const VariantTrade& variant, const TradePoint& p) {
   if (!p.failure.empty()) return text + p.failure;
   const auto* worst = variant.worst_guaranteed(p);
   return text + fmt::format("{}, {:.0f} MB; errors up to {}{}.", duration_text(p.cost.wall), p.cost.peak_memory_MB,
-                            percent(variant.guaranteed_error(p)), worst ? " (" + variant.title(worst->key) + ")" : "");
+                            percent(variant.guaranteed_error(p)),
+                            worst ? " (" + variant.title(worst->key) + ")" : "");
 }
 
 const TradePoint* finest_of(const VariantTrade& variant, TradePart part) {
@@ -51,16 +51,15 @@ const TradePoint* finest_of(const VariantTrade& variant, TradePart part) {
 }
 
 /// The cheapest setting for every figure and accuracy: what a user asks who wants one thing.
-HtmlTable cheapest_table(const VariantTrade& variant, TradePart part) {
-  HtmlTable table{.head = {"figure"}, .rows = {}};
-  for (const double accuracy : wanted_accuracies) table.head.push_back(percent(accuracy));
+PageTable cheapest_table(const VariantTrade& variant, TradePart part) {
+  PageTable table{.head = {"figure"}};
+  for (const double accuracy : wanted_accuracies) table.head.emplace_back(percent(accuracy));
   for (const auto& figure : variant.figures) {
     if (variant.front(part, figure.key).empty()) continue;
-    std::vector<std::string> row = {figure.title};
+    std::vector<Text> row = {figure.title};
     for (const double accuracy : wanted_accuracies) {
       const auto* p = variant.cheapest(part, accuracy, figure.key);
-      row.push_back(p ? escape(setting_text(*p)) + " <span class=\"muted\">" + duration_text(p->cost.wall) + "</span>"
-                      : std::string("the finest alone"));
+      row.push_back(p ? setting_text(*p) + " " + muted(duration_text(p->cost.wall)) : Text("the finest alone"));
     }
     table.rows.push_back(std::move(row));
   }
@@ -87,7 +86,7 @@ Plot fronts_plot(const VariantTrade& variant, TradePart part) {
 }
 
 /// How far the program's own estimates are from the errors, over all figures with both.
-std::string estimates_text(const VariantTrade& variant, TradePart part) {
+Blocks estimates_text(const VariantTrade& variant, TradePart part) {
   int kept = 0, all = 0;
   for (const auto& p : variant.points) {
     if (p.part != part || p.finest || p.changes_model || !p.failure.empty()) continue;
@@ -97,27 +96,26 @@ std::string estimates_text(const VariantTrade& variant, TradePart part) {
       kept += v.error <= v.error_estimate;
     }
   }
-  if (all == 0) return "";
-  return fmt::format("<p>{} of {} errors lie within their own estimates.</p>\n", kept, all);
+  if (all == 0) return {};
+  return paragraph(fmt::format("{} of {} errors lie within their own estimates.", kept, all));
 }
 
-HtmlTable points_table(const VariantTrade& variant, TradePart part) {
-  HtmlTable table{.head = {"how", "setting", "wall", "processor", "memory", "largest error", "in"},
-                  .rows = {},
-                  .css_class = "numbers"};
+PageTable points_table(const VariantTrade& variant, TradePart part) {
+  PageTable table{.head = {"how", "setting", "wall", "processor", "memory", "largest error", "in"},
+                  .style = PageTable::Style::numbers};
   const auto front = variant.front(part);
   for (const auto& p : variant.points) {
     if (p.part != part) continue;
     const bool best = std::find(front.begin(), front.end(), &p) != front.end();
-    const auto bold = [&](const std::string& text) { return best ? "<b>" + text + "</b>" : text; };
-    std::vector<std::string> row = {bold(escape(p.fidelity)), bold(escape(p.settings)), duration_text(p.cost.wall),
-                                    duration_text(p.cost.processor), fmt::format("{:.0f} MB", p.cost.peak_memory_MB)};
+    const auto marked = [&](const std::string& text) { return best ? bold(text) : Text(text); };
+    std::vector<Text> row = {marked(p.fidelity), marked(p.settings), duration_text(p.cost.wall),
+                             duration_text(p.cost.processor), fmt::format("{:.0f} MB", p.cost.peak_memory_MB)};
     if (!p.failure.empty()) {
-      row.insert(row.end(), {"failed", escape(p.failure)});
+      row.insert(row.end(), {"failed", p.failure});
     } else if (p.finest) {
       row.insert(row.end(), {"finest", ""});
     } else if (const auto* worst = p.worst()) {
-      row.insert(row.end(), {percent(p.error()), escape(variant.title(worst->key))});
+      row.insert(row.end(), {percent(p.error()), variant.title(worst->key)});
     } else {
       row.insert(row.end(), {"", ""});
     }
@@ -127,17 +125,16 @@ HtmlTable points_table(const VariantTrade& variant, TradePart part) {
 }
 
 /// Error of every figure, one column each.
-HtmlTable errors_table(const VariantTrade& variant, TradePart part) {
-  HtmlTable table{.head = {"setting"}, .rows = {}, .css_class = "numbers"};
+PageTable errors_table(const VariantTrade& variant, TradePart part) {
+  PageTable table{.head = {"setting"}, .style = PageTable::Style::numbers};
   for (const auto& f : variant.figures) table.head.emplace_back(f.title);
   for (const auto& p : variant.points) {
     if (p.part != part || !p.failure.empty() || p.finest) continue;
-    std::vector<std::string> row = {escape(setting_text(p))};
+    std::vector<Text> row = {setting_text(p)};
     for (const auto& f : variant.figures) {
       const auto* v = p.find(f.key);
-      std::string cell = v && std::isfinite(v->error) ? percent(v->error) : "–";
-      if (v && std::isfinite(v->error_estimate))
-        cell += " <span class=\"muted\">(" + percent(v->error_estimate) + ")</span>";
+      Text cell = v && std::isfinite(v->error) ? percent(v->error) : "–";
+      if (v && std::isfinite(v->error_estimate)) cell += " " + muted("(" + percent(v->error_estimate) + ")");
       row.push_back(std::move(cell));
     }
     table.rows.push_back(std::move(row));
@@ -145,29 +142,29 @@ HtmlTable errors_table(const VariantTrade& variant, TradePart part) {
   return table;
 }
 
-std::string part_section(const VariantTrade& variant, TradePart part) {
+Blocks part_section(const VariantTrade& variant, TradePart part) {
   const auto* finest = finest_of(variant, part);
-  if (!finest) return "";
-  std::string text = fmt::format("<h3>{}</h3>\n", part_title(part));
+  if (!finest) return {};
+  const Blocks title = heading(part_title(part));
   if (!finest->failure.empty())
-    return text + "<p>The finest setting failed, so no errors are known: " + escape(finest->failure) + "</p>\n";
-  text += fmt::format("<p>Held against: {}; {}, {:.0f} MB.</p>\n<ul>", escape(setting_text(*finest)),
-                      duration_text(finest->cost.wall), finest->cost.peak_memory_MB);
-  for (const double accuracy : wanted_accuracies)
-    text += "<li>" + escape(cheapest_text(variant, part, accuracy)) + "</li>";
+    return title + paragraph("The finest setting failed, so no errors are known: " + finest->failure);
+  List cheapest;
+  for (const double accuracy : wanted_accuracies) cheapest.items.emplace_back(cheapest_text(variant, part, accuracy));
   for (const auto& p : variant.points)
-    if (p.part == part && p.planned_for) text += "<li>" + escape(planned_text(variant, p)) + "</li>";
-  text += "</ul>\n" + figure({plot_html(trade_plot(variant, part)), plot_html(fronts_plot(variant, part))}, "",
-                             "Largest error over all figures against wall time. The line joins the settings that no "
-                             "other beats in both; what leaves parts of the model out is marked apart.");
-  text += "<p>The cheapest setting for one figure alone:</p>\n<div class=\"wide\">" +
-          html(cheapest_table(variant, part)) +
-          "</div>\n<p>All settings (bold: on the front of the largest error):</p>\n";
-  text += "<div class=\"wide\">" + html(points_table(variant, part)) + "</div>\n" + estimates_text(variant, part);
-  return text +
-         "<details><summary>Error of every figure (in brackets: the program's own estimate)</summary><div "
-         "class=\"wide\">" +
-         html(errors_table(variant, part)) + "</div></details>\n";
+    if (p.part == part && p.planned_for) cheapest.items.emplace_back(planned_text(variant, p));
+  return title +
+         paragraph(fmt::format("Held against: {}; {}, {:.0f} MB.", setting_text(*finest),
+                               duration_text(finest->cost.wall), finest->cost.peak_memory_MB)) +
+         cheapest +
+         Pictures{
+             {trade_plot(variant, part), fronts_plot(variant, part)},
+             {},
+             "Largest error over all figures against wall time. The line joins the settings that no other beats in "
+             "both; what leaves parts of the model out is marked apart."} +
+         paragraph("The cheapest setting for one figure alone:") + cheapest_table(variant, part) +
+         paragraph("All settings (bold: on the front of the largest error):") + points_table(variant, part) +
+         estimates_text(variant, part) +
+         details("Error of every figure (in brackets: the program's own estimate)", errors_table(variant, part));
 }
 
 }  // namespace
@@ -236,27 +233,25 @@ std::string trade_text(const TradeOff& trade) {
   return text;
 }
 
-std::string trade_html(const TradeOff& trade) {
-  std::vector<Section> sections;
-  std::string verdict;
+Page trade_page(const TradeOff& trade) {
+  Page page{.title = "Error against cost: " + trade.scene.title,
+            .sub = phrase("annulus {} · scene {} · {} for all settings, one after the other", version(),
+                          code(trade.scene.file.filename().string()), duration_text(trade.total_seconds))};
+  Blocks verdict;
   for (const auto& variant : trade.variants) {
-    sections.push_back({.anchor = file_name(variant.name),
-                        .name = variant.name,
-                        .text = fmt::format("<h2 id=\"{}\">{}</h2>\n", file_name(variant.name), escape(variant.name)) +
-                                part_section(variant, TradePart::mesh) + part_section(variant, TradePart::dynamics)});
+    page.sections.push_back({file_name(variant.name), variant.name,
+                             part_section(variant, TradePart::mesh) + part_section(variant, TradePart::dynamics)});
     for (const auto part : {TradePart::mesh, TradePart::dynamics}) {
       if (finest_of(variant, part) && !finest_of(variant, part)->values.empty())
-        verdict += "<p><b>" + escape(variant.name) + ", " +
-                   (part == TradePart::mesh ? "stiffness tables" : "dynamics") + "</b>. " +
-                   escape(cheapest_text(variant, part, 0.01)) + "</p>\n";
+        verdict += paragraph(bold(variant.name + ", " + (part == TradePart::mesh ? "stiffness tables" : "dynamics")) +
+                             ". " + cheapest_text(variant, part, 0.01));
     }
   }
-  return report_page(
-      "Error against cost: " + escape(trade.scene.title),
-      fmt::format("annulus {} · scene <code>{}</code> · {} for all settings, one after the other", version(),
-                  escape(trade.scene.file.filename().string()), duration_text(trade.total_seconds)),
-      "<div class=\"verdict\">" + verdict + "</div>\n", {sections});
+  page.summary = verdict_box(verdict);
+  return page;
 }
+
+std::string trade_html(const TradeOff& trade) { return page_html(trade_page(trade)); }
 
 void write_tradeoff(const TradeOff& trade, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);

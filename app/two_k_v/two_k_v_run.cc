@@ -1,4 +1,5 @@
 #include "app/two_k_v/two_k_v_run.h"
+#include "app/report/two_k_v/reducer_report_parts.h"
 
 #include <fmt/format.h>
 
@@ -155,7 +156,7 @@ std::unique_ptr<StudySubject> TwoKVResult::subject(const RunOptions& options) co
   return std::make_unique<TwoKVSubject>(own.scene, own.tables, own.motion ? &*own.motion : nullptr, options);
 }
 
-std::string TwoKVResult::report() const { return two_k_v_report(*this); }
+Page TwoKVResult::report() const { return reducer_report(*this); }
 
 TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options) {
   TwoKVResult result(scene);

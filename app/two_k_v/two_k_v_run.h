@@ -42,7 +42,7 @@ struct TwoKVResult final : SystemRun {
   [[nodiscard]] std::unique_ptr<StudySubject> subject(const RunOptions& options) const override;
   [[nodiscard]] Json summary() const override;      // two_k_v_summary.cc
   [[nodiscard]] std::string text() const override;  // two_k_v_summary.cc
-  [[nodiscard]] std::string report() const override;
+  [[nodiscard]] Page report() const override;
 };
 
 /// All steps of a run of a scene of this kind.
@@ -63,6 +63,5 @@ void describe_two_k_v(const Scene& scene, Plan& plan);
 /// Time integration of one response: of `mesh_cycles`, else of the turns of the crank that shooting takes.
 [[nodiscard]] double two_k_v_marching_seconds(const Scene& scene);
 
-[[nodiscard]] std::string two_k_v_report(const TwoKVResult& result);  ///< HTML (two_k_v_report.cc)
 
 }  // namespace annulus::app

@@ -11,8 +11,9 @@
 #include <numbers>
 
 #include "app/pipeline.h"
-#include "app/report/report_parts.h"
 #include "app/stage/planetary_run.h"
+#include "app/report/page.h"
+#include "app/report/planetary/stage_report_parts.h"
 #include "app/stage/stage_modes.h"
 #include "core/files.h"
 #include "core/log.h"
@@ -40,9 +41,9 @@ struct TableScene {
     return {mesh, phases, {0.0}, {2e4, 2e5}, entries};
   }
   [[nodiscard]] app::RunResult run(const std::filesystem::path& folder) const {
-    auto text = test::replaced(test::quick_scene(), "planet_eccentricity_um = [15, 36, 17, 38, 19]",
-                               planets == 2 ? "planet_pin_position_error_um = [20, 20]"
-                                            : "planet_pin_position_error_um = [15, 36, 17, 38, 19]");
+    auto text = test::replaced(
+        test::quick_scene(), "planet_eccentricity_um = [15, 36, 17, 38, 19]",
+        planets == 2 ? "planet_installation_um = [20, 20]" : "planet_installation_um = [15, 36, 17, 38, 19]");
     // Motions are compared to a thousandth of L - 1, which is some thousandths itself.
     text = test::replaced(text, "mesh_cycles = 110\n", "relative_tolerance = 1e-6\n");
     text = test::replaced(text, "planets = 5", "planets = " + std::to_string(planets));
@@ -96,7 +97,7 @@ BOOST_AUTO_TEST_CASE(frequencies_carry_the_errors_of_the_stiffness) {
                        "1.87e9", fmt::format("{:.17g}", TableScene::ring * ring)),
         "scene.toml");
     const auto geometry = app::make_geometry(scene);
-    const auto plan = app::make_plan(scene);
+    const auto plan = app::make_plan(scene, geometry);
     const auto mesh = [&](std::size_t i) {
       return app::mesh_stiffness(scene, geometry, plan.meshes[i], {"held"}, {.out = folder.path()});
     };
@@ -141,7 +142,7 @@ BOOST_AUTO_TEST_CASE(errors_are_the_sum_of_their_parts_and_are_kept) {
              parts[0].errors.discretisation);
   BOOST_TEST(ring["dynamic_factor_error_parts"]["ring_planet"][4]["table_interpolation"].get<double>() ==
              parts[15].errors.interpolation);
-  BOOST_TEST(app::dynamics_section(first).find("What the error bars contain") != std::string::npos);
+  BOOST_TEST(app::html(app::dynamics_section(first)).find("What the error bars contain") != std::string::npos);
   // Another error is another response.
   BOOST_TEST(!TableScene{.sun_error = 0.02}.run(folder.path()).rings[0].response->reused);
 }
@@ -185,7 +186,7 @@ BOOST_AUTO_TEST_CASE(an_odd_number_of_phases_tells_nothing_about_the_interpolati
     BOOST_TEST(std::isnan(figure.error));
     BOOST_TEST(of_stiffness(e) > 0);
   }
-  BOOST_TEST(app::dynamics_section(result).find("not known") != std::string::npos);
+  BOOST_TEST(app::html(app::dynamics_section(result)).find("not known") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(waves_are_exact) {

@@ -3,10 +3,10 @@
 #include <numbers>
 #include <regex>
 
-#include "app/report/report_drawings.h"
-#include "app/report/svg_axial.h"
-#include "app/report/svg_dimension.h"
-#include "app/report/svg_teeth.h"
+#include "app/report/drawings/axial_section.h"
+#include "app/report/drawings/dimension.h"
+#include "app/report/drawings/teeth.h"
+#include "app/report/planetary/stage_report_parts.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
 #include "tests/geometry/polygons.h"

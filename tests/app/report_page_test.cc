@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/report/report.h"
-#include "app/report/report_files.h"
 #include "core/files.h"
 #include "tests/app/made_up_solution.h"
 #include "tests/app/pair_scenes.h"
@@ -95,7 +94,7 @@ BOOST_AUTO_TEST_CASE(every_plot_of_a_stage_can_be_used) {
 BOOST_AUTO_TEST_CASE(every_plot_of_solved_meshes_can_be_used) {
   const test::TemporaryFolder folder("report_page_meshes");
   const auto scene = app::read_scene(ANNULUS_SOURCE_DIR "/data/scenes/ring_structures.toml");
-  const auto used = used_in_browser(folder.path(), app::report_html(test::made_up_run(scene, 4)));
+  const auto used = used_in_browser(folder.path(), app::page_html(app::stage_report(test::made_up_run(scene, 4))));
   check_used(used, 20);
   BOOST_TEST(used["bands"].get<int>() > 5);
   BOOST_TEST(used["map"].get<int>() >= 2);  // pins around the ring, pressures

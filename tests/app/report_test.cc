@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/report/report_parts.h"
-#include "app/report/svg_map.h"
+#include "app/report/planetary/stage_report_parts.h"
+#include "app/report/plot/map.h"
 #include "app/stage/planetary_run.h"
 #include "tests/app/made_up_solution.h"
 #include "tests/app/scenes.h"
+#include "tests/temporary_folder.h"
 
 namespace annulus {
 
@@ -47,6 +50,76 @@ void check_svg(const std::string& page) {
 
 BOOST_AUTO_TEST_SUITE(report)
 
+BOOST_AUTO_TEST_CASE(texts_are_escaped_whatever_their_look) {
+  const auto text = app::phrase("{} & {:.1f} {}", app::bold("a<b"), 2.34, app::code("k")) + app::line_break() +
+                    app::link("more", "there") + app::tag(app::Text::Look::agrees, "yes") + app::subscript("x");
+  BOOST_TEST(
+      app::html(text) ==
+      "<b>a&lt;b</b> &amp; 2.3 <code>k</code><br><a href=\"#there\">more</a><span class=\"tag agrees\">yes</span>"
+      "<sub>x</sub>");
+  BOOST_TEST(text.plain() == "a<b & 2.3 k moreyesx");
+  BOOST_TEST(app::html(app::phrase("{}{}", app::Text(), "b")) == "b");
+  // What a user wrote cannot name a part of the phrase that does not exist.
+  const std::string forged = {'\x1f', '7'};
+  BOOST_TEST(app::phrase("{}, {}", forged, app::bold("b")).plain() == ", b");
+  BOOST_TEST(app::enumerated({"a", app::bold("b"), "c"}).plain() == "a, b and c");
+}
+
+BOOST_AUTO_TEST_CASE(tables_have_headings_of_rows) {
+  auto table = app::labelled_rows({"first", "second"});
+  app::add_column(table, "A", {"1", app::muted("2")});
+  table.rows.push_back({"group"});
+  const auto section = app::html(app::Section{"s", "Name", table});
+  BOOST_TEST(contains(section, "<h2 id=\"s\">Name</h2>"));
+  BOOST_TEST(contains(section, "<table class=\"numbers\"><tr><th></th><th>A</th></tr>"));
+  BOOST_TEST(contains(section, "<tr><td>second</td><td><span class=\"muted\">2</span></td></tr>"));
+  BOOST_TEST(contains(section, "<td class=\"group\" colspan=\"2\">group</td>"));
+  BOOST_CHECK_THROW(app::add_column(table, "B", {"1", "2"}), std::exception);
+}
+
+BOOST_AUTO_TEST_CASE(pages_are_made_of_their_sections) {
+  app::Page page{.title = "T<1>", .sub = "below", .summary = app::verdict_box(app::paragraph("answer"))};
+  page.sections = {
+      {"empty", "Empty"},
+      {"words", "Words", app::heading("part", "part") + app::details("more", app::List{{"a", "b"}}), "A longer title"}};
+  const auto html = app::page_html(page);
+  for (const auto* part : {"<title>T&lt;1&gt;</title>", "<h1>T&lt;1&gt;</h1>", "<p class=\"sub\">below</p>",
+                           "<div class=\"verdict\">\n<p>answer</p>\n</div>", "<nav><a href=\"#words\">Words</a></nav>",
+                           "<h2 id=\"words\">A longer title</h2>\n<h3 id=\"part\">part</h3>",
+                           "<details><summary>more</summary><ul><li>a</li>"})
+    BOOST_TEST(contains(html, part), part);
+  BOOST_TEST(!contains(html, "Empty"));
+  BOOST_TEST(!contains(html, "{{"));
+  BOOST_TEST(!contains(html, "<script"));  // nothing interactive
+}
+
+BOOST_AUTO_TEST_CASE(a_plot_has_one_source_for_picture_and_numbers) {
+  const app::Plot plot{.title = "</script>", .series = {{.label = "s", .x = {0, 1, 2}, .y = {1, NAN, 1.23456789}}}};
+  const app::Page page{.title = "p", .sections = {{"plots", "Plots", app::Pictures{{plot}, {{"s", 0}}, "below"}}}};
+  const auto made = app::rendered(page);
+  BOOST_TEST(contains(made.html, "\"y\":[1.0,null,1.23457]"));
+  BOOST_TEST(contains(made.html, "\\u003c/script>"));
+  BOOST_TEST(contains(made.html, "<figcaption>below</figcaption>"));
+  BOOST_TEST(contains(made.html, "<div class=\"row one narrow\">"));
+  BOOST_REQUIRE(made.pictures.size() == 1U);
+  BOOST_TEST(made.pictures.front().section == "plots");
+  BOOST_TEST(made.pictures.front().svg == app::to_svg(plot));
+  BOOST_TEST(contains(made.html, made.pictures.front().svg));
+}
+
+BOOST_AUTO_TEST_CASE(pictures_become_files_and_old_ones_go) {
+  const test::TemporaryFolder folder("report_pictures");
+  const auto page_with = [](const std::string& title) {
+    app::BarChart chart{.title = title, .bars = {{.label = "b", .value = 1}}};
+    return app::Page{.title = "p", .sections = {{"bars", "Bars", app::Pictures{{chart}}}}};
+  };
+  app::write_report(folder.path() / "report.html", page_with("Old one"));
+  BOOST_TEST(std::filesystem::exists(folder.path() / "pictures" / "01_bars_old_one.svg"));
+  app::write_report(folder.path() / "report.html", page_with("New, ⌀ mm"));
+  BOOST_TEST(!std::filesystem::exists(folder.path() / "pictures" / "01_bars_old_one.svg"));
+  BOOST_TEST(std::filesystem::exists(folder.path() / "pictures" / "01_bars_new_mm.svg"));
+}
+
 BOOST_AUTO_TEST_CASE(maps_join_equal_neighbours) {
   app::ColourMap map{.title = "m", .y_range = {0, 2}, .values = {0, 10}, .grey = "none"};
   app::ColourMap::Panel panel{.title = "a<b", .x_range = {0, 4}};
@@ -75,7 +148,7 @@ BOOST_AUTO_TEST_CASE(scale_goes_both_ways_below_zero) {
 
 BOOST_AUTO_TEST_CASE(supports_show_who_touches) {
   const auto result = run_of("ring_structures");
-  const auto section = app::supports_section(result);
+  const auto section = app::html(app::supports_section(result));
   check_svg(section);
   for (const auto* title :
        {"pins24: pins", "bolts24: bolts", "irregular-pins: pins", "one-pin: pins", "splined: spline teeth"})
@@ -86,11 +159,11 @@ BOOST_AUTO_TEST_CASE(supports_show_who_touches) {
   // Without pins there is no section.
   auto held = result;
   held.rings.erase(held.rings.begin() + 1, held.rings.end());
-  BOOST_TEST(app::supports_section(held).empty());
+  BOOST_TEST(app::supports_section(held).blocks.empty());
 }
 
 BOOST_AUTO_TEST_CASE(contact_shows_face_width_pressure_and_stress) {
-  const auto section = app::contact_section(run_of("misaligned_set"));
+  const auto section = app::html(app::contact_section(run_of("misaligned_set")));
   check_svg(section);
   BOOST_TEST(contains(section, "Load over the face width"));
   BOOST_TEST(contains(section, "thin-walled (KHβ 1.5)"));
@@ -104,7 +177,7 @@ BOOST_AUTO_TEST_CASE(contact_shows_face_width_pressure_and_stress) {
 BOOST_AUTO_TEST_CASE(plane_meshes_show_their_pressure_as_lines) {
   auto result = run_of("ring_structures");
   result.rings.erase(result.rings.begin() + 1, result.rings.end());
-  const auto section = app::contact_section(result);
+  const auto section = app::html(app::contact_section(result));
   check_svg(section);
   BOOST_TEST(!contains(section, "Load over the face width"));
   BOOST_TEST(contains(section, "roll length from the theoretical contact point"));
@@ -117,9 +190,9 @@ BOOST_AUTO_TEST_CASE(nothing_is_shown_of_what_is_not_known) {
   };
   strip(result.sun_mesh);
   for (auto& ring : result.rings) strip(ring.mesh);
-  BOOST_TEST(app::contact_section(result).empty());
-  BOOST_TEST(app::supports_section(result).empty());
-  const auto page = app::report_html(result);
+  BOOST_TEST(app::contact_section(result).blocks.empty());
+  BOOST_TEST(app::supports_section(result).blocks.empty());
+  const auto page = app::page_html(app::stage_report(result));
   BOOST_TEST(!contains(page, "#contact"));
   BOOST_TEST(!contains(page, "#supports"));
 }
@@ -141,7 +214,7 @@ BOOST_AUTO_TEST_CASE(summary_has_the_peaks_with_their_position) {
 }
 
 BOOST_AUTO_TEST_CASE(whole_page) {
-  const auto page = app::report_html(run_of("misaligned_set"));
+  const auto page = app::page_html(app::stage_report(run_of("misaligned_set")));
   check_svg(page.substr(page.find("<main>")));
   BOOST_TEST(contains(page, "face load factor K<sub>Hβ</sub>, largest"));
   BOOST_TEST(contains(page, "root stress of the ring, tension, largest, MPa"));

@@ -1,11 +1,12 @@
-#include "app/report/svg_plot.h"
+#include "app/report/plot/curves.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "app/report/drawings/mesh.h"
+#include "app/report/drawings/mode.h"
 #include "app/report/report_parts.h"
-#include "app/report/svg_mesh.h"
-#include "app/report/svg_mode.h"
+#include "app/report/xml.h"
 #include "geometry/sector_mesh.h"
 #include "tests/app/made_up_solution.h"
 
@@ -140,7 +141,7 @@ BOOST_AUTO_TEST_CASE(pictures_of_supports) {
 BOOST_AUTO_TEST_CASE(measured_values_carry_their_error) {
   BOOST_TEST(app::measured(1.36412, 0.0123) == "1.364 ± 0.012");
   BOOST_TEST(app::measured(2963.94, 1.3) == "2963.9 ± 1.3");
-  BOOST_TEST(app::measured(1.12042592, 1.6e-7) == "1.1204 ± &lt;0.0001");
+  BOOST_TEST(app::measured(1.12042592, 1.6e-7) == "1.1204 ± <0.0001");
   BOOST_TEST(app::measured(0.5, 0) == "0.5");
   BOOST_TEST(app::measured(std::nan(""), 0) == "not known");
 }

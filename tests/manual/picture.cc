@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/report/svg_plot.h"
+#include "app/report/plot/curves.h"
 #include "page.h"
 
 namespace annulus::manual {

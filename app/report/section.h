@@ -1,0 +1,134 @@
+#pragma once
+
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "app/report/plot/bars.h"
+#include "app/report/plot/curves.h"
+#include "app/report/plot/map.h"
+#include "app/report/plot/spread.h"
+#include "app/report/text.h"
+
+/// A report is data: sections of blocks. What reads results makes it, page.h draws it.
+namespace annulus::app {
+
+struct Heading {
+  Text text;
+  std::string anchor{};  ///< empty: nothing links to it
+};
+
+struct Paragraph {
+  Text text;
+  enum class Tone { plain, muted } tone = Tone::plain;
+};
+
+struct List {
+  std::vector<Text> items;
+};
+
+/// A row of one cell is the heading of the rows below it.
+struct PageTable {
+  enum class Style { text, numbers };
+  std::vector<Text> head{};
+  std::vector<std::vector<Text>> rows{};
+  Style style = Style::text;
+};
+/// A table of numbers whose first column holds the labels of the rows; columns are added to it.
+[[nodiscard]] PageTable labelled_rows(const std::vector<Text>& labels);
+void add_column(PageTable& table, const Text& head, const std::vector<Text>& cells);
+
+/// A drawing to scale, as an <svg> element.
+struct Drawing {
+  std::string svg;
+};
+/// Deformed bodies as stored beside the meshes (field_view.h).
+struct StoredViews {
+  std::string html;
+};
+using Drawn = std::variant<Plot, BarChart, ColourMap, SpreadPlot, Drawing, StoredViews>;
+
+/// Something drawn, with a title above and a caption below when they are not empty.
+struct Picture {
+  Drawn drawn;
+  Text title{}, caption{};
+
+  template <class Kind>
+  requires std::is_constructible_v<Drawn, Kind> Picture(Kind kind, Text above = {}, Text below = {})
+      : drawn(std::move(kind)), title(std::move(above)), caption(std::move(below)) {}
+};
+
+/// Label and index into the palette.
+using Legend = std::vector<std::pair<std::string, std::size_t>>;
+
+/// Pictures side by side under one legend and one caption.
+struct Pictures {
+  enum class Layout { row, shapes, meshes, fields };
+  std::vector<Picture> list{};
+  Legend legend{};
+  Text caption{};
+  Layout layout = Layout::row;
+};
+
+struct Block;
+
+/// Blocks in a frame of their own: the answer of the page or of a section, or details behind their summary.
+struct Box {
+  enum class Kind { verdict, details };
+  Kind kind = Kind::verdict;
+  std::vector<Block> blocks{};
+  Text summary{};  ///< of details
+};
+
+struct Block {
+  std::variant<Heading, Paragraph, List, PageTable, Pictures, Box> content;
+};
+
+/// Blocks one after the other, put together with + and +=.
+class Blocks {
+ public:
+  Blocks() = default;
+  Blocks(Heading heading) { add(std::move(heading)); }
+  Blocks(Paragraph paragraph) { add(std::move(paragraph)); }
+  Blocks(List list) { add(std::move(list)); }
+  Blocks(PageTable table) { add(std::move(table)); }
+  Blocks(Pictures pictures) { add(std::move(pictures)); }
+  Blocks(Box box) { add(std::move(box)); }
+
+  Blocks& operator+=(const Blocks& other);
+  [[nodiscard]] bool empty() const { return list_.empty(); }
+  [[nodiscard]] const std::vector<Block>& list() const { return list_; }
+
+ private:
+  template <class Content>
+  void add(Content content) {
+    list_.push_back({std::move(content)});
+  }
+  std::vector<Block> list_;
+};
+[[nodiscard]] Blocks operator+(Blocks a, const Blocks& b);
+
+[[nodiscard]] Box verdict_box(const Blocks& blocks);
+[[nodiscard]] Box details(const Text& summary, const Blocks& blocks);
+[[nodiscard]] Heading heading(const Text& text, const std::string& anchor = {});
+[[nodiscard]] Paragraph paragraph(const Text& text);
+
+/// A part of a report page; without blocks it is left out.
+struct Section {
+  std::string anchor;
+  std::string name;  ///< in the list of links
+  Blocks blocks{};
+  std::string title{};  ///< empty: the name
+};
+
+/// A whole page: title, line below it, what came out, and sections.
+struct Page {
+  std::string title;
+  Text sub{};
+  Blocks summary{};
+  std::vector<Section> sections{};
+};
+
+}  // namespace annulus::app

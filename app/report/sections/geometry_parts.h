@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/report/drawings/transverse_section.h"
+#include "app/report/section.h"
+#include "app/scene/scene.h"
+#include "geometry/gear_pair.h"
+
+/// What the geometry sections of all kinds share: drawings of the gears to scale and their diameters.
+namespace annulus::app {
+
+/// m; 0 without a bore.
+[[nodiscard]] double bore_radius(const HubGearInput& gear);
+
+/// Diameters of the gears, mm; `other_radius`: of the bore or the outside, m, 0: none.
+[[nodiscard]] PageTable diameter_table();
+void add_gear(PageTable& table, const std::string& name, const geometry::Gear& gear, double other_radius);
+
+[[nodiscard]] std::string helical_note(double helix_angle);
+/// What the enlarged teeth show.
+[[nodiscard]] std::string teeth_words(const std::string& planet, const std::string& wheels);
+
+/// Sun and planets of any stage: polar angle of each planet and the angle of its tooth 0, rad.
+void add_sun_and_planets(TransverseSection& section, const Scene& scene, const geometry::GearPair& sun_mesh,
+                         double sun_angle, const std::vector<std::pair<double, double>>& planets,
+                         const std::string& id);
+
+[[nodiscard]] Section geometry_section(const Blocks& blocks);
+/// Anything that can be drawn, as a picture.
+template <class... What>
+[[nodiscard]] Picture drawn(const What&... what) {
+  return Drawing{to_svg(what...)};
+}
+
+}  // namespace annulus::app
