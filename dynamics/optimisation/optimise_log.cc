@@ -110,7 +110,7 @@ ObjectiveRange objective_range(const std::vector<OptimiseEvaluation>& evaluation
     range.high = std::max(range.high, e.value);
   }
   if (range.evaluations < 2) {
-    range.verdict = fmt::format("{} evaluations say nothing about the shape of the objective", range.evaluations);
+    range.verdict = fmt::format("{} evaluations are too few to judge the shape of the objective", range.evaluations);
     return range;
   }
   constexpr double relative = 1e-6;
@@ -119,12 +119,12 @@ ObjectiveRange objective_range(const std::vector<OptimiseEvaluation>& evaluation
   range.flat = difference <= range.least_meaning;
   range.verdict = range.flat
                       ? fmt::format(
-                            "flat: over {} points the objective moves by {:.2g}, less than the {:.2g} below which "
-                            "differences mean nothing; any point is as good as another",
+                            "flat: over {} points the objective varies by {:.2g}; differences below {:.2g} are not "
+                            "significant, so no point is better than another",
                             range.evaluations, difference, range.least_meaning)
                       : fmt::format(
-                            "over {} points the objective moves by {:.4g}, from {:.6g} to {:.6g}; differences below "
-                            "{:.2g} mean nothing",
+                            "over {} points the objective varies by {:.4g}, from {:.6g} to {:.6g}; differences below "
+                            "{:.2g} are not significant",
                             range.evaluations, difference, range.low, range.high, range.least_meaning);
   return range;
 }
