@@ -23,8 +23,7 @@ Eigen::MatrixXd stiffness_rows(const LumpedSystem& system, const Eigen::VectorXd
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(std::max(springs + meshes, n), n);
   const auto root = [](double k, const std::string& name) {
     if (!(k >= 0))
-      throw SolverError(
-          fmt::format("the stiffness is indefinite: {} has {:g} N/m, which must not be negative", name, k));
+      throw SolverError(fmt::format("the stiffness is indefinite: {} has {} N/m, which must not be negative", name, k));
     return std::sqrt(k);
   };
   for (Eigen::Index i = 0; i < springs; ++i) {

@@ -79,8 +79,8 @@ void check(const std::vector<OptimiseVariable>& variables, const OptimiseOptions
   for (const auto& [value, name] : {std::pair{o.crossover, "crossover"}, std::pair{o.mutation, "mutation"}})
     if (!(value >= 0 && value <= 1)) throw InputError(fmt::format("{} rate {} must lie in [0, 1]", name, value));
   if (o.stop_spread && !(*o.stop_spread >= 0))
-    throw InputError(fmt::format("the spread {:g} to stop at must not be negative", *o.stop_spread));
-  if (!(o.stop_size >= 0)) throw InputError(fmt::format("the size {:g} to stop at must not be negative", o.stop_size));
+    throw InputError(fmt::format("the spread {} to stop at must not be negative", *o.stop_spread));
+  if (!(o.stop_size >= 0)) throw InputError(fmt::format("the size {} to stop at must not be negative", o.stop_size));
 }
 
 double spread_of(const pagmo::population& population) {

@@ -99,7 +99,7 @@ std::optional<long> evaluations_to_reach(const std::vector<OptimiseEvaluation>& 
 
 ObjectiveRange objective_range(const std::vector<OptimiseEvaluation>& evaluations, double numerical_error) {
   if (!(numerical_error >= 0))
-    throw InputError(fmt::format("the numerical error {:g} of an objective must not be negative", numerical_error));
+    throw InputError(fmt::format("the numerical error {} of an objective must not be negative", numerical_error));
   ObjectiveRange range;
   range.low = std::numeric_limits<double>::infinity();
   range.high = -range.low;

@@ -67,21 +67,21 @@ CounterDraws::CounterDraws(std::uint64_t seed, std::string_view quantity) : star
 
 void Distribution::check() const {
   if (std::isnan(mean) || std::isnan(deviation) || std::isnan(low) || std::isnan(high) || !(low < high))
-    throw InputError(fmt::format("the lower end {:g} must lie below the upper one, {:g} (mean {:g}, deviation {:g})",
-                                 low, high, mean, deviation));
+    throw InputError(fmt::format("the lower end {} must lie below the upper one, {} (mean {}, deviation {})", low, high,
+                                 mean, deviation));
   if (kind == Kind::uniform) {
     if (!std::isfinite(low) || !std::isfinite(high))
-      throw InputError(fmt::format("a uniform distribution needs both ends, not {:g} ... {:g}", low, high));
+      throw InputError(fmt::format("a uniform distribution needs both ends, not {} ... {}", low, high));
     return;
   }
   if (kind == Kind::rayleigh) {
     if (!std::isfinite(scale) || !(scale > 0))
-      throw InputError(fmt::format("the scale {:g} of a Rayleigh distribution must be positive", scale));
+      throw InputError(fmt::format("the scale {} of a Rayleigh distribution must be positive", scale));
   } else if (!std::isfinite(deviation) || !(deviation > 0)) {
-    throw InputError(fmt::format("the deviation {:g} must be above zero", deviation));
+    throw InputError(fmt::format("the deviation {} must be above zero", deviation));
   }
   if (kind == Kind::lognormal && !(mean > 0))
-    throw InputError(fmt::format("the mean {:g} of a lognormal distribution must be positive", mean));
+    throw InputError(fmt::format("the mean {} of a lognormal distribution must be positive", mean));
   const double share = [&] {
     if (kind == Kind::normal) {
       const boost::math::normal law(mean, deviation);
@@ -96,13 +96,13 @@ void Distribution::check() const {
     return probability_between(law, std::max(low, 0.0), high, low > median(law) ? Tail::upper : Tail::lower);
   }();
   if (!(share >= 1e-3))
-    throw InputError(fmt::format(
-        "{:.2g} of the distribution lies between its ends {:g} and {:g}; at least 0.001 is needed", share, low, high));
+    throw InputError(fmt::format("{:.2g} of the distribution lies between its ends {} and {}; at least 0.001 is needed",
+                                 share, low, high));
 }
 
 double Distribution::quantile(double probability) const {
   if (!(probability > 0 && probability < 1))
-    require(false, fmt::format("quantile of a probability {:g} outside (0, 1)", probability));
+    require(false, fmt::format("quantile of a probability {} outside (0, 1)", probability));
   switch (kind) {
     case Kind::uniform:
       break;

@@ -52,7 +52,7 @@ Interval mean_interval(const std::vector<double>& values, double confidence) {
 Interval quantile_interval(const std::vector<double>& values, double probability, double confidence) {
   if (values.empty()) throw InputError("statistics need at least one value, not 0");
   if (!(probability > 0 && probability < 1))
-    throw InputError(fmt::format("a quantile needs a probability between 0 and 1, not {:g}", probability));
+    throw InputError(fmt::format("a quantile needs a probability between 0 and 1, not {}", probability));
   const auto n = static_cast<long>(values.size());
   const double position = probability * static_cast<double>(n - 1);
   const auto below = static_cast<long>(position);

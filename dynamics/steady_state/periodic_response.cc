@@ -186,14 +186,14 @@ bool wants_more_samples(const PeriodicResponse& response, const PeriodicOptions&
 PeriodicResponse periodic_response(const LumpedSystem& system, double period, int cycles,
                                    const PeriodicOptions& options) {
   if (!(period > 0) || cycles < 1)
-    throw InputError(fmt::format(
-        "a periodic response needs a positive period of whole cycles, not {:g} s and {} cycles", period, cycles));
+    throw InputError(fmt::format("a periodic response needs a positive period of whole cycles, not {} s and {} cycles",
+                                 period, cycles));
   if (options.samples_per_cycle < 8 || options.samples_per_cycle % 8 != 0)
     throw InputError(fmt::format("harmonic balance needs a multiple of 8 samples per mesh cycle, not {}",
                                  options.samples_per_cycle));
   if (!(options.tolerance > 0) || options.max_iterations < 1)
     throw InputError(
-        fmt::format("harmonic balance needs a positive tolerance and at least one iteration, not {:g} and {}",
+        fmt::format("harmonic balance needs a positive tolerance and at least one iteration, not {} and {}",
                     options.tolerance, options.max_iterations));
   require(!system.meshes().empty(),
           fmt::format("a periodic response needs meshes; the system has {} degrees of freedom alone", system.dofs()));

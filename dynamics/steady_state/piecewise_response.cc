@@ -269,8 +269,8 @@ bool too_fast_for_piecewise(const LumpedSystem& system, double period, int cycle
 PiecewiseResponse piecewise_response(const LumpedSystem& system, double period, int cycles,
                                      const PiecewiseOptions& options) {
   if (!(period > 0) || cycles < 1)
-    throw InputError(fmt::format(
-        "a periodic response needs a positive period of whole cycles, not {:g} s and {} cycles", period, cycles));
+    throw InputError(fmt::format("a periodic response needs a positive period of whole cycles, not {} s and {} cycles",
+                                 period, cycles));
   if (options.samples_per_cycle < 1)
     throw InputError(
         fmt::format("a periodic response needs a sample per mesh cycle, not {}", options.samples_per_cycle));

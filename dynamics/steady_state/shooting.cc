@@ -60,9 +60,8 @@ Eigen::VectorXcd sorted_multipliers(const Eigen::MatrixXd& derivative) {
 ShootingResult shoot(const LumpedSystem& system, double period, const SystemState& guess,
                      const ShootingOptions& options) {
   require(period > 0 && options.displacement > 0 && options.rate > 0 && options.tolerance > 0,
-          fmt::format(
-              "shooting needs positive scales: period {:g} s, displacement {:g} m, rate {:g} rad/s, tolerance {:g} m",
-              period, options.displacement, options.rate, options.tolerance));
+          fmt::format("shooting needs positive scales: period {} s, displacement {} m, rate {} rad/s, tolerance {} m",
+                      period, options.displacement, options.rate, options.tolerance));
   PeriodMap map(system, period, options.rate, options.integrator);
   Eigen::VectorXd y = map.scaled(guess), reached = map(y);
   const Eigen::Index n = y.size();

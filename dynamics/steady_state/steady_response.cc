@@ -17,21 +17,20 @@ namespace {
 void check_steady(const SteadyProblem& problem, const SimulationOptions& options) {
   if (!std::isfinite(problem.mesh_frequency) || !(problem.mesh_frequency > 0))
     throw InputError(
-        fmt::format("a time response needs a mesh frequency above zero, not {:g} Hz", problem.mesh_frequency));
+        fmt::format("a time response needs a mesh frequency above zero, not {} Hz", problem.mesh_frequency));
   if (problem.period_in_cycles < 1)
     throw InputError(fmt::format("a period of {} mesh cycles must be at least 1", problem.period_in_cycles));
   if (!std::isfinite(problem.force_scale) || !(problem.force_scale > 0) || !std::isfinite(problem.stiffness) ||
       !(problem.stiffness > 0))
-    throw InputError(
-        fmt::format("a time response needs a positive scale of force (here {:g} N) and stiffness ({:g} N/m)",
-                    problem.force_scale, problem.stiffness));
+    throw InputError(fmt::format("a time response needs a positive scale of force (here {} N) and stiffness ({} N/m)",
+                                 problem.force_scale, problem.stiffness));
   if (options.samples_per_cycle < 4)
     throw InputError(
         fmt::format("a time series needs at least 4 samples per mesh cycle, not {}", options.samples_per_cycle));
   if (options.mesh_cycles && *options.mesh_cycles < 1)
     throw InputError(fmt::format("a simulation needs at least one mesh cycle, not {}", *options.mesh_cycles));
   if (!(options.steady_tolerance > 0))
-    throw InputError(fmt::format("the tolerance {:g} of the steady state must be positive", options.steady_tolerance));
+    throw InputError(fmt::format("the tolerance {} of the steady state must be positive", options.steady_tolerance));
   if (options.max_windows < 2)
     throw InputError(
         fmt::format("the search for the steady state takes at least two windows, not {}", options.max_windows));

@@ -115,7 +115,7 @@ void LumpedSystemBuilder::assemble_matrices(LumpedSystem& system) const {
 void LumpedSystemBuilder::check_mass(const LumpedSystem& system) {
   for (int i = 0; i < system.dofs(); ++i)
     if (!(system.mass_(i, i) > 0))
-      throw InputError(fmt::format("degree of freedom {} has a mass of {:g} kg; it must be positive", system.names_[i],
+      throw InputError(fmt::format("degree of freedom {} has a mass of {} kg; it must be positive", system.names_[i],
                                    system.mass_(i, i)));
 }
 

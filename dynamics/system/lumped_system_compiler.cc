@@ -201,7 +201,7 @@ void LumpedSystemCompiler::check_coupling(const MeshCoupling& coupling) const {
   for (const auto& mode : coupling.retained)
     if (mode.dof < 0 || mode.dof >= dofs_ || !(mode.stiffness > 0))
       throw InputError(
-          fmt::format("a retained mode of a mesh coupling has degree of freedom {} and stiffness {:g} N/m; it needs "
+          fmt::format("a retained mode of a mesh coupling has degree of freedom {} and stiffness {} N/m; it needs "
                       "one of the degrees of freedom 0 to {} and a positive stiffness",
                       mode.dof, mode.stiffness, dofs_ - 1));
 }

@@ -61,7 +61,7 @@ void check(const MeshExcitation& excitation, const std::string& name) {
     // The curve may pass its values slightly: 64 points per mesh cycle see any dip that matters.
     for (double x = 0; x < table.secant.period(); x += 1.0 / 64)
       if (!(table.secant(x) > 0))
-        refuse(fmt::format("the tabulated stiffness is {:g} N/m at phase {}; it must be positive", table.secant(x), x));
+        refuse(fmt::format("the tabulated stiffness is {} N/m at phase {}; it must be positive", table.secant(x), x));
     if (table.surface && table.surface->grid().period() != std::round(table.secant.period()))
       refuse(
           fmt::format("the period of the law of force over deflection, {:g} mesh cycles, differs from that of the "

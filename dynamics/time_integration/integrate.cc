@@ -23,13 +23,13 @@ void check_options(const IntegratorOptions& options) {
   if (!(options.relative_tolerance > 0 && options.relative_tolerance < 1))
     throw InputError(fmt::format("relative tolerance {} must lie between 0 and 1", options.relative_tolerance));
   if (options.absolute_tolerance && !(*options.absolute_tolerance > 0))
-    throw InputError(fmt::format("absolute tolerance {:g} m must be positive", *options.absolute_tolerance));
+    throw InputError(fmt::format("absolute tolerance {} m must be positive", *options.absolute_tolerance));
   if (options.method == Integrator::runge_kutta_4 && !(options.fixed_step > 0))
     throw InputError(
-        fmt::format("the fixed-step Runge-Kutta method needs a positive step, not {:g} s", options.fixed_step));
+        fmt::format("the fixed-step Runge-Kutta method needs a positive step, not {} s", options.fixed_step));
   if (options.method != Integrator::runge_kutta_4 && options.fixed_step != 0)
     throw InputError(
-        fmt::format("a fixed step ({:g} s) belongs to the Runge-Kutta method; other integrators choose their steps",
+        fmt::format("a fixed step ({} s) belongs to the Runge-Kutta method; other integrators choose their steps",
                     options.fixed_step));
 }
 

@@ -71,7 +71,7 @@ void ErrorProblem::check() const {
                       gear_names[g], gear.tooth_to_tooth, gear.total));
   }
   if (!std::isfinite(divisor) || !(divisor > 0))
-    throw InputError(fmt::format("the divisor {:g} of the deviations must be positive", divisor));
+    throw InputError(fmt::format("the divisor {} of the deviations must be positive", divisor));
   if (samples < 1) throw InputError(fmt::format("a Monte Carlo simulation needs at least one sample, not {}", samples));
   if (bins < 1) throw InputError(fmt::format("a histogram needs at least one bin, not {}", bins));
   for (const double p : {probability, confidence})

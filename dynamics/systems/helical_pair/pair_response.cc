@@ -190,7 +190,7 @@ PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& opt
   const LumpedSystem system = assemble(pair);
   if (!(pair.pinion_speed > 0))
     throw InputError(
-        fmt::format("a time response of a pair needs a speed above zero, not {:g} rad/s", pair.pinion_speed));
+        fmt::format("a time response of a pair needs a speed above zero, not {} rad/s", pair.pinion_speed));
   if (pair.pinion_torque == 0 && error_force(pair) == 0)
     throw InputError(
         "a time response of a pair needs a torque or errors: torque 0 N m and errors of 0 m excite nothing");

@@ -93,13 +93,13 @@ std::vector<std::size_t> continued_modes(const RotatingModes& before, const Rota
 Campbell campbell(const PlanetaryStage& stage, const std::vector<double>& speeds, const CampbellOptions& options) {
   if (speeds.empty() || speeds.front() < 0 || options.orders < 0)
     throw InputError(fmt::format(
-        "a Campbell diagram needs speeds of zero or more and orders of zero or more; it has {} speeds, the first {:g} "
+        "a Campbell diagram needs speeds of zero or more and orders of zero or more; it has {} speeds, the first {} "
         "rad/s, and {} orders",
         speeds.size(), speeds.empty() ? 0.0 : speeds.front(), options.orders));
   for (std::size_t i = 1; i < speeds.size(); ++i)
     if (!(speeds[i] > speeds[i - 1]))
-      throw InputError(fmt::format("the speeds of a Campbell diagram must rise; {:g} rad/s follows {:g} rad/s",
-                                   speeds[i], speeds[i - 1]));
+      throw InputError(fmt::format("the speeds of a Campbell diagram must rise; {} rad/s follows {} rad/s", speeds[i],
+                                   speeds[i - 1]));
   PlanetaryStage at = stage;
   Campbell result;
   result.speeds = speeds;

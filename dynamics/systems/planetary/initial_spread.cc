@@ -77,8 +77,8 @@ void widen(ValueRange& range, double value) {
 InitialSpread initial_spread(const PlanetaryStage& stage, const InitialSpreadOptions& options) {
   if (options.random_starts < 0 || !(options.factor > 0) || !(options.same > 0))
     throw InputError(
-        fmt::format("a spread over initial conditions needs a positive size of starts ({:g}), a positive share of "
-                    "sameness ({:g}) and no negative number of starts ({})",
+        fmt::format("a spread over initial conditions needs a positive size of starts ({}), a positive share of "
+                    "sameness ({}) and no negative number of starts ({})",
                     options.factor, options.same, options.random_starts));
   const StartSampler sampler(stage, options);
   PointOptions point{.simulation = options.simulation, .motion = false};

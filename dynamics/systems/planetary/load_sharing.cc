@@ -50,9 +50,8 @@ QuasiStatic quasi_static(const PlanetaryStage& stage, int positions_per_cycle, i
     throw InputError(fmt::format("quasi-static analysis needs at least one position and one mesh cycle, not {} and {}",
                                  positions_per_cycle, max_cycles));
   if (!(stage.carrier_speed > 0))
-    throw InputError(
-        fmt::format("quasi-static positions follow from the carrier speed, {:g} rad/s, which must be positive",
-                    stage.carrier_speed));
+    throw InputError(fmt::format(
+        "quasi-static positions follow from the carrier speed, {} rad/s, which must be positive", stage.carrier_speed));
   const LumpedSystem system = assemble(stage);
   StaticSolver solver(system);
   auto workspace = system.workspace();

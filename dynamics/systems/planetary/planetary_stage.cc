@@ -62,7 +62,7 @@ void check_coupling(const RingCoupling& coupling, const PlanetaryStage& stage) {
       refuse(fmt::format("a mode has {} displacements for {} teeth", mode.closing.size(), coupling.ring_teeth));
     for (const double value : {mode.translation_x, mode.translation_y, mode.rotation})
       if (!std::isfinite(value))
-        refuse(fmt::format("the inertial coupling {} of the mode at {:g} Hz is not finite", value, mode.frequency));
+        refuse(fmt::format("the inertial coupling {} of the mode at {} Hz is not finite", value, mode.frequency));
   }
 }
 
@@ -192,7 +192,7 @@ void PlanetaryStage::check() const {
   if (sun_torque != 0) {
     if (sun.torsional_support == rigid)
       throw InputError(fmt::format(
-          "the sun cannot turn (rigid torsional support), so its torque of {:g} N m would not reach the meshes",
+          "the sun cannot turn (rigid torsional support), so its torque of {} N m would not reach the meshes",
           sun_torque));
     // Per metre of carrier motion the sun moves (cos a_s + cos a_r) metres: virtual work against the tooth ratio.
     const double ratio = carrier.radius * (std::cos(sun_working_angle) + std::cos(ring_working_angle)) / sun.radius;

@@ -61,9 +61,8 @@ std::string to_string(SectionKind kind) {
 }
 
 SectionPattern section_pattern(const PoincareSection& section, int error_period, double tolerance) {
-  require(
-      error_period > 0 && tolerance > 0,
-      fmt::format("a section needs a positive error period and tolerance, not {} and {:g}", error_period, tolerance));
+  require(error_period > 0 && tolerance > 0,
+          fmt::format("a section needs a positive error period and tolerance, not {} and {}", error_period, tolerance));
   // Relative to the largest swing of its unit: a quantity that hardly moves in comparison is not significant.
   const auto unit_of = [&](Eigen::Index r) {
     const auto& name = section.quantities[static_cast<std::size_t>(r)];

@@ -16,10 +16,10 @@ void check_simulation(const PlanetaryStage& stage) {
   stage.check();
   if (!(stage.carrier_speed > 0))
     throw InputError(
-        fmt::format("a time response needs a carrier speed above zero, not {:g} rad/s", stage.carrier_speed));
+        fmt::format("a time response needs a carrier speed above zero, not {} rad/s", stage.carrier_speed));
   if (!(stage.sun_torque > 0))
-    throw InputError(fmt::format("a time response needs a positive sun torque (drive flanks loaded), not {:g} N m",
-                                 stage.sun_torque));
+    throw InputError(
+        fmt::format("a time response needs a positive sun torque (drive flanks loaded), not {} N m", stage.sun_torque));
 }
 
 /// Mean over each mesh cycle; columns span whole cycles.
@@ -69,7 +69,7 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
 PeriodicResponse periodic_response(const PlanetaryStage& stage, const PeriodicOptions& options) {
   if (!(stage.carrier_speed > 0))
     throw InputError(
-        fmt::format("a periodic response needs a carrier speed above zero, not {:g} rad/s", stage.carrier_speed));
+        fmt::format("a periodic response needs a carrier speed above zero, not {} rad/s", stage.carrier_speed));
   const int cycles = stage.error_period();
   return periodic_response(assemble(stage), cycles / stage.mesh_frequency(), cycles, options);
 }
@@ -77,7 +77,7 @@ PeriodicResponse periodic_response(const PlanetaryStage& stage, const PeriodicOp
 PiecewiseResponse piecewise_response(const PlanetaryStage& stage, const PiecewiseOptions& options) {
   if (!(stage.carrier_speed > 0))
     throw InputError(
-        fmt::format("a periodic response needs a carrier speed above zero, not {:g} rad/s", stage.carrier_speed));
+        fmt::format("a periodic response needs a carrier speed above zero, not {} rad/s", stage.carrier_speed));
   const int cycles = stage.error_period();
   return piecewise_response(assemble(stage), cycles / stage.mesh_frequency(), cycles, options);
 }

@@ -82,7 +82,7 @@ RotatingModes rotating_modes(const PlanetaryStage& stage, ModeDamping damping) {
   state.bottomRightCorner(n, n) = -basis.transpose() * matrices.rate * basis / unit;
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(state);
   if (solver.info() != Eigen::Success)
-    throw SolverError(fmt::format("the eigenvalue solver failed for the stage at {:g} rad/s", stage.carrier_speed));
+    throw SolverError(fmt::format("the eigenvalue solver failed for the stage at {} rad/s", stage.carrier_speed));
 
   // One of each conjugate pair; eigenvalues without one (real, or zero) in pairs by size, given by the one nearer zero.
   const Eigen::VectorXcd values = solver.eigenvalues() * unit;

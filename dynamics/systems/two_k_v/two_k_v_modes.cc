@@ -44,7 +44,7 @@ double stiffness_seen_from(const std::string& dof, const TwoKVStage& stage, Froz
   const Eigen::LLT<Eigen::MatrixXd> factor(stiffness_with_meshes(system, frozen_tangents(system, frozen)));
   if (factor.info() != Eigen::Success)
     throw SolverError(fmt::format(
-        "the torsional stiffness of the 2K-V stage is not positive at a crank angle of {:g} rad", stage.crank_angle));
+        "the torsional stiffness of the 2K-V stage is not positive at a crank angle of {} rad", stage.crank_angle));
   const double radius = dof_radii(stage, system)[index];
   const Eigen::VectorXd moved = factor.solve(Eigen::VectorXd::Unit(system.dofs(), index));
   return radius * radius / moved[index];

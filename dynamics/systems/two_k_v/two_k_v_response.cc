@@ -144,14 +144,14 @@ int period_in_crank_turns(const TwoKVStage& stage) {
 TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options) {
   stage.check();
   if (!(stage.output_speed > 0))
-    throw InputError(fmt::format("2K-V stage: a time response needs an output speed above zero, not {:g} rad/s",
-                                 stage.output_speed));
+    throw InputError(
+        fmt::format("2K-V stage: a time response needs an output speed above zero, not {} rad/s", stage.output_speed));
   if (!(stage.output_torque > 0))
-    throw InputError(fmt::format("2K-V stage: a time response needs an output torque above zero, not {:g} N m",
-                                 stage.output_torque));
+    throw InputError(
+        fmt::format("2K-V stage: a time response needs an output torque above zero, not {} N m", stage.output_torque));
   if (stage.input_support == rigid && stage.output_support == rigid)
     throw InputError(
-        fmt::format("2K-V stage: with input and output held the torque of {:g} N m does not act; leave one end free",
+        fmt::format("2K-V stage: with input and output held the torque of {} N m does not act; leave one end free",
                     stage.output_torque));
   const LumpedSystem system = assemble(stage);
   const double arc_force = stage.mean_arc_mesh_force();
