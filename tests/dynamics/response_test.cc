@@ -10,6 +10,7 @@
 
 BOOST_AUTO_TEST_SUITE(response)
 
+using namespace annulus;
 using namespace annulus::dynamics;
 
 SimulationOptions quick() {
