@@ -124,8 +124,8 @@ Blocks poincare_sections(const RunResult& result) {
         .title = ring->name, .x_label = "approach of the sun mesh, µm", .y_label = "approach of the ring mesh, µm"};
     for (int n = 0; n < result.scene.stage.planets; ++n) {
       plot.series.push_back({.label = fmt::format("planet {}", n + 1),
-                             .x = micrometres(csv, fmt::format("sun_planet{}_closing_m", n + 1)),
-                             .y = micrometres(csv, fmt::format("ring_planet{}_closing_m", n + 1)),
+                             .x = micrometres(csv, fmt::format("sun_planet{}_deflection_m", n + 1)),
+                             .y = micrometres(csv, fmt::format("ring_planet{}_deflection_m", n + 1)),
                              .colour = static_cast<std::size_t>(n),
                              .style = Series::Style::dots});
     }

@@ -14,9 +14,9 @@ namespace {
 
 std::string solution_text(const dynamics::SteadyOutcome& found) {
   std::string text = "time integration";
-  if (found.direct) {
-    const auto& direct = *found.direct;
-    const std::string method = direct.method == dynamics::DirectMethod::piecewise
+  if (found.periodic) {
+    const auto& direct = *found.periodic;
+    const std::string method = direct.method == dynamics::PeriodicMethod::piecewise
                                    ? "exact solution between jumps of the stiffness"
                                    : "harmonic balance";
     if (!direct.converged)
