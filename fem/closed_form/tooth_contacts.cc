@@ -112,10 +112,6 @@ void add_contact(const FlankContact& flanks, const ClosedFormBody& planet, const
 
 }  // namespace
 
-int wheel_tooth(const FlankContact& flanks, int index, int cycle) {
-  return flanks.pair().internal() ? index - cycle : -(index + cycle);
-}
-
 ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
                             const Material& material, double width, double phase) {
   const auto& pair = flanks.pair();

@@ -38,9 +38,6 @@ struct ToothContacts {
                                           const ClosedFormBody& wheel, const Material& material, double width,
                                           double phase);
 
-/// Number of the wheel's tooth in pair `index` during mesh cycle `cycle`.
-[[nodiscard]] int wheel_tooth(const FlankContact& flanks, int index, int cycle);
-
 /// Forces of all pairs and supports at one position.
 struct ToothContactSolution {
   ComplementarityProblem problem;    ///< line contacts linearised at the solution

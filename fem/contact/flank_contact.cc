@@ -184,4 +184,8 @@ double FlankContact::relative_curvature(double contact_roll) const {
   return 1 / contact_roll + (pair_.internal() ? -1 : 1) / wheel;
 }
 
+int wheel_tooth(const FlankContact& flanks, int index, int cycle) {
+  return flanks.pair().internal() ? index - cycle : -(index + cycle);
+}
+
 }  // namespace annulus::fem

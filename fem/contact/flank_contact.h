@@ -62,4 +62,7 @@ class FlankContact {
   double planet_base_half_angle_, wheel_base_half_angle_;
 };
 
+/// Number of the wheel's tooth in pair `index` during mesh cycle `cycle`.
+[[nodiscard]] int wheel_tooth(const FlankContact& flanks, int index, int cycle);
+
 }  // namespace annulus::fem

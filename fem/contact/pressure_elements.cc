@@ -117,8 +117,4 @@ double gap_without_load(const ContactFace& face, const FacingFlanks& facing, int
   return (facing.gap + face.smallest_lead_gap(slice)) / face.normal_factor();
 }
 
-int wheel_tooth(const FlankContact& flanks, int index, int cycle) {
-  return flanks.pair().internal() ? index - cycle : -(index + cycle);
-}
-
 }  // namespace annulus::fem

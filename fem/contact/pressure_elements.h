@@ -45,7 +45,5 @@ class PressureElements {
 
 /// m, transmission error at which facing flanks touch in a slice without load.
 [[nodiscard]] double gap_without_load(const ContactFace& face, const FacingFlanks& facing, int slice);
-/// Number of the wheel's tooth in pair `index` during mesh cycle `cycle`.
-[[nodiscard]] int wheel_tooth(const FlankContact& flanks, int index, int cycle);
 
 }  // namespace annulus::fem
