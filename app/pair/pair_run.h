@@ -85,5 +85,4 @@ void describe_pair(const Scene& scene, const PairGeometry& geometry, Plan& plan)
 /// The responses of a run, as one step: the scene's own, and those that part the transmission error by its causes.
 [[nodiscard]] std::vector<PlannedResponse> pair_responses(const Scene& scene, int threads);
 
-
 }  // namespace annulus::app

@@ -116,10 +116,11 @@ StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry,
     log::info(fmt::format("dynamics of '{}': {} mesh cycles, {} steps, {}", name, f.total_cycles, f.statistics.steps,
                           f.steady ? "periodic steady state" : "no periodic steady state"));
   if (f.periodic && !f.confirmed && f.total_cycles > 0)
-    log::info(fmt::format("dynamics of '{}': found by marching; {}", name,
-                          f.periodic->converged ? fmt::format("the direct solution differs (half its samples by {:.1e})",
-                                                            f.periodic->sampling_difference)
-                                              : "the direct solution failed: " + f.periodic->trouble));
+    log::info(fmt::format(
+        "dynamics of '{}': found by marching; {}", name,
+        f.periodic->converged
+            ? fmt::format("the direct solution differs (half its samples by {:.1e})", f.periodic->sampling_difference)
+            : "the direct solution failed: " + f.periodic->trouble));
   return response;
 }
 

@@ -31,7 +31,8 @@ std::string cheapest_text(const VariantTrade& variant, TradePart part, double ac
   const auto* p = variant.cheapest(part, accuracy);
   if (!p) return fmt::format("For {}: no setting but the finest.", percent(accuracy));
   return fmt::format("For {}: {}; {}, {:.0f} MB; errors up to {} ({}).", percent(accuracy), setting_text(*p),
-                     duration_text(p->cost.wall), p->cost.peak_memory_MB, percent(p->error()), variant.title(p->worst()->key));
+                     duration_text(p->cost.wall), p->cost.peak_memory_MB, percent(p->error()),
+                     variant.title(p->worst()->key));
 }
 
 /// "The planner, asked for 1 %: 3.1 s, 400 MB; errors up to 0.2 % (...)".
@@ -40,8 +41,7 @@ std::string planned_text(const VariantTrade& variant, const TradePoint& p) {
   if (!p.failure.empty()) return text + p.failure;
   const auto* worst = variant.worst_guaranteed(p);
   return text + fmt::format("{}, {:.0f} MB; errors up to {}{}.", duration_text(p.cost.wall), p.cost.peak_memory_MB,
-                            percent(variant.guaranteed_error(p)),
-                            worst ? " (" + variant.title(worst->key) + ")" : "");
+                            percent(variant.guaranteed_error(p)), worst ? " (" + variant.title(worst->key) + ")" : "");
 }
 
 const TradePoint* finest_of(const VariantTrade& variant, TradePart part) {

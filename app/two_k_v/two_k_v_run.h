@@ -63,5 +63,4 @@ void describe_two_k_v(const Scene& scene, Plan& plan);
 /// Time integration of one response: of `mesh_cycles`, else of the turns of the crank that shooting takes.
 [[nodiscard]] double two_k_v_marching_seconds(const Scene& scene);
 
-
 }  // namespace annulus::app

@@ -50,9 +50,9 @@ double hermite_minimum(double a, double slope_a, double b, double slope_b, doubl
 }
 
 /// Phi and the particular solution from rest over the pieces.
-class PeriodMap {
+class PiecewisePeriodMap {
  public:
-  PeriodMap(PiecewiseSystem& linear, const std::vector<SmoothPiece>& pieces)
+  PiecewisePeriodMap(PiecewiseSystem& linear, const std::vector<SmoothPiece>& pieces)
       : linear_(linear), known_(linear.inner() + linear.rigid()) {
     Eigen::VectorXd z = Eigen::VectorXd::Zero(linear.size());
     Eigen::MatrixXd next;
@@ -294,7 +294,7 @@ PiecewiseResponse piecewise_response(const LumpedSystem& system, double period, 
                     points, most_points);
     return response;
   }
-  const PeriodMap map(linear, pieces);
+  const PiecewisePeriodMap map(linear, pieces);
   Eigen::VectorXd start;
   p.residual = map.solve(start);
   response.largest_multiplier = map.largest_multiplier();

@@ -11,9 +11,9 @@
 #include <numbers>
 
 #include "app/pipeline.h"
-#include "app/stage/planetary_run.h"
 #include "app/report/page.h"
 #include "app/report/planetary/stage_report_parts.h"
+#include "app/stage/planetary_run.h"
 #include "app/stage/stage_modes.h"
 #include "core/files.h"
 #include "core/log.h"

@@ -63,20 +63,21 @@ std::vector<MeshSetting> settings(const app::MeshModel& planned, bool needs_soli
 struct Row {
   std::string scene;
   double accuracy = 0;
+  const app::VariantTrade* ring = nullptr;
   const app::TradePoint* planned = nullptr;
   const app::TradePoint* cheapest = nullptr;  ///< fixed setting by the time of its tables; nullptr: none meets it
   const app::TradePoint* known = nullptr;     ///< the cheapest that meets it and says so: the planner knows no luck
   double planned_run = 0, cheapest_run = 0, known_run = 0;  ///< s of processor time of a whole run
 
   [[nodiscard]] bool refused() const { return !planned->failure.empty(); }
-  [[nodiscard]] bool kept() const { return planned->promised_error() <= accuracy; }
+  [[nodiscard]] bool kept() const { return ring->guaranteed_error(*planned) <= accuracy; }
 };
 
 const app::TradePoint* cheapest(const app::VariantTrade& ring, double accuracy, bool known) {
   const app::TradePoint* best = nullptr;
   for (const auto& p : ring.points) {
-    if (!p.mesh || p.finest || !(p.promised_error() <= accuracy)) continue;
-    if (known && !(p.stiffness_estimate() <= accuracy)) continue;
+    if (!p.mesh || p.finest || !(ring.guaranteed_error(p) <= accuracy)) continue;
+    if (known && !(ring.stiffness_estimate(p) <= accuracy)) continue;
     if (!best || p.cost.processor < best->cost.processor) best = &p;
   }
   return best;
@@ -110,7 +111,7 @@ double run_time(const app::Scene& scene, const std::filesystem::path& folder, co
     };
   std::filesystem::remove_all(folder);
   const auto done = app::measured([&] {
-    (void)app::run(scene, options);
+    (void)app::run_system(scene, options);
     return std::string("done");
   });
   std::filesystem::remove_all(folder);
@@ -121,7 +122,7 @@ void print_points(const std::string& scene, const app::VariantTrade& ring) {
   for (const auto& p : ring.points) {
     if (p.part != app::TradePart::mesh) continue;
     fmt::print("{:12} {:12} {:40} {:7.2f} s {:.5f} |", scene, p.fidelity, p.settings, p.cost.processor,
-               p.promised_error());
+               ring.guaranteed_error(p));
     for (const auto& v : p.values) fmt::print(" {:.1e} ({:.1e})", v.error, v.error_estimate);
     fmt::print(" {}\n", p.failure);
   }
@@ -133,7 +134,7 @@ void print_row(const Row& row) {
     fmt::print("{}  refused: {}\n", text, row.planned->failure);
     return;
   }
-  text += fmt::format("  {:>8.3f} %  {}", 100 * row.planned->promised_error(), row.kept() ? "kept  " : "MISSED");
+  text += fmt::format("  {:>8.3f} %  {}", 100 * row.ring->guaranteed_error(*row.planned), row.kept() ? "kept  " : "MISSED");
   if (row.planned_run > 0)
     text += fmt::format("  tables {:6.2f} s  run {:6.2f} s", row.planned->cost.processor, row.planned_run);
   if (row.cheapest)

@@ -157,8 +157,7 @@ Section pair_modes_section(const PairRunResult& result) {
 Section pair_quality_section(const PairRunResult& result) {
   Blocks blocks;
   if (result.response) blocks = solution_checks({{"pair", &result.response->figures}});
-  return {"quality", "Checks and cost",
-          blocks + cost_blocks(result)};
+  return {"quality", "Checks and cost", blocks + cost_blocks(result)};
 }
 
 }  // namespace annulus::app

@@ -31,14 +31,14 @@ TransverseSection stage_section(const Scene& scene, const GearGeometry& geometry
   const auto& set = made.set;
   const auto stand = geometry::stage_places(set);
   const auto structure = ring_structure(input);
-  TransverseSection section{
-      .title = input.name + ": transverse section",
-      .label = fmt::format("{}: transverse section to scale, sun of {} teeth, {} planets of {}, "
-                           "ring of {}, {}; outside diameter {} mm, centre distance {} mm",
-                           input.name, set.sun().teeth(), set.planets(), set.planet().teeth(), set.ring().teeth(),
-                           structure.words().description, mm_text(2 * made.outside_radius), mm_text(set.centre_distance())),
-      .ring = TransverseSection::Ring{structure, made.outside_radius, stand.ring},
-      .outside_radius = made.outside_radius};
+  TransverseSection section{.title = input.name + ": transverse section",
+                            .label = fmt::format("{}: transverse section to scale, sun of {} teeth, {} planets of {}, "
+                                                 "ring of {}, {}; outside diameter {} mm, centre distance {} mm",
+                                                 input.name, set.sun().teeth(), set.planets(), set.planet().teeth(),
+                                                 set.ring().teeth(), structure.words().description,
+                                                 mm_text(2 * made.outside_radius), mm_text(set.centre_distance())),
+                            .ring = TransverseSection::Ring{structure, made.outside_radius, stand.ring},
+                            .outside_radius = made.outside_radius};
   section.gears.push_back({{.gear = set.ring(), .id = id + "-ring", .outside_radius = made.outside_radius},
                            {{Eigen::Vector2d::Zero(), stand.ring}}});
   std::vector<std::pair<double, double>> planets;
@@ -68,7 +68,7 @@ Section drawings_section(const RunResult& result) {
     const AxialSection axial{
         .title = ring.name + ": axial section of the ring",
         .label = fmt::format("{}: axial section of the ring to scale, {}, face width {} mm, outside diameter {} mm",
-                             ring.name, structure.words().description, mm_text(scene.stage.face_width),
+                             ring.name, ring_structure(input).words().description, mm_text(scene.stage.face_width),
                              mm_text(2 * ring.outside_radius)),
         .ring = ring.set.ring(),
         .outside_radius = ring.outside_radius,
@@ -77,7 +77,7 @@ Section drawings_section(const RunResult& result) {
                        {},
                        phrase("{}: {}. Left: transverse section. Right: upper half of the ring in axial section, teeth "
                               "pale; orange: what holds it.",
-                              bold(ring.name), structure.words().description)};
+                              bold(ring.name), ring_structure(input).words().description)};
     const auto same =
         std::find_if(rings.begin(), rings.begin() + static_cast<std::ptrdiff_t>(i),
                      [&](const auto& other) { return same_teeth(other.set.ring_mesh(), ring.set.ring_mesh()); });

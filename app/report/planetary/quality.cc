@@ -35,8 +35,7 @@ Section quality_section(const RunResult& result) {
   }
   Blocks blocks = mesh_checks(sun_then_rings(result, "ring mesh, ")) + solution_checks(responses);
   if (!beyond.items.empty()) blocks += beyond;
-  return {"quality", "Checks and cost",
-          blocks + cost_blocks(result)};
+  return {"quality", "Checks and cost", blocks + cost_blocks(result)};
 }
 
 }  // namespace annulus::app

@@ -25,7 +25,8 @@ std::vector<std::size_t> shown_rows(std::size_t rows) {
 /// One figure over x, a line for each shown y; nothing when the figure is nowhere known or zero throughout.
 std::optional<Plot> lines_picture(const GridResult& grid, const std::vector<StudyPoint>& points,
                                   const FigureSpec& figure) {
-  Plot plot{.title = figure.title, .x_label = with_unit(grid.grid.x.input, grid.x_unit), .y_label = figure.axis_label()};
+  Plot plot{
+      .title = figure.title, .x_label = with_unit(grid.grid.x.input, grid.x_unit), .y_label = figure.axis_label()};
   plot.x_log = grid.grid.x.scale == SweepScale::logarithmic;
   bool any = false;
   const auto rows = shown_rows(grid.y.size());

@@ -58,9 +58,9 @@ Box verdict(const StudyResults& studies, const OptimiseResults& o) {
   for (const std::string mesh : {"sun_planet", "ring_planet", "mesh"}) {
     const auto* loss = find_figure(studies.figures, mesh + "_contact_loss");
     if (!loss) continue;
-    blocks +=
-        paragraph(fmt::format("{}: {} % with the given values, {} % with the best.", loss->title,
-                              to_text(100 * o.given.point.value(loss->key), 3), to_text(100 * o.best.point.value(loss->key), 3)));
+    blocks += paragraph(fmt::format("{}: {} % with the given values, {} % with the best.", loss->title,
+                                    to_text(100 * o.given.point.value(loss->key), 3),
+                                    to_text(100 * o.best.point.value(loss->key), 3)));
   }
   return verdict_box(blocks);
 }
@@ -76,8 +76,8 @@ void add_starts(List& list, const StudyResults& studies, const OptimiseResults& 
     const auto& wanted = o.settings.objective;
     if (f.effort == FigureEffort::motion || s.low.empty()) continue;
     if (std::find(wanted.begin(), wanted.end(), f.key) != wanted.end())
-      text += fmt::format("; {} from {} to {}", f.title, to_text(s.low.value(f.key), 6),
-                          to_text(s.high.value(f.key), 6));
+      text +=
+          fmt::format("; {} from {} to {}", f.title, to_text(s.low.value(f.key), 6), to_text(s.high.value(f.key), 6));
   }
   list.items.emplace_back(text + ".");
 }

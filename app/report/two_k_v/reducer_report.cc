@@ -191,8 +191,7 @@ Section reducer_quality(const TwoKVResult& result) {
   std::vector<std::pair<std::string, const MeshResult*>> meshes;
   for (const auto& shown : shown_cases(result))
     meshes.emplace_back("sun mesh, " + shown.name, &shown.result->tables.sun);
-  return {"quality", "Checks and cost",
-          mesh_checks(meshes) + cost_blocks(result)};
+  return {"quality", "Checks and cost", mesh_checks(meshes) + cost_blocks(result)};
 }
 
 }  // namespace

@@ -51,13 +51,11 @@ class PairSystem final : public GearSystem {
   void describe(Plan& plan) const override { describe_pair(scene(), make_pair_geometry(scene()), plan); }
 };
 
-/// Results that a search can optimise.
-std::vector<std::string> result_keys() { return figure_keys(dynamics::pair_figures()); }
-
 }  // namespace
 
 SystemKind helical_pair_kind() {
-  return {{"helical_pair", StageKind::helical_pair, pair_tables, check_pair_scene, result_keys, helical_pair_example},
+  return {{"helical_pair", StageKind::helical_pair, pair_tables, check_pair_scene,
+           [] { return figure_keys(dynamics::pair_figures()); }, helical_pair_example},
           pair_run_figures,
           dynamics::pair_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PairSystem>(scene); }};

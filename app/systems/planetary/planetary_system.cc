@@ -69,7 +69,7 @@ class PlanetarySystem final : public GearSystem {
   void describe(Plan& plan) const override { describe_planetary(scene(), make_geometry(scene()), plan); }
 };
 
-const std::vector<FigureSpec>& figures() {
+const std::vector<FigureSpec>& all_planetary_figures() {
   static const auto list = [] {
     auto specs = mesh_figure_specs(ring_planet, "ring mesh", "ring_stiffness");
     const auto sun = mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness");
@@ -81,14 +81,12 @@ const std::vector<FigureSpec>& figures() {
   return list;
 }
 
-/// Results that a search can optimise.
-std::vector<std::string> result_keys() { return figure_keys(dynamics::planetary_figures()); }
-
 }  // namespace
 
 SystemKind planetary_kind() {
-  return {{"planetary", StageKind::planetary, planetary_tables, check_planetary_scene, result_keys, planetary_example},
-          figures,
+  return {{"planetary", StageKind::planetary, planetary_tables, check_planetary_scene,
+           [] { return figure_keys(dynamics::planetary_figures()); }, planetary_example},
+          all_planetary_figures,
           dynamics::planetary_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PlanetarySystem>(scene); }};
 }

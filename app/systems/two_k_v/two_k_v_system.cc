@@ -51,13 +51,11 @@ class TwoKVSystem final : public GearSystem {
   void describe(Plan& plan) const override { describe_two_k_v(scene(), plan); }
 };
 
-/// Results that a search can optimise.
-std::vector<std::string> result_keys() { return figure_keys(dynamics::two_k_v_figures()); }
-
 }  // namespace
 
 SystemKind two_k_v_kind() {
-  return {{"two_k_v", StageKind::two_k_v, two_k_v_tables, check_two_k_v_scene, result_keys, two_k_v_example},
+  return {{"two_k_v", StageKind::two_k_v, two_k_v_tables, check_two_k_v_scene,
+           [] { return figure_keys(dynamics::two_k_v_figures()); }, two_k_v_example},
           two_k_v_run_figures,
           dynamics::two_k_v_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<TwoKVSystem>(scene); }};
