@@ -1,4 +1,6 @@
 #include "app/stage/carried_errors.h"
+#include "app/model/gear_system.h"
+#include "app/plan/plan.h"
 
 #include <fmt/format.h>
 
@@ -97,7 +99,7 @@ BOOST_AUTO_TEST_CASE(frequencies_carry_the_errors_of_the_stiffness) {
                        "1.87e9", fmt::format("{:.17g}", TableScene::ring * ring)),
         "scene.toml");
     const auto geometry = app::make_geometry(scene);
-    const auto plan = app::make_plan(scene, geometry);
+    const auto plan = app::make_plan(scene);
     const auto mesh = [&](std::size_t i) {
       return app::mesh_stiffness(scene, geometry, plan.meshes[i], {"held"}, {.out = folder.path()});
     };

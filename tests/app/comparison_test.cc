@@ -1,4 +1,7 @@
 #include "app/stage/comparison.h"
+#include "app/model/gear_system.h"
+#include "app/plan/plan.h"
+#include "app/stage/planetary_run.h"
 
 #include <boost/test/unit_test.hpp>
 
@@ -25,8 +28,9 @@ app::RunResult run_of(double stiff, double soft, double error) {
   };
   auto sun = mesh(0, 2e9);
   auto stiff_mesh = mesh(0, stiff), soft_mesh = mesh(1, soft);
-  auto plan = app::make_plan(scene);
-  app::RunResult result{.scene = scene, .geometry = geometry, .plan = std::move(plan), .sun_mesh = std::move(sun)};
+  app::RunResult result(scene);
+  result.plan = app::make_plan(scene);
+  result.sun_mesh = std::move(sun);
   result.rings.push_back({"stiff", std::move(stiff_mesh)});
   result.rings.push_back({"soft", std::move(soft_mesh)});
   return result;

@@ -1,5 +1,8 @@
 #include "tests/app/made_up_solution.h"
 
+#include "app/model/gear_system.h"
+#include "app/plan/plan.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -122,13 +125,13 @@ fem::LoadedMeshResult made_up_solution(const app::MeshModel& model) {
 }
 
 app::RunResult made_up_run(const app::Scene& scene, int phases) {
-  auto geometry = app::make_geometry(scene);
-  auto plan = app::make_plan(scene);
-  for (auto& model : plan.meshes) model.problem->phases = phases;
-  auto sun = app::pack(plan.meshes.front(), made_up_solution(plan.meshes.front()));
-  app::RunResult result{.scene = scene, .geometry = std::move(geometry), .plan = plan, .sun_mesh = std::move(sun)};
+  app::RunResult result(scene);
+  result.plan = app::make_plan(scene);
+  auto& meshes = result.plan.meshes;
+  for (auto& model : meshes) model.problem->phases = phases;
+  result.sun_mesh = app::pack(meshes.front(), made_up_solution(meshes.front()));
   for (std::size_t i = 0; i < scene.rings.size(); ++i) {
-    const auto& model = plan.meshes[i + 1];
+    const auto& model = meshes[i + 1];
     result.rings.push_back({scene.rings[i].name, app::pack(model, made_up_solution(model))});
   }
   return result;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/pipeline.h"
+#include "app/stage/planetary_run.h"
 
 namespace annulus::test {
 

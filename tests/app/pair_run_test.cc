@@ -1,4 +1,5 @@
 #include "app/pair/pair_run.h"
+#include "app/stage/planetary_run.h"
 
 #include <sys/wait.h>
 
@@ -98,11 +99,11 @@ BOOST_AUTO_TEST_CASE(a_pair_runs_from_scene_to_report) {
   // Studies take the harmonic balance, the scene's own response is marched from it: equal within its error.
   const auto& sweep = result.studies.sweeps.front();
   for (const auto* column : {"acceleration_max_m_per_s2", "mesh_force_max_N", "transmission_error_max_m"}) {
-    const auto& nominal = result.studies.nominal.front().at(column);
-    const double value = result.studies.value(sweep.variants[0][1], column);
+    const auto& nominal = result.studies.nominal.front().figure(column);
+    const double value = sweep.variants[0][1].value(column);
     BOOST_TEST(std::abs(value - nominal.value) < 1e-3 * nominal.value, column);
     // And a point of a grid is the point of the sweep.
-    BOOST_TEST(result.studies.value(result.studies.grids.front().variants[0][4], column) == value);
+    BOOST_TEST(result.studies.grids.front().variants[0][4].value(column) == value);
   }
 }
 
@@ -251,7 +252,7 @@ BOOST_AUTO_TEST_CASE(the_other_direction_mirrors_the_pair) {
       test::replaced(test::replaced(test::quick_pair(), "pinion_torque_Nm = 20000", "pinion_torque_Nm = -20000"),
                      "[manufacturing_error]", "[errors]\nmesh_error_phase_deg = 180\n[manufacturing_error]"),
       folder.path() / "back");
-  const auto a = app::loaded_force(forth.response->figures), b = app::loaded_force(back.response->figures);
+  const auto a = dynamics::loaded_force(forth.response->figures), b = dynamics::loaded_force(back.response->figures);
   // Equal motions, found separately to the tolerance of the solution.
   BOOST_TEST(b.largest.value == a.largest.value, boost::test_tools::tolerance(1e-5));
   BOOST_TEST(b.smallest.value == a.smallest.value, boost::test_tools::tolerance(1e-5));

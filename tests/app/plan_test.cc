@@ -1,4 +1,5 @@
 #include "app/plan/plan.h"
+#include "app/model/gear_system.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,5 @@
 #include "app/report/report.h"
+#include "app/pipeline.h"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>

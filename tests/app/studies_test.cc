@@ -1,4 +1,7 @@
 #include "app/study/studies.h"
+#include "app/model/gear_system.h"
+#include "app/plan/plan.h"
+#include "app/stage/planetary_run.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -44,9 +47,7 @@ std::vector<double> column(const Csv& csv, const std::string& name) {
 
 const std::string ordering_figure = "sun_planet_load_sharing_averaged";
 
-double averaged(const app::RunResult& result, const app::StudyPoint& point) {
-  return result.studies.value(point, ordering_figure);
-}
+double averaged(const app::RunResult& result, const app::StudyPoint& point) { return point.value(ordering_figure); }
 
 constexpr const char* few_samples = "[monte_carlo]\nsamples = 45\nseed = 5\n";
 
@@ -71,7 +72,7 @@ BOOST_AUTO_TEST_CASE(sweep_points_are_the_runs_they_stand_for) {
                result.rings[ring].response->figures.sun_planet.load_sharing.averaged.value);
     BOOST_TEST(averaged(result, sweep.variants[ring][2]) ==
                alone.rings[ring].response->figures.sun_planet.load_sharing.averaged.value);
-    BOOST_TEST(result.studies.value(sweep.variants[ring][2], "ring_planet_load_sharing_instantaneous") ==
+    BOOST_TEST(sweep.variants[ring][2].value("ring_planet_load_sharing_instantaneous") ==
                alone.rings[ring].response->figures.ring_planet.load_sharing.instantaneous.value);
     // A stiffer planet bearing shares worse.
     BOOST_TEST(averaged(result, sweep.variants[ring][2]) > averaged(result, sweep.variants[ring][0]));
@@ -130,10 +131,10 @@ BOOST_AUTO_TEST_CASE(inputs_of_the_bodies_solve_tables_of_their_own) {
   BOOST_TEST(!std::filesystem::exists(folder.path() / "all/sweep/ring_pins/27"));
   BOOST_TEST(std::filesystem::exists(folder.path() / "all/sweep/stage_power_kW/9000/held/stiffness_ring_planet.csv"));
   const auto alone = run_text(test::replaced(text, "pins = 27", "pins = 18"), folder.path() / "alone");
-  BOOST_TEST(result.studies.value(result.studies.sweeps[0].variants[0][1], "ring_planet_load_sharing_averaged") ==
+  BOOST_TEST(result.studies.sweeps[0].variants[0][1].value("ring_planet_load_sharing_averaged") ==
              alone.rings[0].response->figures.ring_planet.load_sharing.averaged.value);
-  BOOST_TEST(result.studies.value(result.studies.sweeps[0].variants[0][0], "ring_planet_load_sharing_averaged") !=
-             result.studies.value(result.studies.sweeps[0].variants[0][1], "ring_planet_load_sharing_averaged"));
+  BOOST_TEST(result.studies.sweeps[0].variants[0][0].value("ring_planet_load_sharing_averaged") !=
+             result.studies.sweeps[0].variants[0][1].value("ring_planet_load_sharing_averaged"));
 }
 
 BOOST_AUTO_TEST_CASE(samples_are_the_same_for_any_number_of_threads_and_samples) {

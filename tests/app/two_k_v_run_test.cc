@@ -1,4 +1,5 @@
 #include "app/two_k_v/two_k_v_run.h"
+#include "app/plan/plan.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -28,9 +29,7 @@ std::string moving_scene() {
   return test::replaced(text, "stiffness = \"constant\"\nmean_N_per_m = 7.5e8", "stiffness = \"computed\"");
 }
 
-double point_value(const app::TwoKVResult& result, const app::StudyPoint& point, const std::string& column) {
-  return result.studies.value(point, column);
-}
+double point_value(const app::StudyPoint& point, const std::string& column) { return point.value(column); }
 
 }  // namespace
 
@@ -98,13 +97,11 @@ BOOST_AUTO_TEST_CASE(runs_agree_whatever_the_threads_and_are_reused) {
   // The value of the scene is a point of the sweep; a softer bearing lowers the frequency by its sensitivity.
   const auto& points = three.studies.sweeps.front().variants.front();
   const auto& v = *three.own.vibration;
-  BOOST_TEST(point_value(three, points[1], "frequency_1_Hz") == v.first_frequency(),
-             boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(
-      point_value(three, points[1], "output_error_peak_to_peak_rad") == three.own.motion->error_peak_to_peak.value,
-      boost::test_tools::tolerance(1e-9));
-  BOOST_TEST(point_value(three, points[0], "frequency_1_Hz") < v.first_frequency());
-  BOOST_TEST(point_value(three, points[2], "frequency_1_Hz") > v.first_frequency());
+  BOOST_TEST(point_value(points[1], "frequency_1_Hz") == v.first_frequency(), boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(point_value(points[1], "output_error_peak_to_peak_rad") == three.own.motion->error_peak_to_peak.value,
+             boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(point_value(points[0], "frequency_1_Hz") < v.first_frequency());
+  BOOST_TEST(point_value(points[2], "frequency_1_Hz") > v.first_frequency());
 }
 
 // The compared case is the run of a scene that computes the mesh.
@@ -152,14 +149,14 @@ BOOST_AUTO_TEST_CASE(studies_answer_with_named_figures) {
   // 10 % of the input's inertia are 4.1 % of the frequency; 30 samples know their deviation to 13 %.
   BOOST_TEST(std::abs(frequency->deviation / (0.0409 * 131) - 1) <= 0.4);
   const auto& row = result.studies.sensitivity->rows.front();
-  const double divided = point_value(result, row.divided.front(), "frequency_1_Hz"),
-               multiplied = point_value(result, row.multiplied.front(), "frequency_1_Hz");
+  const double divided = point_value(row.divided.front(), "frequency_1_Hz"),
+               multiplied = point_value(row.multiplied.front(), "frequency_1_Hz");
   // The exact derivative against this difference.
   BOOST_TEST(std::abs(std::log(multiplied / divided) / (2 * std::log(1.1)) - 0.2542) <= 1e-3);
   // A linear stage: twice the torque, twice the wind-up, the same frequency.
   const auto& torque = result.studies.sensitivity->rows[1];
-  BOOST_TEST(point_value(result, torque.multiplied.front(), "wind_up_rad") ==
-                 1.21 * point_value(result, torque.divided.front(), "wind_up_rad"),
+  BOOST_TEST(point_value(torque.multiplied.front(), "wind_up_rad") ==
+                 1.21 * point_value(torque.divided.front(), "wind_up_rad"),
              boost::test_tools::tolerance(1e-9));
 }
 

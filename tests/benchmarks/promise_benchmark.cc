@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/pipeline.h"
 #include "app/scene/overrides.h"
 #include "app/scene/scene.h"
 #include "app/tradeoff/measured_work.h"
@@ -134,7 +135,8 @@ void print_row(const Row& row) {
     fmt::print("{}  refused: {}\n", text, row.planned->failure);
     return;
   }
-  text += fmt::format("  {:>8.3f} %  {}", 100 * row.ring->guaranteed_error(*row.planned), row.kept() ? "kept  " : "MISSED");
+  text +=
+      fmt::format("  {:>8.3f} %  {}", 100 * row.ring->guaranteed_error(*row.planned), row.kept() ? "kept  " : "MISSED");
   if (row.planned_run > 0)
     text += fmt::format("  tables {:6.2f} s  run {:6.2f} s", row.planned->cost.processor, row.planned_run);
   if (row.cheapest)
@@ -190,7 +192,7 @@ int main(int argc, char** argv) {
       const auto& ring = trade.variants.front();
       if (verbose) benchmark::print_points(s.name, ring);
       for (const double accuracy : benchmark::accuracies) {
-        benchmark::Row row{.scene = s.name, .accuracy = accuracy, .planned = ring.planned(accuracy)};
+        benchmark::Row row{.scene = s.name, .accuracy = accuracy, .ring = &ring, .planned = ring.planned(accuracy)};
         ++cases;
         refused += row.refused();
         kept += !row.refused() && row.kept();
