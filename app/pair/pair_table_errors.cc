@@ -16,7 +16,7 @@ dynamics::Evaluation evaluation_of(const dynamics::HelicalPair& pair, const dyna
 
 /// The totals back into the response that the results were read from.
 void set_errors(const FigureSet& figures, dynamics::PairResponse& r) {
-  auto &te = r.dynamic.transmission_error, &relative = r.dynamic.relative;
+  auto &te = r.dynamic.transmission_error, &relative = r.dynamic.relative, &still = r.quasi_static.transmission_error;
   const bool forward = r.static_force >= 0;
   for (const auto& [key, figure] : {std::pair{"acceleration_max_m_per_s2", &r.acceleration.tooth},
                                     {"acceleration_line_of_action_m_per_s2", &r.acceleration.line_of_action},
@@ -27,6 +27,8 @@ void set_errors(const FigureSet& figures, dynamics::PairResponse& r) {
                                     {"dynamic_factor", &r.dynamic_factor},
                                     {"transmission_error_max_m", &te.largest},
                                     {"transmission_error_peak_to_peak_m", &te.peak_to_peak},
+                                    {"transmission_error_static_max_m", &still.largest},
+                                    {"transmission_error_static_peak_to_peak_m", &still.peak_to_peak},
                                     {"relative_motion_max_m", &relative.largest},
                                     {"relative_motion_peak_to_peak_m", &relative.peak_to_peak}})
     figure->error = figures.figure(key).error;

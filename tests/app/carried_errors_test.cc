@@ -45,7 +45,7 @@ struct TableScene {
   [[nodiscard]] app::RunResult run(const std::filesystem::path& folder) const {
     auto text = test::replaced(
         test::quick_scene(), "planet_eccentricity_um = [15, 36, 17, 38, 19]",
-        planets == 2 ? "planet_installation_um = [20, 20]" : "planet_installation_um = [15, 36, 17, 38, 19]");
+        planets == 2 ? "planet_pin_position_error_um = [20, 20]" : "planet_pin_position_error_um = [15, 36, 17, 38, 19]");
     // Motions are compared to a thousandth of L - 1, which is some thousandths itself.
     text = test::replaced(text, "mesh_cycles = 110\n", "relative_tolerance = 1e-6\n");
     text = test::replaced(text, "planets = 5", "planets = " + std::to_string(planets));

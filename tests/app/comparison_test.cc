@@ -31,6 +31,7 @@ app::RunResult run_of(double stiff, double soft, double error) {
   app::RunResult result(scene);
   result.plan = app::make_plan(scene);
   result.sun_mesh = std::move(sun);
+  result.sun_mesh.model.mesh = app::sun_planet;
   result.rings.push_back({"stiff", std::move(stiff_mesh)});
   result.rings.push_back({"soft", std::move(soft_mesh)});
   return result;

@@ -127,8 +127,8 @@ FigureSet figures(const PairResponse& r) {
   set.set("transmission_error_max_m", te.largest);
   set.set("transmission_error_peak_to_peak_m", te.peak_to_peak);
   set.set("transmission_error_mean_m", te.mean);
-  set.set("transmission_error_static_max_m", still.largest.value);
-  set.set("transmission_error_static_peak_to_peak_m", still.peak_to_peak.value);
+  set.set("transmission_error_static_max_m", still.largest);
+  set.set("transmission_error_static_peak_to_peak_m", still.peak_to_peak);
   set.set("relative_motion_max_m", r.dynamic.relative.largest);
   set.set("relative_motion_peak_to_peak_m", r.dynamic.relative.peak_to_peak);
   set.set("steady", r.steady ? 1 : 0);

@@ -169,7 +169,7 @@ FigureSet figures(const TwoKVStage& stage, const TwoKVResponse& r) {
   FigureSet set;
   set.set("steady", r.steady.steady ? 1 : 0);
   set.set("output_error_peak_to_peak_rad", still ? Figure{} : range);
-  set.set("output_error_quasi_static_rad", still ? 0 : static_range);
+  set.set("output_error_quasi_static_rad", still ? Figure{} : r.quasi_static.peak_to_peak);
   const std::vector<TwoKVMeshResult>* kinds[] = {&r.sun_planet, &r.arc_pins};
   for (std::size_t k = 0; k < std::size(kinds); ++k) {
     Figure factor{0, not_known};
