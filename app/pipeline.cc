@@ -12,9 +12,9 @@
 #include "app/scene/inputs_json.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/scene_schema.h"
-#include "app/stage/summary_studies.h"
 #include "app/study/studies.h"
 #include "app/study/study_subject.h"
+#include "app/study/summary_studies.h"
 #include "core/files.h"
 
 namespace annulus::app {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "app/model/mesh_result.h"
 #include "app/model/run_options.h"
 #include "app/model/system_run.h"
-#include "app/stage/mesh_result.h"
 
 /// annulus from a scene file to a report. Start reading here: the whole program is six functions in a row,
 ///

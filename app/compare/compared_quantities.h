@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/compare/compared_run.h"
-#include "app/stage/measured.h"
+#include "app/model/measured.h"
 #include "core/figure.h"
 
 namespace annulus::app {

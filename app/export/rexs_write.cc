@@ -9,9 +9,9 @@
 
 #include "app/content_id.h"
 #include "app/export/rexs.h"
-#include "app/pair/pair_model.h"
+#include "app/model/gear_geometry.h"
 #include "app/scene/scene_schema.h"
-#include "app/stage/gear_geometry.h"
+#include "app/systems/helical_pair/pair_model.h"
 #include "core/errors.h"
 #include "core/units.h"
 

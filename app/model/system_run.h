@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "app/model/mesh_result.h"
+#include "app/model/reference.h"
 #include "app/model/run_options.h"
 #include "app/plan/plan.h"
 #include "app/report/section.h"
-#include "app/stage/mesh_result.h"
-#include "app/stage/reference.h"
 #include "app/study/study_result.h"
 #include "core/figure.h"
 #include "core/json.h"

@@ -8,9 +8,9 @@
 #include <numeric>
 
 #include "app/plan/accuracy_choice.h"
-#include "app/stage/rim_coupling.h"
-#include "app/stage/stage_response.h"
-#include "app/study/planetary_subject.h"
+#include "app/systems/planetary/planetary_subject.h"
+#include "app/systems/planetary/rim_coupling.h"
+#include "app/systems/planetary/stage_response.h"
 #include "dynamics/steady_state/integration_cost.h"
 #include "dynamics/systems/planetary/study_point.h"
 #include "fem/cost_size.h"

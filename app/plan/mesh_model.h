@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "app/model/gear_geometry.h"
 #include "app/plan/accuracy_choice.h"
 #include "app/plan/ring_structures.h"
 #include "app/scene/scene.h"
-#include "app/stage/gear_geometry.h"
 #include "fem/loaded_mesh.h"
 
 namespace annulus::app {

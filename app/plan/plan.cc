@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "app/model/stiff_supports.h"
 #include "app/plan/cost_plan.h"
-#include "app/plan/motion_plan.h"
-#include "app/stage/stiff_supports.h"
+#include "app/systems/planetary/motion_plan.h"
 #include "core/units.h"
 
 namespace annulus::app {

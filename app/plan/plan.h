@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "app/model/gear_geometry.h"
 #include "app/plan/cost_plan.h"
 #include "app/plan/mesh_model.h"
 #include "app/plan/study_plan.h"
 #include "app/scene/scene.h"
-#include "app/stage/gear_geometry.h"
 
 namespace annulus::app {
 

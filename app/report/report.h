@@ -1,7 +1,7 @@
 #pragma once
 
 #include "app/report/page.h"
-#include "app/stage/planetary_run.h"
+#include "app/systems/planetary/planetary_run.h"
 
 namespace annulus::app {
 

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/model/measured.h"
 #include "app/report/section.h"
-#include "app/stage/measured.h"
-#include "app/stage/planetary_run.h"
+#include "app/systems/planetary/planetary_run.h"
 #include "dynamics/steady_state/steady_response.h"
 
 /// The sections of report pages, made from the results alone. A section without blocks has nothing to show and is left

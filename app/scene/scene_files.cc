@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 
+#include "app/model/reference.h"
 #include "app/scene/input_place.h"
 #include "app/scene/scene_limits.h"
-#include "app/stage/reference.h"
 #include "core/table_import.h"
 
 namespace annulus::app {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/model/mesh_result.h"
 #include "app/model/run_options.h"
-#include "app/stage/mesh_result.h"
 #include "core/figure.h"
 
 /// What is measured: meshes that are solved into tables, and a lumped model that takes them.

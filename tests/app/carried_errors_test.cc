@@ -1,4 +1,4 @@
-#include "app/stage/carried_errors.h"
+#include "app/systems/planetary/carried_errors.h"
 #include "app/model/gear_system.h"
 #include "app/plan/plan.h"
 
@@ -14,9 +14,9 @@
 
 #include "app/pipeline.h"
 #include "app/report/page.h"
-#include "app/report/planetary/stage_report_parts.h"
-#include "app/stage/planetary_run.h"
-#include "app/stage/stage_modes.h"
+#include "app/systems/planetary/planetary_run.h"
+#include "app/systems/planetary/report/stage_report_parts.h"
+#include "app/systems/planetary/stage_modes.h"
 #include "core/files.h"
 #include "core/log.h"
 #include "tests/app/scenes.h"
@@ -43,9 +43,9 @@ struct TableScene {
     return {mesh, phases, {0.0}, {2e4, 2e5}, entries};
   }
   [[nodiscard]] app::RunResult run(const std::filesystem::path& folder) const {
-    auto text = test::replaced(
-        test::quick_scene(), "planet_eccentricity_um = [15, 36, 17, 38, 19]",
-        planets == 2 ? "planet_pin_position_error_um = [20, 20]" : "planet_pin_position_error_um = [15, 36, 17, 38, 19]");
+    auto text = test::replaced(test::quick_scene(), "planet_eccentricity_um = [15, 36, 17, 38, 19]",
+                               planets == 2 ? "planet_pin_position_error_um = [20, 20]"
+                                            : "planet_pin_position_error_um = [15, 36, 17, 38, 19]");
     // Motions are compared to a thousandth of L - 1, which is some thousandths itself.
     text = test::replaced(text, "mesh_cycles = 110\n", "relative_tolerance = 1e-6\n");
     text = test::replaced(text, "planets = 5", "planets = " + std::to_string(planets));

@@ -1,6 +1,6 @@
 #include "app/plan/cost_budget.h"
 #include "app/pipeline.h"
-#include "app/stage/planetary_run.h"
+#include "app/systems/planetary/planetary_run.h"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>

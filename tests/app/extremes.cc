@@ -7,10 +7,10 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "app/model/gear_geometry.h"
 #include "app/model/gear_system.h"
 #include "app/plan/mesh_model.h"
 #include "app/scene/scene_schema.h"
-#include "app/stage/gear_geometry.h"
 #include "core/errors.h"
 #include "tests/app/scene_edit.h"
 

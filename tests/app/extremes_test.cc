@@ -7,10 +7,10 @@
 #include <ctime>
 #include <functional>
 
-#include "app/pair/pair_model.h"
+#include "app/model/gear_geometry.h"
 #include "app/pipeline.h"
-#include "app/stage/gear_geometry.h"
-#include "app/stage/planetary_run.h"
+#include "app/systems/helical_pair/pair_model.h"
+#include "app/systems/planetary/planetary_run.h"
 #include "core/errors.h"
 #include "tests/app/pair_scenes.h"
 #include "tests/app/scenes.h"

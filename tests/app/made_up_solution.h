@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/stage/planetary_run.h"
+#include "app/systems/planetary/planetary_run.h"
 
 namespace annulus::test {
 

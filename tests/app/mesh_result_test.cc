@@ -1,4 +1,4 @@
-#include "app/stage/mesh_result.h"
+#include "app/model/mesh_result.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

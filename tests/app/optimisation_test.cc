@@ -7,7 +7,7 @@
 
 #include "app/pipeline.h"
 #include "app/scene/scene_value.h"
-#include "app/stage/planetary_run.h"
+#include "app/systems/planetary/planetary_run.h"
 #include "core/files.h"
 #include "core/log.h"
 #include "tests/app/background_run.h"

@@ -1,5 +1,5 @@
-#include "app/pair/pair_run.h"
-#include "app/stage/planetary_run.h"
+#include "app/systems/helical_pair/pair_run.h"
+#include "app/systems/planetary/planetary_run.h"
 
 #include <sys/wait.h>
 
@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/model/gear_system.h"
-#include "app/pair/pair_subject.h"
 #include "app/study/studies.h"
+#include "app/systems/helical_pair/pair_subject.h"
 #include "core/files.h"
 #include "core/log.h"
 #include "core/units.h"

@@ -3,10 +3,10 @@
 #include <numbers>
 
 #include "app/model/gear_system.h"
-#include "app/pair/pair_errors.h"
-#include "app/pair/pair_model.h"
-#include "app/pair/pair_stiffness.h"
 #include "app/study/study_cases.h"
+#include "app/systems/helical_pair/pair_errors.h"
+#include "app/systems/helical_pair/pair_model.h"
+#include "app/systems/helical_pair/pair_stiffness.h"
 #include "core/units.h"
 #include "tests/app/pair_scenes.h"
 #include "tests/app/scenes.h"

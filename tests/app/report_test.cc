@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/report/planetary/stage_report_parts.h"
 #include "app/report/plot/map.h"
-#include "app/stage/planetary_run.h"
+#include "app/systems/planetary/planetary_run.h"
+#include "app/systems/planetary/report/stage_report_parts.h"
 #include "tests/app/made_up_solution.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"

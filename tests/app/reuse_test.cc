@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/pipeline.h"
-#include "app/stage/planetary_run.h"
+#include "app/systems/planetary/planetary_run.h"
 #include "core/csv.h"
 #include "core/log.h"
 #include "tests/app/scenes.h"

@@ -1,4 +1,4 @@
-#include "app/stage/rim_coupling.h"
+#include "app/systems/planetary/rim_coupling.h"
 
 #include <boost/test/unit_test.hpp>
 

@@ -1,4 +1,4 @@
-#include "app/two_k_v/two_k_v_run.h"
+#include "app/systems/two_k_v/two_k_v_run.h"
 #include "app/plan/plan.h"
 
 #include <boost/test/unit_test.hpp>
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "app/model/gear_system.h"
-#include "app/two_k_v/two_k_v_subject.h"
+#include "app/systems/two_k_v/two_k_v_subject.h"
 #include "core/files.h"
 #include "core/log.h"
 #include "tests/app/scenes.h"

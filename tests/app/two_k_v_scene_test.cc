@@ -4,7 +4,7 @@
 #include "app/model/gear_system.h"
 #include "app/scene/overrides.h"
 #include "app/scene/scene_schema.h"
-#include "app/two_k_v/two_k_v_model.h"
+#include "app/systems/two_k_v/two_k_v_model.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
 #include "tests/app/two_k_v_scenes.h"

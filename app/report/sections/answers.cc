@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/report/report_parts.h"
-#include "app/stage/comparison.h"
+#include "app/systems/planetary/comparison.h"
 
 namespace annulus::app {
 

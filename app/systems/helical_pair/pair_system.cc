@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "app/pair/pair_run.h"
 #include "app/plan/plan.h"
-#include "app/scene/helical_pair/pair_geometry_checks.h"
-#include "app/scene/helical_pair/pair_scene.h"
+#include "app/systems/helical_pair/pair_geometry_checks.h"
+#include "app/systems/helical_pair/pair_run.h"
+#include "app/systems/helical_pair/pair_scene.h"
 #include "app/tradeoff/trade_subject.h"
 #include "example_scenes.h"
 

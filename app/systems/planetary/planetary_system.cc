@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "app/model/mesh_figures.h"
 #include "app/plan/cost_plan.h"
 #include "app/plan/plan.h"
-#include "app/scene/planetary/planetary_geometry_checks.h"
-#include "app/scene/planetary/planetary_scene.h"
-#include "app/stage/mesh_figures.h"
-#include "app/stage/planetary_run.h"
-#include "app/study/planetary_subject.h"
+#include "app/systems/planetary/planetary_geometry_checks.h"
+#include "app/systems/planetary/planetary_run.h"
+#include "app/systems/planetary/planetary_scene.h"
+#include "app/systems/planetary/planetary_subject.h"
 #include "app/tradeoff/trade_subject.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 #include "example_scenes.h"

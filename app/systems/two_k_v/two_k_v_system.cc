@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "app/plan/plan.h"
-#include "app/scene/two_k_v/two_k_v_geometry_checks.h"
-#include "app/scene/two_k_v/two_k_v_scene.h"
+#include "app/systems/two_k_v/two_k_v_geometry_checks.h"
+#include "app/systems/two_k_v/two_k_v_run.h"
+#include "app/systems/two_k_v/two_k_v_scene.h"
 #include "app/tradeoff/trade_subject.h"
-#include "app/two_k_v/two_k_v_run.h"
 #include "dynamics/systems/two_k_v/two_k_v_figures.h"
 #include "example_scenes.h"
 

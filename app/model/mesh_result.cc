@@ -1,0 +1,215 @@
+#include "app/model/mesh_result.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "app/content_id.h"
+#include "app/model/mesh_tables.h"
+#include "app/report/drawings/field_view.h"
+#include "app/report/drawings/mesh.h"
+#include "core/files.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// A closed form needs no mesh.
+bool has_mesh(const fem::LoadedMeshResult& solved) { return !solved.wheel_sector.cells.empty(); }
+
+std::map<std::string, double> facts_of(const fem::LoadedMeshResult& solved) {
+  std::map<std::string, double> facts = {{"closure_relative", solved.closure_relative},
+                                         {"reciprocity_relative", solved.reciprocity_relative},
+                                         {"level", solved.level},
+                                         {"degree", solved.degree},
+                                         {"worst_error_relative", solved.worst_error_relative},
+                                         {"unknowns", static_cast<double>(solved.unknowns)},
+                                         {"mesh_seconds", solved.mesh_seconds},
+                                         {"condense_seconds", solved.condense_seconds},
+                                         {"contact_seconds", solved.contact_seconds},
+                                         {"condensed_teeth", solved.condensed_teeth},
+                                         {"reused_teeth", solved.reused_teeth},
+                                         {"saved_seconds", solved.saved_seconds}};
+  auto& force = facts["force_balance_relative"];
+  auto& energy = facts["energy_balance_relative"];
+  auto& penetration = facts["max_penetration_m"];
+  for (const auto& p : solved.positions) {
+    force = std::max(force, p.force_balance_relative);
+    energy = std::max(energy, p.energy_balance_relative);
+    penetration = std::max(penetration, p.max_penetration);
+  }
+  if (has_mesh(solved)) {
+    facts["worst_scaled_jacobian"] =
+        std::min(solved.planet_sector.worst_scaled_jacobian(), solved.wheel_sector.worst_scaled_jacobian());
+  }
+  if (solved.pin_stiffness > 0) facts["pin_stiffness_N_per_m"] = solved.pin_stiffness;
+  return facts;
+}
+
+/// Solved as an external pair, whatever its gears are called.
+StiffnessTable renamed(const StiffnessTable& table, const std::string& mesh) {
+  std::vector<StiffnessEntry> entries;
+  for (int position = 0; position < table.positions(); ++position) {
+    for (int phase = 0; phase < table.phases(); ++phase) {
+      for (int load = 0; load < static_cast<int>(table.loads().size()); ++load)
+        entries.push_back(table.at(position, phase, load));
+    }
+  }
+  return {mesh, table.phases(), table.ring_angles(), table.loads(), std::move(entries)};
+}
+
+template <class Visit>
+void at_load(const StiffnessTable& table, std::size_t load, Visit visit) {
+  for (int position = 0; position < table.positions(); ++position) {
+    for (int phase = 0; phase < table.phases(); ++phase) visit(table.at(position, phase, static_cast<int>(load)));
+  }
+}
+
+}  // namespace
+
+Estimate MeshResult::mean_stiffness() const {
+  double sum = 0, error = 0;
+  ErrorParts parts;
+  at_load(table, nominal, [&](const StiffnessEntry& e) {
+    sum += e.stiffness_secant;
+    error += e.error_relative * e.stiffness_secant;
+    parts += e.stiffness_secant * e.error_parts;
+  });
+  return {sum / (table.positions() * table.phases()), error / sum, (1 / sum) * parts};
+}
+
+double MeshResult::worst_stiffness_error() const {
+  double worst = 0;
+  at_load(table, nominal, [&](const StiffnessEntry& e) { worst = std::max(worst, e.error_relative); });
+  return worst;
+}
+
+Estimate MeshResult::lte_mean() const {
+  double sum = 0, error = 0;
+  ErrorParts parts;
+  at_load(table, nominal, [&](const StiffnessEntry& e) {
+    const double deflection = std::abs(e.lte - e.unloaded_te);
+    sum += e.lte;
+    error += e.error_relative * deflection;
+    parts += deflection * e.error_parts;
+  });
+  return {sum / (table.positions() * table.phases()), error / std::abs(sum), (1 / std::abs(sum)) * parts};
+}
+
+namespace {
+
+/// How far a curve sampled at equal steps and closed on itself may reach beyond its highest sample. A kink between two
+/// samples lies below where the lines through the neighbours on either side meet; a smooth top, below the half of it.
+double beyond_the_highest(const std::vector<double>& values) {
+  const auto n = static_cast<std::ptrdiff_t>(values.size());
+  if (n < 4) return 0;
+  const auto at = [&](std::ptrdiff_t i) { return values[static_cast<std::size_t>((i % n + n) % n)]; };
+  const double highest = *std::max_element(values.begin(), values.end());
+  double reach = 0;
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    // Between samples i and i + 1: rising with the slope before, falling with the slope after.
+    const double rise = at(i) - at(i - 1), fall = at(i + 1) - at(i + 2);
+    if (rise <= 0 || fall <= 0) continue;
+    const double place = (at(i + 1) - at(i) + fall) / (rise + fall);  // in steps from i
+    reach = std::max(reach, at(i) + rise * std::clamp(place, 0.0, 1.0) - highest);
+  }
+  return reach;
+}
+
+}  // namespace
+
+Estimate MeshResult::lte_peak_to_peak() const {
+  const StiffnessEntry *low = nullptr, *high = nullptr;
+  at_load(table, nominal, [&](const StiffnessEntry& e) {
+    if (!low || e.lte < low->lte) low = &e;
+    if (!high || e.lte > high->lte) high = &e;
+  });
+  const double range = high->lte - low->lte;
+  if (range <= 0) return {range, 0};
+  // The discretisation shifts all positions alike; on the range acts the difference of the errors at its two ends, and
+  // at least the same relative error as on the mean. An estimate, not a bound.
+  const double difference = std::abs(high->error_relative * (high->lte - high->unloaded_te) -
+                                     low->error_relative * (low->lte - low->unloaded_te));
+  std::vector<double> up, down;
+  at_load(table, nominal, [&](const StiffnessEntry& e) {
+    up.push_back(e.lte);
+    down.push_back(-e.lte);
+  });
+  const double missed = beyond_the_highest(up) + beyond_the_highest(down);
+  const auto mean = lte_mean();
+  const double of_stiffness = std::max(difference / range, mean.error_relative);
+  ErrorParts parts;
+  if (mean.error_relative > 0) parts = (of_stiffness / mean.error_relative) * mean.parts;
+  parts.interpolation = missed / range;
+  return {range, of_stiffness + missed / range, parts};
+}
+
+double MeshResult::fact(const std::string& name) const {
+  const auto found = facts.find(name);
+  return found == facts.end() ? not_known : found->second;
+}
+
+std::optional<Peak> MeshResult::peak(const std::string& column) const {
+  if (std::find(positions.columns.begin(), positions.columns.end(), column) == positions.columns.end())
+    return std::nullopt;
+  const auto value = positions.column(column), load = positions.column("load_N"),
+             phase = positions.column("mesh_phase"), tooth = positions.column("ring_tooth");
+  std::optional<Peak> best;
+  for (const auto& row : positions.rows) {
+    // The closure position at phase 1 repeats the one at phase 0.
+    if (row[load] != table.loads()[nominal] || row[phase] >= 1 || !std::isfinite(row[value])) continue;
+    if (!best || std::abs(row[value]) > std::abs(best->value))
+      best = Peak{row[value], {row[phase], static_cast<int>(row[tooth])}};
+  }
+  return best;
+}
+
+MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
+  MeshResult result{.model = model,
+                    .contact_ratio = model.problem->pair.contact_ratio(),
+                    .table = solved.table,
+                    .positions = position_table(model, solved),
+                    .housing = housing_table(model, solved),
+                    .pins = pin_table(model, solved),
+                    .pressure = pressure_table(model, solved),
+                    .line_load = line_load_table(model, solved),
+                    .stress = stress_table(model, solved),
+                    .facts = facts_of(solved),
+                    .nominal = model.nominal_load()};
+  if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.ring);
+  for (const auto& field : solved.fields)
+    result.fields += field_view(field, solved.positions[field.position], model.body_name(field.body == "planet"));
+  if (result.table.mesh() != model.mesh) result.table = renamed(result.table, model.mesh);
+  result.table.provenance = {{"annulus_version", version()}, {"inputs_id", model.id()}, {"model", model.fidelity}};
+  return result;
+}
+
+void save(const MeshResult& result, const std::filesystem::path& folder) {
+  const auto& mesh = result.model.mesh;
+  std::filesystem::create_directories(folder / "mesh");
+  const std::string id = result.model.id();
+  // An empty table leaves no file behind, not even one of an earlier run.
+  const auto keep = [&](const std::string& name, Csv csv) {
+    const auto file = folder / (name + "_" + mesh + ".csv");
+    if (csv.rows.empty()) return std::filesystem::remove(file), void();
+    csv.header.insert(
+        csv.header.begin(),
+        {{"annulus_version", version()}, {"inputs_id", id}, {"mesh", mesh}, {"model", result.model.fidelity}});
+    csv.write(file);
+  };
+  Csv positions = result.positions;
+  positions.header = {{"contact_ratio", fmt::format("{:.17g}", result.contact_ratio)}};
+  for (const auto& [name, value] : result.facts) positions.header.emplace_back(name, fmt::format("{:.17g}", value));
+  keep("lte", std::move(positions));
+  for (const auto& [name, member] : side_tables) keep(name, result.*member);
+  if (!result.picture.empty()) write_file(folder / "mesh" / (mesh + ".svg"), result.picture);
+  if (!result.fields.empty()) write_file(folder / "mesh" / (mesh + "_fields.html"), result.fields);
+  // Written last: its presence says that the others are complete.
+  result.table.write_csv(folder / ("stiffness_" + mesh + ".csv"));
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "app/plan/mesh_model.h"
+#include "app/systems/planetary/rim_coupling.h"
+#include "core/csv.h"
+#include "core/stiffness_table.h"
+
+namespace annulus::app {
+
+/// A figure of merit with its estimated error, relative to the value.
+struct Estimate {
+  double value = 0;
+  double error_relative = 0;
+  ErrorParts parts{};  ///< of error_relative, where it is known what it is made of; else zero
+};
+
+/// Where in the mesh cycles something happens.
+struct PositionKey {
+  double mesh_phase = 0;
+  int ring_tooth = 0;
+};
+
+/// The largest value (by magnitude, with its sign) of something over all positions at the nominal load.
+struct Peak {
+  double value = 0;
+  PositionKey at;
+};
+
+/// What is known about one mesh after its solve, and kept in files so that it need not be solved again.
+struct MeshResult {
+  MeshModel model;
+  double contact_ratio = 0;
+  StiffnessTable table;
+  Csv positions{};  ///< lte_<mesh>.csv: every position and load, with tooth pair shares and invariants; may be empty
+  // The others hold for the nominal load and are empty when there is nothing to tell (mesh_tables.h).
+  Csv housing{};          ///< housing_<mesh>.csv: where the rim touches a housing bore
+  Csv pins{};             ///< pins_<mesh>.csv: states of pins, bolts or spline teeth
+  Csv pressure{};         ///< pressure_<mesh>.csv: pressure on the flanks
+  Csv line_load{};        ///< line_load_<mesh>.csv: load over the face width
+  Csv stress{};           ///< stress_<mesh>.csv: stress along roots and rim; its header names the curves
+  std::string picture{};  ///< SVG of the meshes in contact; empty when none was meshed
+  std::string fields{};   ///< HTML: deformation and stress of both bodies (field_view.h); empty when not computed
+  /// Invariants and sizes by name: force_balance_relative, max_penetration_m, unknowns, mesh_seconds ...
+  std::map<std::string, double> facts{};
+  /// Ring meshes: how those of all planets act on each other through the ring; null when that was not looked at.
+  std::shared_ptr<const SolvedCoupling> coupling{};
+  std::size_t nominal = 0;  ///< index of the nominal load in the table
+  bool reused = false;
+
+  [[nodiscard]] Estimate mean_stiffness() const;  ///< N/m, secant, at the nominal load
+  /// Relative, of any position at the nominal load.
+  [[nodiscard]] double worst_stiffness_error() const;
+  [[nodiscard]] Estimate lte_mean() const;  ///< m, at the nominal load
+  /// m, at the nominal load, over all ring positions; its error contains what lies between the positions.
+  [[nodiscard]] Estimate lte_peak_to_peak() const;
+  [[nodiscard]] double fact(const std::string& name) const;  ///< NaN when not known
+  /// Of a column of `positions`; nothing when there is no such column.
+  [[nodiscard]] std::optional<Peak> peak(const std::string& column) const;
+};
+
+/// The tables kept beside the positions, by the first part of their file names.
+inline constexpr std::pair<const char*, Csv MeshResult::*> side_tables[] = {{"pins", &MeshResult::pins},
+                                                                            {"housing", &MeshResult::housing},
+                                                                            {"pressure", &MeshResult::pressure},
+                                                                            {"line_load", &MeshResult::line_load},
+                                                                            {"stress", &MeshResult::stress}};
+
+/// Packs the finite-element result of a model into its tables and pictures.
+[[nodiscard]] MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved);
+/// The stiffness a scene gives instead: a table read from its file, or the wave sampled over one cycle.
+[[nodiscard]] MeshResult given_stiffness(const MeshModel& model, const MeshInput& input, const Scene& scene,
+                                         double contact_ratio, double nominal_load);
+
+/// Writes lte_, stiffness_, pins_, ... <mesh>.csv and the picture into `folder` (OUT/<ring>).
+void save(const MeshResult& result, const std::filesystem::path& folder);
+/// The result kept in `folder`, if its inputs are those of `model`.
+[[nodiscard]] std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::path& folder);
+
+}  // namespace annulus::app

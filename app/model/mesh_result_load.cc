@@ -1,0 +1,125 @@
+#include <cmath>
+#include <numbers>
+
+#include "app/content_id.h"
+#include "app/model/mesh_result.h"
+#include "app/scene/scene_files.h"
+#include "core/errors.h"
+#include "core/files.h"
+
+namespace annulus::app {
+
+namespace {
+
+std::string header_value(const std::vector<std::pair<std::string, std::string>>& header, const std::string& key) {
+  for (const auto& [k, v] : header) {
+    if (k == key) return v;
+  }
+  return "";
+}
+
+/// The header without the lines that every file carries.
+std::vector<std::pair<std::string, std::string>> without_stamp(
+    const std::vector<std::pair<std::string, std::string>>& header) {
+  std::vector<std::pair<std::string, std::string>> own;
+  for (const auto& line : header) {
+    if (line.first != "annulus_version" && line.first != "inputs_id" && line.first != "mesh" && line.first != "model")
+      own.push_back(line);
+  }
+  return own;
+}
+
+std::size_t nearest_load(const StiffnessTable& table, double load) {
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < table.loads().size(); ++i) {
+    if (std::abs(table.loads()[i] - load) < std::abs(table.loads()[best] - load)) best = i;
+  }
+  return best;
+}
+
+/// So many that the jumps of a rectangular wave fall between samples in step with its duty: its mean is met.
+int samples_of(const MeshInput& input) {
+  constexpr int fewest = 64, most = 256;
+  if (input.stiffness != StiffnessShape::rectangular) return fewest;
+  const auto missed = [&](int n) { return std::abs(n * *input.duty - std::round(n * *input.duty)) / n; };
+  int best = fewest;
+  for (int n = fewest; n <= most; ++n) {
+    if (missed(n) < missed(best) - 1e-12) best = n;
+  }
+  return best;
+}
+
+/// One cycle of a given wave, as the dynamics sees it; for figures and plots only.
+StiffnessTable sampled(const std::string& mesh, const MeshInput& input, double load) {
+  constexpr double rounding = 1e-12;
+  const int samples = samples_of(input);
+  std::vector<StiffnessEntry> entries;
+  for (int i = 0; i < samples; ++i) {
+    const double phase = static_cast<double>(i) / samples - input.phase.value_or(0);
+    double wave = 0;
+    if (input.stiffness == StiffnessShape::harmonic) wave = std::cos(2 * std::numbers::pi * phase);
+    if (input.stiffness == StiffnessShape::rectangular) {
+      const double late = phase + rounding;
+      wave = (late - std::floor(late) < *input.duty ? 1 : 0) - *input.duty;
+    }
+    const double k = *input.mean * (1 + input.ripple.value_or(0) * wave);
+    entries.push_back(
+        {.unloaded_te = 0, .lte = load / k, .stiffness_secant = k, .stiffness_tangent = k, .error_relative = 0});
+  }
+  return {mesh, samples, {0}, {load}, std::move(entries)};
+}
+
+}  // namespace
+
+MeshResult given_stiffness(const MeshModel& model, const MeshInput& input, const Scene& scene, double contact_ratio,
+                           double nominal_load) {
+  if (input.stiffness == StiffnessShape::table) {
+    auto table = given_table(scene, model.mesh, input);
+    const auto nominal = nearest_load(table, nominal_load);
+    return {.model = model, .contact_ratio = contact_ratio, .table = std::move(table), .nominal = nominal};
+  }
+  return {.model = model, .contact_ratio = contact_ratio, .table = sampled(model.mesh, input, nominal_load)};
+}
+
+std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::path& folder) {
+  const auto table_file = folder / ("stiffness_" + model.mesh + ".csv");
+  const auto positions_file = folder / ("lte_" + model.mesh + ".csv");
+  const auto picture_file = folder / "mesh" / (model.mesh + ".svg"),
+             fields_file = folder / "mesh" / (model.mesh + "_fields.html");
+  for (const auto& file : {table_file, positions_file, picture_file}) {
+    const bool needed = file != picture_file || model.settings.fidelity != fem::Fidelity::closed_form;
+    if (needed && !std::filesystem::exists(file)) return std::nullopt;
+  }
+  const std::string id = model.id();
+  try {
+    auto table = StiffnessTable::read_csv(table_file);
+    auto positions = Csv::read(positions_file);
+    if (header_value(table.provenance, "inputs_id") != id || header_value(positions.header, "inputs_id") != id)
+      return std::nullopt;
+    MeshResult result{.model = model, .table = std::move(table), .nominal = model.nominal_load(), .reused = true};
+    for (const auto& [key, value] : without_stamp(positions.header)) {
+      if (key == "contact_ratio") {
+        result.contact_ratio = std::stod(value);
+      } else {
+        result.facts[key] = std::stod(value);
+      }
+    }
+    positions.header.clear();
+    result.positions = std::move(positions);
+    for (const auto& [name, member] : side_tables) {
+      const auto file = folder / (std::string(name) + "_" + model.mesh + ".csv");
+      if (!std::filesystem::exists(file)) continue;
+      auto csv = Csv::read(file);
+      if (header_value(csv.header, "inputs_id") != id) continue;
+      csv.header = without_stamp(csv.header);
+      result.*member = std::move(csv);
+    }
+    if (std::filesystem::exists(picture_file)) result.picture = read_file(picture_file);
+    if (std::filesystem::exists(fields_file)) result.fields = read_file(fields_file);
+    return result;
+  } catch (const std::exception&) {
+    return std::nullopt;  // damaged or from another version: solved again and overwritten
+  }
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,162 @@
+#include "app/study/summary_studies.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace annulus::app {
+
+namespace {
+
+using StudyJson = nlohmann::ordered_json;
+
+StudyJson finite_or_null(double x) { return std::isfinite(x) ? StudyJson(x) : StudyJson(nullptr); }
+
+StudyJson interval_json(const dynamics::Interval& i) {
+  return {{"value", finite_or_null(i.value)}, {"low", finite_or_null(i.low)}, {"high", finite_or_null(i.high)}};
+}
+
+StudyJson statistics_json(const FigureStatistics& s) {
+  return {{"mean", interval_json(s.mean)},
+          {"standard_deviation", finite_or_null(s.deviation)},
+          {"quantile_05", interval_json(s.q05)},
+          {"median", interval_json(s.median)},
+          {"quantile_95", interval_json(s.q95)}};
+}
+
+StudyJson point_json(const StudyResults& studies, const StudyPoint& point) {
+  if (!point.failure.empty()) return {{"failure", point.failure}};
+  StudyJson json;
+  for (const auto& figure : studies.figures)
+    if (figure.effort != FigureEffort::motion) json[figure.key] = finite_or_null(point.value(figure.key));
+  return json;
+}
+
+int count_failed(const std::vector<StudyPoint>& points) {
+  int failed = 0;
+  for (const auto& point : points) failed += point.failure.empty() ? 0 : 1;
+  return failed;
+}
+
+void add_plotted(StudyJson& json, const StudyResults& studies, const std::vector<StudyPoint>& points) {
+  for (const auto& figure : studies.figures) {
+    if (!figure.plotted) continue;
+    auto list = StudyJson::array();
+    for (const auto& point : points) list.push_back(finite_or_null(point.value(figure.key)));
+    json[figure.key] = std::move(list);
+  }
+}
+
+}  // namespace
+
+std::string variant_studies_json(const StudyResults& studies, std::size_t variant) {
+  StudyJson all = StudyJson::object();
+  if (studies.monte_carlo) {
+    const auto& samples = studies.monte_carlo->variants.at(variant);
+    StudyJson json = {{"samples", studies.monte_carlo->samples},
+                      {"failed", samples.failed},
+                      {"not_steady", samples.not_steady},
+                      {"seed", studies.monte_carlo->seed},
+                      {"confidence", dynamics::usual_confidence}};
+    for (const auto& s : samples.statistics) json[s.figure] = statistics_json(s);
+    all["monte_carlo"] = std::move(json);
+  }
+  for (std::size_t n = 0; n < studies.sweeps.size(); ++n) {
+    const auto& sweep = studies.sweeps[n];
+    const auto& points = sweep.variants.at(variant);
+    StudyJson json = {{"input", sweep.sweep.input}, {"unit", sweep.unit}, {"file", fmt::format("sweep_{}.csv", n + 1)}};
+    json["failed"] = count_failed(points);
+    json["values"] = sweep.values;
+    add_plotted(json, studies, points);
+    all["sweeps"].push_back(std::move(json));
+  }
+  for (std::size_t n = 0; n < studies.grids.size(); ++n) {
+    const auto& grid = studies.grids[n];
+    const auto& points = grid.variants.at(variant);
+    StudyJson json = {{"x_input", grid.grid.x.input},
+                      {"x_unit", grid.x_unit},
+                      {"y_input", grid.grid.y.input},
+                      {"y_unit", grid.y_unit},
+                      {"file", fmt::format("grid_{}.csv", n + 1)}};
+    json["failed"] = count_failed(points);
+    json["x"] = grid.x;
+    json["y"] = grid.y;
+    add_plotted(json, studies, points);
+    all["grids"].push_back(std::move(json));
+  }
+  return all.dump();
+}
+
+namespace {
+
+StudyJson design_json(const StudyResults& studies, const OptimiseResults& o, const Design& design) {
+  StudyJson json = {{"objective", finite_or_null(design.objective)}};
+  for (std::size_t i = 0; i < design.x.size(); ++i) json["inputs"][o.variables[i].input] = finite_or_null(design.x[i]);
+  json["figures"] = point_json(studies, design.point);
+  if (design.starts)
+    json["initial_conditions"] = {{"tried", design.starts->starts},
+                                  {"motions", design.starts->motions},
+                                  {"not_steady", design.starts->not_steady}};
+  return json;
+}
+
+StudyJson optimise_json(const StudyResults& studies) {
+  const auto& o = *studies.optimise;
+  const double sign = o.settings.goal == Goal::smallest ? 1 : -1;
+  StudyJson json = {{"objective", o.settings.objective},
+                    {"flat", o.range.flat},
+                    {"least_meaning", finite_or_null(o.range.least_meaning)},
+                    {"given", design_json(studies, o, o.given)},
+                    {"best", design_json(studies, o, o.best)}};
+  if (!studies.variants[o.variant].empty()) json["ring"] = studies.variants[o.variant];
+  for (std::size_t i = 0; i < o.runs.size(); ++i) {
+    const auto& run = o.runs[i];
+    json["searches"].push_back({{"optimiser", run.optimiser},
+                                {"repeat", run.repeat},
+                                {"best", finite_or_null(sign * run.search.value)},
+                                {"evaluations", run.search.evaluations.size()},
+                                {"failed", run.search.failed},
+                                {"evaluations_to_best", o.evaluations_to_best[i] ? StudyJson(*o.evaluations_to_best[i])
+                                                                                 : StudyJson(nullptr)}});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string studies_json(const StudyResults& studies) {
+  StudyJson json = StudyJson::object();
+  if (studies.optimise) json["optimise"] = optimise_json(studies);
+  if (studies.monte_carlo && studies.variants.size() > 1) {
+    auto& orders = json["monte_carlo"]["orders"] = StudyJson::array();
+    for (const auto& o : studies.monte_carlo->orders)
+      orders.push_back({{"figure", o.figure},
+                        {"ring", studies.variants[o.a]},
+                        {"above", studies.variants[o.b]},
+                        {"share", interval_json(o.share)},
+                        {"mean_difference", interval_json(o.difference)},
+                        {"equal", o.equal},
+                        {"samples", o.samples}});
+  }
+  if (!studies.sensitivity) return json.dump();
+  const auto& sensitivity = *studies.sensitivity;
+  auto& rows = json["sensitivity"] = {{"factor", sensitivity.factor}, {"inputs", StudyJson::array()}};
+  for (const auto& row : sensitivity.rows) {
+    StudyJson item = {{"input", row.input}, {"unit", row.unit}, {"order_of_rings_stays", row.order_stays}};
+    for (std::size_t i = 0; i < studies.variants.size(); ++i) {
+      StudyJson values = {{"value", finite_or_null(row.values[i])},
+                          {"divided", point_json(studies, row.divided[i])},
+                          {"nominal", point_json(studies, sensitivity.nominal[i])},
+                          {"multiplied", point_json(studies, row.multiplied[i])}};
+      if (studies.variants[i].empty())
+        item.update(values);
+      else
+        item["rings"][studies.variants[i]] = std::move(values);
+    }
+    rows["inputs"].push_back(std::move(item));
+  }
+  return json.dump();
+}
+
+}  // namespace annulus::app

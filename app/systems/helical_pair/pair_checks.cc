@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "app/scene/key_checks.h"
+#include "app/scene/scene_schema.h"
+#include "app/systems/helical_pair/pair_errors.h"
+#include "app/systems/helical_pair/pair_model.h"
+#include "app/systems/helical_pair/pair_scene.h"
+#include "app/systems/helical_pair/pair_stiffness.h"
+#include "core/units.h"
+
+namespace annulus::app {
+
+namespace {
+
+class PairChecker : KeyChecks {
+ public:
+  using KeyChecks::KeyChecks;
+
+  void run() {
+    stiffness();
+    errors();
+    transmission_error();
+    dynamics();
+    // What follows needs values that are all there.
+    if (problems_.empty()) geometry();
+  }
+
+ private:
+  void problem(const std::string& key, const std::string& rule) { KeyChecks::problem(key, "", rule); }
+
+  void stiffness() {
+    if (!usable("mesh.pinion_wheel.stiffness") && given("mesh.pinion_wheel.stiffness")) return;
+    const auto& m = scene_.pinion_wheel;
+    using Shape = StiffnessShape;
+    wave(m, "mesh.pinion_wheel", {Shape::harmonic, Shape::iso_6336});
+    const bool tabulated =
+        m.stiffness == Shape::computed || m.stiffness == Shape::closed_form || m.stiffness == Shape::table;
+    if (tabulated && usable("stage.pinion_torque_Nm") && scene_.stage.pinion_torque <= 0)
+      problem(
+          "stage.pinion_torque_Nm",
+          "must be above 0 with a tabulated stiffness (computed, closed_form or table): it holds for loaded driving "
+          "flanks");
+  }
+
+  void errors() {
+    if (!scene_.manufacturing_error) return;
+    const auto& m = *scene_.manufacturing_error;
+    const std::string table = "manufacturing_error.";
+    const auto order = [&](const std::string& gear, double total, double tooth) {
+      if (!usable(table + gear + "_total_um") || !usable(table + gear + "_tooth_to_tooth_um")) return;
+      if (tooth > total)
+        problem(table + gear + "_tooth_to_tooth_um",
+                fmt::format("must not exceed {}_total_um, value <= {} µm: a turn contains every pitch", gear,
+                            to_text(total / units::um)));
+      if (total == 0) problem(table + gear + "_total_um", "must be above 0: without deviations there is no law");
+    };
+    order("pinion", m.pinion_total, m.pinion_tooth_to_tooth);
+    order("wheel", m.wheel_total, m.wheel_tooth_to_tooth);
+    if (usable(table + "probability") && usable(table + "samples")) {
+      // Fewer draws than this leave the quantile without a single one beyond it.
+      const double least = 1 / std::min(m.probability, 1 - m.probability);
+      if (m.samples < least)
+        problem(table + "samples", fmt::format("are too few for the quantile at {}: value >= {}",
+                                               to_text(m.probability), std::ceil(least)));
+    }
+  }
+
+  void transmission_error() {
+    if (!scene_.transmission_error) return;
+    const char* key = "transmission_error.pinion_torques_Nm";
+    if (!usable(key)) return;
+    const auto& t = *scene_.transmission_error;
+    if (t.pinion_torques.empty()) problem(key, "needs at least one torque");
+    for (const auto& [name, list] :
+         {std::pair{key, &t.pinion_torques}, {"transmission_error.pinion_speeds_rpm", &t.pinion_speeds}}) {
+      if (std::set<double>(list->begin(), list->end()).size() != list->size())
+        problem(name, "contains the same value twice; leave one out");
+    }
+  }
+
+  void dynamics() {
+    if (!scene_.dynamics) return;
+    const auto& e = scene_.errors;
+    const bool no_error = e.mesh_error.value_or(0) == 0 && e.pinion_error == 0 && e.wheel_error == 0 &&
+                          (!scene_.manufacturing_error || scene_.manufacturing_error->reading == "none");
+    if (usable("stage.pinion_torque_Nm") && scene_.stage.pinion_torque == 0 && no_error)
+      problem("stage.pinion_torque_Nm", "must not be 0 without errors: nothing moves the pair");
+  }
+
+  /// Derived inputs, and checks that need the geometry of the gears.
+  void geometry() {
+    for (const auto& [name, gear] : {std::pair{"pinion", &scene_.pinion}, {"wheel", &scene_.wheel}}) {
+      const auto inertia = pair_inertia(scene_, *gear);
+      if (!given(std::string(name) + ".inertia_kg_m2") && inertia)
+        derive(std::string(name) + ".inertia_kg_m2", *inertia, "½ m r² of a solid disc, r: reference circle");
+    }
+    std::optional<PairGeometry> pair;
+    try {
+      pair = make_pair_geometry(scene_);
+    } catch (const GeometryError&) {
+      return;  // reported with its reason where the gears are made
+    }
+    if (!given("stage.centre_distance_mm"))
+      derive("stage.centre_distance_mm", pair->gears.centre_distance() / units::mm,
+             "no backlash at the profile shifts");
+    for (const auto& [name, gear, input] :
+         {std::tuple{"pinion", &pair->pinion(), &scene_.pinion}, {"wheel", &pair->wheel(), &scene_.wheel}}) {
+      if (input->bore_diameter && *input->bore_diameter >= 2 * gear->root_radius())
+        problem(std::string(name) + ".bore_diameter_mm",
+                fmt::format("must be smaller than the root diameter, value < {} mm",
+                            to_text(2 * gear->root_radius() / units::mm, 7)));
+    }
+    if (pair->gears.contact_ratio() < 1 && scene_.pinion_wheel.stiffness == StiffnessShape::iso_6336)
+      problem("mesh.pinion_wheel.stiffness", fmt::format("needs a transverse contact ratio of 1 at least; it is {}",
+                                                         to_text(pair->gears.contact_ratio(), 4)));
+    if (scene_.pinion_wheel.stiffness == StiffnessShape::closed_form) {
+      if (const auto why = no_closed_form(scene_); !why.empty())
+        problem("mesh.pinion_wheel.stiffness", "is not possible: " + why + "; use \"computed\"");
+    }
+    if (scene_.pinion_wheel.stiffness != StiffnessShape::computed) return;
+    const auto solid = pair_solid_reason(scene_, *pair);
+    if (scene_.fidelity == Fidelity::resolved && scene_.stage.helix_angle != 0)
+      problem("model", "cannot represent helical gears: use \"automatic\" or \"solid\"");
+    if ((scene_.fidelity == Fidelity::plane || scene_.fidelity == Fidelity::closed_form) && !solid.empty())
+      problem("model", fmt::format("cannot represent the mesh: {}; use \"automatic\" or \"solid\"{}", solid,
+                                   scene_.fidelity == Fidelity::closed_form
+                                       ? ", or stiffness = \"closed_form\" in [mesh.pinion_wheel]"
+                                       : ""));
+  }
+};
+
+}  // namespace
+
+void check_pair_scene(Scene& scene, std::vector<Problem>& problems) { PairChecker(scene, problems).run(); }
+
+}  // namespace annulus::app

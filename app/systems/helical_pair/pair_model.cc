@@ -1,0 +1,150 @@
+#include "app/systems/helical_pair/pair_model.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "app/content_id.h"
+#include "app/model/gear_geometry.h"
+#include "app/model/stiff_supports.h"
+#include "app/systems/planetary/stage_response.h"
+#include "core/errors.h"
+
+namespace annulus::app {
+
+namespace {
+
+geometry::Gear pair_gear(const Scene& scene, const PairGearInput& input, const char* name, int hand) {
+  try {
+    return make_gear(scene, input, geometry::GearKind::external, hand);
+  } catch (const GeometryError& error) {
+    throw GeometryError(std::string(name) + ": " + error.what());
+  }
+}
+
+dynamics::PairGear lumped_gear(const Scene& scene, const PairGearInput& input, const geometry::Gear& gear, double error,
+                               double phase) {
+  dynamics::PairGear result;
+  result.teeth = input.teeth;
+  result.mass = *input.mass;
+  result.inertia = *pair_inertia(scene, input);
+  result.radius = gear.base_radius();
+  result.bearing_transverse = input.bearing_transverse;
+  result.bearing_axial = input.bearing_axial;
+  result.error = {error, phase};
+  return result;
+}
+
+void add_pair_gear(ContentId& id, const std::string& name, const dynamics::PairGear& gear) {
+  id.add(name + ".teeth", gear.teeth).add(name + ".mass", gear.mass).add(name + ".inertia", gear.inertia);
+  id.add(name + ".radius", gear.radius).add(name + ".y", gear.bearing_transverse).add(name + ".z", gear.bearing_axial);
+  id.add(name + ".error", gear.error.amount).add(name + ".phase", gear.error.phase);
+}
+
+void add_pair_mesh(ContentId& id, const dynamics::MeshExcitation& mesh, const StiffnessTable* table) {
+  if (const auto* c = std::get_if<dynamics::ConstantStiffness>(&mesh)) {
+    id.add("constant", c->mean);
+  } else if (const auto* h = std::get_if<dynamics::HarmonicStiffness>(&mesh)) {
+    id.add("harmonic", h->mean).add("ripple", h->ripple).add("shift", h->phase_shift);
+  } else if (const auto* r = std::get_if<dynamics::RectangularStiffness>(&mesh)) {
+    id.add("rectangular", r->mean).add("ripple", r->ripple).add("duty", r->duty).add("shift", r->phase_shift);
+  } else {
+    require(table != nullptr, "a tabulated stiffness has a table");
+    const bool law = std::get<dynamics::TableStiffness>(mesh).surface != nullptr;
+    id.add("law", law ? 1 : 0);
+    for (const double load : table->loads()) id.add("load", load);
+    for (int phase = 0; phase < table->phases(); ++phase) {
+      for (int load = 0; load < static_cast<int>(table->loads().size()); ++load) {
+        const auto& e = table->at(0, phase, load);
+        id.add("u", e.unloaded_te).add("k", e.stiffness_secant).add("t", e.stiffness_tangent);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+double PairGeometry::to_normal() const { return 1 / std::pow(std::cos(base_helix_angle), 2); }
+
+double pair_centre_distance(const Scene& scene) {
+  const auto& stage = scene.stage;
+  if (stage.centre_distance > 0) return stage.centre_distance;
+  const auto gear = pair_gear(scene, scene.pinion, "pinion", 1);
+  const int teeth = scene.pinion.teeth + scene.wheel.teeth;
+  const double shift = scene.pinion.profile_shift + scene.wheel.profile_shift, at = gear.transverse_pressure_angle();
+  // inv(working angle), ISO 21771.
+  const double inv = geometry::involute(at) + 2 * std::tan(stage.pressure_angle) * shift / teeth;
+  if (inv < 0)
+    throw GeometryError("pinion, wheel: the profile shifts leave no working pressure angle; make them larger");
+  // Without shifts nothing need be inverted.
+  const double working = shift == 0 ? at : geometry::inverse_involute(inv);
+  return gear.transverse_module() * teeth / 2 * std::cos(at) / std::cos(working);
+}
+
+std::optional<double> pair_inertia(const Scene& scene, const PairGearInput& gear) {
+  if (gear.inertia || !gear.mass) return gear.inertia;
+  const double radius = scene.stage.module * gear.teeth / (2 * std::cos(scene.stage.helix_angle));
+  return *gear.mass * radius * radius / 2;
+}
+
+PairGeometry make_pair_geometry(const Scene& scene) {
+  const auto pinion = pair_gear(scene, scene.pinion, "pinion", 1);
+  const auto wheel = pair_gear(scene, scene.wheel, "wheel", -1);
+  const double distance = pair_centre_distance(scene);
+  try {
+    PairGeometry geometry{geometry::GearPair(pinion, wheel, distance)};
+    geometry.base_helix_angle = std::abs(pinion.base_helix_angle());
+    geometry.transverse_force = std::abs(scene.stage.pinion_torque) / pinion.base_radius();
+    return geometry;
+  } catch (const GeometryError& error) {
+    throw GeometryError(std::string("pinion (as planet) and wheel: ") + error.what());
+  }
+}
+
+dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry, const dynamics::MeshExcitation& mesh,
+                                double mesh_error) {
+  if (!scene.dynamics) throw InternalError("internal error: dynamics of a scene without [dynamics]");
+  const auto& d = *scene.dynamics;
+  const auto& e = scene.errors;
+  dynamics::HelicalPair pair;
+  pair.pinion = lumped_gear(scene, scene.pinion, geometry.pinion(), e.pinion_error, e.pinion_error_phase);
+  pair.wheel = lumped_gear(scene, scene.wheel, geometry.wheel(), e.wheel_error, e.wheel_error_phase);
+  const double stiffness = dynamics::mean_stiffness(mesh);
+  for (auto* gear : {&pair.pinion, &pair.wheel})
+    for (auto* bearing : {&gear->bearing_transverse, &gear->bearing_axial})
+      *bearing = rigid_if_stiff(*bearing, stiffness, scene.accuracy);
+  // The other hand turns only the sign of the axial motions.
+  pair.base_helix_angle = std::copysign(geometry.base_helix_angle, scene.stage.helix_angle);
+  pair.mesh = mesh;
+  pair.mesh_error = {mesh_error, e.mesh_error_phase};
+  pair.half_backlash = scene.pinion_wheel.half_backlash.value_or(d.half_backlash);
+  pair.mesh_damping_ratio = d.mesh_damping_ratio;
+  pair.bearing_damping_ratio = d.support_damping_ratio;
+  pair.damping_without_contact = d.mesh_damping == MeshDamping::always;
+  pair.pinion_speed = scene.stage.pinion_speed;
+  pair.pinion_torque = scene.stage.pinion_torque;
+  return pair;
+}
+
+dynamics::SimulationOptions pair_simulation(const Scene& scene) {
+  const double mesh_frequency = scene.pinion.teeth * scene.stage.pinion_speed / (2 * std::numbers::pi);
+  return given_simulation(*scene.dynamics, mesh_frequency);
+}
+
+std::string pair_id(const dynamics::HelicalPair& pair, const dynamics::SimulationOptions& options,
+                    const StiffnessTable* table) {
+  ContentId id;
+  add_pair_gear(id, "pinion", pair.pinion);
+  add_pair_gear(id, "wheel", pair.wheel);
+  add_pair_mesh(id, pair.mesh, table);
+  id.add("base_helix_angle", pair.base_helix_angle).add("half_backlash", pair.half_backlash.value_or(-1));
+  id.add("mesh_error", pair.mesh_error.amount).add("phase", pair.mesh_error.phase);
+  id.add("mesh_damping", pair.mesh_damping_ratio).add("bearing_damping", pair.bearing_damping_ratio);
+  id.add("always", pair.damping_without_contact ? 1 : 0);
+  id.add("speed", pair.pinion_speed).add("torque", pair.pinion_torque);
+  id.add("method", static_cast<int>(options.integrator.method)).add("tolerance", options.integrator.relative_tolerance);
+  id.add("fixed_step", options.integrator.fixed_step).add("cycles", options.mesh_cycles.value_or(0));
+  id.add("confirm", options.confirm ? 1 : 0).add("samples", options.samples_per_cycle);
+  return id.id();
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/model/mesh_result.h"
+#include "app/pipeline.h"
+#include "app/systems/helical_pair/pair_model.h"
+#include "dynamics/system/mesh_excitation.h"
+
+/// Where the stiffness of a helical pair's mesh comes from.
+///
+/// Tables (finite elements, closed form, file) hold forces and transmission errors along the transverse line of action,
+/// as all tables of annulus do; the lumped model and every given stiffness those along the normal of the flanks.
+namespace annulus::app {
+
+/// The mesh as a solid finite-element model, or "given" where something else is asked for.
+[[nodiscard]] MeshModel pair_mesh_model(const Scene& scene, const PairGeometry& geometry);
+/// Why the plane and closed-form models cannot represent it; empty when they can.
+[[nodiscard]] std::string pair_solid_reason(const Scene& scene, const PairGeometry& geometry);
+
+/// N/m along the normal: ISO 6336-1, method B.
+[[nodiscard]] double iso_pair_stiffness(const Scene& scene, const PairGeometry& geometry);
+
+/// Why there is no closed form of this pair; empty when there is.
+[[nodiscard]] std::string no_closed_form(const Scene& scene);
+/// The closed form of the transverse section (model closed_form, flanks without modifications), its slices staggered
+/// along the helix: at one phase they stand at phases spread over the overlap ratio and share one deflection along the
+/// transverse line of action. Loads around `transverse_force` as in every table. The error of a closed form is not
+/// controlled. Throws InputError where there is none.
+[[nodiscard]] StiffnessTable closed_form_pair_table(const Scene& scene, const PairGeometry& geometry,
+                                                    double transverse_force);
+
+/// Forces and transmission errors along the normal of the flanks instead of the transverse line of action.
+[[nodiscard]] StiffnessTable along_normal(const StiffnessTable& transverse, double base_helix_angle);
+
+/// The stiffness the lumped model takes.
+struct PairMesh {
+  MeshModel model{};
+  std::optional<MeshResult> computed{};   ///< by finite elements
+  std::optional<StiffnessTable> table{};  ///< transverse; of computed, closed_form and table
+};
+/// Everything but finite elements, which `solved` brings. Throws InputError for a table that cannot be read.
+[[nodiscard]] PairMesh pair_mesh(const Scene& scene, const PairGeometry& geometry, const MeshModel& model,
+                                 std::optional<MeshResult> solved);
+[[nodiscard]] dynamics::MeshExcitation pair_excitation(const Scene& scene, const PairGeometry& geometry,
+                                                       const PairMesh& mesh);
+
+/// A mean stiffness at the operating point, N/m along the normal.
+struct MeanStiffness {
+  std::string source;         ///< "iso_6336", "closed_form", "computed", "given"
+  double value = 0;           ///< NaN: not available
+  double error_relative = 0;  ///< NaN: not controlled
+  std::string note;           ///< what it is, or why it is not available
+  bool taken = false;         ///< by the lumped model
+};
+/// ISO formula, closed form and finite elements beside each other, and what the scene gives instead if it does.
+[[nodiscard]] std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeometry& geometry,
+                                                          const PairMesh& mesh);
+
+}  // namespace annulus::app

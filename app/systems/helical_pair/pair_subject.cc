@@ -1,0 +1,84 @@
+#include "app/systems/helical_pair/pair_subject.h"
+
+#include <fmt/format.h>
+
+#include "app/content_id.h"
+#include "app/study/study_cases.h"
+#include "app/systems/planetary/planetary_subject.h"
+#include "core/errors.h"
+#include "core/log.h"
+
+namespace annulus::app {
+
+namespace {
+
+/// How responses of studies are found; enters the identity of kept results.
+constexpr const char* pair_point_method = "harmonic balance, marching where teeth part; 1";
+
+}  // namespace
+
+FigureSet PairSubject::nominal(std::size_t /*variant*/) const {
+  return nominal_.response ? dynamics::figures(nominal_.response->figures) : FigureSet{};
+}
+
+bool PairSubject::table_serves_pair(const MeshModel& changed, const PairGeometry& geometry) const {
+  return table_serves(nominal_.mesh.model, changed, geometry.transverse_force);
+}
+
+bool PairSubject::prepare(const std::vector<Override>& overrides, const std::string& where,
+                          const std::string& folder) const {
+  const auto changed = with_overrides(nominal_.scene, overrides);
+  const auto geometry = make_pair_geometry(changed);
+  const auto model = pair_mesh_model(changed, geometry);
+  if (table_serves_pair(model, geometry)) return false;
+  const auto inside = options_in(folder);
+  if (load(model, inside.out)) {
+    count_reuse(inside, study_meshes, 1, 0);
+    return true;
+  }
+  log::info(where + ":");
+  (void)computed_stiffness(model, {""}, inside);
+  return true;
+}
+
+ChangedModel PairSubject::model(const std::vector<Override>& overrides, const std::string& where,
+                                std::size_t /*variant*/, const std::string& folder, bool with_id) const {
+  try {
+    const auto changed = with_overrides(nominal_.scene, overrides);
+    const auto geometry = make_pair_geometry(changed);
+    const auto mesh_model = pair_mesh_model(changed, geometry);
+    std::optional<MeshResult> solved;
+    if (mesh_model.computed()) {
+      if (table_serves_pair(mesh_model, geometry)) {
+        solved = nominal_.mesh.computed;
+      } else if (folder.empty()) {
+        throw InputError(fmt::format("the mesh is not tabulated for a mesh force of {} kN",
+                                     to_text(geometry.transverse_force / 1e3, 5)));
+      } else {
+        solved = load(mesh_model, options_in(folder).out);
+        if (!solved) throw InternalError("internal error: a changed scene without its stiffness table");
+      }
+    }
+    const auto mesh = pair_mesh(changed, geometry, mesh_model, std::move(solved));
+    const auto errors = pair_errors(changed, &nominal_.errors);
+    auto pair = make_pair(changed, geometry, pair_excitation(changed, geometry, mesh), errors.amplitude);
+    auto simulation = pair_simulation(changed);
+    simulation.confirm = false;
+    simulation.keep_series = false;
+    std::string id;
+    if (with_id)
+      id = ContentId()
+               .add("response", pair_id(pair, simulation, mesh.table ? &*mesh.table : nullptr))
+               .add("method", pair_point_method)
+               .id();
+    return {id, [pair = std::move(pair), simulation](bool quick) {
+              auto figures = dynamics::figures(dynamics::evaluate_pair(pair, simulation));
+              if (!quick) figures.add(dynamics::frequency_figures(pair));
+              return StudyPoint{.figures = {dynamics::pair_figures(), figures}};
+            }};
+  } catch (const InputError&) {
+    rethrow_at(nominal_.scene, where);
+  }
+}
+
+}  // namespace annulus::app

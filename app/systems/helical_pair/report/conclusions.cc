@@ -1,0 +1,265 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "app/study/study_subject.h"
+#include "app/systems/helical_pair/report/pair_report_parts.h"
+#include "core/units.h"
+#include "dynamics/figures/spectrum.h"
+
+namespace annulus::app {
+
+namespace {
+
+/// Up to which torque a statement holds: nothing when at none, infinite when at all.
+template <class Holds>
+std::optional<double> holds_up_to(const std::vector<const ShareRow*>& rows, Holds holds) {
+  std::optional<double> last;
+  for (const auto* row : rows) {
+    if (!holds(*row)) return last;
+    last = row->pinion_torque;
+  }
+  return rows.empty() ? std::nullopt : std::optional(rigid);
+}
+
+bool errors_rule_range(const ShareRow& row) {
+  return row.shares.errors_alone.quasi_static > row.shares.stiffness_alone.quasi_static;
+}
+/// The largest error counts from where the flanks just touch: half the range of the errors on top of the deflection.
+bool errors_rule_largest(const ShareRow& row) {
+  return row.shares.errors_alone.quasi_static / 2 > std::abs(row.shares.load_deflection);
+}
+
+struct Conclusion {
+  std::string statement, numbers, why;
+  std::optional<bool> agrees{};  ///< nothing: cannot be decided
+};
+
+std::string where_text(const std::optional<double>& limit, const std::vector<const ShareRow*>& rows) {
+  if (!limit) return "at none of the torques";
+  if (std::isinf(*limit)) return fmt::format("at all torques up to {}", torque_text(rows.back()->pinion_torque));
+  return fmt::format("up to {} only", torque_text(*limit));
+}
+
+void add_shares(std::vector<Conclusion>& list, const PairRunResult& result) {
+  const auto rows = good_rows(result);
+  if (rows.empty()) return;
+  const auto &first = *rows.front(), &last = *rows.back();
+  const auto range = holds_up_to(rows, errors_rule_range), largest = holds_up_to(rows, errors_rule_largest);
+  list.push_back({"Manufacturing error is the main cause of the transmission error: of its range, peak to peak",
+                  fmt::format("quasi-static, errors alone {} µm; stiffness alone {} µm at {} to {} µm at {}",
+                              um_text(first.shares.errors_alone.quasi_static),
+                              um_text(first.shares.stiffness_alone.quasi_static), torque_text(first.pinion_torque),
+                              um_text(last.shares.stiffness_alone.quasi_static), torque_text(last.pinion_torque)),
+                  "Holds " + where_text(range, rows) +
+                      ". The errors do not depend on the load, the stiffness ripple "
+                      "moves the teeth in proportion to it.",
+                  range && std::isinf(*range)});
+  list.push_back({"The same of its largest value; deflection under load matters little",
+                  fmt::format("amplitude of the errors {} µm; mean deflection {} µm at {} to {} µm at {}",
+                              um_text(first.shares.errors_alone.quasi_static / 2),
+                              um_text(first.shares.load_deflection), torque_text(first.pinion_torque),
+                              um_text(last.shares.load_deflection), torque_text(last.pinion_torque)),
+                  "Holds " + where_text(largest, rows) +
+                      (largest && std::isinf(*largest)
+                           ? "."
+                           : ". Elsewhere the largest transmission error is deflection of teeth and bearings."),
+                  largest && std::isinf(*largest)});
+}
+
+/// How far values over the loads stay from their straight line, relative to their range.
+double off_line(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto n = static_cast<double>(x.size());
+  double mx = 0, my = 0, xx = 0, xy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) mx += x[i] / n, my += y[i] / n;
+  for (std::size_t i = 0; i < x.size(); ++i) xx += (x[i] - mx) * (x[i] - mx), xy += (x[i] - mx) * (y[i] - my);
+  double worst = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) worst = std::max(worst, std::abs(y[i] - my - xy / xx * (x[i] - mx)));
+  const auto [low, high] = std::minmax_element(y.begin(), y.end());
+  return worst / (*high - *low);
+}
+
+/// Figures 5 and 6: the rows of a grid over torque at its lowest speed.
+void add_loads(std::vector<Conclusion>& list, const PairRunResult& result) {
+  for (const auto& grid : result.studies.grids) {
+    if (grid.grid.x.input != "stage.pinion_torque_Nm" || grid.x.size() < 3) continue;
+    for (const auto& [column, words, scale, unit] :
+         {std::tuple{"mesh_force_max_N", "The largest mesh force grows with the torque", 1e-3, "kN"},
+          {"transmission_error_max_m", "The largest transmission error grows with the torque", 1e6, "µm"}}) {
+      std::vector<double> x, y;
+      for (std::size_t i = 0; i < grid.x.size(); ++i) {
+        const double value = grid.variants.front()[i].value(column);
+        if (std::isfinite(value)) x.push_back(grid.x[i]), y.push_back(scale * value);
+      }
+      if (x.size() < 3) continue;
+      const bool grows = std::is_sorted(y.begin(), y.end());
+      list.push_back(
+          {words,
+           fmt::format("{} to {} {} from {} to {}, at {} {}", to_text(y.front(), 4), to_text(y.back(), 4), unit,
+                       torque_text(x.front()), torque_text(x.back()), to_text(grid.y.front(), 4), grid.y_unit),
+           fmt::format("{}; farthest from a straight line by {:.1f} % of the range.",
+                       grows ? "It grows throughout" : "It does not grow throughout", 100 * off_line(x, y)),
+           grows});
+    }
+    return;
+  }
+}
+
+std::string rpm_text(const SpeedRow& row) { return to_text(row.pinion_speed / units::rpm, 5) + " r/min"; }
+
+/// From which multiple of the mesh frequency on the computed transmission error is smaller than its estimated error.
+struct KnownOrders {
+  double error = 0;  ///< m
+  int first_unknown = 1;
+};
+KnownOrders known_orders(const MeshResult& mesh) {
+  Eigen::VectorXd lte(mesh.table.phases());
+  for (int i = 0; i < mesh.table.phases(); ++i) lte[i] = mesh.table.at(0, i, static_cast<int>(mesh.nominal)).lte;
+  const auto spectrum = dynamics::spectrum(lte, 1);
+  KnownOrders known{.error = mesh.lte_mean().value * mesh.lte_mean().error_relative};
+  while (known.first_unknown < spectrum.amplitude.size() && spectrum.amplitude[known.first_unknown] > known.error)
+    ++known.first_unknown;
+  return known;
+}
+
+Conclusion excitation(const PairRunResult& result, const SpeedRow& low, const SpeedRow& top, const SpeedRow& high) {
+  const auto errors_more = [](const SpeedRow& row) {
+    return row.errors_alone.acceleration > row.stiffness_alone.acceleration;
+  };
+  const bool stiffness_low = !errors_more(low), errors_high = errors_more(high);
+  Conclusion c{.statement = "Stiffness excites most at low speed, the errors at high speed", .numbers = {}, .why = {}};
+  for (const auto* row : {&low, &top, &high})
+    c.numbers += fmt::format(
+        "{}{} and {} m/s² at {}", c.numbers.empty() ? "acceleration, errors alone and stiffness alone: " : ", ",
+        to_text(row->errors_alone.acceleration, 3), to_text(row->stiffness_alone.acceleration, 3), rpm_text(*row));
+  c.why = fmt::format("At the lowest speed the {} excite{} more, at the highest the {}. ",
+                      stiffness_low ? "stiffness" : "errors", stiffness_low ? "s" : "",
+                      errors_high ? "errors" : "stiffness");
+  c.agrees = stiffness_low && errors_high && errors_more(top);
+  if (std::holds_alternative<dynamics::HarmonicStiffness>(result.pair->mesh)) {
+    c.why +=
+        "A harmonic stiffness and the error both excite at mesh frequency: their ratio follows from the amplitude of "
+        "the error against the ripple of the deflection, hardly from the speed.";
+  } else {
+    c.why += "At low speed the higher harmonics of the stiffness weigh most.";
+  }
+  if (!result.mesh.computed || !stiffness_low) return c;
+  // What excites at low speed may be the roughness of the table.
+  const auto known = known_orders(*result.mesh.computed);
+  c.why += fmt::format(
+      " From order {} on those of the table are smaller than its estimated error of ±{} µm: whether they are real is "
+      "not "
+      "known.",
+      known.first_unknown, um_text(known.error, 2));
+  if (c.agrees == true) c.agrees = std::nullopt;
+  return c;
+}
+
+void add_speeds(std::vector<Conclusion>& list, const PairRunResult& result) {
+  const auto rows = good_speeds(result);
+  if (rows.size() < 4) return;
+  const auto &low = *rows.front(), &high = *rows.back();
+  const auto top = *std::max_element(
+      rows.begin(), rows.end(), [](const auto* a, const auto* b) { return a->all.acceleration < b->all.acceleration; });
+  // "Steady at low speed": the lower half of the speeds changes little beside what the upper half does.
+  const auto& middle = *rows[rows.size() / 2];
+  for (const auto& [words, pick, unit, scale] :
+       {std::tuple{"The largest acceleration stays about the same at low speed and rises at high speed",
+                   &SpeedRow::Motion::acceleration, "m/s²", 1.0},
+        {"The range of the mesh force stays about the same at low speed and rises at high speed",
+         &SpeedRow::Motion::force_range, "kN", 1e-3}}) {
+    const double a = low.all.*pick, b = middle.all.*pick;
+    double peak = 0;
+    for (const auto* row : rows) peak = std::max(peak, row->all.*pick);
+    // On a linear axis a twentieth of the height looks steady, a fifth does not; between, opinions differ.
+    const double change = std::abs(b - a) / peak;
+    const bool rises = peak > 1.1 * b;
+    std::optional<bool> agrees;
+    if (!rises || change > 0.2) agrees = false;
+    if (rises && change < 0.05) agrees = true;
+    list.push_back(
+        {words,
+         fmt::format("{} at {}, {} at {}, {} {} at most", to_text(scale * a, 4), rpm_text(low), to_text(scale * b, 4),
+                     rpm_text(middle), to_text(scale * peak, 4), unit),
+         fmt::format("Between the lowest and the middle speed it changes by {:.0f} % of its largest value; from the "
+                     "middle speed to the peak it {}. Below 5 % a linear axis shows it as steady, above 20 % it "
+                     "does not.",
+                     100 * change, rises ? "rises" : "does not rise"),
+         agrees});
+  }
+  list.push_back(excitation(result, low, *top, high));
+}
+
+std::vector<Conclusion> conclusions(const PairRunResult& result) {
+  std::vector<Conclusion> list;
+  add_shares(list, result);
+  add_loads(list, result);
+  add_speeds(list, result);
+  return list;
+}
+
+}  // namespace
+
+Blocks pair_verdict(const PairRunResult& result) {
+  Blocks blocks;
+  if (result.response) {
+    const auto& f = result.response->figures;
+    const auto force = dynamics::loaded_force(f).largest;
+    const auto& te = f.dynamic.transmission_error;
+    blocks += paragraph(fmt::format(
+        "Largest mesh force {} kN{}, largest acceleration of the teeth {} m/s², transmission error {} µm peak to peak "
+        "about a mean of {} µm.{}",
+        measured(force.value / 1e3, force.error / 1e3),
+        std::isfinite(f.dynamic_factor.value)
+            ? fmt::format(" (dynamic factor {})", measured(f.dynamic_factor.value, f.dynamic_factor.error))
+            : "",
+        measured(f.acceleration.tooth.value, f.acceleration.tooth.error),
+        measured(1e6 * te.peak_to_peak.value, 1e6 * te.peak_to_peak.error), um_text(te.mean),
+        f.contact_loss > 0 ? fmt::format(" The teeth lose contact for {:.2g} % of the time.", 100 * f.contact_loss)
+                           : std::string(" The teeth never lose contact.")));
+    if (!f.steady)
+      blocks += paragraph("No periodic steady state was reached; the figures hold for the evaluated window only.");
+  }
+  const auto rows = good_rows(result);
+  if (!rows.empty()) {
+    const auto range = holds_up_to(rows, errors_rule_range), largest = holds_up_to(rows, errors_rule_largest);
+    blocks += paragraph(phrase(
+        "That manufacturing error is the main cause of the transmission error holds for its range, peak to peak, {}, "
+        "and for its largest value {}, of {} torques from {} to {}.",
+        bold(where_text(range, rows)), bold(where_text(largest, rows)), rows.size(),
+        torque_text(rows.front()->pinion_torque), torque_text(rows.back()->pinion_torque)));
+  }
+  const auto all = conclusions(result);
+  const auto count = [&](std::optional<bool> what) {
+    return std::count_if(all.begin(), all.end(), [&](const auto& c) { return c.agrees == what; });
+  };
+  if (!all.empty())
+    blocks += paragraph(phrase(
+        "Conclusions of the paper behind this model, compared with these numbers: {} hold, {} fail, {} cannot be "
+        "decided ({}).",
+        count(true), count(false), count(std::nullopt), link("details", "conclusions")));
+  if (!result.response) blocks += paragraph("Mesh stiffness and error law only.");
+  return verdict_box(blocks);
+}
+
+Section pair_conclusions_section(const PairRunResult& result) {
+  Section section{"conclusions", "The paper's conclusions"};
+  const auto all = conclusions(result);
+  if (all.empty()) return section;
+  PageTable table{.head = {"statement", "computed", "", "why"}};
+  for (const auto& c : all)
+    table.rows.push_back({c.statement, c.numbers,
+                          !c.agrees   ? tag(Text::Look::undecided, "undecided")
+                          : *c.agrees ? tag(Text::Look::agrees, "holds")
+                                      : tag(Text::Look::disagrees, "fails"),
+                          c.why});
+  section.blocks = paragraph(
+                       "Statements of the paper on helical pairs with manufacturing errors, judged from the numbers of "
+                       "this scene.") +
+                   table;
+  return section;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,78 @@
+#include "app/systems/planetary/carried_errors.h"
+
+#include <fmt/format.h>
+
+#include "dynamics/error_propagation/error_propagation.h"
+
+namespace annulus::app {
+
+namespace {
+
+using dynamics::DynamicResponse;
+using dynamics::MeshKindResult;
+
+/// Calls visit(key, figure, figure's errors) for every figure of one kind of mesh.
+template <class Kind, class Errors, class Visit>
+void for_each_figure(const std::string& mesh, Kind& kind, Errors& errors, Visit visit) {
+  visit(mesh + "_instantaneous", kind.load_sharing.instantaneous, errors.instantaneous);
+  visit(mesh + "_averaged", kind.load_sharing.averaged, errors.averaged);
+  visit(mesh + "_quasi_static", kind.load_sharing.quasi_static, errors.quasi_static);
+  errors.dynamic_factor_max.resize(kind.branches.size());
+  for (std::size_t n = 0; n < kind.branches.size(); ++n)
+    visit(fmt::format("{}{}_dynamic_factor", mesh, n + 1), kind.branches[n].dynamic_factor_max,
+          errors.dynamic_factor_max[n]);
+}
+
+template <class Response, class Errors, class Visit>
+void for_each_figure(Response& response, Errors& errors, Visit visit) {
+  for_each_figure("sun_planet", response.sun_planet, errors.sun_planet, visit);
+  for_each_figure("ring_planet", response.ring_planet, errors.ring_planet, visit);
+}
+
+/// The figures that carry errors, every planet's by itself.
+dynamics::Evaluation evaluation_of(const DynamicResponse& response) {
+  dynamics::Evaluation evaluation{.figures = {}, .outcome = response};
+  ResponseErrors unused;
+  for_each_figure(response, unused, [&](const std::string& key, const Figure& figure, const ErrorParts&) {
+    evaluation.figures.set(key, figure);
+  });
+  return evaluation;
+}
+
+bool from_table(const dynamics::MeshExcitation& excitation) {
+  return std::holds_alternative<dynamics::TableStiffness>(excitation);
+}
+
+}  // namespace
+
+ResponseErrors carried_errors(const DynamicResponse& nominal, const dynamics::SimulationOptions& options,
+                              const StageTables& tables) {
+  const auto stage = tables.make(tables.sun_mesh, tables.ring_mesh);
+  const bool sun = from_table(stage.sun_mesh), ring = from_table(stage.ring_mesh);
+  const auto comparison = dynamics::comparison_options(nominal, options);
+  dynamics::TabulatedModel model{.meshes = {},
+                                 .evaluate = {},
+                                 .seeks_steady_state = comparison.seeks_steady_state,
+                                 .nominal_alike = comparison.nominal_alike};
+  if (sun) model.meshes.push_back({"sun mesh", tables.sun_mesh.table, tables.sun_mesh.mean_stiffness().parts});
+  if (ring) model.meshes.push_back({"ring mesh", tables.ring_mesh.table, tables.ring_mesh.mean_stiffness().parts});
+  model.evaluate = [&](const std::vector<StiffnessTable>& changed) {
+    MeshResult sun_mesh = tables.sun_mesh, ring_mesh = tables.ring_mesh;
+    if (sun) sun_mesh.table = changed.front();
+    if (ring) ring_mesh.table = changed.back();
+    return evaluation_of(dynamics::simulate(tables.make(sun_mesh, ring_mesh), comparison.simulation));
+  };
+  const auto found = propagate_errors(evaluation_of(nominal), model);
+  ResponseErrors errors;
+  for_each_figure(nominal, errors,
+                  [&](const std::string& key, const Figure&, ErrorParts& parts) { parts = found.find(key)->parts; });
+  return errors;
+}
+
+void set_errors(const ResponseErrors& errors, DynamicResponse& response) {
+  auto parts_of = errors;
+  for_each_figure(response, parts_of,
+                  [](const std::string&, Figure& figure, const ErrorParts& parts) { figure.error = parts.total(); });
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,269 @@
+#include "app/systems/planetary/comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "app/model/gear_system.h"
+#include "app/report/plot/curves.h"
+#include "core/units.h"
+
+namespace annulus::app {
+
+namespace {
+
+const Measured* find(const RingQuantity& quantity, const std::string& ring) {
+  const auto found =
+      std::find_if(quantity.rings.begin(), quantity.rings.end(), [&](const Measured& m) { return m.ring == ring; });
+  return found == quantity.rings.end() ? nullptr : &*found;
+}
+
+std::string numbers_text(const RingQuantity& quantity) {
+  auto sorted = quantity.rings;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Measured& a, const Measured& b) { return a.value > b.value; });
+  std::string text;
+  for (const auto& m : sorted) text += (text.empty() ? "" : " > ") + m.ring + " " + to_text(m.value, quantity.digits);
+  return text;
+}
+
+/// Outcome of "a is larger than b": undecided when the error bars overlap or are not known.
+Verdict::Outcome larger(const Measured& a, const Measured& b) {
+  if (!told_apart(a, b)) return Verdict::Outcome::undecided;
+  return a.value > b.value ? Verdict::Outcome::agrees : Verdict::Outcome::disagrees;
+}
+
+void worsen(Verdict& verdict, const Measured& a, const Measured& b, double margin, int digits) {
+  const auto outcome = larger(a, b);
+  const double ahead = a.value / b.value - 1;
+  const bool too_close = outcome == Verdict::Outcome::agrees && ahead < margin;
+  if (outcome == Verdict::Outcome::agrees && !too_close) return;
+  verdict.why += verdict.why.empty() ? "" : "; ";
+  if (outcome == Verdict::Outcome::undecided) {
+    verdict.why += undecided_text(a, b, digits);
+    if (verdict.outcome == Verdict::Outcome::agrees) verdict.outcome = Verdict::Outcome::undecided;
+    return;
+  }
+  const std::string values = both_text(a, b, digits);
+  verdict.why += too_close ? fmt::format("{} differ by only {:.2g} %", values, 100 * ahead)
+                           : values + " are in the opposite order";
+  verdict.outcome = Verdict::Outcome::disagrees;
+}
+
+/// What stands behind a load sharing order, from the numbers: how far the rings' path stiffnesses are apart at all.
+std::string sharing_reason(const RunResult& result) {
+  std::string parts;
+  RangeFinder totals;
+  for (std::size_t i = 0; i < result.rings.size(); ++i) {
+    const auto path = path_stiffness(result, i);
+    totals.add(path.total);
+    parts += fmt::format("{}{} {:.0f} %", i ? ", " : "", result.rings[i].name, 100 * path.ring_part);
+  }
+  const auto range = totals.range(0);
+  return fmt::format(
+      ". The ring mesh brings only a part of the compliance of a planet's path ({}); the path stiffnesses of the rings "
+      "lie {:.1f} % apart, "
+      "planet bearings and error phases, which are not published, weigh more",
+      parts, 100 * (range.high / range.low - 1));
+}
+
+Verdict judge(const Reference::Order& order, const RingQuantity& quantity, const RunResult& result) {
+  Verdict verdict{.statement = order.statement,
+                  .where = order.where,
+                  .quantity = quantity.name,
+                  .computed = numbers_text(quantity),
+                  .published = {},
+                  .outcome = Verdict::Outcome::agrees,
+                  .why = {}};
+  for (std::size_t i = 0; i < order.rings.size(); ++i) {
+    verdict.published +=
+        (i ? " > " : "") + order.rings[i] + (order.values.empty() ? "" : " " + to_text(order.values[i], 5));
+    if (find(quantity, order.rings[i])) continue;
+    verdict.outcome = Verdict::Outcome::undecided;
+    verdict.why = "ring '" + order.rings[i] + "' is not part of this run";
+    return verdict;
+  }
+  if (order.rings.size() == 1) {
+    const auto* first = find(quantity, order.rings.front());
+    for (const auto& other : quantity.rings) {
+      if (other.ring != first->ring) worsen(verdict, *first, other, order.margin, quantity.digits);
+    }
+  }
+  for (std::size_t i = 0; i + 1 < order.rings.size(); ++i) {
+    worsen(verdict, *find(quantity, order.rings[i]), *find(quantity, order.rings[i + 1]), order.margin,
+           quantity.digits);
+  }
+  if (verdict.outcome != Verdict::Outcome::agrees && order.quantity == "load_sharing")
+    verdict.why += sharing_reason(result);
+  return verdict;
+}
+
+struct NominalRow {
+  double angle = 0, stiffness = 0;
+};
+/// Contact positions at the nominal load in order, the closure position left out.
+std::vector<NominalRow> nominal_rows(const MeshResult& mesh) {
+  const auto& csv = mesh.positions;
+  const auto angle = csv.column("ring_angle_deg"), load = csv.column("load_N"), phase = csv.column("mesh_phase");
+  const auto lte = csv.column("lte_um"), unloaded = csv.column("unloaded_te_um");
+  const double nominal = mesh.table.loads()[mesh.nominal];
+  std::vector<NominalRow> rows;
+  for (const auto& row : csv.rows) {
+    if (row[load] != nominal || row[phase] >= 1) continue;
+    rows.push_back({row[angle] * units::deg, nominal / ((row[lte] - row[unloaded]) * units::um)});
+  }
+  return rows;
+}
+
+/// Angle from the contact to the pin that carries the largest radial force, over all positions.
+double most_loaded_pin(const Csv& pins) {
+  const auto angle = pins.column("ring_angle_deg"), pin = pins.column("pin_angle_deg"),
+             force = pins.column("radial_force_N");
+  const auto largest = std::max_element(pins.rows.begin(), pins.rows.end(),
+                                        [&](const auto& a, const auto& b) { return a[force] < b[force]; });
+  return std::remainder(((*largest)[pin] - (*largest)[angle]) * units::deg, 2 * std::numbers::pi);
+}
+
+/// Mean of the samples within a quarter pitch of the places, over the mean of the others, less one.
+double near_over_far(const std::vector<std::pair<double, double>>& samples, double place, double pitch) {
+  double near = 0, far = 0;
+  int near_count = 0, far_count = 0;
+  for (const auto& [angle, value] : samples) {
+    const bool is_near = std::abs(std::remainder(angle - place, pitch)) < pitch / 4;
+    (is_near ? near : far) += value;
+    (is_near ? near_count : far_count) += 1;
+  }
+  return near_count && far_count ? (near / near_count) / (far / far_count) - 1 : 0;
+}
+
+/// Two readings of "at a pin": the contact itself passes a pin, or the pin that carries most stands in the path of
+/// force.
+std::vector<Verdict> judge_pin(const Reference::AtPin& statement, const RunResult& result) {
+  Verdict verdict{.statement = statement.statement,
+                  .where = statement.where,
+                  .quantity = "ring mesh stiffness over the pin pitch",
+                  .computed = {},
+                  .published = "stiffer at a pin",
+                  .outcome = Verdict::Outcome::undecided,
+                  .why = {}};
+  const auto found =
+      std::find_if(result.rings.begin(), result.rings.end(), [&](const auto& r) { return r.name == statement.ring; });
+  if (found == result.rings.end()) {
+    verdict.why = "ring '" + statement.ring + "' is not part of this run";
+    return {verdict};
+  }
+  const auto effect = pin_effect(result, static_cast<std::size_t>(found - result.rings.begin()));
+  if (!effect) {
+    verdict.why = "the stiffness of this ring was not computed over its pins";
+    return {verdict};
+  }
+  const double error = found->mesh.mean_stiffness().error_relative;
+  const auto outcome = [&](double relative) {
+    if (std::abs(relative) <= error) return Verdict::Outcome::undecided;
+    return relative > 0 ? Verdict::Outcome::agrees : Verdict::Outcome::disagrees;
+  };
+  Verdict loaded = verdict;
+  verdict.quantity = "ring mesh stiffness with the contact at a pin against between pins";
+  verdict.computed = fmt::format("{:+.1f} % at a pin; stiffest with the contact {:+.1f} teeth from the nearest pin",
+                                 100 * effect->contact_at_pin, effect->stiffest_teeth);
+  verdict.outcome = outcome(effect->contact_at_pin);
+  if (verdict.outcome != Verdict::Outcome::agrees) {
+    verdict.why = fmt::format(
+        "the force does not reach the housing behind the contact: the pin that carries most stands {:+.1f} teeth from "
+        "it",
+        effect->loaded_pin_teeth);
+  }
+  loaded.quantity = "ring mesh stiffness with a pin in the path of the force against between pins";
+  loaded.computed = fmt::format("{:+.1f} % with a pin {:+.1f} teeth from the contact, where a pin carries most",
+                                100 * effect->force_at_pin, effect->loaded_pin_teeth);
+  loaded.outcome = outcome(effect->force_at_pin);
+  return {loaded, verdict};
+}
+
+}  // namespace
+
+std::vector<RingQuantity> ring_quantities(const RunResult& result) {
+  // The definitions that are compared with published statements, the usual one first.
+  constexpr const char* keys[] = {"ring_planet_mean_stiffness_N_per_m",
+                                  "ring_planet_stiffness_ripple",
+                                  "sun_planet_load_sharing_averaged",
+                                  "ring_planet_load_sharing_averaged",
+                                  "sun_planet_load_sharing_instantaneous",
+                                  "sun_planet_load_sharing_quasi_static",
+                                  "sun_planet_dynamic_factor",
+                                  "ring_planet_dynamic_factor"};
+  const auto& specs = system_kind(result.scene.stage.kind).figures();
+  const auto variants = result.variants();
+  std::vector<RingQuantity> list;
+  for (const auto* key : keys) {
+    const auto* spec = find_figure(specs, key);
+    RingQuantity quantity{spec->quantity, spec->title, {}, spec->digits};
+    for (const auto& variant : variants) {
+      const auto figure = variant.figures.figure(key);
+      if (std::isfinite(figure.value)) quantity.rings.push_back({variant.name, figure.value, figure.error});
+    }
+    if (!quantity.rings.empty()) list.push_back(std::move(quantity));
+  }
+  return list;
+}
+
+std::vector<Verdict> compare(const Reference& reference, const RunResult& result) {
+  const auto quantities = ring_quantities(result);
+  std::vector<Verdict> verdicts;
+  for (const auto& order : reference.orders) {
+    for (const auto& quantity : quantities) {
+      if (quantity.key == order.quantity) verdicts.push_back(judge(order, quantity, result));
+    }
+  }
+  for (const auto& statement : reference.at_pins) {
+    const auto both = judge_pin(statement, result);
+    verdicts.insert(verdicts.end(), both.begin(), both.end());
+  }
+  return verdicts;
+}
+
+PathStiffness path_stiffness(const RunResult& result, std::size_t ring) {
+  const auto& set = result.geometry.rings.at(ring).set;
+  const double sun = 1 / result.sun_mesh.mean_stiffness().value;
+  const double mesh = 1 / result.rings.at(ring).mesh.mean_stiffness().value;
+  const double as = set.sun_mesh().working_pressure_angle(), ar = set.ring_mesh().working_pressure_angle();
+  const double lever = std::pow(std::cos(as) + std::cos(ar), 2) + std::pow(std::sin(as) - std::sin(ar), 2);
+  const double bearing = std::isfinite(result.scene.supports.planet) ? lever / result.scene.supports.planet : 0;
+  const double compliance = sun + mesh + bearing;
+  return {1 / compliance, mesh / compliance, sun / compliance, bearing / compliance};
+}
+
+std::optional<PinEffect> pin_effect(const RunResult& result, std::size_t ring) {
+  const auto& mesh = result.rings.at(ring).mesh;
+  const auto& input = result.scene.rings.at(ring);
+  if (!input.pins || mesh.positions.rows.empty() || mesh.pins.rows.empty()) return std::nullopt;
+  const double pitch = 2 * std::numbers::pi / *input.pins, tooth = 2 * std::numbers::pi / input.teeth;
+  const double first_pin = input.first_pin_angle.value_or(0);
+
+  PinEffect effect;
+  const auto loaded_pin = most_loaded_pin(mesh.pins);
+  effect.loaded_pin_teeth = loaded_pin / tooth;
+  std::vector<std::pair<double, double>> samples;  // ring angle of the contact, stiffness
+  for (const auto& row : nominal_rows(mesh)) samples.emplace_back(row.angle, row.stiffness);
+  effect.contact_at_pin = near_over_far(samples, first_pin, pitch);
+  effect.force_at_pin = near_over_far(samples, first_pin - loaded_pin, pitch);
+  // Means over one tooth pitch take out the ripple of the teeth themselves.
+  const auto per_cycle = static_cast<std::size_t>(mesh.table.phases());
+  double stiffest = 0;
+  for (std::size_t i = 0; i + per_cycle <= samples.size(); ++i) {
+    double sum = 0, angle = 0;
+    for (std::size_t k = i; k < i + per_cycle; ++k) {
+      sum += samples[k].second;
+      angle += samples[k].first / static_cast<double>(per_cycle);
+    }
+    if (sum <= stiffest) continue;
+    stiffest = sum;
+    effect.stiffest_teeth = std::remainder(angle - first_pin, pitch) / tooth;
+  }
+  return effect;
+}
+
+}  // namespace annulus::app

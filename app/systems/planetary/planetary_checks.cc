@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <set>
+
+#include "app/model/gear_geometry.h"
+#include "app/plan/mesh_model.h"
+#include "app/plan/ring_structures.h"
+#include "app/scene/key_checks.h"
+#include "app/scene/scene_limits.h"
+#include "app/scene/scene_schema.h"
+#include "app/systems/planetary/planetary_scene.h"
+#include "app/systems/planetary/ring_checks.h"
+#include "core/errors.h"
+#include "core/units.h"
+
+namespace annulus::app {
+
+namespace {
+
+class PlanetaryChecker : KeyChecks {
+ public:
+  using KeyChecks::KeyChecks;
+
+  void run() {
+    planet_angles();
+    errors();
+    ring_names();
+    // Problems of rings with the same name could not be assigned, so only the first one is checked.
+    std::set<std::string> seen;
+    for (auto& ring : scene_.rings) {
+      if (seen.insert(ring.name).second) check_ring(ring, scene_, problems_);
+    }
+    wave(scene_.sun_planet, "mesh.sun_planet");
+    wave(scene_.ring_planet, "mesh.ring_planet");
+    resolved_model();
+    axial_force();
+    plane_models();
+    rim_coupling();
+  }
+
+ private:
+  void planet_angles() {
+    const std::string key = "stage.planet_angles_deg";
+    if (!given(key) || !usable(key) || !usable("stage.planets")) return;
+    const auto& angles = scene_.stage.planet_angles;
+    if (angles.size() != static_cast<std::size_t>(scene_.stage.planets)) {
+      problem(key, "",
+              fmt::format("needs one angle per planet: {} angles for {} planets", angles.size(), scene_.stage.planets));
+    } else if (angles.front() != 0) {
+      problem(key, "", "the first angle must be 0, from which the others are measured");
+    } else if (std::adjacent_find(angles.begin(), angles.end(), std::greater_equal<>()) != angles.end() ||
+               angles.back() >= 2 * std::numbers::pi) {
+      problem(key, "", "angles must increase and stay below 360");
+    }
+  }
+
+  void errors() {
+    auto& e = scene_.errors;
+    list("errors.planet_eccentricity_um", e.planet_eccentricity);
+    list("errors.planet_eccentricity_phase_deg", e.planet_eccentricity_phase);
+    list("errors.planet_pin_position_error_um", e.planet_installation);
+    list("errors.planet_pin_position_error_phase_deg", e.planet_installation_phase);
+  }
+
+  void list(const std::string& key, std::vector<double>& values) {
+    if (!usable("stage.planets") || (given(key) && !usable(key))) return;
+    const auto planets = static_cast<std::size_t>(scene_.stage.planets);
+    if (values.empty() && !given(key)) values.assign(planets, 0);
+    if (values.size() != planets) {
+      problem(key, "", fmt::format("needs one value per planet: {} values for {} planets", values.size(), planets));
+    }
+  }
+
+  void resolved_model() {
+    if (scene_.fidelity != Fidelity::resolved) return;
+    if (scene_.ring_planet.stiffness == StiffnessShape::computed)
+      for (const auto& ring : scene_.rings)
+        if (fem::on_single_supports(ring_structure(ring)))
+          problem("model", "",
+                  fmt::format("cannot represent the ring-planet mesh of '{}': the resolved model does not cover rings "
+                              "on pins, bolts or splines; use \"automatic\"",
+                              ring.name));
+    if (scene_.stage.helix_angle != 0)
+      problem("model", "", "cannot represent helical gears: use \"automatic\" or \"solid\"");
+  }
+
+  void axial_force() {
+    if (scene_.stage.helix_angle == 0 || scene_.ring_planet.stiffness != StiffnessShape::computed) return;
+    for (const auto& ring : scene_.rings)
+      if (fem::on_single_supports(ring_structure(ring)))
+        problem("stage.helix_angle_deg", "",
+                fmt::format("is not modelled for the ring '{}' on pins, bolts or splines: they do not carry the axial "
+                            "force",
+                            ring.name));
+  }
+
+  /// Models in which nothing changes along the face width are refused where something does.
+  void plane_models() {
+    if (scene_.fidelity != Fidelity::plane && scene_.fidelity != Fidelity::closed_form) return;
+    const auto refuse = [&](const std::string& mesh, const std::string& why) {
+      if (why.empty()) return;
+      problem("model", "",
+              fmt::format("cannot represent the {}: {}; use \"automatic\", \"solid\" or \"resolved\"", mesh, why));
+    };
+    if (scene_.sun_planet.stiffness == StiffnessShape::computed) refuse("sun-planet mesh", solid_reason(scene_));
+    if (scene_.ring_planet.stiffness != StiffnessShape::computed) return;
+    for (const auto& ring : scene_.rings)
+      refuse(fmt::format("ring-planet mesh of '{}'", ring.name), solid_reason(scene_, ring));
+  }
+
+  void ring_names() {
+    constexpr const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.";
+    std::set<std::string> seen;
+    for (const auto& ring : scene_.rings) {
+      if (seen.contains(ring.name)) continue;
+      seen.insert(ring.name);
+      const bool good = !ring.name.empty() && ring.name.front() != '.' &&
+                        ring.name.find_first_not_of(allowed) == std::string::npos && ring.name.size() <= 64;
+      if (!good) {
+        problem("ring.name", ring.name,
+                "names a folder: letters, digits, '-', '_', '+' and '.' only, not starting with '.', at most 64");
+      }
+    }
+    seen.clear();
+    for (const auto& input : scene_.inputs) {
+      if (input.key != "ring.name" || seen.insert(input.ring).second) continue;
+      problems_.push_back(
+          {input.line, input.column,
+           fmt::format("ring.name = {}: is the name of more than one ring; each needs its own", shown(input.ring))});
+    }
+  }
+
+  void rim_coupling() {
+    if (!scene_.dynamics) return;
+    const auto coupling = scene_.dynamics->rim_coupling;
+    if (coupling != RimCoupling::elastic && coupling != RimCoupling::statical) return;
+    if (scene_.ring_planet.stiffness != StiffnessShape::computed)
+      problem("dynamics.rim_coupling", "",
+              "needs a computed ring mesh: a prescribed stiffness does not describe the ring; use \"none\" or "
+              "\"automatic\"");
+    for (const auto& ring : scene_.rings)
+      if (ring.has_pins() && ring.pin_count() == 1)
+        problem("dynamics.rim_coupling", "",
+                fmt::format("is not modelled for the ring '{}' on a single pin, which leans on its housing: use "
+                            "\"none\" or \"automatic\", or give the ring more pins",
+                            ring.name));
+  }
+};
+
+}  // namespace
+
+void check_planetary_scene(Scene& scene, std::vector<Problem>& problems) { PlanetaryChecker(scene, problems).run(); }
+
+}  // namespace annulus::app

@@ -1,0 +1,124 @@
+#include "app/systems/planetary/planetary_geometry_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/plan/mesh_model.h"
+#include "app/scene/bore_checks.h"
+#include "app/scene/small_displacements.h"
+#include "core/errors.h"
+#include "core/units.h"
+#include "fem/problem/problem_check.h"
+#include "geometry/sector_mesh.h"
+
+namespace annulus::app {
+
+namespace {
+
+void check_ring_rim(const Scene& scene, const RingInput& input, const RingGeometry& ring) {
+  const auto refuse = [&](const char* key, double value, const std::string& rule) {
+    throw GeometryError(fmt::format("ring '{}': {} = {}: {}", input.name, key, to_text(value / units::mm), rule));
+  };
+  const double root = ring.set.ring().root_radius(), rim = ring.outside_radius - root, least = least_rim(scene);
+  if (rim < least * (1 - diameter_rounding)) {
+    if (input.rim_thickness)
+      refuse("rim_thickness_mm", *input.rim_thickness,
+             fmt::format("must be at least {}; {}", length_mm(least), rim_rule(scene)));
+    refuse("outside_diameter_mm", 2 * ring.outside_radius,
+           fmt::format("must be at least {}; {}", length_mm(2 * (root + least)), rim_rule(scene)));
+  }
+  if (input.sleeve_thickness && *input.sleeve_thickness > (rim - least) * (1 + diameter_rounding))
+    refuse(
+        "sleeve_thickness_mm", *input.sleeve_thickness,
+        fmt::format("must be in range: 0 < value <= {}: the sleeve lies in the rim, which is {} thick, and keeps {} = "
+                    "{} modules from the root",
+                    length_mm(rim - least), length_mm(rim), length_mm(least), geometry::min_circle_distance));
+  const double smallest = 2 * (root + least), largest = 2 * (ring.outside_radius - least);
+  if (input.clamp_inner_diameter && (*input.clamp_inner_diameter < smallest * (1 - diameter_rounding) ||
+                                     *input.clamp_inner_diameter > largest * (1 + diameter_rounding)))
+    refuse(
+        "clamp_inner_diameter_mm", *input.clamp_inner_diameter,
+        fmt::format("must be in range: {} <= value <= {}: the clamped end faces lie in the rim, and their edge keeps "
+                    "{} = {} modules from root and outside",
+                    length_mm(smallest), length_mm(largest), length_mm(least), geometry::min_circle_distance));
+}
+
+void check_ring_supports(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
+  const auto model = ring_mesh_model(scene, geometry, ring);
+  if (!model.computed() || !fem::on_single_supports(model.problem->structure)) return;
+  const double turn = fem::turn_on_supports(*model.problem, geometry.operating_point.mean_mesh_force);
+  const double modules = turn / scene.stage.module;
+  if (modules <= largest_deflection) return;
+  const auto& input = scene.rings.at(ring);
+  throw InputError(
+      fmt::format("ring '{}': turns on its {} by {} mm = {:.2g} modules under the nominal load; {}: make them stiffer, "
+                  "more, or of less clearance",
+                  input.name, input.has_pins() ? "pins or bolts" : "splines", to_text(turn / units::mm, 3), modules,
+                  small_displacements_rule()));
+}
+
+void check_errors_of_bodies(const Scene& scene) {
+  const auto& e = scene.errors;
+  for (const double x : e.planet_eccentricity) check_error(scene, "errors.planet_eccentricity_um", x);
+  for (const double x : e.planet_installation) check_error(scene, "errors.planet_pin_position_error_um", x);
+  check_error(scene, "errors.sun_eccentricity_um", e.sun_eccentricity);
+  check_error(scene, "errors.sun_position_error_um", e.sun_installation);
+  check_error(scene, "errors.ring_eccentricity_um", e.ring_eccentricity);
+  check_error(scene, "errors.ring_position_error_um", e.ring_installation);
+  check_error(scene, "errors.carrier_eccentricity_um", e.carrier_eccentricity);
+  check_error(scene, "errors.carrier_position_error_um", e.carrier_installation);
+}
+
+/// Least load of the bearing of a central body, in mean mesh forces: planets on one side of it cannot keep it centred.
+/// Forces that add up to one per planet, in directions fixed to the planets, have the smallest resultant when the
+/// outermost two share them.
+double least_bearing_load(const geometry::PlanetarySet& set) {
+  double widest_gap = 2 * std::numbers::pi - set.planet_angle(set.planets() - 1);
+  for (int n = 1; n < set.planets(); ++n)
+    widest_gap = std::max(widest_gap, set.planet_angle(n) - set.planet_angle(n - 1));
+  return set.planets() * std::max(0.0, -std::cos(widest_gap / 2));
+}
+
+void check_planetary_bearings(const Scene& scene, const GearGeometry& geometry) {
+  const auto& s = scene.supports;
+  const double mesh = geometry.operating_point.mean_mesh_force;
+  check_bearing(scene, "supports.planet_N_per_m", s.planet, 2 * mesh);
+  const double across = mesh * least_bearing_load(geometry.rings.front().set);
+  check_bearing(scene, "supports.sun_N_per_m", s.sun, across);
+  check_bearing(scene, "supports.ring_N_per_m", s.ring, across);
+  check_bearing(scene, "supports.carrier_N_per_m", s.carrier, 2 * across);
+  const double all = scene.stage.planets * mesh;
+  if (s.ring_torsional > 0)
+    check_torsional_support("supports.ring_torsional_N_per_m", s.ring_torsional, all,
+                            geometry.rings.front().set.ring().base_radius());
+}
+
+}  // namespace
+
+void check_rims(const Scene& scene, const GearGeometry& geometry) {
+  const bool sun = scene.sun_planet.stiffness == StiffnessShape::computed;
+  const bool ring = scene.ring_planet.stiffness == StiffnessShape::computed;
+  if (sun) check_bore(scene, "sun", scene.sun, geometry.sun_mesh().wheel());
+  if (sun || ring) check_bore(scene, "planet", scene.planet, geometry.sun_mesh().planet());
+  if (!ring) return;
+  for (std::size_t i = 0; i < scene.rings.size(); ++i) check_ring_rim(scene, scene.rings[i], geometry.rings.at(i));
+}
+
+void check_displacements(const Scene& scene, const GearGeometry& geometry) {
+  constexpr const char* load = "stage.power_kW";
+  const double mesh_force = geometry.operating_point.mean_mesh_force;
+  if (scene.dynamics) {
+    check_errors_of_bodies(scene);
+    check_planetary_bearings(scene, geometry);
+    for (const auto* mesh : {&scene.sun_planet, &scene.ring_planet})
+      check_prescribed_mesh(scene, load, *mesh, mesh_force);
+  }
+  if (has_elastic_bodies(scene.sun_planet) || has_elastic_bodies(scene.ring_planet))
+    check_load(scene, load, mesh_force);
+  for (std::size_t i = 0; i < scene.rings.size(); ++i) check_ring_supports(scene, geometry, i);
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include "app/systems/planetary/report/stage_report_parts.h"
+
+namespace annulus::app {
+
+namespace {
+
+std::string name_of(RimCoupling model) {
+  switch (model) {
+    case RimCoupling::statical:
+      return "static";
+    case RimCoupling::elastic:
+      return "elastic modes";
+    case RimCoupling::automatic:
+    case RimCoupling::none:
+      break;
+  }
+  return "none";
+}
+
+}  // namespace
+
+Section coupling_section(const RunResult& result) {
+  PageTable size, effect;
+  size.head = {"ring", "another mesh's load moves a mesh by at most, of what its own does",
+               "first elastic mode of the ring, Hz (waves)", "coupling applied", "why"};
+  effect.head = {"ring",
+                 "coupling",
+                 "load sharing, averaged",
+                 "instantaneous",
+                 "quasi-static",
+                 "dynamic factor, sun meshes",
+                 "dynamic factor, ring meshes"};
+  int cycles = 0;
+  std::vector<std::string> negligible;
+  for (const auto& ring : result.rings) {
+    if (!ring.mesh.coupling) continue;
+    const auto& solved = *ring.mesh.coupling;
+    const auto choice = coupling_choice(result.scene, solved);
+    const auto& modes = solved.coupling.modes;
+    size.rows.push_back({ring.name,
+                         fmt::format("{:.2g} % ± {:.1g} %", 100 * solved.largest() / solved.mesh_compliance,
+                                     100 * solved.compliance_error / solved.mesh_compliance),
+                         modes.empty() ? fmt::format("none below {:.0f}", solved.highest_frequency)
+                                       : fmt::format("{:.0f} ({})", modes.front().frequency, modes.front().waves),
+                         name_of(choice.taken), choice.reason});
+    if (is_negligible(result.scene, solved)) negligible.push_back(ring.name);
+    if (!ring.coupling_effect) continue;
+    cycles = ring.coupling_effect->cycles;
+    for (const auto& row : ring.coupling_effect->rows)
+      effect.rows.push_back({ring.name, name_of(row.model), fmt::format("{:.4f}", row.averaged),
+                             fmt::format("{:.4f}", row.instantaneous), fmt::format("{:.4f}", row.quasi_static),
+                             fmt::format("{:.4f}", row.sun_factor), fmt::format("{:.4f}", row.ring_factor)});
+  }
+  Section section{"coupling", "Coupling through the ring", {}, "Coupling of the planets through the ring"};
+  if (size.rows.empty()) return section;
+  section.blocks =
+      paragraph(
+          "A load at one planet moves the ring at all others. The stiffness table of a single mesh does not know that; "
+          "the compliance between the meshes at every ring position does.") +
+      size;
+  if (!effect.rows.empty())
+    section.blocks +=
+        paragraph(fmt::format("What it changes. All rows were integrated in time with the same settings and evaluated "
+                              "over {} mesh cycles, which "
+                              "need not be a whole period: they compare with each other, not with the key figures.",
+                              cycles)) +
+        effect;
+  if (!negligible.empty())
+    section.blocks +=
+        paragraph(fmt::format("What it changes was not computed for '{}': less than a tenth of the wanted accuracy.",
+                              fmt::join(negligible, "', '")));
+  return section;
+}
+
+}  // namespace annulus::app

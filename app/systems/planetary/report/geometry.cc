@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/plan/mesh_model.h"
+#include "app/report/drawings/axial_section.h"
+#include "app/report/drawings/dimension.h"
+#include "app/report/drawings/teeth.h"
+#include "app/report/sections/geometry_parts.h"
+#include "app/systems/planetary/report/stage_report_parts.h"
+#include "geometry/gear_places.h"
+
+namespace annulus::app {
+
+namespace {
+
+/// Whether both draw the same teeth in mesh.
+bool same_teeth(const geometry::GearPair& a, const geometry::GearPair& b) {
+  const auto& p = a.wheel();
+  const auto& q = b.wheel();
+  return p.teeth() == q.teeth() && p.tip_radius() == q.tip_radius() && p.root_radius() == q.root_radius() &&
+         p.form_radius() == q.form_radius() && p.parameters().profile_shift == q.parameters().profile_shift;
+}
+
+}  // namespace
+
+TransverseSection stage_section(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                const std::string& id) {
+  const auto& input = scene.rings.at(ring);
+  const auto& made = geometry.rings.at(ring);
+  const auto& set = made.set;
+  const auto stand = geometry::stage_places(set);
+  const auto structure = ring_structure(input);
+  TransverseSection section{.title = input.name + ": transverse section",
+                            .label = fmt::format("{}: transverse section to scale, sun of {} teeth, {} planets of {}, "
+                                                 "ring of {}, {}; outside diameter {} mm, centre distance {} mm",
+                                                 input.name, set.sun().teeth(), set.planets(), set.planet().teeth(),
+                                                 set.ring().teeth(), structure.words().description,
+                                                 mm_text(2 * made.outside_radius), mm_text(set.centre_distance())),
+                            .ring = TransverseSection::Ring{structure, made.outside_radius, stand.ring},
+                            .outside_radius = made.outside_radius};
+  section.gears.push_back({{.gear = set.ring(), .id = id + "-ring", .outside_radius = made.outside_radius},
+                           {{Eigen::Vector2d::Zero(), stand.ring}}});
+  std::vector<std::pair<double, double>> planets;
+  planets.reserve(stand.planets.size());
+  for (int n = 0; n < set.planets(); ++n)
+    planets.emplace_back(set.planet_angle(n), stand.planets[static_cast<std::size_t>(n)]);
+  add_sun_and_planets(section, scene, set.sun_mesh(), stand.sun, planets, id);
+  return section;
+}
+
+Section drawings_section(const RunResult& result) {
+  const auto& scene = result.scene;
+  const auto& rings = result.geometry.rings;
+  Blocks blocks = paragraph(
+      "All lengths in millimetres. Sun, planets and ring stand as they mesh: the sun turns counter-clockwise and "
+      "touches "
+      "planet 1 (at the top) in the pitch point." +
+      helical_note(scene.stage.helix_angle));
+  PageTable table = diameter_table();
+  add_gear(table, "sun", rings.front().set.sun(), bore_radius(scene.sun));
+  add_gear(table, "planet", rings.front().set.planet(), bore_radius(scene.planet));
+  for (const auto& ring : rings) add_gear(table, "ring, " + ring.name, ring.set.ring(), ring.outside_radius);
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const auto& ring = rings[i];
+    const auto& input = scene.rings[i];
+    const std::string id = fmt::format("drawing{}", i);
+    const AxialSection axial{
+        .title = ring.name + ": axial section of the ring",
+        .label = fmt::format("{}: axial section of the ring to scale, {}, face width {} mm, outside diameter {} mm",
+                             ring.name, ring_structure(input).words().description, mm_text(scene.stage.face_width),
+                             mm_text(2 * ring.outside_radius)),
+        .ring = ring.set.ring(),
+        .outside_radius = ring.outside_radius,
+        .structure = ring_structure(input)};
+    blocks += Pictures{{drawn(stage_section(scene, result.geometry, i, id)), drawn(axial)},
+                       {},
+                       phrase("{}: {}. Left: transverse section. Right: upper half of the ring in axial section, teeth "
+                              "pale; orange: what holds it.",
+                              bold(ring.name), ring_structure(input).words().description)};
+    const auto same =
+        std::find_if(rings.begin(), rings.begin() + static_cast<std::ptrdiff_t>(i),
+                     [&](const auto& other) { return same_teeth(other.set.ring_mesh(), ring.set.ring_mesh()); });
+    if (same != rings.begin() + static_cast<std::ptrdiff_t>(i)) continue;
+    std::vector<Picture> pictures;
+    if (i == 0)
+      pictures.push_back(drawn(TeethInMesh{.title = "Sun and planet in mesh", .id = id + "-outer", .wheel_name = "sun"},
+                               ring.set.sun_mesh()));
+    pictures.push_back(drawn(TeethInMesh{.title = ring.name + ": ring and planet in mesh",
+                                         .id = id + "-inner",
+                                         .wheel_name = "ring",
+                                         .wheel_outside_radius = ring.outside_radius},
+                             ring.set.ring_mesh()));
+    blocks += Pictures{pictures, {}, "The " + teeth_words("planet", i == 0 ? "sun or ring" : "ring")};
+  }
+  return geometry_section(blocks + table);
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,253 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "app/report/drawings/mode.h"
+#include "app/systems/planetary/report/stage_report_parts.h"
+#include "core/units.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr double felt = 0.5;  // participation from which a crossing counts as excited by the mesh
+
+std::size_t kind_colour(const std::string& kind) {
+  return kind == "rotational" ? 0 : kind == "translational" ? 1 : kind == "planet" ? 2 : 3;
+}
+
+std::string group_words(const std::string& group) {
+  static const std::map<std::string, std::string> words = {{"sun_planet", "sun meshes"},
+                                                           {"ring_planet", "ring meshes"},
+                                                           {"planet_bearing", "planet bearings"},
+                                                           {"ring_body", "the ring between the meshes"}};
+  const auto found = words.find(group);
+  if (found != words.end()) return found->second;
+  std::string text = group;
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+/// Modes of one kind and one frequency.
+struct Multiple {
+  const StageModes::Mode* mode;
+  std::size_t index;
+  int count;
+};
+
+std::vector<Multiple> multiples(const StageModes& modes, const std::string& kind) {
+  std::vector<Multiple> list;
+  for (std::size_t i = 0; i < modes.list.size(); ++i) {
+    const auto& mode = modes.list[i];
+    if (mode.kind != kind) continue;
+    if (!list.empty() && mode.frequency - list.back().mode->frequency <= 1e-6 * mode.frequency)
+      ++list.back().count;
+    else
+      list.push_back({&mode, i, 1});
+  }
+  return list;
+}
+
+std::vector<std::string> kinds_of(const RunResult& result) {
+  std::vector<std::string> kinds;
+  for (const auto* ring : rings_with_response(result)) {
+    for (const auto& mode : ring->response->modes.list) {
+      if (std::find(kinds.begin(), kinds.end(), mode.kind) == kinds.end()) kinds.push_back(mode.kind);
+    }
+  }
+  return kinds;
+}
+
+Text mode_cell(const StageModes& modes, const Multiple& m) {
+  std::string text = fmt::format("{:.1f}", m.mode->frequency);
+  if (m.mode->frequency_error > 0) text += " ± " + to_text(m.mode->frequency_error, 2);
+  if (m.count > 1) text += fmt::format(" ×{}", m.count);
+  if (m.mode->frequency == 0) return text + " " + muted("free rotation");
+  const auto top = std::max_element(m.mode->strain.begin(), m.mode->strain.end());
+  const auto group = static_cast<std::size_t>(top - m.mode->strain.begin());
+  return text + " " +
+         muted(fmt::format("{} {:.0f} %, ζ {:.1f} %", group_words(modes.groups[group]), 100 * *top,
+                           100 * m.mode->damping_ratio));
+}
+
+PageTable modes_table(const RunResult& result) {
+  PageTable table{.head = {"kind"}};
+  for (const auto* ring : rings_with_response(result)) table.head.push_back(ring->name + ", Hz");
+  for (const auto& kind : kinds_of(result)) {
+    std::vector<std::vector<Multiple>> columns;
+    std::size_t rows = 0;
+    for (const auto* ring : rings_with_response(result)) {
+      columns.push_back(multiples(ring->response->modes, kind));
+      rows = std::max(rows, columns.back().size());
+    }
+    for (std::size_t r = 0; r < rows; ++r) {
+      std::vector<Text> row = {r == 0 ? kind : ""};
+      for (std::size_t c = 0; c < columns.size(); ++c)
+        row.push_back(r < columns[c].size() ? mode_cell(rings_with_response(result)[c]->response->modes, columns[c][r])
+                                            : Text());
+      table.rows.push_back(std::move(row));
+    }
+  }
+  return table;
+}
+
+Plot campbell_plot(const RingResult& ring, double sun_speed_rpm) {
+  const auto& modes = ring.response->modes;
+  const auto speed = column_values(modes.campbell, "sun_speed_rpm");
+  const auto mesh = column_values(modes.campbell, "mesh_frequency_Hz");
+  const auto orders = column_values(modes.critical_speeds, "mesh_order");
+  const int highest = orders.empty() ? 1 : static_cast<int>(*std::max_element(orders.begin(), orders.end()));
+  const double top = 1.08 * highest * mesh.back() / 1e3;
+  Plot plot{.title = ring.name,
+            .x_label = "sun speed, r/min",
+            .y_label = "frequency, kHz",
+            .x_range = Range{0, speed.back()},
+            .y_range = Range{0, top},
+            .height = 330};
+  for (int h = 1; h <= highest; ++h) {
+    const double end = h * mesh.back() / 1e3;
+    plot.series.push_back(
+        {.label = fmt::format("mesh order {}", h), .x = {0, speed.back()}, .y = {0, end}, .colour = 6, .dashed = true});
+    // Beside the line, which rises to the right.
+    plot.notes.push_back({0.985 * speed.back(), end, fmt::format("{}", h)});
+  }
+  for (std::size_t i = 0; i < modes.list.size(); ++i) {
+    auto frequency = column_values(modes.campbell, fmt::format("mode{}_Hz", i + 1));
+    for (auto& f : frequency) f /= 1e3;
+    if (*std::min_element(frequency.begin(), frequency.end()) > top) continue;
+    plot.series.push_back(
+        {.label = modes.list[i].kind, .x = speed, .y = frequency, .colour = kind_colour(modes.list[i].kind)});
+  }
+  Series critical{.label = "excited", .colour = 7, .style = Series::Style::dots};
+  for (const auto& row : modes.critical_speeds.rows) {
+    if (row[modes.critical_speeds.column("participation")] < felt) continue;
+    critical.x.push_back(row[0]);
+    critical.y.push_back(row[modes.critical_speeds.column("frequency_Hz")] / 1e3);
+  }
+  plot.series.push_back(std::move(critical));
+  plot.series.push_back({.label = "operating speed", .x = {sun_speed_rpm, sun_speed_rpm}, .y = {0, top}, .colour = 4});
+  return plot;
+}
+
+/// The excited crossings nearest to the operating speed.
+Text critical_cell(const StageModes& modes, double sun_speed_rpm) {
+  const auto& csv = modes.critical_speeds;
+  const auto frequency = csv.column("frequency_Hz"), order = csv.column("mesh_order"), mode = csv.column("mode"),
+             participation = csv.column("participation");
+  std::vector<const std::vector<double>*> rows;
+  for (const auto& row : csv.rows) {
+    // Members of a multiple mode meet an order together.
+    const bool again =
+        std::any_of(rows.begin(), rows.end(), [&](const auto* r) { return std::abs((*r)[0] / row[0] - 1) < 1e-6; });
+    if (row[participation] >= felt && !again) rows.push_back(&row);
+  }
+  std::stable_sort(rows.begin(), rows.end(), [&](const auto* a, const auto* b) {
+    return std::abs((*a)[0] - sun_speed_rpm) < std::abs((*b)[0] - sun_speed_rpm);
+  });
+  std::vector<Text> speeds;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, rows.size()); ++i) {
+    const auto& row = *rows[i];
+    const auto& kind = modes.list[static_cast<std::size_t>(row[mode]) - 1].kind;
+    speeds.push_back(
+        phrase("{:.0f} r/min {}", row[0],
+               muted(fmt::format("order {:.0f} with the {} mode at {:.0f} Hz", row[order], kind, row[frequency]))));
+  }
+  return speeds.empty() ? "none" : joined(speeds, line_break());
+}
+
+Blocks campbell_part(const RunResult& result) {
+  const double speed = result.geometry.operating_point.sun_speed / units::rpm;
+  std::vector<Picture> pictures;
+  PageTable table{.head = {"ring", "critical speeds nearest to the operating speed"}};
+  for (const auto* ring : rings_with_response(result)) {
+    if (ring->response->modes.campbell.rows.empty()) continue;
+    pictures.emplace_back(campbell_plot(*ring, speed));
+    table.rows.push_back({ring->name, critical_cell(ring->response->modes, speed)});
+  }
+  if (pictures.empty()) return {};
+  Legend legend;
+  for (const auto& kind : kinds_of(result)) legend.emplace_back(kind, kind_colour(kind));
+  legend.emplace_back("operating speed", 4);
+  legend.emplace_back("mesh orders 1, 2, ...", 6);
+  legend.emplace_back("critical speeds", 7);
+  return heading("Campbell diagram") +
+         Pictures{pictures, legend,
+                  "Natural frequencies over speed, seen from the carrier, with gyroscopic and centripetal terms and no "
+                  "damping. A dot marks a mesh order that excites the mode it crosses: the phases between the planets "
+                  "cancel the others, except for what errors let through."} +
+         table;
+}
+
+ModeDrawing drawing(const RingResult& ring, const geometry::PlanetarySet& set, const Multiple& m) {
+  const auto& csv = ring.response->modes.shapes;
+  const auto& row = csv.rows[m.index];
+  const auto value = [&](const std::string& dof) {
+    const auto found = std::find(csv.columns.begin(), csv.columns.end(), dof);
+    return found == csv.columns.end() ? 0.0 : row[static_cast<std::size_t>(found - csv.columns.begin())];
+  };
+  const auto exists = [&](const std::string& dof) {
+    return std::find(csv.columns.begin(), csv.columns.end(), dof) != csv.columns.end();
+  };
+  const auto motion = [&](const std::string& body) {
+    return ModeDrawing::Motion{value(body + "_x"), value(body + "_y"), value(body + "_u")};
+  };
+  ModeDrawing d{.title = fmt::format("{}, {:.0f} Hz", m.mode->kind, m.mode->frequency),
+                .sun_radius = set.sun().base_radius(),
+                .planet_radius = set.planet().base_radius(),
+                .ring_radius = set.ring().base_radius(),
+                .centre_distance = set.centre_distance(),
+                .sun = motion("sun"),
+                .ring = motion("ring"),
+                .carrier = motion("carrier")};
+  for (int n = 0; n < set.planets(); ++n) {
+    const auto name = fmt::format("planet{}", n + 1);
+    const double phi = set.planet_angle(n), c = std::cos(phi), s = std::sin(phi);
+    d.planet_angles.push_back(phi);
+    auto planet = motion(name);
+    // A planet on a rigid bearing rides on the carrier.
+    if (!exists(name + "_x")) planet.x = c * d.carrier.x + s * d.carrier.y;
+    if (!exists(name + "_y")) planet.y = -s * d.carrier.x + c * d.carrier.y + d.carrier.u;
+    d.planets.push_back(planet);
+  }
+  return d;
+}
+
+Blocks shapes_part(const RunResult& result) {
+  const RingResult& ring = *rings_with_response(result).front();
+  const auto& set = result.geometry.rings.front().set;
+  std::vector<Picture> pictures;
+  for (const auto& kind : kinds_of(result)) {
+    int drawn = 0;
+    for (const auto& m : multiples(ring.response->modes, kind)) {
+      if (m.mode->frequency == 0 || drawn == 2) continue;
+      pictures.emplace_back(Drawing{to_svg(drawing(ring, set, m))});
+      ++drawn;
+    }
+  }
+  if (pictures.empty()) return {};
+  return heading("Mode shapes") +
+         Pictures{pictures,
+                  {{"sun", 0}, {"planets", 1}, {"ring", 2}, {"carrier", 6}},
+                  fmt::format("The two lowest of each kind, ring '{}'; grey at rest, displacements not to scale. Point "
+                              "at one and it swings. One of each pair or multiple.",
+                              ring.name),
+                  Pictures::Layout::shapes};
+}
+
+}  // namespace
+
+Section modes_section(const RunResult& result) {
+  Section section{"modes", "Natural frequencies"};
+  if (!kinds_of(result).empty())
+    section.blocks =
+        paragraph(fmt::format("Mean tangent mesh stiffness, all teeth in contact, without rotation; with each, where "
+                              "most of the strain energy sits and its damping ratio ζ at the operating speed. The mesh "
+                              "frequency is {:.1f} Hz.",
+                              result.geometry.operating_point.mesh_frequency)) +
+        modes_table(result) + shapes_part(result) + campbell_part(result);
+  return section;
+}
+
+}  // namespace annulus::app

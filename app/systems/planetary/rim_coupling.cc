@@ -1,0 +1,210 @@
+#include "app/systems/planetary/rim_coupling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/content_id.h"
+#include "app/pipeline.h"
+#include "app/plan/accuracy_choice.h"
+#include "core/csv.h"
+#include "core/log.h"
+#include "fem/ring/ring_coupling.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr int coupling_level = 1;  // the far field converges fast; its error is estimated
+/// Modes up to this multiple of the mesh frequency: the mesh excites little beyond.
+constexpr double highest_mesh_order = 10;
+
+double highest_frequency(const GearGeometry& geometry, const RingInput& ring) {
+  return highest_mesh_order * ring.teeth * geometry.operating_point.carrier_speed / (2 * std::numbers::pi);
+}
+
+/// Mesh and planet bearing in series; 1/K_path of the stage without its sun mesh, hence rather too small.
+double path_compliance(const Scene& scene, const GearGeometry& geometry, double mesh_compliance) {
+  const auto& set = geometry.rings.front().set;
+  const double as = set.sun_mesh().working_pressure_angle(), ar = set.ring_mesh().working_pressure_angle();
+  const double arm = std::pow(std::cos(as) + std::cos(ar), 2) + std::pow(std::sin(as) - std::sin(ar), 2);
+  return mesh_compliance + arm / scene.supports.planet;
+}
+
+/// Ring teeth by which each planet stands ahead of the first.
+std::vector<double> places_on_ring(const GearGeometry& geometry, const RingInput& ring) {
+  const auto found = std::find_if(geometry.rings.begin(), geometry.rings.end(),
+                                  [&](const auto& candidate) { return candidate.name == ring.name; });
+  std::vector<double> places;
+  places.reserve(static_cast<std::size_t>(found->set.planets()));
+  for (int n = 0; n < found->set.planets(); ++n) places.push_back(found->set.ring_teeth_ahead(n));
+  return places;
+}
+
+std::string coupling_id(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
+                        const RingInput& ring) {
+  ContentId id;
+  id.add("mesh", model.id()).add("level", coupling_level).add("degree", model.coupling_degree);
+  for (const double teeth : places_on_ring(geometry, ring)) id.add("planet", teeth);
+  id.add("load", geometry.operating_point.mean_mesh_force).add("highest", highest_frequency(geometry, ring));
+  id.add("density", scene.material.density);
+  return id.id();
+}
+
+const RingInput& ring_of(const Scene& scene, const MeshModel& model) {
+  return *std::find_if(scene.rings.begin(), scene.rings.end(), [&](const auto& r) { return r.name == model.ring; });
+}
+
+const std::string* provenance(const RingCoupling& coupling, const std::string& key) {
+  const auto& lines = coupling.provenance;
+  const auto found = std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.first == key; });
+  return found == lines.end() ? nullptr : &found->second;
+}
+
+/// A ring on a single pin leans on its housing, now here, now there: no fixed supports hold it.
+bool rests_in_bore(const fem::RingStructure& structure) { return structure.single_supports() == 1; }
+
+constexpr const char *id_key = "inputs_id", *error_key = "coupling_error_m_per_N", *seconds_key = "coupling_seconds",
+                     *frequency_error_key = "mode_frequency_error_relative", *compliance_file = "ring_compliance.csv";
+
+/// The ring reduced to its teeth, a row and a column each.
+void write_teeth_compliance(const fem::SolvedRingCoupling& solved, const std::string& id,
+                            const std::filesystem::path& file) {
+  const auto& compliance = solved.teeth_compliance;
+  Csv csv;
+  csv.header = {{"annulus_version", version()},
+                {id_key, id},
+                {"what",
+                 "closing lost at a tooth's flank along the line of action per newton on another's, ring held "
+                 "by its supports, both ways; its inverse is the stiffness matrix"},
+                {"error_m_per_N", fmt::format("{:.3g}", solved.teeth_compliance_error)}};
+  csv.columns = {"tooth"};
+  for (Eigen::Index j = 0; j < compliance.cols(); ++j)
+    csv.columns.push_back(fmt::format("compliance_tooth_{}_m_per_N", j));
+  for (Eigen::Index i = 0; i < compliance.rows(); ++i) {
+    auto& row = csv.rows.emplace_back();
+    row.push_back(static_cast<double>(i));
+    for (Eigen::Index j = 0; j < compliance.cols(); ++j) row.push_back(compliance(i, j));
+  }
+  csv.write(file);
+}
+
+}  // namespace
+
+double SolvedCoupling::largest() const {
+  double largest = 0;
+  for (const auto& matrix : coupling.compliance) largest = std::max(largest, matrix.cwiseAbs().maxCoeff());
+  return largest;
+}
+
+CouplingChoice coupling_choice(const Scene& scene, const SolvedCoupling& solved) {
+  constexpr const char* asked = "the scene asks for it (rim_coupling)";
+  const double share = solved.largest() / solved.path_compliance;
+  const auto percent = [](double x) { return fmt::format("{:.2g} %", 100 * x); };
+  switch (scene.dynamics->rim_coupling) {
+    case RimCoupling::none:
+      return {RimCoupling::none, asked};
+    case RimCoupling::statical:
+      return {RimCoupling::statical, asked};
+    case RimCoupling::elastic:
+      return {RimCoupling::elastic, asked};
+    case RimCoupling::automatic:
+      break;
+  }
+  const bool small = share <= scene.accuracy;
+  return {small ? RimCoupling::none : RimCoupling::statical,
+          fmt::format("another planet's load moves a mesh by at most {} of what its own load moves the planet's path "
+                      "(mesh and bearing): {} than the wanted accuracy of {}",
+                      percent(share), small ? "less" : "more", percent(scene.accuracy))};
+}
+
+bool is_negligible(const Scene& scene, const SolvedCoupling& solved) {
+  constexpr double part_of_accuracy = 0.1;
+  return scene.dynamics->rim_coupling == RimCoupling::automatic && solved.coupling.modes.empty() &&
+         solved.largest() <= part_of_accuracy * scene.accuracy * solved.path_compliance;
+}
+
+std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved, RimCoupling taken) {
+  if (taken == RimCoupling::none) return nullptr;
+  auto coupling = std::make_shared<RingCoupling>(solved.coupling);
+  if (taken != RimCoupling::elastic) coupling->modes.clear();
+  return coupling;
+}
+
+bool may_be_coupled(const Scene& scene, const MeshModel& model) {
+  if (!scene.dynamics || scene.dynamics->rim_coupling == RimCoupling::none || scene.stage.planets == 1) return false;
+  if (model.mesh != ring_planet || !model.computed() || rests_in_bore(model.problem->structure)) return false;
+  if (model.settings.fidelity != fem::Fidelity::closed_form) return true;
+  return scene.fidelity == Fidelity::automatic && scene.accuracy < very_rough_accuracy &&
+         fem::on_single_supports(model.problem->structure);
+}
+
+std::optional<SolvedCoupling> load_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
+                                            double mesh_compliance, const std::filesystem::path& folder) {
+  const auto compliance = folder / "ring_coupling.csv", modes = folder / "ring_modes.csv";
+  for (const auto& file : {compliance, modes, folder / compliance_file})
+    if (!std::filesystem::exists(file)) return std::nullopt;
+  const auto& ring = ring_of(scene, model);
+  try {
+    SolvedCoupling kept{.coupling = RingCoupling::read_csv(compliance, modes), .mesh_compliance = mesh_compliance};
+    const auto *id = provenance(kept.coupling, id_key), *error = provenance(kept.coupling, error_key),
+               *frequency = provenance(kept.coupling, frequency_error_key),
+               *seconds = provenance(kept.coupling, seconds_key);
+    if (!id || !error || !frequency || !seconds || *id != coupling_id(scene, geometry, model, ring))
+      return std::nullopt;
+    kept.compliance_error = std::stod(*error);
+    kept.frequency_error_relative = std::stod(*frequency);
+    kept.seconds = std::stod(*seconds);
+    kept.highest_frequency = highest_frequency(geometry, ring);
+    kept.path_compliance = path_compliance(scene, geometry, mesh_compliance);
+    kept.reused = true;
+    return kept;
+  } catch (const std::exception& error) {
+    log::info(fmt::format("{}: {}; solved again", compliance.string(), error.what()));
+    return std::nullopt;
+  }
+}
+
+SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
+                              double mesh_compliance, const RunOptions& options, const std::filesystem::path& folder) {
+  if (auto kept = load_coupling(scene, geometry, model, mesh_compliance, folder)) return std::move(*kept);
+  const auto& ring = ring_of(scene, model);
+  fem::RingCouplingSettings settings;
+  settings.level = coupling_level;
+  settings.degree = model.coupling_degree;
+  settings.threads = options.threads;
+  settings.store = options.store;
+  settings.modes.highest_frequency = highest_frequency(geometry, ring);
+  StageTimers timers;
+  fem::SolvedRingCoupling solved;
+  {
+    const auto timer = timers.measure("coupling");
+    solved = fem::solve_ring_coupling(*model.problem, places_on_ring(geometry, ring),
+                                      geometry.operating_point.mean_mesh_force, settings);
+  }
+  SolvedCoupling result{.coupling = std::move(solved.coupling),
+                        .mesh_compliance = mesh_compliance,
+                        .path_compliance = path_compliance(scene, geometry, mesh_compliance),
+                        .compliance_error = solved.compliance_error,
+                        .frequency_error_relative = solved.frequency_error_relative,
+                        .highest_frequency = settings.modes.highest_frequency,
+                        .seconds = timers.seconds("coupling"),
+                        .reused_teeth = solved.reused_teeth};
+  count_reuse(options, condensed_teeth, solved.reused_teeth, solved.condensed_teeth);
+  result.coupling.provenance = {{"annulus_version", version()},
+                                {id_key, coupling_id(scene, geometry, model, ring)},
+                                {error_key, fmt::format("{:.17g}", result.compliance_error)},
+                                {frequency_error_key, fmt::format("{:.17g}", result.frequency_error_relative)},
+                                {seconds_key, fmt::format("{:.3f}", result.seconds)}};
+  std::filesystem::create_directories(folder);
+  write_teeth_compliance(solved, coupling_id(scene, geometry, model, ring), folder / compliance_file);
+  result.coupling.write_csv(folder / "ring_coupling.csv", folder / "ring_modes.csv");
+  log::info(fmt::format(
+      "coupling of the meshes through ring '{}': {} ring positions, {} modes below {:.0f} Hz; {:.2f} s", ring.name,
+      result.coupling.compliance.size(), result.coupling.modes.size(), result.highest_frequency, result.seconds));
+  return result;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/model/gear_geometry.h"
+#include "app/plan/mesh_model.h"
+#include "app/scene/scene.h"
+#include "core/ring_coupling.h"
+
+namespace annulus::app {
+
+struct RunOptions;
+
+/// How the meshes of one ring act on each other through it, solved, with what is needed to judge it.
+struct SolvedCoupling {
+  RingCoupling coupling;
+  double mesh_compliance = 0;  ///< m/N, mean of a single mesh at the nominal load
+  /// m/N, of a planet's path as far as it is known here: mesh and planet bearing. It decides how the load is shared.
+  double path_compliance = 0;
+  double compliance_error = 0;          ///< m/N, estimated
+  double frequency_error_relative = 0;  ///< estimated
+  double highest_frequency = 0;         ///< Hz, up to which modes were looked for
+  double seconds = 0;
+  bool reused = false;
+  int reused_teeth = 0;  ///< condensed sectors that were read back
+
+  [[nodiscard]] double largest() const;  ///< m/N, largest entry of the coupling by magnitude
+};
+
+/// What the lumped model takes of it, and why.
+struct CouplingChoice {
+  RimCoupling taken = RimCoupling::none;
+  std::string reason;
+};
+[[nodiscard]] CouplingChoice coupling_choice(const Scene& scene, const SolvedCoupling& solved);
+/// Whether it is left out and so far below the wanted accuracy that what it changes need not be looked at: a tenth of
+/// it, and no mode of the ring within reach.
+[[nodiscard]] bool is_negligible(const Scene& scene, const SolvedCoupling& solved);
+/// The coupling as a stage takes it: without modes for `statical`; nothing for `none`.
+[[nodiscard]] std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved, RimCoupling taken);
+
+/// Whether the scene lets this mesh be coupled: dynamics wanted, a computed ring, several planets, coupling not ruled
+/// out. It takes elements: with formulas it is solved where the planner chose these for a ring on single supports, and
+/// the accuracy is not very rough.
+[[nodiscard]] bool may_be_coupled(const Scene& scene, const MeshModel& model);
+/// Read back from `folder` (OUT/<ring>) if unchanged, else solved and saved there as ring_coupling.csv and
+/// ring_modes.csv. `mesh_compliance` (m/N) is that of the mesh by its table.
+[[nodiscard]] SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
+                                            double mesh_compliance, const RunOptions& options,
+                                            const std::filesystem::path& folder);
+/// Only read back; nothing when it is not there or belongs to other inputs.
+[[nodiscard]] std::optional<SolvedCoupling> load_coupling(const Scene& scene, const GearGeometry& geometry,
+                                                          const MeshModel& model, double mesh_compliance,
+                                                          const std::filesystem::path& folder);
+
+}  // namespace annulus::app

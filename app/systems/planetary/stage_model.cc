@@ -1,0 +1,199 @@
+
+#include <algorithm>
+
+#include "app/content_id.h"
+#include "app/model/stiff_supports.h"
+#include "app/plan/accuracy_choice.h"
+#include "app/systems/planetary/stage_response.h"
+#include "core/errors.h"
+
+namespace annulus::app {
+
+dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult& mesh, double nominal_load,
+                                       dynamics::LoadDependence dependence) {
+  switch (input.stiffness) {
+    case StiffnessShape::constant:
+      return dynamics::ConstantStiffness{*input.mean};
+    case StiffnessShape::harmonic:
+      return dynamics::HarmonicStiffness{*input.mean, *input.ripple, input.phase.value_or(0)};
+    case StiffnessShape::rectangular:
+      return dynamics::RectangularStiffness{*input.mean, *input.ripple, *input.duty, input.phase.value_or(0)};
+    case StiffnessShape::computed:
+    case StiffnessShape::table:
+    case StiffnessShape::iso_6336:  // of pairs alone
+    case StiffnessShape::closed_form:
+      break;
+  }
+  // A single load tells nothing about others.
+  if (mesh.table.loads().size() == 1) dependence = dynamics::LoadDependence::nominal;
+  return dynamics::table_stiffness(mesh.table, nominal_load, 0, dependence);
+}
+
+namespace {
+
+void add_coupling(ContentId& id, const RingCoupling& coupling) {
+  id.add("coupling.per_cycle", coupling.per_cycle).add("mass", coupling.mass).add("turn", coupling.rotational_mass);
+  for (const auto& matrix : coupling.compliance) {
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) id.add("D", matrix.data()[i]);
+  }
+  for (const auto& mode : coupling.modes) {
+    id.add("mode", mode.frequency).add("x", mode.translation_x).add("y", mode.translation_y).add("u", mode.rotation);
+    for (const double closing : mode.closing) id.add("closing", closing);
+  }
+}
+
+void add_deviation(ContentId& id, const std::string& name, const dynamics::BodyErrors& e) {
+  id.add(name + ".E", e.eccentricity.amount).add(name + ".E_phase", e.eccentricity.phase);
+  id.add(name + ".A", e.position.amount).add(name + ".A_phase", e.position.phase);
+}
+
+void add_body(ContentId& id, const std::string& name, const dynamics::CentralBody& body) {
+  id.add(name + ".mass", body.mass).add(name + ".inertia", body.inertia).add(name + ".radius", body.radius);
+  id.add(name + ".support", body.support).add(name + ".torsional", body.torsional_support);
+  add_deviation(id, name, body.errors);
+}
+
+}  // namespace
+
+void add_excitation(ContentId& id, const std::string& name, const dynamics::MeshExcitation& excitation,
+                    const MeshResult& mesh) {
+  if (const auto* c = std::get_if<dynamics::ConstantStiffness>(&excitation)) {
+    id.add(name + ".constant", c->mean);
+  } else if (const auto* h = std::get_if<dynamics::HarmonicStiffness>(&excitation)) {
+    id.add(name + ".harmonic", h->mean).add(name + ".ripple", h->ripple).add(name + ".shift", h->phase_shift);
+  } else if (const auto* r = std::get_if<dynamics::RectangularStiffness>(&excitation)) {
+    id.add(name + ".rectangular", r->mean).add(name + ".ripple", r->ripple);
+    id.add(name + ".duty", r->duty).add(name + ".shift", r->phase_shift);
+  } else {
+    // The table itself: whatever made it, its numbers are what the response depends on.
+    const auto& t = mesh.table;
+    for (const double load : t.loads()) id.add(name + ".load", load);
+    for (int position = 0; position < t.positions(); ++position) {
+      for (int phase = 0; phase < t.phases(); ++phase) {
+        for (int load = 0; load < static_cast<int>(t.loads().size()); ++load) {
+          const auto& e = t.at(position, phase, load);
+          id.add("u", e.unloaded_te)
+              .add("k", e.stiffness_secant)
+              .add("t", e.stiffness_tangent)
+              .add("error", e.error_relative);
+        }
+      }
+    }
+  }
+}
+
+dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                    const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
+  if (!scene.dynamics) throw InternalError("internal error: dynamics of a scene without [dynamics]");
+  const auto& input = scene.rings.at(ring);
+  const auto& set = geometry.rings.at(ring).set;
+  const auto& point = geometry.operating_point;
+  const auto& e = scene.errors;
+
+  dynamics::PlanetaryStage stage;
+  dynamics::set_kinematics(stage, set);
+  stage.sun.mass = *scene.sun.mass;
+  stage.sun.inertia = *scene.sun.inertia;
+  stage.sun.torsional_support = scene.supports.sun_torsional;
+  stage.sun.errors = {{e.sun_eccentricity, e.sun_eccentricity_phase}, {e.sun_installation, e.sun_installation_phase}};
+  stage.ring.mass = *input.mass;
+  stage.ring.inertia = *input.inertia;
+  stage.ring.errors = {{e.ring_eccentricity, e.ring_eccentricity_phase},
+                       {e.ring_installation, e.ring_installation_phase}};
+  stage.carrier.mass = *scene.carrier.mass;
+  stage.carrier.inertia = *scene.carrier.inertia;
+  stage.carrier.torsional_support = scene.supports.carrier_torsional;
+  stage.carrier.errors = {{e.carrier_eccentricity, e.carrier_eccentricity_phase},
+                          {e.carrier_installation, e.carrier_installation_phase}};
+  stage.planet.mass = *scene.planet.mass;
+  stage.planet.inertia = *scene.planet.inertia;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(scene.stage.planets); ++n) {
+    stage.planet_errors.push_back({{e.planet_eccentricity[n], e.planet_eccentricity_phase[n]},
+                                   {e.planet_installation[n], e.planet_installation_phase[n]}});
+  }
+  stage.sun_mesh = excitation_of(scene.sun_planet, sun_mesh, point.mean_mesh_force, scene.dynamics->load_dependence);
+  stage.ring_mesh = excitation_of(scene.ring_planet, ring_mesh, point.mean_mesh_force, scene.dynamics->load_dependence);
+  const auto supports =
+      effective_supports(scene, dynamics::mean_stiffness(stage.sun_mesh), dynamics::mean_stiffness(stage.ring_mesh));
+  stage.sun.support = supports.sun;
+  stage.ring.support = supports.ring;
+  stage.ring.torsional_support = supports.ring_torsional;
+  stage.carrier.support = supports.carrier;
+  stage.planet.bearing_radial = stage.planet.bearing_tangential = supports.planet;
+  if (ring_mesh.coupling)
+    stage.ring_coupling = taken_coupling(*ring_mesh.coupling, coupling_choice(scene, *ring_mesh.coupling).taken);
+  stage.sun_half_backlash = scene.sun_planet.half_backlash.value_or(scene.dynamics->half_backlash);
+  stage.ring_half_backlash = scene.ring_planet.half_backlash.value_or(scene.dynamics->half_backlash);
+  stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;
+  stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
+  stage.damping_without_contact = scene.dynamics->mesh_damping == MeshDamping::always;
+  stage.carrier_speed = point.carrier_speed;
+  stage.sun_torque = point.sun_torque;
+  return stage;
+}
+
+dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double mesh_frequency) {
+  dynamics::SimulationOptions options;
+  if (input.relative_tolerance) options.integrate_within(*input.relative_tolerance);
+  options.integrator.method = input.integrator;
+  if (input.steps_per_cycle) options.integrator.fixed_step = 1 / (mesh_frequency * *input.steps_per_cycle);
+  options.mesh_cycles = input.mesh_cycles;
+  return options;
+}
+
+dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamics::PlanetaryStage& stage) {
+  auto options = given_simulation(*scene.dynamics, stage.mesh_frequency());
+  const auto choice = motion_choice(scene.accuracy);
+  options.samples_per_cycle = choice.samples_per_cycle;
+  options.confirm = choice.confirm;
+  options.confirm_on_contact_loss = true;
+  options.steady_tolerance = std::max(options.steady_tolerance, choice.steady_tolerance);
+  if (!scene.dynamics->relative_tolerance) options.integrator.relative_tolerance = choice.relative_tolerance;
+  // A ring on p pins repeats only after z_r / gcd(z_r, p) teeth, and with the planets after hundreds of mesh cycles:
+  // the window covers them all up to a time series of some hundred megabytes.
+  constexpr int longest_window = 4000;
+  const int period = stage.error_period();
+  options.max_window_cycles = std::max(options.max_window_cycles, std::min(period, longest_window));
+  return options;
+}
+
+std::string response_id(const dynamics::PlanetaryStage& stage, const dynamics::SimulationOptions& options,
+                        const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
+  ContentId id;
+  add_body(id, "sun", stage.sun);
+  add_body(id, "ring", stage.ring);
+  add_body(id, "carrier", stage.carrier);
+  id.add("planet.mass", stage.planet.mass)
+      .add("planet.inertia", stage.planet.inertia)
+      .add("planet.radius", stage.planet.radius);
+  id.add("planet.radial", stage.planet.bearing_radial).add("planet.tangential", stage.planet.bearing_tangential);
+  for (const auto& errors : stage.planet_errors) add_deviation(id, "planet", errors);
+  for (const auto* list :
+       {&stage.planet_angles, &stage.sun_phase_lag, &stage.ring_phase_lag, &stage.ring_tooth_offset}) {
+    for (const double value : *list) id.add("kinematics", value);
+  }
+  id.add("sun_angle", stage.sun_working_angle).add("ring_angle", stage.ring_working_angle);
+  id.add("teeth", stage.sun_teeth).add("teeth", stage.planet_teeth).add("teeth", stage.ring_teeth);
+  add_excitation(id, "sun_mesh", stage.sun_mesh, sun_mesh);
+  add_excitation(id, "ring_mesh", stage.ring_mesh, ring_mesh);
+  // With a table, the stage says whether it takes all loads or the nominal one.
+  for (const auto* mesh : {&stage.sun_mesh, &stage.ring_mesh}) {
+    const auto* table = std::get_if<dynamics::TableStiffness>(mesh);
+    id.add("law", table && table->surface ? 1 : 0);
+  }
+  if (stage.ring_coupling) add_coupling(id, *stage.ring_coupling);
+  id.add("fixed_step", options.integrator.fixed_step);
+  id.add("sun_half_backlash", stage.sun_half_backlash.value_or(-1));
+  id.add("ring_half_backlash", stage.ring_half_backlash.value_or(-1)).add("mesh_damping", stage.mesh_damping_ratio);
+  id.add("support_damping", stage.support_damping_ratio).add("always", stage.damping_without_contact ? 1 : 0);
+  id.add("carrier_speed", stage.carrier_speed).add("sun_torque", stage.sun_torque);
+  id.add("rotating_frame", stage.rotating_frame ? 1 : 0);
+  id.add("method", static_cast<int>(options.integrator.method)).add("tolerance", options.integrator.relative_tolerance);
+  id.add("cycles", options.mesh_cycles.value_or(0)).add("steady", options.steady_tolerance);
+  id.add("samples", options.samples_per_cycle).add("windows", options.max_windows);
+  id.add("confirm", options.confirm ? 1 : 0).add("where_parting", options.confirm_on_contact_loss ? 1 : 0);
+  id.add("max_window", options.max_window_cycles);
+  return id.id();
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,186 @@
+#include "app/systems/planetary/stage_response.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/content_id.h"
+#include "app/systems/planetary/response_json.h"
+#include "core/errors.h"
+#include "core/files.h"
+#include "dynamics/figures/spectrum.h"
+
+namespace annulus::app {
+
+namespace {
+
+using Header = std::vector<std::pair<std::string, std::string>>;
+constexpr int waveform_cycles = 6;
+constexpr double highest_order = 8;  // multiples of the mesh frequency kept in the spectrum
+
+/// A long window (a ring on pins repeats after more than a thousand mesh cycles) is written with every second sample:
+/// 32 per mesh cycle hold what the highest mesh harmonics of the spectrum need, in tens of megabytes.
+Csv time_series_table(const dynamics::TimeSeries& series, int window_cycles) {
+  const Eigen::Index stride = window_cycles > dynamics::long_window ? 2 : 1;
+  Csv csv;
+  csv.columns.emplace_back("time_s");
+  for (const auto& name : series.dofs) csv.columns.push_back(name + "_m");
+  for (const auto& name : series.meshes) csv.columns.push_back(name + "_force_N");
+  csv.rows.reserve(static_cast<std::size_t>(series.time.size() / stride + 1));
+  for (Eigen::Index i = 0; i < series.time.size(); i += stride) {
+    auto& row = csv.rows.emplace_back();
+    row.reserve(csv.columns.size());
+    row.push_back(series.time[i]);
+    row.insert(row.end(), series.displacement.col(i).begin(), series.displacement.col(i).end());
+    row.insert(row.end(), series.force.col(i).begin(), series.force.col(i).end());
+  }
+  return csv;
+}
+
+std::vector<std::string> columns(const std::string& first, const std::vector<std::string>& branches,
+                                 const std::vector<std::string>& suffixes) {
+  std::vector<std::string> names = {first};
+  for (const auto& branch : branches) {
+    for (const auto& suffix : suffixes) names.push_back(branch + suffix);
+  }
+  return names;
+}
+
+/// Branch factor N F / sum F, the sum over the branches of the same kind (sun meshes first, then ring meshes).
+Eigen::MatrixXd sharing(const Eigen::MatrixXd& force, Eigen::Index planets) {
+  Eigen::MatrixXd result(force.rows(), force.cols());
+  result.topRows(planets) = dynamics::load_sharing_over_time(force.topRows(planets));
+  result.bottomRows(planets) = dynamics::load_sharing_over_time(force.bottomRows(planets));
+  return result;
+}
+
+void tabulate(StageResponse& result, const dynamics::DynamicResponse& response, int planets) {
+  const auto& series = response.series;
+  const int cycles = response.window_cycles;
+  const Eigen::Index samples = series.time.size() / cycles;
+  const Eigen::MatrixXd factor = series.force / response.mean_mesh_force;
+  const Eigen::MatrixXd momentary = sharing(series.force, planets);
+  const Eigen::MatrixXd averaged = sharing(response.cycle_force, planets);
+
+  result.load_sharing.columns = columns("mesh_cycle", series.meshes, {"_averaged", "_min", "_max"});
+  result.dynamic_factor.columns = columns("mesh_cycle", series.meshes, {"_min", "_max"});
+  for (int c = 0; c < cycles; ++c) {
+    const auto shares = momentary.middleCols(c * samples, samples);
+    const auto factors = factor.middleCols(c * samples, samples);
+    auto& sharing_row = result.load_sharing.rows.emplace_back(1, c);
+    auto& factor_row = result.dynamic_factor.rows.emplace_back(1, c);
+    for (Eigen::Index b = 0; b < factor.rows(); ++b) {
+      sharing_row.insert(sharing_row.end(), {averaged(b, c), shares.row(b).minCoeff(), shares.row(b).maxCoeff()});
+      factor_row.insert(factor_row.end(), {factors.row(b).minCoeff(), factors.row(b).maxCoeff()});
+    }
+  }
+
+  const auto first_cycles = [&](const Eigen::MatrixXd& values) {
+    Csv csv;
+    csv.columns = columns("mesh_cycle", series.meshes, {""});
+    for (Eigen::Index i = 0; i < std::min(waveform_cycles, cycles) * samples; ++i) {
+      auto& row = csv.rows.emplace_back(1, static_cast<double>(i) / static_cast<double>(samples));
+      row.insert(row.end(), values.col(i).begin(), values.col(i).end());
+    }
+    return csv;
+  };
+  result.waveform = first_cycles(factor);
+  result.sharing_waveform = first_cycles(momentary);
+
+  result.spectrum.columns = columns("frequency_Hz", series.meshes, {"_N"});
+  result.spectrum.columns.insert(result.spectrum.columns.begin() + 1, "mesh_order");
+  std::vector<dynamics::Spectrum> spectra;
+  for (Eigen::Index b = 0; b < factor.rows(); ++b) {
+    spectra.push_back(dynamics::spectrum(Eigen::VectorXd(series.force.row(b).transpose()), cycles));
+  }
+  for (Eigen::Index i = 0; i < spectra.front().order.size() && spectra.front().order[i] <= highest_order; ++i) {
+    const double order = spectra.front().order[i];
+    auto& row = result.spectrum.rows.emplace_back(std::vector{order * response.mesh_frequency, order});
+    for (const auto& s : spectra) row.push_back(s.amplitude[i]);
+  }
+}
+
+void write(Csv csv, const Header& header, const std::filesystem::path& file) {
+  csv.header = header;
+  csv.write(file);
+}
+
+/// The tables kept for reports, each in a file of its own.
+std::vector<std::pair<const char*, Csv*>> tables_of(StageResponse& r) {
+  return {{"load_sharing.csv", &r.load_sharing},
+          {"dynamic_factor.csv", &r.dynamic_factor},
+          {"waveform.csv", &r.waveform},
+          {"load_sharing_waveform.csv", &r.sharing_waveform},
+          {"spectrum.csv", &r.spectrum},
+          {"bearing_forces.csv", &r.motion.bearing_forces},
+          {"sun_orbit.csv", &r.motion.sun_orbit},
+          {"poincare.csv", &r.motion.poincare},
+          {"mode_shapes.csv", &r.modes.shapes},
+          {"campbell.csv", &r.modes.campbell},
+          {"critical_speeds.csv", &r.modes.critical_speeds}};
+}
+
+void save(StageResponse& result, const std::string& id, const std::filesystem::path& folder) {
+  const Header header = {{"annulus_version", version()}, {"inputs_id", id}};
+  for (const auto& [name, table] : tables_of(result)) write(*table, header, folder / name);
+  std::string modes;
+  for (const auto& [key, value] : header) modes.append("# ").append(key).append(": ").append(value).append("\n");
+  write_file(folder / "modes.csv", modes + modes_csv(result.modes));
+  // Written last: its presence says that the others are complete.
+  write_file(folder / "figures.json", response_json(result, id));
+}
+
+/// What repeats has to carry the torque; teeth that errors hold apart for longer than was looked at carry nothing, and
+/// repeat as well.
+void check_power(const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response,
+                 double steady_tolerance) {
+  if (!response.steady || stage.sun.torsional_support != 0) return;
+  double carried = 0;
+  for (const auto& branch : response.sun_planet.branches) carried += branch.mean_force;
+  carried /= stage.planets() * stage.mean_mesh_force();
+  if (std::abs(carried - 1) <= 10 * steady_tolerance) return;
+  throw SolverError(
+      fmt::format("the teeth carry only {:.3g} of the sun's torque: it is too small to close the gaps that the errors "
+                  "open within the motion that was solved; raise stage.power_kW, or reduce [errors]",
+                  carried));
+}
+
+}  // namespace
+
+StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage, const dynamics::SimulationOptions& options,
+                                const StageTables& tables, const std::string& id, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  StageResponse result;
+  result.modes = stage_modes(stage, stiffness_errors(tables.sun_mesh, tables.ring_mesh));
+  auto response = dynamics::simulate(stage, options);
+  check_power(stage, response, options.steady_tolerance);
+  tabulate(result, response, stage.planets());
+  result.motion = stage_motion(stage, response);
+  write(time_series_table(response.series, response.window_cycles), {{"annulus_version", version()}, {"inputs_id", id}},
+        folder / "time_series.csv");
+  response.series = {};
+  result.errors = carried_errors(response, options, tables);
+  set_errors(result.errors, response);
+  result.figures = std::move(response);
+  save(result, id, folder);
+  return result;
+}
+
+std::optional<StageResponse> load_response(const std::string& id, const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / "figures.json")) return std::nullopt;
+  try {
+    auto result = parse_response_json(folder / "figures.json", id);
+    if (!result || !std::filesystem::exists(folder / "time_series.csv")) return std::nullopt;
+    for (const auto& [name, table] : tables_of(*result)) {
+      *table = Csv::read(folder / name);
+      if (table->header.size() < 2 || table->header[1].second != id) throw InputError("another run's file");
+    }
+    result->reused = true;
+    return result;
+  } catch (const std::exception&) {
+    return std::nullopt;  // damaged or from another run: simulated again and overwritten
+  }
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/content_id.h"
+#include "app/model/gear_geometry.h"
+#include "app/model/mesh_result.h"
+#include "app/scene/scene.h"
+#include "app/systems/planetary/carried_errors.h"
+#include "app/systems/planetary/stage_modes.h"
+#include "app/systems/planetary/stage_motion.h"
+#include "core/csv.h"
+#include "dynamics/systems/planetary/response.h"
+
+namespace annulus::app {
+
+/// The lumped model's answer for one ring, and what is kept of it in OUT/<ring>/dynamics.
+struct StageResponse {
+  dynamics::DynamicResponse figures;  ///< all but the time series; errors with all their parts
+  ResponseErrors errors;              ///< the parts of the errors
+  StageModes modes;
+  StageMotion motion;
+  Csv load_sharing;      ///< per mesh cycle: N F / sum F of every branch, forces averaged over the cycle
+  Csv dynamic_factor;    ///< per mesh cycle: smallest and largest F / mean mesh force of every branch
+  Csv waveform;          ///< F / mean mesh force of every branch over the first mesh cycles of the window
+  Csv sharing_waveform;  ///< N F / sum F of every branch over the same time
+  Csv spectrum;          ///< force amplitude of every branch over frequency and mesh order
+  bool reused = false;
+};
+
+/// How the lumped model sees a mesh: the wave the scene gives, or the curves of its table at the nominal load (N) or
+/// over all of them.
+[[nodiscard]] dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult& mesh,
+                                                     double nominal_load, dynamics::LoadDependence dependence);
+/// Adds everything an excitation depends on: its parameters, or the numbers of the table.
+void add_excitation(ContentId& id, const std::string& name, const dynamics::MeshExcitation& excitation,
+                    const MeshResult& mesh);
+
+/// The stage of one ring as lumped masses: the scene, its kinematics and its mesh stiffnesses put together.
+[[nodiscard]] dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                                  const MeshResult& sun_mesh, const MeshResult& ring_mesh);
+/// What [dynamics] says of the integration, whatever the kind of stage; fixed steps are counted per cycle of this
+/// frequency (Hz).
+[[nodiscard]] dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double mesh_frequency);
+[[nodiscard]] dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamics::PlanetaryStage& stage);
+
+/// Identity of everything the response depends on.
+[[nodiscard]] std::string response_id(const dynamics::PlanetaryStage& stage, const dynamics::SimulationOptions& options,
+                                      const MeshResult& sun_mesh, const MeshResult& ring_mesh);
+
+/// Simulates, carries the errors of the tables into the figures, writes all files of `folder` (OUT/<ring>/dynamics)
+/// including the time series, and returns what is kept.
+[[nodiscard]] StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage,
+                                              const dynamics::SimulationOptions& options, const StageTables& tables,
+                                              const std::string& id, const std::filesystem::path& folder);
+/// The response kept in `folder`, if its inputs are those of `id`.
+[[nodiscard]] std::optional<StageResponse> load_response(const std::string& id, const std::filesystem::path& folder);
+
+}  // namespace annulus::app

@@ -1,0 +1,283 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/systems/two_k_v/report/reducer_report_parts.h"
+#include "core/units.h"
+
+namespace annulus::app {
+
+namespace {
+
+std::vector<double> degrees(const Eigen::VectorXd& angle) {
+  std::vector<double> list;
+  for (const double a : angle) list.push_back(a / units::deg);
+  list.push_back(360);
+  return list;
+}
+
+/// The row with its first value again at the end: a full turn.
+template <class Row>
+std::vector<double> closed(const Row& row, double scale) {
+  std::vector<double> list;
+  for (Eigen::Index i = 0; i < row.size(); ++i) list.push_back(scale * row(i));
+  list.push_back(list.front());
+  return list;
+}
+
+std::size_t body_colour(const std::string& dof) {
+  const std::pair<const char*, std::size_t> colours[] = {{"input", 4}, {"sun", 0}, {"planet", 1},
+                                                         {"crank", 3}, {"arc", 2}, {"output", 6}};
+  for (const auto& [body, colour] : colours)
+    if (dof.starts_with(body)) return colour;
+  return 7;
+}
+
+std::string dof_words(const std::string& dof) {
+  std::string text;
+  for (const char c : dof) {
+    if (c == '_') {
+      text += dof.ends_with("_u") ? " turn" : " centre";
+      break;
+    }
+    if (c >= '0' && c <= '9' && !text.empty() && text.back() != ' ' && !(text.back() >= '0' && text.back() <= '9'))
+      text += ' ';
+    text += c;
+  }
+  if (text.starts_with("arc")) text.replace(0, 3, "arc gear");
+  return text;
+}
+
+std::string body_words(const std::string& body) {
+  return body == "arc" ? "arc gears" : body == "planet" || body == "crank" ? body + "s" : body;
+}
+
+std::string strain_words(const TwoKVVibration& v, std::size_t mode) {
+  const auto groups = dynamics::by_group(v.energy);
+  std::vector<std::pair<double, std::string>> shares;
+  for (std::size_t g = 0; g < groups.groups.size(); ++g)
+    shares.emplace_back(groups.strain(static_cast<Eigen::Index>(g), static_cast<Eigen::Index>(mode)), groups.groups[g]);
+  std::stable_sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, shares.size()); ++i) {
+    if (shares[i].first < 0.05) break;
+    text +=
+        fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", element_words(shares[i].second), 100 * shares[i].first);
+  }
+  return text;
+}
+
+PageTable frequency_table(const TwoKVResult& result) {
+  const auto& v = *result.own.vibration;
+  PageTable table{.head = {"mode", "frequency, Hz", "over the crank angle, Hz", "strain energy in", "moves most"},
+                  .rows = {}};
+  if (result.computed) table.head.insert(table.head.begin() + 2, "with computed stiffness, Hz");
+  for (std::size_t m = 0; m < v.modes.modes.size(); ++m) {
+    const auto row = v.over_crank.frequency.row(static_cast<Eigen::Index>(m));
+    const auto of = v.names[m].find(" on ");
+    std::vector<Text> cells = {fmt::format("{}", m + 1), fmt::format("{:.2f}", v.modes.modes[m].frequency),
+                               fmt::format("{:.2f} … {:.2f}", row.minCoeff(), row.maxCoeff()), strain_words(v, m),
+                               body_words(v.names[m].substr(0, of))};
+    if (v.modes.modes[m].frequency == 0) cells[3] = "free rotation";
+    if (result.computed) {
+      const auto& other = result.computed->vibration->modes.modes;
+      cells.insert(cells.begin() + 2, Text(m < other.size() ? fmt::format("{:.2f}", other[m].frequency) : ""));
+    }
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+Pictures over_crank_plots(const ShownCase& shown) {
+  const auto& v = *shown.result->vibration;
+  const auto x = degrees(v.over_crank.angle);
+  Plot absolute{.title = "Natural frequencies, " + shown.name,
+                .x_label = "crank angle against the carrier, °",
+                .y_label = "kHz",
+                .x_range = Range{0, 360},
+                .height = 330};
+  Plot change = absolute;
+  change.title = "Change over the crank angle, " + shown.name;
+  change.y_label = "% of the mean";
+  for (Eigen::Index m = 0; m < v.over_crank.frequency.rows(); ++m) {
+    const auto row = v.over_crank.frequency.row(m);
+    if (!(row.minCoeff() > 0)) continue;
+    const auto colour = static_cast<std::size_t>(m);
+    absolute.series.push_back(
+        {.label = fmt::format("mode {}", m + 1), .x = x, .y = closed(row, 1e-3), .colour = colour});
+    auto relative = closed(row, 100 / row.mean());
+    for (auto& value : relative) value -= 100;
+    change.series.push_back({.label = fmt::format("mode {}", m + 1), .x = x, .y = relative, .colour = colour});
+  }
+  Legend legend;
+  for (std::size_t m = 0; m < v.modes.modes.size(); ++m)
+    if (v.modes.modes[m].frequency > 0) legend.emplace_back(fmt::format("mode {}", m + 1), m);
+  return {{absolute, change},
+          legend,
+          "Frozen at each crank angle with the mesh stiffness of that position. The bearings of the arc gears "
+          "push along directions that turn with the crank; half a turn exchanges the arc gears."};
+}
+
+const Legend body_legend = {{"input", 4}, {"sun", 0}, {"planets", 1}, {"cranks", 3}, {"arc gears", 2}};
+
+Blocks shape_pictures(const TwoKVVibration& v) {
+  std::vector<Picture> pictures;
+  for (std::size_t m = 0; m < v.modes.modes.size(); ++m) {
+    const auto& mode = v.modes.modes[m];
+    if (mode.frequency == 0) continue;
+    const double largest = mode.shape.cwiseAbs().maxCoeff();
+    Eigen::Index most = 0;
+    mode.shape.cwiseAbs().maxCoeff(&most);
+    const double sign = mode.shape[most] < 0 ? -1 : 1;
+    BarChart chart{.title = fmt::format("{}: {:.0f} Hz", m + 1, mode.frequency),
+                   .x_label = {},
+                   .bars = {},
+                   .reach = 1,
+                   .two_sided = true,
+                   .width = 260,
+                   .label_width = 112,
+                   .row_height = 14};
+    for (Eigen::Index i = 0; i < mode.shape.size(); ++i)
+      chart.bars.push_back({dof_words(v.modes.dofs[static_cast<std::size_t>(i)]),
+                            sign * mode.shape[i] / largest,
+                            body_colour(v.modes.dofs[static_cast<std::size_t>(i)]),
+                            {}});
+    pictures.emplace_back(chart);
+  }
+  return heading("Mode shapes") +
+         Pictures{
+             pictures, body_legend,
+             "Displacements as lengths, the largest 1: turns times base radius (input, sun, planets), eccentricity "
+             "(cranks) or radius of the crank circle (arc gears); centres along their directions of motion. "
+             "mode_shapes.csv has the numbers.",
+             Pictures::Layout::shapes};
+}
+
+/// How every shape changes while the crank turns; modes are numbered by rising frequency at each angle.
+Blocks shapes_over_crank(const TwoKVVibration& v) {
+  const auto& crank = v.over_crank;
+  const auto x = degrees(crank.angle);
+  std::vector<Picture> pictures;
+  for (std::size_t m = 0; m < v.modes.modes.size(); ++m) {
+    if (!(crank.frequency.row(static_cast<Eigen::Index>(m)).minCoeff() > 0)) continue;
+    Eigen::MatrixXd shape(v.modes.modes[m].shape.size(), crank.angle.size());
+    for (Eigen::Index i = 0; i < crank.angle.size(); ++i)
+      shape.col(i) = crank.modes[static_cast<std::size_t>(i)].modes[m].shape;
+    shape /= shape.cwiseAbs().maxCoeff();
+    Plot plot{.title = fmt::format("Mode {}", m + 1),
+              .x_label = "crank angle, °",
+              .y_label = "displacement",
+              .x_range = Range{0, 360},
+              .y_range = Range{-1.05, 1.05}};
+    for (Eigen::Index f = 0; f < shape.rows(); ++f) {
+      const auto& name = v.modes.dofs[static_cast<std::size_t>(f)];
+      auto y = closed(shape.row(f), 1);
+      // A shape may come back the other way round after a turn: that is no jump of the shape.
+      y.back() =
+          std::abs(y.front() - y[y.size() - 2]) <= std::abs(y.front() + y[y.size() - 2]) ? y.front() : -y.front();
+      plot.series.push_back({.label = dof_words(name),
+                             .x = x,
+                             .y = std::move(y),
+                             .colour = body_colour(name),
+                             .dashed = name.find('2') != std::string::npos});
+    }
+    pictures.emplace_back(plot);
+  }
+  return heading("Mode shapes over the crank angle") +
+         Pictures{
+             pictures, body_legend,
+             "Stiffness as given; modes numbered by rising frequency at each angle, so two that cross change their "
+             "numbers. Dashed: the second body of its kind. Numbers: mode_shapes_over_crank.csv."};
+}
+
+std::string factor_text(const std::optional<double>& factor, const char* none) {
+  return factor ? fmt::format("× {}", to_text(*factor, 4)) : std::string(none);
+}
+
+}  // namespace
+
+std::size_t first_elastic_mode(const TwoKVVibration& vibration) {
+  std::size_t mode = 0;
+  while (vibration.modes.modes[mode].frequency == 0) ++mode;
+  return mode;
+}
+
+Section frequencies_section(const TwoKVResult& result) {
+  Section section{"frequencies", "Natural frequencies", {}, "Natural frequencies over the crank angle"};
+  if (!result.own.vibration) return section;
+  const auto& v = *result.own.vibration;
+  section.blocks = paragraph(fmt::format("Undamped, without rotation; the table holds at the mean mesh stiffness and "
+                                         "the crank angle of the scene. All modes of one crank angle take {:.0f} µs.",
+                                         1e6 * v.seconds_per_position)) +
+                   frequency_table(result);
+  for (const auto& shown : shown_cases(result)) section.blocks += over_crank_plots(shown);
+  section.blocks += shape_pictures(v) + shapes_over_crank(v);
+  return section;
+}
+
+Section first_frequency_section(const TwoKVResult& result) {
+  Section section{"first-frequency", "First frequency", {}, "What the first frequency depends on"};
+  if (!result.own.vibration) return section;
+  const auto& v = *result.own.vibration;
+  const auto& scene = result.scene;
+  BarChart chart{
+      .title = {}, .x_label = "d ln f₁ / d ln p", .bars = {}, .width = 900, .label_width = 220, .row_height = 20};
+  PageTable table{.head = {"input", "value", "d ln f₁/d ln p", "f₁ within ±5 %: from", "to"},
+                  .style = PageTable::Style::numbers};
+  for (const double target : v.targets) table.head.emplace_back(fmt::format("for {} Hz", to_text(target)));
+  for (const auto& input : v.inputs) {
+    const bool assumed = scene.assumed.contains(input.key);
+    chart.bars.push_back({input.key, input.sensitivity, assumed ? 1U : 0U, fmt::format("{:+.3f}", input.sensitivity)});
+    std::vector<Text> row = {code(input.key) + (assumed ? " " + tag(Text::Look::assumed, "assumed") : Text()),
+                             to_text(input.value, 5) + " " + input.unit, fmt::format("{:+.4f}", input.sensitivity),
+                             factor_text(input.band.low, "any smaller"), factor_text(input.band.high, "any larger")};
+    for (const auto& factor : input.reaching) row.emplace_back(factor_text(factor, "out of reach"));
+    table.rows.push_back(std::move(row));
+  }
+  section.blocks =
+      paragraph(
+          "d ln f₁/d ln p: by how many per cent the first frequency rises when the input rises by one per cent. "
+          "Stiffnesses add up to ½, inertias and masses to −½: they are shares of the energies of the mode. The range: "
+          "factors on one input alone between which f₁ stays within ±5 %.") +
+      Pictures{{chart}, {{"assumed", 1}, {"given or computed", 0}}} + table;
+  return section;
+}
+
+Section torsion_section(const TwoKVResult& result) {
+  Section section{"torsion", "Torsional stiffness", {}, "Torsional stiffness and lost motion"};
+  if (!result.own.vibration) return section;
+  Plot plot{.title = "Torsional stiffness over the crank angle",
+            .x_label = "crank angle against the carrier, °",
+            .y_label = "kN m/rad",
+            .x_range = Range{0, 360},
+            .width = 900,
+            .height = 300};
+  PageTable table = labelled_rows(
+      {"mean stiffness, N m/rad", "mean stiffness, N m/arc minute", "range over the crank angle, % of the mean",
+       "wind-up under the load, arc seconds", "lost motion by backlash, arc seconds",
+       "lost motion by ±3 % of the load, arc seconds", "lost motion, together, arc seconds"});
+  constexpr double rounding = 1e-10;  // of the condensation
+  for (const auto& shown : shown_cases(result)) {
+    const auto& v = *shown.result->vibration;
+    plot.series.push_back({.label = shown.name,
+                           .x = degrees(v.torsion.angle),
+                           .y = closed(v.torsion.from_output, 1e-3),
+                           .colour = shown.colour});
+    std::vector<Text> cells;
+    for (const double value :
+         {v.torsion.mean(), v.torsion.mean() * arc_minute, v.torsion.ripple() > rounding ? 100 * v.torsion.ripple() : 0,
+          v.lost.wind_up / arc_second, v.lost.backlash / arc_second, v.lost.elastic / arc_second,
+          v.lost.total() / arc_second})
+      cells.emplace_back(to_text(value, 4));
+    add_column(table, shown.name, cells);
+  }
+  section.blocks =
+      paragraph(
+          "Torque over turn of the output with the input held, all elastic parts condensed. Seen from the input with "
+          "the output held it is smaller by the ratio squared.") +
+      Pictures{{plot}, case_legend(result)} + table;
+  return section;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/plan/mesh_model.h"
+#include "app/scene/key_checks.h"
+#include "app/systems/two_k_v/two_k_v_scene.h"
+#include "core/units.h"
+
+namespace annulus::app {
+
+namespace {
+
+class TwoKVChecker : KeyChecks {
+ public:
+  using KeyChecks::KeyChecks;
+
+  void run() {
+    gears();
+    wave(scene_.sun_planet, "mesh.sun_planet");
+    wave(scene_.arc_pins, "mesh.arc_pins");
+    arc_teeth();
+    plane_models();
+    dynamics();
+  }
+
+ private:
+  static bool wanted(const MeshInput& m) {
+    return m.stiffness == StiffnessShape::computed || m.compare == Compare::computed;
+  }
+
+  void gears() {
+    if (usable("stage.planets") && scene_.stage.planets < 2)
+      problem(
+          "stage.planets", "",
+          "must be at least 2: a single crank has dead points, at which nothing holds the arc gears against turning");
+    if (usable("stage.helix_angle_deg") && scene_.stage.helix_angle != 0)
+      problem("stage.helix_angle_deg", "", "must be 0 or be left out: the model of a 2K-V stage has spur gears");
+    if (!usable("sun.profile_shift") || !usable("planet.profile_shift")) return;
+    const double sum = scene_.sun.profile_shift + scene_.planet.profile_shift;
+    constexpr double rounding = 1e-9;  // of decimal fractions
+    if (std::abs(sum) > rounding)
+      problem("planet.profile_shift", "",
+              fmt::format("must be {}, the opposite of the sun's: planets run at the reference centre distance of "
+                          "module × (sun teeth + planet teeth) / 2",
+                          to_text(-scene_.sun.profile_shift)));
+  }
+
+  void arc_teeth() {
+    const auto& a = scene_.arc_gear;
+    if (a.pin_circle_diameter && usable("arc_gear.eccentricity_mm") && usable("arc_gear.pins")) {
+      const double least = 2 * a.eccentricity * a.pins;
+      if (*a.pin_circle_diameter <= least)
+        problem("arc_gear.pin_circle_diameter_mm", "",
+                fmt::format("must be larger than 2 × eccentricity × pins = {} mm, else the pitch point lies beyond the "
+                            "pins",
+                            to_text(least / units::mm, 7)));
+    }
+    if (a.pin_circle_diameter && a.pin_diameter && usable("arc_gear.pins")) {
+      const double distance = *a.pin_circle_diameter * std::sin(std::numbers::pi / a.pins);
+      if (distance <= *a.pin_diameter)
+        problem("arc_gear.pin_diameter_mm", "",
+                fmt::format("pins overlap: their centres are {} mm apart; make them thinner or fewer",
+                            to_text(distance / units::mm, 5)));
+    }
+    if (a.arc_radius && a.pin_diameter && *a.arc_radius <= *a.pin_diameter / 2)
+      problem("arc_gear.arc_radius_mm", "",
+              fmt::format("must be larger than the pin's radius of {} mm, on which the arc rolls",
+                          to_text(*a.pin_diameter / 2 / units::mm)));
+  }
+
+  void plane_models() {
+    const bool plane = scene_.fidelity == Fidelity::plane || scene_.fidelity == Fidelity::closed_form;
+    if (!plane || !wanted(scene_.sun_planet)) return;
+    const std::string why = solid_reason(scene_);
+    if (!why.empty())
+      problem("model", "",
+              fmt::format("cannot represent the sun-planet mesh: {}; use \"automatic\" or \"solid\"", why));
+  }
+
+  void dynamics() {
+    if (!scene_.dynamics) return;
+    if (std::isinf(scene_.input.support) && std::isinf(scene_.output.support))
+      problem("output.support_Nm_per_rad", "",
+              "no torque acts where input and output are both fixed; leave input.support_Nm_per_rad out");
+  }
+};
+
+}  // namespace
+
+void check_two_k_v_scene(Scene& scene, std::vector<Problem>& problems) { TwoKVChecker(scene, problems).run(); }
+
+}  // namespace annulus::app

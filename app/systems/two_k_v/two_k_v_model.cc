@@ -1,0 +1,222 @@
+#include "app/systems/two_k_v/two_k_v_model.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/content_id.h"
+#include "app/model/stiff_supports.h"
+#include "app/systems/planetary/stage_response.h"
+#include "core/errors.h"
+#include "core/units.h"
+
+namespace annulus::app {
+
+namespace {
+
+template <class Make>
+auto of_gear(const char* what, Make make) {
+  try {
+    return make();
+  } catch (const GeometryError& error) {
+    throw GeometryError(std::string(what) + ": " + error.what());
+  }
+}
+
+bool is_computed(const MeshInput& input) { return input.stiffness == StiffnessShape::computed; }
+
+/// No backlash leaves nothing to part: the mesh is then linear, with forces of either sign.
+std::optional<double> half_backlash(const MeshInput& mesh, const DynamicsInput& dynamics) {
+  const double half = mesh.half_backlash.value_or(dynamics.half_backlash);
+  if (half == 0) return std::nullopt;
+  return half;
+}
+
+}  // namespace
+
+geometry::GearPair sun_planet_pair(const Scene& scene) {
+  using geometry::GearKind;
+  const auto sun = of_gear("sun", [&] { return make_gear(scene, scene.sun, GearKind::external); });
+  const auto planet = of_gear("planet", [&] { return make_gear(scene, scene.planet, GearKind::external); });
+  const double distance = scene.stage.module * (scene.sun.teeth + scene.planet.teeth) / 2;
+  const double apart = 2 * distance * std::sin(std::numbers::pi / scene.stage.planets);
+  if (scene.stage.planets > 1 && apart <= 2 * planet.tip_radius())
+    throw InputError(
+        fmt::format("stage.planets = {}: neighbouring planets foul: their centres are {} mm apart, their tip diameter "
+                    "is {} mm; take fewer",
+                    scene.stage.planets, to_text(apart / units::mm, 5), to_text(2e3 * planet.tip_radius(), 5)));
+  return of_gear("sun and planet", [&] { return geometry::GearPair(planet, sun, distance); });
+}
+
+void check_two_k_v(const Scene& scene) {
+  (void)sun_planet_pair(scene);
+  if (const auto arc = arc_tooth_mesh(scene)) arc->check();
+  const auto other = compared_scene(scene);
+  (void)arc_pins_result(other ? *other : scene);  // load within the range of the contact formula
+}
+
+dynamics::TwoKVStage two_k_v_kinematics(const Scene& scene) {
+  dynamics::TwoKVStage stage;
+  stage.sun_teeth = scene.sun.teeth;
+  stage.planet_teeth = scene.planet.teeth;
+  stage.pins = scene.arc_gear.pins;
+  stage.arc_teeth = scene.arc_gear.pins - 1;
+  stage.cranks = scene.stage.planets;
+  stage.arc_gears = scene.arc_gear.count;
+  stage.module = scene.stage.module;
+  stage.pressure_angle = scene.stage.pressure_angle;
+  stage.eccentricity = scene.arc_gear.eccentricity;
+  stage.crank_angle = scene.crank.angle;
+  stage.output_speed = scene.output.speed;
+  stage.output_torque = scene.output.torque;
+  return stage;
+}
+
+std::optional<dynamics::ArcToothMesh> arc_tooth_mesh(const Scene& scene) {
+  const auto& a = scene.arc_gear;
+  if (!a.pin_circle_diameter || !a.pin_diameter || !a.arc_radius || !a.width) return std::nullopt;
+  return dynamics::ArcToothMesh{.pins = a.pins,
+                                .eccentricity = a.eccentricity,
+                                .pin_circle_radius = *a.pin_circle_diameter / 2,
+                                .pin_radius = *a.pin_diameter / 2,
+                                .arc_radius = *a.arc_radius,
+                                .width = *a.width,
+                                .youngs_modulus = scene.material.youngs_modulus,
+                                .poisson_ratio = scene.material.poisson_ratio,
+                                .clearance = a.clearance,
+                                .approach = a.approach};
+}
+
+std::optional<Scene> compared_scene(const Scene& scene) {
+  std::optional<Scene> changed;
+  for (MeshInput Scene::*const member :
+       std::initializer_list<MeshInput Scene::*>{&Scene::sun_planet, &Scene::arc_pins}) {
+    if ((scene.*member).compare != Compare::computed || is_computed(scene.*member)) continue;
+    if (!changed) changed = scene;
+    ((*changed).*member).stiffness = StiffnessShape::computed;
+  }
+  return changed;
+}
+
+MeshModel two_k_v_sun_model(const Scene& scene) {
+  const auto pair = sun_planet_pair(scene);
+  return external_mesh_model(scene, {.mesh = sun_planet,
+                                     .pair = pair,
+                                     .input = scene.sun_planet,
+                                     .planet = scene.planet,
+                                     .wheel = scene.sun,
+                                     .planet_name = "planet",
+                                     .wheel_name = "sun",
+                                     .mean_force = two_k_v_kinematics(scene).mean_sun_mesh_force()});
+}
+
+MeshModel arc_pins_model(const Scene& scene) {
+  MeshModel model{.mesh = arc_pins};
+  if (is_computed(scene.arc_pins)) {
+    model.fidelity = "line_contact";
+    model.reason = "line contact of pins and concave arcs, shared by all pins on the loaded side";
+    model.repeats = "equal teeth on equal pins: one mesh cycle tells all";
+  } else {
+    model.fidelity = "given";
+    model.reason = "the scene gives the stiffness (mesh.arc_pins)";
+    model.repeats = "as given";
+  }
+  return model;
+}
+
+MeshResult given_sun_result(const Scene& scene, const MeshModel& model) {
+  return given_stiffness(model, scene.sun_planet, scene, sun_planet_pair(scene).contact_ratio(),
+                         two_k_v_kinematics(scene).mean_sun_mesh_force());
+}
+
+MeshResult arc_pins_result(const Scene& scene) {
+  const auto stage = two_k_v_kinematics(scene);
+  const auto model = arc_pins_model(scene);
+  if (!is_computed(scene.arc_pins))
+    return given_stiffness(model, scene.arc_pins, scene, 0, stage.mean_arc_mesh_force());
+  const auto mesh = arc_tooth_mesh(scene);
+  require(mesh.has_value(), "a checked scene has the dimensions of its arc teeth");
+  std::vector<double> torques;
+  for (const double factor : table_load_factors) torques.push_back(factor * stage.arc_torque());
+  auto table = dynamics::arc_stiffness_table(*mesh, torques, table_phases);
+  double loaded = 0;
+  for (int i = 0; i < table_phases; ++i)
+    loaded += dynamics::arc_position(*mesh, stage.arc_torque(), static_cast<double>(i) / table_phases).loaded;
+  ContentId id;
+  for (const double x : {double(mesh->pins), mesh->eccentricity, mesh->pin_circle_radius, mesh->pin_radius,
+                         mesh->arc_radius, mesh->width, mesh->youngs_modulus, mesh->poisson_ratio, mesh->clearance,
+                         double(mesh->approach), stage.arc_torque()})
+    id.add("arc", x);
+  table.provenance = {{"annulus_version", version()}, {"inputs_id", id.id()}, {"model", model.fidelity}};
+  return {
+      .model = model, .contact_ratio = loaded / table_phases, .table = std::move(table), .nominal = nominal_load_index};
+}
+
+dynamics::TwoKVStage make_two_k_v(const Scene& scene, const TwoKVTables& tables, dynamics::LoadDependence dependence) {
+  if (!scene.dynamics) throw InternalError("internal error: dynamics of a scene without [dynamics]");
+  auto stage = two_k_v_kinematics(scene);
+  stage.input_inertia = *scene.input.inertia;
+  stage.sun_inertia = *scene.sun.inertia;
+  stage.planet_inertia = *scene.planet.inertia;
+  stage.planet_mass = *scene.planet.mass;
+  stage.crank_inertia = *scene.crank.inertia;
+  stage.arc_inertia = *scene.arc_gear.inertia;
+  stage.arc_mass = *scene.arc_gear.mass;
+  stage.output_inertia = *scene.output.inertia;
+  stage.sun_mesh = excitation_of(scene.sun_planet, tables.sun, stage.mean_sun_mesh_force(), dependence);
+  stage.arc_mesh = excitation_of(scene.arc_pins, tables.arc, stage.mean_arc_mesh_force(), dependence);
+  const double sun = mean_stiffness(stage.sun_mesh), arcs = stage.arc_gears * mean_stiffness(stage.arc_mesh);
+  const auto beside = [&](double neighbours, double stiffness) {
+    return as_stiff_as_matters(stiffness, neighbours, scene.accuracy);
+  };
+  stage.input_shaft = beside(stage.cranks * sun * std::pow(stage.sun_base_radius(), 2), *scene.input.shaft);
+  stage.crank_shaft = beside(sun * std::pow(stage.planet_base_radius(), 2) + arcs * std::pow(stage.eccentricity, 2),
+                             *scene.crank.shaft);
+  stage.crank_bearing = beside(sun + arcs, *scene.crank.bearing);
+  stage.arc_bearing = beside(arcs, *scene.arc_gear.bearing);
+  stage.input_support = scene.input.support;
+  stage.output_support = scene.output.support;
+  stage.sun_half_backlash = half_backlash(scene.sun_planet, *scene.dynamics);
+  stage.arc_half_backlash = half_backlash(scene.arc_pins, *scene.dynamics);
+  stage.damping_without_contact = scene.dynamics->mesh_damping == MeshDamping::always;
+  stage.mesh_damping_ratio = scene.dynamics->mesh_damping_ratio;
+  stage.support_damping_ratio = scene.dynamics->support_damping_ratio;
+  return stage;
+}
+
+dynamics::SimulationOptions two_k_v_simulation(const Scene& scene, const dynamics::TwoKVStage& stage) {
+  return given_simulation(*scene.dynamics, stage.sun_mesh_frequency());
+}
+
+std::string two_k_v_id(const dynamics::TwoKVStage& stage, const dynamics::SimulationOptions& options,
+                       const TwoKVTables& tables) {
+  ContentId id;
+  for (const int teeth : {stage.sun_teeth, stage.planet_teeth, stage.pins, stage.cranks, stage.arc_gears})
+    id.add("count", teeth);
+  id.add("module", stage.module).add("pressure_angle", stage.pressure_angle).add("eccentricity", stage.eccentricity);
+  for (const double inertia : {stage.input_inertia, stage.sun_inertia, stage.planet_inertia, stage.planet_mass,
+                               stage.crank_inertia, stage.arc_inertia, stage.arc_mass, stage.output_inertia})
+    id.add("inertia", inertia);
+  for (const double stiffness : {stage.input_shaft, stage.crank_shaft, stage.crank_bearing, stage.arc_bearing,
+                                 stage.input_support, stage.output_support})
+    id.add("stiffness", stiffness);
+  add_excitation(id, "sun_mesh", stage.sun_mesh, tables.sun);
+  add_excitation(id, "arc_mesh", stage.arc_mesh, tables.arc);
+  // With a table, the stage says whether it takes all loads or the nominal one.
+  for (const auto* mesh : {&stage.sun_mesh, &stage.arc_mesh}) {
+    const auto* table = std::get_if<dynamics::TableStiffness>(mesh);
+    id.add("law", table && table->surface ? 1 : 0);
+  }
+  id.add("sun_half_backlash", stage.sun_half_backlash.value_or(-1));
+  id.add("arc_half_backlash", stage.arc_half_backlash.value_or(-1));
+  id.add("mesh_damping", stage.mesh_damping_ratio).add("support_damping", stage.support_damping_ratio);
+  id.add("always", stage.damping_without_contact ? 1 : 0).add("crank_angle", stage.crank_angle);
+  id.add("speed", stage.output_speed).add("torque", stage.output_torque);
+  id.add("method", static_cast<int>(options.integrator.method)).add("tolerance", options.integrator.relative_tolerance);
+  id.add("fixed_step", options.integrator.fixed_step).add("cycles", options.mesh_cycles.value_or(0));
+  id.add("steady", options.steady_tolerance).add("samples", options.samples_per_cycle);
+  return id.id();
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/model/mesh_result.h"
+#include "app/pipeline.h"
+#include "app/scene/scene.h"
+#include "dynamics/steady_state/steady_response.h"
+#include "dynamics/systems/two_k_v/arc_tooth.h"
+#include "dynamics/systems/two_k_v/two_k_v.h"
+#include "geometry/gear_pair.h"
+
+/// A 2K-V scene as the stage of the lumped model, and what that stands on.
+namespace annulus::app {
+
+/// Sun and planet at their reference centre distance. Throws GeometryError, naming the gear, when they cannot exist or
+/// mesh, and InputError when neighbouring planets foul.
+[[nodiscard]] geometry::GearPair sun_planet_pair(const Scene& scene);
+
+/// Everything that needs no solving: gears, arc teeth, the files of given tables. Throws InputError.
+void check_two_k_v(const Scene& scene);
+
+/// Teeth, radii, operating point and nothing else: for speeds, forces and the ratio.
+[[nodiscard]] dynamics::TwoKVStage two_k_v_kinematics(const Scene& scene);
+
+/// The arc teeth on their pins; nothing where the scene does not give all their dimensions.
+[[nodiscard]] std::optional<dynamics::ArcToothMesh> arc_tooth_mesh(const Scene& scene);
+
+/// The scene with computed stiffness wherever it asks for a comparison; nothing when it does not.
+[[nodiscard]] std::optional<Scene> compared_scene(const Scene& scene);
+
+[[nodiscard]] MeshModel two_k_v_sun_model(const Scene& scene);
+/// Of the contact formulas; `model` "line_contact" where it is computed.
+[[nodiscard]] MeshModel arc_pins_model(const Scene& scene);
+
+/// The sun mesh where its stiffness is given.
+[[nodiscard]] MeshResult given_sun_result(const Scene& scene, const MeshModel& model);
+/// The arc mesh from the contact formulas or as given. Quick.
+[[nodiscard]] MeshResult arc_pins_result(const Scene& scene);
+
+/// Stiffness of both meshes.
+struct TwoKVTables {
+  MeshResult sun, arc;
+};
+
+/// `dependence` of meshes with tables; modes and sensitivities take the curves at the nominal load. Needs [dynamics].
+[[nodiscard]] dynamics::TwoKVStage make_two_k_v(const Scene& scene, const TwoKVTables& tables,
+                                                dynamics::LoadDependence dependence);
+[[nodiscard]] dynamics::SimulationOptions two_k_v_simulation(const Scene& scene, const dynamics::TwoKVStage& stage);
+
+/// Identity of everything the response depends on.
+[[nodiscard]] std::string two_k_v_id(const dynamics::TwoKVStage& stage, const dynamics::SimulationOptions& options,
+                                     const TwoKVTables& tables);
+
+}  // namespace annulus::app

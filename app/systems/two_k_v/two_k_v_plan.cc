@@ -1,0 +1,164 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/plan/cost_plan.h"
+#include "app/systems/two_k_v/two_k_v_run.h"
+#include "core/units.h"
+#include "dynamics/steady_state/integration_cost.h"
+
+namespace annulus::app {
+
+namespace {
+
+std::vector<Quantity> two_k_v_quantities(const Scene& scene, const geometry::GearPair& pair) {
+  const auto stage = two_k_v_kinematics(scene);
+  std::vector<Quantity> list = {
+      {"ratio", stage.ratio(), "", "turns of the input per turn of the output: 1 + (planet teeth / sun teeth) × pins"},
+      {"input_speed_rpm", scene.output.speed * stage.ratio() / units::rpm, "r/min", "speed of the input"},
+      {"input_torque_Nm", scene.output.torque / stage.ratio(), "N m", "torque of the input, without losses"},
+      {"crank_circle_radius_mm", stage.crank_circle_radius() / units::mm, "mm",
+       "from the axis to the cranks: the centre distance of sun and planets"},
+      {"arc_teeth", static_cast<double>(stage.arc_teeth), "", "teeth of an arc gear, one less than pins"},
+      {"crank_frequency_Hz", stage.crank_frequency(), "Hz", "turns of the cranks against the carrier"},
+      {"sun_mesh_frequency_Hz", stage.sun_mesh_frequency(), "Hz", "mesh frequency of sun and planets"},
+      {"arc_mesh_frequency_Hz", stage.arc_mesh_frequency(), "Hz", "mesh frequency of arc teeth and pins"},
+      {"mean_sun_mesh_force_N", stage.mean_sun_mesh_force(), "N",
+       "mean force of each sun mesh, along the line of action"},
+      {"mean_arc_mesh_force_N", stage.mean_arc_mesh_force(), "N",
+       "mean force of each arc mesh, along the tangent of the pitch point"},
+      {"sun_mesh_contact_ratio", pair.contact_ratio(), "", "contact ratio of the sun mesh"},
+      {"sun_mesh_normal_backlash_um", std::round(pair.normal_backlash() / units::um * 1e6) / 1e6, "µm",
+       "backlash of the sun mesh along the line of action, from the profile shifts"},
+      {"planet_tip_diameter_mm", 2 * pair.planet().tip_radius() / units::mm, "mm", "planet tip diameter"},
+      {"sun_tip_diameter_mm", 2 * pair.wheel().tip_radius() / units::mm, "mm", "sun tip diameter"},
+  };
+  if (const auto arc = arc_tooth_mesh(scene))
+    list.push_back({"shortening", arc->eccentricity * arc->pins / arc->pin_circle_radius, "",
+                    "eccentricity × pins / radius of the pin circle: where the pitch point lies"});
+  return list;
+}
+
+std::vector<DofPlan> two_k_v_dofs(const Scene& scene) {
+  const auto held = [](const std::string& name, double support) {
+    const bool kept = std::isfinite(support);
+    return DofPlan{name, kept,
+                   !kept          ? "held: dropped"
+                   : support == 0 ? "free to turn: carries the power"
+                                  : fmt::format("torsional support of {} N m/rad", to_text(support))};
+  };
+  const std::string planets = fmt::format("planet 1 ... {}", scene.stage.planets),
+                    cranks = fmt::format("crank 1 ... {}", scene.stage.planets),
+                    gears = fmt::format("arc gear 1 ... {}", scene.arc_gear.count);
+  return {held("input u", scene.input.support),
+          {"sun u", true, "turns between input shaft and planets"},
+          {planets + " u", true, "each turns between the sun and its crank shaft"},
+          {planets + " x", true, "along the circle of the cranks, in the crank's bearings"},
+          {cranks + " u", true, "each turns between its planet and the arc gears"},
+          {gears + " u", true, "each turns with the output"},
+          {gears + " x", true, "along the circle of the eccentric"},
+          held("output u", scene.output.support)};
+}
+
+/// The stage with rough stiffness, before anything is solved.
+dynamics::TwoKVStage rough_two_k_v(const Scene& scene) {
+  Scene rough = scene;
+  for (auto* mesh : {&rough.sun_planet, &rough.arc_pins}) {
+    const double mean = rough_stiffness(scene, *mesh);
+    *mesh = {};
+    mesh->stiffness = StiffnessShape::constant;
+    mesh->mean = mean;
+  }
+  const auto none = [](const char* mesh) {
+    return MeshResult{.model = {},
+                      .table = StiffnessTable(mesh, 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
+  };
+  return make_two_k_v(rough, {none("sun_planet"), none("arc_pins")}, dynamics::LoadDependence::nominal);
+}
+
+std::vector<std::string> stiff_parts(const Scene& scene) {
+  const auto stage = rough_two_k_v(scene);
+  std::vector<std::string> list;
+  const auto add = [&](const char* key, double given, double taken, const char* unit) {
+    if (taken < given)
+      list.push_back(
+          fmt::format("{} = {} {unit} counts as some {} {unit}: it then gives way by less than a "
+                      "thousandth of the accuracy beside its neighbours, and more changes nothing.",
+                      key, to_text(given), to_text(taken, 2), fmt::arg("unit", unit)));
+  };
+  add("input.shaft_Nm_per_rad", *scene.input.shaft, stage.input_shaft, "N m/rad");
+  add("crank.shaft_Nm_per_rad", *scene.crank.shaft, stage.crank_shaft, "N m/rad");
+  add("crank.bearing_N_per_m", *scene.crank.bearing, stage.crank_bearing, "N/m");
+  add("arc_gear.bearing_N_per_m", *scene.arc_gear.bearing, stage.arc_bearing, "N/m");
+  return list;
+}
+
+std::vector<std::string> two_k_v_remarks(const Scene& scene, const std::vector<MeshModel>& meshes) {
+  std::vector<std::string> list;
+  bool computed = false;
+  for (const auto& mesh : meshes) computed = computed || mesh.computed();
+  if (computed) {
+    list.emplace_back("Only the driving flanks are solved; friction is left out.");
+    list.emplace_back("All sun meshes are alike and solved once; each meets its own phase of the table.");
+  }
+  if (compared_scene(scene))
+    list.emplace_back("Stiffness that is given is also computed, and everything is answered with both.");
+  if (!scene.dynamics) {
+    list.emplace_back("No [dynamics]: mesh stiffness only.");
+    return list;
+  }
+  list.emplace_back(
+      "The directions of the eccentrics turn with the crank: stiffness and modes change over its turn even where the "
+      "mesh stiffness is constant.");
+  list.emplace_back("Centrifugal and gyroscopic terms are left out, as in the paper; the crank turns slowly.");
+  if (scene.dynamics->half_backlash == 0)
+    list.emplace_back("Without backlash no mesh parts: its force may take either sign.");
+  for (auto& remark : stiff_parts(scene)) list.push_back(std::move(remark));
+  if (!scene.dynamics->mesh_cycles)
+    list.emplace_back("The motion is looked for directly (shooting) and confirmed by time integration.");
+  return list;
+}
+
+}  // namespace
+
+std::vector<MeshModel> two_k_v_meshes(const Scene& scene) {
+  const auto other = compared_scene(scene);
+  const Scene& shown = other ? *other : scene;
+  return {two_k_v_sun_model(shown), arc_pins_model(shown)};
+}
+
+std::vector<PlannedResponse> two_k_v_responses(const Scene& scene) {
+  if (!scene.dynamics) return {};
+  CostRun size;
+  size.unknowns = scene.planet.teeth;  // one turn of the crank
+  const double marching = two_k_v_marching_seconds(scene);
+  const auto given_alone = [](const MeshInput& m) { return m.stiffness != StiffnessShape::computed; };
+  const bool given = given_alone(scene.sun_planet) && given_alone(scene.arc_pins);
+  size.kind = given ? "response_two_k_v_given" : "response_two_k_v";
+  std::vector<PlannedResponse> list = {{"dynamics", "", size, marching}};
+  size.kind = "response_two_k_v";
+  if (compared_scene(scene)) list.push_back({"dynamics with computed stiffness", "computed", size, marching});
+  return list;
+}
+
+double two_k_v_marching_seconds(const Scene& scene) {
+  const auto stage = rough_two_k_v(scene);
+  const auto system = assemble(stage);
+  // Shooting integrates a turn of the crank once per state, then twice more.
+  const double turns = 2.0 * system.dofs() + 2;
+  const double cycles =
+      scene.dynamics->mesh_cycles.value_or(1) * (scene.dynamics->mesh_cycles ? 1.0 : turns * scene.planet.teeth);
+  return dynamics::integration_seconds(system, stage.sun_mesh_frequency(), cycles,
+                                       two_k_v_simulation(scene, stage).integrator);
+}
+
+void describe_two_k_v(const Scene& scene, Plan& plan) {
+  for (const auto& input : scene.inputs)
+    if (!std::holds_alternative<std::monostate>(input.value)) plan.inputs.push_back(input);
+  plan.quantities = two_k_v_quantities(scene, sun_planet_pair(scene));
+  if (scene.dynamics) plan.dofs = two_k_v_dofs(scene);
+  plan.remarks = two_k_v_remarks(scene, plan.meshes);
+}
+
+}  // namespace annulus::app

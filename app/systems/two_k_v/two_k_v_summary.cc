@@ -1,0 +1,128 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "app/content_id.h"
+#include "app/model/error_parts_json.h"
+#include "app/plan/cost_actual.h"
+#include "app/scene/inputs_json.h"
+#include "app/scene/scene_schema.h"
+#include "app/study/summary_studies.h"
+#include "app/systems/two_k_v/two_k_v_run.h"
+
+namespace annulus::app {
+
+namespace {
+
+using ReducerJson = Json;
+
+ReducerJson finite(double x) { return std::isfinite(x) ? ReducerJson(x) : ReducerJson(nullptr); }
+ReducerJson finite(const std::optional<double>& x) { return x ? finite(*x) : ReducerJson(nullptr); }
+
+ReducerJson mesh_json_of(const MeshResult& mesh) {
+  const auto k = mesh.mean_stiffness();
+  ReducerJson json = {{"model", mesh.model.fidelity},
+                      {"mean_stiffness_N_per_m",
+                       {{"value", finite(k.value)},
+                        {"error_relative", finite(k.error_relative)},
+                        {"error_parts_relative", ReducerJson::parse(error_parts_json(k.parts))}}},
+                      {"nominal_load_N", mesh.table.loads()[mesh.nominal]},
+                      {"reused", mesh.reused}};
+  for (const auto& [name, value] : mesh.facts) json[name] = finite(value);
+  return json;
+}
+
+ReducerJson vibration_json(const TwoKVVibration& v) {
+  ReducerJson json = {{"first_frequency_Hz", v.first_frequency()},
+                      {"frequencies_Hz", ReducerJson::array()},
+                      {"modes", ReducerJson::array()},
+                      {"seconds_per_crank_angle", v.seconds_per_position}};
+  for (std::size_t m = 0; m < v.modes.modes.size(); ++m) {
+    json["frequencies_Hz"].push_back(v.modes.modes[m].frequency);
+    const auto row = v.over_crank.frequency.row(static_cast<Eigen::Index>(m));
+    json["modes"].push_back({{"frequency_Hz", v.modes.modes[m].frequency},
+                             {"name", v.names[m]},
+                             {"smallest_over_crank_Hz", row.minCoeff()},
+                             {"largest_over_crank_Hz", row.maxCoeff()}});
+  }
+  json["torsional_stiffness"] = {{"mean_Nm_per_rad", v.torsion.mean()}, {"ripple", v.torsion.ripple()}};
+  json["one_degree_of_freedom"] = {{"stiffness_Nm_per_rad", v.estimate.stiffness},
+                                   {"input_inertia_at_output_kg_m2", v.estimate.input_inertia},
+                                   {"train_inertia_at_output_kg_m2", v.estimate.train_inertia},
+                                   {"frequency_of_input_Hz", v.estimate.input_frequency},
+                                   {"frequency_of_train_Hz", v.estimate.train_frequency}};
+  json["lost_motion"] = {
+      {"backlash_rad", v.lost.backlash}, {"elastic_rad", v.lost.elastic}, {"wind_up_rad", v.lost.wind_up}};
+  for (const auto& input : v.inputs)
+    json["first_frequency_inputs"].push_back({{"input", input.key},
+                                              {"value_SI", input.value},
+                                              {"d_ln_f_per_d_ln_p", input.sensitivity},
+                                              {"factor_low", finite(input.band.low)},
+                                              {"factor_high", finite(input.band.high)}});
+  return json;
+}
+
+ReducerJson motion_summary(const TwoKVMotion& m) {
+  ReducerJson json = {
+      {"steady", m.steady},
+      {"steady_difference", finite(m.steady_difference)},
+      {"largest_multiplier", finite(m.largest_multiplier)},
+      {"torque_balance_relative", finite(m.torque_balance_relative)},
+      {"energy_balance_relative", finite(m.energy_relative)},
+      {"output_error_peak_to_peak_rad", {{"value", m.error_peak_to_peak.value}, {"error", m.error_peak_to_peak.error}}},
+      {"output_error_mean_rad", m.error_mean},
+      {"output_error_quasi_static_rad", m.static_error_peak_to_peak}};
+  for (const bool arc : {false, true})
+    for (const auto& mesh : arc ? m.arc_pins : m.sun_planet)
+      json[arc ? "arc_pins" : "sun_planet"].push_back(
+          {{"dynamic_factor",
+            {{"value", mesh.dynamic_factor_max.value}, {"error", finite(mesh.dynamic_factor_max.error)}}},
+           {"dynamic_factor_min", mesh.dynamic_factor_min},
+           {"contact_loss", mesh.contact_loss}});
+  json["largest_arc_bearing_force_N"] = m.largest_bearing_force();
+  json["reused"] = m.reused;
+  return json;
+}
+
+ReducerJson case_json(const TwoKVCase& c) {
+  ReducerJson json = {{"sun_planet", mesh_json_of(c.tables.sun)}, {"arc_pins", mesh_json_of(c.tables.arc)}};
+  if (c.vibration) json["vibration"] = vibration_json(*c.vibration);
+  if (c.motion) json["motion"] = motion_summary(*c.motion);
+  return json;
+}
+
+}  // namespace
+
+Json TwoKVResult::summary() const {
+  Json json = Json::object();
+  for (const auto& q : plan.quantities) json["operating_point"][q.key] = q.value;
+  json.update(case_json(own));
+  if (computed) json["computed"] = case_json(*computed);
+  json.update(Json::parse(variant_studies_json(studies, 0)));
+  return json;
+}
+
+std::string TwoKVResult::text() const {
+  std::string text = fmt::format("{:<12} {:>14} {:>14} {:>12} {:>16} {:>18} {:>12}\n", "stiffness", "sun mesh N/m",
+                                 "arc mesh N/m", "f1 Hz", "torsion Nm/rad", "output error, asec", "dyn. factor");
+  constexpr double arc_second = std::numbers::pi / (180 * 3600);
+  const auto row = [&](const char* name, const TwoKVCase& c) {
+    text += fmt::format("{:<12} {:>14.4g} {:>14.4g}", name, c.tables.sun.mean_stiffness().value,
+                        c.tables.arc.mean_stiffness().value);
+    if (c.vibration)
+      text += fmt::format(" {:>12.2f} {:>16.0f}", c.vibration->first_frequency(), c.vibration->torsion.mean());
+    if (c.motion)
+      text += fmt::format(" {:>18.4f} {:>12.4f}", c.motion->error_peak_to_peak.value / arc_second,
+                          std::max(c.motion->dynamic_factor(false), c.motion->dynamic_factor(true)));
+    text += "\n";
+  };
+  row("scene", own);
+  if (computed) row("computed", *computed);
+  text += "output error: peak to peak; dynamic factor: largest of all meshes\n";
+  return text;
+}
+
+}  // namespace annulus::app
