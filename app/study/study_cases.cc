@@ -183,9 +183,22 @@ std::vector<RandomVariable> random_variables(const Scene& scene) {
   return variables;
 }
 
+namespace {
+
+/// Name of the random numbers of an input. A renamed key keeps those of its first name, so that the samples of a seed
+/// stay the same.
+std::string random_stream(const std::string& input) {
+  const std::string key = input.substr(0, input.find('['));
+  const auto* parameter = find_parameter(key);
+  if (!parameter || parameter->old_names.empty()) return input;
+  return key.substr(0, key.rfind('.') + 1) + parameter->old_names.front() + input.substr(key.size());
+}
+
+}  // namespace
+
 double draw(const RandomVariable& variable, int seed, int sample) {
-  return variable.distribution.quantile(
-      dynamics::uniform_draw(static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(sample), variable.input));
+  return variable.distribution.quantile(dynamics::uniform_draw(
+      static_cast<std::uint64_t>(seed), static_cast<std::uint64_t>(sample), random_stream(variable.input)));
 }
 
 StudyCase sample_case(const std::vector<RandomVariable>& variables, int seed, int sample) {

@@ -1,0 +1,115 @@
+#include "dynamics/error_propagation/error_propagation.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "core/errors.h"
+
+namespace annulus {
+
+namespace {
+
+using namespace dynamics;
+
+constexpr double stiffness = 1e9, mass = 5;  // N/m, kg
+
+/// k (1 + ripple cos) with one relative error everywhere.
+StiffnessTable table_of(int phases, double error, double ripple) {
+  std::vector<StiffnessEntry> entries;
+  for (int i = 0; i < phases; ++i) {
+    const double k = stiffness * (1 + ripple * std::cos(2 * std::numbers::pi * i / phases));
+    entries.push_back(
+        {.unloaded_te = 0, .lte = 1e4 / k, .stiffness_secant = k, .stiffness_tangent = k, .error_relative = error});
+  }
+  return {"sun_planet", phases, {0.0}, {1e4}, std::move(entries)};
+}
+
+double mean_of(const StiffnessTable& table) {
+  double sum = 0;
+  for (int i = 0; i < table.phases(); ++i) sum += table.at(0, i, 0).stiffness_secant;
+  return sum / table.phases();
+}
+
+/// A mass on two meshes side by side: its frequency is known in closed form.
+Evaluation frequency_of(const std::vector<StiffnessTable>& tables) {
+  double k = 0;
+  for (const auto& table : tables) k += mean_of(table);
+  Evaluation result;
+  result.figures.set("frequency_1_Hz", Figure{std::sqrt(k / mass) / (2 * std::numbers::pi), 0.25});
+  result.figures.set("constant", Figure{7, 0});
+  return result;
+}
+
+TabulatedModel model_of(std::vector<TabulatedMesh> meshes) {
+  return {.meshes = std::move(meshes), .evaluate = frequency_of, .seeks_steady_state = false};
+}
+
+std::vector<StiffnessTable> tables_of(const TabulatedModel& model) {
+  std::vector<StiffnessTable> tables;
+  for (const auto& mesh : model.meshes) tables.push_back(mesh.table);
+  return tables;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_SUITE(error_propagation)
+
+BOOST_AUTO_TEST_CASE(a_frequency_follows_the_errors_of_its_stiffness) {
+  // f ~ sqrt(k_1 + k_2): one mesh of two equal ones stiffer by e raises it by sqrt(1 + e / 2) - 1.
+  const double first = 0.02, second = 0.01;
+  const auto model = model_of({{"sun mesh", table_of(8, first, 0), {.discretisation = 0.003, .model = 0.001}},
+                               {"ring mesh", table_of(8, second, 0), {}}});
+  const auto nominal = frequency_of(tables_of(model));
+  const auto found = propagate_errors(nominal, model);
+  const double f = nominal.figures.value("frequency_1_Hz");
+  const double by_first = f * (std::sqrt(1 + first / 2) - 1), by_second = f * (std::sqrt(1 + second / 2) - 1);
+  const auto& parts = found.find("frequency_1_Hz")->parts;
+  const auto close = boost::test_tools::tolerance(1e-12);  // rounding of the tables
+  // The first in the proportions of its own error, the second, whose causes are not known, as discretisation.
+  BOOST_TEST(parts.discretisation == 0.75 * by_first + by_second, close);
+  BOOST_TEST(parts.model == 0.25 * by_first, close);
+  BOOST_TEST(parts.integration == 0.25);
+  BOOST_TEST(parts.interpolation == 0.0);
+  BOOST_TEST(found.figure("frequency_1_Hz").error == parts.total(), close);
+  BOOST_TEST(found.value("frequency_1_Hz") == f);
+  BOOST_TEST(found.figure("constant").error == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(half_the_phases_state_the_interpolation) {
+  // Phases 0 and pi of a cosine alone have the same mean as all; a mean over one phase is k (1 + ripple).
+  const double ripple = 0.1;
+  const auto model = model_of({{"mesh", table_of(2, 0, ripple), {}}});
+  const auto nominal = frequency_of(tables_of(model));
+  const auto found = propagate_errors(nominal, model);
+  const double f = nominal.figures.value("frequency_1_Hz");
+  BOOST_TEST(found.find("frequency_1_Hz")->parts.interpolation == f * (std::sqrt(1 + ripple) - 1) / 2,
+             boost::test_tools::tolerance(1e-9));
+  const auto odd = model_of({{"mesh", table_of(5, 0, ripple), {}}});
+  const auto unknown = propagate_errors(frequency_of(tables_of(odd)), odd);
+  BOOST_TEST(std::isnan(unknown.find("frequency_1_Hz")->parts.interpolation));
+  BOOST_TEST(std::isnan(unknown.figure("frequency_1_Hz").error));
+}
+
+BOOST_AUTO_TEST_CASE(models_without_a_solution_have_errors_that_are_not_known) {
+  auto model = model_of({{"mesh", table_of(8, 0.01, 0), {}}});
+  const auto nominal = frequency_of(tables_of(model));
+  model.evaluate = [](const std::vector<StiffnessTable>&) -> Evaluation { throw SolverError("no steady state"); };
+  model.nominal_alike = true;
+  const auto found = propagate_errors(nominal, model);
+  BOOST_TEST(std::isnan(found.figure("frequency_1_Hz").error));
+  BOOST_TEST(found.value("frequency_1_Hz") == nominal.figures.value("frequency_1_Hz"));
+}
+
+BOOST_AUTO_TEST_CASE(prescribed_stiffness_is_exact) {
+  const auto model = model_of({});
+  Evaluation nominal;
+  nominal.figures.set("frequency_1_Hz", Figure{100, 0.25});
+  const auto found = propagate_errors(nominal, model);
+  BOOST_TEST(found.figure("frequency_1_Hz").error == 0.25);
+  BOOST_TEST(found.find("frequency_1_Hz")->parts.integration == 0.25);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+}  // namespace annulus
