@@ -14,7 +14,7 @@ struct Measured {
 /// A quantity over several rings, of one scene or of several, by the names references use.
 struct RingQuantity {
   std::string key;   ///< "load_sharing"
-  std::string name;  ///< for people: "load sharing, sun meshes, averaged over a mesh cycle"
+  std::string name;  ///< for people: "Load sharing of the sun meshes, averaged over a mesh cycle"
   std::vector<Measured> rings{};
   int digits = 4;
 };

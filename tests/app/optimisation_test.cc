@@ -127,7 +127,8 @@ BOOST_AUTO_TEST_CASE(an_interrupted_search_goes_on_to_the_same_bytes) {
 }
 
 BOOST_AUTO_TEST_CASE(a_flat_objective_is_said_to_be_flat) {
-  // While no mesh separates the load sharing does not depend on backlash (models.md C): shift the coordinates.
+  // While no mesh separates the load sharing does not depend on backlash (docs/backlash_optimisation.md
+  // [WangLiYaoYi2016]): shift the coordinates.
   const test::TemporaryFolder folder("optimise_flat");
   const auto result = run_search(reducer("1500"), folder.path());
   const auto& o = *result.studies.optimise;

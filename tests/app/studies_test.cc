@@ -312,7 +312,8 @@ BOOST_AUTO_TEST_CASE(sensitivity_divides_and_multiplies) {
     BOOST_TEST(averaged(result, s.rows[2].divided[ring]) ==
                halved.rings[ring].response->figures.sun_planet.load_sharing.averaged.value);
     BOOST_TEST(s.rows[2].values[ring] == 1e9);
-    // While no mesh separates, the backlash changes nothing (models.md C), up to the integrator's tolerance.
+    // While no mesh separates, the backlash changes nothing (docs/backlash_optimisation.md [WangLiYaoYi2016]), up to
+    // the integrator's tolerance.
     BOOST_TEST(averaged(result, s.rows[3].multiplied[ring]) == averaged(result, s.nominal[ring]),
                boost::test_tools::tolerance(1e-5));
   }

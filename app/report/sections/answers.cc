@@ -21,9 +21,6 @@ std::vector<Measured> sorted(const RingQuantity& q) {
   return rings;
 }
 
-/// "averaged over a mesh cycle" of "load sharing, averaged over a mesh cycle".
-std::string kind_of(const RingQuantity& q) { return q.name.substr(q.name.find(',') + 2); }
-
 Text stiffness_sentence(const RingQuantity& q) {
   const auto rings = sorted(q);
   const auto& stiffest = rings.front();
@@ -43,7 +40,7 @@ Text stiffness_sentence(const RingQuantity& q) {
 Text sharing_sentence(const RingQuantity& q) {
   const auto rings = sorted(q);
   const auto &low = rings.back(), &high = rings.front();
-  const Text head = "Load sharing (" + kind_of(q) + "): ";
+  const Text head = q.name + ": ";
   if (rings.size() == 1) return head + measured(high.value, high.error) + ".";
   return head +
          phrase("the most loaded planet carries {:.1f} % more than its share with {} and {:.1f} % with {}",
@@ -59,7 +56,7 @@ Text factor_sentence(const RingQuantity& q) {
   words.reserve(rings.size());
   for (const auto& r : rings)
     words.push_back(measured(r.value, r.error) + (rings.size() > 1 ? " with " + bold(r.ring) : Text()));
-  return phrase("Dynamic factor ({}): {}.", kind_of(q), enumerated(words));
+  return phrase("{}: {}.", q.name, enumerated(words));
 }
 
 }  // namespace

@@ -51,14 +51,16 @@ TwoKVModels models_of(const Scene& scene, const TwoKVTables& tables) {
           make_two_k_v(scene, tables, scene.dynamics->load_dependence), scene.arc_gear.clearance};
 }
 
-/// The model of a case as a function of the tables of its meshes. Every evaluation shoots for the periodic motion anew.
+/// The model of a case as a function of the tables of its meshes. Every evaluation shoots for the periodic motion
+/// as the nominal one does.
 dynamics::TabulatedModel errors_in(const TwoKVCase& c, dynamics::SimulationOptions simulation) {
   simulation.keep_series = false;
   simulation.estimate_error = false;
   const auto stage = make_two_k_v(c.scene, c.tables, c.scene.dynamics->load_dependence);
   const bool sun = std::holds_alternative<dynamics::TableStiffness>(stage.sun_mesh),
              arc = std::holds_alternative<dynamics::TableStiffness>(stage.arc_mesh);
-  dynamics::TabulatedModel model{.meshes = {}, .evaluate = {}, .seeks_steady_state = !simulation.mesh_cycles};
+  dynamics::TabulatedModel model{
+      .meshes = {}, .evaluate = {}, .seeks_steady_state = !simulation.mesh_cycles, .nominal_alike = true};
   if (sun) model.meshes.push_back({"sun mesh", c.tables.sun.table, c.tables.sun.mean_stiffness().parts});
   if (arc) model.meshes.push_back({"arc mesh", c.tables.arc.table, c.tables.arc.mean_stiffness().parts});
   model.evaluate = [&c, simulation, sun, arc](const std::vector<StiffnessTable>& changed) {
