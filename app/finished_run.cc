@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "app/content_id.h"
 #include "app/pipeline.h"
 #include "core/files.h"
+#include "core/json.h"
 
 namespace annulus::app {
 
@@ -64,7 +64,7 @@ std::string run_id(const Scene& scene, const RunOptions& options) {
 }
 
 void keep_finished_run(const std::filesystem::path& out, const std::string& id, const std::string& text) {
-  nlohmann::json note = {{"annulus_version", version()}, {"inputs_id", id}, {"text", text}};
+  Json note = {{"annulus_version", version()}, {"inputs_id", id}, {"text", text}};
   for (const auto& file : files_of_run(out)) note["files"][file.generic_string()] = stamp(out / file);
   write_file(out / note_name, note.dump(1) + "\n");
 }
@@ -72,7 +72,7 @@ void keep_finished_run(const std::filesystem::path& out, const std::string& id, 
 std::optional<std::string> why_unfinished(const std::filesystem::path& out) {
   std::ifstream stream(out / note_name);
   if (!stream) return fmt::format("no {}", note_name);
-  const auto note = nlohmann::json::parse(stream, nullptr, false);
+  const auto note = Json::parse(stream, nullptr, false);
   try {
     if (note.is_discarded()) return fmt::format("{} is damaged", note_name);
     for (const auto& [name, kept] : note.at("files").items()) {
@@ -80,7 +80,7 @@ std::optional<std::string> why_unfinished(const std::filesystem::path& out) {
       const auto size = [](const std::string& text) { return text.substr(0, text.find(',')); };
       if (now != missing && size(now) != size(kept.get<std::string>())) return name + " has changed since";
     }
-  } catch (const nlohmann::json::exception&) {
+  } catch (const Json::exception&) {
     return fmt::format("{} is damaged", note_name);
   }
   return std::nullopt;
@@ -89,13 +89,13 @@ std::optional<std::string> why_unfinished(const std::filesystem::path& out) {
 std::optional<std::string> finished_run(const std::filesystem::path& out, const std::string& id) {
   std::ifstream stream(out / note_name);
   if (!stream) return std::nullopt;
-  const auto note = nlohmann::json::parse(stream, nullptr, false);
+  const auto note = Json::parse(stream, nullptr, false);
   try {
     if (note.is_discarded() || note.at("inputs_id") != id) return std::nullopt;
     for (const auto& [name, kept] : note.at("files").items())
       if (stamp(out / name) != kept) return std::nullopt;
     return note.at("text").get<std::string>();
-  } catch (const nlohmann::json::exception&) {
+  } catch (const Json::exception&) {
     return std::nullopt;  // not a note of ours
   }
 }

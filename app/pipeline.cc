@@ -95,13 +95,13 @@ std::string summary_json(const SystemRun& run) {
   json["variants"] = Json::array();
   for (const auto& variant : run.variants())
     json["variants"].push_back({{"name", variant.name}, {"figures", to_json(variant.figures)}});
-  json.update(Json::parse(studies_json(run.studies)));
+  json.update(studies_json(run.studies));
   json["inputs_id"] = inputs_id(run);
-  json["inputs"] = Json::parse(inputs_json(run.plan.inputs));
+  json["inputs"] = inputs_json(run.plan.inputs);
   for (const auto& [step, seconds] : run.timings) json["timings_s"][step] = seconds;
   json["peak_memory_MB"] = run.peak_memory_MB;
-  if (!run.cost.empty()) json["cost"] = Json::parse(cost_json(run.cost));
-  if (run.reuse) json["reuse"] = Json::parse(run.reuse->json());
+  if (!run.cost.empty()) json["cost"] = cost_json(run.cost);
+  if (run.reuse) json["reuse"] = run.reuse->json();
   return json.dump(2) + "\n";
 }
 

@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "app/content_id.h"
 #include "app/pipeline.h"
+#include "core/json.h"
 #include "fem/problem/condensed_store.h"
 
 namespace annulus::app {
@@ -59,12 +58,12 @@ std::string Reuse::text() const {
   return text;
 }
 
-std::string Reuse::json() const {
-  nlohmann::ordered_json json = {{"reused", reused()}, {"computed", computed()}};
-  json["counts"] = nlohmann::ordered_json::object();
+Json Reuse::json() const {
+  Json json = {{"reused", reused()}, {"computed", computed()}};
+  json["counts"] = Json::object();
   for (const auto& [things, count] : counts())
     json["counts"][things] = {{"reused", count.reused}, {"computed", count.computed}};
-  return json.dump();
+  return json;
 }
 
 void note_reuse(const RunOptions& options, const std::string& result, bool reused) {

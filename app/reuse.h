@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/json.h"
+
 namespace annulus::app {
 
 struct RunOptions;
@@ -30,7 +32,7 @@ class Reuse {
   /// Lines for people; empty when nothing was noted.
   [[nodiscard]] std::string text() const;
   /// {"reused": [...], "computed": [...], "counts": {...}}
-  [[nodiscard]] std::string json() const;
+  [[nodiscard]] Json json() const;
 
  private:
   [[nodiscard]] std::vector<std::string> list(bool reused) const;

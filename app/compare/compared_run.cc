@@ -19,7 +19,6 @@ namespace annulus::app {
 namespace {
 
 namespace fs = std::filesystem;
-using RunJson = Json;
 
 constexpr std::uintmax_t largest_summary = 50'000'000;  // bytes; those of long searches have a few millions
 
@@ -35,7 +34,7 @@ bool has_begun(const fs::path& folder) {
   return false;
 }
 
-RunJson read_summary(const fs::path& folder) {
+Json read_summary(const fs::path& folder) {
   const auto file = folder / "summary.json";
   std::error_code error;
   if (!fs::exists(folder, error))
@@ -57,10 +56,10 @@ RunJson read_summary(const fs::path& folder) {
     throw InputError(fmt::format("{}: cannot be read or is larger than {} bytes; run its scene again", file.string(),
                                  largest_summary));
   std::ifstream stream(file);
-  RunJson summary;
+  Json summary;
   try {
-    summary = RunJson::parse(stream);
-  } catch (const RunJson::exception& what) {
+    summary = Json::parse(stream);
+  } catch (const Json::exception& what) {
     throw InputError(fmt::format("{}: is damaged: {}; run its scene again", file.string(), what.what()));
   }
   if (const auto why = why_unfinished(folder)) throw unfinished(*why);
@@ -74,13 +73,13 @@ const std::vector<FigureSpec>* specs_of(const std::string& kind) {
   return nullptr;
 }
 
-std::string input_text(const RunJson& value) {
+std::string input_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   return value.is_number() ? to_text(value.get<double>()) : value.dump();
 }
 
 /// Inputs of one variant: those of the stage and those of its ring.
-std::map<std::string, std::string> inputs_of(const RunJson& json, const std::string& ring) {
+std::map<std::string, std::string> inputs_of(const Json& json, const std::string& ring) {
   std::map<std::string, std::string> inputs;
   if (!json.contains("inputs")) return inputs;
   for (const auto& input : json.at("inputs")) {
@@ -94,7 +93,7 @@ std::map<std::string, std::string> inputs_of(const RunJson& json, const std::str
   return inputs;
 }
 
-ComparedRun run_of(const RunJson& json, const fs::path& folder) {
+ComparedRun run_of(const Json& json, const fs::path& folder) {
   ComparedRun run{.folder = folder,
                   .title = json.at("title"),
                   .version = json.at("annulus_version"),
@@ -130,7 +129,7 @@ ComparedRun read_run(const fs::path& folder) {
   };
   try {
     return run_of(json, folder);
-  } catch (const RunJson::exception& what) {
+  } catch (const Json::exception& what) {
     throw foreign(what.what());
   } catch (const InputError& what) {
     throw foreign(what.what());

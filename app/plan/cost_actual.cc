@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
+#include "core/json.h"
 #include "fem/cost_size.h"
 
 namespace annulus::app {
@@ -71,17 +71,16 @@ std::string cost_sentence(const SystemRun& run) {
                      memory_text(run.peak_memory_MB));
 }
 
-std::string cost_json(const PlanCost& done) {
-  const auto known = [](double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr); };
-  nlohmann::ordered_json json = {{"predicted_s", known(done.seconds())},
-                                 {"actual_s", known(done.actual_seconds())},
-                                 {"predicted_peak_MB", known(done.peak_MB())}};
+Json cost_json(const PlanCost& done) {
+  Json json = {{"predicted_s", json_number(done.seconds())},
+               {"actual_s", json_number(done.actual_seconds())},
+               {"predicted_peak_MB", json_number(done.peak_MB())}};
   for (const auto& step : done.steps)
     json["steps"].push_back({{"step", to_text(step.kind)},
                              {"name", step.label},
-                             {"predicted_s", known(step.predicted.seconds)},
+                             {"predicted_s", json_number(step.predicted.seconds)},
                              {"actual_s", step.actual->seconds()}});
-  return json.dump();
+  return json;
 }
 
 }  // namespace annulus::app

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/model/system_run.h"
+#include "core/json.h"
 
 namespace annulus::app {
 
@@ -21,6 +22,6 @@ void keep_costs(const PlanCost& done);
 /// a mesh was reused: the peak belongs to what was computed.
 [[nodiscard]] std::string cost_sentence(const SystemRun& run);
 /// Predicted and actual time of every step as a JSON object.
-[[nodiscard]] std::string cost_json(const PlanCost& done);
+[[nodiscard]] Json cost_json(const PlanCost& done);
 
 }  // namespace annulus::app

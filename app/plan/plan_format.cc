@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "app/content_id.h"
 #include "app/plan/plan.h"
 #include "app/scene/inputs_json.h"
+#include "core/json.h"
 
 namespace annulus::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// printf pads bytes; this pads characters, so that "µm" and "kg m²" line up. What follows stays apart.
 std::string pad(const std::string& text, std::size_t width) {
@@ -47,8 +45,6 @@ Json quantities_json(const std::vector<Quantity>& quantities) {
   for (const auto& q : quantities) json[q.key] = q.value;
   return json;
 }
-
-Json finite(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 std::string cost_lines(const Plan& plan) {
   if (plan.cost.empty()) return "";
@@ -125,7 +121,7 @@ std::string to_json(const Plan& plan) {
   Json json;
   json["annulus_version"] = version();
   json["title"] = plan.title;
-  json["inputs"] = Json::parse(inputs_json(plan.inputs));
+  json["inputs"] = inputs_json(plan.inputs);
   json["stage"] = quantities_json(plan.quantities);
   for (const auto& [name, quantities] : plan.rings) json["rings"][name] = quantities_json(quantities);
   for (const auto& mesh : plan.meshes) {
@@ -139,8 +135,8 @@ std::string to_json(const Plan& plan) {
       if (mesh.settings.fidelity != fem::Fidelity::closed_form) item["degree"] = mesh.settings.degree;
       for (const auto& step : plan.cost.steps) {
         if (step.kind != CostKind::mesh || step.label != mesh.label()) continue;
-        item["predicted_s"] = finite(step.predicted.seconds);
-        item["predicted_peak_MB"] = finite(step.predicted.peak_MB);
+        item["predicted_s"] = json_number(step.predicted.seconds);
+        item["predicted_peak_MB"] = json_number(step.predicted.peak_MB);
       }
     }
     json["meshes"].push_back(std::move(item));
@@ -162,17 +158,17 @@ std::string to_json(const Plan& plan) {
   for (const auto& step : plan.cost.steps) {
     Json item = {{"step", to_text(step.kind)},
                  {"name", step.label},
-                 {"predicted_s", finite(step.predicted.seconds)},
-                 {"predicted_peak_MB", finite(step.predicted.peak_MB)}};
+                 {"predicted_s", json_number(step.predicted.seconds)},
+                 {"predicted_peak_MB", json_number(step.predicted.peak_MB)}};
     if (step.kind == CostKind::mesh) {
       item["level"] = step.size.level;
       item["unknowns"] = std::lround(step.size.unknowns);
-      item["expected_error_relative"] = finite(step.expected_error);
+      item["expected_error_relative"] = json_number(step.expected_error);
     }
     json["cost"].push_back(std::move(item));
   }
-  json["predicted_s"] = finite(plan.cost.seconds());
-  json["predicted_peak_MB"] = finite(plan.cost.peak_MB());
+  json["predicted_s"] = json_number(plan.cost.seconds());
+  json["predicted_peak_MB"] = json_number(plan.cost.peak_MB());
   if (!plan.budget.empty()) json["budget"] = plan.budget;
   return json.dump(2) + "\n";
 }

@@ -1,17 +1,15 @@
 #include "app/scene/inputs_json.h"
+#include "core/json.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace annulus::app {
 
 namespace {
 
-using InputJson = nlohmann::ordered_json;
-
-InputJson value_json(const Value& value) {
+Json value_json(const Value& value) {
   if (const auto* v = std::get_if<long>(&value)) return *v;
-  if (const auto* v = std::get_if<double>(&value)) return std::isinf(*v) ? InputJson("inf") : InputJson(*v);
+  if (const auto* v = std::get_if<double>(&value)) return std::isinf(*v) ? Json("inf") : Json(*v);
   if (const auto* v = std::get_if<std::string>(&value)) return *v;
   if (const auto* v = std::get_if<std::vector<double>>(&value)) return *v;
   if (const auto* v = std::get_if<std::vector<std::string>>(&value)) return *v;
@@ -20,19 +18,19 @@ InputJson value_json(const Value& value) {
 
 }  // namespace
 
-std::string inputs_json(const std::vector<Input>& inputs) {
-  auto list = InputJson::array();
+Json inputs_json(const std::vector<Input>& inputs) {
+  auto list = Json::array();
   for (const auto& input : inputs) {
-    InputJson item = {{"key", input.key},
-                      {"value", value_json(input.value)},
-                      {"unit", input.unit},
-                      {"origin", to_text(input.origin)}};
+    Json item = {{"key", input.key},
+                 {"value", value_json(input.value)},
+                 {"unit", input.unit},
+                 {"origin", to_text(input.origin)}};
     if (!input.ring.empty()) item["ring"] = input.ring;
     if (!input.assumed.empty()) item["assumed"] = input.assumed;
     if (!input.note.empty() && input.origin != Origin::scene) item["note"] = input.note;
     list.push_back(std::move(item));
   }
-  return list.dump();
+  return list;
 }
 
 }  // namespace annulus::app

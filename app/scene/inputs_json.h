@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "app/scene/scene_value.h"
+#include "core/json.h"
 
 namespace annulus::app {
 
-/// Inputs with their origin as a JSON array (text): key, value, unit, origin; ring, assumed and note where there are
+/// Inputs with their origin as a JSON array: key, value, unit, origin; ring, assumed and note where there are
 /// any. Values are in the unit of their key, "inf" where one is infinite.
-[[nodiscard]] std::string inputs_json(const std::vector<Input>& inputs);
+[[nodiscard]] Json inputs_json(const std::vector<Input>& inputs);
 
 }  // namespace annulus::app

@@ -101,7 +101,7 @@ struct Table {
 /// nullptr when there is no such key.
 [[nodiscard]] const Parameter* find_parameter(const std::string& key);
 [[nodiscard]] std::vector<std::string> all_keys();
-/// The present key of an earlier one: "errors.sun_position_error_um" -> "errors.sun_position_error_um"; empty when
+/// The present key of an earlier one: "errors.sun_installation_um" -> "errors.sun_position_error_um"; empty when
 /// there is none.
 [[nodiscard]] std::string renamed_key(const std::string& old_key);
 

@@ -74,7 +74,8 @@ class SampleStore {
     id.add("response", subject_.model({}, "[monte_carlo]", variant_, "", true).id);
     id.add("seed", scene.monte_carlo->seed);
     for (const auto& input : scene.inputs) {
-      if (input.key == "title" || input.key == "reference" || is_study_table(input.key)) continue;
+      if (input.key == "title" || input.key == "reference" || is_study_table(input.key.substr(0, input.key.rfind('.'))))
+        continue;
       const auto* number = std::get_if<double>(&input.value);
       const auto* list = std::get_if<std::vector<double>>(&input.value);
       const std::string name = input.key + "." + input.ring;

@@ -3,25 +3,23 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/content_id.h"
 #include "app/pipeline.h"
 #include "core/files.h"
+#include "core/json.h"
 
 namespace annulus::app {
 
 namespace {
 
-using PointJson = nlohmann::ordered_json;
-
 // JSON knows neither NaN (not known: null) nor infinity (an unbounded share: a text).
-PointJson point_number(double x) {
+Json point_number(double x) {
   if (std::isnan(x)) return nullptr;
-  return std::isfinite(x) ? PointJson(x) : PointJson(x > 0 ? "inf" : "-inf");
+  return std::isfinite(x) ? Json(x) : Json(x > 0 ? "inf" : "-inf");
 }
-double point_number(const PointJson& json) {
+double point_number(const Json& json) {
   if (json.is_null()) return std::numeric_limits<double>::quiet_NaN();
   if (json.is_string()) return (json == "-inf" ? -1 : 1) * std::numeric_limits<double>::infinity();
   return json.get<double>();
@@ -30,12 +28,12 @@ double point_number(const PointJson& json) {
 }  // namespace
 
 std::string point_text(const StudyPoint& point, const std::vector<FigureSpec>& figures, const std::string& id) {
-  PointJson json = {{"inputs_id", id}, {"failure", point.failure}};
+  Json json = {{"inputs_id", id}, {"failure", point.failure}};
   if (point.failure.empty()) {
     for (const auto& figure : figures) json["figures"][figure.key] = point_number(point.value(figure.key));
-    json["poincare_N_m"] = PointJson::array();
+    json["poincare_N_m"] = Json::array();
     for (const auto& p : point.poincare)
-      json["poincare_N_m"].push_back(PointJson::array({point_number(p.force), point_number(p.deflection)}));
+      json["poincare_N_m"].push_back(Json::array({point_number(p.force), point_number(p.deflection)}));
   }
   return json.dump() + "\n";
 }
@@ -45,7 +43,7 @@ std::optional<StudyPoint> read_point(const std::filesystem::path& file, const st
   std::ifstream in(file);
   if (!in) return std::nullopt;
   try {
-    const auto json = PointJson::parse(in);
+    const auto json = Json::parse(in);
     if (json.at("inputs_id") != id) return std::nullopt;
     StudyPoint point{.failure = json.at("failure")};
     if (!point.failure.empty()) return point;

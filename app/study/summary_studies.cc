@@ -1,35 +1,31 @@
 #include "app/study/summary_studies.h"
+#include "core/json.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace annulus::app {
 
 namespace {
 
-using StudyJson = nlohmann::ordered_json;
-
-StudyJson finite_or_null(double x) { return std::isfinite(x) ? StudyJson(x) : StudyJson(nullptr); }
-
-StudyJson interval_json(const dynamics::Interval& i) {
-  return {{"value", finite_or_null(i.value)}, {"low", finite_or_null(i.low)}, {"high", finite_or_null(i.high)}};
+Json interval_json(const dynamics::Interval& i) {
+  return {{"value", json_number(i.value)}, {"low", json_number(i.low)}, {"high", json_number(i.high)}};
 }
 
-StudyJson statistics_json(const FigureStatistics& s) {
+Json statistics_json(const FigureStatistics& s) {
   return {{"mean", interval_json(s.mean)},
-          {"standard_deviation", finite_or_null(s.deviation)},
+          {"standard_deviation", json_number(s.deviation)},
           {"quantile_05", interval_json(s.q05)},
           {"median", interval_json(s.median)},
           {"quantile_95", interval_json(s.q95)}};
 }
 
-StudyJson point_json(const StudyResults& studies, const StudyPoint& point) {
+Json point_json(const StudyResults& studies, const StudyPoint& point) {
   if (!point.failure.empty()) return {{"failure", point.failure}};
-  StudyJson json;
+  Json json;
   for (const auto& figure : studies.figures)
-    if (figure.effort != FigureEffort::motion) json[figure.key] = finite_or_null(point.value(figure.key));
+    if (figure.effort != FigureEffort::motion) json[figure.key] = json_number(point.value(figure.key));
   return json;
 }
 
@@ -39,33 +35,33 @@ int count_failed(const std::vector<StudyPoint>& points) {
   return failed;
 }
 
-void add_plotted(StudyJson& json, const StudyResults& studies, const std::vector<StudyPoint>& points) {
+void add_plotted(Json& json, const StudyResults& studies, const std::vector<StudyPoint>& points) {
   for (const auto& figure : studies.figures) {
     if (!figure.plotted) continue;
-    auto list = StudyJson::array();
-    for (const auto& point : points) list.push_back(finite_or_null(point.value(figure.key)));
+    auto list = Json::array();
+    for (const auto& point : points) list.push_back(json_number(point.value(figure.key)));
     json[figure.key] = std::move(list);
   }
 }
 
 }  // namespace
 
-std::string variant_studies_json(const StudyResults& studies, std::size_t variant) {
-  StudyJson all = StudyJson::object();
+Json variant_studies_json(const StudyResults& studies, std::size_t variant) {
+  Json all = Json::object();
   if (studies.monte_carlo) {
     const auto& samples = studies.monte_carlo->variants.at(variant);
-    StudyJson json = {{"samples", studies.monte_carlo->samples},
-                      {"failed", samples.failed},
-                      {"not_steady", samples.not_steady},
-                      {"seed", studies.monte_carlo->seed},
-                      {"confidence", dynamics::usual_confidence}};
+    Json json = {{"samples", studies.monte_carlo->samples},
+                 {"failed", samples.failed},
+                 {"not_steady", samples.not_steady},
+                 {"seed", studies.monte_carlo->seed},
+                 {"confidence", dynamics::usual_confidence}};
     for (const auto& s : samples.statistics) json[s.figure] = statistics_json(s);
     all["monte_carlo"] = std::move(json);
   }
   for (std::size_t n = 0; n < studies.sweeps.size(); ++n) {
     const auto& sweep = studies.sweeps[n];
     const auto& points = sweep.variants.at(variant);
-    StudyJson json = {{"input", sweep.sweep.input}, {"unit", sweep.unit}, {"file", fmt::format("sweep_{}.csv", n + 1)}};
+    Json json = {{"input", sweep.sweep.input}, {"unit", sweep.unit}, {"file", fmt::format("sweep_{}.csv", n + 1)}};
     json["failed"] = count_failed(points);
     json["values"] = sweep.values;
     add_plotted(json, studies, points);
@@ -74,25 +70,25 @@ std::string variant_studies_json(const StudyResults& studies, std::size_t varian
   for (std::size_t n = 0; n < studies.grids.size(); ++n) {
     const auto& grid = studies.grids[n];
     const auto& points = grid.variants.at(variant);
-    StudyJson json = {{"x_input", grid.grid.x.input},
-                      {"x_unit", grid.x_unit},
-                      {"y_input", grid.grid.y.input},
-                      {"y_unit", grid.y_unit},
-                      {"file", fmt::format("grid_{}.csv", n + 1)}};
+    Json json = {{"x_input", grid.grid.x.input},
+                 {"x_unit", grid.x_unit},
+                 {"y_input", grid.grid.y.input},
+                 {"y_unit", grid.y_unit},
+                 {"file", fmt::format("grid_{}.csv", n + 1)}};
     json["failed"] = count_failed(points);
     json["x"] = grid.x;
     json["y"] = grid.y;
     add_plotted(json, studies, points);
     all["grids"].push_back(std::move(json));
   }
-  return all.dump();
+  return all;
 }
 
 namespace {
 
-StudyJson design_json(const StudyResults& studies, const OptimiseResults& o, const Design& design) {
-  StudyJson json = {{"objective", finite_or_null(design.objective)}};
-  for (std::size_t i = 0; i < design.x.size(); ++i) json["inputs"][o.variables[i].input] = finite_or_null(design.x[i]);
+Json design_json(const StudyResults& studies, const OptimiseResults& o, const Design& design) {
+  Json json = {{"objective", json_number(design.objective)}};
+  for (std::size_t i = 0; i < design.x.size(); ++i) json["inputs"][o.variables[i].input] = json_number(design.x[i]);
   json["figures"] = point_json(studies, design.point);
   if (design.starts)
     json["initial_conditions"] = {{"tried", design.starts->starts},
@@ -101,35 +97,35 @@ StudyJson design_json(const StudyResults& studies, const OptimiseResults& o, con
   return json;
 }
 
-StudyJson optimise_json(const StudyResults& studies) {
+Json optimise_json(const StudyResults& studies) {
   const auto& o = *studies.optimise;
   const double sign = o.settings.goal == Goal::smallest ? 1 : -1;
-  StudyJson json = {{"objective", o.settings.objective},
-                    {"flat", o.range.flat},
-                    {"least_meaning", finite_or_null(o.range.least_meaning)},
-                    {"given", design_json(studies, o, o.given)},
-                    {"best", design_json(studies, o, o.best)}};
+  Json json = {{"objective", o.settings.objective},
+               {"flat", o.range.flat},
+               {"least_meaning", json_number(o.range.least_meaning)},
+               {"given", design_json(studies, o, o.given)},
+               {"best", design_json(studies, o, o.best)}};
   if (!studies.variants[o.variant].empty()) json["ring"] = studies.variants[o.variant];
   for (std::size_t i = 0; i < o.runs.size(); ++i) {
     const auto& run = o.runs[i];
-    json["searches"].push_back({{"optimiser", run.optimiser},
-                                {"repeat", run.repeat},
-                                {"best", finite_or_null(sign * run.search.value)},
-                                {"evaluations", run.search.evaluations.size()},
-                                {"failed", run.search.failed},
-                                {"evaluations_to_best", o.evaluations_to_best[i] ? StudyJson(*o.evaluations_to_best[i])
-                                                                                 : StudyJson(nullptr)}});
+    json["searches"].push_back(
+        {{"optimiser", run.optimiser},
+         {"repeat", run.repeat},
+         {"best", json_number(sign * run.search.value)},
+         {"evaluations", run.search.evaluations.size()},
+         {"failed", run.search.failed},
+         {"evaluations_to_best", o.evaluations_to_best[i] ? Json(*o.evaluations_to_best[i]) : Json(nullptr)}});
   }
   return json;
 }
 
 }  // namespace
 
-std::string studies_json(const StudyResults& studies) {
-  StudyJson json = StudyJson::object();
+Json studies_json(const StudyResults& studies) {
+  Json json = Json::object();
   if (studies.optimise) json["optimise"] = optimise_json(studies);
   if (studies.monte_carlo && studies.variants.size() > 1) {
-    auto& orders = json["monte_carlo"]["orders"] = StudyJson::array();
+    auto& orders = json["monte_carlo"]["orders"] = Json::array();
     for (const auto& o : studies.monte_carlo->orders)
       orders.push_back({{"figure", o.figure},
                         {"ring", studies.variants[o.a]},
@@ -139,16 +135,16 @@ std::string studies_json(const StudyResults& studies) {
                         {"equal", o.equal},
                         {"samples", o.samples}});
   }
-  if (!studies.sensitivity) return json.dump();
+  if (!studies.sensitivity) return json;
   const auto& sensitivity = *studies.sensitivity;
-  auto& rows = json["sensitivity"] = {{"factor", sensitivity.factor}, {"inputs", StudyJson::array()}};
+  auto& rows = json["sensitivity"] = {{"factor", sensitivity.factor}, {"inputs", Json::array()}};
   for (const auto& row : sensitivity.rows) {
-    StudyJson item = {{"input", row.input}, {"unit", row.unit}, {"order_of_rings_stays", row.order_stays}};
+    Json item = {{"input", row.input}, {"unit", row.unit}, {"order_of_rings_stays", row.order_stays}};
     for (std::size_t i = 0; i < studies.variants.size(); ++i) {
-      StudyJson values = {{"value", finite_or_null(row.values[i])},
-                          {"divided", point_json(studies, row.divided[i])},
-                          {"nominal", point_json(studies, sensitivity.nominal[i])},
-                          {"multiplied", point_json(studies, row.multiplied[i])}};
+      Json values = {{"value", json_number(row.values[i])},
+                     {"divided", point_json(studies, row.divided[i])},
+                     {"nominal", point_json(studies, sensitivity.nominal[i])},
+                     {"multiplied", point_json(studies, row.multiplied[i])}};
       if (studies.variants[i].empty())
         item.update(values);
       else
@@ -156,7 +152,7 @@ std::string studies_json(const StudyResults& studies) {
     }
     rows["inputs"].push_back(std::move(item));
   }
-  return json.dump();
+  return json;
 }
 
 }  // namespace annulus::app

@@ -1,15 +1,14 @@
 #pragma once
 
-#include <string>
-
 #include "app/study/study_result.h"
+#include "core/json.h"
 
-/// The studies as JSON objects (text), to be merged into summary.json.
+/// The studies as JSON objects, to be merged into summary.json.
 namespace annulus::app {
 
 /// "monte_carlo", "sweeps" and "grids" of one variant.
-[[nodiscard]] std::string variant_studies_json(const StudyResults& studies, std::size_t variant);
+[[nodiscard]] Json variant_studies_json(const StudyResults& studies, std::size_t variant);
 /// "monte_carlo" (orders of the variants) and "sensitivity".
-[[nodiscard]] std::string studies_json(const StudyResults& studies);
+[[nodiscard]] Json studies_json(const StudyResults& studies);
 
 }  // namespace annulus::app

@@ -1,53 +1,47 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "app/content_id.h"
-#include "app/model/error_parts_json.h"
 #include "app/plan/cost_actual.h"
 #include "app/scene/inputs_json.h"
 #include "app/scene/scene_schema.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/helical_pair/pair_run.h"
+#include "core/json.h"
 #include "core/units.h"
 
 namespace annulus::app {
 
 namespace {
 
-using PairJson = Json;
+Json pair_figure(const Figure& f) { return {{"value", json_number(f.value)}, {"error", json_number(f.error)}}; }
 
-PairJson pair_number(double x) { return std::isfinite(x) ? PairJson(x) : PairJson(nullptr); }
-
-PairJson pair_figure(const Figure& f) { return {{"value", pair_number(f.value)}, {"error", pair_number(f.error)}}; }
-
-PairJson motion_json(const dynamics::MotionFigures& m) {
+Json motion_json(const dynamics::MotionFigures& m) {
   return {{"mean_m", m.mean}, {"peak_to_peak_m", pair_figure(m.peak_to_peak)}, {"largest_m", pair_figure(m.largest)}};
 }
 
-PairJson errors_json(const PairRunResult& result) {
+Json errors_json(const PairRunResult& result) {
   const auto& problem = *result.errors.problem;
-  PairJson json = {{"samples", problem.samples},         {"seed", problem.seed},
-                   {"probability", problem.probability}, {"confidence", problem.confidence},
-                   {"divisor", problem.divisor},         {"eta_1_m", problem.eta_1(0)},
-                   {"eta_2_m", problem.eta_2(0)}};
+  Json json = {{"samples", problem.samples},       {"seed", problem.seed},       {"probability", problem.probability},
+               {"confidence", problem.confidence}, {"divisor", problem.divisor}, {"eta_1_m", problem.eta_1(0)},
+               {"eta_2_m", problem.eta_2(0)}};
   for (const auto& r : result.errors.law->readings)
     json["readings"][r.name] = {{"quantity", r.quantity},
                                 {"sample_m", r.sample.value},
-                                {"low_m", pair_number(r.sample.low)},
-                                {"high_m", pair_number(r.sample.high)},
+                                {"low_m", json_number(r.sample.low)},
+                                {"high_m", json_number(r.sample.high)},
                                 {"exact_m", r.exact}};
   const auto* taken = result.errors.taken(result.scene);
-  json["taken"] = taken ? PairJson(taken->name) : PairJson(nullptr);
+  json["taken"] = taken ? Json(taken->name) : Json(nullptr);
   return json;
 }
 
-PairJson share_json(const ShareRow& row) {
+Json share_json(const ShareRow& row) {
   if (!row.failure.empty()) return {{"pinion_torque_Nm", row.pinion_torque}, {"failure", row.failure}};
   const auto& s = row.shares;
   const auto range = [](const dynamics::PeakToPeak& p) {
-    return PairJson{{"dynamic", pair_number(p.dynamic)}, {"quasi_static", pair_number(p.quasi_static)}};
+    return Json{{"dynamic", json_number(p.dynamic)}, {"quasi_static", json_number(p.quasi_static)}};
   };
   return {{"pinion_torque_Nm", row.pinion_torque},
           {"load_deflection_m", s.load_deflection},
@@ -58,28 +52,28 @@ PairJson share_json(const ShareRow& row) {
           {"largest_m", range({row.largest_dynamic, row.largest_static})}};
 }
 
-PairJson response_json_of(const PairResponseResult& response) {
+Json response_json_of(const PairResponseResult& response) {
   const auto& f = response.figures;
-  PairJson json = {{"mesh_frequency_Hz", f.mesh_frequency},
-                   {"static_force_N", f.static_force},
-                   {"mesh_force_max_N", pair_figure(dynamics::loaded_force(f).largest)},
-                   {"mesh_force_min_N", pair_figure(dynamics::loaded_force(f).smallest)},
-                   {"dynamic_factor", pair_figure(f.dynamic_factor)},
-                   {"contact_loss", f.contact_loss},
-                   {"acceleration_m_per_s2",
-                    {{"tooth", pair_figure(f.acceleration.tooth)},
-                     {"line_of_action", pair_figure(f.acceleration.line_of_action)},
-                     {"axial", pair_figure(f.acceleration.axial)},
-                     {"rotation", pair_figure(f.acceleration.rotation)}}},
-                   {"transmission_error", motion_json(f.dynamic.transmission_error)},
-                   {"transmission_error_quasi_static", motion_json(f.quasi_static.transmission_error)},
-                   {"relative_motion", motion_json(f.dynamic.relative)},
-                   {"steady", f.steady},
-                   {"confirmed", f.confirmed},
-                   {"window_cycles", f.window_cycles},
-                   {"total_cycles", f.total_cycles},
-                   {"energy_balance_relative", pair_number(f.energy.relative)}};
-  auto frequencies = PairJson::array();
+  Json json = {{"mesh_frequency_Hz", f.mesh_frequency},
+               {"static_force_N", f.static_force},
+               {"mesh_force_max_N", pair_figure(dynamics::loaded_force(f).largest)},
+               {"mesh_force_min_N", pair_figure(dynamics::loaded_force(f).smallest)},
+               {"dynamic_factor", pair_figure(f.dynamic_factor)},
+               {"contact_loss", f.contact_loss},
+               {"acceleration_m_per_s2",
+                {{"tooth", pair_figure(f.acceleration.tooth)},
+                 {"line_of_action", pair_figure(f.acceleration.line_of_action)},
+                 {"axial", pair_figure(f.acceleration.axial)},
+                 {"rotation", pair_figure(f.acceleration.rotation)}}},
+               {"transmission_error", motion_json(f.dynamic.transmission_error)},
+               {"transmission_error_quasi_static", motion_json(f.quasi_static.transmission_error)},
+               {"relative_motion", motion_json(f.dynamic.relative)},
+               {"steady", f.steady},
+               {"confirmed", f.confirmed},
+               {"window_cycles", f.window_cycles},
+               {"total_cycles", f.total_cycles},
+               {"energy_balance_relative", json_number(f.energy.relative)}};
+  auto frequencies = Json::array();
   for (const auto& mode : response.modes.modes) frequencies.push_back(mode.frequency);
   json["natural_frequencies_Hz"] = std::move(frequencies);
   return json;
@@ -90,45 +84,44 @@ PairJson response_json_of(const PairResponseResult& response) {
 Json PairRunResult::summary() const {
   const auto& result = *this;
   Json json = Json::object();
-  for (const auto& q : result.plan.quantities) json["derived"][q.key] = pair_number(q.value);
+  for (const auto& q : result.plan.quantities) json["derived"][q.key] = json_number(q.value);
   for (const auto& s : result.stiffnesses)
     json["mean_stiffness_N_per_m"][s.source] = {
-        {"value", pair_number(s.value)}, {"error_relative", pair_number(s.error_relative)}, {"taken", s.taken}};
+        {"value", json_number(s.value)}, {"error_relative", json_number(s.error_relative)}, {"taken", s.taken}};
   if (const auto& computed = result.mesh.computed) {
-    auto& mesh = json["pinion_wheel"] = {
-        {"model", computed->model.fidelity},
-        {"contact_ratio", computed->contact_ratio},
-        {"transverse_mean_stiffness_N_per_m", computed->mean_stiffness().value},
-        {"lte_mean_m", computed->lte_mean().value},
-        {"lte_peak_to_peak_m", computed->lte_peak_to_peak().value},
-        {"stiffness_error_parts_relative", PairJson::parse(error_parts_json(computed->mean_stiffness().parts))},
-        {"lte_peak_to_peak_error_parts_relative",
-         PairJson::parse(error_parts_json(computed->lte_peak_to_peak().parts))},
-        {"reused", computed->reused},
-        {"inputs_id", computed->model.id()}};
-    for (const auto& [name, value] : computed->facts) mesh[name] = pair_number(value);
+    auto& mesh =
+        json["pinion_wheel"] = {{"model", computed->model.fidelity},
+                                {"contact_ratio", computed->contact_ratio},
+                                {"transverse_mean_stiffness_N_per_m", computed->mean_stiffness().value},
+                                {"lte_mean_m", computed->lte_mean().value},
+                                {"lte_peak_to_peak_m", computed->lte_peak_to_peak().value},
+                                {"stiffness_error_parts_relative", to_json(computed->mean_stiffness().parts)},
+                                {"lte_peak_to_peak_error_parts_relative", to_json(computed->lte_peak_to_peak().parts)},
+                                {"reused", computed->reused},
+                                {"inputs_id", computed->model.id()}};
+    for (const auto& [name, value] : computed->facts) mesh[name] = json_number(value);
   }
   json["mesh_error_m"] = result.errors.amplitude;
   if (result.errors.law) json["manufacturing_error"] = errors_json(result);
   if (result.response) json["response"] = response_json_of(*result.response);
   if (!result.shares.empty()) {
-    auto list = PairJson::array();
+    auto list = Json::array();
     for (const auto& row : result.shares) list.push_back(share_json(row));
     json["transmission_error_shares"] = std::move(list);
   }
   for (const auto& row : result.speeds) {
     if (!row.failure.empty()) continue;
     const auto motion = [](const SpeedRow::Motion& m) {
-      return PairJson{{"acceleration_m_per_s2", m.acceleration},
-                      {"force_range_N", m.force_range},
-                      {"transmission_error_m", m.te_range}};
+      return Json{{"acceleration_m_per_s2", m.acceleration},
+                  {"force_range_N", m.force_range},
+                  {"transmission_error_m", m.te_range}};
     };
     json["causes_over_speed"].push_back({{"pinion_speed_rpm", row.pinion_speed / units::rpm},
                                          {"all", motion(row.all)},
                                          {"errors_alone", motion(row.errors_alone)},
                                          {"stiffness_alone", motion(row.stiffness_alone)}});
   }
-  if (!studies.variants.empty()) json.update(Json::parse(variant_studies_json(studies, 0)));
+  if (!studies.variants.empty()) json.update(variant_studies_json(studies, 0));
   return json;
 }
 

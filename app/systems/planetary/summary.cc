@@ -4,47 +4,43 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "app/content_id.h"
-#include "app/model/error_parts_json.h"
 #include "app/plan/cost_actual.h"
 #include "app/scene/inputs_json.h"
 #include "app/scene/scene_schema.h"
 #include "app/study/summary_studies.h"
+#include "core/json.h"
 
 namespace annulus::app {
 
 namespace {
 
-using SummaryJson = Json;
-
-SummaryJson known(double x) { return std::isfinite(x) ? SummaryJson(x) : SummaryJson(nullptr); }
-
-SummaryJson estimate_json(const Estimate& e) {
-  return {{"value", known(e.value)},
-          {"error_relative", known(e.error_relative)},
-          {"error_parts_relative", SummaryJson::parse(error_parts_json(e.parts))}};
+Json estimate_json(const Estimate& e) {
+  return {{"value", json_number(e.value)},
+          {"error_relative", json_number(e.error_relative)},
+          {"error_parts_relative", to_json(e.parts)}};
 }
-SummaryJson figure_json(const Figure& f, const ErrorParts& e) {
-  return {
-      {"value", known(f.value)}, {"error", known(f.error)}, {"error_parts", SummaryJson::parse(error_parts_json(e))}};
+Json figure_json(const Figure& f, const ErrorParts& e) {
+  return {{"value", json_number(f.value)}, {"error", json_number(f.error)}, {"error_parts", to_json(e)}};
 }
 
-SummaryJson peak_json(const Peak& peak, double unit) {
-  return {{"value", known(peak.value * unit)}, {"mesh_phase", peak.at.mesh_phase}, {"ring_tooth", peak.at.ring_tooth}};
+Json peak_json(const Peak& peak, double unit) {
+  return {{"value", json_number(peak.value * unit)},
+          {"mesh_phase", peak.at.mesh_phase},
+          {"ring_tooth", peak.at.ring_tooth}};
 }
 
-SummaryJson mesh_json(const MeshResult& mesh) {
-  SummaryJson json = {{"model", mesh.model.fidelity},
-                      {"contact_ratio", mesh.contact_ratio},
-                      {"nominal_load_N", mesh.table.loads()[mesh.nominal]},
-                      {"mean_stiffness_N_per_m", estimate_json(mesh.mean_stiffness())},
-                      {"lte_mean_m", estimate_json(mesh.lte_mean())},
-                      {"lte_peak_to_peak_m", estimate_json(mesh.lte_peak_to_peak())},
-                      {"reused", mesh.reused},
-                      {"inputs_id", mesh.model.id()}};
-  for (const auto& [name, value] : mesh.facts) json[name] = known(value);
+Json mesh_json(const MeshResult& mesh) {
+  Json json = {{"model", mesh.model.fidelity},
+               {"contact_ratio", mesh.contact_ratio},
+               {"nominal_load_N", mesh.table.loads()[mesh.nominal]},
+               {"mean_stiffness_N_per_m", estimate_json(mesh.mean_stiffness())},
+               {"lte_mean_m", estimate_json(mesh.lte_mean())},
+               {"lte_peak_to_peak_m", estimate_json(mesh.lte_peak_to_peak())},
+               {"reused", mesh.reused},
+               {"inputs_id", mesh.model.id()}};
+  for (const auto& [name, value] : mesh.facts) json[name] = json_number(value);
   if (const auto factor = mesh.peak("face_load_factor")) json["face_load_factor"] = peak_json(*factor, 1);
   for (const auto& column : mesh.positions.columns) {
     if (!column.ends_with("_MPa") || column == "max_pressure_MPa") continue;
@@ -54,22 +50,22 @@ SummaryJson mesh_json(const MeshResult& mesh) {
   return json;
 }
 
-SummaryJson sharing_json(const dynamics::LoadSharing& s, const MeshKindErrors& e) {
+Json sharing_json(const dynamics::LoadSharing& s, const MeshKindErrors& e) {
   return {{"instantaneous", figure_json(s.instantaneous, e.instantaneous)},
           {"averaged", figure_json(s.averaged, e.averaged)},
           {"quasi_static", figure_json(s.quasi_static, e.quasi_static)}};
 }
 
-void add_branches(SummaryJson& ring, const std::string& mesh, const dynamics::MeshKindResult& kind,
+void add_branches(Json& ring, const std::string& mesh, const dynamics::MeshKindResult& kind,
                   const MeshKindErrors& errors) {
   // Filled before they are put in: a new key may move all others.
-  auto factor = SummaryJson::array(), error = factor, parts = factor, loss = factor;
+  auto factor = Json::array(), error = factor, parts = factor, loss = factor;
   for (const auto& b : kind.branches) {
-    factor.push_back(known(b.dynamic_factor_max.value));
-    error.push_back(known(b.dynamic_factor_max.error));
-    loss.push_back(known(b.contact_loss));
+    factor.push_back(json_number(b.dynamic_factor_max.value));
+    error.push_back(json_number(b.dynamic_factor_max.error));
+    loss.push_back(json_number(b.contact_loss));
   }
-  for (const auto& e : errors.dynamic_factor_max) parts.push_back(SummaryJson::parse(error_parts_json(e)));
+  for (const auto& e : errors.dynamic_factor_max) parts.push_back(to_json(e));
   ring["dynamic_factor"][mesh] = std::move(factor);
   ring["dynamic_factor_error"][mesh] = std::move(error);
   ring["dynamic_factor_error_parts"][mesh] = std::move(parts);
@@ -82,14 +78,14 @@ double worst(const MeshResult& a, const MeshResult& b, const std::string& fact) 
   return std::isnan(y) ? x : std::max(x, y);
 }
 
-SummaryJson ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
-  SummaryJson json = {
+Json ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
+  Json json = {
       {"model", ring.mesh.model.fidelity}, {"ring_planet", mesh_json(ring.mesh)}, {"sun_planet", mesh_json(sun_mesh)}};
-  json["invariants"] = {{"force_balance_relative", known(worst(ring.mesh, sun_mesh, "force_balance_relative"))},
-                        {"energy_balance_relative", known(worst(ring.mesh, sun_mesh, "energy_balance_relative"))},
-                        {"max_penetration_m", known(worst(ring.mesh, sun_mesh, "max_penetration_m"))},
-                        {"closure_relative", known(worst(ring.mesh, sun_mesh, "closure_relative"))},
-                        {"reciprocity_relative", known(worst(ring.mesh, sun_mesh, "reciprocity_relative"))}};
+  json["invariants"] = {{"force_balance_relative", json_number(worst(ring.mesh, sun_mesh, "force_balance_relative"))},
+                        {"energy_balance_relative", json_number(worst(ring.mesh, sun_mesh, "energy_balance_relative"))},
+                        {"max_penetration_m", json_number(worst(ring.mesh, sun_mesh, "max_penetration_m"))},
+                        {"closure_relative", json_number(worst(ring.mesh, sun_mesh, "closure_relative"))},
+                        {"reciprocity_relative", json_number(worst(ring.mesh, sun_mesh, "reciprocity_relative"))}};
   if (!ring.response) return json;
   const auto& f = ring.response->figures;
   const auto& errors = ring.response->errors;
@@ -97,30 +93,30 @@ SummaryJson ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
                           {"ring_planet", sharing_json(f.ring_planet.load_sharing, errors.ring_planet)}};
   add_branches(json, sun_planet, f.sun_planet, errors.sun_planet);
   add_branches(json, ring_planet, f.ring_planet, errors.ring_planet);
-  json["natural_frequencies_Hz"] = SummaryJson::array();
+  json["natural_frequencies_Hz"] = Json::array();
   for (const auto& mode : ring.response->modes.list)
     json["natural_frequencies_Hz"].push_back({{"value", mode.frequency},
-                                              {"error", known(mode.frequency_error)},
-                                              {"error_parts", SummaryJson::parse(error_parts_json(mode.error_parts))},
+                                              {"error", json_number(mode.frequency_error)},
+                                              {"error_parts", to_json(mode.error_parts)},
                                               {"kind", mode.kind}});
   const auto& m = ring.response->motion;
   json["bearing_forces"] = {{"planet_max_N", m.pin_force_max},
                             {"planet_mean_tangential_N", m.pin_force_mean_tangential},
-                            {"sun_support_max_N", known(m.sun_support_max)},
-                            {"ring_support_max_N", known(m.ring_support_max)},
-                            {"carrier_support_max_N", known(m.carrier_support_max)},
-                            {"ring_torque_mean_N_m", known(m.ring_torque_mean)}};
-  json["sun_orbit"] = {{"extent_m", known(m.sun_orbit_extent)}, {"largest_m", known(m.sun_orbit_largest)}};
+                            {"sun_support_max_N", json_number(m.sun_support_max)},
+                            {"ring_support_max_N", json_number(m.ring_support_max)},
+                            {"carrier_support_max_N", json_number(m.carrier_support_max)},
+                            {"ring_torque_mean_N_m", json_number(m.ring_torque_mean)}};
+  json["sun_orbit"] = {{"extent_m", json_number(m.sun_orbit_extent)}, {"largest_m", json_number(m.sun_orbit_largest)}};
   json["poincare"] = {{"section", m.section},
-                      {"period_cycles", m.section_period ? SummaryJson(*m.section_period) : SummaryJson(nullptr)},
+                      {"period_cycles", m.section_period ? Json(*m.section_period) : Json(nullptr)},
                       {"clusters", m.section_clusters}};
   json["dynamics"] = {{"steady", f.steady},
-                      {"steady_difference", f.steady_difference ? known(*f.steady_difference) : SummaryJson(nullptr)},
+                      {"steady_difference", json_number(f.steady_difference)},
                       {"window_cycles", f.window_cycles},
                       {"whole_error_period", f.whole_period},
                       {"total_cycles", f.total_cycles},
-                      {"energy_balance_relative", known(f.energy.relative)},
-                      {"force_balance_relative", known(f.force_balance_relative)},
+                      {"energy_balance_relative", json_number(f.energy.relative)},
+                      {"force_balance_relative", json_number(f.force_balance_relative)},
                       {"reused", ring.response->reused}};
   return json;
 }
@@ -135,7 +131,7 @@ Json RunResult::summary() const {
                  {"mean_mesh_force_N", point.mean_mesh_force}}}};
   for (std::size_t i = 0; i < rings.size(); ++i) {
     auto& entry = json["rings"][rings[i].name] = ring_json(rings[i], sun_mesh);
-    entry.update(Json::parse(variant_studies_json(studies, i)));
+    entry.update(variant_studies_json(studies, i));
   }
   return json;
 }

@@ -16,17 +16,15 @@ namespace annulus::app {
 
 namespace {
 
-using MotionJson = Json;
-
 constexpr double highest_crank_order = 200;  // several multiples of both mesh orders
 
-std::optional<double> optional_number(const MotionJson& json) {
+std::optional<double> optional_number(const Json& json) {
   if (json.is_null()) return std::nullopt;
   return json.get<double>();
 }
 
-MotionJson meshes_json(const std::vector<dynamics::TwoKVMeshResult>& meshes) {
-  auto json = MotionJson::array();
+Json meshes_json(const std::vector<dynamics::TwoKVMeshResult>& meshes) {
+  auto json = Json::array();
   for (const auto& m : meshes)
     json.push_back({{"dynamic_factor_max", m.dynamic_factor_max.value},
                     {"dynamic_factor_max_error", m.dynamic_factor_max.error},
@@ -36,7 +34,7 @@ MotionJson meshes_json(const std::vector<dynamics::TwoKVMeshResult>& meshes) {
   return json;
 }
 
-std::vector<dynamics::TwoKVMeshResult> meshes_of(const MotionJson& json) {
+std::vector<dynamics::TwoKVMeshResult> meshes_of(const Json& json) {
   std::vector<dynamics::TwoKVMeshResult> meshes;
   for (const auto& m : json)
     meshes.push_back({{m.at("dynamic_factor_max"), m.at("dynamic_factor_max_error")},
@@ -47,35 +45,35 @@ std::vector<dynamics::TwoKVMeshResult> meshes_of(const MotionJson& json) {
 }
 
 std::string motion_json(const TwoKVMotion& m, const std::string& id) {
-  MotionJson json = {{"inputs_id", id},
-                     {"crank_frequency_Hz", m.crank_frequency},
-                     {"sun_mesh_frequency_Hz", m.sun_mesh_frequency},
-                     {"arc_mesh_frequency_Hz", m.arc_mesh_frequency},
-                     {"mean_sun_force_N", m.mean_sun_force},
-                     {"mean_arc_force_N", m.mean_arc_force},
-                     {"crank_turns", m.crank_turns},
-                     {"total_cycles", m.total_cycles},
-                     {"steady", m.steady},
-                     {"steady_difference", json_number(m.steady_difference)},
-                     {"torque_balance_relative", json_number(m.torque_balance_relative)},
-                     {"largest_multiplier", json_number(m.largest_multiplier)},
-                     {"energy_relative", json_number(m.energy_relative)},
-                     {"error_peak_to_peak_rad", m.error_peak_to_peak.value},
-                     {"error_peak_to_peak_error_rad", m.error_peak_to_peak.error},
-                     {"error_mean_rad", m.error_mean},
-                     {"static_error_mean_rad", m.static_error_mean},
-                     {"static_error_peak_to_peak_rad", m.static_error_peak_to_peak},
-                     {"sun_planet", meshes_json(m.sun_planet)},
-                     {"arc_pins", meshes_json(m.arc_pins)}};
+  Json json = {{"inputs_id", id},
+               {"crank_frequency_Hz", m.crank_frequency},
+               {"sun_mesh_frequency_Hz", m.sun_mesh_frequency},
+               {"arc_mesh_frequency_Hz", m.arc_mesh_frequency},
+               {"mean_sun_force_N", m.mean_sun_force},
+               {"mean_arc_force_N", m.mean_arc_force},
+               {"crank_turns", m.crank_turns},
+               {"total_cycles", m.total_cycles},
+               {"steady", m.steady},
+               {"steady_difference", json_number(m.steady_difference)},
+               {"torque_balance_relative", json_number(m.torque_balance_relative)},
+               {"largest_multiplier", json_number(m.largest_multiplier)},
+               {"energy_relative", json_number(m.energy_relative)},
+               {"error_peak_to_peak_rad", m.error_peak_to_peak.value},
+               {"error_peak_to_peak_error_rad", m.error_peak_to_peak.error},
+               {"error_mean_rad", m.error_mean},
+               {"static_error_mean_rad", m.static_error_mean},
+               {"static_error_peak_to_peak_rad", m.static_error_peak_to_peak},
+               {"sun_planet", meshes_json(m.sun_planet)},
+               {"arc_pins", meshes_json(m.arc_pins)}};
   json["results"] = to_json(m.results);
-  json["arc_bearings"] = MotionJson::array();
+  json["arc_bearings"] = Json::array();
   for (const auto& b : m.arc_bearings)
     json["arc_bearings"].push_back(
         {{"crank", b.crank}, {"arc_gear", b.arc_gear}, {"largest_N", b.largest}, {"mean_N", b.mean}});
   return json.dump(1) + "\n";
 }
 
-TwoKVMotion parse_motion(const MotionJson& json) {
+TwoKVMotion parse_motion(const Json& json) {
   TwoKVMotion m;
   m.crank_frequency = json.at("crank_frequency_Hz");
   m.sun_mesh_frequency = json.at("sun_mesh_frequency_Hz");
@@ -241,7 +239,7 @@ std::optional<TwoKVMotion> load_two_k_v(const std::string& id, const std::filesy
   std::ifstream in(folder / "figures.json");
   if (!in || !std::filesystem::exists(folder / "time_series.csv")) return std::nullopt;
   try {
-    const auto json = MotionJson::parse(in);
+    const auto json = Json::parse(in);
     if (json.at("inputs_id") != id) return std::nullopt;
     auto motion = parse_motion(json);
     for (const auto& [name, table] : motion_tables(motion)) {

@@ -2,44 +2,38 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "app/content_id.h"
-#include "app/model/error_parts_json.h"
 #include "app/plan/cost_actual.h"
 #include "app/scene/inputs_json.h"
 #include "app/scene/scene_schema.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
+#include "core/json.h"
 
 namespace annulus::app {
 
 namespace {
 
-using ReducerJson = Json;
-
-ReducerJson finite(double x) { return std::isfinite(x) ? ReducerJson(x) : ReducerJson(nullptr); }
-ReducerJson finite(const std::optional<double>& x) { return x ? finite(*x) : ReducerJson(nullptr); }
-
-ReducerJson mesh_json_of(const MeshResult& mesh) {
+Json mesh_json_of(const MeshResult& mesh) {
   const auto k = mesh.mean_stiffness();
-  ReducerJson json = {{"model", mesh.model.fidelity},
-                      {"mean_stiffness_N_per_m",
-                       {{"value", finite(k.value)},
-                        {"error_relative", finite(k.error_relative)},
-                        {"error_parts_relative", ReducerJson::parse(error_parts_json(k.parts))}}},
-                      {"nominal_load_N", mesh.table.loads()[mesh.nominal]},
-                      {"reused", mesh.reused}};
-  for (const auto& [name, value] : mesh.facts) json[name] = finite(value);
+  Json json = {{"model", mesh.model.fidelity},
+               {"mean_stiffness_N_per_m",
+                {{"value", json_number(k.value)},
+                 {"error_relative", json_number(k.error_relative)},
+                 {"error_parts_relative", to_json(k.parts)}}},
+               {"nominal_load_N", mesh.table.loads()[mesh.nominal]},
+               {"reused", mesh.reused}};
+  for (const auto& [name, value] : mesh.facts) json[name] = json_number(value);
   return json;
 }
 
-ReducerJson vibration_json(const TwoKVVibration& v) {
-  ReducerJson json = {{"first_frequency_Hz", v.first_frequency()},
-                      {"frequencies_Hz", ReducerJson::array()},
-                      {"modes", ReducerJson::array()},
-                      {"seconds_per_crank_angle", v.seconds_per_position}};
+Json vibration_json(const TwoKVVibration& v) {
+  Json json = {{"first_frequency_Hz", v.first_frequency()},
+               {"frequencies_Hz", Json::array()},
+               {"modes", Json::array()},
+               {"seconds_per_crank_angle", v.seconds_per_position}};
   for (std::size_t m = 0; m < v.modes.modes.size(); ++m) {
     json["frequencies_Hz"].push_back(v.modes.modes[m].frequency);
     const auto row = v.over_crank.frequency.row(static_cast<Eigen::Index>(m));
@@ -60,18 +54,18 @@ ReducerJson vibration_json(const TwoKVVibration& v) {
     json["first_frequency_inputs"].push_back({{"input", input.key},
                                               {"value_SI", input.value},
                                               {"d_ln_f_per_d_ln_p", input.sensitivity},
-                                              {"factor_low", finite(input.band.low)},
-                                              {"factor_high", finite(input.band.high)}});
+                                              {"factor_low", json_number(input.band.low)},
+                                              {"factor_high", json_number(input.band.high)}});
   return json;
 }
 
-ReducerJson motion_summary(const TwoKVMotion& m) {
-  ReducerJson json = {
+Json motion_summary(const TwoKVMotion& m) {
+  Json json = {
       {"steady", m.steady},
-      {"steady_difference", finite(m.steady_difference)},
-      {"largest_multiplier", finite(m.largest_multiplier)},
-      {"torque_balance_relative", finite(m.torque_balance_relative)},
-      {"energy_balance_relative", finite(m.energy_relative)},
+      {"steady_difference", json_number(m.steady_difference)},
+      {"largest_multiplier", json_number(m.largest_multiplier)},
+      {"torque_balance_relative", json_number(m.torque_balance_relative)},
+      {"energy_balance_relative", json_number(m.energy_relative)},
       {"output_error_peak_to_peak_rad", {{"value", m.error_peak_to_peak.value}, {"error", m.error_peak_to_peak.error}}},
       {"output_error_mean_rad", m.error_mean},
       {"output_error_quasi_static_rad", m.static_error_peak_to_peak}};
@@ -79,7 +73,7 @@ ReducerJson motion_summary(const TwoKVMotion& m) {
     for (const auto& mesh : arc ? m.arc_pins : m.sun_planet)
       json[arc ? "arc_pins" : "sun_planet"].push_back(
           {{"dynamic_factor",
-            {{"value", mesh.dynamic_factor_max.value}, {"error", finite(mesh.dynamic_factor_max.error)}}},
+            {{"value", mesh.dynamic_factor_max.value}, {"error", json_number(mesh.dynamic_factor_max.error)}}},
            {"dynamic_factor_min", mesh.dynamic_factor_min},
            {"contact_loss", mesh.contact_loss}});
   json["largest_arc_bearing_force_N"] = m.largest_bearing_force();
@@ -87,8 +81,8 @@ ReducerJson motion_summary(const TwoKVMotion& m) {
   return json;
 }
 
-ReducerJson case_json(const TwoKVCase& c) {
-  ReducerJson json = {{"sun_planet", mesh_json_of(c.tables.sun)}, {"arc_pins", mesh_json_of(c.tables.arc)}};
+Json case_json(const TwoKVCase& c) {
+  Json json = {{"sun_planet", mesh_json_of(c.tables.sun)}, {"arc_pins", mesh_json_of(c.tables.arc)}};
   if (c.vibration) json["vibration"] = vibration_json(*c.vibration);
   if (c.motion) json["motion"] = motion_summary(*c.motion);
   return json;
@@ -101,7 +95,7 @@ Json TwoKVResult::summary() const {
   for (const auto& q : plan.quantities) json["operating_point"][q.key] = q.value;
   json.update(case_json(own));
   if (computed) json["computed"] = case_json(*computed);
-  json.update(Json::parse(variant_studies_json(studies, 0)));
+  json.update(variant_studies_json(studies, 0));
   return json;
 }
 
