@@ -13,7 +13,10 @@ PlanCost GearSystem::cost(int threads, const CostModel& costs) const {
 }
 
 Plan GearSystem::plan(int threads) const {
-  Plan plan{.title = scene_.title, .meshes = meshes(), .studies = plan_studies(scene_)};
+  Plan plan;
+  plan.title = scene_.title;
+  plan.meshes = meshes();
+  plan.studies = plan_studies(scene_);
   describe(plan);
   plan.cost = cost(threads, CostModel::of_this_machine());
   return plan;

@@ -171,9 +171,10 @@ std::vector<Facet> facets(const Mesh& mesh, const Camera& eye, std::optional<Bou
 }
 
 std::string solid_picture(const fem::LoadedMeshProblem& problem, const fem::LoadedMeshResult& solved) {
-  constexpr std::size_t most_faces = 30000;  // keeps the document below two megabytes
+  constexpr std::size_t most_drawn_faces = 30000;  // keeps the document below two megabytes
   const auto& sector = solved.wheel_sector;
-  const int wanted = sector.faces.size() > most_faces / 5 ? (sector.faces.size() > most_faces / 3 ? 1 : 3) : 5;
+  const int wanted =
+      sector.faces.size() > most_drawn_faces / 5 ? (sector.faces.size() > most_drawn_faces / 3 ? 1 : 3) : 5;
   const Mesh mesh = wanted == 1 ? sector : geometry::repeat(sector, problem.pair.wheel().teeth(), wanted);
   const auto list = facets(mesh, camera(), held_boundary(problem));
   Eigen::AlignedBox2d box;

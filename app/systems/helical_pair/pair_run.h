@@ -40,7 +40,7 @@ struct SpeedRow {
 
 struct PairResponseResult {
   dynamics::PairResponse figures;  ///< without the series; errors with all their parts
-  FigureSet results;               ///< by key, with the parts of their errors; frequencies too
+  FigureSet results{};             ///< by key, with the parts of their errors; frequencies too
   dynamics::Modes modes;
   Csv series;    ///< one row per sample: time, DOFs, force, transmission error
   Csv spectrum;  ///< of the mesh force

@@ -89,7 +89,7 @@ Json PairRunResult::summary() const {
     json["mean_stiffness_N_per_m"][s.source] = {
         {"value", json_number(s.value)}, {"error_relative", json_number(s.error_relative)}, {"taken", s.taken}};
   if (const auto& computed = result.mesh.computed) {
-    auto& mesh =
+    auto& item =
         json["pinion_wheel"] = {{"model", computed->model.fidelity},
                                 {"contact_ratio", computed->contact_ratio},
                                 {"transverse_mean_stiffness_N_per_m", computed->mean_stiffness().value},
@@ -99,7 +99,7 @@ Json PairRunResult::summary() const {
                                 {"lte_peak_to_peak_error_parts_relative", to_json(computed->lte_peak_to_peak().parts)},
                                 {"reused", computed->reused},
                                 {"inputs_id", computed->model.id()}};
-    for (const auto& [name, value] : computed->facts) mesh[name] = json_number(value);
+    for (const auto& [name, value] : computed->facts) item[name] = json_number(value);
   }
   json["mesh_error_m"] = result.errors.amplitude;
   if (result.errors.law) json["manufacturing_error"] = errors_json(result);

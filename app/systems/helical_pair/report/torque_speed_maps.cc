@@ -76,7 +76,7 @@ std::optional<ColourMap> one_map(const GridResult& grid, const FigureSpec& figur
 }
 
 /// Where the teeth lose contact, and where the largest acceleration lies.
-Paragraph map_words(const StudyResults& studies, const GridResult& grid) {
+Paragraph map_words(const GridResult& grid) {
   constexpr const char *loss = "contact_loss", *acceleration = "acceleration_max_m_per_s2";
   const auto& points = grid.variants.front();
   int parted = 0;
@@ -107,7 +107,7 @@ Section pair_maps_section(const PairRunResult& result) {
     }
     if (pictures.empty()) continue;
     section.blocks +=
-        map_words(studies, grid) +
+        map_words(grid) +
         Pictures{
             pictures,
             {},
