@@ -53,7 +53,7 @@ std::string unknown_command(const CLI::App& app) {
     known += (known.empty() ? "" : ", ") + commands.back();
   }
   const std::string near = nearest(word, commands);
-  return fmt::format("{}: there is no such command{}; the commands are {} (annulus --help tells more)", word,
+  return fmt::format("{}: there is no such command{}; the commands are {} (annulus --help lists more)", word,
                      near.empty() ? "" : ", did you mean " + near + "?", known);
 }
 
@@ -68,7 +68,7 @@ void declare(CLI::App& app, Arguments& arguments) {
       "  annulus new planetary > my.toml     a scene to start from, every key with its meaning\n"
       "  annulus plan my.toml                what will be modelled, how long it takes\n"
       "  annulus run my.toml                 everything, with the report out/my/report.html\n"
-      "'annulus COMMAND --help' tells more of a command.");
+      "'annulus COMMAND --help' describes a command.");
 
   const auto out = [&](CLI::App* command) {
     command->add_option("-o,--out", arguments.out, "Folder of the results; default out/<scene name>");

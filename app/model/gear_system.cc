@@ -9,7 +9,8 @@
 namespace annulus::app {
 
 PlanCost GearSystem::cost(int threads, const CostModel& costs) const {
-  return plan_cost(meshes(), responses(threads), plan_studies(scene_), threads, costs);
+  return plan_cost(meshes(), responses(threads), plan_studies(scene_), threads, costs,
+                   [this](const MeshModel& mesh) { return coupled(mesh); });
 }
 
 Plan GearSystem::plan(int threads) const {

@@ -41,8 +41,10 @@ class GearSystem {
   [[nodiscard]] virtual std::vector<PlannedResponse> responses(int threads) const = 0;
   /// Wall time of a study's response of all variants on one core, s, rough. Needs [dynamics].
   [[nodiscard]] virtual double response_seconds() const = 0;
+  /// Whether a computed mesh is coupled with the others through its ring, which is solved as a step of its own.
+  [[nodiscard]] virtual bool coupled(const MeshModel& /*mesh*/) const { return false; }
   /// Predicted time and memory of a run.
-  [[nodiscard]] virtual PlanCost cost(int threads, const CostModel& costs) const;
+  [[nodiscard]] PlanCost cost(int threads, const CostModel& costs) const;
   /// What will be modelled and why; computes nothing elastic.
   [[nodiscard]] Plan plan(int threads) const;
 

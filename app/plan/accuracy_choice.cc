@@ -69,11 +69,11 @@ MotionChoice motion_choice(double accuracy) {
     choice.samples_per_cycle = 32;
     choice.samples_reason = "32 samples per mesh cycle, their peaks refined, are within 1 % of any number";
     choice.confirm = false;
-    choice.confirm_reason = "the direct solution is taken as it is while the teeth stay in contact";
+    choice.confirm_reason = "the harmonic balance is not confirmed unless contact is lost";
   } else {
     choice.samples_per_cycle = 64;
     choice.samples_reason = "64 samples per mesh cycle are within 0.1 % of any number";
-    choice.confirm_reason = "marching through a period must confirm the direct solution";
+    choice.confirm_reason = "time integration over a period must confirm the harmonic balance";
   }
   choice.relative_tolerance = std::clamp(1e-3 * accuracy, 1e-8, 1e-4);
   choice.tolerance_reason =

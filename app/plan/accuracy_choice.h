@@ -7,7 +7,7 @@
 #include "fem/loaded_mesh.h"
 
 /// What a wanted accuracy asks for, beside the model: the measured trade turned into rules (docs/tradeoff.md, which
-/// also tells how well they keep what they promise).
+/// also reports how well they keep their guarantee).
 namespace annulus::app {
 
 /// Loads of a table, as multiples of the nominal mean mesh force: around it, so that the table can be interpolated, and
@@ -50,7 +50,7 @@ struct MotionChoice {
   int samples_per_cycle = 64;
   double relative_tolerance = 1e-5;  ///< of the time integration
   double steady_tolerance = 1e-3;    ///< see dynamics::SimulationOptions
-  bool confirm = true;               ///< the direct solution by marching, though no contact is lost
+  bool confirm = true;               ///< confirm the harmonic balance by time integration also where no contact is lost
   std::string samples_reason{}, tolerance_reason{}, confirm_reason{};
 };
 [[nodiscard]] MotionChoice motion_choice(double accuracy);

@@ -46,7 +46,7 @@ void keep_costs(const PlanCost& done) {
   std::vector<CostRun> runs;
   for (const auto& step : done.steps)
     // A long time integration is predicted from its steps: it says nothing about the laws of all others.
-    if (step.actual && step.marching_s < 0.2 * step.predicted.seconds && step.actual->seconds() > 0 &&
+    if (step.actual && step.integration_s < 0.2 * step.predicted.seconds && step.actual->seconds() > 0 &&
         std::isfinite(step.actual->saved_s)) {
       // What it would have cost without teeth of others.
       runs.push_back(*step.actual);

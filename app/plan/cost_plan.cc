@@ -5,14 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
-#include "app/plan/accuracy_choice.h"
-#include "app/systems/planetary/planetary_subject.h"
-#include "app/systems/planetary/rim_coupling.h"
-#include "app/systems/planetary/stage_response.h"
-#include "dynamics/steady_state/integration_cost.h"
-#include "dynamics/systems/planetary/study_point.h"
 #include "fem/cost_size.h"
 #include "fem/loaded_mesh.h"
 #include "fem/problem/solved_face.h"
@@ -21,7 +14,7 @@ namespace annulus::app {
 
 namespace {
 
-/// Wall time of steps whose times `time_of` tells.
+/// Wall time of steps, each taking `time_of` it.
 template <class TimeOf>
 double wall_time(const std::vector<CostStep>& steps, int threads, TimeOf time_of) {
   double in_turn = 0, responses = 0, longest = 0;
@@ -67,10 +60,10 @@ struct CostSteps {
 
   CostSteps(int threads, const CostModel& model) : cost{.steps = {}, .threads = threads}, costs(model) {}
   void add(CostKind kind, std::string label, std::string ring, CostRun size, double error = unknown_cost,
-           double marching_s = 0) {
+           double integration_s = 0) {
     auto predicted = costs.predict(size);
-    predicted.seconds += marching_s;
-    cost.steps.push_back({kind, std::move(label), std::move(ring), std::move(size), predicted, marching_s, error});
+    predicted.seconds += integration_s;
+    cost.steps.push_back({kind, std::move(label), std::move(ring), std::move(size), predicted, integration_s, error});
   }
   void add_mesh(const MeshModel& model) {
     const auto size = mesh_size(model, cost.threads, costs);
@@ -85,7 +78,7 @@ struct CostSteps {
   }
   void add_responses(const std::vector<PlannedResponse>& responses) {
     for (const auto& response : responses)
-      add(CostKind::response, response.label, response.ring, response.size, unknown_cost, response.marching_s);
+      add(CostKind::response, response.label, response.ring, response.size, unknown_cost, response.integration_s);
   }
   void add_studies(const std::vector<StudyPlan>& studies) {
     for (const auto& study : studies)
@@ -184,125 +177,24 @@ CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs) {
   return size;
 }
 
-namespace {
-
-/// The stages with rough stiffness: what periods, steps and DOFs follow from before anything is solved.
-std::vector<dynamics::PlanetaryStage> rough_stages(const Scene& scene, const GearGeometry& geometry) {
-  Scene rough = scene;
-  for (auto* mesh : {&rough.sun_planet, &rough.ring_planet}) {
-    const double mean = rough_stiffness(scene, *mesh);
-    const bool jumps = mesh->stiffness == StiffnessShape::rectangular;
-    if (jumps) continue;
-    *mesh = {};
-    mesh->stiffness = StiffnessShape::constant;
-    mesh->mean = mean;
-  }
-  // A given stiffness reads no table: any will do.
-  const MeshResult none{
-      .model = {},
-      .table = StiffnessTable("sun_planet", 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
-  std::vector<dynamics::PlanetaryStage> stages;
-  for (std::size_t i = 0; i < scene.rings.size(); ++i) stages.push_back(make_stage(rough, geometry, i, none, none));
-  return stages;
-}
-
-}  // namespace
-
 double rough_stiffness(const Scene& scene, const MeshInput& mesh) {
   constexpr double per_width = 18e9;  // N/m^2, mean of one and two pairs of steel teeth
   constexpr double steel = 206e9;
   return mesh.mean.value_or(per_width * scene.stage.face_width * scene.material.youngs_modulus / steel);
 }
 
-std::vector<double> marching_seconds(const Scene& scene, const GearGeometry& geometry) {
-  const auto periods = period_cycles(scene, geometry);
-  std::vector<double> seconds;
-  for (const auto& stage : rough_stages(scene, geometry)) {
-    const auto options = simulation_options(scene, stage);
-    const auto system = assemble(stage);
-    const double cycles = dynamics::integrated_cycles(system, stage.mesh_frequency(), periods[seconds.size()], options);
-    seconds.push_back(dynamics::integration_seconds(system, stage.mesh_frequency(), cycles, options.integrator));
-  }
-  return seconds;
-}
-
-std::vector<int> period_cycles(const Scene& scene, const GearGeometry& geometry) {
-  // The period follows from errors and tables, not from stiffness.
-  const auto models = mesh_models(scene, geometry);
-  const auto stages = rough_stages(scene, geometry);
-  std::vector<int> periods;
-  for (std::size_t i = 0; i < scene.rings.size(); ++i) {
-    const auto& stage = stages[i];
-    const int period = std::lcm(stage.error_period(), models[i + 1].positions);
-    periods.push_back(std::min(period, std::max(simulation_options(scene, stage).max_window_cycles, 4000)));
-  }
-  return periods;
-}
-
 PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<PlannedResponse>& responses,
-                   const std::vector<StudyPlan>& studies, int threads, const CostModel& costs) {
-  CostSteps steps(threads, costs);
-  for (const auto& model : meshes)
-    if (model.computed()) steps.add_mesh(model);
-  steps.add_responses(responses);
-  steps.add_studies(studies);
-  return steps.cost;
-}
-
-double planetary_response_seconds(const Scene& scene, const GearGeometry& geometry) {
-  double seconds = 0;
-  for (const int period : period_cycles(scene, geometry))
-    seconds += dynamics::point_seconds(scene.stage.planets, period);
-  // Studies integrate in time only where a number of cycles is asked for.
-  if (scene.dynamics->mesh_cycles)
-    for (const double integrated : marching_seconds(scene, geometry)) seconds += integrated;
-  return seconds;
-}
-
-std::vector<PlannedResponse> planetary_responses(const Scene& scene, const GearGeometry& geometry,
-                                                 const std::vector<MeshModel>& meshes) {
-  if (!scene.dynamics) return {};
-  std::vector<std::string> elastic;
-  bool computed = false;
-  for (const auto& model : meshes) {
-    if (!model.computed()) continue;
-    computed = true;
-    // A ring held all around its outside has no modes as low as the stage's.
-    if (may_be_coupled(scene, model) && scene.dynamics->rim_coupling != RimCoupling::statical &&
-        !fem::held_outside(model.problem->structure))
-      elastic.push_back(model.ring);
-  }
-  const auto periods = period_cycles(scene, geometry);
-  const auto marching = marching_seconds(scene, geometry);
-  // With tables their errors are carried through: a base, both meshes stiffer and more rippled, half the phases.
-  const double marches = computed && scene.dynamics->mesh_cycles ? 7 : 1;
-  std::vector<PlannedResponse> responses;
-  for (std::size_t i = 0; i < scene.rings.size(); ++i) {
-    const auto& name = scene.rings[i].name;
-    CostRun size;
-    const bool modes = std::find(elastic.begin(), elastic.end(), name) != elastic.end();
-    const bool marched = motion_choice(scene.accuracy).confirm || scene.dynamics->mesh_cycles;
-    size.kind = modes ? "response_elastic" : !computed ? "response_given" : marched ? "response" : "response_direct";
-    // A window is kept and evaluated, however many cycles lead to it.
-    size.unknowns = static_cast<double>(scene.stage.planets) *
-                    std::min(periods[i], scene.dynamics->mesh_cycles.value_or(periods[i]));
-    responses.push_back({fmt::format("dynamics of '{}'", name), name, size, marches * marching[i]});
-  }
-  return responses;
-}
-
-PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::vector<MeshModel>& meshes,
-                   const std::vector<StudyPlan>& studies, int threads, const CostModel& costs) {
+                   const std::vector<StudyPlan>& studies, int threads, const CostModel& costs,
+                   const std::function<bool(const MeshModel&)>& coupled) {
   CostSteps steps(threads, costs);
   for (const auto& model : meshes) {
     if (!model.computed()) continue;
     steps.add_mesh(model);
-    if (!may_be_coupled(scene, model)) continue;
-    steps.add(CostKind::coupling, fmt::format("coupling through '{}'", model.ring), model.ring,
-              coupling_size(model, threads));
+    if (coupled(model))
+      steps.add(CostKind::coupling, fmt::format("coupling through '{}'", model.ring), model.ring,
+                coupling_size(model, threads));
   }
-  if (!scene.dynamics) return steps.cost;
-  steps.add_responses(planetary_responses(scene, geometry, meshes));
+  steps.add_responses(responses);
   steps.add_studies(studies);
   return steps.cost;
 }

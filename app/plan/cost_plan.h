@@ -1,10 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/model/gear_geometry.h"
 #include "app/plan/cost_model.h"
 #include "app/plan/mesh_model.h"
 #include "app/plan/study_plan.h"
@@ -22,7 +22,7 @@ struct CostStep {
   std::string ring;                 ///< empty for the sun mesh and studies
   CostRun size;                     ///< as predicted; of no meaning for studies
   PredictedCost predicted;          ///< NaN: nobody has measured such a step
-  double marching_s = 0;            ///< s of `predicted`: time integration, beyond what laws of measured runs know
+  double integration_s = 0;         ///< s of `predicted`: time integration, beyond what laws of measured runs know
   double expected_error = 0;        ///< relative, of a mesh's stiffness; NaN: not known
   std::optional<CostRun> actual{};  ///< absent before the run and for what was reused
 };
@@ -48,33 +48,19 @@ struct PlanCost {
 /// The size of solving one computed mesh, its level as the model expects it. `threads` of the whole run.
 [[nodiscard]] CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs);
 
-/// Mesh cycles after which the response of each ring repeats, by its errors and supports; at most as many as are
-/// integrated.
-[[nodiscard]] std::vector<int> period_cycles(const Scene& scene, const GearGeometry& geometry);
-
-/// A response of the lumped model, as wide as `size` tells.
+/// A response of the lumped model, of the size `size`.
 struct PlannedResponse {
   std::string label, ring;
   CostRun size;
-  double marching_s = 0;  ///< s, of all mesh cycles that are marched through
+  double integration_s = 0;  ///< s, of all mesh cycles that are integrated in time
 };
 /// Rough stiffness of a mesh before it is solved, N/m: the given mean, else that of steel teeth of the face width.
 [[nodiscard]] double rough_stiffness(const Scene& scene, const MeshInput& mesh);
-/// Time integration of the response of each ring, s: of `mesh_cycles`, else of one error period that confirms.
-[[nodiscard]] std::vector<double> marching_seconds(const Scene& scene, const GearGeometry& geometry);
-
-/// The responses of a planetary scene, one per ring; empty without [dynamics].
-[[nodiscard]] std::vector<PlannedResponse> planetary_responses(const Scene& scene, const GearGeometry& geometry,
-                                                               const std::vector<MeshModel>& meshes);
-/// Wall time of a study's response of all rings on one core, s, rough.
-[[nodiscard]] double planetary_response_seconds(const Scene& scene, const GearGeometry& geometry);
-
-/// Of a stage whose meshes do not act on each other through elastic rings.
+/// Predicted cost of a run. `coupled`: whether a computed mesh is coupled with the others through its ring, which is a
+/// step of its own.
 [[nodiscard]] PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<PlannedResponse>& responses,
-                                 const std::vector<StudyPlan>& studies, int threads, const CostModel& costs);
-/// Of a planetary scene. `meshes`: the sun mesh, then one per ring.
-[[nodiscard]] PlanCost plan_cost(const Scene& scene, const GearGeometry& geometry, const std::vector<MeshModel>& meshes,
-                                 const std::vector<StudyPlan>& studies, int threads, const CostModel& costs);
+                                 const std::vector<StudyPlan>& studies, int threads, const CostModel& costs,
+                                 const std::function<bool(const MeshModel&)>& coupled);
 
 /// "12 s", "3 min", "850 ms"; "not known" for NaN.
 [[nodiscard]] std::string duration_text(double seconds);

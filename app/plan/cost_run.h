@@ -12,7 +12,7 @@ struct CostRun {
   /// a symmetric face or "solid_helical",
   /// "coupling_plane", "coupling_pins" (on pins or splines) and "coupling_solid", or the "response" of one ring:
   /// "response_elastic" where its elastic modes may take part, "response_given" with stiffness that is given, where no
-  /// errors of tables are carried through, "response_direct" where nothing is marched, "response_pair",
+  /// errors of tables are carried through, "response_direct" where nothing is integrated in time, "response_pair",
   /// "response_two_k_v" and "response_two_k_v_given" of the other stages.
   std::string kind;
   int degree = 2;

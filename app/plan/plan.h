@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "app/model/gear_geometry.h"
 #include "app/plan/cost_plan.h"
 #include "app/plan/mesh_model.h"
 #include "app/plan/study_plan.h"
@@ -38,14 +37,11 @@ struct Plan {
   std::vector<StudyPlan> studies;    ///< sweeps, samples, sensitivity
   std::vector<std::string> remarks;  ///< simplifications and warnings
   PlanCost cost{};                   ///< predicted; empty when there is nothing to compute
-  std::string budget{};              ///< what a budget bought; empty without
+  std::string budget{};              ///< what is chosen for a budget; empty without one
 
   /// Contact problems per level of resolution: positions x phases x loads, closure included, over all computed meshes.
   [[nodiscard]] long contact_problems() const;
 };
-
-/// What a plan says of a planetary stage.
-void describe_planetary(const Scene& scene, const GearGeometry& geometry, Plan& plan);
 
 [[nodiscard]] std::string to_text(const Plan& plan);
 [[nodiscard]] std::string to_json(const Plan& plan);

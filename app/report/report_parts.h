@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "app/model/measured.h"
+#include "app/model/system_run.h"
+#include "app/report/page.h"
 #include "app/report/section.h"
-#include "app/systems/planetary/planetary_run.h"
 #include "dynamics/steady_state/steady_response.h"
 
 /// The sections of report pages, made from the results alone. A section without blocks has nothing to show and is left

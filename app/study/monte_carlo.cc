@@ -215,7 +215,7 @@ MonteCarloResult run_monte_carlo(const StudySubject& subject) {
     variant.statistics = statistics_of(variant.samples, quick_keys(figures));
     variant.samples.write(subject.folder(i) / "monte_carlo.csv");
     if (variant.failed)
-      log::warn(fmt::format("Monte Carlo{}: {} of {} samples failed; monte_carlo.csv tells why",
+      log::warn(fmt::format("Monte Carlo{}: {} of {} samples failed; monte_carlo.csv states why",
                             names[i].empty() ? "" : ", ring '" + names[i] + "'", variant.failed, settings.samples));
     result.variants.push_back(std::move(variant));
   }

@@ -105,7 +105,7 @@ std::vector<MotionSetting> motion_settings(double mesh_frequency, int period) {
   using Options = dynamics::SimulationOptions;
   std::vector<MotionSetting> list;
   const auto directly = [&](int samples, bool finest = false) {
-    list.push_back({"direct", fmt::format("{} samples per mesh cycle", samples),
+    list.push_back({"harmonic balance", fmt::format("{} samples per mesh cycle", samples),
                     [samples](Options& o) {
                       o.confirm = false;
                       o.samples_per_cycle = samples;
@@ -113,18 +113,18 @@ std::vector<MotionSetting> motion_settings(double mesh_frequency, int period) {
                     finest});
   };
   for (const int samples : {8, 16, 32, 64}) directly(samples);
-  list.push_back({"direct", "64 samples, confirmed by marching", [](Options&) {}});
+  list.push_back({"harmonic balance", "64 samples, confirmed by time integration", [](Options&) {}});
 
-  // A long period (pins, hunting teeth) is marched through many times: two tolerances tell what that costs.
+  // A long period (pins, hunting teeth) is integrated many times: two tolerances show the cost.
   const bool long_period = period > dynamics::long_window;
-  auto marching = integrators("marching", long_period);
+  auto integrated = integrators("time integration", long_period);
   for (const int steps : long_period ? std::vector{64} : std::vector{32, 64, 128, 256})
-    marching.push_back(
-        {"marching", fmt::format("Runge-Kutta 4, {} steps per mesh cycle", steps), [steps, mesh_frequency](Options& o) {
-           o.integrator.method = dynamics::Integrator::runge_kutta_4;
-           o.integrator.fixed_step = 1 / (mesh_frequency * steps);
-         }});
-  for (auto& setting : marching) {
+    integrated.push_back({"time integration", fmt::format("Runge-Kutta 4, {} steps per mesh cycle", steps),
+                          [steps, mesh_frequency](Options& o) {
+                            o.integrator.method = dynamics::Integrator::runge_kutta_4;
+                            o.integrator.fixed_step = 1 / (mesh_frequency * steps);
+                          }});
+  for (auto& setting : integrated) {
     setting.apply = [how = std::move(setting.apply)](Options& o) {
       o.steady_state = dynamics::SteadyState::time_integration;
       how(o);

@@ -35,7 +35,7 @@ inline constexpr int finest_samples = 128;
 
 /// How a periodic motion is found.
 struct MotionSetting {
-  std::string fidelity;  ///< "direct", "marching"
+  std::string fidelity;  ///< "harmonic balance", "time integration"
   std::string settings;  ///< "64 samples per mesh cycle", "BDF, relative tolerance 1e-06"
   std::function<void(dynamics::SimulationOptions& options)> apply;
   bool finest = false;

@@ -23,7 +23,8 @@ struct TradeMesh {
 
 /// One way to make and solve the lumped model.
 struct TradeMotion {
-  std::string fidelity;  ///< "direct", "marching", "shooting", "fewer DOFs", "coupling"; empty: as a run finds it
+  std::string fidelity;  ///< "harmonic balance", "time integration", "shooting", "fewer DOFs", "coupling"; empty: as a
+                         ///< run finds it
   std::string settings;  ///< "64 samples per mesh cycle", "sun held in place"
   std::string id;        ///< identity of everything the figures depend on
   bool finest = false;

@@ -25,7 +25,7 @@ std::string mean_key(const std::string& mesh) { return mesh + "_mean_stiffness_N
 std::string entries_key(const std::string& mesh) { return mesh + "_stiffness_entries_N_per_m"; }
 std::string lte_key(const std::string& mesh) { return mesh + "_lte_peak_to_peak_m"; }
 
-/// All settings of a ring in the plane share plane strain, also the one they are held against.
+/// All settings of a ring in the plane share plane strain, also the one they are compared with.
 double common_error(const MeshResult& mesh) {
   const auto fidelity = mesh.model.settings.fidelity;
   return fidelity == fem::Fidelity::solid || fidelity == fem::Fidelity::resolved_solid
@@ -59,7 +59,7 @@ StiffnessCycle stiffness_cycle(const MeshResult& mesh) {
   return cycle;
 }
 
-/// Of any entry to the curve held against.
+/// Of any entry to the reference curve.
 double largest_difference(const StiffnessCycle& cycle, const StiffnessCycle& truth) {
   double largest = 0;
   for (std::size_t i = 0; i < cycle.entries.size(); ++i)
@@ -91,7 +91,7 @@ MeasuredWork kept_work(const std::filesystem::path& file, const std::string& id,
   return done;
 }
 
-/// "marching BDF, relative tolerance 1e-04" as the name of a file.
+/// "time integration BDF, relative tolerance 1e-04" as the name of a file.
 std::string plain_name(std::string name) {
   for (char& c : name) {
     if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';

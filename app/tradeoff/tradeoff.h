@@ -42,9 +42,9 @@ struct StiffnessCycle {
 /// One setting of a ring, a pair or a reducer.
 struct TradePoint {
   TradePart part = TradePart::mesh;
-  std::string fidelity;  ///< "plane"; of the dynamics: how the motion is found, "marching"
+  std::string fidelity;  ///< "plane"; of the dynamics: how the motion is found, "time integration"
   std::string settings;  ///< "degree 2, level 1, 32 phases, 5 loads"
-  bool finest = false;   ///< the others are held against it
+  bool finest = false;   ///< the others are compared with it
   bool changes_model = false;
   std::optional<MeshSetting> mesh{};    ///< of a fixed setting of the meshes
   std::optional<double> planned_for{};  ///< the wanted accuracy for which the planner chose it; absent: a fixed setting

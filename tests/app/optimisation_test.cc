@@ -93,7 +93,8 @@ BOOST_AUTO_TEST_CASE(searches_are_the_same_for_any_number_of_threads_and_find_wh
       BOOST_TEST((e.x[1] >= 1e6 && e.x[1] <= 1e8));
     }
   }
-  // The best design as a scene of its own, run as any other scene is: marched and confirmed, not a study's answer.
+  // The best design as a scene of its own, run as any other scene is: confirmed by time integration, not a study's
+  // answer.
   const auto best =
       run_search(read_file(folder.path() / "two/held/dynamics/optimise/best.toml"), folder.path() / "best");
   const auto& sharing = best.rings.front().response->figures.sun_planet.load_sharing.averaged;

@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(a_pair_runs_from_scene_to_report) {
   BOOST_TEST(dynamics::quantile_interval(envelope, 0.95).value == result.errors.amplitude,
              boost::test_tools::tolerance(1e-12));
 
-  // Studies take the harmonic balance, the scene's own response is marched from it: equal within its error.
+  // Studies take the harmonic balance, the scene's own response is integrated from it: equal within its error.
   const auto& sweep = result.studies.sweeps.front();
   for (const auto* column : {"acceleration_max_m_per_s2", "mesh_force_max_N", "transmission_error_max_m"}) {
     const auto& nominal = result.studies.nominal.front().figure(column);

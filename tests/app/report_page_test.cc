@@ -4,7 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
-#include "app/report/report.h"
+#include "app/systems/planetary/report/stage_report_parts.h"
 #include "core/files.h"
 #include "tests/app/made_up_solution.h"
 #include "tests/app/pair_scenes.h"

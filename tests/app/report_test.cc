@@ -1,4 +1,3 @@
-#include "app/report/report.h"
 #include "app/pipeline.h"
 
 #include <algorithm>

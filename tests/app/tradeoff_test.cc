@@ -137,11 +137,11 @@ BOOST_AUTO_TEST_CASE(the_front_and_the_cheapest) {
   BOOST_TEST(ring.guaranteed_error(*ring.planned(0.01)) == 0.007);
   BOOST_TEST(!ring.planned(0.02));
   // Where contact is lost, dynamic factors are not covered either.
-  auto parting = *ring.planned(0.01);
-  parting.values.push_back({sun_factor, 1.2, 0.3, 0.4});
-  BOOST_TEST(ring.guaranteed_error(parting) == 0.3);
-  parting.contact_loss = 0.1;
-  BOOST_TEST(ring.guaranteed_error(parting) == 0.007);
+  auto losing_contact = *ring.planned(0.01);
+  losing_contact.values.push_back({sun_factor, 1.2, 0.3, 0.4});
+  BOOST_TEST(ring.guaranteed_error(losing_contact) == 0.3);
+  losing_contact.contact_loss = 0.1;
+  BOOST_TEST(ring.guaranteed_error(losing_contact) == 0.007);
   const auto csv = app::trade_csv(trade);
   BOOST_TEST(csv.find("held,mesh,plane,a,0,sun_planet_mean_stiffness_N_per_m,1000000000,") != std::string::npos, csv);
   BOOST_TEST(csv.find("\"no convergence, \"\"alas\"\"\"") != std::string::npos);

@@ -1,5 +1,5 @@
-// Cost of the answers users wait for, on the ring paper's stage with tabulated stiffness: marching, the direct steady
-// state, samples over error phases.
+// Cost of the answers users wait for, on the ring paper's stage with tabulated stiffness: time integration, the direct
+// steady state, samples over error phases.
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ using namespace annulus::dynamics;
 using annulus::benchmarks::Stopwatch;
 
 struct Options {
-  int cycles = 200;   ///< mesh cycles of marching
+  int cycles = 200;   ///< mesh cycles integrated
   int samples = 100;  ///< over the error phases
 };
 
@@ -56,13 +56,13 @@ DynamicResponse directly(const PlanetaryStage& stage, int samples_per_cycle) {
 int measure(const Options& options) {
   const PlanetaryStage stage = tabulated_stage();
   {
-    SimulationOptions marching;
-    marching.mesh_cycles = options.cycles;
-    marching.estimate_error = false;
-    marching.keep_series = false;
+    SimulationOptions integrated;
+    integrated.mesh_cycles = options.cycles;
+    integrated.estimate_error = false;
+    integrated.keep_series = false;
     const Stopwatch watch;
-    (void)simulate(stage, marching);
-    fmt::print("{} mesh cycles marched, relative tolerance 1e-6, figures included: {:.3f} s\n", options.cycles,
+    (void)simulate(stage, integrated);
+    fmt::print("{} mesh cycles integrated, relative tolerance 1e-6, figures included: {:.3f} s\n", options.cycles,
                watch.cpu());
   }
   const double exact = directly(stage, 128).sun_planet.load_sharing.averaged.value;
@@ -103,7 +103,7 @@ int measure(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App app("Cost of the dynamics of the ring paper's stage");
-  app.add_option("--cycles", options.cycles, "Mesh cycles marched")->capture_default_str();
+  app.add_option("--cycles", options.cycles, "Mesh cycles integrated")->capture_default_str();
   app.add_option("--samples", options.samples, "Samples over the error phases")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {

@@ -41,17 +41,17 @@ void errors(int samples) {
              samples, 1e3 * time, result.amplitude().sample.value / units::um, result.amplitude().exact / units::um);
 }
 
-/// Torques and speeds of the paper's figures; one of the points by marching for comparison.
+/// Torques and speeds of the paper's figures; one of the points by time integration for comparison.
 void pair_grid(int points) {
   SimulationOptions direct;
   direct.confirm = direct.keep_series = direct.estimate_error = false;
-  SimulationOptions marching = direct;
-  marching.steady_state = SteadyState::time_integration;
+  SimulationOptions integrated = direct;
+  integrated.steady_state = SteadyState::time_integration;
   for (const double half_backlash : {0.0, 100e-6}) {
     auto pair = pairs::error_paper();
     pair.half_backlash.reset();
     if (half_backlash > 0) pair.half_backlash = half_backlash;
-    double time = 0, compared = 0, marched = 0;
+    double time = 0, compared = 0, integrated_s = 0;
     int parted = 0;
     for (int i = 0; i < points * points; ++i) {
       pair.pinion_torque = 1000.0 * (1 + i % points);
@@ -62,23 +62,24 @@ void pair_grid(int points) {
       time += once;
       parted += response.contact_loss > 0;
       if (i % (points * points / 8 + 1) != 0) continue;
-      const Stopwatch march;
-      (void)evaluate_pair(pair, marching);
-      marched += march.cpu();
+      const Stopwatch integration;
+      (void)evaluate_pair(pair, integrated);
+      integrated_s += integration.cpu();
       compared += once;
     }
     fmt::print(
-        "{0} x {0} torques and speeds, half backlash {1:.0f} um: {2:.2f} s, teeth part at {3} points; marching "
+        "{0} x {0} torques and speeds, half backlash {1:.0f} um: {2:.2f} s, loss of contact at {3} points; time "
+        "integration "
         "costs {4:.0f} times as much\n",
-        points, half_backlash / units::um, time, parted, marched / compared);
+        points, half_backlash / units::um, time, parted, integrated_s / compared);
   }
 }
 
-/// The objective of the backlash search. At the paper's load no tooth parts; above 5000 r/min they do.
+/// The objective of the backlash search. At the paper's load contact is not lost; above 5000 r/min it is.
 void reducer_search(int evaluations) {
-  SimulationOptions marching;
-  marching.steady_state = SteadyState::time_integration;
-  marching.estimate_error = marching.keep_series = false;
+  SimulationOptions integrated;
+  integrated.steady_state = SteadyState::time_integration;
+  integrated.estimate_error = integrated.keep_series = false;
   for (const double rpm : {1500.0, 5200.0}) {
     auto stage = stages::backlash_paper();
     stage.carrier_speed *= rpm / 1500;
@@ -92,12 +93,13 @@ void reducer_search(int evaluations) {
       parted += std::max(figures.sun_planet.contact_loss, figures.ring_planet.contact_loss) > 0;
     }
     const double each = watch.cpu() / count;
-    const Stopwatch march;
-    (void)simulate(stage, marching);
+    const Stopwatch integration;
+    (void)simulate(stage, integrated);
     fmt::print(
-        "objective of the backlash search at {:.0f} r/min: {:.2f} ms, {} evaluations {:.1f} s, teeth part in {} of "
-        "{}; marching costs {:.0f} times as much\n",
-        rpm, 1e3 * each, evaluations, each * evaluations, parted, count, march.cpu() / each);
+        "objective of the backlash search at {:.0f} r/min: {:.2f} ms, {} evaluations {:.1f} s, loss of contact in {} "
+        "of "
+        "{}; time integration costs {:.0f} times as much\n",
+        rpm, 1e3 * each, evaluations, each * evaluations, parted, count, integration.cpu() / each);
   }
 }
 

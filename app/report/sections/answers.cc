@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "app/report/report_parts.h"
-#include "app/systems/planetary/comparison.h"
 
 namespace annulus::app {
 

@@ -132,10 +132,10 @@ std::vector<PlannedResponse> pair_responses(const Scene& scene, int threads) {
   const bool turns = scene.errors.pinion_error != 0 || scene.errors.wheel_error != 0;
   const int period = turns ? std::lcm(scene.pinion.teeth, scene.wheel.teeth) : 1;
   size.unknowns = responses * std::min(period, scene.dynamics->mesh_cycles.value_or(period));
-  return {{"dynamics of the pair", "", size, responses * pair_marching_seconds(scene)}};
+  return {{"dynamics of the pair", "", size, responses * pair_integration_seconds(scene)}};
 }
 
-double pair_marching_seconds(const Scene& scene) {
+double pair_integration_seconds(const Scene& scene) {
   const auto geometry = make_pair_geometry(scene);
   const auto& given = scene.pinion_wheel;
   dynamics::MeshExcitation mesh = dynamics::ConstantStiffness{rough_stiffness(scene, given)};

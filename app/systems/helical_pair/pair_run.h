@@ -78,7 +78,7 @@ struct PairRunResult final : SystemRun {
 /// Rough wall time of one response on one core, s.
 [[nodiscard]] double pair_seconds(const Scene& scene);
 /// Time integration of one response: of `mesh_cycles`, else of the window that confirms it.
-[[nodiscard]] double pair_marching_seconds(const Scene& scene);
+[[nodiscard]] double pair_integration_seconds(const Scene& scene);
 
 /// What a plan says of a pair (pair_plan.cc).
 void describe_pair(const Scene& scene, const PairGeometry& geometry, Plan& plan);

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "app/content_id.h"
+#include "app/model/gear_system.h"
 #include "app/study/study_cases.h"
-#include "app/systems/planetary/planetary_subject.h"
 #include "core/errors.h"
 #include "core/log.h"
 
@@ -12,8 +12,8 @@ namespace annulus::app {
 
 namespace {
 
-/// How responses of studies are found; enters the identity of kept results.
-constexpr const char* pair_point_method = "harmonic balance, marching where teeth part; 1";
+/// How responses of studies are found; enters the identity of cached results.
+constexpr const char* pair_point_method = "harmonic balance, time integration where contact is lost; 1";
 
 }  // namespace
 

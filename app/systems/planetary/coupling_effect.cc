@@ -27,11 +27,11 @@ constexpr const char* effect_file = "rim_coupling.csv";
 
 CouplingEffect coupling_effect(const dynamics::PlanetaryStage& uncoupled, const SolvedCoupling& solved,
                                const dynamics::SimulationOptions& options) {
-  dynamics::SimulationOptions marching = options;
-  marching.mesh_cycles = lead_cycles + evaluated_cycles;
-  marching.max_window_cycles = evaluated_cycles;
-  marching.estimate_error = false;
-  marching.keep_series = false;
+  dynamics::SimulationOptions integrated = options;
+  integrated.mesh_cycles = lead_cycles + evaluated_cycles;
+  integrated.max_window_cycles = evaluated_cycles;
+  integrated.estimate_error = false;
+  integrated.keep_series = false;
   CouplingEffect effect;
   effect.cycles = evaluated_cycles;
   for (const auto model : {RimCoupling::none, RimCoupling::statical, RimCoupling::elastic}) {
@@ -40,7 +40,7 @@ CouplingEffect coupling_effect(const dynamics::PlanetaryStage& uncoupled, const 
     stage.ring_coupling = taken_coupling(solved, model);
     std::optional<dynamics::DynamicResponse> solved_response;
     try {
-      solved_response = dynamics::simulate(stage, marching);
+      solved_response = dynamics::simulate(stage, integrated);
     } catch (const SolverError& error) {
       // The comparison is an extra: where a model of it fails, the others stand.
       log::info(fmt::format("coupling through the ring, {}: {}",

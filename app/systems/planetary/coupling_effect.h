@@ -10,8 +10,8 @@
 
 namespace annulus::app {
 
-/// What the coupling of the meshes through the ring does to the response: the same stage marched for the same time from
-/// the same kind of start, without coupling, with the static one, and with the elastic modes of the ring besides.
+/// What the coupling of the meshes through the ring does to the response: the same stage integrated over the same time
+/// from the same kind of start, without coupling, with the static one, and with the elastic modes of the ring besides.
 /// Marched in all three cases because moving modes repeat only with the whole ring.
 struct CouplingEffect {
   struct Row {

@@ -35,8 +35,9 @@ void add_solution(std::vector<Decision>& list, const DynamicsInput& input, const
   if (input.mesh_cycles) {
     list.push_back({"solution", fmt::format("{} mesh cycles in time", *input.mesh_cycles), asked});
   } else {
-    list.push_back({"solution", "periodic, directly", "one error period, without marching through its transient"});
-    list.push_back({"confirmation", choice.confirm ? "by marching" : "where teeth part", choice.confirm_reason});
+    list.push_back({"solution", "harmonic balance", "one error period, without integrating its transient in time"});
+    list.push_back(
+        {"confirmation", choice.confirm ? "by time integration" : "where contact is lost", choice.confirm_reason});
   }
   list.push_back({"samples per mesh cycle", std::to_string(choice.samples_per_cycle), choice.samples_reason});
 }

@@ -8,9 +8,9 @@
 #include "app/model/mesh_figures.h"
 #include "app/pipeline.h"
 #include "app/plan/cost_actual.h"
-#include "app/report/report.h"
 #include "app/scene/input_place.h"
 #include "app/systems/planetary/planetary_subject.h"
+#include "app/systems/planetary/report/stage_report_parts.h"
 #include "app/tasks.h"
 #include "core/log.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
@@ -79,7 +79,7 @@ MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, cons
   auto result = [&] {
     try {
       return computed_stiffness(model, rings, options);
-    } catch (const InputError& error) {  // what only the solve tells, with its place
+    } catch (const InputError& error) {  // found only by the solve; with its place
       const std::string what = sun ? "sun" : "ring '" + model.ring + "'";
       throw InputError(with_place(scene, what + ": " + error.what()));
     }
@@ -111,16 +111,16 @@ StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry,
   auto response = simulate_and_save(stage, simulation, {make, sun_mesh, ring_mesh}, id, folder);
   const auto& f = response.figures;
   if (f.total_cycles == 0)
-    log::info(fmt::format("dynamics of '{}': periodic steady state, solved directly", name));
+    log::info(fmt::format("dynamics of '{}': periodic steady state, by harmonic balance", name));
   else
     log::info(fmt::format("dynamics of '{}': {} mesh cycles, {} steps, {}", name, f.total_cycles, f.statistics.steps,
                           f.steady ? "periodic steady state" : "no periodic steady state"));
   if (f.periodic && !f.confirmed && f.total_cycles > 0)
-    log::info(fmt::format(
-        "dynamics of '{}': found by marching; {}", name,
-        f.periodic->converged
-            ? fmt::format("the direct solution differs (half its samples by {:.1e})", f.periodic->sampling_difference)
-            : "the direct solution failed: " + f.periodic->trouble));
+    log::info(fmt::format("dynamics of '{}': found by time integration; {}", name,
+                          f.periodic->converged
+                              ? fmt::format("the harmonic balance differs (with half its samples by {:.1e})",
+                                            f.periodic->sampling_difference)
+                              : "the harmonic balance failed: " + f.periodic->trouble));
   return response;
 }
 

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include "app/model/mesh_figures.h"
-#include "app/plan/cost_plan.h"
-#include "app/plan/plan.h"
 #include "app/systems/planetary/planetary_geometry_checks.h"
+#include "app/systems/planetary/planetary_plan.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/planetary_subject.h"
+#include "app/systems/planetary/rim_coupling.h"
 #include "app/tradeoff/trade_subject.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 #include "example_scenes.h"
@@ -53,9 +53,7 @@ class PlanetarySystem final : public GearSystem {
     return planetary_response_seconds(scene(), make_geometry(scene()));
   }
 
-  [[nodiscard]] PlanCost cost(int threads, const CostModel& costs) const override {
-    return plan_cost(scene(), make_geometry(scene()), meshes(), plan_studies(scene()), threads, costs);
-  }
+  [[nodiscard]] bool coupled(const MeshModel& mesh) const override { return may_be_coupled(scene(), mesh); }
 
   [[nodiscard]] std::unique_ptr<SystemRun> run() const override { return std::make_unique<RunResult>(scene()); }
 

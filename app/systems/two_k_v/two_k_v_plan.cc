@@ -132,17 +132,17 @@ std::vector<PlannedResponse> two_k_v_responses(const Scene& scene) {
   if (!scene.dynamics) return {};
   CostRun size;
   size.unknowns = scene.planet.teeth;  // one turn of the crank
-  const double marching = two_k_v_marching_seconds(scene);
+  const double integration = two_k_v_integration_seconds(scene);
   const auto given_alone = [](const MeshInput& m) { return m.stiffness != StiffnessShape::computed; };
   const bool given = given_alone(scene.sun_planet) && given_alone(scene.arc_pins);
   size.kind = given ? "response_two_k_v_given" : "response_two_k_v";
-  std::vector<PlannedResponse> list = {{"dynamics", "", size, marching}};
+  std::vector<PlannedResponse> list = {{"dynamics", "", size, integration}};
   size.kind = "response_two_k_v";
-  if (compared_scene(scene)) list.push_back({"dynamics with computed stiffness", "computed", size, marching});
+  if (compared_scene(scene)) list.push_back({"dynamics with computed stiffness", "computed", size, integration});
   return list;
 }
 
-double two_k_v_marching_seconds(const Scene& scene) {
+double two_k_v_integration_seconds(const Scene& scene) {
   const auto stage = rough_two_k_v(scene);
   const auto system = assemble(stage);
   // Shooting integrates a turn of the crank once per state, then twice more.

@@ -61,6 +61,6 @@ void describe_two_k_v(const Scene& scene, Plan& plan);
 /// Rough wall time of one response on one core.
 [[nodiscard]] double two_k_v_seconds(const Scene& scene);
 /// Time integration of one response: of `mesh_cycles`, else of the turns of the crank that shooting takes.
-[[nodiscard]] double two_k_v_marching_seconds(const Scene& scene);
+[[nodiscard]] double two_k_v_integration_seconds(const Scene& scene);
 
 }  // namespace annulus::app

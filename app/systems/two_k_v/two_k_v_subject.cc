@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "app/content_id.h"
+#include "app/model/gear_system.h"
 #include "app/pipeline.h"
 #include "app/study/study_cases.h"
-#include "app/systems/planetary/planetary_subject.h"
 #include "core/log.h"
 
 namespace annulus::app {

@@ -35,7 +35,7 @@ std::vector<PromiseScene> promise_scenes() {
       {"thin", "held outside, rim 1 module", with_rim(4)},
       {"light", "held outside, a twentieth of the load, errors of 2 µm",
        replaced(with_power(base, 10), "planet_pin_position_error_um = [10,", "planet_pin_position_error_um = [2,")},
-      {"parting", "held outside, a twentieth of the load: teeth part", with_power(base, 10)},
+      {"parting", "fixed outside, a twentieth of the load: contact is lost", with_power(base, 10)},
       {"heavy", "held outside, three times the load", with_power(base, 600)},
       {"relief", "held outside, 15 µm tip relief on sun and planets",
        with_teeth(base, "tip_relief_um = 15\ntip_relief_length_mm = 4\n")},

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "app/report/report.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "core/units.h"
 

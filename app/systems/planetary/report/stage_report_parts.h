@@ -7,10 +7,15 @@
 #include <vector>
 
 #include "app/report/drawings/transverse_section.h"
+#include "app/report/page.h"
 #include "app/report/report_parts.h"
+#include "app/systems/planetary/planetary_run.h"
 
 /// The sections of a planetary stage's report.
 namespace annulus::app {
+
+/// report.html of a planetary stage.
+[[nodiscard]] Page stage_report(const RunResult& result);
 
 /// All meshes of a run with a name for readers, the rings' first, then the sun's; the index is their colour.
 [[nodiscard]] std::vector<std::pair<std::string, const MeshResult*>> all_meshes(const RunResult& result);
