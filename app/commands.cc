@@ -147,7 +147,7 @@ void check_command(const Arguments& arguments) {
   check_stage(scene);
   check_files(scene);
   check_studies(scene);
-  fmt::print("{}: good ({})\n", arguments.scene, make_system(scene)->describe());
+  fmt::print("{}: OK ({})\n", arguments.scene, make_system(scene)->describe());
 }
 
 void tradeoff_command(const Arguments& arguments) {
@@ -218,18 +218,15 @@ void new_command(const Arguments& arguments) {
     fmt::print("{}", new_scene(scene.kind, scene.values));
     return;
   }
-  std::vector<std::string> names;
-  for (const auto kind : stage_kinds()) {
-    if (arguments.kind == kind_name(kind)) {
-      fmt::print("{}", new_scene(kind, example_values(kind)));
-      return;
-    }
-    names.emplace_back(kind_name(kind));
+  const auto& kinds = stage_kinds();
+  if (std::find(kinds.begin(), kinds.end(), arguments.kind) != kinds.end()) {
+    fmt::print("{}", new_scene(arguments.kind, example_values(arguments.kind)));
+    return;
   }
-  const std::string near = nearest(arguments.kind, names);
+  const std::string near = nearest(arguments.kind, kinds);
   throw InputError(fmt::format("{}there is no such kind of stage{}; the kinds are {}",
                                arguments.kind.empty() ? "" : arguments.kind + ": ",
-                               near.empty() ? "" : ", did you mean " + near + "?", kinds_text(stage_kinds())));
+                               near.empty() ? "" : ", did you mean " + near + "?", listed(kinds)));
 }
 
 }  // namespace annulus::app

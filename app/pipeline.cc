@@ -89,7 +89,7 @@ std::string summary_json(const SystemRun& run) {
   const auto& scene = run.scene;
   Json json = {{"title", scene.title},
                {"annulus_version", version()},
-               {"kind", kind_name(scene.stage.kind)},
+               {"kind", scene.stage.kind},
                {"accuracy_wanted", scene.accuracy}};
   json.update(run.summary());
   json["variants"] = Json::array();

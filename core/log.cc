@@ -58,18 +58,7 @@ void warn(const std::string& message) { logger().warn("warning: {}", message); }
 
 namespace annulus {
 
-namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-}  // namespace
-
-StageTimers::StageTimers() : start_(std::chrono::steady_clock::now()) {}
-
-StageTimers::Scope::Scope(StageTimers& timers, std::string stage)
-    : timers_(timers), stage_(std::move(stage)), start_(std::chrono::steady_clock::now()) {
+StageTimers::Scope::Scope(StageTimers& timers, std::string stage) : timers_(timers), stage_(std::move(stage)) {
   auto& stages = timers_.stages_;
   if (std::none_of(stages.begin(), stages.end(), [&](const auto& s) { return s.first == stage_; }))
     stages.emplace_back(stage_, 0.0);  // at entry, so that the report is in order of entry
@@ -77,7 +66,7 @@ StageTimers::Scope::Scope(StageTimers& timers, std::string stage)
 }
 
 StageTimers::Scope::~Scope() {
-  const double elapsed = seconds_since(start_);
+  const double elapsed = watch_.seconds();
   for (auto& [name, seconds] : timers_.stages_)
     if (name == stage_) seconds += elapsed;
   if (--timers_.open_ == 0) timers_.covered_ += elapsed;
@@ -91,7 +80,7 @@ double StageTimers::seconds(const std::string& stage) const {
 
 std::vector<std::pair<std::string, double>> StageTimers::report() const {
   auto rows = stages_;
-  const double total = seconds_since(start_);
+  const double total = watch_.seconds();
   rows.emplace_back("other", total - covered_);
   rows.emplace_back("total", total);
   return rows;

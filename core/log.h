@@ -1,9 +1,11 @@
 #pragma once
 
-#include <chrono>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "core/stopwatch.h"
 
 namespace annulus::log {
 
@@ -35,10 +37,9 @@ class StageTimers {
    private:
     StageTimers& timers_;
     std::string stage_;
-    std::chrono::steady_clock::time_point start_;
+    Stopwatch watch_;
   };
 
-  StageTimers();
   [[nodiscard]] Scope measure(std::string stage) { return {*this, std::move(stage)}; }
   [[nodiscard]] double seconds(const std::string& stage) const;
   /// Stages in order of first entry, then "other" and "total".
@@ -48,7 +49,7 @@ class StageTimers {
   std::vector<std::pair<std::string, double>> stages_;
   int open_ = 0;        ///< scopes now open
   double covered_ = 0;  ///< s, during which at least one scope was open
-  std::chrono::steady_clock::time_point start_;
+  Stopwatch watch_;
 };
 
 /// Peak resident memory of this process in megabytes (10^6 bytes).

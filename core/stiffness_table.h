@@ -33,7 +33,7 @@ class StiffnessTable {
   StiffnessTable(std::string mesh, int phases, std::vector<double> ring_angles, std::vector<double> loads,
                  std::vector<StiffnessEntry> entries);
 
-  /// "sun_planet", "ring_planet", "pinion_wheel" or "arc_pins"
+  /// Its name; not empty.
   [[nodiscard]] const std::string& mesh() const { return mesh_; }
   [[nodiscard]] int phases() const { return phases_; }
   [[nodiscard]] int positions() const { return static_cast<int>(ring_angles_.size()); }

@@ -172,7 +172,7 @@ StiffnessTable import_table(const std::filesystem::path& file, const std::string
   if (native(csv)) {
     auto table = StiffnessTable::read_csv(file);
     if (table.mesh() != mesh)
-      throw InputError(fmt::format("{}: is the table of a {} mesh, not of {}", file.string(), table.mesh(), mesh));
+      throw InputError(fmt::format("{}: is the table of the mesh {}, not of {}", file.string(), table.mesh(), mesh));
     return table;
   }
   const Curves curves(file, csv);

@@ -83,7 +83,7 @@ int last_linear_level(const LoadedMeshProblem& problem) { return problem.pair.pl
 
 double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
   if (settings.fidelity == Fidelity::closed_form) return 0;
-  const bool solid = settings.fidelity == Fidelity::solid || settings.fidelity == Fidelity::resolved_solid;
+  const bool solid = is_solid(settings.fidelity);
   const SolvedFace face = solved_face(problem, settings);
   double unknowns = 0;
   for (const bool wheel : {false, true}) {

@@ -30,10 +30,6 @@ geometry::GearPair solved_pair(const geometry::GearPair& pair) {
   return {mirrored(pair.planet()), mirrored(pair.wheel()), pair.centre_distance()};
 }
 
-bool is_resolved(Fidelity fidelity) {
-  return fidelity == Fidelity::resolved_plane || fidelity == Fidelity::resolved_solid;
-}
-
 /// Finished fraction of the whole work from that of one level. The work grows with the number of cells, and at least
 /// the first level is solved after the one before it; a further one makes the finished part smaller again.
 ProgressFunction progress_of_level(const LoadedMeshSettings& settings, int first_level, int level) {

@@ -101,7 +101,7 @@ ComparedRun run_of(const Json& json, const fs::path& folder) {
                   .accuracy = json.at("accuracy_wanted"),
                   .inputs_known = json.contains("inputs")};
   run.specs = specs_of(run.kind);
-  if (!run.specs) throw InputError("kind is '" + run.kind + "'");
+  if (!run.specs) throw InputError(fmt::format("kind is '{}'; the kinds are {}", run.kind, listed(stage_kinds())));
   for (const auto& variant : json.at("variants")) {
     const std::string name = variant.at("name");
     run.variants.push_back(

@@ -16,7 +16,7 @@ namespace annulus::app {
 
 /// What a file of REXS 1.x says about its planetary stage or, without one, its first cylindrical stage.
 struct RexsScene {
-  StageKind kind = StageKind::planetary;
+  std::string kind = "planetary";
   NewValues values{};
 };
 /// Throws InputError naming the file and what it lacks or contradicts.

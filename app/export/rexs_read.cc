@@ -263,7 +263,7 @@ void read_planetary(const RexsFile& file, const std::vector<StageRelation>& stag
 }
 
 void read_pair(const RexsFile& file, const StageRelation& stage, RexsScene& scene) {
-  scene.kind = StageKind::helical_pair;
+  scene.kind = "helical_pair";
   Filler fill(file, scene);
   const auto &first = file.component(stage.first), &second = file.component(stage.second);
   fill.common(first, file.number(file.component(stage.stage), "center_distance", "mm"));

@@ -180,13 +180,13 @@ void stage_attributes(Rexs::Component& component, const Scene& scene) {
 }  // namespace
 
 std::string rexs_text(const Scene& scene, const std::string& ring) {
-  if (scene.stage.kind == StageKind::two_k_v)
+  if (scene.stage.kind == "two_k_v")
     throw InputError(scene.file.string() +
                      ": REXS has no arc-tooth gears; only planetary stages and pairs can be exported");
   Rexs rexs;
   auto unit = rexs.component("gear_unit", scene.title);
   const auto material = material_component(rexs, scene);
-  if (scene.stage.kind == StageKind::helical_pair) {
+  if (scene.stage.kind == "helical_pair") {
     stage_attributes(unit, scene);
     auto pinion = gear(rexs, scene, "pinion", scene.pinion,
                        make_gear(scene, scene.pinion, geometry::GearKind::external, 1), material);

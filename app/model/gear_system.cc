@@ -1,5 +1,7 @@
 #include "app/model/gear_system.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/plan/plan.h"
@@ -23,10 +25,11 @@ Plan GearSystem::plan(int threads) const {
   return plan;
 }
 
-const SystemKind& system_kind(StageKind kind) {
+const SystemKind& system_kind(const std::string& name) {
   const auto& kinds = system_kinds();
-  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const SystemKind& k) { return k.scene.id == kind; });
-  if (found == kinds.end()) throw InternalError("internal error: a gear system of a kind that is not registered");
+  const auto found =
+      std::find_if(kinds.begin(), kinds.end(), [&](const SystemKind& k) { return k.scene.name == name; });
+  if (found == kinds.end()) throw InternalError(fmt::format("internal error: no gear system '{}' is registered", name));
   return *found;
 }
 

@@ -70,7 +70,7 @@ struct SystemKind {
 };
 /// systems/registry.cc
 [[nodiscard]] const std::vector<SystemKind>& system_kinds();
-[[nodiscard]] const SystemKind& system_kind(StageKind kind);
+[[nodiscard]] const SystemKind& system_kind(const std::string& name);
 
 /// The scene is referred to. Makes nothing but the object.
 [[nodiscard]] std::unique_ptr<GearSystem> make_system(const Scene& scene);

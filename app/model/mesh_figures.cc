@@ -57,7 +57,7 @@ std::vector<FigureSpec> mesh_figure_specs(const std::string& mesh, const std::st
        .title = "Transmission error of the " + title + ", peak to peak",
        .unit = "µm",
        .scale = 1e6,
-       .definition = "range over the mesh cycles of the transmission error under the nominal load",
+       .definition = "largest less smallest transmission error over the mesh cycles, under the nominal load",
        .better = Better::smaller,
        .effort = FigureEffort::tables,
        .compared = true}};

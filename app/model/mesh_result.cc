@@ -50,18 +50,6 @@ std::map<std::string, double> facts_of(const fem::LoadedMeshResult& solved) {
   return facts;
 }
 
-/// Solved as an external pair, whatever its gears are called.
-StiffnessTable renamed(const StiffnessTable& table, const std::string& mesh) {
-  std::vector<StiffnessEntry> entries;
-  for (int position = 0; position < table.positions(); ++position) {
-    for (int phase = 0; phase < table.phases(); ++phase) {
-      for (int load = 0; load < static_cast<int>(table.loads().size()); ++load)
-        entries.push_back(table.at(position, phase, load));
-    }
-  }
-  return {mesh, table.phases(), table.ring_angles(), table.loads(), std::move(entries)};
-}
-
 template <class Visit>
 void at_load(const StiffnessTable& table, std::size_t load, Visit visit) {
   for (int position = 0; position < table.positions(); ++position) {
@@ -183,7 +171,6 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.ring);
   for (const auto& field : solved.fields)
     result.fields += field_view(field, solved.positions[field.position], model.body_name(field.body == "planet"));
-  if (result.table.mesh() != model.mesh) result.table = renamed(result.table, model.mesh);
   result.table.provenance = {{"annulus_version", version()}, {"inputs_id", model.id()}, {"model", model.fidelity}};
   return result;
 }

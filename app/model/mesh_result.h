@@ -8,11 +8,12 @@
 #include <utility>
 
 #include "app/plan/mesh_model.h"
-#include "app/systems/planetary/rim_coupling.h"
 #include "core/csv.h"
 #include "core/stiffness_table.h"
 
 namespace annulus::app {
+
+struct SolvedCoupling;
 
 /// A figure of merit with its estimated error, relative to the value.
 struct Estimate {

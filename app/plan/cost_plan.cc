@@ -34,8 +34,7 @@ double wall_time(const std::vector<CostStep>& steps, int threads, TimeOf time_of
 CostRun coupling_size(const MeshModel& model, int threads) {
   // Solved at the first level, whatever the mesh needs (rim_coupling.cc).
   CostRun size;
-  const bool solid =
-      model.settings.fidelity == fem::Fidelity::solid || model.settings.fidelity == fem::Fidelity::resolved_solid;
+  const bool solid = fem::is_solid(model.settings.fidelity);
   const bool supported = fem::on_single_supports(model.problem->structure);
   size.kind = solid ? "coupling_solid" : supported ? "coupling_pins" : "coupling_plane";
   size.level = 1;

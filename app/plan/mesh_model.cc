@@ -10,11 +10,13 @@ namespace annulus::app {
 
 namespace {
 
-fem::LoadedMeshProblem problem_of(const Scene& scene, const geometry::GearPair& pair, const HubGearInput& planet) {
+fem::LoadedMeshProblem problem_of(const Scene& scene, const std::string& mesh, const geometry::GearPair& pair,
+                                  const HubGearInput& planet) {
   return {.pair = pair,
           .material = {scene.material.youngs_modulus, scene.material.poisson_ratio, scene.material.density},
           .face_width = scene.stage.face_width,
-          .planet_bore_radius = planet.bore_diameter.value_or(0) / 2};
+          .planet_bore_radius = planet.bore_diameter.value_or(0) / 2,
+          .name = mesh};
 }
 
 void use(MeshModel& model, fem::Fidelity fidelity) {
@@ -214,7 +216,7 @@ std::vector<Decision> decisions(const MeshModel& model) {
   const auto& settings = model.settings;
   const auto& problem = *model.problem;
   const bool elements = settings.fidelity != fem::Fidelity::closed_form;
-  const bool solid = settings.fidelity == fem::Fidelity::solid || settings.fidelity == fem::Fidelity::resolved_solid;
+  const bool solid = fem::is_solid(settings.fidelity);
   list.push_back({"dimension", solid ? "3D" : "2D, plane strain",
                   solid ? "the face width is meshed" : "one section stands for the whole face width"});
   if (solid) list.push_back(symmetry_decision(problem, settings));
@@ -298,7 +300,7 @@ MeshModel external_mesh_model(const Scene& scene, const ExternalMesh& mesh) {
       model, scene, solid_reason(scene, mesh),
       "spur gears without lead modifications on hubs over the full width: nothing changes along the face width");
   model.repeats = "equal teeth on concentric hubs: one mesh cycle tells all";
-  model.problem = problem_of(scene, mesh.pair, mesh.planet);
+  model.problem = problem_of(scene, model.mesh, mesh.pair, mesh.planet);
   model.problem->wheel_support_radius = mesh.wheel.bore_diameter.value_or(0) / 2;
   model.problem->misalignment = mesh.misalignment;
   set_resolution(model, scene, mesh.mean_force);
@@ -329,7 +331,7 @@ MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std:
   set_fidelity(model, scene, solid_reason(scene, input), plane_reason(structure));
   model.positions = structure.repeating_teeth(input.teeth);
   model.repeats = repeats_text(structure, input.teeth, model.positions);
-  model.problem = problem_of(scene, ring_geometry.set.ring_mesh(), scene.planet);
+  model.problem = problem_of(scene, model.mesh, ring_geometry.set.ring_mesh(), scene.planet);
   model.problem->wheel_support_radius = ring_geometry.outside_radius;
   model.problem->structure = structure;
   model.problem->misalignment = scene.errors.ring_planet_misalignment;

@@ -33,8 +33,8 @@ Table top_level_table() {
 Table stage_table() {
   Declarations<StageInput> stage("stage", "The gear set and its operating point.",
                                  [](Scene& s, std::size_t) -> StageInput& { return s.stage; });
-  std::vector<Choice<StageKind>> kinds;
-  for (const auto& kind : scene_kinds()) kinds.push_back({kind.name, kind.id});
+  std::vector<Choice<std::string>> kinds;
+  for (const auto& kind : scene_kinds()) kinds.push_back({kind.name, kind.name});
   stage.choice("kind", &StageInput::kind, kinds, "Kind of stage.").required();
   stage.key("module_mm", &StageInput::module, "Module.").required().from(0.05, 100);
   stage.key("pressure_angle_deg", &StageInput::pressure_angle, "Pressure angle of the basic rack.")

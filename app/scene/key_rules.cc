@@ -12,14 +12,6 @@ namespace {
 
 std::string reason_text(const KeyRule& rule) { return rule.why.empty() ? "" : ": " + rule.why; }
 
-/// "from, to and count"
-std::string enumerated(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-  return text;
-}
-
 class RuleChecker {
  public:
   RuleChecker(const std::vector<Table>& tables, Scene& scene, std::vector<Problem>& problems)
@@ -118,7 +110,7 @@ class RuleChecker {
     const auto is_given = [&](const std::string& name) { return keys_.given(p.table + "." + name, entry); };
     const bool one = std::any_of(p.instead_of.begin(), p.instead_of.end(), is_given);
     const auto missing = std::find_if_not(p.instead_of.begin(), p.instead_of.end(), is_given);
-    const auto others = enumerated(p.instead_of);
+    const auto others = listed(p.instead_of);
     if (is_given(p.name)) {
       if (one) problem(p, entry, fmt::format("give either {} or {}", others, p.name));
     } else if (missing != p.instead_of.end()) {

@@ -98,30 +98,30 @@ std::string toml_text(const Value& value) {
       value);
 }
 
-NewValues example_values(StageKind kind) {
+NewValues example_values(const std::string& kind) {
   NewValues values;
   for (const auto& input : parse_scene(scene_kind(kind).example, "example.toml").inputs) {
     const auto* p = find_parameter(input.key);
     if (p == nullptr || input.origin != Origin::scene || input.entry > 0 || is_study_table(p->table)) continue;
-    const auto& tables = schema(kind_name(kind));
+    const auto& tables = schema(kind);
     const auto table = std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.path == p->table; });
     if (table->on_request && table->path != "dynamics") continue;
     values[input.key] = {toml_text(input.value)};
   }
   values.erase("reference");
-  values["title"] = {"\"" + std::string(kind_name(kind)) + " stage\""};
+  values["title"] = {"\"" + kind + " stage\""};
   if (values.count("ring.name") > 0) values["ring.name"] = {"\"ring\""};
   return values;
 }
 
-std::string new_scene(StageKind kind, const NewValues& values) {
+std::string new_scene(const std::string& kind, const NewValues& values) {
   std::string text =
-      comment("A scene for annulus: " + std::string(kind_name(kind)) +
+      comment("A scene for annulus: " + kind +
               ". Every key stands with its meaning, unit, range and default; those behind '#' can be left out.");
   text += comment(
       "annulus check FILE validates it, annulus plan FILE shows what will be modelled and how long it takes, annulus "
       "run FILE computes it.");
-  for (const auto& table : schema(kind_name(kind))) {
+  for (const auto& table : schema(kind)) {
     const auto& keys = table.parameters;
     const bool used =
         table.path.empty() || std::any_of(keys.begin(), keys.end(), [&](const auto& p) {

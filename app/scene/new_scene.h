@@ -19,10 +19,10 @@ using NewValues = std::map<std::string, NewValue>;
 [[nodiscard]] std::string toml_text(const Value& value);
 
 /// The values of an example of that kind of stage, which come with the program.
-[[nodiscard]] NewValues example_values(StageKind kind);
+[[nodiscard]] NewValues example_values(const std::string& kind);
 
 /// A whole scene file: every key of that kind of stage with its meaning, unit, range and default. Keys with a value
 /// have it, required ones without one are left to be filled in, the others stand behind '#'.
-[[nodiscard]] std::string new_scene(StageKind kind, const NewValues& values);
+[[nodiscard]] std::string new_scene(const std::string& kind, const NewValues& values);
 
 }  // namespace annulus::app

@@ -23,7 +23,7 @@ const Input* find_in(const Scene& scene, const std::string& key, std::size_t ent
 }
 
 bool applies(const Scene& scene, const Parameter& p) {
-  const auto& tables = schema(kind_name(scene.stage.kind));
+  const auto& tables = schema(scene.stage.kind);
   return std::any_of(tables.begin(), tables.end(), [&](const Table& table) {
     return table.path == p.table && std::any_of(table.parameters.begin(), table.parameters.end(),
                                                 [&](const Parameter& own) { return own.name == p.name; });
@@ -33,7 +33,7 @@ bool applies(const Scene& scene, const Parameter& p) {
 /// Every path the scene knows, lists without their index.
 std::vector<std::string> all_paths(const Scene& scene) {
   std::vector<std::string> paths;
-  for (const auto& table : schema(kind_name(scene.stage.kind))) {
+  for (const auto& table : schema(scene.stage.kind)) {
     for (const auto& p : table.parameters) {
       if (!numeric(p)) continue;
       paths.push_back(p.key());
@@ -63,7 +63,7 @@ InputError unknown(const Scene& scene, const std::string& path, const std::strin
   if (const auto now = renamed_key(key); !now.empty()) return InputError(fmt::format("{}: is now {}", path, now));
   const std::string near = nearest(key, all_paths(scene));
   return InputError(fmt::format("{}: there is no such numeric input{}{}", path,
-                                known ? fmt::format(" of a stage of kind \"{}\"", kind_name(scene.stage.kind)) : "",
+                                known ? fmt::format(" of a stage of kind \"{}\"", scene.stage.kind) : "",
                                 near.empty() ? "; see `annulus explain`" : "; did you mean " + near + "?"));
 }
 

@@ -10,7 +10,6 @@ namespace annulus::app {
 /// A kind of gear system as the scene file knows it: the tables that it adds to the common ones, and its checks.
 struct SceneKind {
   std::string name;  ///< value of stage.kind: "planetary"
-  StageKind id = StageKind::planetary;
 
   /// Tables of this kind in the order of the documentation. Keys of a table that all kinds have ([stage], [dynamics],
   /// [optimise]) are added to it.
@@ -33,6 +32,5 @@ struct SceneKind {
 
 /// Throws InternalError when no kind of this name is registered.
 [[nodiscard]] const SceneKind& scene_kind(const std::string& name);
-[[nodiscard]] const SceneKind& scene_kind(StageKind id);
 
 }  // namespace annulus::app

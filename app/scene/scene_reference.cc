@@ -34,28 +34,20 @@ std::vector<std::string> all_keys() {
   return keys;
 }
 
-const std::vector<StageKind>& stage_kinds() {
-  static const std::vector<StageKind> kinds = [] {
-    std::vector<StageKind> list;
-    for (const auto& kind : scene_kinds()) list.push_back(kind.id);
+const std::vector<std::string>& stage_kinds() {
+  static const std::vector<std::string> kinds = [] {
+    std::vector<std::string> list;
+    for (const auto& kind : scene_kinds()) list.push_back(kind.name);
     return list;
   }();
   return kinds;
 }
 
-const char* kind_name(StageKind kind) { return scene_kind(kind).name.c_str(); }
-
-std::string kinds_text(const std::vector<std::string>& kinds) {
+std::string listed(const std::vector<std::string>& names) {
   std::string text;
-  for (std::size_t i = 0; i < kinds.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == kinds.size() ? " and " : ", ") + kinds[i];
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
   return text;
-}
-
-std::string kinds_text(const std::vector<StageKind>& kinds) {
-  std::vector<std::string> names;
-  for (const auto kind : kinds) names.emplace_back(kind_name(kind));
-  return kinds_text(names);
 }
 
 namespace {
@@ -66,7 +58,7 @@ bool among(const std::string& kind, const std::vector<std::string>& kinds) {
 
 /// "only with structure = "pinned" or "bolted" (planetary): why"
 std::string rule_text(const char* verb, const KeyRule& rule, const std::string& table) {
-  return verb + rule.when.text(table) + (rule.kinds.empty() ? "" : " (" + kinds_text(rule.kinds) + ")") +
+  return verb + rule.when.text(table) + (rule.kinds.empty() ? "" : " (" + listed(rule.kinds) + ")") +
          (rule.why.empty() ? "" : ": " + rule.why);
 }
 
@@ -90,13 +82,10 @@ bool is_study_table(const std::string& path) {
 }
 
 bool Table::applies_to(const std::string& kind) const { return kinds.empty() || among(kind, kinds); }
-bool Table::applies_to(StageKind kind) const { return applies_to(kind_name(kind)); }
 bool Parameter::applies_to(const std::string& gear_system) const { return kinds.empty() || among(gear_system, kinds); }
-bool Parameter::applies_to(StageKind stage) const { return applies_to(kind_name(stage)); }
 bool Parameter::required(const std::string& gear_system) const {
   return applies_to(gear_system) && (presence == Presence::required || among(gear_system, required_for));
 }
-bool Parameter::required(StageKind stage) const { return required(kind_name(stage)); }
 
 std::vector<std::string> rule_texts(const Parameter& p) {
   std::vector<std::string> list;
@@ -162,7 +151,7 @@ std::string presence_text(const Parameter& p) {
     case Parameter::Presence::required:
       return "required";
     case Parameter::Presence::optional: {
-      const std::string kinds = p.required_for.empty() ? "" : "required for " + kinds_text(p.required_for) + ", else ";
+      const std::string kinds = p.required_for.empty() ? "" : "required for " + listed(p.required_for) + ", else ";
       const std::string word = p.required_if.empty() ? "optional" : "conditional";
       return kinds + (p.note.empty() ? word : word + "; absent: " + p.note);
     }
@@ -183,26 +172,27 @@ std::string explain(const Parameter& p) {
   if (const auto range = p.range_text(); !range.empty()) text += "; " + range;
   text += "\n  " + presence_text(p) + "\n";
   for (const auto& rule : rule_texts(p)) text += "  " + rule + "\n";
-  if (!p.kinds.empty()) text += "  for stages of kind " + kinds_text(p.kinds) + "\n";
+  if (!p.kinds.empty()) text += "  for stages of kind " + listed(p.kinds) + "\n";
   return text;
 }
 
 std::string scene_reference() {
   std::string text =
       "# Scene reference\n\n"
-      "Written by `annulus explain --markdown`; the declarations are the `*_table*.cc` below `app/scene`.\n"
+      "Written by `annulus explain --markdown`; the declarations are the `*_table*.cc` below `app/scene` and "
+      "`app/systems`.\n"
       "A scene is a TOML file. Every key carries its unit.\n";
   for (const auto& table : schema()) {
     text += fmt::format("\n## {}\n\n{}", table.path.empty() ? "Top level" : "`" + table.header() + "`", table.meaning);
     if (!table.required) text += " Optional.";
     for (const auto& rule : table.only_if) text += " " + as_sentence(rule_text("only with ", rule, ""));
-    if (!table.kinds.empty()) text += " For stages of kind " + kinds_text(table.kinds) + ".";
+    if (!table.kinds.empty()) text += " For stages of kind " + listed(table.kinds) + ".";
     text += "\n\n| key | type | range | presence | meaning |\n|---|---|---|---|---|\n";
     for (const auto& p : table.parameters) {
       std::string rules;
       for (const auto& rule : rule_texts(p)) rules += "; " + rule;
       text += fmt::format("| `{}` | {} | {} | {}{} | {}{} |\n", p.name, p.type_text(), p.range_text(), presence_text(p),
-                          rules, p.meaning, p.kinds.empty() ? "" : " For " + kinds_text(p.kinds) + ".");
+                          rules, p.meaning, p.kinds.empty() ? "" : " For " + listed(p.kinds) + ".");
     }
   }
   text +=

@@ -124,22 +124,13 @@ std::map<std::string, std::vector<Table>> tables_by_kind() {
   return tables;
 }
 
-template <class Is>
-const SceneKind& registered(Is is_it, const char* what) {
-  const auto& kinds = scene_kinds();
-  const auto found = std::find_if(kinds.begin(), kinds.end(), is_it);
-  require(found != kinds.end(), what);
-  return *found;
-}
-
 }  // namespace
 
 const SceneKind& scene_kind(const std::string& name) {
-  return registered([&](const SceneKind& k) { return k.name == name; }, "a kind of gear system is registered by name");
-}
-
-const SceneKind& scene_kind(StageKind id) {
-  return registered([&](const SceneKind& k) { return k.id == id; }, "every kind of gear system is registered");
+  const auto& kinds = scene_kinds();
+  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const SceneKind& k) { return k.name == name; });
+  require(found != kinds.end(), "a kind of gear system is registered by name");
+  return *found;
 }
 
 const std::vector<Table>& schema() {

@@ -52,9 +52,7 @@ struct Parameter {
 
   [[nodiscard]] std::string key() const { return table.empty() ? name : table + "." + name; }
   [[nodiscard]] bool applies_to(const std::string& gear_system) const;
-  [[nodiscard]] bool applies_to(StageKind stage) const;
   [[nodiscard]] bool required(const std::string& gear_system) const;
-  [[nodiscard]] bool required(StageKind stage) const;
   [[nodiscard]] std::string type_text() const;      ///< "a whole number", "a list of numbers"
   [[nodiscard]] bool in_range(double value) const;  ///< in the unit of the file
   [[nodiscard]] std::string range_text() const;     ///< "0 < value <= 100 mm"; empty when anything goes
@@ -76,7 +74,6 @@ struct Table {
   std::function<void(Scene&, std::size_t)> resize{};
 
   [[nodiscard]] bool applies_to(const std::string& kind) const;
-  [[nodiscard]] bool applies_to(StageKind kind) const;
   [[nodiscard]] std::string header() const { return repeated ? "[[" + path + "]]" : "[" + path + "]"; }
 };
 
@@ -87,13 +84,10 @@ struct Table {
 /// Tables of the format that this version cannot use yet, with what they will do.
 [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& unavailable_tables();
 
-/// "planetary", as in the file.
-[[nodiscard]] const char* kind_name(StageKind kind);
-/// All of them, in the order of their registration.
-[[nodiscard]] const std::vector<StageKind>& stage_kinds();
-/// "planetary" or "planetary and two_k_v", for messages; empty when there is no restriction.
-[[nodiscard]] std::string kinds_text(const std::vector<StageKind>& kinds);
-[[nodiscard]] std::string kinds_text(const std::vector<std::string>& kinds);
+/// Names of the registered kinds of gear systems, in their order.
+[[nodiscard]] const std::vector<std::string>& stage_kinds();
+/// "from, to and count"; empty without names.
+[[nodiscard]] std::string listed(const std::vector<std::string>& names);
 
 /// Tables that ask for studies: no inputs of the model.
 [[nodiscard]] bool is_study_table(const std::string& path);

@@ -132,8 +132,7 @@ class StudyChecker {
       const std::string near = nearest(figure, known);
       problem("optimise.objective", 0,
               fmt::format("there is no result \"{}\"; {}", figure,
-                          near.empty() ? "the columns of dynamics/sweep_1.csv are the results"
-                                       : "did you mean \"" + near + "\"?"));
+                          near.empty() ? "annulus explain lists the results" : "did you mean \"" + near + "\"?"));
     }
     if (!o.weights.empty() && o.weights.size() != o.objective.size())
       problem(
@@ -157,9 +156,11 @@ class StudyChecker {
     const auto& parameter = *find_input(scene_, v.input).parameter;
     for (const auto& [key, value] : {std::pair{"low", v.low}, {"high", v.high}}) {
       if (!parameter.in_range(value))
-        problem(table + key, i, fmt::format("{} must be in range: {}", v.input, parameter.range_text()));
+        problem(table + key, i,
+                fmt::format("{} = {} must be in range: {}", v.input, to_text(value), parameter.range_text()));
     }
-    if (!(v.low < v.high)) problem(table + "high", i, "must be larger than low");
+    if (!(v.low < v.high))
+      problem(table + "high", i, fmt::format("{} must be larger than low = {}", to_text(v.high), to_text(v.low)));
     if (v.scale == SweepScale::logarithmic && v.low <= 0)
       problem(table + "scale", i, "needs values above 0; use \"linear\"");
     const bool whole = parameter.kind == Parameter::Kind::integer;

@@ -151,7 +151,7 @@ Table optimise_table() {
   optimise.study();
   optimise
       .key("objective", &OptimiseInput::objective,
-           "Results whose weighted sum is the objective: columns of the tables of sweeps, as "
+           "Results whose weighted sum is the objective: keys of results (annulus explain), as "
            "\"sun_planet_load_sharing_instantaneous\".")
       .required();
   optimise.key("weights", &OptimiseInput::weights, "One weight per result.")

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/content_id.h"
-#include "app/pipeline.h"
+#include "app/model/run_options.h"
 #include "app/progress.h"
 #include "app/study/studies.h"
 #include "app/study/study_cases.h"

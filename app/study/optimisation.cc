@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "app/content_id.h"
-#include "app/pipeline.h"
+#include "app/model/run_options.h"
 #include "app/progress.h"
 #include "app/study/design_store.h"
 #include "app/study/evaluation_store.h"

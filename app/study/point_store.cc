@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "app/content_id.h"
-#include "app/pipeline.h"
+#include "app/model/run_options.h"
 #include "core/files.h"
 #include "core/json.h"
 

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "app/content_id.h"
-#include "app/pipeline.h"
+#include "app/model/run_options.h"
 #include "app/study/studies.h"
 #include "app/study/study_runner.h"
 #include "core/files.h"

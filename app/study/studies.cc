@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "app/model/gear_system.h"
-#include "app/pipeline.h"
+#include "app/model/run_options.h"
 #include "app/progress.h"
 #include "app/scene/input_place.h"
 #include "app/study/point_store.h"

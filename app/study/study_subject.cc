@@ -1,7 +1,12 @@
 #include "app/study/study_subject.h"
 
+#include <fmt/format.h>
+
+#include "app/model/gear_system.h"
 #include "app/pipeline.h"
+#include "app/reuse.h"
 #include "core/errors.h"
+#include "core/log.h"
 
 namespace annulus::app {
 
@@ -15,6 +20,34 @@ RunOptions StudySubject::options_in(const std::string& folder) const {
 
 std::filesystem::path StudySubject::folder(std::size_t variant) const {
   return options().out / variants().at(variant) / "dynamics";
+}
+
+std::optional<MeshResult> StudySubject::changed_mesh(const MeshModel& nominal, const MeshModel& changed,
+                                                     double mean_mesh_force, const std::string& folder,
+                                                     const std::string& ring) const {
+  if (table_serves(nominal, changed, mean_mesh_force)) return std::nullopt;
+  if (folder.empty())
+    throw InputError(fmt::format("the {} is not tabulated for a mean mesh force of {} kN", changed.label(),
+                                 to_text(mean_mesh_force / 1e3, 5)));
+  const auto stored = options_in(folder).out / ring;
+  auto mesh = load(changed, stored);
+  if (!mesh)
+    throw InternalError(
+        fmt::format("internal error: no stiffness table of the {} in {}", changed.label(), stored.string()));
+  return mesh;
+}
+
+bool StudySubject::prepare_mesh(const MeshModel& nominal, const MeshModel& changed, double mean_mesh_force,
+                                const std::string& where, const std::string& folder) const {
+  if (table_serves(nominal, changed, mean_mesh_force)) return false;
+  const auto inside = options_in(folder);
+  if (load(changed, inside.out)) {
+    count_reuse(inside, study_meshes, 1, 0);
+    return true;
+  }
+  log::info(where + ":");
+  (void)computed_stiffness(changed, {""}, inside);
+  return true;
 }
 
 StudyPoint evaluate(const ChangedModel& model, bool quick) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/model/mesh_result.h"
 #include "app/scene/overrides.h"
 #include "app/study/study_result.h"
 
@@ -56,6 +57,16 @@ class StudySubject {
   [[nodiscard]] RunOptions options_in(const std::string& folder) const;
   /// OUT/<variant>/dynamics
   [[nodiscard]] std::filesystem::path folder(std::size_t variant) const;
+
+ protected:
+  /// The mesh of a changed scene whose table was solved into OUT/`folder`/`ring`; nothing where the table of `nominal`
+  /// serves. Throws InputError where it does not and `folder` is empty.
+  [[nodiscard]] std::optional<MeshResult> changed_mesh(const MeshModel& nominal, const MeshModel& changed,
+                                                       double mean_mesh_force, const std::string& folder,
+                                                       const std::string& ring = "") const;
+  /// `prepare` of a mesh that belongs to no ring.
+  bool prepare_mesh(const MeshModel& nominal, const MeshModel& changed, double mean_mesh_force,
+                    const std::string& where, const std::string& folder) const;
 };
 
 /// The answer; errors of solver and input become the failure of the point.

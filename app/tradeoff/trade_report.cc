@@ -153,7 +153,7 @@ Blocks part_section(const VariantTrade& variant, TradePart part) {
   for (const auto& p : variant.points)
     if (p.part == part && p.planned_for) cheapest.items.emplace_back(planned_text(variant, p));
   return title +
-         paragraph(fmt::format("Held against: {}; {}, {:.0f} MB.", setting_text(*finest),
+         paragraph(fmt::format("Compared with: {}; {}, {:.0f} MB.", setting_text(*finest),
                                duration_text(finest->cost.wall), finest->cost.peak_memory_MB)) +
          cheapest +
          Pictures{

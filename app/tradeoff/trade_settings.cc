@@ -22,7 +22,7 @@ std::vector<double> load_factors(int loads) {
     default:
       break;
   }
-  throw InternalError("internal error: no such number of loads");
+  throw InternalError(fmt::format("internal error: no load factors for {} loads", loads));
 }
 
 MotionSetting with_tolerance(const char* fidelity, const char* name, dynamics::Integrator method, double tolerance) {

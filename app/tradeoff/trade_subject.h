@@ -57,8 +57,4 @@ class TradeSubject {
                                                          const std::filesystem::path& folder) const = 0;
 };
 
-[[nodiscard]] std::unique_ptr<TradeSubject> pair_trade_subject(const Scene& scene);  ///< pair_trade.cc
-[[nodiscard]] std::unique_ptr<TradeSubject> planetary_trade_subject(const Scene& scene, std::size_t ring);
-[[nodiscard]] std::unique_ptr<TradeSubject> two_k_v_trade_subject(const Scene& scene);  ///< two_k_v_trade.cc
-
 }  // namespace annulus::app

@@ -44,14 +44,15 @@ class Comparison {
   Differences differences(TableChange change, std::size_t mesh, const std::string& what) {
     Differences result;
     for (const auto& entry : nominal_.figures.entries()) result[entry.key] = not_known;
+    const Evaluation* base = unchanged();
+    if (!base) return result;
     try {
-      if (!base_) base_ = model_.evaluate(tables(nullptr, all_meshes));
       const auto changed = model_.evaluate(tables(change, mesh));
       // A change that ends the periodic motion has done so much at least.
-      if (model_.seeks_steady_state && base_->outcome.steady && !changed.outcome.steady)
+      if (model_.seeks_steady_state && base->outcome.steady && !changed.outcome.steady)
         log::warn(fmt::format("no steady state with {}: the results of its last mesh cycles are compared", what));
       for (auto& [key, difference] : result)
-        difference = std::abs(changed.figures.value(key) - base_->figures.value(key));
+        difference = std::abs(changed.figures.value(key) - base->figures.value(key));
     } catch (const Error& error) {  // no solution, or a changed table from which no law follows
       log::warn(fmt::format("{}: {}: its effect on the results is not known", what, error.what()));
     }
@@ -59,6 +60,20 @@ class Comparison {
   }
 
  private:
+  /// The results on the unchanged tables, found in the way of the others; null where that way finds none.
+  const Evaluation* unchanged() {
+    if (!base_ && !failed_) {
+      try {
+        base_ = model_.evaluate(tables(nullptr, all_meshes));
+      } catch (const Error& error) {
+        failed_ = true;
+        log::warn(fmt::format("the unchanged tables: {}: the effect of their errors on the results is not known",
+                              error.what()));
+      }
+    }
+    return base_ ? &*base_ : nullptr;
+  }
+
   [[nodiscard]] std::vector<StiffnessTable> tables(TableChange change, std::size_t mesh) const {
     std::vector<StiffnessTable> list;
     for (std::size_t i = 0; i < model_.meshes.size(); ++i) {
@@ -71,6 +86,7 @@ class Comparison {
   const TabulatedModel& model_;
   const Evaluation& nominal_;
   std::optional<Evaluation> base_;
+  bool failed_ = false;
 };
 
 /// What the error estimate of one mesh's stiffness does to every result; NaN where one of the changes is not known.

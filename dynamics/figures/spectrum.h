@@ -17,7 +17,7 @@ struct Spectrum {
 struct SpectralLine {
   double order = 0, amplitude = 0;
   int harmonic = 0;     ///< nearest whole order
-  double sideband = 0;  ///< order - harmonic, in mesh orders; times z_r: turns of the carrier
+  double sideband = 0;  ///< order - harmonic, in mesh orders
 };
 /// The `count` highest lines without the mean, highest first, none below `floor` times the highest.
 [[nodiscard]] std::vector<SpectralLine> highest_lines(const Spectrum& spectrum, int count, double floor = 1e-3);

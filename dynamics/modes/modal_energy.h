@@ -12,10 +12,9 @@ namespace annulus::dynamics {
 /// change of omega^2 per relative change of its stiffness. The share of a mesh is F^2/k / phi^T K phi. The rest of
 /// meshes coupled through the ring, F^T D F, belongs to the element ring_body.
 struct ModalEnergy {
-  std::vector<std::string>
-      elements;            ///< springs (sun_support_x, planet1_bearing_radial, ...), then meshes (and ring_body)
-  Eigen::MatrixXd strain;  ///< elements x modes; columns sum to 1, to 0 for rigid motions
-  std::vector<std::string> bodies;  ///< of the DOFs: sun, ring, carrier, planet1, ...
+  std::vector<std::string> elements;  ///< springs, then meshes (and ring_body)
+  Eigen::MatrixXd strain;             ///< elements x modes; columns sum to 1, to 0 for rigid motions
+  std::vector<std::string> bodies;    ///< of the DOFs
   /// bodies x modes; columns sum to 1. A body without DOFs of its own counts with the body that carries it.
   Eigen::MatrixXd kinetic;
 };

@@ -23,7 +23,7 @@ std::pair<Contact, double> wanted_state(double delta, double half_backlash, Cont
   return {contact, contact == held ? 0.0 : std::abs(delta - edge)};
 }
 
-// A mesh without contact retains a billionth of its stiffness, so that an idle planet has a definite position. Its
+// A mesh without contact retains a billionth of its stiffness, so that an unloaded body has a definite position. Its
 // spring is then anchored there and pulls no more: 1e-9 k x half backlash may be more than a light load.
 constexpr double open_share = 1e-9;
 

@@ -13,7 +13,7 @@ namespace annulus::dynamics {
 /// coincide (critical damping).
 ///
 /// Rigid motions, which K and the meshes do not resist, have no definite position. At w = 0 they are fixed by
-/// nu^T M q = 0, as in StaticSolver. The small effect of K_Omega on them (a single planet out of balance) is neglected.
+/// nu^T M q = 0, as in StaticSolver. The small effect of K_Omega on them (a body out of balance) is neglected.
 class FrequencyResponse {
  public:
   /// `mesh_stiffness`: N/m, one per mesh. Throws SolverError when the system is singular at w = 0.

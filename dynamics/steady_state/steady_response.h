@@ -51,8 +51,8 @@ struct SimulationOptions {
   /// The window is one error period, or as many error periods as reach this many mesh cycles. Differences between short
   /// windows show little of slow transients.
   int min_window_cycles = 20;
-  /// Upper limit of the window (memory). Sun, planet and housing errors together repeat after lcm(z_s, z_p, z_r) mesh
-  /// cycles, which may be tens of thousands. A window cut by this limit cannot be compared with the one before.
+  /// Upper limit of the window (memory). Error periods may be tens of thousands of mesh
+  /// cycles (see the error_period of a system). A window cut by this limit cannot be compared with the one before.
   int max_window_cycles = 2000;
   /// Integrates the last window again with a tolerance ten times looser, which estimates the error of the integrator.
   bool estimate_error = true;
@@ -74,7 +74,7 @@ struct WindowLength {
 
 /// Time series over the evaluated window, equidistant, without the end point.
 struct TimeSeries {
-  std::vector<std::string> dofs;    ///< sun_x, planet1_u, ... (all are lengths, m)
+  std::vector<std::string> dofs;    ///< names; all are lengths, m
   std::vector<std::string> meshes;  ///< names of the meshes
   Eigen::VectorXd time;             ///< s
   Eigen::MatrixXd displacement;     ///< m, DOFs x times; rigid rotation included

@@ -1,5 +1,7 @@
 #include "fem/body/resolution.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,7 +68,8 @@ std::vector<double> sized_fractions(double length, const Size& size) {
 }  // namespace
 
 BodyResolution plane_resolution(const geometry::Gear& gear, int level, int degree) {
-  require(level >= 0 && level <= last_plane_level, "no such level of plane resolution");
+  require(level >= 0 && level <= last_plane_level,
+          fmt::format("level {} of plane resolution; there are 0 to {}", level, last_plane_level));
   // Linear elements of the size that does for quadratic ones are estimated to about 1 % at level 1, now a little less,
   // now a little more: somewhat smaller ones are within it.
   const double smaller = degree == 1 ? 1.2 : 1;
@@ -141,7 +144,8 @@ geometry::SectorResolution resolving_section(const geometry::Gear& gear, const g
 }
 
 BodyResolution solid_resolution(int level, int degree, double overlap_ratio) {
-  require(level >= 0 && level <= last_solid_level, "no such level of solid resolution");
+  require(level >= 0 && level <= last_solid_level,
+          fmt::format("level {} of solid resolution; there are 0 to {}", level, last_solid_level));
   using Levels = std::array<BodyResolution, last_solid_level + 1>;
   static const Levels linear = {{
       {{7, 2, 4, 1, 2, 1.0}, 5, 2},

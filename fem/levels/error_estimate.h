@@ -11,7 +11,8 @@ namespace annulus::fem {
 /// The error of the finer of two levels is at most about so much of their difference.
 [[nodiscard]] double most_left_over(int degree);
 
-/// What two successive levels tell; relative to the stiffness, the largest of all positions at the middle load.
+/// Errors estimated from two successive levels, relative to the stiffness; the largest of all positions at the middle
+/// load.
 struct LevelErrors {
   double worst = 0;       ///< estimated error, without what the model leaves out: what the wanted accuracy is about
   double difference = 0;  ///< between the levels

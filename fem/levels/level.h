@@ -19,15 +19,15 @@ namespace annulus::fem {
 /// What one level of resolution of a loaded mesh gives.
 struct SolvedLevel : SolvedBodies, SolveCost {
   /// [cycle][phase 0 ... phases][load]: the last phase of the last cycle is the closure, inner ends of cycles are not
-  /// solved twice. A stiffness of 0 says that the position was left out.
+  /// solved twice. A stiffness of 0 marks a position that was left out.
   std::vector<LoadedPosition> positions;
   /// Relative, of the stiffness, by the discretised pressure alone; 0 where the pressure is refined with the cells.
   double contact_error = 0;
 };
 
 using ProgressFunction = std::function<void(double fraction)>;
-/// Asked when the compared positions of a level are solved: whether it becomes the table. Then the others follow, with
-/// stresses and fields; else what is there is enough to estimate the error of the next level. Empty: it does not.
+/// Called when the compared positions of a level are solved. Returns whether the level becomes the table; the other
+/// positions are then solved, with stresses and fields. Empty: it does not become the table.
 using AcceptLevel = std::function<bool(SolvedLevel& compared)>;
 
 /// Condensed gears whose meshes do not follow the contact: the plane and solid models.
@@ -43,7 +43,7 @@ using AcceptLevel = std::function<bool(SolvedLevel& compared)>;
 /// that the position belongs to.
 using SolvePosition = std::function<LoadedPosition(int cycle, int phase, int load, ContactSystem::PairsCache& cache,
                                                    ContactSystem::WarmStart& warm)>;
-/// Tells `progress` of a part of its work, from one fraction to another.
+/// Reports the progress of a part of the work to `progress`, scaled to [from, to].
 [[nodiscard]] ProgressFunction part_of(const ProgressFunction& progress, double from, double to);
 /// The compared positions over all.
 [[nodiscard]] double compared_share(const LoadedMeshProblem& problem);

@@ -174,7 +174,8 @@ ResolvedMesh::Places ResolvedMesh::places(const std::vector<std::pair<int, doubl
 
 LoadedPosition ResolvedMesh::solve(double phase, double load) const {
   const auto pairs = possible_pairs(flanks, phase);
-  require(static_cast<int>(pairs.size()) <= most_pairs, "more tooth pairs than the resolved model exchanges");
+  require(static_cast<int>(pairs.size()) <= most_pairs,
+          fmt::format("{} tooth pairs; the resolved model has at most {}", pairs.size(), most_pairs));
   const int first = wheel_tooth(flanks, pairs.front().first, 0);
   const int last = wheel_tooth(flanks, pairs.back().first, 0);
   ContactOptions options;

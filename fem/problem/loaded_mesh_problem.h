@@ -25,6 +25,7 @@ struct LoadedMeshProblem {
   double misalignment = 0;          ///< m over the face width, normal to the flanks, > 0 opens towards +z
   std::vector<double> loads{};      ///< N, total normal forces, strictly increasing
   int phases = 16;                  ///< positions per mesh cycle
+  std::string name = "mesh";        ///< of the mesh in its stiffness table
 };
 
 /// The wheel, as its supports see it.
@@ -37,6 +38,10 @@ struct LoadedMeshProblem {
 }
 
 enum class Fidelity { closed_form, plane, solid, resolved_plane, resolved_solid };
+[[nodiscard]] constexpr bool is_solid(Fidelity f) { return f == Fidelity::solid || f == Fidelity::resolved_solid; }
+[[nodiscard]] constexpr bool is_resolved(Fidelity f) {
+  return f == Fidelity::resolved_plane || f == Fidelity::resolved_solid;
+}
 
 struct LoadedMeshSettings {
   Fidelity fidelity = Fidelity::plane;

@@ -21,7 +21,7 @@ void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
   if (!problem.pair.internal() && !held_outside(problem.structure))
     throw InputError(fmt::format("a ring structure ({}) belongs to the ring mesh, and the pair is external",
                                  problem.structure.words().description));
-  if (fidelity == Fidelity::solid || fidelity == Fidelity::resolved_solid) return;
+  if (is_solid(fidelity)) return;
   for (const auto* gear : {&problem.pair.planet(), &problem.pair.wheel()}) {
     if (gear->parameters().lead_crowning != 0 || gear->parameters().lead_slope != 0)
       throw InputError(

@@ -35,7 +35,7 @@ std::string asymmetry_of_face(const LoadedMeshProblem& problem) {
 }
 
 SolvedFace solved_face(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings) {
-  const bool solid = settings.fidelity == Fidelity::solid || settings.fidelity == Fidelity::resolved_solid;
+  const bool solid = is_solid(settings.fidelity);
   return {problem.face_width, solid && settings.symmetry && asymmetry_of_face(problem).empty()};
 }
 

@@ -16,8 +16,7 @@ LoadedMeshResult tabulated(const LoadedMeshProblem& problem, std::vector<LoadedP
   std::vector<double> ring_angles;
   ring_angles.reserve(cycles);
   for (std::size_t c = 0; c < cycles; ++c) ring_angles.push_back(positions[c * problem.phases * loads].ring_angle);
-  StiffnessTable table(problem.pair.internal() ? "ring_planet" : "sun_planet", problem.phases, std::move(ring_angles),
-                       problem.loads, std::move(entries));
+  StiffnessTable table(problem.name, problem.phases, std::move(ring_angles), problem.loads, std::move(entries));
   LoadedMeshResult result(std::move(table), std::move(positions));
   for (const auto& p : result.positions)
     result.reciprocity_relative = std::max(result.reciprocity_relative, p.reciprocity_relative);

@@ -205,8 +205,8 @@ BOOST_AUTO_TEST_CASE(tables_that_are_none) {
   }
   refused("", "no line with column names");
   refused("mesh_phase\n", "is no stiffness table");
-  refused(good_table("sun_planet"), "table of a sun_planet mesh");
-  refused(good_table("other"), "the mesh must be");
+  refused(good_table("sun_planet"), "table of the mesh sun_planet");
+  refused(good_table("other"), "table of the mesh other");
   refused("a,b\n1,2\n", "is no stiffness table");
   refused("{\"json\": 1}\n", "is no stiffness table");
   refused(std::string(100'000, '\0') + "\n", "is no stiffness table");

@@ -245,8 +245,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_exported) {
 
 BOOST_AUTO_TEST_CASE(new_scenes_are_good_and_tell_every_key) {
   const test::TemporaryFolder folder("new_scenes");
-  for (const auto kind : app::stage_kinds()) {
-    const auto made = test::run_program(folder.path(), std::string("new ") + app::kind_name(kind));
+  for (const auto& kind : app::stage_kinds()) {
+    const auto made = test::run_program(folder.path(), std::string("new ") + kind);
     BOOST_REQUIRE(made.status == 0);
     write_file(folder.path() / "scene.toml", made.out);
     BOOST_TEST(test::run_program(folder.path(), "check scene.toml").status == 0);
@@ -255,7 +255,7 @@ BOOST_AUTO_TEST_CASE(new_scenes_are_good_and_tell_every_key) {
         if (table.applies_to(kind) && p.applies_to(kind))
           BOOST_TEST((made.out.find("\n" + p.name + " = ") != std::string::npos ||
                       made.out.find("\n# " + p.name + " =") != std::string::npos),
-                     app::kind_name(kind) << ": " << p.key());
+                     kind << ": " << p.key());
     }
   }
   BOOST_TEST(refusal(folder.path(), "new planetry").find("did you mean planetary?") != std::string::npos);

@@ -69,7 +69,7 @@ Solved solve_scene(const std::string& text, const SolveChoice& choice) {
   try {
     const auto scene = app::parse_scene(text, "scene.toml");
     app::check_stage(scene);
-    const bool planetary = scene.stage.kind == app::StageKind::planetary;
+    const bool planetary = scene.stage.kind == "planetary";
     auto models = app::make_system(scene)->meshes();
     auto& model = planetary && !choice.sun ? models.at(1) : models.at(0);
     solved.early = false;

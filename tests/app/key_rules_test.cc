@@ -218,7 +218,7 @@ BOOST_AUTO_TEST_CASE(rules_are_explained) {
 BOOST_AUTO_TEST_CASE(earlier_names_are_refused_with_the_present_one) {
   int renamed = 0;
   for (const auto& good : test::good_scenes())
-    for (const auto& table : app::schema(app::kind_name(good.kind)))
+    for (const auto& table : app::schema(good.kind))
       for (const auto& p : table.parameters) {
         for (const auto& old : p.old_names) {
           test::SceneEdit scene(good.text);
@@ -247,8 +247,7 @@ BOOST_AUTO_TEST_CASE(earlier_names_are_refused_with_the_present_one) {
 
 BOOST_AUTO_TEST_CASE(kinds_have_names_of_their_own) {
   for (const auto& kind : app::scene_kinds()) {
-    BOOST_TEST((app::scene_kind(kind.name).id == kind.id));
-    BOOST_TEST(app::scene_kind(kind.id).name == kind.name);
+    BOOST_TEST(app::scene_kind(kind.name).name == kind.name);
     BOOST_TEST(app::find_parameter("stage.kind")->choices.size() == app::scene_kinds().size());
     BOOST_TEST(!kind.results().empty());
   }

@@ -139,8 +139,7 @@ BOOST_AUTO_TEST_CASE(every_key_of_the_kind_can_be_varied) {
   BOOST_CHECK_THROW((void)app::with_overrides(scene, {{"arc_gear.pin_diameter_mm", 9}}), InputError);
   for (const auto& table : app::schema())
     for (const auto& p : table.parameters)
-      if (table.applies_to(app::StageKind::two_k_v) && p.applies_to(app::StageKind::two_k_v))
-        BOOST_TEST(!p.meaning.empty(), p.key());
+      if (table.applies_to("two_k_v") && p.applies_to("two_k_v")) BOOST_TEST(!p.meaning.empty(), p.key());
 }
 
 BOOST_AUTO_TEST_CASE(a_comparison_computes_what_is_given) {

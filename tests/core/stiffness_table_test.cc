@@ -109,8 +109,8 @@ BOOST_AUTO_TEST_CASE(a_damaged_file_is_refused_with_its_line) {
   BOOST_TEST(starts(message_after_editing(table, "lte_m", "lte_um"), 3));               // a column is missing
   BOOST_TEST(starts(message_after_editing(table, "# mesh", "# gear"), 1));
   BOOST_TEST(starts(message_after_editing(table, "\n0.5,0,2000", "\n0.5,nan,2000"), 11));  // block broken: last row
-  const auto wrong_mesh = message_after_editing(table, "ring_planet", "ring_sun");
-  BOOST_TEST(wrong_mesh.find("sun_planet, ring_planet, pinion_wheel or arc_pins") != std::string::npos);
+  const auto nameless = message_after_editing(table, "ring_planet", "");
+  BOOST_TEST(nameless.find("its mesh has no name") != std::string::npos);
   std::filesystem::remove(file);
 }
 

@@ -101,6 +101,46 @@ BOOST_AUTO_TEST_CASE(models_without_a_solution_have_errors_that_are_not_known) {
   BOOST_TEST(found.value("frequency_1_Hz") == nominal.figures.value("frequency_1_Hz"));
 }
 
+BOOST_AUTO_TEST_CASE(unchanged_tables_without_a_solution_are_tried_once) {
+  auto model = model_of({{"sun mesh", table_of(8, 0.01, 0), {}}, {"ring mesh", table_of(8, 0.01, 0), {}}});
+  const auto nominal = frequency_of(tables_of(model));
+  int calls = 0;
+  model.evaluate = [&calls](const std::vector<StiffnessTable>&) -> Evaluation {
+    ++calls;
+    throw SolverError("no steady state");
+  };
+  const auto found = propagate_errors(nominal, model);
+  BOOST_TEST(calls == 1);
+  BOOST_TEST(std::isnan(found.figure("frequency_1_Hz").error));
+}
+
+BOOST_AUTO_TEST_CASE(changed_tables_are_solved_as_the_nominal_motion_was_found) {
+  SimulationOptions options;
+  SteadyOutcome nominal;
+  nominal.periodic.emplace();
+  nominal.periodic->converged = true;
+  nominal.steady = true;
+  nominal.window_cycles = 7;
+  options.samples_per_cycle = enough_samples(nominal.window_cycles);
+  // The harmonic balance alone was the answer.
+  const auto balance = comparison_options(nominal, options);
+  BOOST_TEST(!balance.simulation.confirm);
+  BOOST_TEST(balance.seeks_steady_state);
+  BOOST_TEST(balance.nominal_alike);
+  // Time integration led elsewhere: integrated from there, for a few windows.
+  nominal.total_cycles = 500;
+  const auto integrated = comparison_options(nominal, options);
+  BOOST_TEST((integrated.simulation.steady_state == SteadyState::time_integration));
+  BOOST_TEST(integrated.simulation.max_windows <= 8);
+  BOOST_TEST(integrated.seeks_steady_state);
+  // No steady state: all for the same time, which the nominal motion was not.
+  nominal.steady = false;
+  const auto unsteady = comparison_options(nominal, options);
+  BOOST_TEST(unsteady.simulation.mesh_cycles.value() == 170);
+  BOOST_TEST(!unsteady.seeks_steady_state);
+  BOOST_TEST(!unsteady.nominal_alike);
+}
+
 BOOST_AUTO_TEST_CASE(prescribed_stiffness_is_exact) {
   const auto model = model_of({});
   Evaluation nominal;

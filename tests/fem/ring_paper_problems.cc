@@ -18,6 +18,7 @@ std::vector<double> equal_places(int planets) {
 
 fem::LoadedMeshProblem ring_mesh(const fem::RingStructure& structure, int phases, std::vector<double> loads) {
   fem::LoadedMeshProblem problem{ring_paper_pair(true), {}, 88e-3, 86e-3, ring_outside, structure};
+  problem.name = "ring_planet";
   problem.loads = std::move(loads);
   problem.phases = phases;
   return problem;
@@ -25,6 +26,7 @@ fem::LoadedMeshProblem ring_mesh(const fem::RingStructure& structure, int phases
 
 fem::LoadedMeshProblem sun_mesh(int phases, std::vector<double> loads) {
   fem::LoadedMeshProblem problem{ring_paper_pair(false), {}, 88e-3, 86e-3, 65e-3};
+  problem.name = "sun_planet";
   problem.loads = std::move(loads);
   problem.phases = phases;
   return problem;

@@ -29,8 +29,8 @@ Blocks mesh_pictures(const std::vector<std::pair<std::string, const MeshResult*>
     if (mesh == nullptr || mesh->picture.empty()) continue;
     figure.list.emplace_back(Drawing{mesh->picture}, title,
                              mesh->model.fidelity.ends_with("solid")
-                                 ? "Held faces orange, driven flanks blue."
-                                 : "Planet blue; what is held is orange; the circle marks the pitch point.");
+                                 ? "Fixed faces orange, driven flanks blue."
+                                 : "Planet blue; the fixed surface is orange; the circle marks the pitch point.");
   }
   return figure.list.empty() ? Blocks() : Blocks(figure);
 }
@@ -48,7 +48,7 @@ Blocks stiffness_errors(const std::vector<std::pair<std::string, const MeshResul
     table.rows.push_back({name});
     for (const auto& [what, e] : {std::pair{"mean stiffness", mesh->mean_stiffness()},
                                   {"mean transmission error", mesh->lte_mean()},
-                                  {"range of the transmission error", mesh->lte_peak_to_peak()}})
+                                  {"peak-to-peak transmission error", mesh->lte_peak_to_peak()}})
       table.rows.push_back({what, share(e.error_relative), share(e.parts.discretisation), share(e.parts.contact),
                             share(e.parts.condensation), share(e.parts.interpolation), share(e.parts.model)});
   }

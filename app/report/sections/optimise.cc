@@ -55,12 +55,11 @@ Text gain_text(const OptimiseResults& o) {
 
 Box verdict(const StudyResults& studies, const OptimiseResults& o) {
   Blocks blocks = paragraph(gain_text(o));
-  for (const std::string mesh : {"sun_planet", "ring_planet", "mesh"}) {
-    const auto* loss = find_figure(studies.figures, mesh + "_contact_loss");
-    if (!loss) continue;
-    blocks += paragraph(fmt::format("{}: {} % with the given values, {} % with the best.", loss->title,
-                                    to_text(100 * o.given.point.value(loss->key), 3),
-                                    to_text(100 * o.best.point.value(loss->key), 3)));
+  for (const auto& loss : studies.figures) {
+    if (!loss.key.ends_with("contact_loss")) continue;
+    blocks += paragraph(fmt::format("{}: {} % with the values of the scene, {} % with the best.", loss.title,
+                                    to_text(100 * o.given.point.value(loss.key), 3),
+                                    to_text(100 * o.best.point.value(loss.key), 3)));
   }
   return verdict_box(blocks);
 }

@@ -12,7 +12,6 @@ namespace annulus::app {
 
 /// Inputs that several kinds of gear systems have, in SI units.
 
-enum class StageKind { planetary, helical_pair, two_k_v };
 enum class Fidelity { automatic, closed_form, plane, solid, resolved };
 enum class Compare { none, computed };
 enum class StiffnessShape { computed, constant, harmonic, rectangular, table, iso_6336, closed_form };
@@ -22,7 +21,7 @@ enum class RimCoupling { automatic, none, statical, elastic };
 inline constexpr double rigid = std::numeric_limits<double>::infinity();
 
 struct StageInput {
-  StageKind kind = StageKind::planetary;
+  std::string kind{};  ///< name of a registered kind of gear system
   int planets = 0;
   std::vector<double> planet_angles;  ///< rad; empty: equally spaced
   double module = 0, pressure_angle = 0, helix_angle = 0, face_width = 0, centre_distance = 0;

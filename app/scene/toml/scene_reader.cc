@@ -23,6 +23,7 @@ class Reader {
     for (const auto& kind : scene_kinds()) {
       if (name && *name == kind.name) kind_ = &kind;
     }
+    scene_.stage.kind = kind_->name;
   }
 
   Scene read() {
@@ -48,7 +49,7 @@ class Reader {
   void refuse_table(const Table& table) {
     if (const auto* node = root_.at_path(table.path).node())
       problem(place_of(node->source()), fmt::format("{}: has no meaning for a stage of kind \"{}\"; it belongs to {}",
-                                                    table.header(), kind_->name, kinds_text(table.kinds)));
+                                                    table.header(), kind_->name, listed(table.kinds)));
   }
 
   void read_table(const Table& table) {
@@ -95,7 +96,7 @@ class Reader {
     const std::string key = table.path.empty() ? name : table.path + "." + name;
     if (const auto* other = find_parameter(key))
       return fmt::format("has no meaning for a stage of kind \"{}\"; it belongs to {}: leave it out", kind_->name,
-                         kinds_text(other->kinds));
+                         listed(other->kinds));
     const auto now = renamed_key(key);
     return now.empty() ? "" : fmt::format("is now `{}`", now);
   }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/model/mesh_result.h"
-#include "app/pipeline.h"
+#include "app/model/run_options.h"
 #include "app/systems/helical_pair/pair_model.h"
 #include "dynamics/system/mesh_excitation.h"
 

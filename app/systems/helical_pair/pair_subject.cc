@@ -1,12 +1,8 @@
 #include "app/systems/helical_pair/pair_subject.h"
 
-#include <fmt/format.h>
-
 #include "app/content_id.h"
-#include "app/model/gear_system.h"
 #include "app/study/study_cases.h"
 #include "core/errors.h"
-#include "core/log.h"
 
 namespace annulus::app {
 
@@ -21,24 +17,12 @@ FigureSet PairSubject::nominal(std::size_t /*variant*/) const {
   return nominal_.response ? dynamics::figures(nominal_.response->figures) : FigureSet{};
 }
 
-bool PairSubject::table_serves_pair(const MeshModel& changed, const PairGeometry& geometry) const {
-  return table_serves(nominal_.mesh.model, changed, geometry.transverse_force);
-}
-
 bool PairSubject::prepare(const std::vector<Override>& overrides, const std::string& where,
                           const std::string& folder) const {
   const auto changed = with_overrides(nominal_.scene, overrides);
   const auto geometry = make_pair_geometry(changed);
-  const auto model = pair_mesh_model(changed, geometry);
-  if (table_serves_pair(model, geometry)) return false;
-  const auto inside = options_in(folder);
-  if (load(model, inside.out)) {
-    count_reuse(inside, study_meshes, 1, 0);
-    return true;
-  }
-  log::info(where + ":");
-  (void)computed_stiffness(model, {""}, inside);
-  return true;
+  return prepare_mesh(nominal_.mesh.model, pair_mesh_model(changed, geometry), geometry.transverse_force, where,
+                      folder);
 }
 
 ChangedModel PairSubject::model(const std::vector<Override>& overrides, const std::string& where,
@@ -49,15 +33,8 @@ ChangedModel PairSubject::model(const std::vector<Override>& overrides, const st
     const auto mesh_model = pair_mesh_model(changed, geometry);
     std::optional<MeshResult> solved;
     if (mesh_model.computed()) {
-      if (table_serves_pair(mesh_model, geometry)) {
-        solved = nominal_.mesh.computed;
-      } else if (folder.empty()) {
-        throw InputError(fmt::format("the mesh is not tabulated for a mesh force of {} kN",
-                                     to_text(geometry.transverse_force / 1e3, 5)));
-      } else {
-        solved = load(mesh_model, options_in(folder).out);
-        if (!solved) throw InternalError("internal error: a changed scene without its stiffness table");
-      }
+      solved = changed_mesh(nominal_.mesh.model, mesh_model, geometry.transverse_force, folder);
+      if (!solved) solved = nominal_.mesh.computed;
     }
     const auto mesh = pair_mesh(changed, geometry, mesh_model, std::move(solved));
     const auto errors = pair_errors(changed, &nominal_.errors);

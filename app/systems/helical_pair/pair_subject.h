@@ -25,9 +25,6 @@ class PairSubject final : public StudySubject {
                                    std::size_t variant, const std::string& folder, bool with_id) const override;
 
  private:
-  /// Whether the finite elements of the nominal run answer for the changed scene as well.
-  [[nodiscard]] bool table_serves_pair(const MeshModel& changed, const PairGeometry& geometry) const;
-
   const PairRunResult& nominal_;
   const RunOptions& options_;
 };

@@ -131,7 +131,7 @@ std::string PairRunResult::text() const {
   for (const auto& s : result.stiffnesses) {
     if (!std::isfinite(s.value)) continue;
     text += fmt::format("mean stiffness {:<12} {:>10.4g} N/m along the normal{}\n", s.source, s.value,
-                        s.taken ? "  (taken)" : "");
+                        s.taken ? "  (applied)" : "");
   }
   if (const auto* taken = result.errors.taken(result.scene))
     text += fmt::format("mesh error     {:.2f} um: {}, quantile at {}, {} draws ({:.2f} to {:.2f}; exact {:.2f})\n",

@@ -1,4 +1,5 @@
 #include "app/systems/helical_pair/pair_system.h"
+#include "app/systems/helical_pair/pair_trade.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +7,6 @@
 #include "app/systems/helical_pair/pair_geometry_checks.h"
 #include "app/systems/helical_pair/pair_run.h"
 #include "app/systems/helical_pair/pair_scene.h"
-#include "app/tradeoff/trade_subject.h"
 #include "example_scenes.h"
 
 namespace annulus::app {
@@ -54,8 +54,8 @@ class PairSystem final : public GearSystem {
 }  // namespace
 
 SystemKind helical_pair_kind() {
-  return {{"helical_pair", StageKind::helical_pair, pair_tables, check_pair_scene,
-           [] { return figure_keys(dynamics::pair_figures()); }, helical_pair_example},
+  return {{"helical_pair", pair_tables, check_pair_scene, [] { return figure_keys(dynamics::pair_figures()); },
+           helical_pair_example},
           pair_run_figures,
           dynamics::pair_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PairSystem>(scene); }};

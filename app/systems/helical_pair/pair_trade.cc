@@ -1,10 +1,11 @@
+#include "app/systems/helical_pair/pair_trade.h"
+
 #include <cmath>
 
 #include "app/scene/overrides.h"
 #include "app/systems/helical_pair/pair_run.h"
 #include "app/systems/helical_pair/pair_table_errors.h"
 #include "app/tradeoff/trade_settings.h"
-#include "app/tradeoff/trade_subject.h"
 #include "core/errors.h"
 
 namespace annulus::app {

@@ -134,10 +134,11 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
     list.emplace_back("Friction is left out; the contact is hard and the sliding small.");
     if (meshes.front().computed()) list.emplace_back("The sun mesh is solved once and shared by all rings.");
     const bool misaligned = scene.errors.sun_planet_misalignment != 0 || scene.errors.ring_planet_misalignment != 0;
-    list.emplace_back(misaligned ? "Eccentricities and installation errors enter the dynamics; of all errors only the "
-                                   "misalignments enter the contact solve."
-                                 : "The given planet errors enter the dynamics; the contact solve itself is free of "
-                                   "errors.");
+    list.emplace_back(misaligned
+                          ? "Eccentricities and position errors enter the dynamics; of all errors only the "
+                            "misalignments enter the contact solve."
+                          : "The planet errors of the scene enter the dynamics; the contact solve itself is free of "
+                            "errors.");
     if (scene.fidelity == Fidelity::closed_form) {
       list.emplace_back(
           "The error of the closed-form stiffness is not controlled: the wanted accuracy is not checked.");

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "app/plan/accuracy_choice.h"
 #include "app/systems/planetary/planetary_plan.h"
@@ -24,10 +25,9 @@ std::vector<dynamics::PlanetaryStage> rough_stages(const Scene& scene, const Gea
     mesh->stiffness = StiffnessShape::constant;
     mesh->mean = mean;
   }
-  // A given stiffness reads no table: any will do.
-  const MeshResult none{
-      .model = {},
-      .table = StiffnessTable("sun_planet", 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
+  // A prescribed stiffness reads no table: any will do.
+  StiffnessTable any(sun_planet, 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}));
+  const MeshResult none{.model = {}, .table = std::move(any)};
   std::vector<dynamics::PlanetaryStage> stages;
   for (std::size_t i = 0; i < scene.rings.size(); ++i) stages.push_back(make_stage(rough, geometry, i, none, none));
   return stages;

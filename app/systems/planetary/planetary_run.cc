@@ -1,4 +1,5 @@
 #include "app/systems/planetary/planetary_run.h"
+#include "app/systems/planetary/rim_coupling.h"
 
 #include <fmt/format.h>
 

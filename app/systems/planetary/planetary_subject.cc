@@ -1,4 +1,5 @@
 #include "app/systems/planetary/planetary_subject.h"
+#include "app/systems/planetary/rim_coupling.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +24,9 @@ namespace {
 
 StudyPoint point_of(const ChangedStage& changed, bool quick) {
   auto f = dynamics::evaluate_point(changed.stage, {.simulation = changed.simulation, .motion = !quick});
-  return {.figures = {dynamics::planetary_figures(), dynamics::figures(f, !quick)}, .poincare = std::move(f.poincare)};
+  auto figures = dynamics::figures(f);
+  if (!quick) figures.add(dynamics::motion_figures(f));
+  return {.figures = {dynamics::planetary_figures(), figures}, .poincare = std::move(f.poincare)};
 }
 
 }  // namespace
@@ -80,16 +83,14 @@ ChangedStage PlanetarySubject::stage(const std::vector<Override>& overrides, con
       const auto model = which == 0 ? sun_mesh_model(scene, geometry) : ring_mesh_model(scene, geometry, ring);
       const auto& nominal = nominal_mesh(which == 0 ? 0 : ring + 1);
       tables[which] = &nominal;
-      if (table_serves(nominal.model, model, force)) continue;
-      if (folder.empty())
-        throw InputError(fmt::format("the {} is not tabulated for a mean mesh force of {} kN", model.label(),
-                                     to_text(force / 1e3, 5)));
-      kept[which] = load(model, options_in(folder).out / scene.rings[which == 0 ? 0 : ring].name);
-      if (!kept[which]) throw InternalError("internal error: a changed scene without its stiffness tables");
+      const auto& name = scene.rings[which == 0 ? 0 : ring].name;
+      kept[which] = changed_mesh(nominal.model, model, force, folder, name);
+      if (!kept[which]) continue;
       if (which == 1 && may_be_coupled(scene, model)) {
         auto coupling = load_coupling(scene, geometry, model, 1 / kept[which]->mean_stiffness().value,
-                                      options_in(folder).out / scene.rings[ring].name);
-        if (!coupling) throw InternalError("internal error: a changed scene without the coupling of its ring");
+                                      options_in(folder).out / name);
+        if (!coupling)
+          throw InternalError(fmt::format("internal error: no coupling through the ring '{}' in {}", name, folder));
         kept[which]->coupling = std::make_shared<SolvedCoupling>(std::move(*coupling));
       }
       tables[which] = &*kept[which];
@@ -121,8 +122,8 @@ std::optional<StartSpread> PlanetarySubject::starts(const std::vector<Override>&
   const auto& specs = dynamics::planetary_figures();
   StartSpread result{.starts = count, .motions = spread.attractors, .not_steady = spread.unsteady};
   for (const auto& start : spread.starts) {
-    const FigureRow row(
-        specs, dynamics::figures(dynamics::PointFigures{start.sun_planet, start.ring_planet, start.steady}, false));
+    const FigureRow row(specs,
+                        dynamics::figures(dynamics::PointFigures{start.sun_planet, start.ring_planet, start.steady}));
     if (result.low.empty()) result.low = result.high = row;
     for (const auto& spec : specs) {
       result.low.set(spec.key, std::min(result.low.value(spec.key), row.value(spec.key)));

@@ -1,4 +1,5 @@
 #include "app/systems/planetary/planetary_system.h"
+#include "app/systems/planetary/planetary_trade.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +10,6 @@
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/planetary_subject.h"
 #include "app/systems/planetary/rim_coupling.h"
-#include "app/tradeoff/trade_subject.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 #include "example_scenes.h"
 
@@ -82,7 +82,7 @@ const std::vector<FigureSpec>& all_planetary_figures() {
 }  // namespace
 
 SystemKind planetary_kind() {
-  return {{"planetary", StageKind::planetary, planetary_tables, check_planetary_scene,
+  return {{"planetary", planetary_tables, check_planetary_scene,
            [] { return figure_keys(dynamics::planetary_figures()); }, planetary_example},
           all_planetary_figures,
           dynamics::planetary_figures,

@@ -1,3 +1,6 @@
+#include "app/systems/planetary/planetary_trade.h"
+#include "app/systems/planetary/rim_coupling.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +11,6 @@
 #include "app/systems/planetary/planetary_run.h"
 #include "app/tradeoff/measured_work.h"
 #include "app/tradeoff/trade_settings.h"
-#include "app/tradeoff/trade_subject.h"
 #include "core/errors.h"
 #include "core/log.h"
 #include "dynamics/systems/planetary/planetary_figures.h"

@@ -4,6 +4,7 @@
 #include "app/content_id.h"
 #include "app/model/stiff_supports.h"
 #include "app/plan/accuracy_choice.h"
+#include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_response.h"
 #include "core/errors.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/model/mesh_result.h"
-#include "app/pipeline.h"
+#include "app/model/run_options.h"
 #include "app/scene/scene.h"
 #include "dynamics/steady_state/steady_response.h"
 #include "dynamics/systems/two_k_v/arc_tooth.h"

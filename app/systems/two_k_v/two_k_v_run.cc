@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "app/model/mesh_figures.h"
@@ -14,16 +13,13 @@
 #include "app/tasks.h"
 #include "core/files.h"
 #include "core/log.h"
+#include "core/stopwatch.h"
 
 namespace annulus::app {
 
 namespace {
 
 constexpr const char* compared_folder = "computed";
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 MeshResult sun_result(const Scene& scene, const std::string& folder, const RunOptions& options) {
   const auto model = two_k_v_sun_model(scene);
@@ -39,11 +35,11 @@ void write_arc_table(const Scene& scene, const MeshResult& arc, const std::files
 
 /// Modes and statics of a case.
 void vibrate(TwoKVCase& c, const std::vector<double>& published, const std::filesystem::path& folder) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   c.stage = make_two_k_v(c.scene, c.tables, dynamics::LoadDependence::nominal);
   c.vibration = vibration_of(*c.stage, c.scene.arc_gear.clearance, published);
   write_vibration(*c.vibration, folder / "dynamics");
-  c.response_seconds = seconds_since(start);
+  c.response_seconds = watch.seconds();
 }
 
 TwoKVModels models_of(const Scene& scene, const TwoKVTables& tables) {
@@ -121,9 +117,9 @@ void TwoKVResult::respond(const RunOptions& options) {
   const auto timer = timers.measure("dynamics");
   for_each_task(cases.size(), options.threads, [&](std::size_t i) {
     auto& c = *cases[i];
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     c.motion = motion_in(c, options, i == 0 ? "" : compared_folder);
-    c.response_seconds += seconds_since(start);
+    c.response_seconds += watch.seconds();
   });
 }
 

@@ -1,12 +1,9 @@
 #include "app/systems/two_k_v/two_k_v_subject.h"
 
-#include <fmt/format.h>
-
 #include "app/content_id.h"
-#include "app/model/gear_system.h"
 #include "app/pipeline.h"
 #include "app/study/study_cases.h"
-#include "core/log.h"
+#include "core/errors.h"
 
 namespace annulus::app {
 
@@ -42,33 +39,18 @@ FigureSet TwoKVSubject::nominal(std::size_t) const {
 bool TwoKVSubject::prepare(const std::vector<Override>& overrides, const std::string& where,
                            const std::string& folder) const {
   const auto scene = with_overrides(scene_, overrides);
-  const auto model = two_k_v_sun_model(scene);
-  if (table_serves(nominal_.sun.model, model, two_k_v_kinematics(scene).mean_sun_mesh_force())) return false;
-  const auto inside = options_in(folder);
-  if (load(model, inside.out)) {
-    count_reuse(inside, study_meshes, 1, 0);
-    return true;
-  }
-  log::info(where + ":");
-  (void)computed_stiffness(model, {""}, inside);
-  return true;
+  return prepare_mesh(nominal_.sun.model, two_k_v_sun_model(scene), two_k_v_kinematics(scene).mean_sun_mesh_force(),
+                      where, folder);
 }
 
 ChangedModel TwoKVSubject::model(const std::vector<Override>& overrides, const std::string& where, std::size_t,
                                  const std::string& folder, bool with_id) const {
   try {
     const auto scene = with_overrides(scene_, overrides);
-    const double force = two_k_v_kinematics(scene).mean_sun_mesh_force();
-    const auto sun_model = two_k_v_sun_model(scene);
     TwoKVTables tables{nominal_.sun, arc_pins_result(scene)};
-    if (!table_serves(nominal_.sun.model, sun_model, force)) {
-      if (folder.empty())
-        throw InputError(
-            fmt::format("the {} is not tabulated for a mean mesh force of {} N", sun_model.label(), to_text(force, 5)));
-      auto kept = load(sun_model, options_in(folder).out);
-      if (!kept) throw InternalError("internal error: a changed scene without its stiffness table");
-      tables.sun = std::move(*kept);
-    }
+    if (auto sun = changed_mesh(nominal_.sun.model, two_k_v_sun_model(scene),
+                                two_k_v_kinematics(scene).mean_sun_mesh_force(), folder))
+      tables.sun = std::move(*sun);
     TwoKVPoint point{.at_nominal = make_two_k_v(scene, tables, dynamics::LoadDependence::nominal),
                      .moving = make_two_k_v(scene, tables, scene.dynamics->load_dependence),
                      .simulation = {},

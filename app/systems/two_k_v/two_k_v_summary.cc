@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "app/content_id.h"
 #include "app/plan/cost_actual.h"
@@ -102,14 +101,13 @@ Json TwoKVResult::summary() const {
 std::string TwoKVResult::text() const {
   std::string text = fmt::format("{:<12} {:>14} {:>14} {:>12} {:>16} {:>18} {:>12}\n", "stiffness", "sun mesh N/m",
                                  "arc mesh N/m", "f1 Hz", "torsion Nm/rad", "output error, asec", "dyn. factor");
-  constexpr double arc_second = std::numbers::pi / (180 * 3600);
   const auto row = [&](const char* name, const TwoKVCase& c) {
     text += fmt::format("{:<12} {:>14.4g} {:>14.4g}", name, c.tables.sun.mean_stiffness().value,
                         c.tables.arc.mean_stiffness().value);
     if (c.vibration)
       text += fmt::format(" {:>12.2f} {:>16.0f}", c.vibration->first_frequency(), c.vibration->torsion.mean());
     if (c.motion)
-      text += fmt::format(" {:>18.4f} {:>12.4f}", c.motion->error_peak_to_peak.value / arc_second,
+      text += fmt::format(" {:>18.4f} {:>12.4f}", c.motion->error_peak_to_peak.value / units::arc_second,
                           std::max(c.motion->dynamic_factor(false), c.motion->dynamic_factor(true)));
     text += "\n";
   };

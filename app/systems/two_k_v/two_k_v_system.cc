@@ -1,4 +1,5 @@
 #include "app/systems/two_k_v/two_k_v_system.h"
+#include "app/systems/two_k_v/two_k_v_trade.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +7,6 @@
 #include "app/systems/two_k_v/two_k_v_geometry_checks.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "app/systems/two_k_v/two_k_v_scene.h"
-#include "app/tradeoff/trade_subject.h"
 #include "dynamics/systems/two_k_v/two_k_v_figures.h"
 #include "example_scenes.h"
 
@@ -54,8 +54,8 @@ class TwoKVSystem final : public GearSystem {
 }  // namespace
 
 SystemKind two_k_v_kind() {
-  return {{"two_k_v", StageKind::two_k_v, two_k_v_tables, check_two_k_v_scene,
-           [] { return figure_keys(dynamics::two_k_v_figures()); }, two_k_v_example},
+  return {{"two_k_v", two_k_v_tables, check_two_k_v_scene, [] { return figure_keys(dynamics::two_k_v_figures()); },
+           two_k_v_example},
           two_k_v_run_figures,
           dynamics::two_k_v_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<TwoKVSystem>(scene); }};

@@ -1,3 +1,5 @@
+#include "app/systems/two_k_v/two_k_v_trade.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -5,7 +7,6 @@
 #include "app/systems/two_k_v/two_k_v_model.h"
 #include "app/systems/two_k_v/two_k_v_motion.h"
 #include "app/tradeoff/trade_settings.h"
-#include "app/tradeoff/trade_subject.h"
 #include "core/errors.h"
 #include "dynamics/systems/two_k_v/two_k_v_modes.h"
 #include "dynamics/systems/two_k_v/two_k_v_response.h"

@@ -76,23 +76,21 @@ void declare_meshes(std::vector<FigureSpec>& list, const std::string& prefix, co
 }
 
 void declare_motion(std::vector<FigureSpec>& list, const std::string& prefix, const std::string& title,
-                    const std::string& definition, bool rms_plotted, bool range_plotted) {
+                    const std::string& definition) {
   list.push_back({.key = prefix + "_rms_m",
                   .title = title,
                   .unit = "µm",
                   .scale = 1e6,
                   .axis = "rms, µm",
                   .definition = "root mean square of " + definition,
-                  .effort = FigureEffort::motion,
-                  .plotted = rms_plotted});
+                  .effort = FigureEffort::motion});
   list.push_back({.key = prefix + "_peak_to_peak_m",
                   .title = title,
                   .unit = "µm",
                   .scale = 1e6,
                   .axis = "peak to peak, µm",
                   .definition = "range of " + definition,
-                  .effort = FigureEffort::motion,
-                  .plotted = range_plotted});
+                  .effort = FigureEffort::motion});
 }
 
 std::vector<FigureSpec> declared() {
@@ -103,12 +101,13 @@ std::vector<FigureSpec> declared() {
                   .title = "Periodic",
                   .definition = "1 where a periodic steady state was found, otherwise 0",
                   .better = Better::larger});
-  declare_motion(list, "sun", "Motion of the sun", "the distance of the sun's centre from its mean position", true,
-                 false);
+  declare_motion(list, "sun", "Motion of the sun", "the distance of the sun's centre from its mean position");
+  list[list.size() - 2].plotted = true;
   declare_motion(list, "sun_planet_deflection", "Deflection of the sun mesh",
-                 "the deflection of the sun mesh that moves most", false, false);
+                 "the deflection of the sun mesh that moves most");
   declare_motion(list, "ring_planet_deflection", "Deflection of the ring mesh",
-                 "the deflection of the ring mesh that moves most", false, true);
+                 "the deflection of the ring mesh that moves most");
+  list.back().plotted = true;
   for (int i = 1; i <= planetary_frequencies; ++i)
     list.push_back({.key = fmt::format("frequency_{}_Hz", i),
                     .title = fmt::format("Natural frequency {}", i),
@@ -169,12 +168,16 @@ FigureSet figures(const DynamicResponse& response) {
   return set;
 }
 
-FigureSet figures(const PointFigures& point, bool motion) {
+FigureSet figures(const PointFigures& point) {
   FigureSet set;
   add(set, sun_meshes, values_of(point.sun_planet));
   add(set, ring_meshes, values_of(point.ring_planet));
   set.set("steady", point.steady ? 1 : 0);
-  if (!motion) return set;
+  return set;
+}
+
+FigureSet motion_figures(const PointFigures& point) {
+  FigureSet set;
   for (const auto& [prefix, range] : {std::pair{"sun", &point.sun},
                                       {"sun_planet_deflection", &point.sun_mesh},
                                       {"ring_planet_deflection", &point.ring_mesh}}) {

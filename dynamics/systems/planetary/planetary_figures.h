@@ -7,9 +7,6 @@
 
 namespace annulus::dynamics {
 
-/// Natural frequencies among the results of a planetary stage.
-inline constexpr int planetary_frequencies = 6;
-
 /// The results of the lumped model of a planetary stage, each declared once. Those of both kinds of meshes have keys
 /// that begin with sun_planet_ and ring_planet_.
 [[nodiscard]] const std::vector<FigureSpec>& planetary_figures();
@@ -17,7 +14,8 @@ inline constexpr int planetary_frequencies = 6;
 /// Results of a response with their errors, by the keys above; of the dynamic factor and the loss of contact the
 /// largest over the planets.
 [[nodiscard]] FigureSet figures(const DynamicResponse& response);
-/// Results of a study's response. Without its motion, those of effort `forces` alone.
-[[nodiscard]] FigureSet figures(const PointFigures& point, bool motion);
+/// Results of a study's response: those of effort `forces`, and those of effort `motion`.
+[[nodiscard]] FigureSet figures(const PointFigures& point);
+[[nodiscard]] FigureSet motion_figures(const PointFigures& point);
 
 }  // namespace annulus::dynamics

@@ -12,11 +12,14 @@ namespace annulus::dynamics {
 
 namespace {
 
+void require_speed(const PlanetaryStage& stage, const char* analysis) {
+  if (!(stage.carrier_speed > 0))
+    throw InputError(fmt::format("{} needs a carrier speed above zero, not {} rad/s", analysis, stage.carrier_speed));
+}
+
 void check_simulation(const PlanetaryStage& stage) {
   stage.check();
-  if (!(stage.carrier_speed > 0))
-    throw InputError(
-        fmt::format("a time response needs a carrier speed above zero, not {} rad/s", stage.carrier_speed));
+  require_speed(stage, "a time response");
   if (!(stage.sun_torque > 0))
     throw InputError(
         fmt::format("a time response needs a positive sun torque (drive flanks loaded), not {} N m", stage.sun_torque));
@@ -67,17 +70,13 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
 }
 
 PeriodicResponse periodic_response(const PlanetaryStage& stage, const PeriodicOptions& options) {
-  if (!(stage.carrier_speed > 0))
-    throw InputError(
-        fmt::format("a periodic response needs a carrier speed above zero, not {} rad/s", stage.carrier_speed));
+  require_speed(stage, "a periodic response");
   const int cycles = stage.error_period();
   return periodic_response(assemble(stage), cycles / stage.mesh_frequency(), cycles, options);
 }
 
 PiecewiseResponse piecewise_response(const PlanetaryStage& stage, const PiecewiseOptions& options) {
-  if (!(stage.carrier_speed > 0))
-    throw InputError(
-        fmt::format("a periodic response needs a carrier speed above zero, not {} rad/s", stage.carrier_speed));
+  require_speed(stage, "a piecewise linear response");
   const int cycles = stage.error_period();
   return piecewise_response(assemble(stage), cycles / stage.mesh_frequency(), cycles, options);
 }

@@ -109,7 +109,7 @@ PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& opt
   figures.sun = sun_motion(system, series);
   figures.sun_mesh = largest_motion(delta.topRows(stage.planets()));
   figures.ring_mesh = largest_motion(delta.bottomRows(stage.planets()));
-  figures.frequencies = lowest_frequencies(stage, options.frequencies);
+  figures.frequencies = lowest_frequencies(stage, planetary_frequencies);
   const Eigen::Index per_cycle = series.time.size() / response.window_cycles;
   for (int c = 0; c < std::min(options.poincare_cycles, response.window_cycles); ++c)
     figures.poincare.push_back({series.force(0, c * per_cycle), delta(0, c * per_cycle)});

@@ -37,10 +37,12 @@ struct PointFigures {
   std::vector<PoincarePoint> poincare{};  ///< one per mesh cycle of the window, `poincare_cycles` at most
 };
 
+/// Natural frequencies among the results of a planetary stage.
+inline constexpr int planetary_frequencies = 6;
+
 struct PointOptions {
   SimulationOptions simulation;
   bool motion = true;         ///< orbits, deflections, natural frequencies and Poincare points too
-  int frequencies = 6;        ///< at most
   int poincare_cycles = 200;  ///< at most
 };
 

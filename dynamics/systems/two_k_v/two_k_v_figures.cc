@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <string>
 #include <utility>
 
+#include "core/units.h"
 #include "dynamics/systems/two_k_v/two_k_v_modes.h"
 #include "dynamics/systems/two_k_v/two_k_v_statics.h"
 
@@ -16,7 +16,6 @@ namespace annulus::dynamics {
 
 namespace {
 
-constexpr double arc_seconds = 180 * 3600 / std::numbers::pi;  // per radian
 constexpr std::pair<const char*, const char*> mesh_kinds[] = {{"sun_planet_", "sun meshes"},
                                                               {"arc_pins_", "arc meshes"}};
 
@@ -24,7 +23,7 @@ FigureSpec angle(const char* key, const char* title, const char* definition) {
   return {.key = key,
           .title = title,
           .unit = "arc seconds",
-          .scale = arc_seconds,
+          .scale = 1 / units::arc_second,
           .definition = definition,
           .better = Better::smaller};
 }

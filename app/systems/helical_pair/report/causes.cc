@@ -35,7 +35,7 @@ std::vector<const SpeedRow*> good_speeds(const PairRunResult& result) {
 namespace {
 
 PageTable shares_table(const std::vector<const ShareRow*>& rows) {
-  PageTable table{.head = {"torque of the pinion", "range, all causes", "errors alone", "stiffness alone",
+  PageTable table{.head = {"torque of the pinion", "peak to peak, all causes", "errors alone", "stiffness alone",
                            "share of the errors", "largest value", "of which mean deflection"},
                   .style = PageTable::Style::numbers};
   const auto add = [&](const ShareRow& row, bool dynamic) {
@@ -80,7 +80,7 @@ Pictures shares_pictures(const std::vector<const ShareRow*>& rows) {
       .series = {series("largest", 0, false, [](const auto& r) { return r.largest_dynamic; }),
                  series("amplitude", 1, false, [](const auto& r) { return r.shares.errors_alone.quasi_static / 2; }),
                  series("deflection", 5, true, [](const auto& r) { return r.shares.load_deflection; })}};
-  return Pictures{{plot("Range, quasi-static", false), plot("Range, in motion", true), largest},
+  return Pictures{{plot("Peak to peak, quasi-static", false), plot("Peak to peak, in motion", true), largest},
                   {{"all causes", 0},
                    {"errors alone (last picture: their amplitude)", 1},
                    {"stiffness alone", 2},
@@ -104,8 +104,8 @@ Pictures speeds_pictures(const std::vector<const SpeedRow*>& rows) {
     return p;
   };
   return Pictures{{plot("Largest acceleration of the teeth", "m/s²", &SpeedRow::Motion::acceleration, 1),
-                   plot("Range of the mesh force", "largest – smallest, kN", &SpeedRow::Motion::force_range, 1e-3),
-                   plot("Range of the transmission error", "peak to peak, µm", &SpeedRow::Motion::te_range, 1e6)},
+                   plot("Peak-to-peak mesh force", "largest – smallest, kN", &SpeedRow::Motion::force_range, 1e-3),
+                   plot("Peak-to-peak transmission error", "µm", &SpeedRow::Motion::te_range, 1e6)},
                   {{"all causes", 0}, {"errors alone", 1}, {"stiffness alone", 2}},
                   "The same causes over speed, at the torque of the stage."};
 }

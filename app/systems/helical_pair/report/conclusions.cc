@@ -48,7 +48,7 @@ void add_shares(std::vector<Conclusion>& list, const PairRunResult& result) {
   if (rows.empty()) return;
   const auto &first = *rows.front(), &last = *rows.back();
   const auto range = holds_up_to(rows, errors_rule_range), largest = holds_up_to(rows, errors_rule_largest);
-  list.push_back({"Manufacturing error is the main cause of the transmission error: of its range, peak to peak",
+  list.push_back({"Manufacturing error is the main cause of the transmission error: of its peak-to-peak value",
                   fmt::format("quasi-static, errors alone {} µm; stiffness alone {} µm at {} to {} µm at {}",
                               um_text(first.shares.errors_alone.quasi_static),
                               um_text(first.shares.stiffness_alone.quasi_static), torque_text(first.pinion_torque),
@@ -168,7 +168,7 @@ void add_speeds(std::vector<Conclusion>& list, const PairRunResult& result) {
   for (const auto& [words, pick, unit, scale] :
        {std::tuple{"The largest acceleration stays about the same at low speed and rises at high speed",
                    &SpeedRow::Motion::acceleration, "m/s²", 1.0},
-        {"The range of the mesh force stays about the same at low speed and rises at high speed",
+        {"The peak-to-peak mesh force stays about the same at low speed and rises at high speed",
          &SpeedRow::Motion::force_range, "kN", 1e-3}}) {
     const double a = low.all.*pick, b = middle.all.*pick;
     double peak = 0;
@@ -226,8 +226,8 @@ Blocks pair_verdict(const PairRunResult& result) {
   if (!rows.empty()) {
     const auto range = holds_up_to(rows, errors_rule_range), largest = holds_up_to(rows, errors_rule_largest);
     blocks += paragraph(phrase(
-        "That manufacturing error is the main cause of the transmission error holds for its range, peak to peak, {}, "
-        "and for its largest value {}, of {} torques from {} to {}.",
+        "Manufacturing error is the main cause of the peak-to-peak transmission error {}, and of its largest value {} "
+        "({} torques from {} to {}).",
         bold(where_text(range, rows)), bold(where_text(largest, rows)), rows.size(),
         torque_text(rows.front()->pinion_torque), torque_text(rows.back()->pinion_torque)));
   }

@@ -74,7 +74,7 @@ Section pair_errors_section(const PairRunResult& result) {
     table.rows.push_back({code(r.name), r.quantity, micrometre_text(r.sample.value),
                           micrometre_text(r.sample.low) + " … " + micrometre_text(r.sample.high),
                           micrometre_text(r.exact) + (is_outside(r) ? " " + muted("outside") : Text()),
-                          taken == &r ? tag(Text::Look::agrees, "taken") : Text()});
+                          taken == &r ? tag(Text::Look::agrees, "applied") : Text()});
   blocks += table;
   blocks += paragraph(fmt::format(
       "{} of {} exact values lie outside their intervals; {:.1f} are to be expected at this confidence if the readings "
@@ -82,7 +82,7 @@ Section pair_errors_section(const PairRunResult& result) {
       std::count_if(readings.begin(), readings.end(), is_outside), readings.size(),
       (1 - problem.confidence) * static_cast<double>(readings.size())));
   if (!taken)
-    blocks += paragraph(fmt::format("None of them is taken: the scene gives {} µm at mesh frequency.",
+    blocks += paragraph(fmt::format("None of them is applied: the scene prescribes {} µm at mesh frequency.",
                                     to_text(1e6 * result.errors.amplitude, 5)));
   else
     blocks += paragraph(

@@ -23,7 +23,7 @@ PageTable means_table(const PairRunResult& result) {
     if (s.taken) reference = s.value;
   }
   PageTable table{.head = {"source", "along the normal, N/µm", "along the transverse line of action, N/µm",
-                           "against the one taken", "what it is", ""},
+                           "relative to the one applied", "what it is", ""},
                   .rows = {}};
   for (const auto& s : result.stiffnesses) {
     const bool known = std::isfinite(s.value);
@@ -31,7 +31,7 @@ PageTable means_table(const PairRunResult& result) {
     table.rows.push_back({source_words(s.source), known ? to_text(s.value / 1e6, 5) + error : "–",
                           known ? to_text(s.value / result.geometry.to_normal() / 1e6, 5) : "–",
                           known ? fmt::format("{:+.1f} %", 100 * (s.value / reference - 1)) : "–", s.note,
-                          s.taken ? tag(Text::Look::agrees, "taken") : Text()});
+                          s.taken ? tag(Text::Look::agrees, "applied") : Text()});
   }
   return table;
 }
@@ -87,7 +87,7 @@ Pictures cycle_picture(const PairRunResult& result) {
     }
     const bool wave = s.taken && (s.source == "iso_6336" || (s.source == "given" && !result.mesh.table));
     if (s.source == "iso_6336" || wave) {
-      Series series{.label = wave ? std::string(source_words(s.source)) + ", taken" : "ISO 6336-1 mean",
+      Series series{.label = wave ? std::string(source_words(s.source)) + ", applied" : "ISO 6336-1 mean",
                     .colour = wave ? 0UL : 6UL,
                     .dashed = !wave};
       const double ripple = wave ? input.ripple.value_or(0) : 0, phase = input.phase.value_or(0);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/systems/planetary/report/stage_report_parts.h"
+#include "app/systems/planetary/rim_coupling.h"
 
 namespace annulus::app {
 

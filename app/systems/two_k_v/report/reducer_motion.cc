@@ -25,13 +25,14 @@ Plot error_plot(const ShownCase& shown, double turns) {
   plot.series.push_back(
       {.label = "quasi-static",
        .x = column_values(m.static_error, "crank_turn", turns),
-       .y = about_mean(column_values(m.static_error, "error_rad", turns), m.static_error_mean, arc_second),
+       .y = about_mean(column_values(m.static_error, "error_rad", turns), m.static_error_mean, units::arc_second),
        .colour = 1,
        .dashed = turns < 1});
-  plot.series.push_back({.label = "with inertia",
-                         .x = column_values(m.output_error, "crank_turn", turns),
-                         .y = about_mean(column_values(m.output_error, "error_rad", turns), m.error_mean, arc_second),
-                         .colour = 0});
+  plot.series.push_back(
+      {.label = "with inertia",
+       .x = column_values(m.output_error, "crank_turn", turns),
+       .y = about_mean(column_values(m.output_error, "error_rad", turns), m.error_mean, units::arc_second),
+       .colour = 0});
   return plot;
 }
 
@@ -53,7 +54,7 @@ std::optional<Plot> spectrum_plot(const ShownCase& shown) {
                    : is_multiple(row[order], stage.arc_teeth)  ? arc
                                                                : rest;
     series.x.push_back(row[hertz]);
-    series.y.push_back(row[amplitude] / arc_second);
+    series.y.push_back(row[amplitude] / units::arc_second);
     top = std::max(top, row[hertz]);
   }
   Plot plot{.title = "Its spectrum, " + shown.name,
@@ -108,8 +109,8 @@ PageTable motion_table(const TwoKVResult& result) {
     };
     add_column(
         table, shown.name,
-        {error_text(m), m.output_moves() ? to_text(m.static_error_peak_to_peak / arc_second, 4) : "0",
-         to_text(std::abs(m.error_mean) / arc_second, 5), factor(m.sun_planet), factor(m.arc_pins),
+        {error_text(m), m.output_moves() ? to_text(m.static_error_peak_to_peak / units::arc_second, 4) : "0",
+         to_text(std::abs(m.error_mean) / units::arc_second, 5), factor(m.sun_planet), factor(m.arc_pins),
          to_text(100 * std::max(m.contact_loss(false), m.contact_loss(true)), 3), to_text(m.largest_bearing_force(), 5),
          m.largest_multiplier ? fmt::format("{:.4f}", *m.largest_multiplier) : "–",
          std::string(m.steady ? "yes" : "no") +
@@ -124,7 +125,7 @@ PageTable motion_table(const TwoKVResult& result) {
 
 std::string error_text(const TwoKVMotion& m) {
   if (!m.output_moves()) return "0";
-  return measured(m.error_peak_to_peak.value / arc_second, m.error_peak_to_peak.error / arc_second);
+  return measured(m.error_peak_to_peak.value / units::arc_second, m.error_peak_to_peak.error / units::arc_second);
 }
 
 Section reducer_motion_section(const TwoKVResult& result) {

@@ -119,16 +119,17 @@ Blocks reducer_verdict(const TwoKVResult& result) {
   if (const auto text = agreement_text(result)) blocks += paragraph(*text + " " + link("More", "comparison"));
   blocks += paragraph(phrase(
       "Torsional stiffness from the output: {}, wind-up under the load {} arc seconds, lost motion {} arc seconds.",
-      bold(to_text(v.torsion.mean() * arc_minute, 4) + " N m/arc minute"), to_text(v.lost.wind_up / arc_second, 4),
-      to_text(v.lost.total() / arc_second, 3)));
+      bold(to_text(v.torsion.mean() * units::arc_minute, 4) + " N m/arc minute"),
+      to_text(v.lost.wind_up / units::arc_second, 4), to_text(v.lost.total() / units::arc_second, 3)));
   for (const auto& shown : shown_cases(result)) {
     if (!shown.result->motion) continue;
     const auto& m = *shown.result->motion;
-    blocks += paragraph(phrase(
-        "Output error under load, {}: {} arc seconds peak to peak{}{}", shown.name, bold(error_text(m)),
-        m.output_moves() ? fmt::format(", {} without inertia.", to_text(m.static_error_peak_to_peak / arc_second, 4))
-                         : ": nothing beyond rounding.",
-        m.steady ? "" : " No periodic steady state was reached; the figure holds for the window only."));
+    blocks += paragraph(
+        phrase("Output error under load, {}: {} arc seconds peak to peak{}{}", shown.name, bold(error_text(m)),
+               m.output_moves()
+                   ? fmt::format(", {} without inertia.", to_text(m.static_error_peak_to_peak / units::arc_second, 4))
+                   : ": nothing beyond rounding.",
+               m.steady ? "" : " No periodic steady state was reached; the figure holds for the window only."));
   }
   return verdict_box(blocks);
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -25,9 +24,6 @@ struct ShownCase {
 [[nodiscard]] std::string element_words(const std::string& group);
 /// "input on crank bearings" for "input on crank_bearing".
 [[nodiscard]] std::string mode_words(const std::string& name);
-
-inline constexpr double arc_second = std::numbers::pi / (180 * 3600);  ///< rad
-inline constexpr double arc_minute = 60 * arc_second;                  ///< rad
 
 /// Label and colour of every case.
 [[nodiscard]] Legend case_legend(const TwoKVResult& result);

@@ -266,9 +266,9 @@ Section torsion_section(const TwoKVResult& result) {
                            .colour = shown.colour});
     std::vector<Text> cells;
     for (const double value :
-         {v.torsion.mean(), v.torsion.mean() * arc_minute, v.torsion.ripple() > rounding ? 100 * v.torsion.ripple() : 0,
-          v.lost.wind_up / arc_second, v.lost.backlash / arc_second, v.lost.elastic / arc_second,
-          v.lost.total() / arc_second})
+         {v.torsion.mean(), v.torsion.mean() * units::arc_minute,
+          v.torsion.ripple() > rounding ? 100 * v.torsion.ripple() : 0, v.lost.wind_up / units::arc_second,
+          v.lost.backlash / units::arc_second, v.lost.elastic / units::arc_second, v.lost.total() / units::arc_second})
       cells.emplace_back(to_text(value, 4));
     add_column(table, shown.name, cells);
   }
