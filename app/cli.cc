@@ -86,21 +86,26 @@ void declare(CLI::App& app, Arguments& arguments) {
                         "Refuse what is predicted to take longer: 2h, 3d; default a week");
     return command;
   };
+  const auto cache = [&](CLI::App* command) {
+    command->add_option("--cache", arguments.cache,
+                        "Folder of cached results; default $ANNULUS_CACHE/results or ~/.cache/annulus/results");
+    return command;
+  };
   const auto examples = [](CLI::App* command, const std::string& text) { command->footer("Examples:\n" + text); };
 
-  examples(limits(budget(out(add_command(app, arguments, "run", "Everything the scene asks for, and the report")))),
-           "  annulus run my.toml\n"
-           "  annulus run my.toml -o results --threads 4\n"
-           "  annulus run my.toml --budget 30s      as accurate as half a minute allows");
-  examples(limits(out(add_command(app, arguments, "solve", "Meshes, loaded transmission error, stiffness tables"))),
-           "  annulus solve my.toml -o results");
-  auto* dynamics =
-      limits(out(add_command(app, arguments, "dynamics", "The lumped model from tables, solved first if missing")));
-  dynamics->add_option("--tables", arguments.tables,
-                       "Folder of an earlier run whose tables are used if they still fit");
-  examples(dynamics, "  annulus dynamics faster.toml --tables out/my");
-  examples(limits(out(add_command(app, arguments, "tradeoff",
-                                  "Every way to compute the stage measured: error against time and memory"))),
+  examples(
+      cache(limits(budget(out(add_command(app, arguments, "run", "Everything the scene asks for, and the report"))))),
+      "  annulus run my.toml\n"
+      "  annulus run my.toml -o results --threads 4\n"
+      "  annulus run my.toml --budget 30s      as accurate as half a minute allows");
+  examples(
+      cache(limits(out(add_command(app, arguments, "solve", "Meshes, loaded transmission error, stiffness tables")))),
+      "  annulus solve my.toml -o results");
+  examples(cache(limits(
+               out(add_command(app, arguments, "dynamics", "The lumped model from tables, solved first if missing")))),
+           "  annulus dynamics faster.toml          takes cached tables of any earlier run that fit");
+  examples(cache(limits(out(add_command(app, arguments, "tradeoff",
+                                        "Every way to compute the stage measured: error against time and memory")))),
            "  annulus tradeoff my.toml              then open out/my/tradeoff.html");
   auto* compare =
       app.add_subcommand("compare", "Finished runs side by side: figures, errors, inputs that differ, cost");
@@ -151,6 +156,14 @@ void declare(CLI::App& app, Arguments& arguments) {
            "  annulus explain module_mm\n"
            "  annulus explain supports");
 
+  auto* cached = app.add_subcommand("cache", "Cached results: what there is, or remove it");
+  cached->add_option("folder", arguments.cache, "Folder of the cache; default the one that runs use");
+  cached->add_flag("--clear", arguments.clear, "Remove all cached results");
+  add_common(*cached, arguments);
+  examples(cached,
+           "  annulus cache\n"
+           "  annulus cache --clear");
+
   auto* completion = app.add_subcommand("completion", "Completion of commands and options for a shell");
   completion->add_option("shell", arguments.shell, "bash, zsh or fish")->required();
   examples(completion, "  annulus completion bash > ~/.local/share/bash-completion/completions/annulus");
@@ -188,6 +201,7 @@ int run_command_line(int argc, char** argv) {
       {"plan", [&] { plan_command(arguments); }},
       {"check", [&] { check_command(arguments); }},
       {"export", [&] { export_command(arguments); }},
+      {"cache", [&] { cache_command(arguments); }},
       {"new", [&] { new_command(arguments); }},
       {"explain", [&] { explain_command(arguments); }},
       {"completion", [&] { fmt::print("{}", completion_script(app, arguments.shell)); }}};

@@ -18,6 +18,7 @@
 #include "app/plan/run_limits.h"
 #include "app/report/page.h"
 #include "app/results/figure_table.h"
+#include "app/results/user_cache.h"
 #include "app/scene/new_scene.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/scene_schema.h"
@@ -26,6 +27,7 @@
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/log.h"
+#include "core/result_store.h"
 
 namespace annulus::app {
 
@@ -35,7 +37,7 @@ RunOptions run_options(const Arguments& arguments, const Scene& scene) {
   RunOptions options{.threads = arguments.threads};
   options.out =
       arguments.out.empty() ? std::filesystem::path("out") / scene.file.stem() : std::filesystem::path(arguments.out);
-  if (!arguments.tables.empty()) options.tables = arguments.tables;
+  options.cache = arguments.cache.empty() ? results_cache(options.out) : std::filesystem::path(arguments.cache);
   return options;
 }
 
@@ -208,6 +210,26 @@ void explain_command(const Arguments& arguments) {
 void export_command(const Arguments& arguments) {
   const auto file = export_file(arguments.scene, arguments.format, arguments.out, arguments.ring);
   fmt::print("written {}\n", file.string());
+}
+
+void cache_command(const Arguments& arguments) {
+  std::filesystem::path folder = arguments.cache;
+  if (folder.empty()) {
+    folder = results_cache({});
+    if (user_cache().empty())
+      throw InputError(
+          "runs cache their results in OUT/cache here (ANNULUS_CACHE is empty, or no home is known); name it");
+  }
+  if (arguments.clear) ResultStore::clear(folder);
+  constexpr double MB = 1e-6;
+  double bytes = 0;
+  std::string text;
+  for (const auto& kind : ResultStore::contents(folder)) {
+    bytes += static_cast<double>(kind.bytes);
+    text += fmt::format("  {:20} {:6} {:10.1f} MB\n", kind.kind, kind.results, MB * static_cast<double>(kind.bytes));
+  }
+  fmt::print("{}: {:.1f} MB of at most {:.0f} MB\n{}", folder.string(), MB * bytes,
+             MB * static_cast<double>(ResultStore::usual_most_bytes), text);
 }
 
 void new_command(const Arguments& arguments) {

@@ -8,10 +8,10 @@ namespace annulus::app {
 
 /// What the command line says, whatever the command.
 struct Arguments {
-  std::string scene, out, tables, key, format, ring, kind, rexs, shell;
+  std::string scene, out, cache, key, format, ring, kind, rexs, shell;
   std::vector<std::string> folders;  ///< of compare
   std::optional<std::string> budget, max_memory, max_time;
-  bool json = false, markdown = false, quiet = false, verbose = false;
+  bool json = false, markdown = false, clear = false, quiet = false, verbose = false;
   int threads = 1;
 };
 
@@ -24,6 +24,7 @@ void plan_command(const Arguments& arguments);
 void compare_command(const Arguments& arguments);
 void check_command(const Arguments& arguments);
 void export_command(const Arguments& arguments);
+void cache_command(const Arguments& arguments);
 void new_command(const Arguments& arguments);
 void explain_command(const Arguments& arguments);
 

@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "app/content_id.h"
-#include "app/pipeline.h"
+#include "app/model/run_options.h"
+#include "app/results/program_identity.h"
+#include "app/scene/scene.h"
 #include "core/files.h"
 #include "core/json.h"
+#include "core/log.h"
 
 namespace annulus::app {
 
@@ -18,19 +21,12 @@ namespace {
 constexpr const char* note_name = "run.json";
 constexpr const char* missing = "missing";
 
-/// Size and time; "missing" where there is no such file.
-std::string stamp(const std::filesystem::path& file) {
-  std::error_code none;
-  const auto bytes = std::filesystem::file_size(file, none);
-  if (none) return missing;
-  const auto time = std::filesystem::last_write_time(file, none);
-  if (none) return missing;
-  return fmt::format("{} bytes, {}", bytes, time.time_since_epoch().count());
-}
+/// "missing" where there is no such file.
+std::string stamp(const std::filesystem::path& file) { return file_checksum(file).value_or(missing); }
 
-/// Condensed teeth are dropped when they become too many, and temporary files belong to whoever writes them.
+/// Cached results are dropped when they become too many, and temporary files belong to whoever writes them.
 bool belongs_to_run(const std::filesystem::path& relative) {
-  return *relative.begin() != "condensed" && relative != note_name && !is_unfinished(relative);
+  return *relative.begin() != "cache" && relative != note_name && !is_unfinished(relative);
 }
 
 std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& out) {
@@ -48,9 +44,8 @@ std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& out
 
 std::string run_id(const Scene& scene, const RunOptions& options) {
   ContentId id;
-  id.add("program", stamp("/proc/self/exe"));
+  id.add("program", program_identity());
   id.add("scene", scene.text).add("dynamics", options.with_dynamics).add("accuracy", scene.accuracy);
-  id.add("tables", options.tables ? std::filesystem::absolute(*options.tables).string() : "");
   for (const auto& input : scene.inputs)
     id.add(input.ring + input.key,
            fmt::format("{} {} {} {}", to_text(input.value), to_text(input.origin), input.note, input.assumed));
@@ -77,8 +72,7 @@ std::optional<std::string> why_unfinished(const std::filesystem::path& out) {
     if (note.is_discarded()) return fmt::format("{} is damaged", note_name);
     for (const auto& [name, kept] : note.at("files").items()) {
       const auto now = stamp(out / name);
-      const auto size = [](const std::string& text) { return text.substr(0, text.find(',')); };
-      if (now != missing && size(now) != size(kept.get<std::string>())) return name + " has changed since";
+      if (now != missing && now != kept) return name + " has changed since";
     }
   } catch (const Json::exception&) {
     return fmt::format("{} is damaged", note_name);
@@ -92,8 +86,13 @@ std::optional<std::string> finished_run(const std::filesystem::path& out, const 
   const auto note = Json::parse(stream, nullptr, false);
   try {
     if (note.is_discarded() || note.at("inputs_id") != id) return std::nullopt;
-    for (const auto& [name, kept] : note.at("files").items())
-      if (stamp(out / name) != kept) return std::nullopt;
+    for (const auto& [name, kept] : note.at("files").items()) {
+      const auto now = stamp(out / name);
+      if (now == kept) continue;
+      log::info(fmt::format("{} {} since the last run; it is written again", (out / name).string(),
+                            now == missing ? "is missing" : "has changed"));
+      return std::nullopt;
+    }
     return note.at("text").get<std::string>();
   } catch (const Json::exception&) {
     return std::nullopt;  // not a note of ours

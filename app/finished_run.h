@@ -9,11 +9,11 @@ namespace annulus::app {
 struct RunOptions;
 struct Scene;
 
-/// What all results of a run depend on: inputs with their origins, whatever else the scene file says, size and time of
-/// the files it names and of the program itself.
+/// What all results of a run depend on: inputs with their origins, whatever else the scene file says, the content of
+/// the files it names, and the program itself.
 [[nodiscard]] std::string run_id(const Scene& scene, const RunOptions& options);
 
-/// Notes in OUT/run.json that the run of this identity ended with `text`, and size and time of every file it left.
+/// Notes in OUT/run.json that the run of this identity ended with `text`, and size and checksum of every file it left.
 void keep_finished_run(const std::filesystem::path& out, const std::string& id, const std::string& text);
 
 /// The text of the run of this identity if every file it left is as it was; then nothing is to be done again. Nothing

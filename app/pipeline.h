@@ -24,10 +24,13 @@ namespace annulus::app {
 // 3. Contact: gmsh meshes, elastic bodies, contact of one gear mesh at every position and load.
 [[nodiscard]] fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& options);
 
-// 4. Stiffness table with pictures, shares and invariants: read back if unchanged, else solved, packed and kept in
-//    OUT/<folder> for each folder.
-[[nodiscard]] MeshResult computed_stiffness(const MeshModel& model, const std::vector<std::string>& folders,
+// 4. Stiffness table with pictures, shares and invariants in OUT/<folder>: from the cache if unchanged, else solved,
+//    packed and cached.
+[[nodiscard]] MeshResult computed_stiffness(const MeshModel& model, const std::string& folder,
                                             const RunOptions& options);
+/// Only from the cache; nothing when it is not there.
+[[nodiscard]] std::optional<MeshResult> cached_stiffness(const MeshModel& model, const std::string& folder,
+                                                         const RunOptions& options);
 
 // 5. Lumped model on the tables: SystemRun::respond (model/system_run.h). Where the scene asks for [[sweep]],
 //    [monte_carlo] or [sensitivity], steps 2 to 5 again for changed scenes (study/studies.h).

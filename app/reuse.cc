@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "app/content_id.h"
-#include "app/pipeline.h"
+#include "app/model/run_options.h"
+#include "app/results/program_identity.h"
 #include "core/json.h"
-#include "fem/problem/condensed_store.h"
+#include "core/result_store.h"
 
 namespace annulus::app {
 
@@ -77,7 +77,9 @@ void count_reuse(const RunOptions& options, const std::string& things, long reus
 RunOptions with_reuse(const RunOptions& options) {
   RunOptions result = options;
   if (!result.reuse) result.reuse = std::make_shared<Reuse>();
-  if (!result.store) result.store = std::make_shared<fem::CondensedStore>(result.out / "condensed", version());
+  if (!result.store)
+    result.store =
+        std::make_shared<ResultStore>(result.cache.empty() ? result.out / "cache" : result.cache, program_identity());
   return result;
 }
 

@@ -17,7 +17,7 @@ class Reuse {
  public:
   /// A result of its own: "sun-planet mesh", "dynamics of 'pinned'".
   void note(const std::string& result, bool reused);
-  /// Things that are counted: "condensed teeth", "responses of studies".
+  /// Things that are counted: "tooth superelements", "responses of studies".
   void count(const std::string& things, long reused, long computed);
 
   /// In alphabetical order, however threads came.
@@ -42,14 +42,14 @@ class Reuse {
   std::map<std::string, Count> counts_;
 };
 
-inline constexpr const char *condensed_teeth = "condensed teeth", *study_meshes = "meshes of studies",
+inline constexpr const char *condensed_teeth = "tooth superelements", *study_meshes = "meshes of studies",
                             *study_responses = "responses of studies", *search_evaluations = "evaluations of searches";
 
 /// Where the run notes its reuse: a result of its own, or one of those that a study counts.
 void note_reuse(const RunOptions& options, const std::string& result, bool reused);
 void count_reuse(const RunOptions& options, const std::string& things, long reused, long computed);
 
-/// The options of a run that notes its reuse, and keeps condensed teeth in OUT/condensed.
+/// The options of a run that notes its reuse and caches its results.
 [[nodiscard]] RunOptions with_reuse(const RunOptions& options);
 
 }  // namespace annulus::app

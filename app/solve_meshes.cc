@@ -1,13 +1,28 @@
 #include <fmt/format.h>
 
+#include "app/content_id.h"
 #include "app/pipeline.h"
 #include "app/plan/cost_plan.h"
 #include "app/progress.h"
+#include "app/results/cached_files.h"
 #include "core/log.h"
+#include "core/result_store.h"
 
 namespace annulus::app {
 
 namespace {
+
+constexpr const char *cached_meshes = "meshes", *cached_fields = "mesh_fields";
+
+/// Of all that the files of a mesh depend on. Pictures name the ring; studies go without fields.
+std::string files_id(const MeshModel& model, const RunOptions& options) {
+  return ContentId()
+      .add("inputs", model.id())
+      .add("mesh", model.mesh)
+      .add("ring", model.ring)
+      .add("fields", options.for_study ? 0 : 1)
+      .id();
+}
 
 std::vector<geometry::PointData> point_data(const fem::BodyField& field) {
   geometry::PointData displacement{"displacement_m", 3, {}}, von_mises{"von_mises_Pa", 1, {}},
@@ -31,17 +46,6 @@ void write_meshes(const MeshModel& model, const fem::LoadedMeshResult& solved, c
   }
   for (const auto& field : solved.fields)
     geometry::write_vtu(field.mesh, folder / (name_of(field.body == "planet") + "_field.vtu"), point_data(field));
-}
-
-/// The sun mesh belongs to all rings: one added later gets its files from the others.
-void copy_meshes(const MeshModel& model, const std::filesystem::path& from, const std::filesystem::path& to) {
-  if (from == to || !std::filesystem::exists(from)) return;
-  std::filesystem::create_directories(to);
-  for (const auto& file : std::filesystem::directory_iterator(from)) {
-    const auto name = file.path().filename();
-    if (!name.string().starts_with(model.mesh + "_")) continue;
-    std::filesystem::copy_file(file.path(), to / name, std::filesystem::copy_options::skip_existing);
-  }
 }
 
 }  // namespace
@@ -68,28 +72,34 @@ fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& op
   return solved;
 }
 
-MeshResult computed_stiffness(const MeshModel& model, const std::vector<std::string>& folders,
-                              const RunOptions& options) {
-  std::optional<MeshResult> result;
-  std::filesystem::path source;
-  for (const auto& folder : folders) {
-    for (const auto& root : {options.out, options.tables.value_or(options.out)}) {
-      if (result) continue;
-      result = load(model, root / folder);
-      source = root / folder;
-    }
-  }
+std::optional<MeshResult> cached_stiffness(const MeshModel& model, const std::string& folder,
+                                           const RunOptions& options) {
+  const auto* store = options.store.get();
+  const auto id = files_id(model, options);
+  const auto fields = store ? store->find(cached_fields, id) : std::nullopt;
+  if (!fields || !restore_files(store, cached_meshes, id, options.out / folder)) return std::nullopt;
+  auto result = load(model, options.out / folder);
+  result.fields = *fields;
+  return result;
+}
+
+MeshResult computed_stiffness(const MeshModel& model, const std::string& folder, const RunOptions& options) {
+  auto result = cached_stiffness(model, folder, options);
   note_reuse(options, model.label(), result.has_value());
   if (options.for_study) count_reuse(options, study_meshes, result ? 1 : 0, result ? 0 : 1);
   if (result) {
     log::info(fmt::format("{}: unchanged, reused", model.label()));
-    for (const auto& folder : folders) copy_meshes(model, source / "mesh", options.out / folder / "mesh");
-  } else {
-    const auto solved = solve_contact(model, options);
-    result = pack(model, solved);
-    for (const auto& folder : folders) write_meshes(model, solved, options.out / folder / "mesh");
+    return std::move(*result);
   }
-  for (const auto& folder : folders) save(*result, options.out / folder);
+  const auto solved = solve_contact(model, options);
+  result = pack(model, solved);
+  write_meshes(model, solved, options.out / folder / "mesh");
+  save(*result, options.out / folder);
+  if (const auto* store = options.store.get()) {
+    const auto id = files_id(model, options);
+    store->keep(cached_fields, id, result->fields);
+    cache_files(store, cached_meshes, id, options.out / folder, mesh_files(model));
+  }
   return std::move(*result);
 }
 

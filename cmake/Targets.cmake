@@ -21,6 +21,9 @@ function(annulus_add_layer name)
   endif()
 endfunction()
 
+# Cached results belong to the build that computed them.
+add_link_options(LINKER:--build-id)
+
 function(annulus_set_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                          $<$<BOOL:${ANNULUS_WARNINGS_AS_ERRORS}>:-Werror>)
@@ -81,7 +84,7 @@ function(annulus_add_tests name)
     add_test(NAME ${name}.${suite} COMMAND test_${name} --run_test=${suite} --log_level=test_suite)
     annulus_label_test(${name}.${suite} ${labels} ${ARG_LAYER})
     set_tests_properties(${name}.${suite} PROPERTIES
-                         ENVIRONMENT ANNULUS_VERIFICATION_RECORD=${ANNULUS_VERIFICATION_RECORDS})
+                         ENVIRONMENT "ANNULUS_VERIFICATION_RECORD=${ANNULUS_VERIFICATION_RECORDS};ANNULUS_CACHE=")
     if(NOT name STREQUAL app)
       set_tests_properties(${name}.${suite} PROPERTIES FIXTURES_REQUIRED verification_records)
       set_property(GLOBAL APPEND PROPERTY ANNULUS_TEST_ENTRIES "${kind} ${name} ${suite} $<TARGET_FILE:test_${name}>")

@@ -54,38 +54,7 @@ double to_number(std::string_view cell, const std::filesystem::path& file, int l
   return value;
 }
 
-bool single_line(const std::string& text) { return text.find_first_of("\r\n") == std::string::npos; }
-
-}  // namespace
-
-void Csv::write(const std::filesystem::path& file) const {
-  fmt::memory_buffer out;
-  const auto to = std::back_inserter(out);
-  for (const auto& [key, value] : header) {
-    // Such a file could not be read back.
-    if (key.empty() || key.find(':') != std::string::npos || !single_line(key) || !single_line(value))
-      throw InputError(
-          fmt::format("{}: header '{}: {}' must be one line with no colon in the key", file.string(), key, value));
-    fmt::format_to(to, "# {}: {}\n", key, value);
-  }
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (columns[i].empty() || columns[i].find(',') != std::string::npos || !single_line(columns[i]))
-      throw InputError(fmt::format("{}: column name '{}' is empty or holds a comma", file.string(), columns[i]));
-    fmt::format_to(to, "{}{}", i ? "," : "", columns[i]);
-  }
-  fmt::format_to(to, "\n");
-  for (const auto& row : rows) {
-    require(row.size() == columns.size(), "CSV row and header differ in length");
-    for (std::size_t i = 0; i < row.size(); ++i) fmt::format_to(to, "{}{:.17g}", i ? "," : "", row[i]);
-    fmt::format_to(to, "\n");
-  }
-  write_file(file, fmt::to_string(out));
-}
-
-Csv Csv::read(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file))
-    throw InputError(fmt::format("cannot read {}: no such file, or not readable", file.string()));
+Csv parsed(std::istream& stream, const std::filesystem::path& file) {
   Csv csv;
   std::string text;
   int line = 0;
@@ -119,6 +88,64 @@ Csv Csv::read(const std::filesystem::path& file) {
   }
   if (csv.columns.empty()) throw at_line(file, line + 1, "no line with column names");
   return csv;
+}
+
+bool single_line(const std::string& text) { return text.find_first_of("\r\n") == std::string::npos; }
+
+}  // namespace
+
+std::string Csv::text() const {
+  fmt::memory_buffer out;
+  const auto to = std::back_inserter(out);
+  for (const auto& [key, value] : header) {
+    // Such a file could not be read back.
+    if (key.empty() || key.find(':') != std::string::npos || !single_line(key) || !single_line(value))
+      throw InputError(fmt::format("header '{}: {}' must be one line with no colon in the key", key, value));
+    fmt::format_to(to, "# {}: {}\n", key, value);
+  }
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].empty() || columns[i].find(',') != std::string::npos || !single_line(columns[i]))
+      throw InputError(fmt::format("column name '{}' is empty or holds a comma", columns[i]));
+    fmt::format_to(to, "{}{}", i ? "," : "", columns[i]);
+  }
+  fmt::format_to(to, "\n");
+  for (const auto& row : rows) {
+    require(row.size() == columns.size(), "CSV row and header differ in length");
+    for (std::size_t i = 0; i < row.size(); ++i) fmt::format_to(to, "{}{}", i ? "," : "", row[i]);
+    fmt::format_to(to, "\n");
+  }
+  return fmt::to_string(out);
+}
+
+void Csv::write(const std::filesystem::path& file) const {
+  try {
+    write_file(file, text());
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    throw InputError(what.find(file.string()) == std::string::npos ? file.string() + ": " + what : what);
+  }
+}
+
+Csv Csv::read(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file))
+    throw InputError(fmt::format("cannot read {}: no such file, or not readable", file.string()));
+  return parsed(stream, file);
+}
+
+Csv Csv::parse(const std::string& text, const std::filesystem::path& name) {
+  std::istringstream stream(text);
+  return parsed(stream, name);
+}
+
+void Csv::round() {
+  for (auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      char text[40];
+      const auto end = fmt::format_to_n(text, sizeof text, "{:.{}e}", row[i], i == 0 ? 8 : 6).out;
+      if (std::isfinite(row[i])) std::from_chars(text, end, row[i]);
+    }
+  }
 }
 
 std::size_t Csv::column(const std::string& name) const {

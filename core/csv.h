@@ -14,10 +14,17 @@ struct Csv {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;
 
-  /// 17 significant digits: every double survives the round trip.
+  /// As few digits as give every double back.
+  [[nodiscard]] std::string text() const;
   void write(const std::filesystem::path& file) const;
   /// Throws InputError naming file and line when a cell is not a number or a row has the wrong length.
   [[nodiscard]] static Csv read(const std::filesystem::path& file);
+  /// `name`: of the file in messages.
+  [[nodiscard]] static Csv parse(const std::string& text, const std::filesystem::path& name);
+
+  /// Rounds to seven significant digits, far below any error of a result, and the first column, over which the others
+  /// are told, to nine: bulky tables shrink to less than half.
+  void round();
   /// Index of a column; throws InputError naming the column when it is missing.
   [[nodiscard]] std::size_t column(const std::string& name) const;
   /// For messages: the names of the first columns, whatever stands in them.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <atomic>
 #include <cerrno>
@@ -74,6 +75,21 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
     throw InputError(
         fmt::format("cannot write {}: check that its folder exists, is writable and not full", file.string()));
   unfinished.finish();
+}
+
+std::optional<std::string> file_checksum(const std::filesystem::path& file) {
+  constexpr std::streamsize block = 1 << 20;
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return std::nullopt;
+  std::vector<char> buffer(block);
+  unsigned long sum = 0;
+  std::uintmax_t bytes = 0;
+  while (in.read(buffer.data(), block), in.gcount() > 0) {
+    const auto count = static_cast<std::size_t>(in.gcount());
+    sum = ::crc32_z(sum, reinterpret_cast<const Bytef*>(buffer.data()), count);
+    bytes += count;
+  }
+  return fmt::format("{} bytes, {:08x}", bytes, sum);
 }
 
 void remove_unfinished_files(const std::filesystem::path& folder) {

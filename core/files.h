@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace annulus {
@@ -32,6 +33,9 @@ void write_file(const std::filesystem::path& file, const std::string& text);
 
 /// The whole file, byte by byte. Throws InputError naming the file when it cannot be read.
 [[nodiscard]] std::string read_file(const std::filesystem::path& file);
+
+/// "123 bytes, 0a1b2c3d": size and CRC-32 of the content; nothing where there is no such file.
+[[nodiscard]] std::optional<std::string> file_checksum(const std::filesystem::path& file);
 
 /// Removes what killed processes left unfinished in `folder` and below: files of none that still runs here, untouched
 /// for ten minutes (another machine may be at work in the same folder).

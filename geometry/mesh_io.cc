@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 #include <gmsh.h>
+#include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <boost/archive/iterators/base64_from_binary.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <string>
 #include <string_view>
@@ -105,16 +108,7 @@ void write_msh(const Mesh& mesh, const std::filesystem::path& file) {
 
 namespace {
 
-/// As VTK reads it: the number of bytes, then the bytes, in base 64.
-template <class Number>
-std::string base64(const std::vector<Number>& values) {
-  static_assert(std::endian::native == std::endian::little, "the header of the file says so");
-  const std::size_t size = values.size() * sizeof(Number);
-  const auto bytes = static_cast<std::uint32_t>(size);
-  require(bytes == size, "an array of a VTU file below 4 GiB");
-  std::string raw(sizeof(bytes) + size, '\0');
-  std::memcpy(raw.data(), &bytes, sizeof(bytes));
-  if (size > 0) std::memcpy(raw.data() + sizeof(bytes), values.data(), size);
+std::string base64(std::string raw) {
   const std::size_t padding = (3 - raw.size() % 3) % 3;
   raw.append(padding, '\0');
   using Digits = boost::archive::iterators::base64_from_binary<
@@ -124,12 +118,31 @@ std::string base64(const std::vector<Number>& values) {
   return text;
 }
 
+/// As VTK reads it: number and size of blocks, size of a partial one, compressed size; then the only block.
+template <class Number>
+std::string compressed(const std::vector<Number>& values) {
+  static_assert(std::endian::native == std::endian::little, "the header of the file says so");
+  const std::size_t size = values.size() * sizeof(Number);
+  require(size < std::numeric_limits<std::uint32_t>::max(), "an array of a VTU file below 4 GiB");
+  std::string packed(::compressBound(size), '\0');
+  uLongf length = packed.size();
+  const int status =
+      ::compress(reinterpret_cast<Bytef*>(packed.data()), &length, reinterpret_cast<const Bytef*>(values.data()), size);
+  require(status == Z_OK, "a buffer of the bound's size holds the compressed array");
+  packed.resize(length);
+  const std::array<std::uint32_t, 4> header = {1, static_cast<std::uint32_t>(size), 0,
+                                               static_cast<std::uint32_t>(length)};
+  std::string head(sizeof header, '\0');
+  std::memcpy(head.data(), header.data(), sizeof header);
+  return base64(head) + base64(packed);
+}
+
 template <class Number>
 void add_array(std::string& text, std::string_view type, std::string_view name, int components,
                const std::vector<Number>& values) {
   fmt::format_to(std::back_inserter(text),
                  "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">\n{}\n</DataArray>\n",
-                 type, name, components, base64(values));
+                 type, name, components, compressed(values));
 }
 
 }  // namespace
@@ -142,24 +155,24 @@ void write_vtu(const Mesh& mesh, const std::filesystem::path& file, const std::v
   std::vector<double> points;
   points.reserve(3 * mesh.vertices.size());
   for (const auto& v : mesh.vertices) points.insert(points.end(), v.begin(), v.end());
-  std::vector<std::int64_t> connectivity, offsets;
+  std::vector<std::int32_t> connectivity, offsets;
   for (const auto& cell : mesh.cells) {
     connectivity.insert(connectivity.end(), cell.begin(), cell.begin() + corners);
-    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+    offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
   }
   const std::vector<std::uint8_t> types(mesh.cells.size(), solid ? vtk_hexahedron : vtk_quad);
   std::vector<std::int32_t> regions;
   for (const auto region : mesh.regions) regions.push_back(static_cast<std::int32_t>(region));
 
   std::string text = fmt::format(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
-      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\" "
+      "compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
       mesh.vertices.size(), mesh.cells.size());
   text += "<Points>\n";
   add_array(text, "Float64", "Points", 3, points);
   text += "</Points>\n<Cells>\n";
-  add_array(text, "Int64", "connectivity", 1, connectivity);
-  add_array(text, "Int64", "offsets", 1, offsets);
+  add_array(text, "Int32", "connectivity", 1, connectivity);
+  add_array(text, "Int32", "offsets", 1, offsets);
   add_array(text, "UInt8", "types", 1, types);
   text += "</Cells>\n<CellData Scalars=\"region\">\n";
   add_array(text, "Int32", "region", 1, regions);

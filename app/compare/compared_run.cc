@@ -22,12 +22,12 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t largest_summary = 50'000'000;  // bytes; those of long searches have a few millions
 
-/// Whether something of a run lies here: results of meshes, or teeth kept for later runs.
+/// Whether something of a run lies here: results of meshes, or a cache.
 bool has_begun(const fs::path& folder) {
   std::error_code error;
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const auto name = at->path().filename().string();
-    if (name == "condensed" || name == "run.json" || name == "dynamics" || name.starts_with("stiffness_") ||
+    if (name == "cache" || name == "run.json" || name == "dynamics" || name.starts_with("stiffness_") ||
         name.starts_with("lte_"))
       return true;
   }

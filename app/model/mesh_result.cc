@@ -168,6 +168,8 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
                     .stress = stress_table(model, solved),
                     .facts = facts_of(solved),
                     .nominal = model.nominal_load()};
+  result.positions.round();
+  for (const auto& [name, member] : side_tables) (result.*member).round();
   if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.ring);
   for (const auto& field : solved.fields)
     result.fields += field_view(field, solved.positions[field.position], model.body_name(field.body == "planet"));
@@ -194,7 +196,6 @@ void save(const MeshResult& result, const std::filesystem::path& folder) {
   keep("lte", std::move(positions));
   for (const auto& [name, member] : side_tables) keep(name, result.*member);
   if (!result.picture.empty()) write_file(folder / "mesh" / (mesh + ".svg"), result.picture);
-  if (!result.fields.empty()) write_file(folder / "mesh" / (mesh + "_fields.html"), result.fields);
   // Written last: its presence says that the others are complete.
   result.table.write_csv(folder / ("stiffness_" + mesh + ".csv"));
 }

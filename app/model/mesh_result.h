@@ -47,7 +47,7 @@ struct MeshResult {
   Csv line_load{};        ///< line_load_<mesh>.csv: load over the face width
   Csv stress{};           ///< stress_<mesh>.csv: stress along roots and rim; its header names the curves
   std::string picture{};  ///< SVG of the meshes in contact; empty when none was meshed
-  std::string fields{};   ///< HTML: deformation and stress of both bodies (field_view.h); empty when not computed
+  std::string fields{};   ///< HTML: deformation and stress of both bodies (field_view.h); in no file, may be empty
   /// Invariants and sizes by name: force_balance_relative, max_penetration_m, unknowns, mesh_seconds ...
   std::map<std::string, double> facts{};
   /// Ring meshes: how those of all planets act on each other through the ring; null when that was not looked at.
@@ -81,7 +81,9 @@ inline constexpr std::pair<const char*, Csv MeshResult::*> side_tables[] = {{"pi
 
 /// Writes lte_, stiffness_, pins_, ... <mesh>.csv and the picture into `folder` (OUT/<ring>).
 void save(const MeshResult& result, const std::filesystem::path& folder);
-/// The result kept in `folder`, if its inputs are those of `model`.
-[[nodiscard]] std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::path& folder);
+/// All files that the result of this mesh may have in its folder.
+[[nodiscard]] std::vector<std::string> mesh_files(const MeshModel& model);
+/// The result that `save` wrote into `folder`. Throws InputError where files are missing or damaged.
+[[nodiscard]] MeshResult load(const MeshModel& model, const std::filesystem::path& folder);
 
 }  // namespace annulus::app

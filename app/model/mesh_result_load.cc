@@ -11,13 +11,6 @@ namespace annulus::app {
 
 namespace {
 
-std::string header_value(const std::vector<std::pair<std::string, std::string>>& header, const std::string& key) {
-  for (const auto& [k, v] : header) {
-    if (k == key) return v;
-  }
-  return "";
-}
-
 /// The header without the lines that every file carries.
 std::vector<std::pair<std::string, std::string>> without_stamp(
     const std::vector<std::pair<std::string, std::string>>& header) {
@@ -81,45 +74,39 @@ MeshResult given_stiffness(const MeshModel& model, const MeshInput& input, const
   return {.model = model, .contact_ratio = contact_ratio, .table = sampled(model.mesh, input, nominal_load)};
 }
 
-std::optional<MeshResult> load(const MeshModel& model, const std::filesystem::path& folder) {
-  const auto table_file = folder / ("stiffness_" + model.mesh + ".csv");
-  const auto positions_file = folder / ("lte_" + model.mesh + ".csv");
-  const auto picture_file = folder / "mesh" / (model.mesh + ".svg"),
-             fields_file = folder / "mesh" / (model.mesh + "_fields.html");
-  for (const auto& file : {table_file, positions_file, picture_file}) {
-    const bool needed = file != picture_file || model.settings.fidelity != fem::Fidelity::closed_form;
-    if (needed && !std::filesystem::exists(file)) return std::nullopt;
+std::vector<std::string> mesh_files(const MeshModel& model) {
+  std::vector<std::string> names = {"stiffness_" + model.mesh + ".csv", "lte_" + model.mesh + ".csv",
+                                    "mesh/" + model.mesh + ".svg"};
+  for (const auto& [name, member] : side_tables) names.push_back(std::string(name) + "_" + model.mesh + ".csv");
+  for (const bool planet : {true, false}) {
+    const auto body = "mesh/" + model.mesh + "_" + model.body_name(planet);
+    for (const auto* ending : {".msh", ".vtu", "_field.vtu"}) names.push_back(body + ending);
   }
-  const std::string id = model.id();
-  try {
-    auto table = StiffnessTable::read_csv(table_file);
-    auto positions = Csv::read(positions_file);
-    if (header_value(table.provenance, "inputs_id") != id || header_value(positions.header, "inputs_id") != id)
-      return std::nullopt;
-    MeshResult result{.model = model, .table = std::move(table), .nominal = model.nominal_load(), .reused = true};
-    for (const auto& [key, value] : without_stamp(positions.header)) {
-      if (key == "contact_ratio") {
-        result.contact_ratio = std::stod(value);
-      } else {
-        result.facts[key] = std::stod(value);
-      }
-    }
-    positions.header.clear();
-    result.positions = std::move(positions);
-    for (const auto& [name, member] : side_tables) {
-      const auto file = folder / (std::string(name) + "_" + model.mesh + ".csv");
-      if (!std::filesystem::exists(file)) continue;
-      auto csv = Csv::read(file);
-      if (header_value(csv.header, "inputs_id") != id) continue;
-      csv.header = without_stamp(csv.header);
-      result.*member = std::move(csv);
-    }
-    if (std::filesystem::exists(picture_file)) result.picture = read_file(picture_file);
-    if (std::filesystem::exists(fields_file)) result.fields = read_file(fields_file);
-    return result;
-  } catch (const std::exception&) {
-    return std::nullopt;  // damaged or from another version: solved again and overwritten
+  return names;
+}
+
+MeshResult load(const MeshModel& model, const std::filesystem::path& folder) {
+  const auto picture = folder / "mesh" / (model.mesh + ".svg");
+  const auto positions = Csv::read(folder / ("lte_" + model.mesh + ".csv"));
+  MeshResult result{.model = model,
+                    .table = StiffnessTable::read_csv(folder / ("stiffness_" + model.mesh + ".csv")),
+                    .nominal = model.nominal_load(),
+                    .reused = true};
+  for (const auto& [key, value] : without_stamp(positions.header)) {
+    if (key == "contact_ratio")
+      result.contact_ratio = std::stod(value);
+    else
+      result.facts[key] = std::stod(value);
   }
+  result.positions = {.header = {}, .columns = positions.columns, .rows = positions.rows};
+  for (const auto& [name, member] : side_tables) {
+    const auto file = folder / (std::string(name) + "_" + model.mesh + ".csv");
+    if (!std::filesystem::exists(file)) continue;
+    auto& csv = result.*member = Csv::read(file);
+    csv.header = without_stamp(csv.header);
+  }
+  if (std::filesystem::exists(picture)) result.picture = read_file(picture);
+  return result;
 }
 
 }  // namespace annulus::app

@@ -8,20 +8,20 @@
 #include "app/plan/mesh_model.h"
 #include "app/reuse.h"
 
-namespace annulus::fem {
-class CondensedStore;
+namespace annulus {
+class ResultStore;
 }
 
 namespace annulus::app {
 
 struct RunOptions {
-  std::filesystem::path out{};                    ///< folder of all results
-  std::optional<std::filesystem::path> tables{};  ///< where to look for earlier tables; absent: `out`
+  std::filesystem::path out{};    ///< folder of all results
+  std::filesystem::path cache{};  ///< folder of cached results; empty: OUT/cache
   int threads = 1;
   bool with_dynamics = true;  ///< false: meshes, transmission error and stiffness only
-  // Set by the run itself (with_reuse); without them nothing is noted and every tooth is condensed.
+  // Set by the run itself (with_reuse); without them nothing is noted and everything is computed.
   std::shared_ptr<Reuse> reuse{};
-  std::shared_ptr<fem::CondensedStore> store{};
+  std::shared_ptr<const ResultStore> store{};
   bool for_study = false;  ///< what is computed belongs to a changed scene
   /// Changes how a mesh is solved from what was planned (measurements); absent: as planned.
   std::function<MeshModel(const MeshModel& planned)> remodel{};

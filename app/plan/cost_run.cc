@@ -4,9 +4,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <sstream>
 
+#include "app/results/user_cache.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/log.h"
@@ -104,18 +104,8 @@ const std::vector<CostRun>& kept_cost_runs() {
 }
 
 std::filesystem::path user_costs_file() {
-  const auto variable = [](const char* name) -> std::filesystem::path {
-    const char* value = std::getenv(name);
-    return value ? value : "";
-  };
-  if (std::getenv("ANNULUS_CACHE")) {
-    const auto folder = variable("ANNULUS_CACHE");
-    return folder.empty() ? folder : folder / "costs.csv";
-  }
-  // A relative folder is not valid by the XDG base directory specification.
-  if (const auto cache = variable("XDG_CACHE_HOME"); cache.is_absolute()) return cache / "annulus" / "costs.csv";
-  if (const auto home = variable("HOME"); home.is_absolute()) return home / ".cache" / "annulus" / "costs.csv";
-  return {};
+  const auto folder = user_cache();
+  return folder.empty() ? folder : folder / "costs.csv";
 }
 
 std::vector<CostRun> read_user_costs(const std::filesystem::path& file) {

@@ -1,55 +1,44 @@
 #include "app/study/design_store.h"
 
-#include "app/content_id.h"
 #include "app/study/point_store.h"
-#include "core/csv.h"
-#include "core/files.h"
 
 namespace annulus::app {
 
-std::optional<Design> DesignStore::find(const std::vector<double>& x) const {
-  auto point = read_point(point_file(), figures_, id_);
-  if (!point || !std::filesystem::exists(starts_file())) return std::nullopt;
-  Design design{.x = x, .objective = 0, .point = std::move(*point), .starts = std::nullopt};
-  try {
-    const Csv csv = Csv::read(starts_file());
-    if (csv.header.size() < 5 || csv.header[1].second != id_) return std::nullopt;
-    StartSpread spread{.starts = std::stoi(csv.header[2].second),
-                       .motions = std::stoi(csv.header[3].second),
-                       .not_steady = std::stoi(csv.header[4].second)};
-    if (!csv.rows.empty()) {
-      spread.low = spread.high = FigureRow(figures_);
-      for (std::size_t i = 0; i < csv.columns.size(); ++i) {
-        spread.low.set(csv.columns[i], csv.rows.at(0)[i]);
-        spread.high.set(csv.columns[i], csv.rows.at(1)[i]);
-      }
-    }
-    if (spread.starts > 0) design.starts = std::move(spread);
-  } catch (const std::exception&) {
-    return std::nullopt;  // damaged: found again and overwritten
-  }
-  return design;
+namespace {
+
+Json row_json(const FigureRow& row, const std::vector<FigureSpec>& figures) {
+  if (row.empty()) return nullptr;
+  StudyPoint point;
+  point.figures = row;
+  return point_json(point, figures);
 }
 
-void DesignStore::save(const Design& design) const {
-  std::filesystem::create_directories(folder_);
-  write_file(point_file(), point_text(design.point, figures_, id_));
-  const auto spread = design.starts.value_or(StartSpread{});
-  Csv csv{.header = {{"annulus_version", version()},
-                     {"inputs_id", id_},
-                     {"starts", std::to_string(spread.starts)},
-                     {"motions", std::to_string(spread.motions)},
-                     {"not_steady", std::to_string(spread.not_steady)}},
-          .columns = {},
-          .rows = {}};
-  // A column per result; the lowest values, then the highest ones.
-  for (const auto& figure : figures_) csv.columns.push_back(figure.key);
-  for (const auto* row : {&spread.low, &spread.high}) {
-    if (row->empty()) continue;
-    auto& cells = csv.rows.emplace_back();
-    for (const auto& figure : figures_) cells.push_back(row->value(figure.key));
-  }
-  csv.write(starts_file());
+FigureRow row_of(const Json& json, const std::vector<FigureSpec>& figures) {
+  return json.is_null() ? FigureRow{} : point_of(json, figures).figures;
+}
+
+}  // namespace
+
+Json design_json(const Design& design, const std::vector<FigureSpec>& figures) {
+  Json json = {{"point", point_json(design.point, figures)}, {"starts", nullptr}};
+  if (const auto& s = design.starts)
+    json["starts"] = {{"starts", s->starts},
+                      {"motions", s->motions},
+                      {"not_steady", s->not_steady},
+                      {"low", row_json(s->low, figures)},
+                      {"high", row_json(s->high, figures)}};
+  return json;
+}
+
+Design design_of(const Json& json, const std::vector<double>& x, const std::vector<FigureSpec>& figures) {
+  Design design{.x = x, .objective = 0, .point = point_of(json.at("point"), figures), .starts = std::nullopt};
+  if (const auto& s = json.at("starts"); !s.is_null())
+    design.starts = StartSpread{.starts = s.at("starts"),
+                                .motions = s.at("motions"),
+                                .low = row_of(s.at("low"), figures),
+                                .high = row_of(s.at("high"), figures),
+                                .not_steady = s.at("not_steady")};
+  return design;
 }
 
 }  // namespace annulus::app

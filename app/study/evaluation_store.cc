@@ -3,19 +3,19 @@
 #include <algorithm>
 
 #include "app/content_id.h"
-#include "core/csv.h"
-#include "core/errors.h"
+#include "core/result_store.h"
 
 namespace annulus::app {
 
 namespace {
 const std::string failure_line = "failure_";
+constexpr const char* searches = "searches";
 constexpr auto evaluations_interval = std::chrono::seconds(2);  // the most that an interruption costs
 }  // namespace
 
-EvaluationStore::EvaluationStore(std::filesystem::path file, std::string id, std::vector<std::string> variables,
+EvaluationStore::EvaluationStore(const ResultStore* store, std::string id, std::vector<std::string> variables,
                                  std::vector<std::string> figures, const std::vector<FigureSpec>& specs)
-    : file_(std::move(file)),
+    : store_(store),
       id_(std::move(id)),
       variables_(std::move(variables)),
       figures_(std::move(figures)),
@@ -25,31 +25,24 @@ EvaluationStore::EvaluationStore(std::filesystem::path file, std::string id, std
 }
 
 void EvaluationStore::read() {
-  if (!std::filesystem::exists(file_)) return;
-  try {
-    const Csv csv = Csv::read(file_);
-    if (csv.header.size() < 2 || csv.header[1].second != id_) return;
-    if (csv.columns.size() != variables_.size() + 1 + figures_.size()) return;
-    std::map<std::string, std::string> failures;
-    for (const auto& [name, value] : csv.header) failures[name] = value;
-    for (std::size_t row = 0; row < csv.rows.size(); ++row) {
-      const auto& values = csv.rows[row];
-      const auto n = static_cast<std::ptrdiff_t>(variables_.size());
-      const std::vector<double> x(values.begin(), values.begin() + n);
-      StudyPoint point;
-      if (values[variables_.size()] == 0) {
-        point.figures = FigureRow(specs_);
-        for (std::size_t i = 0; i < figures_.size(); ++i)
-          point.figures.set(figures_[i], values[variables_.size() + 1 + i]);
-      } else {
-        point.failure = failures.at(failure_line + std::to_string(row + 1));
-      }
-      order_.push_back(x);
-      points_[x] = std::move(point);
+  const auto cached = store_ ? store_->find(searches, id_) : std::nullopt;
+  if (!cached) return;
+  const Csv csv = Csv::parse(*cached, searches);
+  std::map<std::string, std::string> failures(csv.header.begin(), csv.header.end());
+  const auto n = static_cast<std::ptrdiff_t>(variables_.size());
+  for (std::size_t row = 0; row < csv.rows.size(); ++row) {
+    const auto& values = csv.rows[row];
+    const std::vector<double> x(values.begin(), values.begin() + n);
+    StudyPoint point;
+    if (values[variables_.size()] == 0) {
+      point.figures = FigureRow(specs_);
+      for (std::size_t i = 0; i < figures_.size(); ++i)
+        point.figures.set(figures_[i], values[variables_.size() + 1 + i]);
+    } else {
+      point.failure = failures.at(failure_line + std::to_string(row + 1));
     }
-  } catch (const std::exception&) {  // damaged: computed again and overwritten
-    order_.clear();
-    points_.clear();
+    order_.push_back(x);
+    points_[x] = std::move(point);
   }
   kept_ = static_cast<int>(order_.size());
 }
@@ -65,8 +58,7 @@ void EvaluationStore::add(const std::vector<double>& x, StudyPoint point) {
   if (std::chrono::steady_clock::now() - saved_ > evaluations_interval) save();
 }
 
-void EvaluationStore::save() {
-  if (!changed_) return;
+Csv EvaluationStore::table() const {
   Csv csv;
   csv.header = {{"annulus_version", version()}, {"inputs_id", id_}};
   csv.columns = variables_;
@@ -80,8 +72,12 @@ void EvaluationStore::save() {
     csv.rows.push_back(std::move(row));
     if (!point.failure.empty()) csv.header.emplace_back(failure_line + std::to_string(csv.rows.size()), point.failure);
   }
-  std::filesystem::create_directories(file_.parent_path());
-  csv.write(file_);
+  return csv;
+}
+
+void EvaluationStore::save() {
+  if (!changed_ || !store_) return;
+  store_->keep(searches, id_, table().text());
   saved_ = std::chrono::steady_clock::now();
   changed_ = false;
 }

@@ -10,13 +10,15 @@
 #include "app/study/study_cases.h"
 #include "app/tasks.h"
 #include "core/log.h"
+#include "core/result_store.h"
 
 namespace annulus::app {
 
 namespace {
 
 const std::string failure_of = "failure_";
-constexpr int chunk_size = 20;  // samples per kept file: the most that an interruption costs, per thread
+constexpr const char* sample_chunks = "samples";
+constexpr int chunk_size = 20;  // samples cached together: the most that an interruption costs, per thread
 
 std::vector<std::string> quick_keys(const std::vector<FigureSpec>& figures) {
   std::vector<std::string> names;
@@ -26,7 +28,7 @@ std::vector<std::string> quick_keys(const std::vector<FigureSpec>& figures) {
   return names;
 }
 
-/// All samples of one variant, kept in chunks in OUT/<variant>/dynamics/monte_carlo.
+/// All samples of one variant, cached in chunks.
 class SampleStore {
  public:
   SampleStore(const StudySubject& subject, std::size_t variant, const std::vector<RandomVariable>& variables)
@@ -34,20 +36,18 @@ class SampleStore {
         variant_(variant),
         variables_(variables),
         figures_(quick_keys(subject.figures())),
-        folder_(subject.folder(variant) / "monte_carlo"),
-        id_(identity()) {
-    std::filesystem::create_directories(folder_);
-  }
+        id_(identity()) {}
 
-  /// Samples first ... last - 1, within one chunk: those kept, and the others found and kept with them.
+  /// Samples first ... last - 1, within one chunk: those cached, and the others found and cached with them.
   [[nodiscard]] Csv chunk(int first, int last) const {
-    const auto file = folder_ / fmt::format("samples_{:07}.csv", first);
-    Csv csv = kept(file);
+    const auto id = fmt::format("{} from {}", id_, first);
+    Csv csv = cached(id);
     const auto before = csv.rows.size(), wanted = static_cast<std::size_t>(last - first);
     const auto reused = std::min(before, wanted);
     count_reuse(subject_.options(), study_responses, static_cast<long>(reused), static_cast<long>(wanted - reused));
     for (int sample = first + static_cast<int>(before); sample < last; ++sample) add(csv, sample);
-    if (csv.rows.size() > before) csv.write(file);
+    const auto& store = subject_.options().store;
+    if (store && csv.rows.size() > before) store->keep(sample_chunks, id, csv.text());
     csv.rows.resize(wanted);  // an earlier run may have kept more
     std::erase_if(csv.header, [&](const auto& line) {
       return line.first.starts_with(failure_of) && std::stoi(line.first.substr(failure_of.size())) > last;
@@ -95,19 +95,12 @@ class SampleStore {
     return id.id();
   }
 
-  /// The rows kept in a file of this identity, else none.
-  [[nodiscard]] Csv kept(const std::filesystem::path& file) const {
-    Csv empty;
-    empty.header = header();
-    empty.columns = columns();
-    if (!std::filesystem::exists(file)) return empty;
-    try {
-      Csv csv = Csv::read(file);
-      const bool same = csv.header.size() >= 2 && csv.header[1].second == id_ && csv.columns == columns();
-      return same ? csv : empty;
-    } catch (const InputError&) {
-      return empty;  // damaged: found again
-    }
+  /// The rows cached under this identity, else none.
+  [[nodiscard]] Csv cached(const std::string& id) const {
+    const auto& store = subject_.options().store;
+    if (const auto found = store ? store->find(sample_chunks, id) : std::nullopt)
+      return Csv::parse(*found, sample_chunks);
+    return {.header = header(), .columns = columns(), .rows = {}};
   }
 
   void add(Csv& csv, int sample) const {
@@ -131,7 +124,6 @@ class SampleStore {
   std::size_t variant_;
   const std::vector<RandomVariable>& variables_;
   std::vector<std::string> figures_;  ///< keys
-  std::filesystem::path folder_;
   std::string id_;
 };
 
@@ -213,6 +205,7 @@ MonteCarloResult run_monte_carlo(const StudySubject& subject) {
     }
     failures += variant.failed;
     variant.statistics = statistics_of(variant.samples, quick_keys(figures));
+    std::filesystem::create_directories(subject.folder(i));
     variant.samples.write(subject.folder(i) / "monte_carlo.csv");
     if (variant.failed)
       log::warn(fmt::format("Monte Carlo{}: {} of {} samples failed; monte_carlo.csv states why",

@@ -17,6 +17,7 @@
 #include "app/tasks.h"
 #include "core/errors.h"
 #include "core/files.h"
+#include "core/result_store.h"
 
 namespace annulus::app {
 
@@ -100,24 +101,29 @@ class DesignObjective {
     }
   }
 
-  /// Kept, or found and kept. One that fails is found anew.
+  /// Cached, or found and cached. One that fails is found anew.
   [[nodiscard]] Design design(const std::vector<double>& x) const {
     const auto changed = study_case(x);
-    std::optional<DesignStore> store;
+    std::string id;
     try {
       subject_.prepare(changed.overrides, changed.where, changed.folder);
       const auto model = subject_.model(changed.overrides, changed.where, variant_, changed.folder, true);
-      ContentId id;
-      id.add("design", model.id).add("quick", quick_ ? 1 : 0).add("starts", settings_.starts);
-      store.emplace(subject_.folder(variant_) / "optimise" / "designs", id.add("seed", settings_.seed).id(), figures_);
+      id = ContentId()
+               .add("design", model.id)
+               .add("quick", quick_ ? 1 : 0)
+               .add("starts", settings_.starts)
+               .add("seed", settings_.seed)
+               .id();
     } catch (const Error&) {
       return found_design(x);  // fails the same way, and tells why
     }
-    auto kept = store->find(x);
-    count_reuse(subject_.options(), study_responses, kept ? 1 : 0, kept ? 0 : 1);
-    Design d = kept ? std::move(*kept) : found_design(x);
+    constexpr const char* designs = "designs";
+    const auto& store = subject_.options().store;
+    const auto cached = store ? store->find(designs, id) : std::nullopt;
+    count_reuse(subject_.options(), study_responses, cached ? 1 : 0, cached ? 0 : 1);
+    Design d = cached ? design_of(Json::parse(*cached), x, figures_) : found_design(x);
     d.objective = value(d.point);
-    if (!kept && d.point.failure.empty()) store->save(d);
+    if (store && !cached && d.point.failure.empty()) store->keep(designs, id, design_json(d, figures_).dump());
     return d;
   }
 
@@ -195,10 +201,13 @@ OptimiseRun search(const StudySubject& subject, const DesignObjective& objective
   for (const auto& f : subject.figures()) {
     if (f.effort != FigureEffort::motion || !objective.quick()) figures.push_back(f.key);
   }
-  // The answers depend on the scene, not on how the search goes on; the file is one search's.
-  EvaluationStore store(
-      subject.folder(objective.variant()) / "optimise" / fmt::format("{}_{}.csv", optimiser, repeat + 1),
-      subject.model({}, "[optimise]", objective.variant(), "", true).id, variables, figures, subject.figures());
+  // The answers depend on the scene, not on how the search goes on; what is cached together is one search's.
+  const auto id = ContentId()
+                      .add("model", subject.model({}, "[optimise]", objective.variant(), "", true).id)
+                      .add("optimiser", optimiser)
+                      .add("repeat", repeat)
+                      .id();
+  EvaluationStore store(subject.options().store.get(), id, variables, figures, subject.figures());
   OptimiseRun run{.optimiser = optimiser, .repeat = repeat + 1, .search = {}, .kept = 0};
   const auto answer = [&](const std::vector<double>& x) {
     const StudyPoint* known = store.find(x);
@@ -214,6 +223,9 @@ OptimiseRun search(const StudySubject& subject, const DesignObjective& objective
   const auto options = search_options(*scene.optimise, optimiser, repeat);
   run.search = dynamics::optimise(search_variables(scene), answer, options, [&](const auto&) { progress.done(); });
   store.save();
+  const auto folder = subject.folder(objective.variant()) / "optimise";
+  std::filesystem::create_directories(folder);
+  store.table().write(folder / fmt::format("{}_{}.csv", optimiser, run.repeat));
   count_reuse(subject.options(), search_evaluations, run.kept,
               static_cast<long>(run.search.evaluations.size()) - run.kept);
   return run;

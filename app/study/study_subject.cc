@@ -12,7 +12,6 @@ namespace annulus::app {
 
 RunOptions StudySubject::options_in(const std::string& folder) const {
   RunOptions inside = options();
-  if (inside.tables) inside.tables = *inside.tables / folder;
   inside.out /= folder;
   inside.for_study = true;
   return inside;
@@ -23,30 +22,24 @@ std::filesystem::path StudySubject::folder(std::size_t variant) const {
 }
 
 std::optional<MeshResult> StudySubject::changed_mesh(const MeshModel& nominal, const MeshModel& changed,
-                                                     double mean_mesh_force, const std::string& folder,
-                                                     const std::string& ring) const {
+                                                     double mean_mesh_force, const std::string& folder) const {
   if (table_serves(nominal, changed, mean_mesh_force)) return std::nullopt;
   if (folder.empty())
     throw InputError(fmt::format("the {} is not tabulated for a mean mesh force of {} kN", changed.label(),
                                  to_text(mean_mesh_force / 1e3, 5)));
-  const auto stored = options_in(folder).out / ring;
-  auto mesh = load(changed, stored);
-  if (!mesh)
-    throw InternalError(
-        fmt::format("internal error: no stiffness table of the {} in {}", changed.label(), stored.string()));
-  return mesh;
+  return load(changed, options_in(folder).out / changed.ring);
 }
 
 bool StudySubject::prepare_mesh(const MeshModel& nominal, const MeshModel& changed, double mean_mesh_force,
                                 const std::string& where, const std::string& folder) const {
   if (table_serves(nominal, changed, mean_mesh_force)) return false;
   const auto inside = options_in(folder);
-  if (load(changed, inside.out)) {
+  if (cached_stiffness(changed, changed.ring, inside)) {
     count_reuse(inside, study_meshes, 1, 0);
     return true;
   }
   log::info(where + ":");
-  (void)computed_stiffness(changed, {""}, inside);
+  (void)computed_stiffness(changed, changed.ring, inside);
   return true;
 }
 

@@ -62,8 +62,7 @@ class StudySubject {
   /// The mesh of a changed scene whose table was solved into OUT/`folder`/`ring`; nothing where the table of `nominal`
   /// serves. Throws InputError where it does not and `folder` is empty.
   [[nodiscard]] std::optional<MeshResult> changed_mesh(const MeshModel& nominal, const MeshModel& changed,
-                                                       double mean_mesh_force, const std::string& folder,
-                                                       const std::string& ring = "") const;
+                                                       double mean_mesh_force, const std::string& folder) const;
   /// `prepare` of a mesh that belongs to no ring.
   bool prepare_mesh(const MeshModel& nominal, const MeshModel& changed, double mean_mesh_force,
                     const std::string& where, const std::string& folder) const;

@@ -4,17 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include "app/content_id.h"
 #include "app/model/gear_system.h"
 #include "app/pipeline.h"
+#include "app/results/cached_files.h"
 #include "app/tradeoff/trade_subject.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "core/log.h"
+#include "core/result_store.h"
 #include "fem/problem/plane_strain_error.h"
 
 namespace annulus::app {
@@ -64,36 +65,30 @@ double largest_difference(const StiffnessCycle& cycle, const StiffnessCycle& tru
   return largest;
 }
 
-/// Measured work whose answer is kept in a file, with the identity of what it depends on.
-MeasuredWork kept_work(const std::filesystem::path& file, const std::string& id,
-                       const std::function<std::string()>& work) {
-  if (std::ifstream in(file); in) {
-    try {
-      const Json json = Json::parse(in);
-      if (json.at("inputs_id") == id)
-        return {{json.at("wall_s"), json.at("processor_s"), json.at("peak_MB")}, json.at("answer"), json.at("failure")};
-    } catch (const std::exception&) {
-      // Damaged: measured again.
-    }
-  }
-  auto done = measured(work);
-  std::filesystem::create_directories(file.parent_path());
-  write_file(file, Json{{"inputs_id", id},
-                        {"wall_s", done.cost.wall},
-                        {"processor_s", done.cost.processor},
-                        {"peak_MB", done.cost.peak_memory_MB},
-                        {"answer", done.answer},
-                        {"failure", done.failure}}
-                       .dump(1));
-  return done;
+constexpr const char *measured_meshes = "measured_meshes", *measured_responses = "measured_responses",
+                     *cost_file = "cost.json";
+
+std::string work_text(const MeasuredWork& done) {
+  return Json{{"wall_s", done.cost.wall},
+              {"processor_s", done.cost.processor},
+              {"peak_MB", done.cost.peak_memory_MB},
+              {"answer", done.answer},
+              {"failure", done.failure}}
+             .dump(1) +
+         "\n";
 }
 
-/// "time integration BDF, relative tolerance 1e-04" as the name of a file.
-std::string plain_name(std::string name) {
-  for (char& c : name) {
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  }
-  return name;
+MeasuredWork work_of(const std::string& text) {
+  const Json json = Json::parse(text);
+  return {{json.at("wall_s"), json.at("processor_s"), json.at("peak_MB")}, json.at("answer"), json.at("failure")};
+}
+
+/// The results of a motion and what they cost: from the cache, else measured.
+MeasuredWork measured_figures(const TradeMotion& motion, const ResultStore* store) {
+  if (const auto cached = store ? store->find(measured_responses, motion.id) : std::nullopt) return work_of(*cached);
+  const auto done = measured([&] { return to_json(motion.figures()).dump(); });
+  if (store) store->keep(measured_responses, motion.id, work_text(done));
+  return done;
 }
 
 class Measurement {
@@ -140,17 +135,27 @@ class Measurement {
   [[nodiscard]] RunOptions options_in(const std::filesystem::path& folder) const {
     RunOptions inside = options_;
     inside.out = folder;
-    inside.tables.reset();
     return inside;
   }
 
-  /// Solved in a process of its own, read back here.
+  /// Solved in a process of its own without anything cached, or with its cost from the cache; read back here.
   std::optional<MeshResult> table(const MeshModel& model, const std::filesystem::path& folder,
                                   TradePoint& point) const {
-    const auto done = kept_work(folder / "cost.json", model.id(), [&] {
-      (void)computed_stiffness(model, {""}, options_in(folder));
-      return std::string("solved");
-    });
+    const auto id = ContentId().add("inputs", model.id()).add("mesh", model.mesh).add("ring", model.ring).id();
+    if (!restore_files(options_.store.get(), measured_meshes, id, folder)) {
+      auto afresh = options_in(folder);
+      afresh.store = nullptr;
+      const auto done = measured([&] {
+        (void)computed_stiffness(model, "", afresh);
+        return std::string("solved");
+      });
+      std::filesystem::create_directories(folder);
+      write_file(folder / cost_file, work_text(done));
+      auto files = mesh_files(model);
+      files.emplace_back(cost_file);
+      cache_files(options_.store.get(), measured_meshes, id, folder, files);
+    }
+    const auto done = work_of(read_file(folder / cost_file));
     point.cost.wall += done.cost.wall;
     point.cost.processor += done.cost.processor;
     point.cost.peak_memory_MB = std::max(point.cost.peak_memory_MB, done.cost.peak_memory_MB);
@@ -158,9 +163,7 @@ class Measurement {
       point.failure = model.label() + ": " + done.failure;
       return std::nullopt;
     }
-    auto result = load(model, folder);
-    if (!result) point.failure = model.label() + ": its table was taken away";
-    return result;
+    return load(model, folder);
   }
 
   TradePoint mesh_point(const MeshSetting& setting) {
@@ -198,7 +201,7 @@ class Measurement {
     if (subject_.has_motion()) {
       try {
         const auto motion = subject_.motion_on(tables);
-        const auto done = kept_figures(root() / subject_.name() / name / "figures.json", motion);
+        const auto done = measured_figures(motion, options_.store.get());
         point.response = done.cost;
         if (!done.failure.empty()) throw SolverError(done.failure);
         figures.add(figure_set_of(Json::parse(done.answer)));
@@ -211,10 +214,6 @@ class Measurement {
     if (point.finest) finest_ = std::move(tables);
   }
 
-  [[nodiscard]] static MeasuredWork kept_figures(const std::filesystem::path& file, const TradeMotion& motion) {
-    return kept_work(file, motion.id, [&] { return to_json(motion.figures()).dump(); });
-  }
-
   [[nodiscard]] TradePoint motion_point(TradeMotion motion) const {
     TradePoint point{.part = TradePart::dynamics,
                      .fidelity = motion.fidelity,
@@ -222,8 +221,7 @@ class Measurement {
                      .finest = motion.finest,
                      .changes_model = motion.changes_model};
     motion.id = ContentId().add("response", motion.id).add("how", motion.fidelity + motion.settings).id();
-    const auto name = plain_name(motion.fidelity + " " + motion.settings);
-    const auto done = kept_figures(root() / subject_.name() / "dynamics" / (name + ".json"), motion);
+    const auto done = measured_figures(motion, options_.store.get());
     point.cost = done.cost;
     point.failure = done.failure;
     if (!done.failure.empty()) return point;
@@ -365,7 +363,8 @@ std::vector<const TradePoint*> VariantTrade::front(TradePart part, const std::st
   return list;
 }
 
-TradeOff measure_tradeoff(const Scene& scene, const RunOptions& options, const TradeLists& lists) {
+TradeOff measure_tradeoff(const Scene& scene, const RunOptions& given, const TradeLists& lists) {
+  const auto options = with_reuse(given);
   TradeOff trade{.scene = scene, .variants = {}, .total_seconds = 0};
   const auto subjects = make_system(scene)->trades();
   for (const auto& subject : subjects)

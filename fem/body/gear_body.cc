@@ -209,19 +209,14 @@ CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry:
     unit = condense_unit_tooth(sector_mesh, profile, support_radius, material, options);
     unit.tooth.seconds = watch.seconds();
   };
-  bool reused = false;
-  if (options.store != nullptr) {
-    std::ostringstream text;
-    ByteWriter inputs(text);
-    inputs.add(std::string("tooth"));
-    add_sector_inputs(inputs, sector_mesh, profile, support_radius, material, options.sector);
-    add_slices(inputs, options.arcs);
-    reused = options.store->read_or_make(
-        options.store->key(text.str()), [&](ByteReader& in) { unit = read_tooth(in); }, make,
-        [&](ByteWriter& out) { write_tooth(out, unit); });
-  } else {
-    make();
-  }
+  std::ostringstream text;
+  ByteWriter inputs(text);
+  inputs.add(std::string("tooth"));
+  add_sector_inputs(inputs, sector_mesh, profile, support_radius, material, options.sector);
+  add_slices(inputs, options.arcs);
+  const bool reused = read_or_make(
+      options.store, text.str(), [&](ByteReader& in) { unit = read_tooth(in); }, make,
+      [&](ByteWriter& out) { write_tooth(out, unit); });
   CondensedTooth tooth = with_arcs(std::move(unit), options.arcs);
   tooth.reused = reused;
   return tooth;

@@ -7,7 +7,7 @@
 #include "fem/elasticity/arc_load.h"
 #include "fem/elasticity/sector_model.h"
 #include "fem/elasticity/trace_basis.h"
-#include "fem/problem/condensed_store.h"
+#include "fem/problem/superelement_cache.h"
 
 namespace annulus::fem {
 
@@ -64,7 +64,7 @@ struct GearBodyOptions {
   RingExtent extent;
   std::vector<ArcLoad> arcs;  ///< loads on a free outside
   int threads = 1;
-  CondensedStore* store = nullptr;  ///< where tooth superelements are looked for and kept; may be null
+  const ResultStore* store = nullptr;  ///< where tooth superelements are cached; may be null
 };
 
 /// One tooth by itself: the body without its compliance, and the condensed sector.

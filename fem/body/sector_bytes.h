@@ -9,7 +9,7 @@
 
 namespace annulus::fem {
 
-/// Condensed sectors as bytes, and all they depend on, for CondensedStore.
+/// Condensed sectors as bytes, and all they depend on, for the cache.
 void write(ByteWriter& out, const CondensedSector& sector);
 [[nodiscard]] CondensedSector read_sector(ByteReader& in);
 void write(ByteWriter& out, const OutsideLoads& outside);

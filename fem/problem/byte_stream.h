@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <boost/crc.hpp>
 #include <cstdint>
 #include <istream>
 #include <ostream>
@@ -13,7 +12,7 @@
 
 namespace annulus::fem {
 
-/// Numbers, and vectors and matrices of them, bit by bit into a stream, with a running checksum (CRC-32).
+/// Numbers, and vectors and matrices of them, bit by bit into a stream.
 class ByteWriter {
  public:
   explicit ByteWriter(std::ostream& out) : out_(out) {}
@@ -41,15 +40,12 @@ class ByteWriter {
     raw(text.data(), text.size());
     return *this;
   }
-  [[nodiscard]] std::uint32_t checksum() const { return checksum_.checksum(); }
 
  private:
   void raw(const void* bytes, std::size_t count) {
     out_.write(static_cast<const char*>(bytes), static_cast<std::streamsize>(count));
-    checksum_.process_bytes(bytes, count);
   }
   std::ostream& out_;
-  boost::crc_32_type checksum_;
 };
 
 /// Reads back what a ByteWriter wrote. Throws Error where the stream has less left than a size announces.
@@ -88,7 +84,6 @@ class ByteReader {
     text.resize(count(1));
     raw(&text[0], text.size());
   }
-  [[nodiscard]] std::uint32_t checksum() const { return checksum_.checksum(); }
 
  private:
   /// A number of things of at least `size` bytes each.
@@ -101,11 +96,9 @@ class ByteReader {
     if (count > left_ || !in_.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count)))
       throw Error("a stream that ends too early");
     left_ -= count;
-    checksum_.process_bytes(bytes, count);
   }
   std::istream& in_;
   std::uint64_t left_;
-  boost::crc_32_type checksum_;
 };
 
 }  // namespace annulus::fem

@@ -10,9 +10,11 @@
 #include "fem/problem/ring_structure.h"
 #include "geometry/gear_pair.h"
 
-namespace annulus::fem {
+namespace annulus {
+class ResultStore;
+}
 
-class CondensedStore;
+namespace annulus::fem {
 
 /// A gear mesh to be solved: sun-planet or planet-ring, with the bodies' supports.
 struct LoadedMeshProblem {
@@ -61,9 +63,9 @@ struct LoadedMeshSettings {
   bool want_fields = false;                         ///< of condensed models: LoadedMeshResult::fields
   int threads = 1;                                  ///< changes the time, never the result
   std::function<void(double fraction)> progress{};  ///< called now and then with the finished fraction
-  /// Where tooth superelements are looked for and kept; may be null. They depend neither on loads and phases nor on the
+  /// Where tooth superelements are cached; may be null. They depend neither on loads and phases nor on the
   /// places, the number and the stiffness of supports, nor on modifications of the flanks.
-  std::shared_ptr<CondensedStore> store{};
+  std::shared_ptr<const ResultStore> store{};
 };
 
 }  // namespace annulus::fem

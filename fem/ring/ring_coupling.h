@@ -14,9 +14,9 @@ struct RingCouplingSettings {
   int degree = 2;     ///< polynomial degree of the elements
   int per_cycle = 1;  ///< ring positions per mesh cycle
   ModeLimits modes;
-  MotionOrder motions;                      ///< of a sector's inertia, their section order at least 1
-  int threads = 1;                          ///< changes the time, never the result
-  std::shared_ptr<CondensedStore> store{};  ///< where tooth superelements are looked for and kept; may be null
+  MotionOrder motions;                         ///< of a sector's inertia, their section order at least 1
+  int threads = 1;                             ///< changes the time, never the result
+  std::shared_ptr<const ResultStore> store{};  ///< where tooth superelements are cached; may be null
 };
 
 struct SolvedRingCoupling {

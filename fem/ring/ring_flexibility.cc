@@ -165,13 +165,9 @@ RingFlexibility make_ring_flexibility(const BodyPlan& plan, const BodyResolution
   const geometry::Mesh mesh = plan.sector(resolution);
   UnitFlexibleSector unit;
   const auto make = [&] { unit = condense_unit_flexible(plan, mesh, wanted, material, options); };
-  bool reused = false;
-  if (options.store != nullptr)
-    reused = options.store->read_or_make(
-        options.store->key(flexible_inputs(plan, mesh, wanted, material, options)),
-        [&](ByteReader& in) { unit = read_flexible(in); }, make, [&](ByteWriter& out) { write(out, unit); });
-  else
-    make();
+  const bool reused = read_or_make(
+      options.store, flexible_inputs(plan, mesh, wanted, material, options),
+      [&](ByteReader& in) { unit = read_flexible(in); }, make, [&](ByteWriter& out) { write(out, unit); });
   RingFlexibility ring =
       compose_flexibility(with_arcs(std::move(unit), options.arcs), plan.profile().gear(), plan.floating(), options);
   ring.reused = reused;

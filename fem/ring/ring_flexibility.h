@@ -7,7 +7,7 @@
 #include "fem/condensation/cyclic_flexibility.h"
 #include "fem/elasticity/arc_load.h"
 #include "fem/elasticity/inertia_loads.h"
-#include "fem/problem/condensed_store.h"
+#include "fem/problem/superelement_cache.h"
 
 namespace annulus::fem {
 
@@ -42,7 +42,7 @@ struct RingFlexibilityOptions {
   MotionOrder motions;
   std::vector<ArcLoad> arcs;
   int threads = 1;
-  CondensedStore* store = nullptr;  ///< where tooth superelements are looked for and kept; may be null
+  const ResultStore* store = nullptr;  ///< where tooth superelements are cached; may be null
 };
 
 [[nodiscard]] RingFlexibility make_ring_flexibility(const BodyPlan& plan, const BodyResolution& resolution,

@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(frequencies_carry_the_errors_of_the_stiffness) {
     const auto geometry = app::make_geometry(scene);
     const auto plan = app::make_plan(scene);
     const auto mesh = [&](std::size_t i) {
-      return app::mesh_stiffness(scene, geometry, plan.meshes[i], {"held"}, {.out = folder.path()});
+      return app::mesh_stiffness(scene, geometry, plan.meshes[i], {.out = folder.path()});
     };
     return app::stage_modes(app::make_stage(scene, geometry, 0, mesh(0), mesh(1)), {base.sun_error, base.ring_error});
   };

@@ -170,7 +170,7 @@ BOOST_AUTO_TEST_CASE(folders_that_cannot_be_compared_are_refused) {
   check_comparison_refused({good, good + "/summary.json"}, {"summary.json", "not a folder"});
   fs::create_directories(folder.path() / "empty");
   check_comparison_refused({good, (folder.path() / "empty").string()}, {"empty", "holds no run"});
-  fs::create_directories(folder.path() / "begun" / "condensed");
+  fs::create_directories(folder.path() / "begun" / "cache");
   check_comparison_refused({(folder.path() / "begun").string(), good},
                            {"begun", "not finished", "goes on where it stopped"});
   const auto text = summary.dump(1);

@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(an_interrupted_search_goes_on_to_the_same_bytes) {
   write_file(folder.path() / "scene.toml",
              searched_scene(test::replaced(bearing_search, "generations = 6", "generations = 150")));
   BOOST_TEST(test::BackgroundRun(folder.path(), "whole").wait() == 0);
-  const auto first = folder.path() / "parts/held/dynamics/optimise/genetic_1.csv";
+  const auto first = folder.path() / "parts/cache/searches";
   BOOST_TEST(test::BackgroundRun(folder.path(), "parts").kill_when_there(first));
   BOOST_TEST_REQUIRE(std::filesystem::exists(first));
   BOOST_TEST(!std::filesystem::exists(folder.path() / "parts/held/dynamics/optimise/best.toml"));

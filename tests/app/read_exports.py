@@ -9,6 +9,7 @@ import itertools
 import re
 import sys
 import xml.etree.ElementTree
+import zlib
 
 import h5py
 import numpy
@@ -184,15 +185,22 @@ def check_rexs(path, wanted):
 
 def check_vtu(path):
     """A field: sizes, and von Mises' stress of the tensor that stands beside it."""
-    piece = xml.etree.ElementTree.parse(path).getroot().find("UnstructuredGrid/Piece")
+    file = xml.etree.ElementTree.parse(path).getroot()
+    assert file.get("compressor") == "vtkZLibDataCompressor"
+    piece = file.find("UnstructuredGrid/Piece")
     points, cells = int(piece.get("NumberOfPoints")), int(piece.get("NumberOfCells"))
     kinds = {"Float64": "<f8", "Float32": "<f4", "Int64": "<i8", "Int32": "<i4", "UInt8": "u1"}
 
     def read(array):
         assert array.get("format") == "binary"
-        raw = base64.b64decode(array.text.strip(), validate=True)
-        assert int.from_bytes(raw[:4], "little") == len(raw) - 4
-        return numpy.frombuffer(raw[4:], dtype=kinds[array.get("type")])
+        text = array.text.strip()
+        # 16 bytes of a header for one block make 24 digits: blocks, bytes of each, of a partial one, compressed bytes.
+        blocks, size, partial, packed = numpy.frombuffer(base64.b64decode(text[:24], validate=True), dtype="<u4")
+        data = base64.b64decode(text[24:], validate=True)
+        assert blocks == 1 and partial == 0 and packed == len(data)
+        raw = zlib.decompress(data)
+        assert len(raw) == size
+        return numpy.frombuffer(raw, dtype=kinds[array.get("type")])
 
     data = {a.get("Name"): read(a).reshape(points, -1).astype(float) for a in piece.find("PointData")}
     places = read(piece.find("Points/DataArray")).reshape(points, 3)

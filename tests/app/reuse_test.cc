@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(lists_are_told_in_words) {
   reuse.note("c", true);  // computed, then read back by a later step
   reuse.count(app::condensed_teeth, 2, 1);
   reuse.count(app::study_responses, 0, 0);
-  BOOST_TEST(reuse.text() == "reused   a, b, 2 condensed teeth\ncomputed c, 1 condensed teeth\n");
+  BOOST_TEST(reuse.text() == "reused   a, b, 2 tooth superelements\ncomputed c, 1 tooth superelements\n");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -151,10 +151,9 @@ BOOST_AUTO_TEST_CASE(samples_are_the_same_for_any_number_of_threads_and_samples)
   (void)run_text(fewer, folder.path() / "more");
   const auto early = Csv::read(file("more", "held"));
   BOOST_TEST(early.rows.size() == 25U);
-  const auto kept = folder.path() / "more/held/dynamics/monte_carlo/samples_0000000.csv";
-  const auto written = std::filesystem::last_write_time(kept);
-  (void)run_text(text + few_samples, folder.path() / "more");
-  BOOST_TEST((std::filesystem::last_write_time(kept) == written));
+  const auto more = run_text(text + few_samples, folder.path() / "more").reuse->counted(app::study_responses);
+  BOOST_TEST(more.reused == 2 * 25);  // of two rings
+  BOOST_TEST(more.computed == 2 * 20);
   BOOST_TEST(read_file(file("more", "held")) == read_file(file("one", "held")));
   // And fewer again are the first of them.
   (void)run_text(fewer, folder.path() / "more");
@@ -173,13 +172,13 @@ BOOST_AUTO_TEST_CASE(interrupted_studies_go_on_to_the_same_bytes) {
               "[monte_carlo]\nsamples = 120\n[sensitivity]\ninputs = [\"supports.sun_N_per_m\"]\n";
   write_file(folder.path() / "scene.toml", text);
   BOOST_TEST(test::BackgroundRun(folder.path(), "whole").wait() == 0);
-  const auto first = folder.path() / "parts/held/dynamics/monte_carlo/samples_0000000.csv";
+  const auto first = folder.path() / "parts/cache/samples";
   BOOST_TEST(test::BackgroundRun(folder.path(), "parts").kill_when_there(first));
   BOOST_TEST_REQUIRE(std::filesystem::exists(first));
   BOOST_TEST(!std::filesystem::exists(folder.path() / "parts/sensitivity.csv"));
-  const auto written = std::filesystem::last_write_time(first);
   BOOST_TEST(test::BackgroundRun(folder.path(), "parts", 1).wait() == 0);
-  BOOST_TEST((std::filesystem::last_write_time(first) == written));  // taken over, not made again
+  const auto reuse = nlohmann::json::parse(read_file(folder.path() / "parts/summary.json"))["reuse"]["counts"];
+  BOOST_TEST(reuse[app::study_responses]["reused"].get<int>() > 0);  // taken over, not made again
   for (const auto* file : {"held/dynamics/sweep_1.csv", "held/dynamics/sweep_1_poincare.csv",
                            "held/dynamics/monte_carlo.csv", "sensitivity.csv"})
     BOOST_TEST(read_file(folder.path() / "whole" / file) == read_file(folder.path() / "parts" / file), file);

@@ -1,4 +1,4 @@
-#include "fem/problem/condensed_store.h"
+#include "core/result_store.h"
 
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
@@ -11,7 +11,7 @@
 #include "core/log.h"
 #include "fem/body/gear_body.h"
 #include "fem/contact/support_row.h"
-#include "fem/problem/byte_stream.h"
+#include "fem/problem/superelement_cache.h"
 #include "fem/ring/ring_coupling.h"
 #include "ring_paper_problems.h"
 #include "tests/temporary_folder.h"
@@ -20,8 +20,8 @@
 BOOST_AUTO_TEST_SUITE(condensed_store)
 
 using namespace annulus::tests;
+using annulus::ResultStore;
 using annulus::fem::BodyStress;
-using annulus::fem::CondensedStore;
 using annulus::fem::LoadedMeshProblem;
 using annulus::fem::LoadedMeshResult;
 using annulus::fem::LoadedMeshSettings;
@@ -33,17 +33,18 @@ struct Folder : annulus::test::TemporaryFolder {
     annulus::log::set_level(annulus::log::Level::quiet);
   }
 
-  [[nodiscard]] std::shared_ptr<CondensedStore> store(const std::string& version = "1") const {
-    return std::make_shared<CondensedStore>(path(), version);
+  [[nodiscard]] std::shared_ptr<ResultStore> store(const std::string& version = "1") const {
+    return std::make_shared<ResultStore>(path(), version);
   }
   [[nodiscard]] std::vector<std::filesystem::path> files() const {
     std::vector<std::filesystem::path> result;
-    for (const auto& entry : std::filesystem::directory_iterator(path())) result.push_back(entry.path());
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path()))
+      if (entry.is_regular_file()) result.push_back(entry.path());
     return result;
   }
 };
 
-LoadedMeshResult solve(const LoadedMeshProblem& problem, std::shared_ptr<CondensedStore> store) {
+LoadedMeshResult solve(const LoadedMeshProblem& problem, std::shared_ptr<ResultStore> store) {
   LoadedMeshSettings settings;
   settings.level = 1;
   settings.threads = 2;
@@ -226,58 +227,6 @@ BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
   }
 }
 
-/// A small thing kept in a store; true when it was read.
-bool keep(CondensedStore& store, const std::string& key, std::vector<double>& values) {
-  const std::vector<double> made = {1.5, -2e300, 0.1};
-  values.clear();
-  const bool read = store.read_or_make(
-      key, [&](annulus::fem::ByteReader& in) { in.get(values); }, [&] { values = made; },
-      [&](annulus::fem::ByteWriter& out) { out.add(values); });
-  BOOST_TEST(values == made);
-  return read;
-}
-
-BOOST_AUTO_TEST_CASE(damaged_files_are_made_again) {
-  const Folder folder("damaged");
-  const auto store = folder.store();
-  const std::string key = store->key("inputs");
-  BOOST_TEST(key != folder.store("2")->key("inputs"));
-  BOOST_TEST(key != store->key("other inputs"));
-  std::vector<double> values;
-  BOOST_TEST(!keep(*store, key, values));
-  BOOST_TEST(keep(*store, key, values));
-  const auto file = folder.files().front();
-  const auto size = std::filesystem::file_size(file);
-  int damages = 0, noticed = 0;
-  const auto made_again = [&] {
-    ++damages;
-    noticed += !keep(*store, key, values);
-    BOOST_TEST(keep(*store, key, values));
-  };
-  // Any bit, be it in the name, in a size, among the numbers or in the checksum; cut off anywhere.
-  for (std::uintmax_t at = 0; at < size; ++at) {
-    std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
-    stream.seekg(static_cast<std::streamoff>(at));
-    const char byte = static_cast<char>(stream.get() ^ (1 << at % 8));
-    stream.seekp(static_cast<std::streamoff>(at));
-    stream.put(byte);
-    stream.close();
-    made_again();
-    std::filesystem::resize_file(file, at);
-    made_again();
-  }
-  std::ofstream(file) << "something else";
-  made_again();
-  // A thing under the name of another.
-  const std::string other = store->key("other inputs");
-  std::filesystem::copy_file(file, folder.path() / (other + ".tooth"));
-  BOOST_TEST(!keep(*store, other, values));
-  annulus::test::Verification record("Damaged files of a store",
-                                     "damages made: a bit of each byte turned, cut off behind each, another text");
-  record.near("damages that were noticed", "", noticed, damages, 0, "all of them");
-  record.near("files left", "", static_cast<double>(folder.files().size()), 2, 0, "nothing unfinished");
-}
-
 BOOST_AUTO_TEST_CASE(a_damaged_tooth_is_condensed_again) {
   const Folder folder("tooth");
   annulus::test::Verification record("A kept tooth whose file was cut off", "the result before the damage");
@@ -306,18 +255,18 @@ BOOST_AUTO_TEST_CASE(the_folder_keeps_to_its_size) {
   // Another material would need as much again.
   auto changed = problem;
   changed.material.poisson_ratio = 0.28;
-  const auto tight = std::make_shared<CondensedStore>(folder.path(), "1", all);
+  const auto tight = std::make_shared<ResultStore>(folder.path(), "1", all);
   count_teeth(record, "teeth condensed for another material", solve(changed, tight).condensed_teeth, 4);
   record.at_most("size of the folder over its limit", "", static_cast<double>(bytes()) / static_cast<double>(all), 1,
                  "the limit");
   count_teeth(record, "teeth condensed the second time: what was used last stays",
               solve(changed, tight).condensed_teeth, 0);
   // No room at all, or no folder: nothing is kept, and nothing fails.
-  const auto no_room = std::make_shared<CondensedStore>(folder.path(), "1", 10);
+  const auto no_room = std::make_shared<ResultStore>(folder.path(), "1", 10);
   count_teeth(record, "teeth condensed without room", solve(problem, no_room).condensed_teeth, 4);
   BOOST_TEST(folder.files().empty());
   std::ofstream(folder.path() / "file") << "no folder";
-  const auto nowhere = std::make_shared<CondensedStore>(folder.path() / "file", "1");
+  const auto nowhere = std::make_shared<ResultStore>(folder.path() / "file", "1");
   check_the_same(record, solve(problem, nowhere), solve(problem, nullptr));
 }
 

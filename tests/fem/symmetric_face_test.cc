@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "contact_bench.h"
+#include "core/result_store.h"
 #include "fem/body/body_plan.h"
 #include "fem/condensation/altered_ring.h"
 #include "fem/condensation/cyclic_body.h"
 #include "fem/cost_size.h"
-#include "fem/problem/condensed_store.h"
 #include "fem/problem/solved_face.h"
 #include "ring_paper.h"
 #include "ring_paper_problems.h"
@@ -319,7 +319,7 @@ BOOST_AUTO_TEST_CASE(halves_of_teeth_can_be_exchanged) {
 
 BOOST_AUTO_TEST_CASE(a_half_is_not_kept_as_a_whole) {
   const annulus::test::TemporaryFolder folder("symmetric_face");
-  annulus::fem::CondensedStore store(folder.path(), "test");
+  annulus::ResultStore store(folder.path(), "test");
   const HalfSector half;
   const auto reused = [&](bool symmetric) {
     annulus::fem::GearBodyOptions options;

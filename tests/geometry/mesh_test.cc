@@ -1,8 +1,10 @@
 #include "geometry/mesh.h"
 
 #include <gmsh.h>
+#include <zlib.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <boost/beast/core/detail/base64.hpp>
 #include <cmath>
 #include <cstring>
@@ -370,19 +372,28 @@ BOOST_AUTO_TEST_CASE(written_msh_reads_back) {
   BOOST_TEST(files == 1);  // no temporary file is left behind
 }
 
-/// The numbers of an array of a VTU file, decoded by Boost.Beast.
+/// The numbers of an array of a VTU file, decoded by Boost.Beast and zlib.
 template <class Number>
 std::vector<Number> array_of(const std::string& text, const std::string& name) {
   namespace base64 = boost::beast::detail::base64;
   const auto begin = text.find('>', text.find("Name=\"" + name + "\"")) + 2;
   const auto digits = text.substr(begin, text.find('\n', begin) - begin);
-  std::string raw(base64::decoded_size(digits.size()), '\0');
-  raw.resize(base64::decode(raw.data(), digits.data(), digits.size()).first);
-  std::uint32_t bytes = 0;
-  std::memcpy(&bytes, raw.data(), sizeof(bytes));
-  BOOST_REQUIRE(bytes == raw.size() - sizeof(bytes));
-  std::vector<Number> values(bytes / sizeof(Number));
-  std::memcpy(values.data(), raw.data() + sizeof(bytes), bytes);
+  const auto decoded = [&](const std::string& part) {
+    std::string raw(base64::decoded_size(part.size()), '\0');
+    raw.resize(base64::decode(raw.data(), part.data(), part.size()).first);
+    return raw;
+  };
+  // 16 bytes of a header for one block make 24 digits.
+  const auto head = decoded(digits.substr(0, 24)), packed = decoded(digits.substr(24));
+  std::array<std::uint32_t, 4> header{};  // blocks, bytes of each, of a partial one, compressed bytes
+  BOOST_REQUIRE(head.size() == sizeof header);
+  std::memcpy(header.data(), head.data(), sizeof header);
+  BOOST_REQUIRE((header[0] == 1 && header[2] == 0 && header[3] == packed.size()));
+  std::vector<Number> values(header[1] / sizeof(Number));
+  uLongf bytes = header[1];
+  BOOST_REQUIRE(::uncompress(reinterpret_cast<Bytef*>(values.data()), &bytes,
+                             reinterpret_cast<const Bytef*>(packed.data()), packed.size()) == Z_OK);
+  BOOST_REQUIRE(bytes == header[1]);
   return values;
 }
 
@@ -393,15 +404,15 @@ BOOST_AUTO_TEST_CASE(written_vtu_holds_the_cells) {
   const std::string s = read_file(folder.path / "sector.vtu");
   BOOST_TEST(s.find("NumberOfPoints=\"" + std::to_string(plane.vertices.size()) + "\" NumberOfCells=\"" +
                     std::to_string(plane.cells.size()) + "\"") != std::string::npos);
-  const auto connectivity = array_of<std::int64_t>(s, "connectivity"), offsets = array_of<std::int64_t>(s, "offsets");
+  const auto connectivity = array_of<std::int32_t>(s, "connectivity"), offsets = array_of<std::int32_t>(s, "offsets");
   BOOST_TEST(connectivity.size() == 4 * plane.cells.size());
-  BOOST_TEST(offsets.back() == static_cast<long>(4 * plane.cells.size()));
+  BOOST_TEST(offsets.back() == static_cast<int>(4 * plane.cells.size()));
   BOOST_TEST(static_cast<int>(array_of<std::uint8_t>(s, "types").front()) == 9);  // VTK_QUAD
   const auto points = array_of<double>(s, "Points");
   const std::size_t last = plane.vertices.size() - 1;
   BOOST_TEST(points.size() == 3 * plane.vertices.size());
   for (std::size_t i = 0; i < 3; ++i) BOOST_TEST(points[3 * last + i] == plane.vertices[last][static_cast<long>(i)]);
-  BOOST_TEST(connectivity.back() == static_cast<long>(plane.cells.back()[3]));
+  BOOST_TEST(connectivity.back() == static_cast<int>(plane.cells.back()[3]));
   const auto regions = array_of<std::int32_t>(s, "region");
   BOOST_TEST(regions.size() == plane.cells.size());
   BOOST_TEST(regions.front() == static_cast<int>(plane.regions.front()));

@@ -19,13 +19,35 @@ namespace {
 
 constexpr double MPa = 1e6;
 
+using GridPoint = std::array<long, 2>;
+/// mm to hundredths of them, the unit of the picture.
+GridPoint on_grid(double x, double y) { return {std::lround(100 * x), std::lround(100 * y)}; }
+
+/// A path of polygons and lines by whole differences: a third of the size of absolute coordinates.
+class GridPath {
+ public:
+  void move_to(const GridPoint& p) { add('m', p), start_ = p; }
+  void line_to(const GridPoint& p) { add('l', p); }
+  void close() { text_ += 'z', at_ = start_; }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  void add(char command, const GridPoint& p) {
+    const long x = p[0] - at_[0], y = p[1] - at_[1];
+    fmt::format_to(std::back_inserter(text_), FMT_COMPILE("{}{}{}{}"), command, x, y < 0 ? "" : " ", y);
+    at_ = p;
+  }
+  std::string text_;
+  GridPoint at_{}, start_{};  // paths start at the origin
+};
+
 std::string picture(const BodyView& view) {
   const auto& axes = view.axes;
   const bool solid = view.dimension == 3;
   struct Facet {
     double depth;
     int level;
-    std::array<Eigen::Vector2d, 4> corners;  // y downwards
+    std::array<GridPoint, 4> corners;  // y downwards
   };
   std::vector<Facet> facets;
   Eigen::AlignedBox2d box;
@@ -41,8 +63,8 @@ std::string picture(const BodyView& view) {
     if (solid && (p[2] - p[0]).cross(p[3] - p[1]).z() <= 0) continue;
     Facet facet{depth, colour_level(stress / view.colour_top), {}};
     for (std::size_t i = 0; i < 4; ++i) {
-      facet.corners[i] = {p[i].x(), -p[i].y()};
-      box.extend(facet.corners[i]);
+      facet.corners[i] = on_grid(p[i].x(), -p[i].y());
+      box.extend(Eigen::Vector2d(100 * p[i].x(), -100 * p[i].y()));
     }
     facets.push_back(facet);
   }
@@ -53,7 +75,7 @@ std::string picture(const BodyView& view) {
   const double margin = 0.02 * box.sizes().maxCoeff();
   const Eigen::Vector2d low = box.min().array() - margin, size = box.sizes().array() + 2 * margin;
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.2f} {:.2f} {:.2f} {:.2f}\" role=\"img\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.0f} {:.0f} {:.0f} {:.0f}\" role=\"img\" "
       "aria-label=\"{}\">"
       "<g stroke-width=\"{:.3g}\" stroke-linejoin=\"round\">",
       low.x(), low.y(), size.x(), size.y(), escape("Deformed " + view.name), 0.0006 * size.x());
@@ -61,13 +83,14 @@ std::string picture(const BodyView& view) {
   // Neighbours of one colour in one path.
   for (std::size_t i = 0; i < facets.size();) {
     const int level = facets[i].level;
-    fmt::format_to(out, "<path fill=\"{0}\" stroke=\"{0}\" d=\"", level_colour(level));
+    GridPath path;
     for (; i < facets.size() && facets[i].level == level; ++i) {
       const auto& [a, b, c, d] = facets[i].corners;
-      fmt::format_to(out, FMT_COMPILE("M{:.2f} {:.2f}L{:.2f} {:.2f}L{:.2f} {:.2f}L{:.2f} {:.2f}Z"), a.x(), a.y(), b.x(),
-                     b.y(), c.x(), c.y(), d.x(), d.y());
+      path.move_to(a);
+      for (const auto* p : {&b, &c, &d}) path.line_to(*p);
+      path.close();
     }
-    svg += "\"/>";
+    fmt::format_to(out, "<path fill=\"{0}\" stroke=\"{0}\" d=\"{1}\"/>", level_colour(level), path.text());
   }
   // Where the body was: the outline of a plane one.
   if (!solid) {
@@ -86,8 +109,7 @@ std::string picture(const BodyView& view) {
         edges.push_back({{std::min(a, b), std::max(a, b)}, 4 * f + i});
       }
     std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
-    fmt::format_to(out, "<path fill=\"none\" stroke=\"#555\" stroke-opacity=\"0.55\" stroke-width=\"{:.3g}\" d=\"",
-                   0.0016 * size.x());
+    GridPath path;
     for (std::size_t e = 0; e < edges.size(); ++e) {
       if ((e > 0 && edges[e - 1].ends == edges[e].ends) || (e + 1 < edges.size() && edges[e + 1].ends == edges[e].ends))
         continue;  // between two faces
@@ -95,9 +117,12 @@ std::string picture(const BodyView& view) {
       const std::size_t i = edges[e].number % 4;
       const Eigen::Vector3d p = axes * view.place[face[i]] / units::mm,
                             q = axes * view.place[face[(i + 1) % 4]] / units::mm;
-      fmt::format_to(out, FMT_COMPILE("M{:.2f} {:.2f}L{:.2f} {:.2f}"), p.x(), -p.y(), q.x(), -q.y());
+      path.move_to(on_grid(p.x(), -p.y()));
+      path.line_to(on_grid(q.x(), -q.y()));
     }
-    svg += "\"/>";
+    fmt::format_to(out,
+                   "<path fill=\"none\" stroke=\"#555\" stroke-opacity=\"0.55\" stroke-width=\"{:.3g}\" d=\"{}\"/>",
+                   0.0016 * size.x(), path.text());
   }
   return svg + "</g></svg>";
 }

@@ -192,7 +192,7 @@ void PairRunResult::solve_meshes(const RunOptions& options) {
   {
     const auto& model = plan.meshes.front();
     std::optional<MeshResult> solved;
-    if (model.computed()) solved = computed_stiffness(model, {""}, options);
+    if (model.computed()) solved = computed_stiffness(model, "", options);
     mesh = pair_mesh(scene, geometry, model, std::move(solved));
     stiffnesses = mean_stiffnesses(scene, geometry, mesh);
     if (mesh.table && !mesh.computed) {

@@ -21,8 +21,6 @@ double largest_factor(const dynamics::MeshKindResult& kind) {
   return largest;
 }
 
-constexpr const char* effect_file = "rim_coupling.csv";
-
 }  // namespace
 
 CouplingEffect coupling_effect(const dynamics::PlanetaryStage& uncoupled, const SolvedCoupling& solved,
@@ -75,21 +73,15 @@ void save(const CouplingEffect& effect, const std::string& id, const std::filesy
   csv.write(folder / effect_file);
 }
 
-std::optional<CouplingEffect> load_effect(const std::string& id, const std::filesystem::path& folder) {
-  if (!std::filesystem::exists(folder / effect_file)) return std::nullopt;
-  try {
-    const Csv csv = Csv::read(folder / effect_file);
-    if (csv.header.size() < 4 || csv.header[1].second != id || csv.columns.size() != 6) return std::nullopt;
-    CouplingEffect effect;
-    effect.cycles = std::stoi(csv.header[3].second);
-    for (const auto& row : csv.rows) {
-      const auto model = row[0] == 0 ? RimCoupling::none : row[0] == 1 ? RimCoupling::statical : RimCoupling::elastic;
-      effect.rows.push_back({model, row[1], row[2], row[3], row[4], row[5]});
-    }
-    return effect;
-  } catch (const InputError&) {
-    return std::nullopt;  // half a file of an interrupted run, or edited by hand: computed again
+CouplingEffect load_effect(const std::filesystem::path& folder) {
+  const Csv csv = Csv::read(folder / effect_file);
+  CouplingEffect effect;
+  effect.cycles = std::stoi(csv.header.at(3).second);
+  for (const auto& row : csv.rows) {
+    const auto model = row[0] == 0 ? RimCoupling::none : row[0] == 1 ? RimCoupling::statical : RimCoupling::elastic;
+    effect.rows.push_back({model, row[1], row[2], row[3], row[4], row[5]});
   }
+  return effect;
 }
 
 }  // namespace annulus::app

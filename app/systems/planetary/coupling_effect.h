@@ -12,7 +12,7 @@ namespace annulus::app {
 
 /// What the coupling of the meshes through the ring does to the response: the same stage integrated over the same time
 /// from the same kind of start, without coupling, with the static one, and with the elastic modes of the ring besides.
-/// Marched in all three cases because moving modes repeat only with the whole ring.
+/// Integrated in all three cases because moving modes repeat only with the whole ring.
 struct CouplingEffect {
   struct Row {
     RimCoupling model = RimCoupling::none;
@@ -26,8 +26,10 @@ struct CouplingEffect {
 [[nodiscard]] CouplingEffect coupling_effect(const dynamics::PlanetaryStage& uncoupled, const SolvedCoupling& solved,
                                              const dynamics::SimulationOptions& options);
 
+inline constexpr const char* effect_file = "rim_coupling.csv";
+
 void save(const CouplingEffect& effect, const std::string& id, const std::filesystem::path& folder);
-/// Kept rim_coupling.csv of the same inputs.
-[[nodiscard]] std::optional<CouplingEffect> load_effect(const std::string& id, const std::filesystem::path& folder);
+/// What `save` wrote.
+[[nodiscard]] CouplingEffect load_effect(const std::filesystem::path& folder);
 
 }  // namespace annulus::app

@@ -9,6 +9,7 @@
 #include "app/model/mesh_figures.h"
 #include "app/pipeline.h"
 #include "app/plan/cost_actual.h"
+#include "app/results/cached_files.h"
 #include "app/scene/input_place.h"
 #include "app/systems/planetary/planetary_subject.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
@@ -19,6 +20,8 @@
 namespace annulus::app {
 
 namespace {
+
+constexpr const char *cached_responses = "responses", *cached_effects = "coupling_effects";
 
 /// Read back if unchanged, else computed and saved; nothing for a ring whose coupling was not solved, or changes
 /// nothing.
@@ -31,19 +34,14 @@ std::optional<CouplingEffect> effect_of_coupling(const Scene& scene, const GearG
   stage.ring_coupling = taken_coupling(*ring_mesh.coupling, RimCoupling::elastic);
   const auto simulation = simulation_options(scene, stage);
   const auto id = response_id(stage, simulation, sun_mesh, ring_mesh);
-  auto kept = load_effect(id, folder);
-  note_reuse(options, fmt::format("effect of the coupling of ring '{}'", scene.rings.at(ring).name), kept.has_value());
-  if (kept) return kept;
+  const bool cached = restore_files(options.store.get(), cached_effects, id, folder);
+  note_reuse(options, fmt::format("effect of the coupling of ring '{}'", scene.rings.at(ring).name), cached);
+  if (cached) return load_effect(folder);
   stage.ring_coupling = nullptr;
   auto effect = coupling_effect(stage, *ring_mesh.coupling, simulation);
   save(effect, id, folder);
+  cache_files(options.store.get(), cached_effects, id, folder, {effect_file});
   return effect;
-}
-
-std::vector<std::string> ring_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const auto& ring : scene.rings) names.push_back(ring.name);
-  return names;
 }
 
 /// Results of a response with the parts of their errors.
@@ -70,7 +68,7 @@ FigureSet response_figures(const StageResponse& response) {
 }  // namespace
 
 MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
-                          const std::vector<std::string>& rings, const RunOptions& options) {
+                          const RunOptions& options) {
   const bool sun = model.mesh == sun_planet;
   if (!model.computed()) {
     const auto& pair = sun ? geometry.sun_mesh() : geometry.rings.front().set.ring_mesh();
@@ -79,15 +77,15 @@ MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, cons
   }
   auto result = [&] {
     try {
-      return computed_stiffness(model, rings, options);
+      return computed_stiffness(model, model.ring, options);
     } catch (const InputError& error) {  // found only by the solve; with its place
       const std::string what = sun ? "sun" : "ring '" + model.ring + "'";
       throw InputError(with_place(scene, what + ": " + error.what()));
     }
   }();
   if (options.with_dynamics && may_be_coupled(scene, model)) {
-    result.coupling = std::make_shared<SolvedCoupling>(solve_coupling(
-        scene, geometry, model, 1 / result.mean_stiffness().value, options, options.out / rings.front()));
+    result.coupling = std::make_shared<SolvedCoupling>(
+        solve_coupling(scene, geometry, model, 1 / result.mean_stiffness().value, options, options.out / model.ring));
     note_reuse(options, fmt::format("coupling of ring '{}'", model.ring), result.coupling->reused);
   }
   return result;
@@ -100,16 +98,17 @@ StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry,
   const auto stage = make_stage(scene, geometry, ring, sun_mesh, ring_mesh);
   const auto simulation = simulation_options(scene, stage);
   const auto id = response_id(stage, simulation, sun_mesh, ring_mesh);
-  auto kept = load_response(id, folder);
-  note_reuse(options, fmt::format("dynamics of '{}'", name), kept.has_value());
-  if (kept) {
+  const bool cached = restore_files(options.store.get(), cached_responses, id, folder);
+  note_reuse(options, fmt::format("dynamics of '{}'", name), cached);
+  if (cached) {
     log::info(fmt::format("dynamics of '{}': unchanged, reused", name));
-    return std::move(*kept);
+    return load_response(folder);
   }
   const auto make = [&](const MeshResult& sun, const MeshResult& wheel) {
     return make_stage(scene, geometry, ring, sun, wheel);
   };
   auto response = simulate_and_save(stage, simulation, {make, sun_mesh, ring_mesh}, id, folder);
+  cache_files(options.store.get(), cached_responses, id, folder, response_files());
   const auto& f = response.figures;
   if (f.total_cycles == 0)
     log::info(fmt::format("dynamics of '{}': periodic steady state, by harmonic balance", name));
@@ -128,10 +127,10 @@ StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry,
 RunResult::RunResult(const Scene& of) : geometry(make_geometry(of)) { scene = of; }
 
 void RunResult::solve_meshes(const RunOptions& options) {
-  sun_mesh = mesh_stiffness(scene, geometry, plan.meshes.front(), ring_names(scene), options);
+  sun_mesh = mesh_stiffness(scene, geometry, plan.meshes.front(), options);
   for (std::size_t i = 0; i < scene.rings.size(); ++i) {
     const auto& name = scene.rings[i].name;
-    rings.push_back({name, mesh_stiffness(scene, geometry, plan.meshes[i + 1], {name}, options)});
+    rings.push_back({name, mesh_stiffness(scene, geometry, plan.meshes[i + 1], options)});
   }
 }
 

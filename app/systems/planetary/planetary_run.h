@@ -40,10 +40,10 @@ struct RunResult final : SystemRun {
   [[nodiscard]] Page report() const override;
 };
 
-/// Stiffness table of the sun mesh or of a ring mesh with its coupling: read back if unchanged, else solved, packed and
-/// saved to the folder of each ring. Throws what solving throws, with its place in the scene.
+/// Stiffness table of the sun mesh (in OUT) or of a ring mesh with its coupling (in OUT/<ring>): from the cache if
+/// unchanged, else solved. Throws what solving throws, with its place in the scene.
 [[nodiscard]] MeshResult mesh_stiffness(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
-                                        const std::vector<std::string>& rings, const RunOptions& options);
+                                        const RunOptions& options);
 
 /// Dynamics of one ring on its tables: read back if unchanged, else simulated and saved.
 [[nodiscard]] StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry, std::size_t ring,

@@ -55,18 +55,16 @@ bool PlanetarySubject::prepare(const std::vector<Override>& overrides, const std
   for (std::size_t i = 0; i < models.size(); ++i) {
     if (table_serves(nominal_mesh(i).model, models[i], geometry.operating_point.mean_mesh_force)) continue;
     any = true;
-    // The sun mesh is kept with the first ring.
-    const auto& ring = scene.rings[i == 0 ? 0 : i - 1].name;
     const auto inside = options_in(folder);
     const bool coupled = may_be_coupled(scene, models[i]);
-    if (const auto kept = load(models[i], inside.out / ring);
-        kept &&
-        (!coupled || load_coupling(scene, geometry, models[i], 1 / kept->mean_stiffness().value, inside.out / ring))) {
+    if (const auto cached = cached_stiffness(models[i], models[i].ring, inside);
+        cached && (!coupled || cached_coupling(scene, geometry, models[i], 1 / cached->mean_stiffness().value, inside,
+                                               inside.out / models[i].ring))) {
       count_reuse(inside, study_meshes, 1, 0);
       continue;
     }
     log::info(where + ":");
-    (void)mesh_stiffness(scene, geometry, models[i], {ring}, inside);
+    (void)mesh_stiffness(scene, geometry, models[i], inside);
   }
   return any;
 }
@@ -83,15 +81,11 @@ ChangedStage PlanetarySubject::stage(const std::vector<Override>& overrides, con
       const auto model = which == 0 ? sun_mesh_model(scene, geometry) : ring_mesh_model(scene, geometry, ring);
       const auto& nominal = nominal_mesh(which == 0 ? 0 : ring + 1);
       tables[which] = &nominal;
-      const auto& name = scene.rings[which == 0 ? 0 : ring].name;
-      kept[which] = changed_mesh(nominal.model, model, force, folder, name);
+      kept[which] = changed_mesh(nominal.model, model, force, folder);
       if (!kept[which]) continue;
       if (which == 1 && may_be_coupled(scene, model)) {
-        auto coupling = load_coupling(scene, geometry, model, 1 / kept[which]->mean_stiffness().value,
-                                      options_in(folder).out / name);
-        if (!coupling)
-          throw InternalError(fmt::format("internal error: no coupling through the ring '{}' in {}", name, folder));
-        kept[which]->coupling = std::make_shared<SolvedCoupling>(std::move(*coupling));
+        kept[which]->coupling = std::make_shared<SolvedCoupling>(load_coupling(
+            scene, geometry, model, 1 / kept[which]->mean_stiffness().value, options_in(folder).out / model.ring));
       }
       tables[which] = &*kept[which];
     }

@@ -80,7 +80,7 @@ class PlanetaryTrade : public TradeSubject {
   [[nodiscard]] std::vector<MeshResult> tables_as_they_are(const RunOptions& options) const override {
     std::vector<MeshResult> tables;
     for (const auto* model : {&sun(), &wheel()}) {
-      const auto make = [&] { return mesh_stiffness(scene_, geometry_, *model, {name()}, options); };
+      const auto make = [&] { return mesh_stiffness(scene_, geometry_, *model, options); };
       // What solves anything does it in a process of its own and is read back.
       if (model->computed()) {
         const auto done = measured([&] {
@@ -180,7 +180,7 @@ class PlanetaryTrade : public TradeSubject {
       log::warn("the coupling of the planets is left out: " + done.failure);
       return {};
     }
-    const auto solved = load_coupling(scene_, geometry_, mesh.model, compliance, folder);
+    const auto solved = cached_coupling(scene_, geometry_, mesh.model, compliance, options, folder);
     if (!solved) return {};
     Couplings couplings{taken_coupling(*solved, RimCoupling::statical), nullptr};
     if (!solved->coupling.modes.empty()) couplings.elastic = taken_coupling(*solved, RimCoupling::elastic);

@@ -1,7 +1,6 @@
 #include "app/systems/planetary/response_json.h"
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 #include "app/content_id.h"
@@ -169,10 +168,8 @@ std::string response_json(const StageResponse& response, const std::string& id) 
   return json.dump(2) + "\n";
 }
 
-std::optional<StageResponse> parse_response_json(const std::filesystem::path& file, const std::string& id) {
-  std::ifstream in(file);
-  const auto json = Json::parse(in);
-  if (json.at("inputs_id") != id) return std::nullopt;
+StageResponse parse_response_json(const std::string& text) {
+  const auto json = Json::parse(text);
   StageResponse response;
   auto& f = response.figures;
   f.mesh_frequency = number_of(json.at("mesh_frequency_Hz"));

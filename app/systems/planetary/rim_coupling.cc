@@ -9,7 +9,9 @@
 #include "app/content_id.h"
 #include "app/pipeline.h"
 #include "app/plan/accuracy_choice.h"
+#include "app/results/cached_files.h"
 #include "core/csv.h"
+#include "core/errors.h"
 #include "core/log.h"
 #include "fem/ring/ring_coupling.h"
 
@@ -57,17 +59,20 @@ const RingInput& ring_of(const Scene& scene, const MeshModel& model) {
   return *std::find_if(scene.rings.begin(), scene.rings.end(), [&](const auto& r) { return r.name == model.ring; });
 }
 
-const std::string* provenance(const RingCoupling& coupling, const std::string& key) {
+double provenance(const RingCoupling& coupling, const std::string& key) {
   const auto& lines = coupling.provenance;
   const auto found = std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.first == key; });
-  return found == lines.end() ? nullptr : &found->second;
+  if (found == lines.end()) throw InputError("coupling through a ring: no line '# " + key + "'");
+  return std::stod(found->second);
 }
 
 /// A ring on a single pin leans on its housing, now here, now there: no fixed supports hold it.
 bool rests_in_bore(const fem::RingStructure& structure) { return structure.single_supports() == 1; }
 
 constexpr const char *id_key = "inputs_id", *error_key = "coupling_error_m_per_N", *seconds_key = "coupling_seconds",
-                     *frequency_error_key = "mode_frequency_error_relative", *compliance_file = "ring_compliance.csv";
+                     *frequency_error_key = "mode_frequency_error_relative", *coupling_file = "ring_coupling.csv",
+                     *ring_modes_file = "ring_modes.csv", *compliance_file = "ring_compliance.csv",
+                     *cached_couplings = "couplings";
 
 /// The ring reduced to its teeth, a row and a column each.
 void write_teeth_compliance(const fem::SolvedRingCoupling& solved, const std::string& id,
@@ -141,35 +146,32 @@ bool may_be_coupled(const Scene& scene, const MeshModel& model) {
          fem::on_single_supports(model.problem->structure);
 }
 
-std::optional<SolvedCoupling> load_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
-                                            double mesh_compliance, const std::filesystem::path& folder) {
-  const auto compliance = folder / "ring_coupling.csv", modes = folder / "ring_modes.csv";
-  for (const auto& file : {compliance, modes, folder / compliance_file})
-    if (!std::filesystem::exists(file)) return std::nullopt;
+SolvedCoupling load_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
+                             double mesh_compliance, const std::filesystem::path& folder) {
   const auto& ring = ring_of(scene, model);
-  try {
-    SolvedCoupling kept{.coupling = RingCoupling::read_csv(compliance, modes), .mesh_compliance = mesh_compliance};
-    const auto *id = provenance(kept.coupling, id_key), *error = provenance(kept.coupling, error_key),
-               *frequency = provenance(kept.coupling, frequency_error_key),
-               *seconds = provenance(kept.coupling, seconds_key);
-    if (!id || !error || !frequency || !seconds || *id != coupling_id(scene, geometry, model, ring))
-      return std::nullopt;
-    kept.compliance_error = std::stod(*error);
-    kept.frequency_error_relative = std::stod(*frequency);
-    kept.seconds = std::stod(*seconds);
-    kept.highest_frequency = highest_frequency(geometry, ring);
-    kept.path_compliance = path_compliance(scene, geometry, mesh_compliance);
-    kept.reused = true;
-    return kept;
-  } catch (const std::exception& error) {
-    log::info(fmt::format("{}: {}; solved again", compliance.string(), error.what()));
-    return std::nullopt;
-  }
+  SolvedCoupling cached{.coupling = RingCoupling::read_csv(folder / coupling_file, folder / ring_modes_file),
+                        .mesh_compliance = mesh_compliance};
+  cached.compliance_error = provenance(cached.coupling, error_key);
+  cached.frequency_error_relative = provenance(cached.coupling, frequency_error_key);
+  cached.seconds = provenance(cached.coupling, seconds_key);
+  cached.highest_frequency = highest_frequency(geometry, ring);
+  cached.path_compliance = path_compliance(scene, geometry, mesh_compliance);
+  cached.reused = true;
+  return cached;
+}
+
+std::optional<SolvedCoupling> cached_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
+                                              double mesh_compliance, const RunOptions& options,
+                                              const std::filesystem::path& folder) {
+  const auto id = coupling_id(scene, geometry, model, ring_of(scene, model));
+  if (!restore_files(options.store.get(), cached_couplings, id, folder)) return std::nullopt;
+  return load_coupling(scene, geometry, model, mesh_compliance, folder);
 }
 
 SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
                               double mesh_compliance, const RunOptions& options, const std::filesystem::path& folder) {
-  if (auto kept = load_coupling(scene, geometry, model, mesh_compliance, folder)) return std::move(*kept);
+  if (auto cached = cached_coupling(scene, geometry, model, mesh_compliance, options, folder))
+    return std::move(*cached);
   const auto& ring = ring_of(scene, model);
   fem::RingCouplingSettings settings;
   settings.level = coupling_level;
@@ -200,7 +202,9 @@ SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, 
                                 {seconds_key, fmt::format("{:.3f}", result.seconds)}};
   std::filesystem::create_directories(folder);
   write_teeth_compliance(solved, coupling_id(scene, geometry, model, ring), folder / compliance_file);
-  result.coupling.write_csv(folder / "ring_coupling.csv", folder / "ring_modes.csv");
+  result.coupling.write_csv(folder / coupling_file, folder / ring_modes_file);
+  cache_files(options.store.get(), cached_couplings, coupling_id(scene, geometry, model, ring), folder,
+              {coupling_file, ring_modes_file, compliance_file});
   log::info(fmt::format(
       "coupling of the meshes through ring '{}': {} ring positions, {} modes below {:.0f} Hz; {:.2f} s", ring.name,
       result.coupling.compliance.size(), result.coupling.modes.size(), result.highest_frequency, result.seconds));

@@ -46,14 +46,18 @@ struct CouplingChoice {
 /// out. It takes elements: with formulas it is solved where the planner chose these for a ring on single supports, and
 /// the accuracy is not very rough.
 [[nodiscard]] bool may_be_coupled(const Scene& scene, const MeshModel& model);
-/// Read back from `folder` (OUT/<ring>) if unchanged, else solved and saved there as ring_coupling.csv and
-/// ring_modes.csv. `mesh_compliance` (m/N) is that of the mesh by its table.
+/// From the cache if unchanged, else solved; in `folder` (OUT/<ring>) as ring_coupling.csv and ring_modes.csv.
+/// `mesh_compliance` (m/N) is that of the mesh by its table.
 [[nodiscard]] SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
                                             double mesh_compliance, const RunOptions& options,
                                             const std::filesystem::path& folder);
-/// Only read back; nothing when it is not there or belongs to other inputs.
-[[nodiscard]] std::optional<SolvedCoupling> load_coupling(const Scene& scene, const GearGeometry& geometry,
-                                                          const MeshModel& model, double mesh_compliance,
-                                                          const std::filesystem::path& folder);
+/// Only from the cache; nothing when it is not there.
+[[nodiscard]] std::optional<SolvedCoupling> cached_coupling(const Scene& scene, const GearGeometry& geometry,
+                                                            const MeshModel& model, double mesh_compliance,
+                                                            const RunOptions& options,
+                                                            const std::filesystem::path& folder);
+/// What is in `folder`. Throws InputError where files are missing or damaged.
+[[nodiscard]] SolvedCoupling load_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
+                                           double mesh_compliance, const std::filesystem::path& folder);
 
 }  // namespace annulus::app

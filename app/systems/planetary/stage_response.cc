@@ -16,6 +16,7 @@ namespace annulus::app {
 namespace {
 
 using Header = std::vector<std::pair<std::string, std::string>>;
+constexpr const char *response_file = "figures.json", *modes_file = "modes.csv", *stage_series_file = "time_series.csv";
 constexpr int waveform_cycles = 6;
 constexpr double highest_order = 8;  // multiples of the mesh frequency kept in the spectrum
 
@@ -35,6 +36,7 @@ Csv time_series_table(const dynamics::TimeSeries& series, int window_cycles) {
     row.insert(row.end(), series.displacement.col(i).begin(), series.displacement.col(i).end());
     row.insert(row.end(), series.force.col(i).begin(), series.force.col(i).end());
   }
+  csv.round();
   return csv;
 }
 
@@ -126,9 +128,8 @@ void save(StageResponse& result, const std::string& id, const std::filesystem::p
   for (const auto& [name, table] : tables_of(result)) write(*table, header, folder / name);
   std::string modes;
   for (const auto& [key, value] : header) modes.append("# ").append(key).append(": ").append(value).append("\n");
-  write_file(folder / "modes.csv", modes + modes_csv(result.modes));
-  // Written last: its presence says that the others are complete.
-  write_file(folder / "figures.json", response_json(result, id));
+  write_file(folder / modes_file, modes + modes_csv(result.modes));
+  write_file(folder / response_file, response_json(result, id));
 }
 
 /// What repeats has to carry the torque; teeth that errors hold apart for longer than was looked at carry nothing, and
@@ -157,8 +158,9 @@ StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage, const dyn
   check_power(stage, response, options.steady_tolerance);
   tabulate(result, response, stage.planets());
   result.motion = stage_motion(stage, response);
+  for (const auto& [name, table] : tables_of(result)) table->round();
   write(time_series_table(response.series, response.window_cycles), {{"annulus_version", version()}, {"inputs_id", id}},
-        folder / "time_series.csv");
+        folder / stage_series_file);
   response.series = {};
   result.errors = carried_errors(response, options, tables);
   set_errors(result.errors, response);
@@ -167,20 +169,18 @@ StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage, const dyn
   return result;
 }
 
-std::optional<StageResponse> load_response(const std::string& id, const std::filesystem::path& folder) {
-  if (!std::filesystem::exists(folder / "figures.json")) return std::nullopt;
-  try {
-    auto result = parse_response_json(folder / "figures.json", id);
-    if (!result || !std::filesystem::exists(folder / "time_series.csv")) return std::nullopt;
-    for (const auto& [name, table] : tables_of(*result)) {
-      *table = Csv::read(folder / name);
-      if (table->header.size() < 2 || table->header[1].second != id) throw InputError("another run's file");
-    }
-    result->reused = true;
-    return result;
-  } catch (const std::exception&) {
-    return std::nullopt;  // damaged or from another run: simulated again and overwritten
-  }
+std::vector<std::string> response_files() {
+  std::vector<std::string> names = {response_file, modes_file, stage_series_file};
+  StageResponse any;
+  for (const auto& [name, table] : tables_of(any)) names.emplace_back(name);
+  return names;
+}
+
+StageResponse load_response(const std::filesystem::path& folder) {
+  auto result = parse_response_json(read_file(folder / response_file));
+  for (const auto& [name, table] : tables_of(result)) *table = Csv::read(folder / name);
+  result.reused = true;
+  return result;
 }
 
 }  // namespace annulus::app

@@ -56,7 +56,9 @@ void add_excitation(ContentId& id, const std::string& name, const dynamics::Mesh
 [[nodiscard]] StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage,
                                               const dynamics::SimulationOptions& options, const StageTables& tables,
                                               const std::string& id, const std::filesystem::path& folder);
-/// The response kept in `folder`, if its inputs are those of `id`.
-[[nodiscard]] std::optional<StageResponse> load_response(const std::string& id, const std::filesystem::path& folder);
+/// All files of a response in its folder.
+[[nodiscard]] std::vector<std::string> response_files();
+/// What `simulate_and_save` wrote. Throws InputError where files are missing or damaged.
+[[nodiscard]] StageResponse load_response(const std::filesystem::path& folder);
 
 }  // namespace annulus::app

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "app/content_id.h"
 #include "core/errors.h"
@@ -16,6 +15,7 @@ namespace annulus::app {
 
 namespace {
 
+constexpr const char *figures_file = "figures.json", *series_file = "time_series.csv";
 constexpr double highest_crank_order = 200;  // several multiples of both mesh orders
 
 std::optional<double> optional_number(const Json& json) {
@@ -116,6 +116,7 @@ Csv motion_series(const dynamics::TimeSeries& series) {
     row.insert(row.end(), series.displacement.col(i).begin(), series.displacement.col(i).end());
     row.insert(row.end(), series.force.col(i).begin(), series.force.col(i).end());
   }
+  csv.round();
   return csv;
 }
 
@@ -225,32 +226,28 @@ TwoKVMotion simulate_two_k_v(const TwoKVModels& models, const dynamics::Simulati
   const std::vector<std::pair<std::string, std::string>> header = {{"annulus_version", version()}, {"inputs_id", id}};
   for (const auto& [name, table] : motion_tables(motion)) {
     table->header = header;
+    table->round();
     table->write(folder / name);
   }
   Csv series = motion_series(response.series);
   series.header = header;
-  series.write(folder / "time_series.csv");
-  // Written last: its presence says that the others are complete.
-  write_file(folder / "figures.json", motion_json(motion, id));
+  series.write(folder / series_file);
+  write_file(folder / figures_file, motion_json(motion, id));
   return motion;
 }
 
-std::optional<TwoKVMotion> load_two_k_v(const std::string& id, const std::filesystem::path& folder) {
-  std::ifstream in(folder / "figures.json");
-  if (!in || !std::filesystem::exists(folder / "time_series.csv")) return std::nullopt;
-  try {
-    const auto json = Json::parse(in);
-    if (json.at("inputs_id") != id) return std::nullopt;
-    auto motion = parse_motion(json);
-    for (const auto& [name, table] : motion_tables(motion)) {
-      *table = Csv::read(folder / name);
-      if (table->header.size() < 2 || table->header[1].second != id) throw InputError("another run's file");
-    }
-    motion.reused = true;
-    return motion;
-  } catch (const std::exception&) {
-    return std::nullopt;  // damaged or from another run: simulated again and overwritten
-  }
+std::vector<std::string> two_k_v_files() {
+  std::vector<std::string> names = {figures_file, series_file};
+  TwoKVMotion any;
+  for (const auto& [name, table] : motion_tables(any)) names.emplace_back(name);
+  return names;
+}
+
+TwoKVMotion load_two_k_v(const std::filesystem::path& folder) {
+  auto motion = parse_motion(Json::parse(read_file(folder / figures_file)));
+  for (const auto& [name, table] : motion_tables(motion)) *table = Csv::read(folder / name);
+  motion.reused = true;
+  return motion;
 }
 
 }  // namespace annulus::app

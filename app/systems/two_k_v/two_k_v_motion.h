@@ -57,7 +57,9 @@ struct TwoKVModels {
 [[nodiscard]] TwoKVMotion simulate_two_k_v(const TwoKVModels& models, const dynamics::SimulationOptions& options,
                                            const dynamics::TabulatedModel& tables, const std::string& id,
                                            const std::filesystem::path& folder);
-/// The motion kept in `folder`, if its inputs are those of `id`.
-[[nodiscard]] std::optional<TwoKVMotion> load_two_k_v(const std::string& id, const std::filesystem::path& folder);
+/// All files of a motion in its folder.
+[[nodiscard]] std::vector<std::string> two_k_v_files();
+/// What `simulate_two_k_v` wrote. Throws InputError where files are missing or damaged.
+[[nodiscard]] TwoKVMotion load_two_k_v(const std::filesystem::path& folder);
 
 }  // namespace annulus::app

@@ -9,6 +9,7 @@
 #include "app/model/mesh_figures.h"
 #include "app/pipeline.h"
 #include "app/plan/cost_actual.h"
+#include "app/results/cached_files.h"
 #include "app/systems/two_k_v/two_k_v_subject.h"
 #include "app/tasks.h"
 #include "core/files.h"
@@ -19,11 +20,11 @@ namespace annulus::app {
 
 namespace {
 
-constexpr const char* compared_folder = "computed";
+constexpr const char *compared_folder = "computed", *cached_motions = "responses";
 
 MeshResult sun_result(const Scene& scene, const std::string& folder, const RunOptions& options) {
   const auto model = two_k_v_sun_model(scene);
-  if (model.computed()) return computed_stiffness(model, {folder}, options);
+  if (model.computed()) return computed_stiffness(model, folder, options);
   return given_sun_result(scene, model);
 }
 
@@ -75,13 +76,14 @@ TwoKVMotion motion_in(const TwoKVCase& c, const RunOptions& options, const std::
   const auto simulation = two_k_v_simulation(c.scene, stage);
   const auto id = two_k_v_id(stage, simulation, c.tables);
   const std::string name = folder.empty() ? "dynamics" : "dynamics with computed stiffness";
-  auto kept = load_two_k_v(id, out);
-  note_reuse(options, name, kept.has_value());
-  if (kept) {
+  const bool cached = restore_files(options.store.get(), cached_motions, id, out);
+  note_reuse(options, name, cached);
+  if (cached) {
     log::info(name + ": unchanged, reused");
-    return std::move(*kept);
+    return load_two_k_v(out);
   }
   auto motion = simulate_two_k_v(models_of(c.scene, c.tables), simulation, errors_in(c, simulation), id, out);
+  cache_files(options.store.get(), cached_motions, id, out, two_k_v_files());
   log::info(fmt::format("{}: {} turns of the crank, {}", name, motion.crank_turns,
                         motion.steady ? "periodic steady state" : "no periodic steady state"));
   return motion;

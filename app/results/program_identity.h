@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace annulus::app {
+
+/// Of the program as it was built: its version and the build identities of the program and of annulus's libraries.
+/// Results of another build are computed again.
+[[nodiscard]] const std::string& program_identity();
+
+}  // namespace annulus::app

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace annulus {
+
+/// Files of a folder by their names in it ("mesh/sun_planet.svg"); nothing for one that must not be there.
+using FileSet = std::map<std::string, std::optional<std::string>>;
+
+/// Throws InputError naming a file that is there but cannot be read.
+[[nodiscard]] FileSet read_files(const std::filesystem::path& folder, const std::vector<std::string>& names);
+/// Makes the folder hold this set; files that are right already stay untouched. Throws InputError naming the file that
+/// cannot be written.
+void write_files(const FileSet& files, const std::filesystem::path& folder);
+
+/// As one text, and back. `unpack_files` throws Error for what `pack_files` did not write.
+[[nodiscard]] std::string pack_files(const FileSet& files);
+[[nodiscard]] FileSet unpack_files(std::string_view packed);
+
+}  // namespace annulus
