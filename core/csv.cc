@@ -138,12 +138,15 @@ Csv Csv::parse(const std::string& text, const std::filesystem::path& name) {
   return parsed(stream, name);
 }
 
-void Csv::round() {
+void Csv::round(const std::vector<std::string>& exact) {
+  std::vector<bool> stays;
+  for (const auto& name : columns) stays.push_back(std::find(exact.begin(), exact.end(), name) != exact.end());
   for (auto& row : rows) {
     for (std::size_t i = 0; i < row.size(); ++i) {
+      if (stays[i] || !std::isfinite(row[i])) continue;
       char text[40];
-      const auto end = fmt::format_to_n(text, sizeof text, "{:.{}e}", row[i], i == 0 ? 8 : 6).out;
-      if (std::isfinite(row[i])) std::from_chars(text, end, row[i]);
+      const auto end = fmt::format_to_n(text, sizeof text, "{:.{}e}", row[i], i == 0 ? 8 : 5).out;
+      std::from_chars(text, end, row[i]);
     }
   }
 }

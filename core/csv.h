@@ -22,9 +22,9 @@ struct Csv {
   /// `name`: of the file in messages.
   [[nodiscard]] static Csv parse(const std::string& text, const std::filesystem::path& name);
 
-  /// Rounds to seven significant digits, far below any error of a result, and the first column, over which the others
-  /// are told, to nine: bulky tables shrink to less than half.
-  void round();
+  /// Rounds to six significant digits, far below any error of a result, and the first column, over which the others
+  /// are told, to nine: bulky tables shrink to less than half. Columns in `exact` stay as they are.
+  void round(const std::vector<std::string>& exact = {});
   /// Index of a column; throws InputError naming the column when it is missing.
   [[nodiscard]] std::size_t column(const std::string& name) const;
   /// For messages: the names of the first columns, whatever stands in them.

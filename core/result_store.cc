@@ -74,6 +74,7 @@ std::string content_of(const std::string& file, const std::string& name) {
   const auto packed = all.substr(line + 1);
   // Comparing whole lines leaves no part of it unchecked.
   if (all.substr(0, line + 1) != head(name, plain, size, packed)) throw Error("its checksum is wrong");
+  if (plain && size != packed.size()) throw Error("its size is wrong");
   if (plain) return std::string(packed);
   return uncompressed(packed, size);
 }

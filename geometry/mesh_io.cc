@@ -169,7 +169,11 @@ void write_vtu(const Mesh& mesh, const std::filesystem::path& file, const std::v
       "compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
       mesh.vertices.size(), mesh.cells.size());
   text += "<Points>\n";
-  add_array(text, "Float64", "Points", 3, points);
+  // Fields are in single precision; so is what they stand on.
+  if (data.empty())
+    add_array(text, "Float64", "Points", 3, points);
+  else
+    add_array(text, "Float32", "Points", 3, std::vector<float>(points.begin(), points.end()));
   text += "</Points>\n<Cells>\n";
   add_array(text, "Int32", "connectivity", 1, connectivity);
   add_array(text, "Int32", "offsets", 1, offsets);

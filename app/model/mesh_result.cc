@@ -168,8 +168,9 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
                     .stress = stress_table(model, solved),
                     .facts = facts_of(solved),
                     .nominal = model.nominal_load()};
-  result.positions.round();
-  for (const auto& [name, member] : side_tables) (result.*member).round();
+  const std::vector<std::string> keys = {"load_N", "mesh_phase"};  // by which rows are found
+  result.positions.round(keys);
+  for (const auto& [name, member] : side_tables) (result.*member).round(keys);
   if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.ring);
   for (const auto& field : solved.fields)
     result.fields += field_view(field, solved.positions[field.position], model.body_name(field.body == "planet"));

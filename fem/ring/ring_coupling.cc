@@ -28,8 +28,8 @@ struct Level {
   bool reused = false;  // the condensed sector
 };
 
-bool solved_as_solid(const LoadedMeshProblem& problem) {
-  return needs_solid(problem.structure) || problem.pair.wheel().helix_angle() != 0;
+bool solved_as_solid(const LoadedMeshProblem& problem, RingModel model) {
+  return model == RingModel::solid || needs_solid(problem.structure) || problem.pair.wheel().helix_angle() != 0;
 }
 
 /// The ring as it is solved: the mirror image turns the hand of a helical one.
@@ -83,7 +83,7 @@ Eigen::MatrixXd teeth_compliance(const RingFlexibility& ring, const RingOnSuppor
 Level solve_level(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead, double load,
                   const RingCouplingSettings& settings, int level) {
   const auto planets = static_cast<Eigen::Index>(teeth_ahead.size());
-  const bool solid = solved_as_solid(problem);
+  const bool solid = solved_as_solid(problem, settings.model);
   const geometry::ToothProfile profile(mirrored(problem.pair.wheel()));
   const BodyPlan body(problem, profile, true, geometry::Boundary::trailing_flank, settings.degree, solid,
                       {problem.face_width, false});
@@ -163,7 +163,7 @@ void check_places(const std::vector<double>& teeth_ahead, int teeth) {
 void check(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead, double load,
            const RingCouplingSettings& settings) {
   if (!problem.pair.internal()) throw InputError("the coupling of ring meshes needs a planet-ring pair");
-  const int last = solved_as_solid(problem) ? last_solid_level : last_plane_level;
+  const int last = solved_as_solid(problem, settings.model) ? last_solid_level : last_plane_level;
   if (settings.level < 1 || settings.level > last)
     throw InputError(fmt::format("level {} is not available: 1 to {} are", settings.level, last));
   check_places(teeth_ahead, problem.pair.wheel().teeth());
@@ -194,6 +194,12 @@ Eigen::VectorXd mesh_force_on_teeth(double position, int teeth) {
   return result;
 }
 
+PlaneStrainBounds plane_strain_bounds(const LoadedMeshProblem& problem, RingModel model) {
+  if (solved_as_solid(problem, model)) return {};
+  const double squared = problem.material.poisson_ratio * problem.material.poisson_ratio;
+  return {squared / (1 - squared), 1 - std::sqrt(1 - squared)};
+}
+
 SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead,
                                        double load, const RingCouplingSettings& settings) {
   check(problem, teeth_ahead, load, settings);
@@ -213,6 +219,12 @@ SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, const s
         result.frequency_error_relative, left * std::abs(coarser.modes[k].frequency / level.modes[k].frequency - 1));
   result.own_compliance = level.own;
   result.teeth_compliance_error = left * (level.teeth - coarser.teeth).cwiseAbs().maxCoeff();
+  const auto plane = plane_strain_bounds(problem, settings.model);
+  double largest = 0;
+  for (const auto& compliance : level.compliance) largest = std::max(largest, compliance.cwiseAbs().maxCoeff());
+  result.compliance_error += plane.compliance * largest;
+  result.teeth_compliance_error += plane.compliance * level.teeth.cwiseAbs().maxCoeff();
+  result.frequency_error_relative += plane.frequency;
   result.teeth_compliance = std::move(level.teeth);
   result.unknowns = level.unknowns;
   result.reused_teeth = (coarser.reused ? 1 : 0) + (level.reused ? 1 : 0);

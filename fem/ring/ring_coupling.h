@@ -9,7 +9,21 @@
 
 namespace annulus::fem {
 
+/// `plane_where_possible`: rings of constant section held over their full width in plane strain, others as solids.
+enum class RingModel { plane_where_possible, solid };
+
+/// What a ring of finite width differs from plane strain at most, relative. Bending of a narrow ring is in plane
+/// stress, whose stiffness is smaller by 1 - nu^2 [TimoshenkoGoodier1970].
+struct PlaneStrainBounds {
+  double compliance = 0;  ///< nu^2 / (1 - nu^2)
+  double frequency = 0;   ///< 1 - sqrt(1 - nu^2)
+};
+/// Zero where the ring is solved as a solid.
+[[nodiscard]] PlaneStrainBounds plane_strain_bounds(const LoadedMeshProblem& problem,
+                                                    RingModel model = RingModel::plane_where_possible);
+
 struct RingCouplingSettings {
+  RingModel model = RingModel::plane_where_possible;
   int level = 1;      ///< of resolution, 1 or finer; errors are estimated from the level and the motions before
   int degree = 2;     ///< polynomial degree of the elements
   int per_cycle = 1;  ///< ring positions per mesh cycle
@@ -28,9 +42,10 @@ struct SolvedRingCoupling {
   /// the line of action at the pitch point; supports that could lift off are held both ways. Symmetric, positive
   /// definite: its inverse is the stiffness matrix of the ring reduced to its teeth.
   Eigen::MatrixXd teeth_compliance{};
-  double teeth_compliance_error = 0;    ///< m/N, estimated, largest of all entries
-  double compliance_error = 0;          ///< m/N, estimated, largest of all entries
-  double frequency_error_relative = 0;  ///< estimated, largest of the modes kept
+  // Estimated: of the discretisation, and the bounds of plane strain.
+  double teeth_compliance_error = 0;    ///< m/N, largest of all entries
+  double compliance_error = 0;          ///< m/N, largest of all entries
+  double frequency_error_relative = 0;  ///< largest of the modes kept
   long unknowns = 0;                    ///< DOFs of the sector
   int condensed_teeth = 0, reused_teeth = 0;
 };
@@ -38,8 +53,7 @@ struct SolvedRingCoupling {
 /// Compliance between the ring meshes of the planets, and the modes of the ring. `teeth_ahead` are the ring teeth by
 /// which each planet stands ahead of the first (PlanetarySet::ring_teeth_ahead): 0 and rising.
 ///
-/// Of the problem pair, material, face width, outside radius and structure count. Rings of constant section held over
-/// their full width (outside, pins, splines) are solved in the plane (plane strain), others as solids.
+/// Of the problem pair, material, face width, outside radius and structure count.
 ///
 /// A mesh force between two whole positions lies on the four
 /// teeth around it with the weights of cubic interpolation: the far field of teeth that share it.

@@ -117,6 +117,50 @@ BOOST_AUTO_TEST_CASE(frequencies_carry_the_errors_of_the_stiffness) {
   BOOST_TEST(moved >= 5);
 }
 
+BOOST_AUTO_TEST_CASE(frequencies_carry_the_error_of_the_elastic_ring) {
+  // Against the frequencies of a stage whose ring modes are higher by their error.
+  constexpr double error = 1e-4;
+  const auto scene = app::parse_scene(test::quick_scene(), "scene.toml");
+  const auto geometry = app::make_geometry(scene);
+  const auto plan = app::make_plan(scene);
+  const test::TemporaryFolder folder("ring_mode_errors");
+  const auto mesh = [&](std::size_t i) {
+    return app::mesh_stiffness(scene, geometry, plan.meshes[i], {.out = folder.path()});
+  };
+  const auto modes_of = [&](double factor) {
+    auto stage = app::make_stage(scene, geometry, 0, mesh(0), mesh(1));
+    auto coupling = std::make_shared<RingCoupling>();
+    coupling->planets = stage.planets();
+    coupling->ring_teeth = stage.ring_teeth;
+    coupling->load = stage.mean_mesh_force();
+    coupling->mass = 30;
+    coupling->rotational_mass = 40;
+    coupling->compliance.emplace_back(Eigen::MatrixXd::Zero(stage.planets(), stage.planets()));
+    for (const int k : {0, 1}) {
+      RingMode mode{.frequency = factor * 1500, .waves = 2};
+      for (int tooth = 0; tooth < stage.ring_teeth; ++tooth)
+        mode.closing.push_back(0.05 * std::cos(2 * M_PI * (2.0 * tooth / stage.ring_teeth - k / 4.0)));
+      coupling->modes.push_back(std::move(mode));
+    }
+    stage.ring_coupling = std::move(coupling);
+    app::MeshStiffnessErrors errors;
+    errors.ring_mode = error;
+    errors.ring_mode_parts.model = error;
+    return app::stage_modes(stage, errors);
+  };
+  const auto nominal = modes_of(1), higher = modes_of(1 + error);
+  int moved = 0;
+  for (std::size_t i = 0; i < nominal.list.size(); ++i) {
+    const auto& mode = nominal.list[i];
+    // Of first order; the next one is smaller by the error itself.
+    BOOST_TEST(std::abs(higher.list[i].frequency - mode.frequency - mode.frequency_error) <=
+               1e-3 * mode.frequency_error + 1e-9 * mode.frequency);
+    BOOST_TEST(mode.error_parts.total() == mode.frequency_error, boost::test_tools::tolerance(1e-12));
+    moved += mode.frequency_error > 0.5 * error * mode.frequency;
+  }
+  BOOST_TEST(moved == 2);
+}
+
 BOOST_AUTO_TEST_CASE(errors_are_the_sum_of_their_parts_and_are_kept) {
   const test::TemporaryFolder folder("errors_kept");
   const TableScene scene;

@@ -20,7 +20,7 @@ namespace {
 constexpr double MPa = 1e6;
 
 using GridPoint = std::array<long, 2>;
-/// mm to hundredths of them, the unit of the picture.
+/// mm to hundredths of them, the unit of its paths.
 GridPoint on_grid(double x, double y) { return {std::lround(100 * x), std::lround(100 * y)}; }
 
 /// A path of polygons and lines by whole differences: a third of the size of absolute coordinates.
@@ -64,7 +64,7 @@ std::string picture(const BodyView& view) {
     Facet facet{depth, colour_level(stress / view.colour_top), {}};
     for (std::size_t i = 0; i < 4; ++i) {
       facet.corners[i] = on_grid(p[i].x(), -p[i].y());
-      box.extend(Eigen::Vector2d(100 * p[i].x(), -100 * p[i].y()));
+      box.extend(Eigen::Vector2d(p[i].x(), -p[i].y()));
     }
     facets.push_back(facet);
   }
@@ -75,10 +75,10 @@ std::string picture(const BodyView& view) {
   const double margin = 0.02 * box.sizes().maxCoeff();
   const Eigen::Vector2d low = box.min().array() - margin, size = box.sizes().array() + 2 * margin;
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.0f} {:.0f} {:.0f} {:.0f}\" role=\"img\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.2f} {:.2f} {:.2f} {:.2f}\" role=\"img\" "
       "aria-label=\"{}\">"
-      "<g stroke-width=\"{:.3g}\" stroke-linejoin=\"round\">",
-      low.x(), low.y(), size.x(), size.y(), escape("Deformed " + view.name), 0.0006 * size.x());
+      "<g transform=\"scale(.01)\" stroke-width=\"{:.3g}\" stroke-linejoin=\"round\">",
+      low.x(), low.y(), size.x(), size.y(), escape("Deformed " + view.name), 0.06 * size.x());
   auto out = std::back_inserter(svg);
   // Neighbours of one colour in one path.
   for (std::size_t i = 0; i < facets.size();) {
@@ -122,7 +122,7 @@ std::string picture(const BodyView& view) {
     }
     fmt::format_to(out,
                    "<path fill=\"none\" stroke=\"#555\" stroke-opacity=\"0.55\" stroke-width=\"{:.3g}\" d=\"{}\"/>",
-                   0.0016 * size.x(), path.text());
+                   0.16 * size.x(), path.text());
   }
   return svg + "</g></svg>";
 }

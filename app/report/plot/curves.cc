@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "app/report/plot/frame.h"
 #include "app/report/plot/plot_data.h"
@@ -47,8 +49,34 @@ std::vector<std::size_t> visible_points(const Frame& frame, const std::vector<do
   });
 }
 
+/// Dots that can be told apart: of several thousand, one in each cell of a fine grid over them.
+std::vector<std::size_t> distinct_dots(const Series& s) {
+  constexpr std::size_t few = 4000;
+  constexpr double columns = 600, rows = 400;
+  std::vector<std::size_t> points;
+  Eigen::AlignedBox2d box;
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
+    points.push_back(i);
+    box.extend(Eigen::Vector2d(s.x[i], s.y[i]));
+  }
+  if (points.size() <= few) return points;
+  const auto cell = [](double value, double low, double size, double cells) {
+    return size > 0 ? std::lround(cells * (value - low) / size) : 0;
+  };
+  std::set<std::pair<long, long>> taken;
+  std::erase_if(points, [&](std::size_t i) {
+    return !taken
+                .emplace(cell(s.x[i], box.min().x(), box.sizes().x(), columns),
+                         cell(s.y[i], box.min().y(), box.sizes().y(), rows))
+                .second;
+  });
+  return points;
+}
+
 /// The points that page.js gets: parts are equal numbers of points.
 std::vector<std::size_t> points_for_zoom(const Series& s) {
+  if (s.style == Series::Style::dots) return distinct_dots(s);
   constexpr std::size_t steps = 1000;
   std::size_t step = 0;
   return reduced_points(s.x, s.y, steps, [&](std::size_t) { return ++step * s.x.size() / steps; });
@@ -93,10 +121,8 @@ std::string draw(const Frame& frame, const Series& s) {
     case Series::Style::dots: {
       // Lines of no length with round ends; points that fall on the same place of the page are drawn once.
       std::set<std::string> places;
-      for (std::size_t i = 0; i < s.x.size(); ++i) {
-        if (!std::isfinite(s.x[i]) || !std::isfinite(s.y[i])) continue;
+      for (const std::size_t i : distinct_dots(s))
         places.insert(fmt::format("M{:.1f} {:.1f}h0", frame.at_x(s.x[i]), frame.at_y(s.y[i])));
-      }
       std::string d;
       for (const auto& place : places) d += place;
       svg +=

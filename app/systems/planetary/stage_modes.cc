@@ -4,10 +4,12 @@
 
 #include <algorithm>
 
+#include "app/systems/planetary/rim_coupling.h"
 #include "core/units.h"
 #include "dynamics/systems/planetary/campbell.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 #include "dynamics/systems/planetary/planetary_modes.h"
+#include "fem/ring/ring_coupling.h"
 
 namespace annulus::app {
 
@@ -83,7 +85,12 @@ void add_campbell(StageModes& result, const dynamics::PlanetaryStage& stage) {
 
 MeshStiffnessErrors stiffness_errors(const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
   const auto sun = sun_mesh.mean_stiffness(), ring = ring_mesh.mean_stiffness();
-  return {sun.error_relative, ring.error_relative, sun.parts, ring.parts};
+  MeshStiffnessErrors errors{sun.error_relative, ring.error_relative, sun.parts, ring.parts};
+  if (!ring_mesh.coupling) return errors;
+  errors.ring_mode = ring_mesh.coupling->frequency_error_relative;
+  errors.ring_mode_parts.model = fem::plane_strain_bounds(*ring_mesh.model.problem).frequency;
+  errors.ring_mode_parts.discretisation = errors.ring_mode - errors.ring_mode_parts.model;
+  return errors;
 }
 
 StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnessErrors& errors) {
@@ -103,11 +110,15 @@ StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnes
   }
   if (modes.modes.empty()) return result;
   add_energies(result, stage, modes);
+  const auto ring_mode = static_cast<std::size_t>(std::find(result.groups.begin(), result.groups.end(), "ring_mode") -
+                                                  result.groups.begin());
   for (auto& mode : result.list) {  // the first two groups are the meshes
-    const double of_sun = mode.frequency / 2 * mode.strain[0], of_ring = mode.frequency / 2 * mode.strain[1];
-    mode.frequency_error = of_sun * errors.sun_planet + of_ring * errors.ring_planet;
+    const double of_sun = mode.frequency / 2 * mode.strain[0], of_ring = mode.frequency / 2 * mode.strain[1],
+                 of_ring_mode = ring_mode < result.groups.size() ? mode.frequency * mode.strain[ring_mode] : 0;
+    mode.frequency_error = of_sun * errors.sun_planet + of_ring * errors.ring_planet + of_ring_mode * errors.ring_mode;
     mode.error_parts = of_sun * errors.sun_parts;
     mode.error_parts += of_ring * errors.ring_parts;
+    mode.error_parts += of_ring_mode * errors.ring_mode_parts;
   }
   add_operating_speed(result, stage);
   if (stage.carrier_speed > 0) add_campbell(result, stage);
