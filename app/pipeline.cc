@@ -66,7 +66,7 @@ void run_system(SystemRun& run, const RunOptions& given) {
   if (options.with_dynamics && scene.dynamics) run.respond(options);
   if (options.with_dynamics) {
     const auto timer = run.timers.measure("studies");
-    run.studies = run_studies(*run.subject(options));
+    run.studies = run_studies(StudySubject(run, options));
   }
   run.reuse = options.reuse;
   run.timings = timings_of(run);

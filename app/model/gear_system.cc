@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "app/plan/plan.h"
 #include "app/scene/input_place.h"
@@ -31,6 +32,12 @@ const SystemKind& system_kind(const std::string& name) {
       std::find_if(kinds.begin(), kinds.end(), [&](const SystemKind& k) { return k.scene.name == name; });
   if (found == kinds.end()) throw InternalError(fmt::format("internal error: no gear system '{}' is registered", name));
   return *found;
+}
+
+std::vector<std::size_t> GearSystem::meshes_of(std::size_t /*variant*/) const {
+  std::vector<std::size_t> all(model_meshes().size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
 }
 
 std::unique_ptr<GearSystem> make_system(const Scene& scene) { return system_kind(scene.stage.kind).make(scene); }

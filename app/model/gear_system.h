@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "app/model/lumped_model.h"
+#include "app/model/mesh_result.h"
 #include "app/plan/cost_plan.h"
 #include "app/plan/mesh_model.h"
 #include "app/scene/scene.h"
@@ -13,6 +15,7 @@
 namespace annulus::app {
 
 struct Plan;
+struct RunOptions;
 struct SystemRun;
 class TradeSubject;
 
@@ -37,6 +40,17 @@ class GearSystem {
   [[nodiscard]] virtual std::vector<MeshModel> meshes() const = 0;
   /// N, of every mesh: the load at which the lumped model reads the tables.
   [[nodiscard]] virtual double mean_mesh_force() const = 0;
+
+  /// The meshes on whose stiffness the lumped models stand; `meshes` may contain others to compare with.
+  [[nodiscard]] virtual std::vector<MeshModel> model_meshes() const { return meshes(); }
+  /// Those of one lumped model, by their places in model_meshes().
+  [[nodiscard]] virtual std::vector<std::size_t> meshes_of(std::size_t variant) const;
+  /// Stiffness of one of these meshes: solved into OUT/<ring> or cached, prescribed, or by a formula. Throws what
+  /// solving throws, with its place in the scene.
+  [[nodiscard]] virtual MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const = 0;
+  /// The lumped model of a variant on the stiffness of its meshes, which are referred to. Needs [dynamics].
+  [[nodiscard]] virtual std::unique_ptr<LumpedModel> model(std::size_t variant,
+                                                           const std::vector<const MeshResult*>& tables) const = 0;
   /// The responses of a run, one step each; empty without [dynamics].
   [[nodiscard]] virtual std::vector<PlannedResponse> responses(int threads) const = 0;
   /// Wall time of a study's response of all variants on one core, s, rough. Needs [dynamics].

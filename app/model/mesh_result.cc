@@ -156,6 +156,16 @@ std::optional<Peak> MeshResult::peak(const std::string& column) const {
   return best;
 }
 
+MeshResult stiffness_alone(const MeshResult& mesh) {
+  return {.model = mesh.model,
+          .contact_ratio = mesh.contact_ratio,
+          .table = mesh.table,
+          .facts = mesh.facts,
+          .coupling = mesh.coupling,
+          .nominal = mesh.nominal,
+          .reused = mesh.reused};
+}
+
 MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   MeshResult result{.model = model,
                     .contact_ratio = model.problem->pair.contact_ratio(),

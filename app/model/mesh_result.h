@@ -73,6 +73,9 @@ inline constexpr std::pair<const char*, Csv MeshResult::*> side_tables[] = {{"pi
                                                                             {"line_load", &MeshResult::line_load},
                                                                             {"stress", &MeshResult::stress}};
 
+/// What lumped models read of a mesh: without pictures and tables for people.
+[[nodiscard]] MeshResult stiffness_alone(const MeshResult& mesh);
+
 /// Packs the finite-element result of a model into its tables and pictures.
 [[nodiscard]] MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved);
 /// The stiffness a scene gives instead: a table read from its file, or the wave sampled over one cycle.

@@ -18,8 +18,6 @@
 
 namespace annulus::app {
 
-class StudySubject;
-
 /// The results of one of the compared lumped models.
 struct VariantFigures {
   std::string name;  ///< empty for kinds without variants
@@ -51,8 +49,9 @@ struct SystemRun {
   [[nodiscard]] virtual std::vector<VariantFigures> variants() const = 0;
   /// The cost of a planned step; nothing for one that was reused.
   [[nodiscard]] virtual std::optional<CostRun> actual(const CostStep& step) const = 0;
-  /// The model that studies vary. It refers to this run and to the options.
-  [[nodiscard]] virtual std::unique_ptr<StudySubject> subject(const RunOptions& options) const = 0;
+  /// The stiffness of the meshes of the lumped models, in the order of GearSystem::model_meshes: what studies begin
+  /// with.
+  [[nodiscard]] virtual std::vector<const MeshResult*> model_tables() const = 0;
 
   /// Members of summary.json beyond those of every kind.
   [[nodiscard]] virtual Json summary() const = 0;

@@ -71,7 +71,7 @@ class SampleStore {
   [[nodiscard]] std::string identity() const {
     const auto& scene = subject_.scene();
     ContentId id;
-    id.add("response", subject_.model({}, "[monte_carlo]", variant_, "", true).id);
+    id.add("response", subject_.model({}, "[monte_carlo]", variant_, "")->id());
     id.add("seed", scene.monte_carlo->seed);
     for (const auto& input : scene.inputs) {
       if (input.key == "title" || input.key == "reference" || is_study_table(input.key.substr(0, input.key.rfind('.'))))
@@ -107,7 +107,7 @@ class SampleStore {
     const auto drawn = sample_case(variables_, subject_.scene().monte_carlo->seed, sample);
     StudyPoint point;
     try {
-      point = evaluate(subject_.model(drawn.overrides, drawn.where, variant_, "", false), true);
+      point = evaluate(*subject_.model(drawn.overrides, drawn.where, variant_, ""), Answer::without_motion);
     } catch (const InputError& error) {
       point.failure = error.what();  // a combination of draws that makes no stage
     }

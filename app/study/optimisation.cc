@@ -42,6 +42,8 @@ class DesignObjective {
 
   [[nodiscard]] std::size_t variant() const { return variant_; }
   [[nodiscard]] bool quick() const { return quick_; }
+  /// What the search asks of the model.
+  [[nodiscard]] Answer searched() const { return quick_ ? Answer::without_motion : Answer::all; }
   /// What is made small is this times the objective.
   [[nodiscard]] double sign() const { return settings_.goal == Goal::smallest ? 1 : -1; }
 
@@ -85,7 +87,7 @@ class DesignObjective {
   }
 
   /// Whatever is wrong at x fails the point alone. Any number of threads at once.
-  [[nodiscard]] StudyPoint evaluate(const std::vector<double>& x, bool quick) const {
+  [[nodiscard]] StudyPoint evaluate(const std::vector<double>& x, Answer wanted) const {
     const auto changed = study_case(x);
     try {
       {
@@ -93,7 +95,7 @@ class DesignObjective {
         const std::scoped_lock lock(solving_);
         subject_.prepare(changed.overrides, changed.where, changed.folder);
       }
-      return app::evaluate(subject_.model(changed.overrides, changed.where, variant_, changed.folder, false), quick);
+      return app::evaluate(*subject_.model(changed.overrides, changed.where, variant_, changed.folder), wanted);
     } catch (const InputError& error) {
       return {.failure = one_line(error.what())};
     } catch (const SolverError& error) {
@@ -107,9 +109,9 @@ class DesignObjective {
     std::string id;
     try {
       subject_.prepare(changed.overrides, changed.where, changed.folder);
-      const auto model = subject_.model(changed.overrides, changed.where, variant_, changed.folder, true);
+      const auto model = subject_.model(changed.overrides, changed.where, variant_, changed.folder);
       id = ContentId()
-               .add("design", model.id)
+               .add("design", model->id())
                .add("quick", quick_ ? 1 : 0)
                .add("starts", settings_.starts)
                .add("seed", settings_.seed)
@@ -128,18 +130,18 @@ class DesignObjective {
   }
 
   [[nodiscard]] Design found_design(const std::vector<double>& x) const {
-    Design d{.x = x, .objective = 0, .point = evaluate(x, false), .starts = std::nullopt};
+    Design d{.x = x, .objective = 0, .point = evaluate(x, Answer::all), .starts = std::nullopt};
     if (quick_ && d.point.failure.empty()) {
       // The same numbers as the search saw: the motion is sampled otherwise.
-      const auto as_searched = evaluate(x, true);
+      const auto as_searched = evaluate(x, Answer::without_motion);
       for (const auto& figure : figures_)
         if (figure.effort != FigureEffort::motion) d.point.figures.set(figure.key, as_searched.value(figure.key));
     }
     d.objective = value(d.point);
     if (!d.point.failure.empty() || settings_.starts == 0) return d;
     const auto changed = study_case(x);
-    d.starts =
-        subject_.starts(changed.overrides, changed.where, variant_, changed.folder, settings_.starts, settings_.seed);
+    d.starts = subject_.model(changed.overrides, changed.where, variant_, changed.folder)
+                   ->starts(settings_.starts, settings_.seed);
     return d;
   }
 
@@ -203,7 +205,7 @@ OptimiseRun search(const StudySubject& subject, const DesignObjective& objective
   }
   // The answers depend on the scene, not on how the search goes on; what is cached together is one search's.
   const auto id = ContentId()
-                      .add("model", subject.model({}, "[optimise]", objective.variant(), "", true).id)
+                      .add("model", subject.model({}, "[optimise]", objective.variant(), "")->id())
                       .add("optimiser", optimiser)
                       .add("repeat", repeat)
                       .id();
@@ -214,7 +216,7 @@ OptimiseRun search(const StudySubject& subject, const DesignObjective& objective
     if (known) {
       ++run.kept;
     } else {
-      store.add(x, objective.evaluate(x, objective.quick()));
+      store.add(x, objective.evaluate(x, objective.searched()));
       known = store.find(x);
     }
     if (const auto trouble = objective.trouble(*known); !trouble.empty()) throw SolverError(trouble);

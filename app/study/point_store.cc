@@ -47,13 +47,14 @@ StudyPoint point_of(const Json& json, const std::vector<FigureSpec>& figures) {
 StudyPoint PointStore::point(const std::vector<Override>& overrides, const std::string& where, std::size_t variant,
                              const std::string& folder) const {
   constexpr const char* points = "study_points";
-  const auto changed = subject_.model(overrides, where, variant, folder, true);
+  const auto changed = subject_.model(overrides, where, variant, folder);
+  const auto id = changed->id();
   const auto& store = subject_.options().store;
-  const auto cached = store ? store->find(points, changed.id) : std::nullopt;
+  const auto cached = store ? store->find(points, id) : std::nullopt;
   count_reuse(subject_.options(), study_responses, cached ? 1 : 0, cached ? 0 : 1);
   if (cached) return point_of(Json::parse(*cached), figures_);
-  auto found = evaluate(changed, false);
-  if (store) store->keep(points, changed.id, point_json(found, figures_).dump());
+  auto found = evaluate(*changed, Answer::all);
+  if (store) store->keep(points, id, point_json(found, figures_).dump());
   return found;
 }
 

@@ -4,24 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "app/model/lumped_model.h"
 #include "app/scene/scene.h"
 #include "core/csv.h"
 #include "core/figure.h"
 #include "dynamics/optimisation/optimise.h"
 #include "dynamics/statistics/statistics.h"
-#include "dynamics/systems/planetary/study_point.h"
 
 /// What studies find: named figures of many responses to changed inputs, whatever the kind of the stage.
 namespace annulus::app {
-
-/// The figures of one response, or why there are none.
-struct StudyPoint {
-  FigureRow figures{};
-  std::vector<dynamics::PoincarePoint> poincare{};  ///< where the motion was asked for
-  std::string failure{};                            ///< empty: none
-  /// NaN for a point that failed.
-  [[nodiscard]] double value(const std::string& key) const { return figures.value(key); }
-};
 
 struct SweepResult {
   SweepInput sweep;
@@ -83,13 +74,6 @@ struct SensitivityResult {
   double factor = 0;
   std::vector<StudyPoint> nominal;  ///< by variant
   std::vector<SensitivityRow> rows;
-};
-
-/// Steady motions found from several initial conditions.
-struct StartSpread {
-  int starts = 0, motions = 0;  ///< motions: distinct ones
-  FigureRow low{}, high{};      ///< results of effort `forces` over the starts
-  int not_steady = 0;
 };
 
 /// One search by one optimiser.

@@ -2,50 +2,88 @@
 
 #include <fmt/format.h>
 
-#include "app/model/gear_system.h"
-#include "app/pipeline.h"
-#include "app/reuse.h"
+#include "app/model/run_options.h"
+#include "app/model/system_run.h"
+#include "app/study/study_cases.h"
 #include "core/errors.h"
 #include "core/log.h"
 
 namespace annulus::app {
 
-RunOptions StudySubject::options_in(const std::string& folder) const {
-  RunOptions inside = options();
-  inside.out /= folder;
-  inside.for_study = true;
-  return inside;
+StudySubject::StudySubject(const SystemRun& nominal, const RunOptions& options)
+    : nominal_(nominal),
+      options_(options),
+      variants_(make_system(nominal.scene)->variants()),
+      figures_(system_kind(nominal.scene.stage.kind).model_figures()),
+      tables_(nominal.model_tables()) {}
+
+const Scene& StudySubject::scene() const { return nominal_.scene; }
+
+FigureSet StudySubject::nominal(std::size_t variant) const {
+  FigureSet figures;
+  const auto all = nominal_.variants();
+  for (const auto& entry : all.at(variant).figures.entries())
+    if (find_figure(figures_, entry.key) != nullptr) figures.set(entry.key, entry.figure, entry.parts);
+  return figures;
 }
 
 std::filesystem::path StudySubject::folder(std::size_t variant) const {
-  return options().out / variants().at(variant) / "dynamics";
+  return options_.out / variants_.at(variant) / "dynamics";
 }
 
-std::optional<MeshResult> StudySubject::changed_mesh(const MeshModel& nominal, const MeshModel& changed,
-                                                     double mean_mesh_force, const std::string& folder) const {
-  if (table_serves(nominal, changed, mean_mesh_force)) return std::nullopt;
-  if (folder.empty())
-    throw InputError(fmt::format("the {} is not tabulated for a mean mesh force of {} kN", changed.label(),
-                                 to_text(mean_mesh_force / 1e3, 5)));
-  return load(changed, options_in(folder).out / changed.ring);
-}
-
-bool StudySubject::prepare_mesh(const MeshModel& nominal, const MeshModel& changed, double mean_mesh_force,
-                                const std::string& where, const std::string& folder) const {
-  if (table_serves(nominal, changed, mean_mesh_force)) return false;
-  const auto inside = options_in(folder);
-  if (cached_stiffness(changed, changed.ring, inside)) {
-    count_reuse(inside, study_meshes, 1, 0);
-    return true;
+bool StudySubject::prepare(const std::vector<Override>& overrides, const std::string& where,
+                           const std::string& folder) const {
+  const auto changed = with_overrides(scene(), overrides);
+  const auto system = make_system(changed);
+  const auto meshes = system->model_meshes();
+  bool any = false;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    if (table_serves(tables_.at(i)->model, meshes[i], system->mean_mesh_force())) continue;
+    any = true;
+    {
+      const std::lock_guard guard(lock_);
+      if (prepared_.count({folder, i}) > 0) continue;
+    }
+    RunOptions inside = options_;
+    inside.out /= folder;
+    inside.for_study = true;
+    log::info(where + ":");
+    auto mesh = stiffness_alone(system->stiffness(meshes[i], inside));
+    const std::lock_guard guard(lock_);
+    prepared_.emplace(Place{folder, i}, std::move(mesh));
   }
-  log::info(where + ":");
-  (void)computed_stiffness(changed, changed.ring, inside);
-  return true;
+  return any;
 }
 
-StudyPoint evaluate(const ChangedModel& model, bool quick) {
+std::unique_ptr<LumpedModel> StudySubject::model(const std::vector<Override>& overrides, const std::string& where,
+                                                 std::size_t variant, const std::string& folder) const {
   try {
-    return model.answer(quick);
+    const auto changed = with_overrides(scene(), overrides);
+    const auto system = make_system(changed);
+    const auto meshes = system->model_meshes();
+    const double force = system->mean_mesh_force();
+    std::vector<const MeshResult*> tables;
+    for (const std::size_t i : system->meshes_of(variant)) {
+      if (table_serves(tables_.at(i)->model, meshes.at(i), force)) {
+        tables.push_back(tables_[i]);
+        continue;
+      }
+      const std::lock_guard guard(lock_);
+      const auto found = prepared_.find({folder, i});
+      if (found == prepared_.end())
+        throw InputError(fmt::format("the {} is not tabulated for a mean mesh force of {} kN", meshes[i].label(),
+                                     to_text(force / 1e3, 5)));
+      tables.push_back(&found->second);
+    }
+    return system->model(variant, tables);
+  } catch (const InputError&) {
+    rethrow_at(scene(), where);
+  }
+}
+
+StudyPoint evaluate(const LumpedModel& model, Answer wanted) {
+  try {
+    return model.answer(wanted);
   } catch (const Error& error) {
     std::string reason = error.what();
     for (auto& c : reason) {

@@ -14,7 +14,6 @@
 
 #include "app/model/gear_system.h"
 #include "app/study/studies.h"
-#include "app/systems/helical_pair/pair_subject.h"
 #include "core/files.h"
 #include "core/log.h"
 #include "core/units.h"

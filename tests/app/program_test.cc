@@ -112,11 +112,12 @@ BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
     BOOST_TEST(std::filesystem::exists(dynamics / name), name);
 
   // Each table of the motion against another one, or against what is known of it.
+  constexpr double digits = 5e-6;  // half a unit of the sixth, which tables have
   const auto spectrum = Csv::read(dynamics / "spectrum.csv");
   BOOST_TEST(spectrum.columns.front() == "frequency_Hz");
   const auto mesh_frequency = json["operating_point"]["mesh_frequency_Hz"].get<double>();
   for (const auto& row : spectrum.rows)
-    BOOST_TEST(std::abs(row[0] - row[spectrum.column("mesh_order")] * mesh_frequency) <= 1e-6 * row[0]);
+    BOOST_TEST(std::abs(row[0] - row[spectrum.column("mesh_order")] * mesh_frequency) <= digits * row[0]);
 
   const auto& bearings = ring["bearing_forces"];
   const auto forces = Csv::read(dynamics / "bearing_forces.csv");
@@ -126,7 +127,7 @@ BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
     BOOST_TEST(row[forces.column("planet2_resultant_max_N")] >= row[forces.column("planet2_resultant_min_N")]);
     largest = std::max(largest, row[forces.column("planet2_resultant_max_N")]);
   }
-  BOOST_TEST(largest == bearings["planet_max_N"][1].get<double>());
+  BOOST_TEST(largest == bearings["planet_max_N"][1].get<double>(), boost::test_tools::tolerance(digits));
   // All pins carry the torque of the carrier, T_s (1 + z_r/z_s), over a = 201 mm; the ring takes T_s z_r/z_s. The
   // response repeats to 1e-3 of the mesh force.
   const double torque = json["operating_point"]["sun_torque_N_m"].get<double>();
@@ -140,7 +141,7 @@ BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
   BOOST_TEST(section.rows.size() == 55U);
   double farthest = 0;
   for (const auto& row : orbit.rows) farthest = std::max(farthest, std::hypot(row[3], row[4]));
-  BOOST_TEST(std::abs(farthest / ring["sun_orbit"]["largest_m"].get<double>() - 1) <= 1e-12);
+  BOOST_TEST(std::abs(farthest / ring["sun_orbit"]["largest_m"].get<double>() - 1) <= digits);
   for (std::size_t i = 0; i < section.rows.size(); ++i) {
     BOOST_TEST(section.rows[i][section.column("sun_x_m")] == orbit.rows[64 * i][1]);
     BOOST_TEST(section.rows[i][section.column("ring_planet5_force_N")] ==
@@ -153,13 +154,13 @@ BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
   BOOST_TEST(shapes.columns.size() == shapes.rows.size() + 2);  // one mode per DOF
   BOOST_TEST(campbell.columns.size() == shapes.rows.size() + 3);
   for (std::size_t i = 0; i < shapes.rows.size(); ++i)  // at rest, to the rounding of the unsymmetric solver
-    BOOST_TEST(std::abs(campbell.rows.front()[i + 3] - shapes.rows[i][1]) <= 1e-10 * shapes.rows.back()[1]);
+    BOOST_TEST(std::abs(campbell.rows.front()[i + 3] - shapes.rows[i][1]) <= digits * shapes.rows.back()[1]);
   const auto critical = Csv::read(dynamics / "critical_speeds.csv");
   BOOST_TEST(!critical.rows.empty());
   for (const auto& row : critical.rows)  // on its mesh order: the mesh frequency is 162 turns of the carrier
     BOOST_TEST(std::abs(row[critical.column("frequency_Hz")] / (row[critical.column("mesh_order")] * 162 *
                                                                 row[critical.column("carrier_speed_rpm")] / 60) -
-                        1) <= 1e-9);
+                        1) <= 2 * digits);
   // No temporary file is left behind.
   for (const auto& file : std::filesystem::recursive_directory_iterator(folder.path() / "out"))
     BOOST_TEST(!is_unfinished(file.path()));

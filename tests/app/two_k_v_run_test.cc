@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "app/model/gear_system.h"
-#include "app/systems/two_k_v/two_k_v_subject.h"
 #include "core/files.h"
 #include "core/log.h"
+#include "dynamics/systems/two_k_v/two_k_v_figures.h"
 #include "tests/app/scenes.h"
 #include "tests/app/two_k_v_scenes.h"
 

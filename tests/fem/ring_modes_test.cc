@@ -340,15 +340,17 @@ BOOST_AUTO_TEST_CASE(the_rings_of_the_paper) {
     settings.level = 2;
     settings.motions = {pinned ? 2 : 4, 0};
     const auto fine = solve_ring_coupling(problem, equal_places(5), nominal_load, settings);
+    // Both are in plane strain, which is another matter.
+    const double stated = coarse.frequency_error_relative - annulus::fem::plane_strain_bounds(problem).frequency;
     double worst = 0;
     for (std::size_t k = 0; k < 12; ++k)
       worst = std::max(worst, std::abs(coarse.coupling.modes[k].frequency / fine.coupling.modes[k].frequency - 1));
     BOOST_TEST_MESSAGE("first " << fine.coupling.modes[0].frequency << " Hz, error " << worst << ", estimated "
-                                << coarse.frequency_error_relative);
+                                << stated);
     record.at_most(
         pinned ? "24 pins: largest error of twelve frequencies" : "held: largest error of twelve frequencies", "",
-        worst, coarse.frequency_error_relative, "stated error");
-    BOOST_TEST(coarse.frequency_error_relative < 0.01);
+        worst, stated, "stated error");
+    BOOST_TEST(stated < 0.01);
   }
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <mutex>
+#include <utility>
 
 #include "app/content_id.h"
 #include "core/csv.h"
@@ -19,6 +21,15 @@ bool same_law(const dynamics::ErrorProblem& a, const dynamics::ErrorProblem& b) 
   }
   return a.divisor == b.divisor && a.samples == b.samples && a.seed == b.seed && a.probability == b.probability &&
          a.confidence == b.confidence;
+}
+
+/// The last law is kept: studies ask for the same one again and again.
+dynamics::ErrorResult law_of(const dynamics::ErrorProblem& problem) {
+  static std::mutex lock;
+  static std::optional<std::pair<dynamics::ErrorProblem, dynamics::ErrorResult>> last;
+  const std::lock_guard guard(lock);
+  if (!last || !same_law(last->first, problem)) last.emplace(problem, dynamics::manufacturing_error(problem));
+  return last->second;
 }
 
 using Lines = std::vector<std::pair<std::string, std::string>>;
@@ -57,9 +68,8 @@ PairErrors pair_errors(const Scene& scene, const PairErrors* known) {
   errors.amplitude = scene.errors.mesh_error.value_or(0);
   if (!scene.manufacturing_error) return errors;
   errors.problem = error_problem(scene);
-  errors.law = known && known->problem && same_law(*known->problem, *errors.problem)
-                   ? known->law
-                   : dynamics::manufacturing_error(*errors.problem);
+  errors.law =
+      known && known->problem && same_law(*known->problem, *errors.problem) ? *known->law : law_of(*errors.problem);
   if (const auto* reading = errors.taken(scene))
     errors.amplitude =
         scene.manufacturing_error->amount == ErrorAmount::sample ? reading->sample.value : reading->exact;

@@ -10,7 +10,6 @@
 #include "app/model/mesh_figures.h"
 #include "app/pipeline.h"
 #include "app/plan/cost_actual.h"
-#include "app/systems/helical_pair/pair_subject.h"
 #include "app/systems/helical_pair/pair_table_errors.h"
 #include "app/tasks.h"
 #include "core/errors.h"
@@ -191,9 +190,8 @@ PairRunResult::PairRunResult(const Scene& of) : geometry(make_pair_geometry(of))
 void PairRunResult::solve_meshes(const RunOptions& options) {
   {
     const auto& model = plan.meshes.front();
-    std::optional<MeshResult> solved;
-    if (model.computed()) solved = computed_stiffness(model, "", options);
-    mesh = pair_mesh(scene, geometry, model, std::move(solved));
+    mesh = pair_mesh(scene, geometry, pair_stiffness(model, options));
+    not_solved.model = model;
     stiffnesses = mean_stiffnesses(scene, geometry, mesh);
     if (mesh.table && !mesh.computed) {
       auto table = *mesh.table;
@@ -238,6 +236,10 @@ std::vector<const MeshResult*> PairRunResult::meshes() const {
   return {&*mesh.computed};
 }
 
+std::vector<const MeshResult*> PairRunResult::model_tables() const {
+  return {mesh.computed ? &*mesh.computed : &not_solved};
+}
+
 std::vector<VariantFigures> PairRunResult::variants() const {
   FigureSet set;
   for (const auto& s : stiffnesses)
@@ -251,10 +253,6 @@ std::optional<CostRun> PairRunResult::actual(const CostStep& step) const {
   if (step.kind == CostKind::mesh) return mesh.computed ? actual_mesh(step.size, *mesh.computed) : std::nullopt;
   if (!response) return std::nullopt;
   return actual_time(step.size, timers.seconds("dynamics") + timers.seconds("shares"));
-}
-
-std::unique_ptr<StudySubject> PairRunResult::subject(const RunOptions& options) const {
-  return std::make_unique<PairSubject>(*this, options);
 }
 
 Page PairRunResult::report() const { return pair_report(*this); }

@@ -50,6 +50,7 @@ struct PairRunResult final : SystemRun {
   explicit PairRunResult(const Scene& of);
 
   PairGeometry geometry;
+  MeshResult not_solved{};  ///< the model alone, of a mesh that is not computed
   PairMesh mesh{};
   std::vector<MeanStiffness> stiffnesses{};
   PairErrors errors{};
@@ -63,7 +64,7 @@ struct PairRunResult final : SystemRun {
   [[nodiscard]] std::vector<const MeshResult*> meshes() const override;
   [[nodiscard]] std::vector<VariantFigures> variants() const override;
   [[nodiscard]] std::optional<CostRun> actual(const CostStep& step) const override;
-  [[nodiscard]] std::unique_ptr<StudySubject> subject(const RunOptions& options) const override;
+  [[nodiscard]] std::vector<const MeshResult*> model_tables() const override;
   [[nodiscard]] Json summary() const override;      // pair_summary.cc
   [[nodiscard]] std::string text() const override;  // pair_summary.cc
   [[nodiscard]] Page report() const override;

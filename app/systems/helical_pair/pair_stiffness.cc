@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/pipeline.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -142,9 +143,14 @@ StiffnessTable along_normal(const StiffnessTable& transverse, double base_helix_
   return {transverse.mesh(), transverse.phases(), transverse.ring_angles(), std::move(loads), std::move(entries)};
 }
 
-PairMesh pair_mesh(const Scene& scene, const PairGeometry& geometry, const MeshModel& model,
-                   std::optional<MeshResult> solved) {
-  PairMesh mesh{.model = model, .computed = std::move(solved)};
+MeshResult pair_stiffness(const MeshModel& model, const RunOptions& options) {
+  return model.computed() ? computed_stiffness(model, "", options) : MeshResult{.model = model};
+}
+
+PairMesh pair_mesh(const Scene& scene, const PairGeometry& geometry, MeshResult solved) {
+  PairMesh mesh{.model = solved.model};
+  const auto& model = mesh.model;
+  if (model.computed()) mesh.computed = std::move(solved);
   switch (scene.pinion_wheel.stiffness) {
     case StiffnessShape::computed:
       require(mesh.computed.has_value(), "a computed mesh has been solved");

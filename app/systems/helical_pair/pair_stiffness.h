@@ -41,9 +41,10 @@ struct PairMesh {
   std::optional<MeshResult> computed{};   ///< by finite elements
   std::optional<StiffnessTable> table{};  ///< transverse; of computed, closed_form and table
 };
-/// Everything but finite elements, which `solved` brings. Throws InputError for a table that cannot be read.
-[[nodiscard]] PairMesh pair_mesh(const Scene& scene, const PairGeometry& geometry, const MeshModel& model,
-                                 std::optional<MeshResult> solved);
+/// By finite elements; the model alone, without a table, where something else is asked for.
+[[nodiscard]] MeshResult pair_stiffness(const MeshModel& model, const RunOptions& options);
+/// What the scene asks for; finite elements from `solved`. Throws InputError for a table that cannot be read.
+[[nodiscard]] PairMesh pair_mesh(const Scene& scene, const PairGeometry& geometry, MeshResult solved);
 [[nodiscard]] dynamics::MeshExcitation pair_excitation(const Scene& scene, const PairGeometry& geometry,
                                                        const PairMesh& mesh);
 

@@ -5,6 +5,7 @@
 
 #include "app/plan/plan.h"
 #include "app/systems/helical_pair/pair_geometry_checks.h"
+#include "app/systems/helical_pair/pair_lumped_model.h"
 #include "app/systems/helical_pair/pair_run.h"
 #include "app/systems/helical_pair/pair_scene.h"
 #include "example_scenes.h"
@@ -32,6 +33,19 @@ class PairSystem final : public GearSystem {
   }
 
   [[nodiscard]] double mean_mesh_force() const override { return make_pair_geometry(scene()).transverse_force; }
+
+  [[nodiscard]] MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const override {
+    return pair_stiffness(mesh, options);
+  }
+
+  [[nodiscard]] std::unique_ptr<LumpedModel> model(std::size_t /*variant*/,
+                                                   const std::vector<const MeshResult*>& tables) const override {
+    const auto geometry = make_pair_geometry(scene());
+    // Of this scene: its stiffness may be prescribed otherwise.
+    auto mesh = stiffness_alone(*tables.front());
+    mesh.model = pair_mesh_model(scene(), geometry);
+    return pair_lumped_model(scene(), geometry, pair_mesh(scene(), geometry, std::move(mesh)));
+  }
 
   [[nodiscard]] std::vector<PlannedResponse> responses(int threads) const override {
     return pair_responses(scene(), threads);

@@ -1,10 +1,12 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
 #include "app/plan/accuracy_choice.h"
+#include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_plan.h"
-#include "app/systems/planetary/planetary_subject.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_response.h"
 #include "dynamics/steady_state/integration_cost.h"

@@ -11,7 +11,6 @@
 #include "app/plan/cost_actual.h"
 #include "app/results/cached_files.h"
 #include "app/scene/input_place.h"
-#include "app/systems/planetary/planetary_subject.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "app/tasks.h"
 #include "core/log.h"
@@ -179,10 +178,6 @@ std::optional<CostRun> RunResult::actual(const CostStep& step) const {
       return actual_time(step.size, ring.response_seconds);
   }
   return std::nullopt;
-}
-
-std::unique_ptr<StudySubject> RunResult::subject(const RunOptions& options) const {
-  return std::make_unique<PlanetarySubject>(*this, options);
 }
 
 Page RunResult::report() const { return stage_report(*this); }

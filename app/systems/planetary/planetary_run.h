@@ -34,7 +34,7 @@ struct RunResult final : SystemRun {
   [[nodiscard]] std::vector<const MeshResult*> meshes() const override;
   [[nodiscard]] std::vector<VariantFigures> variants() const override;
   [[nodiscard]] std::optional<CostRun> actual(const CostStep& step) const override;
-  [[nodiscard]] std::unique_ptr<StudySubject> subject(const RunOptions& options) const override;
+  [[nodiscard]] std::vector<const MeshResult*> model_tables() const override { return meshes(); }
   [[nodiscard]] Json summary() const override;      // summary.cc
   [[nodiscard]] std::string text() const override;  // summary.cc
   [[nodiscard]] Page report() const override;

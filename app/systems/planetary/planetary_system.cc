@@ -5,10 +5,10 @@
 
 #include "app/model/mesh_figures.h"
 #include "app/systems/planetary/planetary_geometry_checks.h"
+#include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_plan.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/planetary_scene.h"
-#include "app/systems/planetary/planetary_subject.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 #include "example_scenes.h"
@@ -33,25 +33,31 @@ class PlanetarySystem final : public GearSystem {
   }
 
   void check() const override {
-    const auto geometry = make_geometry(scene());
-    check_rims(scene(), geometry);
-    check_displacements(scene(), geometry);
+    check_rims(scene(), geometry());
+    check_displacements(scene(), geometry());
   }
 
   /// The sun mesh, then one mesh per ring.
-  [[nodiscard]] std::vector<MeshModel> meshes() const override { return mesh_models(scene(), make_geometry(scene())); }
+  [[nodiscard]] std::vector<MeshModel> meshes() const override { return mesh_models(scene(), geometry()); }
 
-  [[nodiscard]] double mean_mesh_force() const override {
-    return make_geometry(scene()).operating_point.mean_mesh_force;
+  [[nodiscard]] double mean_mesh_force() const override { return geometry().operating_point.mean_mesh_force; }
+
+  [[nodiscard]] std::vector<std::size_t> meshes_of(std::size_t ring) const override { return {0, ring + 1}; }
+
+  [[nodiscard]] MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const override {
+    return mesh_stiffness(scene(), geometry(), mesh, options);
+  }
+
+  [[nodiscard]] std::unique_ptr<LumpedModel> model(std::size_t ring,
+                                                   const std::vector<const MeshResult*>& tables) const override {
+    return planetary_model(scene(), geometry(), ring, *tables.front(), *tables.back());
   }
 
   [[nodiscard]] std::vector<PlannedResponse> responses(int /*threads*/) const override {
-    return planetary_responses(scene(), make_geometry(scene()), meshes());
+    return planetary_responses(scene(), geometry(), meshes());
   }
 
-  [[nodiscard]] double response_seconds() const override {
-    return planetary_response_seconds(scene(), make_geometry(scene()));
-  }
+  [[nodiscard]] double response_seconds() const override { return planetary_response_seconds(scene(), geometry()); }
 
   [[nodiscard]] bool coupled(const MeshModel& mesh) const override { return may_be_coupled(scene(), mesh); }
 
@@ -64,7 +70,14 @@ class PlanetarySystem final : public GearSystem {
   }
 
  protected:
-  void describe(Plan& plan) const override { describe_planetary(scene(), make_geometry(scene()), plan); }
+  void describe(Plan& plan) const override { describe_planetary(scene(), geometry(), plan); }
+
+ private:
+  [[nodiscard]] const GearGeometry& geometry() const {
+    if (!geometry_) geometry_ = make_geometry(scene());
+    return *geometry_;
+  }
+  mutable std::optional<GearGeometry> geometry_;
 };
 
 const std::vector<FigureSpec>& all_planetary_figures() {

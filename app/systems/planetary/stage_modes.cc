@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/systems/planetary/rim_coupling.h"
 #include "core/units.h"
@@ -110,11 +111,13 @@ StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnes
   }
   if (modes.modes.empty()) return result;
   add_energies(result, stage, modes);
-  const auto ring_mode = static_cast<std::size_t>(std::find(result.groups.begin(), result.groups.end(), "ring_mode") -
-                                                  result.groups.begin());
+  const auto share_of = [&](const StageModes::Mode& mode, const char* group) {
+    const auto found = std::find(result.groups.begin(), result.groups.end(), group);
+    return found == result.groups.end() ? 0 : mode.strain[static_cast<std::size_t>(found - result.groups.begin())];
+  };
   for (auto& mode : result.list) {  // the first two groups are the meshes
     const double of_sun = mode.frequency / 2 * mode.strain[0], of_ring = mode.frequency / 2 * mode.strain[1],
-                 of_ring_mode = ring_mode < result.groups.size() ? mode.frequency * mode.strain[ring_mode] : 0;
+                 of_ring_mode = mode.frequency * std::abs(share_of(mode, "ring_mode") + share_of(mode, "ring_body"));
     mode.frequency_error = of_sun * errors.sun_planet + of_ring * errors.ring_planet + of_ring_mode * errors.ring_mode;
     mode.error_parts = of_sun * errors.sun_parts;
     mode.error_parts += of_ring * errors.ring_parts;

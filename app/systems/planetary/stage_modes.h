@@ -34,13 +34,13 @@ struct StageModes {
 struct MeshStiffnessErrors {
   double sun_planet = 0, ring_planet = 0;
   ErrorParts sun_parts{}, ring_parts{};  ///< of them, where known
-  double ring_mode = 0;                  ///< relative error of the frequencies of the ring's elastic modes
+  double ring_mode = 0;                  ///< relative error of the frequencies of the elastic ring
   ErrorParts ring_mode_parts{};          ///< of it
 };
 [[nodiscard]] MeshStiffnessErrors stiffness_errors(const MeshResult& sun_mesh, const MeshResult& ring_mesh);
 
 /// The error of a frequency is that of the stiffnesses times half their shares of the strain energy of the mode, and
-/// that of the ring's own frequencies times the share of its elastic modes; all taken to err the same way.
+/// that of the ring's own frequencies times the share of its elasticity (ring_mode, ring_body); all taken to err the same way.
 [[nodiscard]] StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnessErrors& errors);
 
 /// The distinct natural frequencies above zero with their errors, by the keys of dynamics::planetary_figures.

@@ -10,7 +10,6 @@
 #include "app/pipeline.h"
 #include "app/plan/cost_actual.h"
 #include "app/results/cached_files.h"
-#include "app/systems/two_k_v/two_k_v_subject.h"
 #include "app/tasks.h"
 #include "core/files.h"
 #include "core/log.h"
@@ -21,12 +20,6 @@ namespace annulus::app {
 namespace {
 
 constexpr const char *compared_folder = "computed", *cached_motions = "responses";
-
-MeshResult sun_result(const Scene& scene, const std::string& folder, const RunOptions& options) {
-  const auto model = two_k_v_sun_model(scene);
-  if (model.computed()) return computed_stiffness(model, folder, options);
-  return given_sun_result(scene, model);
-}
 
 void write_arc_table(const Scene& scene, const MeshResult& arc, const std::filesystem::path& folder) {
   if (scene.arc_pins.stiffness != StiffnessShape::computed) return;
@@ -91,15 +84,22 @@ TwoKVMotion motion_in(const TwoKVCase& c, const RunOptions& options, const std::
 
 }  // namespace
 
+MeshResult two_k_v_stiffness(const Scene& scene, const MeshModel& sun, const std::string& folder,
+                             const RunOptions& options) {
+  return sun.computed() ? computed_stiffness(sun, folder, options) : given_sun_result(scene, sun);
+}
+
 TwoKVResult::TwoKVResult(const Scene& of) : arc(arc_tooth_mesh(of)), own{.scene = of, .tables = {}} { scene = of; }
 
 void TwoKVResult::solve_meshes(const RunOptions& options) {
   auto other = compared_scene(scene);
-  own.tables = {sun_result(scene, "", options), arc_pins_result(scene)};
+  own.tables = {two_k_v_stiffness(scene, two_k_v_sun_model(scene), "", options), arc_pins_result(scene)};
   write_arc_table(scene, own.tables.arc, options.out);
   if (!other) return;
   const bool same_sun = other->sun_planet.stiffness == scene.sun_planet.stiffness;
-  TwoKVTables tables{same_sun ? own.tables.sun : sun_result(*other, compared_folder, options), arc_pins_result(*other)};
+  TwoKVTables tables{
+      same_sun ? own.tables.sun : two_k_v_stiffness(*other, two_k_v_sun_model(*other), compared_folder, options),
+      arc_pins_result(*other)};
   computed = TwoKVCase{.scene = std::move(*other), .tables = std::move(tables)};
   write_arc_table(computed->scene, computed->tables.arc, options.out / compared_folder);
 }
@@ -150,10 +150,6 @@ std::optional<CostRun> TwoKVResult::actual(const CostStep& step) const {
   const auto& c = step.ring.empty() ? own : other_case;
   if (!c.motion || c.motion->reused) return std::nullopt;
   return actual_time(step.size, c.response_seconds);
-}
-
-std::unique_ptr<StudySubject> TwoKVResult::subject(const RunOptions& options) const {
-  return std::make_unique<TwoKVSubject>(own.scene, own.tables, own.motion ? &*own.motion : nullptr, options);
 }
 
 Page TwoKVResult::report() const { return reducer_report(*this); }

@@ -39,11 +39,15 @@ struct TwoKVResult final : SystemRun {
   [[nodiscard]] std::vector<const MeshResult*> meshes() const override;
   [[nodiscard]] std::vector<VariantFigures> variants() const override;
   [[nodiscard]] std::optional<CostRun> actual(const CostStep& step) const override;
-  [[nodiscard]] std::unique_ptr<StudySubject> subject(const RunOptions& options) const override;
+  [[nodiscard]] std::vector<const MeshResult*> model_tables() const override { return {&own.tables.sun}; }
   [[nodiscard]] Json summary() const override;      // two_k_v_summary.cc
   [[nodiscard]] std::string text() const override;  // two_k_v_summary.cc
   [[nodiscard]] Page report() const override;
 };
+
+/// Stiffness of the sun mesh: solved into OUT/`folder` or cached, or prescribed.
+[[nodiscard]] MeshResult two_k_v_stiffness(const Scene& scene, const MeshModel& sun, const std::string& folder,
+                                           const RunOptions& options);
 
 /// All steps of a run of a scene of this kind.
 [[nodiscard]] TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options);

@@ -5,6 +5,7 @@
 
 #include "app/plan/plan.h"
 #include "app/systems/two_k_v/two_k_v_geometry_checks.h"
+#include "app/systems/two_k_v/two_k_v_lumped_model.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "app/systems/two_k_v/two_k_v_scene.h"
 #include "dynamics/systems/two_k_v/two_k_v_figures.h"
@@ -32,6 +33,18 @@ class TwoKVSystem final : public GearSystem {
   [[nodiscard]] std::vector<MeshModel> meshes() const override { return two_k_v_meshes(scene()); }
 
   [[nodiscard]] double mean_mesh_force() const override { return two_k_v_kinematics(scene()).mean_sun_mesh_force(); }
+
+  /// The sun mesh; the arc mesh is a matter of formulas.
+  [[nodiscard]] std::vector<MeshModel> model_meshes() const override { return {two_k_v_sun_model(scene())}; }
+
+  [[nodiscard]] MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const override {
+    return two_k_v_stiffness(scene(), mesh, "", options);
+  }
+
+  [[nodiscard]] std::unique_ptr<LumpedModel> model(std::size_t /*variant*/,
+                                                   const std::vector<const MeshResult*>& tables) const override {
+    return two_k_v_lumped_model(scene(), {stiffness_alone(*tables.front()), arc_pins_result(scene())});
+  }
 
   [[nodiscard]] std::vector<PlannedResponse> responses(int /*threads*/) const override {
     return two_k_v_responses(scene());

@@ -96,10 +96,11 @@ std::vector<LinearForm> add_ring_modes(LumpedSystemBuilder& builder, const Plane
   const auto& body = *stage.ring_coupling;
   const double rotational_mass = stage.ring.inertia / (stage.ring.radius * stage.ring.radius);
   for (const auto& mode : body.modes) {
-    auto amplitude = builder.add_dof("ring_mode" + std::to_string(dofs.size() + 1));
+    const auto name = "ring_mode" + std::to_string(dofs.size() + 1);
+    auto amplitude = builder.add_dof(name);
     const double rate = 2 * std::numbers::pi * mode.frequency;
     builder.add_mass(amplitude, 1);
-    builder.add_spring(amplitude, rate * rate, critical_share(stage.support_damping_ratio, rate * rate, 1));
+    builder.add_spring(amplitude, rate * rate, critical_share(stage.support_damping_ratio, rate * rate, 1), name);
     builder.add_mass_coupling(amplitude, ring.x, in_mass_of_stage(mode.translation_x, stage.ring.mass, body.mass));
     builder.add_mass_coupling(amplitude, ring.y, in_mass_of_stage(mode.translation_y, stage.ring.mass, body.mass));
     builder.add_mass_coupling(amplitude, ring.u,

@@ -22,7 +22,8 @@ std::string group_words(const std::string& group) {
   static const std::map<std::string, std::string> words = {{"sun_planet", "sun meshes"},
                                                            {"ring_planet", "ring meshes"},
                                                            {"planet_bearing", "planet bearings"},
-                                                           {"ring_body", "the ring between the meshes"}};
+                                                           {"ring_body", "the ring between the meshes"},
+                                                           {"ring_mode", "elastic modes of the ring"}};
   const auto found = words.find(group);
   if (found != words.end()) return found->second;
   std::string text = group;

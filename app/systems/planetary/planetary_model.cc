@@ -1,0 +1,73 @@
+#include "app/systems/planetary/planetary_model.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/content_id.h"
+#include "app/systems/planetary/stage_response.h"
+#include "dynamics/systems/planetary/initial_spread.h"
+#include "dynamics/systems/planetary/planetary_figures.h"
+
+namespace annulus::app {
+
+std::vector<MeshModel> mesh_models(const Scene& scene, const GearGeometry& geometry) {
+  std::vector<MeshModel> models = {sun_mesh_model(scene, geometry)};
+  for (std::size_t i = 0; i < scene.rings.size(); ++i) models.push_back(ring_mesh_model(scene, geometry, i));
+  return models;
+}
+
+namespace {
+
+class PlanetaryModel final : public LumpedModel {
+ public:
+  PlanetaryModel(dynamics::PlanetaryStage stage, dynamics::SimulationOptions simulation, const MeshResult& sun_mesh,
+                 const MeshResult& ring_mesh)
+      : stage_(std::move(stage)), simulation_(std::move(simulation)), sun_mesh_(sun_mesh), ring_mesh_(ring_mesh) {}
+
+  [[nodiscard]] std::string id() const override {
+    return ContentId()
+        .add("response", response_id(stage_, simulation_, sun_mesh_, ring_mesh_))
+        .add("method", dynamics::point_method())
+        .id();
+  }
+
+  [[nodiscard]] StudyPoint answer(Answer wanted) const override {
+    auto f = dynamics::evaluate_point(stage_, {.simulation = simulation_, .motion = wanted == Answer::all});
+    auto figures = dynamics::figures(f);
+    if (wanted == Answer::all) figures.add(dynamics::motion_figures(f));
+    return {.figures = {dynamics::planetary_figures(), figures}, .poincare = std::move(f.poincare)};
+  }
+
+  [[nodiscard]] std::optional<StartSpread> starts(int count, int seed) const override {
+    const auto spread = dynamics::initial_spread(
+        stage_, {.random_starts = count - 1, .seed = static_cast<std::uint64_t>(seed), .simulation = simulation_});
+    const auto& specs = dynamics::planetary_figures();
+    StartSpread result{.starts = count, .motions = spread.attractors, .not_steady = spread.unsteady};
+    for (const auto& start : spread.starts) {
+      const FigureRow row(specs,
+                          dynamics::figures(dynamics::PointFigures{start.sun_planet, start.ring_planet, start.steady}));
+      if (result.low.empty()) result.low = result.high = row;
+      for (const auto& spec : specs) {
+        result.low.set(spec.key, std::min(result.low.value(spec.key), row.value(spec.key)));
+        result.high.set(spec.key, std::max(result.high.value(spec.key), row.value(spec.key)));
+      }
+    }
+    return result;
+  }
+
+ private:
+  dynamics::PlanetaryStage stage_;
+  dynamics::SimulationOptions simulation_;
+  const MeshResult &sun_mesh_, &ring_mesh_;
+};
+
+}  // namespace
+
+std::unique_ptr<LumpedModel> planetary_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                             const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
+  auto stage = make_stage(scene, geometry, ring, sun_mesh, ring_mesh);
+  auto simulation = simulation_options(scene, stage);
+  return std::make_unique<PlanetaryModel>(std::move(stage), std::move(simulation), sun_mesh, ring_mesh);
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "app/model/gear_geometry.h"
+#include "app/model/lumped_model.h"
+#include "app/model/mesh_result.h"
+#include "app/scene/scene.h"
+
+namespace annulus::app {
+
+/// Sun mesh first, then one per ring.
+[[nodiscard]] std::vector<MeshModel> mesh_models(const Scene& scene, const GearGeometry& geometry);
+
+/// The stage with one of its rings. The meshes are referred to.
+[[nodiscard]] std::unique_ptr<LumpedModel> planetary_model(const Scene& scene, const GearGeometry& geometry,
+                                                           std::size_t ring, const MeshResult& sun_mesh,
+                                                           const MeshResult& ring_mesh);
+
+}  // namespace annulus::app
