@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "app/model/model_run.h"
 #include "app/plan/plan.h"
 #include "app/scene/input_place.h"
+#include "app/tradeoff/trade_subject.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -39,6 +41,10 @@ std::vector<std::size_t> GearSystem::meshes_of(std::size_t /*variant*/) const {
   std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
 }
+
+std::unique_ptr<SystemRun> GearSystem::run() const { return std::make_unique<ModelRun>(scene_); }
+
+std::vector<std::unique_ptr<TradeSubject>> GearSystem::trades() const { return {}; }
 
 std::unique_ptr<GearSystem> make_system(const Scene& scene) { return system_kind(scene.stage.kind).make(scene); }
 

@@ -48,13 +48,14 @@ class GearSystem {
   /// Stiffness of one of these meshes: solved into OUT/<ring> or cached, prescribed, or by a formula. Throws what
   /// solving throws, with its place in the scene.
   [[nodiscard]] virtual MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const = 0;
-  /// The lumped model of a variant on the stiffness of its meshes, which are referred to. Needs [dynamics].
+  /// The lumped model of a variant on the stiffness of its meshes, which are referred to. Values of prescribed
+  /// stiffnesses are those of the scene, as studies change them. Needs [dynamics].
   [[nodiscard]] virtual std::unique_ptr<LumpedModel> model(std::size_t variant,
                                                            const std::vector<const MeshResult*>& tables) const = 0;
-  /// The responses of a run, one step each; empty without [dynamics].
-  [[nodiscard]] virtual std::vector<PlannedResponse> responses(int threads) const = 0;
+  /// The responses of a run, one step each; empty without [dynamics], and where they take no time.
+  [[nodiscard]] virtual std::vector<PlannedResponse> responses(int /*threads*/) const { return {}; }
   /// Wall time of a study's response of all variants on one core, s, rough. Needs [dynamics].
-  [[nodiscard]] virtual double response_seconds() const = 0;
+  [[nodiscard]] virtual double response_seconds() const { return 0; }
   /// Whether a computed mesh is coupled with the others through its ring, which is solved as a step of its own.
   [[nodiscard]] virtual bool coupled(const MeshModel& /*mesh*/) const { return false; }
   /// Predicted time and memory of a run.
@@ -62,10 +63,10 @@ class GearSystem {
   /// What will be modelled and why; computes nothing elastic.
   [[nodiscard]] Plan plan(int threads) const;
 
-  /// A run that has not begun.
-  [[nodiscard]] virtual std::unique_ptr<SystemRun> run() const = 0;
+  /// A run that has not begun; by the lumped models alone (ModelRun) unless the kind has one of its own.
+  [[nodiscard]] virtual std::unique_ptr<SystemRun> run() const;
   /// What the cost study measures, one per variant. They refer to the scene.
-  [[nodiscard]] virtual std::vector<std::unique_ptr<TradeSubject>> trades() const = 0;
+  [[nodiscard]] virtual std::vector<std::unique_ptr<TradeSubject>> trades() const;
 
  protected:
   /// Fills what a kind has of its own: inputs, quantities, degrees of freedom, decisions about the motion, remarks.
@@ -84,6 +85,8 @@ struct SystemKind {
 };
 /// systems/registry.cc
 [[nodiscard]] const std::vector<SystemKind>& system_kinds();
+/// Adds a kind of one's own, before the first scene is read.
+void register_system(SystemKind kind);
 [[nodiscard]] const SystemKind& system_kind(const std::string& name);
 
 /// The scene is referred to. Makes nothing but the object.

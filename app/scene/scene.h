@@ -1,5 +1,6 @@
 #pragma once
 
+#include <any>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -35,8 +36,24 @@ struct Scene : PlanetaryInput, PairInput, TwoKVInput, StudyInput {
   /// of its own.
   std::string text;
 
+  /// Inputs of a kind of gear system that the members above do not have: one struct, defined by the kind.
+  template <class Inputs>
+  [[nodiscard]] Inputs& own() {
+    if (!std::any_cast<Inputs>(&own_)) own_.emplace<Inputs>();
+    return std::any_cast<Inputs&>(own_);
+  }
+  /// Their defaults where the scene has none of their tables.
+  template <class Inputs>
+  [[nodiscard]] Inputs own() const {
+    const auto* inputs = std::any_cast<Inputs>(&own_);
+    return inputs ? *inputs : Inputs{};
+  }
+
   std::vector<Input> inputs;                   ///< every input with its origin, in the order of the schema
   std::map<std::string, std::string> assumed;  ///< key -> reason, as declared in [assumed]
+
+ private:
+  std::any own_;
 };
 
 /// Reads and checks a scene file. Throws SceneError with *all* problems found.

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "app/model/gear_system.h"
 #include "app/systems/helical_pair/pair_system.h"
 #include "app/systems/planetary/planetary_system.h"
@@ -5,10 +7,18 @@
 
 namespace annulus::app {
 
-const std::vector<SystemKind>& system_kinds() {
-  static const std::vector<SystemKind> kinds = {planetary_kind(), helical_pair_kind(), two_k_v_kind()};
+namespace {
+
+std::vector<SystemKind>& registered_kinds() {
+  static std::vector<SystemKind> kinds = {planetary_kind(), helical_pair_kind(), two_k_v_kind()};
   return kinds;
 }
+
+}  // namespace
+
+const std::vector<SystemKind>& system_kinds() { return registered_kinds(); }
+
+void register_system(SystemKind kind) { registered_kinds().push_back(std::move(kind)); }
 
 const std::vector<SceneKind>& scene_kinds() {
   static const auto kinds = [] {

@@ -367,6 +367,9 @@ TradeOff measure_tradeoff(const Scene& scene, const RunOptions& given, const Tra
   const auto options = with_reuse(given);
   TradeOff trade{.scene = scene, .variants = {}, .total_seconds = 0};
   const auto subjects = make_system(scene)->trades();
+  if (subjects.empty())
+    throw InputError(
+        fmt::format("{}: a stage of kind \"{}\" has no cost study", scene.file.string(), scene.stage.kind));
   for (const auto& subject : subjects)
     if (subject->meshes().empty() && !subject->has_motion())
       throw InputError(fmt::format("{}: '{}' has a given stiffness and no [dynamics]: there is nothing to trade",

@@ -40,7 +40,8 @@ struct MeshStiffnessErrors {
 [[nodiscard]] MeshStiffnessErrors stiffness_errors(const MeshResult& sun_mesh, const MeshResult& ring_mesh);
 
 /// The error of a frequency is that of the stiffnesses times half their shares of the strain energy of the mode, and
-/// that of the ring's own frequencies times the share of its elasticity (ring_mode, ring_body); all taken to err the same way.
+/// that of the ring's own frequencies times the share of its elasticity (ring_mode, ring_body); all taken to err the
+/// same way.
 [[nodiscard]] StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnessErrors& errors);
 
 /// The distinct natural frequencies above zero with their errors, by the keys of dynamics::planetary_figures.

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "dynamics/figures/steady_figure.h"
+
 namespace annulus::dynamics {
 
 namespace {
@@ -82,10 +84,7 @@ std::vector<FigureSpec> declared() {
   list.push_back(length("relative_motion_peak_to_peak_m",
                         "Relative motion with the bending of shafts and bearings, peak to peak",
                         "range over time of y_1 + u_1 - y_2 + u_2"));
-  list.push_back({.key = "steady",
-                  .title = "Periodic",
-                  .definition = "1 where a periodic steady state was found, otherwise 0",
-                  .better = Better::larger});
+  list.push_back(steady_figure());
   for (int i = 1; i <= pair_frequencies; ++i)
     list.push_back({.key = fmt::format("frequency_{}_Hz", i),
                     .title = fmt::format("Natural frequency {}", i),

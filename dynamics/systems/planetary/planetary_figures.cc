@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "dynamics/figures/steady_figure.h"
+
 namespace annulus::dynamics {
 
 namespace {
@@ -97,10 +99,7 @@ std::vector<FigureSpec> declared() {
   std::vector<FigureSpec> list;
   declare_meshes(list, sun_meshes, "sun meshes", true);
   declare_meshes(list, ring_meshes, "ring meshes", false);
-  list.push_back({.key = "steady",
-                  .title = "Periodic",
-                  .definition = "1 where a periodic steady state was found, otherwise 0",
-                  .better = Better::larger});
+  list.push_back(steady_figure());
   declare_motion(list, "sun", "Motion of the sun", "the distance of the sun's centre from its mean position");
   list[list.size() - 2].plotted = true;
   declare_motion(list, "sun_planet_deflection", "Deflection of the sun mesh",

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/units.h"
+#include "dynamics/figures/steady_figure.h"
 #include "dynamics/systems/two_k_v/two_k_v_modes.h"
 #include "dynamics/systems/two_k_v/two_k_v_statics.h"
 
@@ -72,10 +73,7 @@ void declare_statics(std::vector<FigureSpec>& list) {
 }
 
 void declare_motion(std::vector<FigureSpec>& list) {
-  list.push_back({.key = "steady",
-                  .title = "Periodic",
-                  .definition = "1 where a periodic steady state was found, otherwise 0",
-                  .better = Better::larger});
+  list.push_back(steady_figure());
   auto error = angle("output_error_peak_to_peak_rad", "Error of the output",
                      "range over the window of θ_output - θ_input / ratio");
   error.axis = "peak to peak, arc seconds";

@@ -1,0 +1,228 @@
+#include "app/systems/skeleton/torsional_pair.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "app/content_id.h"
+#include "app/model/gear_geometry.h"
+#include "app/model/mesh_figures.h"
+#include "app/pipeline.h"
+#include "app/plan/plan.h"
+#include "app/scene/gear_tables.h"
+#include "app/scene/key_checks.h"
+#include "dynamics/figures/steady_figure.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr const char* mesh_name = "pinion_wheel";
+
+// 1. Scene: what the user gives. Inputs that no other kind has are a struct of this file (Scene::own).
+
+struct DriveInput {
+  double inertia = 0;  ///< kg m^2
+};
+
+template <class Gear>
+Table gear_table(const char* path, const char* meaning, Gear section) {
+  Declarations<PairGearInput> gear(path, meaning, section);
+  declare_teeth(gear, Flanks::external);
+  declare_inertia(gear).required();
+  declare_flanks(gear, Flanks::external);
+  declare_bore(gear, is("mesh.pinion_wheel.stiffness", {"computed"}));
+  return gear.done();
+}
+
+std::vector<Table> tables() {
+  Declarations<StageInput> stage("stage", "", [](Scene& s, std::size_t) -> StageInput& { return s.stage; });
+  declare_centre_distance(stage).required();
+  stage.key("pinion_torque_Nm", &StageInput::pinion_torque, "Torque that drives the pinion.").above(0, 1e9).required();
+  Declarations<DriveInput> drive("drive", "The machine on the shaft of the pinion.",
+                                 [](Scene& s, std::size_t) -> DriveInput& { return s.own<DriveInput>(); });
+  drive.optional();
+  drive.key("inertia_kg_m2", &DriveInput::inertia, "Its moment of inertia.").fallback(0.0, "none").from(0, 1e6);
+  auto mesh = declare_mesh("mesh.pinion_wheel", "Stiffness of the mesh along the line of action.",
+                           [](Scene& s, std::size_t) -> MeshInput& { return s.pinion_wheel; }, {});
+  return {stage.done(),
+          gear_table("pinion", "The driving gear.", [](Scene& s, std::size_t) -> PairGearInput& { return s.pinion; }),
+          gear_table("wheel", "The driven gear.", [](Scene& s, std::size_t) -> PairGearInput& { return s.wheel; }),
+          drive.done(), mesh.done()};
+}
+
+class Checker : KeyChecks {
+ public:
+  using KeyChecks::KeyChecks;
+  void run() { wave(scene_.pinion_wheel, "mesh.pinion_wheel"); }
+};
+
+constexpr const char* example = R"(title = "Torsional pair"
+accuracy = 0.05
+[stage]
+kind = "torsional_pair"
+module_mm = 4
+pressure_angle_deg = 20
+face_width_mm = 30
+centre_distance_mm = 120
+pinion_torque_Nm = 300
+[material]
+youngs_modulus_GPa = 206
+poisson_ratio = 0.3
+density_kg_per_m3 = 7850
+[pinion]
+teeth = 24
+profile_shift = 0
+inertia_kg_m2 = 0.002
+bore_diameter_mm = 40
+[wheel]
+teeth = 36
+profile_shift = 0
+inertia_kg_m2 = 0.01
+bore_diameter_mm = 60
+[drive]
+inertia_kg_m2 = 0.001
+[dynamics]
+half_backlash_um = 50
+mesh_damping_ratio = 0.07
+support_damping_ratio = 0.02
+)";
+
+// 2. Results: each declared once.
+
+const std::vector<FigureSpec>& model_figures() {
+  static const std::vector<FigureSpec> specs = {
+      {.key = "natural_frequency_Hz",
+       .title = "Natural frequency",
+       .symbol = "f",
+       .unit = "Hz",
+       .definition = "1/(2π) √(k (1/m_1 + 1/m_2)) with the mean mesh stiffness k and m = J/r² at the base circles",
+       .guarantee = Guarantee::always,
+       .digits = 5,
+       .compared = true,
+       .plotted = true,
+       .spread = true},
+      {.key = "static_deflection_m",
+       .title = "Deflection of the mesh",
+       .unit = "µm",
+       .scale = 1e6,
+       .definition = "mesh force over the mean mesh stiffness",
+       .better = Better::smaller,
+       .compared = true,
+       .spread = true},
+      dynamics::steady_figure()};
+  return specs;
+}
+
+const std::vector<FigureSpec>& all_figures() {
+  static const auto specs = [] {
+    auto list = mesh_figure_specs(mesh_name, "mesh", "mesh_stiffness");
+    list.insert(list.end(), model_figures().begin(), model_figures().end());
+    return list;
+  }();
+  return specs;
+}
+
+// 3. Lumped model: the equations, from the scene and the stiffness of its mesh.
+
+class TorsionalModel final : public LumpedModel {
+ public:
+  TorsionalModel(double stiffness, double force, double pinion_mass, double wheel_mass)
+      : stiffness_(stiffness), force_(force), pinion_mass_(pinion_mass), wheel_mass_(wheel_mass) {}
+
+  [[nodiscard]] std::string id() const override {
+    return ContentId()
+        .add("k", stiffness_)
+        .add("force", force_)
+        .add("pinion", pinion_mass_)
+        .add("wheel", wheel_mass_)
+        .id();
+  }
+
+  [[nodiscard]] StudyPoint answer(Answer /*wanted*/) const override {
+    FigureRow row(model_figures());
+    row.set("natural_frequency_Hz",
+            std::sqrt(stiffness_ * (1 / pinion_mass_ + 1 / wheel_mass_)) / (2 * std::numbers::pi));
+    row.set("static_deflection_m", force_ / stiffness_);
+    row.set("steady", 1);
+    return {.figures = row};
+  }
+
+ private:
+  double stiffness_, force_;         // N/m, N
+  double pinion_mass_, wheel_mass_;  // kg, at the base circles
+};
+
+// 4. System: geometry, meshes and the plan. Run, studies and report are those of every kind.
+
+class TorsionalPair final : public GearSystem {
+ public:
+  using GearSystem::GearSystem;
+
+  [[nodiscard]] std::string describe() const override {
+    return fmt::format("torsional pair, {} and {} teeth", scene().pinion.teeth, scene().wheel.teeth);
+  }
+
+  void check() const override { (void)gears(); }
+
+  [[nodiscard]] std::vector<MeshModel> meshes() const override {
+    const auto pair = gears();
+    return {external_mesh_model(scene(), {.mesh = mesh_name,
+                                          .pair = pair,
+                                          .input = scene().pinion_wheel,
+                                          .planet = scene().pinion,
+                                          .wheel = scene().wheel,
+                                          .planet_name = "pinion",
+                                          .wheel_name = "wheel",
+                                          .mean_force = mean_mesh_force()})};
+  }
+
+  [[nodiscard]] double mean_mesh_force() const override {
+    return scene().stage.pinion_torque / gears().planet().base_radius();
+  }
+
+  [[nodiscard]] MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const override {
+    if (mesh.computed()) return computed_stiffness(mesh, mesh.ring, options);
+    return given_stiffness(mesh, scene().pinion_wheel, scene(), gears().contact_ratio(), mean_mesh_force());
+  }
+
+  [[nodiscard]] std::unique_ptr<LumpedModel> model(std::size_t /*variant*/,
+                                                   const std::vector<const MeshResult*>& tables) const override {
+    const auto pair = gears();
+    const double pinion = scene().pinion.inertia.value() + scene().own<DriveInput>().inertia,
+                 wheel = scene().wheel.inertia.value();
+    // What is prescribed is read from the scene.
+    const auto& input = scene().pinion_wheel;
+    const double stiffness = input.mean ? *input.mean : tables.front()->mean_stiffness().value;
+    return std::make_unique<TorsionalModel>(stiffness, mean_mesh_force(),
+                                            pinion / std::pow(pair.planet().base_radius(), 2),
+                                            wheel / std::pow(pair.wheel().base_radius(), 2));
+  }
+
+ protected:
+  void describe(Plan& plan) const override {
+    plan.inputs = scene().inputs;
+    plan.quantities = {{"mesh_force_N", mean_mesh_force(), "N", "mesh force along the line of action"}};
+    plan.dofs = {{"pinion u", true, "turns"}, {"wheel u", true, "turns"}};
+  }
+
+ private:
+  [[nodiscard]] geometry::GearPair gears() const {
+    return {make_gear(scene(), scene().pinion, geometry::GearKind::external),
+            make_gear(scene(), scene().wheel, geometry::GearKind::external, -1), scene().stage.centre_distance};
+  }
+};
+
+}  // namespace
+
+SystemKind torsional_pair_kind() {
+  return {
+      {"torsional_pair", tables, [](Scene& scene, std::vector<Problem>& problems) { Checker(scene, problems).run(); },
+       [] { return figure_keys(model_figures()); }, example},
+      all_figures,
+      model_figures,
+      [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<TorsionalPair>(scene); }};
+}
+
+}  // namespace annulus::app
