@@ -45,8 +45,8 @@ struct Scene : PlanetaryInput, PairInput, TwoKVInput, StudyInput {
   /// Their defaults where the scene has none of their tables.
   template <class Inputs>
   [[nodiscard]] Inputs own() const {
-    const auto* inputs = std::any_cast<Inputs>(&own_);
-    return inputs ? *inputs : Inputs{};
+    const auto* given = std::any_cast<Inputs>(&own_);
+    return given ? *given : Inputs{};
   }
 
   std::vector<Input> inputs;                   ///< every input with its origin, in the order of the schema

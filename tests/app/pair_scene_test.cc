@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(profile_shifts_set_the_centre_distance_without_backlash) {
 BOOST_AUTO_TEST_CASE(the_lumped_pair_has_the_statics_of_the_gears) {
   const auto scene = parsed_pair(test::quick_pair());
   const auto geometry = app::make_pair_geometry(scene);
-  const auto mesh = app::pair_mesh(scene, geometry, {.model = app::pair_mesh_model(scene, geometry)});
+  const auto mesh = app::pair_mesh(scene, geometry, {.model = app::pair_mesh_model(scene, geometry), .table = {}});
   const auto pair = app::make_pair(scene, geometry, app::pair_excitation(scene, geometry, mesh), 13.1e-6);
   // Textbook statics at the reference circle: F_t = T/r, thrust F_t tan beta, normal force F_t/(cos alpha_n cos beta).
   const double r = 0.015 * 21 / (2 * std::cos(14 * units::deg)), tangential = 20e3 / r;
@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(staggered_slices_keep_the_mean_and_smooth_the_ripple) {
 BOOST_AUTO_TEST_CASE(closed_form_and_iso_formula_agree) {
   const auto scene = parsed_pair(test::quick_pair());
   const auto geometry = app::make_pair_geometry(scene);
-  const auto mesh = app::pair_mesh(scene, geometry, {.model = app::pair_mesh_model(scene, geometry)});
+  const auto mesh = app::pair_mesh(scene, geometry, {.model = app::pair_mesh_model(scene, geometry), .table = {}});
   const auto list = app::mean_stiffnesses(scene, geometry, mesh);
   BOOST_TEST_REQUIRE(list.size() == 3U);
   BOOST_TEST(list[0].taken);
@@ -176,7 +176,8 @@ BOOST_AUTO_TEST_CASE(closed_form_and_iso_formula_agree) {
   const auto modified =
       parsed_pair(test::replaced(test::quick_pair(), "teeth = 21\n", "teeth = 21\ntip_relief_um = 20\n"));
   const auto without = app::mean_stiffnesses(
-      modified, geometry, app::pair_mesh(modified, geometry, {.model = app::pair_mesh_model(modified, geometry)}));
+      modified, geometry,
+      app::pair_mesh(modified, geometry, {.model = app::pair_mesh_model(modified, geometry), .table = {}}));
   BOOST_TEST(std::isnan(without[1].value));
   BOOST_TEST(without[1].note.find("modifications") != std::string::npos);
 }

@@ -144,7 +144,7 @@ StiffnessTable along_normal(const StiffnessTable& transverse, double base_helix_
 }
 
 MeshResult pair_stiffness(const MeshModel& model, const RunOptions& options) {
-  return model.computed() ? computed_stiffness(model, "", options) : MeshResult{.model = model};
+  return model.computed() ? computed_stiffness(model, "", options) : MeshResult{.model = model, .table = {}};
 }
 
 PairMesh pair_mesh(const Scene& scene, const PairGeometry& geometry, MeshResult solved) {
