@@ -12,10 +12,10 @@
 
 #include "app/commands.h"
 #include "app/completion.h"
-#include "app/content_id.h"
 #include "app/export/export.h"
-#include "app/interruption.h"
-#include "app/progress.h"
+#include "app/process/interruption.h"
+#include "app/process/progress.h"
+#include "app/results/content_id.h"
 #include "app/scene/scene_value.h"
 #include "core/errors.h"
 #include "core/log.h"

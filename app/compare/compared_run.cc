@@ -7,8 +7,8 @@
 #include <fstream>
 #include <optional>
 
-#include "app/finished_run.h"
 #include "app/model/gear_system.h"
+#include "app/run/finished_run.h"
 #include "app/scene/scene_schema.h"
 #include "app/scene/scene_value.h"
 #include "core/errors.h"

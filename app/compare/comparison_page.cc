@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "app/compare/compared_quantities.h"
-#include "app/content_id.h"
-#include "app/report/report_parts.h"
+#include "app/results/content_id.h"
+#include "app/sections/report_parts.h"
 
 namespace annulus::app {
 

@@ -4,8 +4,8 @@
 
 #include "app/compare/compared_quantities.h"
 #include "app/compare/comparison_page.h"
-#include "app/content_id.h"
-#include "app/report/report_parts.h"
+#include "app/results/content_id.h"
+#include "app/sections/report_parts.h"
 #include "core/csv.h"
 
 namespace annulus::app {

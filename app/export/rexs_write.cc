@@ -7,9 +7,9 @@
 #include <pugixml.hpp>
 #include <sstream>
 
-#include "app/content_id.h"
 #include "app/export/rexs.h"
-#include "app/model/gear_geometry.h"
+#include "app/plan/gear_geometry.h"
+#include "app/results/content_id.h"
 #include "app/scene/scene_schema.h"
 #include "app/systems/helical_pair/pair_model.h"
 #include "core/errors.h"

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "app/model/model_run.h"
+#include "app/model/plan_studies.h"
+#include "app/model/system_run.h"
+#include "app/model/trade_subject.h"
 #include "app/plan/plan.h"
 #include "app/scene/input_place.h"
-#include "app/tradeoff/trade_subject.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -42,7 +43,7 @@ std::vector<std::size_t> GearSystem::meshes_of(std::size_t /*variant*/) const {
   return all;
 }
 
-std::unique_ptr<SystemRun> GearSystem::run() const { return std::make_unique<ModelRun>(scene_); }
+std::unique_ptr<SystemRun> GearSystem::run() const { return nullptr; }
 
 std::vector<std::unique_ptr<TradeSubject>> GearSystem::trades() const { return {}; }
 

@@ -63,7 +63,7 @@ class GearSystem {
   /// What will be modelled and why; computes nothing elastic.
   [[nodiscard]] Plan plan(int threads) const;
 
-  /// A run that has not begun; by the lumped models alone (ModelRun) unless the kind has one of its own.
+  /// A run of this kind that has not begun; nothing: by the lumped models alone (run/model_run.h).
   [[nodiscard]] virtual std::unique_ptr<SystemRun> run() const;
   /// What the cost study measures, one per variant. They refer to the scene.
   [[nodiscard]] virtual std::vector<std::unique_ptr<TradeSubject>> trades() const;

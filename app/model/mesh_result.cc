@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "app/content_id.h"
 #include "app/model/mesh_tables.h"
 #include "app/report/drawings/field_view.h"
 #include "app/report/drawings/mesh.h"
+#include "app/results/content_id.h"
 #include "core/files.h"
 
 namespace annulus::app {

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/content_id.h"
 #include "app/model/mesh_result.h"
+#include "app/results/content_id.h"
 #include "app/scene/scene_files.h"
 #include "core/errors.h"
 #include "core/files.h"

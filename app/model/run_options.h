@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "app/model/reuse.h"
 #include "app/plan/mesh_model.h"
-#include "app/reuse.h"
 
 namespace annulus {
 class ResultStore;

@@ -7,22 +7,17 @@
 #include <vector>
 
 #include "app/model/mesh_result.h"
-#include "app/model/reference.h"
 #include "app/model/run_options.h"
+#include "app/model/study_result.h"
 #include "app/plan/plan.h"
 #include "app/report/section.h"
-#include "app/study/study_result.h"
+#include "app/results/figure_table.h"
+#include "app/scene/reference.h"
 #include "core/figure.h"
 #include "core/json.h"
 #include "core/log.h"
 
 namespace annulus::app {
-
-/// The results of one of the compared lumped models.
-struct VariantFigures {
-  std::string name;  ///< empty for kinds without variants
-  FigureSet figures;
-};
 
 /// A run of a gear system, whose results grow step by step: `run_system` (run.h) takes the steps.
 struct SystemRun {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/content_id.h"
+#include "app/results/content_id.h"
 #include "fem/loaded_mesh.h"
 #include "fem/problem/solved_face.h"
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/model/gear_geometry.h"
 #include "app/plan/accuracy_choice.h"
+#include "app/plan/gear_geometry.h"
 #include "app/plan/ring_structures.h"
 #include "app/scene/scene.h"
 #include "fem/loaded_mesh.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/content_id.h"
 #include "app/plan/plan.h"
+#include "app/results/content_id.h"
 #include "app/scene/inputs_json.h"
 #include "core/json.h"
 

@@ -15,6 +15,5 @@ struct StudyPlan {
   int tables = 0;      ///< stiffness tables to be solved besides the nominal ones
   double seconds = 0;  ///< rough wall time of the responses on one core, tables not counted
 };
-[[nodiscard]] std::vector<StudyPlan> plan_studies(const Scene& scene);
 
 }  // namespace annulus::app

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "app/report/plot/plot_data.h"
-#include "app/report/xml.h"
+#include "app/report/text/xml.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/log.h"

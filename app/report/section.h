@@ -10,7 +10,7 @@
 #include "app/report/plot/curves.h"
 #include "app/report/plot/map.h"
 #include "app/report/plot/spread.h"
-#include "app/report/text.h"
+#include "app/report/text/text.h"
 
 /// A report is data: sections of blocks. What reads results makes it, page.h draws it.
 namespace annulus::app {

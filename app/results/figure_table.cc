@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "app/content_id.h"
+#include "app/results/content_id.h"
 #include "core/csv.h"
 
 namespace annulus::app {

@@ -3,10 +3,15 @@
 #include <string>
 #include <vector>
 
-#include "app/model/system_run.h"
 #include "core/figure.h"
 
 namespace annulus::app {
+
+/// The results of one of the compared lumped models.
+struct VariantFigures {
+  std::string name;  ///< empty for kinds without variants
+  FigureSet figures;
+};
 
 /// figures.csv: a line per result and variant with key, symbol, value and error in SI, unit and title for people. In
 /// the order of the declarations, those that a variant does not have left out.

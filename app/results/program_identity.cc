@@ -7,7 +7,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "app/content_id.h"
+#include "app/results/content_id.h"
 #include "core/errors.h"
 
 namespace annulus::app {

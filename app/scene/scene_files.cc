@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 
-#include "app/model/reference.h"
 #include "app/scene/input_place.h"
+#include "app/scene/reference.h"
 #include "app/scene/scene_limits.h"
 #include "core/table_import.h"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "app/study/study_result.h"
+#include "app/model/study_result.h"
 #include "core/json.h"
 
 namespace annulus::app {

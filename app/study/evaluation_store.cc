@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/content_id.h"
+#include "app/results/content_id.h"
 #include "core/result_store.h"
 
 namespace annulus::app {

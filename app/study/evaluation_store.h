@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/study/study_result.h"
+#include "app/model/study_result.h"
 #include "core/csv.h"
 
 namespace annulus {

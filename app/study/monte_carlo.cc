@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/content_id.h"
 #include "app/model/run_options.h"
-#include "app/progress.h"
+#include "app/model/study_cases.h"
+#include "app/process/progress.h"
+#include "app/process/tasks.h"
+#include "app/results/content_id.h"
 #include "app/study/studies.h"
-#include "app/study/study_cases.h"
-#include "app/tasks.h"
 #include "core/log.h"
 #include "core/result_store.h"
 

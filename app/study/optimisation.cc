@@ -7,14 +7,14 @@
 #include <mutex>
 #include <numeric>
 
-#include "app/content_id.h"
 #include "app/model/run_options.h"
-#include "app/progress.h"
+#include "app/model/study_cases.h"
+#include "app/process/progress.h"
+#include "app/process/tasks.h"
+#include "app/results/content_id.h"
 #include "app/study/design_store.h"
 #include "app/study/evaluation_store.h"
 #include "app/study/studies.h"
-#include "app/study/study_cases.h"
-#include "app/tasks.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/result_store.h"

@@ -4,8 +4,8 @@
 #include <limits>
 #include <numeric>
 
-#include "app/content_id.h"
 #include "app/model/run_options.h"
+#include "app/results/content_id.h"
 #include "app/study/studies.h"
 #include "app/study/study_runner.h"
 #include "core/files.h"

@@ -6,11 +6,11 @@
 
 #include "app/model/gear_system.h"
 #include "app/model/run_options.h"
-#include "app/progress.h"
+#include "app/process/progress.h"
+#include "app/process/tasks.h"
 #include "app/scene/input_place.h"
 #include "app/study/point_store.h"
 #include "app/study/study_runner.h"
-#include "app/tasks.h"
 #include "core/log.h"
 
 namespace annulus::app {

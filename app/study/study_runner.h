@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/study/study_cases.h"
+#include "app/model/study_cases.h"
 #include "app/study/study_subject.h"
 
 namespace annulus::app {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "app/model/run_options.h"
+#include "app/model/study_cases.h"
 #include "app/model/system_run.h"
-#include "app/study/study_cases.h"
 #include "core/errors.h"
 #include "core/log.h"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/model/gear_system.h"
+#include "app/model/study_result.h"
 #include "app/scene/overrides.h"
-#include "app/study/study_result.h"
 
 namespace annulus::app {
 

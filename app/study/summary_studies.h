@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/study/study_result.h"
+#include "app/model/study_result.h"
 #include "core/json.h"
 
 /// The studies as JSON objects, to be merged into summary.json.

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "app/content_id.h"
 #include "app/model/run_options.h"
+#include "app/results/content_id.h"
 #include "app/study/studies.h"
 #include "app/study/study_runner.h"
 

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/content_id.h"
 #include "app/plan/cost_plan.h"
 #include "app/report/page.h"
-#include "app/report/report_parts.h"
+#include "app/results/content_id.h"
 #include "app/scene/overrides.h"
+#include "app/sections/report_parts.h"
 #include "core/csv.h"
 #include "core/files.h"
 

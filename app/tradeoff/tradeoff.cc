@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
-#include "app/content_id.h"
 #include "app/model/gear_system.h"
-#include "app/pipeline.h"
+#include "app/model/trade_subject.h"
 #include "app/results/cached_files.h"
-#include "app/tradeoff/trade_subject.h"
+#include "app/results/content_id.h"
+#include "app/run/pipeline.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/json.h"

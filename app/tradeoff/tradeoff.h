@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/model/run_options.h"
-#include "app/tradeoff/measured_work.h"
+#include "app/process/measured_work.h"
 #include "app/tradeoff/trade_settings.h"
 #include "core/figure.h"
 #include "core/stiffness_table.h"

@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "app/pipeline.h"
 #include "app/report/page.h"
+#include "app/run/pipeline.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "app/systems/planetary/stage_modes.h"

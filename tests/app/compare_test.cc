@@ -5,7 +5,7 @@
 #include "app/compare/compared_quantities.h"
 #include "app/compare/compared_run.h"
 #include "app/compare/comparison_page.h"
-#include "app/finished_run.h"
+#include "app/run/finished_run.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "tests/app/pair_scenes.h"

@@ -1,5 +1,5 @@
-#include "app/plan/cost_budget.h"
-#include "app/pipeline.h"
+#include "app/model/cost_budget.h"
+#include "app/run/pipeline.h"
 #include "app/systems/planetary/planetary_run.h"
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "app/model/cost_actual.h"
 #include "app/model/gear_system.h"
-#include "app/plan/cost_actual.h"
 #include "app/plan/plan.h"
 #include "core/files.h"
 #include "tests/app/pair_scenes.h"

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "app/plan/cost_plan.h"
-#include "app/progress.h"
+#include "app/process/progress.h"
 #include "tests/app/scenes.h"
 
 namespace annulus {

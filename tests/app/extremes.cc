@@ -7,8 +7,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "app/model/gear_geometry.h"
 #include "app/model/gear_system.h"
+#include "app/plan/gear_geometry.h"
 #include "app/plan/mesh_model.h"
 #include "app/scene/scene_schema.h"
 #include "core/errors.h"

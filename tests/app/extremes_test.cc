@@ -7,8 +7,8 @@
 #include <ctime>
 #include <functional>
 
-#include "app/model/gear_geometry.h"
-#include "app/pipeline.h"
+#include "app/plan/gear_geometry.h"
+#include "app/run/pipeline.h"
 #include "app/systems/helical_pair/pair_model.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "core/errors.h"

@@ -127,11 +127,29 @@ BOOST_AUTO_TEST_CASE(layers_see_only_what_lies_below) {
 
 BOOST_AUTO_TEST_CASE(rooms_do_not_include_each_other_in_a_circle) {
   constexpr int deepest = 5;
-  for (const std::string layer : {"core", "geometry", "fem", "dynamics"})
+  for (const auto& layer : layers)
     for (int depth = 2; depth <= deepest; ++depth) {
       const auto circle = circle_in(rooms_of(layer, depth));
       BOOST_TEST(circle.empty(), layer << ", " << depth << " folders deep, in a circle:" << circle);
     }
+}
+
+BOOST_AUTO_TEST_CASE(rooms_of_the_application_see_only_what_lies_below) {
+  // From bottom to top (CONTRIBUTING.md). Kinds of gear systems do not see each other.
+  const std::vector<fs::path> order = {"app/process", "app/scene",  "app/results",  "app/report", "app/plan",
+                                       "app/model",   "app/study",  "app/sections", "app/run",    "app/tradeoff",
+                                       "app/systems", "app/export", "app/compare",  "app"};
+  const auto place = [&](const fs::path& file) {
+    return std::find(order.begin(), order.end(), room_of(file, 2)) - order.begin();
+  };
+  for (const auto& include : includes_of("app")) {
+    if (layer_of(include.path) != "app") continue;
+    BOOST_TEST(place(include.file) < std::ssize(order), include.file << " is in no room of this list");
+    BOOST_TEST(place(include.path) <= place(include.file), include.file << " includes " << include.path);
+    const auto own = room_of(include.file, 3), other = room_of(include.path, 3);
+    if (own.string().starts_with("app/systems/") && other.string().starts_with("app/systems/"))
+      BOOST_TEST(own == other, include.file << " includes " << include.path);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_circle_is_found) {

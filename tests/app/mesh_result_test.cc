@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "app/pipeline.h"
+#include "app/run/pipeline.h"
 #include "core/files.h"
 #include "core/log.h"
 #include "core/result_store.h"

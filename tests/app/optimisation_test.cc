@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "app/pipeline.h"
+#include "app/run/pipeline.h"
 #include "app/scene/scene_value.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "core/files.h"

@@ -3,8 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "app/model/study_cases.h"
 #include "app/study/studies.h"
-#include "app/study/study_cases.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
 

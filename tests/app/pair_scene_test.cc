@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "app/model/gear_system.h"
-#include "app/study/study_cases.h"
+#include "app/model/study_cases.h"
 #include "app/systems/helical_pair/pair_errors.h"
 #include "app/systems/helical_pair/pair_model.h"
 #include "app/systems/helical_pair/pair_stiffness.h"

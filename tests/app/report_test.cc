@@ -1,4 +1,4 @@
-#include "app/pipeline.h"
+#include "app/run/pipeline.h"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>

@@ -1,11 +1,11 @@
-#include "app/reuse.h"
+#include "app/model/reuse.h"
 
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/pipeline.h"
+#include "app/run/pipeline.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "core/csv.h"
 #include "core/log.h"

@@ -5,8 +5,8 @@
 
 #include "app/report/drawings/mesh.h"
 #include "app/report/drawings/mode.h"
-#include "app/report/report_parts.h"
-#include "app/report/xml.h"
+#include "app/report/text/xml.h"
+#include "app/sections/report_parts.h"
 #include "geometry/sector_mesh.h"
 #include "tests/app/made_up_solution.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "app/tradeoff/measured_work.h"
+#include "app/process/measured_work.h"
 #include "app/tradeoff/trade_report.h"
 #include "core/errors.h"
 #include "core/log.h"

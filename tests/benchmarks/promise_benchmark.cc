@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "app/pipeline.h"
+#include "app/process/measured_work.h"
+#include "app/run/pipeline.h"
 #include "app/scene/overrides.h"
 #include "app/scene/scene.h"
-#include "app/tradeoff/measured_work.h"
 #include "app/tradeoff/trade_report.h"
 #include "app/tradeoff/tradeoff.h"
 #include "core/errors.h"

@@ -5,7 +5,7 @@
 
 #include "app/model/run_options.h"
 #include "app/model/system_run.h"
-#include "app/pipeline.h"
+#include "app/run/pipeline.h"
 #include "app/scene/new_scene.h"
 #include "app/scene/scene_schema.h"
 #include "app/systems/skeleton/torsional_pair.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/report/xml.h"
+#include "app/report/text/xml.h"
 #include "app/scene/scene_value.h"
 #include "core/units.h"
 

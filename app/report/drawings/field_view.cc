@@ -10,7 +10,7 @@
 #include <iterator>
 
 #include "app/report/plot/colour_scale.h"
-#include "app/report/xml.h"
+#include "app/report/text/xml.h"
 #include "core/units.h"
 
 namespace annulus::app {

@@ -9,7 +9,7 @@
 #include "app/report/drawings/dimension.h"
 #include "app/report/drawings/gear.h"
 #include "app/report/plot/frame.h"
-#include "app/report/xml.h"
+#include "app/report/text/xml.h"
 #include "app/scene/scene_value.h"
 #include "core/units.h"
 #include "geometry/gear_places.h"

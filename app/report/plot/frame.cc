@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/report/xml.h"
+#include "app/report/text/xml.h"
 #include "app/scene/scene_value.h"
 
 namespace annulus::app {

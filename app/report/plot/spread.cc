@@ -8,7 +8,7 @@
 
 #include "app/report/plot/frame.h"
 #include "app/report/plot/plot_data.h"
-#include "app/report/xml.h"
+#include "app/report/text/xml.h"
 
 namespace annulus::app {
 

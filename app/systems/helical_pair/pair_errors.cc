@@ -6,7 +6,7 @@
 #include <mutex>
 #include <utility>
 
-#include "app/content_id.h"
+#include "app/results/content_id.h"
 #include "core/csv.h"
 #include "core/files.h"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/content_id.h"
+#include "app/results/content_id.h"
 #include "app/systems/helical_pair/pair_errors.h"
 #include "dynamics/systems/helical_pair/pair_figures.h"
 

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/content_id.h"
-#include "app/model/gear_geometry.h"
+#include "app/model/excitation.h"
 #include "app/model/stiff_supports.h"
-#include "app/systems/planetary/stage_response.h"
+#include "app/plan/gear_geometry.h"
+#include "app/results/content_id.h"
 #include "core/errors.h"
 
 namespace annulus::app {

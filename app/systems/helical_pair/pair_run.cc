@@ -1,17 +1,16 @@
 #include "app/systems/helical_pair/pair_run.h"
-#include "app/systems/helical_pair/report/pair_report_parts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/content_id.h"
+#include "app/model/cost_actual.h"
 #include "app/model/mesh_figures.h"
-#include "app/pipeline.h"
-#include "app/plan/cost_actual.h"
+#include "app/process/tasks.h"
+#include "app/results/content_id.h"
+#include "app/run/pipeline.h"
 #include "app/systems/helical_pair/pair_table_errors.h"
-#include "app/tasks.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/log.h"
@@ -254,8 +253,6 @@ std::optional<CostRun> PairRunResult::actual(const CostStep& step) const {
   if (!response) return std::nullopt;
   return actual_time(step.size, timers.seconds("dynamics") + timers.seconds("shares"));
 }
-
-Page PairRunResult::report() const { return pair_report(*this); }
 
 PairRunResult run_pair(const Scene& scene, const RunOptions& options) {
   PairRunResult result(scene);

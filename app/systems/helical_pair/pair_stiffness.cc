@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/pipeline.h"
+#include "app/run/pipeline.h"
 #include "core/errors.h"
 
 namespace annulus::app {

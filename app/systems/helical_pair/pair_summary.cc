@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "app/content_id.h"
-#include "app/plan/cost_actual.h"
+#include "app/model/cost_actual.h"
+#include "app/results/content_id.h"
 #include "app/scene/inputs_json.h"
 #include "app/scene/scene_schema.h"
 #include "app/study/summary_studies.h"

@@ -98,7 +98,8 @@ class PairTrade : public TradeSubject {
   /// The lumped pair on these tables; without any on the stiffness that the scene gives.
   [[nodiscard]] PairRunResult lumped(const std::vector<MeshResult>& tables) const {
     PairRunResult result(scene_);
-    result.mesh = pair_mesh(scene_, geometry_, tables.empty() ? MeshResult{.model = model_, .table = {}} : tables.front());
+    result.mesh =
+        pair_mesh(scene_, geometry_, tables.empty() ? MeshResult{.model = model_, .table = {}} : tables.front());
     result.pair = make_pair(scene_, geometry_, pair_excitation(scene_, geometry_, result.mesh), errors_.amplitude);
     return result;
   }

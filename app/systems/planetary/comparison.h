@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/model/measured.h"
-#include "app/model/reference.h"
+#include "app/scene/reference.h"
 #include "app/systems/planetary/planetary_run.h"
 
 namespace annulus::app {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "app/content_id.h"
+#include "app/results/content_id.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/log.h"

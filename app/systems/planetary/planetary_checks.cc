@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "app/model/gear_geometry.h"
+#include "app/plan/gear_geometry.h"
 #include "app/plan/mesh_model.h"
 #include "app/plan/ring_structures.h"
 #include "app/scene/key_checks.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "app/model/gear_geometry.h"
+#include "app/plan/gear_geometry.h"
 #include "app/scene/scene.h"
 
 namespace annulus::app {

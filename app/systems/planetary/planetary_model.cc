@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/content_id.h"
+#include "app/results/content_id.h"
 #include "app/systems/planetary/stage_response.h"
 #include "dynamics/systems/planetary/initial_spread.h"
 #include "dynamics/systems/planetary/planetary_figures.h"

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "app/model/gear_geometry.h"
 #include "app/model/lumped_model.h"
 #include "app/model/mesh_result.h"
+#include "app/plan/gear_geometry.h"
 #include "app/scene/scene.h"
 
 namespace annulus::app {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "app/model/gear_geometry.h"
+#include "app/plan/gear_geometry.h"
 #include "app/plan/plan.h"
 
 namespace annulus::app {

@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "app/model/cost_actual.h"
 #include "app/model/mesh_figures.h"
-#include "app/pipeline.h"
-#include "app/plan/cost_actual.h"
+#include "app/process/tasks.h"
 #include "app/results/cached_files.h"
+#include "app/run/pipeline.h"
 #include "app/scene/input_place.h"
-#include "app/systems/planetary/report/stage_report_parts.h"
-#include "app/tasks.h"
 #include "core/log.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 
@@ -179,8 +178,6 @@ std::optional<CostRun> RunResult::actual(const CostStep& step) const {
   }
   return std::nullopt;
 }
-
-Page RunResult::report() const { return stage_report(*this); }
 
 RunResult run(const Scene& scene, const RunOptions& options) {
   RunResult result(scene);

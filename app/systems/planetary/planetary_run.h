@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "app/model/gear_geometry.h"
 #include "app/model/mesh_result.h"
 #include "app/model/system_run.h"
+#include "app/plan/gear_geometry.h"
 #include "app/systems/planetary/coupling_effect.h"
 #include "app/systems/planetary/stage_response.h"
 

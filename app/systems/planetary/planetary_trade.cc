@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/content_id.h"
 #include "app/model/gear_system.h"
 #include "app/plan/plan.h"
+#include "app/process/measured_work.h"
+#include "app/results/content_id.h"
 #include "app/scene/overrides.h"
 #include "app/systems/planetary/planetary_run.h"
-#include "app/tradeoff/measured_work.h"
 #include "app/tradeoff/trade_settings.h"
 #include "core/errors.h"
 #include "core/log.h"

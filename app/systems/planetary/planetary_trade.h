@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "app/tradeoff/trade_subject.h"
+#include "app/model/trade_subject.h"
 
 namespace annulus::app {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/content_id.h"
+#include "app/results/content_id.h"
 #include "core/json.h"
 
 namespace annulus::app {

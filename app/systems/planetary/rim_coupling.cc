@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/content_id.h"
-#include "app/pipeline.h"
 #include "app/plan/accuracy_choice.h"
 #include "app/results/cached_files.h"
+#include "app/results/content_id.h"
+#include "app/run/pipeline.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/log.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "app/model/gear_geometry.h"
+#include "app/plan/gear_geometry.h"
 #include "app/plan/mesh_model.h"
 #include "app/scene/scene.h"
 #include "core/ring_coupling.h"

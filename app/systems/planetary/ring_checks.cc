@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "app/model/gear_geometry.h"
+#include "app/plan/gear_geometry.h"
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_schema.h"
 #include "core/errors.h"

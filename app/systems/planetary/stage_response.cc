@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/content_id.h"
+#include "app/results/content_id.h"
 #include "app/systems/planetary/response_json.h"
 #include "core/errors.h"
 #include "core/files.h"

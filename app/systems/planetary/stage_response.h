@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "app/content_id.h"
-#include "app/model/gear_geometry.h"
 #include "app/model/mesh_result.h"
+#include "app/plan/gear_geometry.h"
+#include "app/results/content_id.h"
 #include "app/scene/scene.h"
 #include "app/systems/planetary/carried_errors.h"
 #include "app/systems/planetary/stage_modes.h"
@@ -31,20 +31,9 @@ struct StageResponse {
   bool reused = false;
 };
 
-/// How the lumped model sees a mesh: the wave the scene gives, or the curves of its table at the nominal load (N) or
-/// over all of them.
-[[nodiscard]] dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult& mesh,
-                                                     double nominal_load, dynamics::LoadDependence dependence);
-/// Adds everything an excitation depends on: its parameters, or the numbers of the table.
-void add_excitation(ContentId& id, const std::string& name, const dynamics::MeshExcitation& excitation,
-                    const MeshResult& mesh);
-
 /// The stage of one ring as lumped masses: the scene, its kinematics and its mesh stiffnesses put together.
 [[nodiscard]] dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                                   const MeshResult& sun_mesh, const MeshResult& ring_mesh);
-/// What [dynamics] says of the integration, whatever the kind of stage; fixed steps are counted per cycle of this
-/// frequency (Hz).
-[[nodiscard]] dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double mesh_frequency);
 [[nodiscard]] dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamics::PlanetaryStage& stage);
 
 /// Identity of everything the response depends on.

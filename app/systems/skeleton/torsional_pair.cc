@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/content_id.h"
-#include "app/model/gear_geometry.h"
 #include "app/model/mesh_figures.h"
-#include "app/pipeline.h"
+#include "app/plan/gear_geometry.h"
 #include "app/plan/plan.h"
+#include "app/results/content_id.h"
+#include "app/run/pipeline.h"
 #include "app/scene/gear_tables.h"
 #include "app/scene/key_checks.h"
 #include "dynamics/figures/steady_figure.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/content_id.h"
+#include "app/results/content_id.h"
 #include "app/systems/two_k_v/two_k_v_motion.h"
 #include "dynamics/systems/two_k_v/two_k_v_figures.h"
 

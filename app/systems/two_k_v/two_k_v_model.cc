@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/content_id.h"
+#include "app/model/excitation.h"
 #include "app/model/stiff_supports.h"
-#include "app/systems/planetary/stage_response.h"
+#include "app/results/content_id.h"
 #include "core/errors.h"
 #include "core/units.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/content_id.h"
+#include "app/results/content_id.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/json.h"

@@ -1,19 +1,19 @@
 #include "app/systems/two_k_v/two_k_v_run.h"
-#include "app/systems/two_k_v/report/reducer_report_parts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "app/model/cost_actual.h"
 #include "app/model/mesh_figures.h"
-#include "app/pipeline.h"
-#include "app/plan/cost_actual.h"
+#include "app/process/tasks.h"
 #include "app/results/cached_files.h"
-#include "app/tasks.h"
+#include "app/run/pipeline.h"
 #include "core/files.h"
 #include "core/log.h"
 #include "core/stopwatch.h"
+#include "dynamics/systems/two_k_v/two_k_v_figures.h"
 
 namespace annulus::app {
 
@@ -151,8 +151,6 @@ std::optional<CostRun> TwoKVResult::actual(const CostStep& step) const {
   if (!c.motion || c.motion->reused) return std::nullopt;
   return actual_time(step.size, c.response_seconds);
 }
-
-Page TwoKVResult::report() const { return reducer_report(*this); }
 
 TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options) {
   TwoKVResult result(scene);

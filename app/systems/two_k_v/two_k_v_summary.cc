@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/content_id.h"
-#include "app/plan/cost_actual.h"
+#include "app/model/cost_actual.h"
+#include "app/results/content_id.h"
 #include "app/scene/inputs_json.h"
 #include "app/scene/scene_schema.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "core/json.h"
+#include "core/units.h"
 
 namespace annulus::app {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/content_id.h"
+#include "app/results/content_id.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/units.h"

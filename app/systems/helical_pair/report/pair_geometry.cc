@@ -2,7 +2,7 @@
 
 #include "app/report/drawings/dimension.h"
 #include "app/report/drawings/teeth.h"
-#include "app/report/sections/geometry_parts.h"
+#include "app/sections/geometry_parts.h"
 #include "app/systems/helical_pair/report/pair_report_parts.h"
 #include "geometry/gear_places.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/report/report_parts.h"
+#include "app/sections/report_parts.h"
 #include "app/systems/helical_pair/pair_run.h"
 
 /// The sections of a helical pair's report, made from the results alone.

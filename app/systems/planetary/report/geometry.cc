@@ -6,7 +6,7 @@
 #include "app/report/drawings/axial_section.h"
 #include "app/report/drawings/dimension.h"
 #include "app/report/drawings/teeth.h"
-#include "app/report/sections/geometry_parts.h"
+#include "app/sections/geometry_parts.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "geometry/gear_places.h"
 

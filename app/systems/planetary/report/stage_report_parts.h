@@ -8,7 +8,7 @@
 
 #include "app/report/drawings/transverse_section.h"
 #include "app/report/page.h"
-#include "app/report/report_parts.h"
+#include "app/sections/report_parts.h"
 #include "app/systems/planetary/planetary_run.h"
 
 /// The sections of a planetary stage's report.

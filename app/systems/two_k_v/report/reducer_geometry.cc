@@ -5,7 +5,7 @@
 
 #include "app/report/drawings/dimension.h"
 #include "app/report/drawings/teeth.h"
-#include "app/report/sections/geometry_parts.h"
+#include "app/sections/geometry_parts.h"
 #include "app/systems/two_k_v/report/reducer_report_parts.h"
 #include "geometry/gear_places.h"
 #include "geometry/pin_gear_outline.h"

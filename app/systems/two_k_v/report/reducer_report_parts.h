@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "app/report/report_parts.h"
+#include "app/sections/report_parts.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 
 /// The sections of the report of a 2K-V stage, made from the results alone.

@@ -1,0 +1,85 @@
+#include "app/plan/gear_geometry.h"
+
+#include <numbers>
+
+#include "core/errors.h"
+
+namespace annulus::app {
+
+namespace {
+
+template <class Make>
+auto named(const std::string& what, Make make) {
+  try {
+    return make();
+  } catch (const GeometryError& error) {
+    throw GeometryError(what + ": " + error.what());
+  }
+}
+
+/// Ring fixed, sun driving: Willis with standing ratio -z_r / z_s.
+OperatingPoint operate(const StageInput& stage, const geometry::PlanetarySet& set) {
+  const double sun_teeth = set.sun().teeth(), ring_teeth = set.ring().teeth();
+  const double ratio = 1 + ring_teeth / sun_teeth;
+  OperatingPoint point;
+  point.sun_speed = stage.sun_speed ? *stage.sun_speed : *stage.carrier_speed * ratio;
+  point.carrier_speed = point.sun_speed / ratio;
+  point.sun_torque = stage.power / point.sun_speed;
+  point.carrier_torque = point.sun_torque * ratio;
+  point.mesh_frequency = ring_teeth * point.carrier_speed / (2 * std::numbers::pi);
+  point.mean_mesh_force = point.sun_torque / (stage.planets * set.sun().base_radius());
+  return point;
+}
+
+}  // namespace
+
+geometry::Gear make_gear(const Scene& scene, const GearInput& input, geometry::GearKind kind, int hand) {
+  return geometry::Gear({.kind = kind,
+                         .teeth = input.teeth,
+                         .module = scene.stage.module,
+                         .pressure_angle = scene.stage.pressure_angle,
+                         .profile_shift = input.profile_shift,
+                         .face_width = scene.stage.face_width,
+                         .tip_diameter = input.tip_diameter,
+                         .root_diameter = input.root_diameter,
+                         .root_fillet_factor = input.root_fillet_factor,
+                         .tip_relief = input.tip_relief,
+                         .tip_relief_length = input.tip_relief_length,
+                         .profile_crowning = input.profile_crowning,
+                         .lead_crowning = input.lead_crowning,
+                         .lead_slope = input.lead_slope,
+                         .helix_angle = hand * scene.stage.helix_angle});
+}
+
+double outside_radius(const Scene& scene, const RingInput& ring) {
+  if (ring.outside_diameter) return *ring.outside_diameter / 2;
+  return make_gear(scene, ring, geometry::GearKind::internal).root_radius() + ring.rim_thickness.value_or(0);
+}
+
+GearGeometry make_geometry(const Scene& scene) {
+  using geometry::GearKind;
+  const auto sun = named("sun", [&] { return make_gear(scene, scene.sun, GearKind::external, -1); });
+  const auto planet = named("planet", [&] { return make_gear(scene, scene.planet, GearKind::external); });
+  GearGeometry result;
+  for (const auto& input : scene.rings) {
+    const std::string name = "ring '" + input.name + "'";
+    const auto ring = named(name, [&] { return make_gear(scene, input, GearKind::internal); });
+    const auto set = named(name, [&] {
+      const auto& stage = scene.stage;
+      if (stage.planet_angles.empty())
+        return geometry::PlanetarySet(sun, planet, ring, stage.centre_distance, stage.planets);
+      return geometry::PlanetarySet(sun, planet, ring, stage.centre_distance, stage.planet_angles);
+    });
+    const double outside = outside_radius(scene, input);
+    if (outside <= ring.root_radius()) {
+      throw GeometryError(name + ": outside diameter " + to_text(2e3 * outside, 7) +
+                          " mm is not larger than the root diameter " + to_text(2e3 * ring.root_radius(), 7) +
+                          " mm; make outside_diameter_mm larger");
+    }
+    result.rings.push_back({input.name, set, outside});
+  }
+  result.operating_point = operate(scene.stage, result.rings.front().set);
+  return result;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,102 @@
+#include "app/run/finished_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <vector>
+
+#include "app/model/run_options.h"
+#include "app/results/content_id.h"
+#include "app/results/program_identity.h"
+#include "app/scene/scene.h"
+#include "core/files.h"
+#include "core/json.h"
+#include "core/log.h"
+
+namespace annulus::app {
+
+namespace {
+
+constexpr const char* note_name = "run.json";
+constexpr const char* missing = "missing";
+
+/// "missing" where there is no such file.
+std::string stamp(const std::filesystem::path& file) { return file_checksum(file).value_or(missing); }
+
+/// Cached results are dropped when they become too many, and temporary files belong to whoever writes them.
+bool belongs_to_run(const std::filesystem::path& relative) {
+  return *relative.begin() != "cache" && relative != note_name && !is_unfinished(relative);
+}
+
+std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& out) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {
+    if (!entry.is_regular_file()) continue;
+    const auto relative = entry.path().lexically_relative(out);
+    if (belongs_to_run(relative)) files.push_back(relative);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+std::string run_id(const Scene& scene, const RunOptions& options) {
+  ContentId id;
+  id.add("program", program_identity());
+  id.add("scene", scene.text).add("dynamics", options.with_dynamics).add("accuracy", scene.accuracy);
+  for (const auto& input : scene.inputs)
+    id.add(input.ring + input.key,
+           fmt::format("{} {} {} {}", to_text(input.value), to_text(input.origin), input.note, input.assumed));
+  const auto add_file = [&](const std::optional<std::string>& name) {
+    if (name) id.add(*name, stamp(scene.file.parent_path() / *name));
+  };
+  add_file(scene.reference);
+  for (const auto* mesh : {&scene.sun_planet, &scene.ring_planet, &scene.pinion_wheel, &scene.arc_pins})
+    add_file(mesh->file);
+  return id.id();
+}
+
+void keep_finished_run(const std::filesystem::path& out, const std::string& id, const std::string& text) {
+  Json note = {{"annulus_version", version()}, {"inputs_id", id}, {"text", text}};
+  for (const auto& file : files_of_run(out)) note["files"][file.generic_string()] = stamp(out / file);
+  write_file(out / note_name, note.dump(1) + "\n");
+}
+
+std::optional<std::string> why_unfinished(const std::filesystem::path& out) {
+  std::ifstream stream(out / note_name);
+  if (!stream) return fmt::format("no {}", note_name);
+  const auto note = Json::parse(stream, nullptr, false);
+  try {
+    if (note.is_discarded()) return fmt::format("{} is damaged", note_name);
+    for (const auto& [name, kept] : note.at("files").items()) {
+      const auto now = stamp(out / name);
+      if (now != missing && now != kept) return name + " has changed since";
+    }
+  } catch (const Json::exception&) {
+    return fmt::format("{} is damaged", note_name);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> finished_run(const std::filesystem::path& out, const std::string& id) {
+  std::ifstream stream(out / note_name);
+  if (!stream) return std::nullopt;
+  const auto note = Json::parse(stream, nullptr, false);
+  try {
+    if (note.is_discarded() || note.at("inputs_id") != id) return std::nullopt;
+    for (const auto& [name, kept] : note.at("files").items()) {
+      const auto now = stamp(out / name);
+      if (now == kept) continue;
+      log::info(fmt::format("{} {} since the last run; it is written again", (out / name).string(),
+                            now == missing ? "is missing" : "has changed"));
+      return std::nullopt;
+    }
+    return note.at("text").get<std::string>();
+  } catch (const Json::exception&) {
+    return std::nullopt;  // not a note of ours
+  }
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/sections/report_parts.h"
+
+namespace annulus::app {
+
+namespace {
+
+const RingQuantity* quantity(const std::vector<RingQuantity>& list, const std::string& key) {
+  const auto found = std::find_if(list.begin(), list.end(), [&](const RingQuantity& q) { return q.key == key; });
+  return found == list.end() ? nullptr : &*found;
+}
+
+std::vector<Measured> sorted(const RingQuantity& q) {
+  auto rings = q.rings;
+  std::stable_sort(rings.begin(), rings.end(), [](const Measured& a, const Measured& b) { return a.value > b.value; });
+  return rings;
+}
+
+Text stiffness_sentence(const RingQuantity& q) {
+  const auto rings = sorted(q);
+  const auto& stiffest = rings.front();
+  const auto value = measured(stiffest.value / 1e6, stiffest.error / 1e6);
+  if (rings.size() < 2)
+    return phrase("The ring mesh of {} has a mean stiffness of {} N/µm.", bold(stiffest.ring), value);
+  std::vector<Text> others;
+  for (std::size_t i = 1; i < rings.size(); ++i)
+    others.push_back(bold(rings[i].ring) + " is " +
+                     (same(rings[i], stiffest)
+                          ? "as stiff"
+                          : fmt::format("{:.1f} % softer", 100 * (1 - rings[i].value / stiffest.value))));
+  return phrase("Stiffness of the ring mesh: {} is the stiffest ({} N/µm); {}.", bold(stiffest.ring), value,
+                enumerated(others));
+}
+
+Text sharing_sentence(const RingQuantity& q) {
+  const auto rings = sorted(q);
+  const auto &low = rings.back(), &high = rings.front();
+  const Text head = q.name + ": ";
+  if (rings.size() == 1) return head + measured(high.value, high.error) + ".";
+  return head +
+         phrase("the most loaded planet carries {:.1f} % more than its share with {} and {:.1f} % with {}",
+                100 * (low.value - 1), bold(low.ring), 100 * (high.value - 1), bold(high.ring)) +
+         (!std::isfinite(high.error + low.error) ? "; the error is not known."
+          : told_apart(high, low)                ? "."
+                                                 : "; the difference is within the error bars.");
+}
+
+Text factor_sentence(const RingQuantity& q) {
+  const auto rings = sorted(q);
+  std::vector<Text> words;
+  words.reserve(rings.size());
+  for (const auto& r : rings)
+    words.push_back(measured(r.value, r.error) + (rings.size() > 1 ? " with " + bold(r.ring) : Text()));
+  return phrase("{}: {}.", q.name, enumerated(words));
+}
+
+}  // namespace
+
+Blocks answer_sentences(const std::vector<RingQuantity>& quantities) {
+  Blocks blocks;
+  if (const auto* q = quantity(quantities, "ring_stiffness")) blocks += paragraph(stiffness_sentence(*q));
+  if (const auto* q = quantity(quantities, "load_sharing")) blocks += paragraph(sharing_sentence(*q));
+  if (const auto* q = quantity(quantities, "dynamic_factor")) blocks += paragraph(factor_sentence(*q));
+  return blocks;
+}
+
+Blocks answer_picture(const std::vector<RingQuantity>& quantities, const std::vector<std::string>& names) {
+  constexpr double letter = 6;
+  double longest = 0;
+  for (const auto& name : names) longest = std::max(longest, letter * static_cast<double>(name.size() + 18));
+  const int label_width = std::max(220, static_cast<int>(longest));
+  BarChart chart{.title = "Above the ideal, %",
+                 .x_label = "%",
+                 .width = 420 + label_width,
+                 .label_width = label_width,
+                 .row_height = 22};
+  for (const auto& [key, name] : {std::pair{"load_sharing", "load sharing"}, {"dynamic_factor", "dynamic factor"}}) {
+    const auto* q = quantity(quantities, key);
+    if (q == nullptr) continue;
+    for (const auto& m : q->rings) {
+      if (!std::isfinite(m.value)) continue;
+      chart.bars.push_back(
+          {.label = std::string(name) + ", " + m.ring,
+           .value = 100 * (m.value - 1),
+           .colour = static_cast<std::size_t>(std::find(names.begin(), names.end(), m.ring) - names.begin()),
+           .note = fmt::format("{:.3g} %", 100 * (m.value - 1)),
+           .error = 100 * m.error});
+    }
+  }
+  if (chart.bars.empty()) return {};
+  return Pictures{{chart},
+                  {},
+                  "Excess of the most loaded planet over its share, and of the largest mesh force over its mean; "
+                  "whiskers: estimated numerical error."};
+}
+
+}  // namespace annulus::app

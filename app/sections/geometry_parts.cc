@@ -1,0 +1,49 @@
+#include "app/sections/geometry_parts.h"
+
+#include <fmt/format.h>
+
+#include "app/report/drawings/dimension.h"
+
+namespace annulus::app {
+
+double bore_radius(const HubGearInput& gear) { return gear.bore_diameter.value_or(0) / 2; }
+
+PageTable diameter_table() {
+  return {.head = {"", "teeth", "tip ⌀, mm", "root ⌀, mm", "base ⌀, mm", "reference ⌀, mm", "bore or outside ⌀, mm"},
+          .style = PageTable::Style::numbers};
+}
+
+void add_gear(PageTable& table, const std::string& name, const geometry::Gear& gear, double other_radius) {
+  table.rows.push_back({name, fmt::format("{}", gear.teeth()), mm_text(2 * gear.tip_radius()),
+                        mm_text(2 * gear.root_radius()), mm_text(2 * gear.base_radius()),
+                        mm_text(2 * gear.reference_radius()), other_radius > 0 ? mm_text(2 * other_radius) : "–"});
+}
+
+std::string helical_note(double helix_angle) {
+  return helix_angle == 0 ? "" : " Helical teeth are shown in the transverse section at z = 0.";
+}
+
+std::string teeth_words(const std::string& planet, const std::string& wheels) {
+  return fmt::format(
+      "teeth in mesh at phase 0, in which driving flanks meet in the pitch point C if the path of contact reaches it; "
+      "it ends at A with the tip of the {} and at E with that of the {}.",
+      wheels, planet);
+}
+
+void add_sun_and_planets(TransverseSection& section, const Scene& scene, const geometry::GearPair& sun_mesh,
+                         double sun_angle, const std::vector<std::pair<double, double>>& planets,
+                         const std::string& id) {
+  section.gears.push_back(
+      {{.gear = sun_mesh.wheel(), .id = id + "-sun", .fill = sun_fill, .inner_radius = bore_radius(scene.sun)},
+       {{Eigen::Vector2d::Zero(), sun_angle}}});
+  TransverseSection::Gears list{
+      {.gear = sun_mesh.planet(), .id = id + "-planet", .fill = planet_fill, .inner_radius = bore_radius(scene.planet)},
+      {}};
+  for (const auto& [phi, angle] : planets) list.places.push_back({polar(sun_mesh.centre_distance(), phi), angle});
+  section.gears.push_back(std::move(list));
+  section.lengths.push_back({Eigen::Vector2d::Zero(), section.gears.back().places.front().centre, 0, "a = "});
+}
+
+Section geometry_section(const Blocks& blocks) { return {"drawings", "Geometry", blocks, "Geometry to scale"}; }
+
+}  // namespace annulus::app
