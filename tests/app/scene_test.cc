@@ -1,6 +1,8 @@
 #include "app/scene/scene.h"
 
+#include <fmt/format.h>
 #include <algorithm>
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <iterator>
@@ -122,6 +124,8 @@ BOOST_AUTO_TEST_CASE(rules_between_keys) {
   check_refused("outside_diameter_mm = 663.6", "outside_diameter_mm = 663.6\npins = 24", {"ring.pins", "pinned"});
   check_refused("name = \"held\"", "name = \"a/b\"", {"ring.name", "folder"});
   check_refused("name = \"held\"", "name = \"..\"", {"ring.name", "folder"});
+  for (const auto* own : {"mesh", "cache", "pictures", "report.html", "stiffness_sun_planet.csv"})
+    check_refused("name = \"held\"", fmt::format("name = \"{}\"", own), {"ring.name", "that a run writes itself"});
   check_refused("ripple = 0.2258", "ripple = 1.5", {"mesh.sun_planet.ripple", "negative"});
   check_refused("ripple = 0.2258\n", "", {"mesh.sun_planet.ripple", "required"});
   check_refused("mass_kg = 66\n", "", {"sun.mass_kg", "[dynamics]"});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -113,6 +114,14 @@ class PlanetaryChecker : KeyChecks {
       refuse(fmt::format("ring-planet mesh of '{}'", ring.name), solid_reason(scene_, ring));
   }
 
+  /// Names that a run gives to files and folders in OUT, beside the folders of the rings.
+  static bool is_of_the_run(const std::string& name) {
+    static const std::set<std::string> folders = {"cache",    "dynamics", "grid",        "mesh",     "optimise",
+                                                  "pictures", "sweep",    "sensitivity", "tradeoff", "studies"};
+    const auto ending = std::filesystem::path(name).extension();
+    return folders.contains(name) || ending == ".csv" || ending == ".html" || ending == ".json";
+  }
+
   void ring_names() {
     constexpr const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.";
     std::set<std::string> seen;
@@ -124,6 +133,8 @@ class PlanetaryChecker : KeyChecks {
       if (!good) {
         problem("ring.name", ring.name,
                 "names a folder: letters, digits, '-', '_', '+' and '.' only, not starting with '.', at most 64");
+      } else if (is_of_the_run(ring.name)) {
+        problem("ring.name", ring.name, "is the name of a file or folder that a run writes itself; choose another one");
       }
     }
     seen.clear();
