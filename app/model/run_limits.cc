@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "app/model/gear_system.h"
+#include "app/model/plan_studies.h"
 #include "core/errors.h"
 
 namespace annulus::app {
