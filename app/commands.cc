@@ -33,11 +33,15 @@ namespace annulus::app {
 
 namespace {
 
+std::filesystem::path cache_of(const Arguments& arguments, const std::filesystem::path& out) {
+  return arguments.cache.empty() ? results_cache(out) : std::filesystem::path(arguments.cache);
+}
+
 RunOptions run_options(const Arguments& arguments, const Scene& scene) {
   RunOptions options{.threads = arguments.threads};
   options.out =
       arguments.out.empty() ? std::filesystem::path("out") / scene.file.stem() : std::filesystem::path(arguments.out);
-  options.cache = arguments.cache.empty() ? results_cache(options.out) : std::filesystem::path(arguments.cache);
+  options.cache = cache_of(arguments, options.out);
   return options;
 }
 
@@ -91,6 +95,7 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
   } else {
     check_scene(scene, arguments, with_dynamics);
     remove_unfinished_files(options.out);
+    remove_unfinished_files(options.cache);
     const auto text = run_text(*run_system(scene, options));
     fmt::print("{}", text);
     keep_finished_run(options.out, id, text);
@@ -158,6 +163,7 @@ void tradeoff_command(const Arguments& arguments) {
   check_out(options.out);
   check_scene(scene, arguments, false);
   remove_unfinished_files(options.out);
+  remove_unfinished_files(options.cache);
   const auto trade = measure_tradeoff(scene, options);
   write_tradeoff(trade, options.out);
   fmt::print("{}\ntable   {}\nreport  {}\n", trade_text(trade), (options.out / "tradeoff.csv").string(),
@@ -213,13 +219,10 @@ void export_command(const Arguments& arguments) {
 }
 
 void cache_command(const Arguments& arguments) {
-  std::filesystem::path folder = arguments.cache;
-  if (folder.empty()) {
-    folder = results_cache({});
-    if (user_cache().empty())
-      throw InputError(
-          "runs cache their results in OUT/cache here (ANNULUS_CACHE is empty, or no home is known); name it");
-  }
+  if (arguments.cache.empty() && user_cache().empty())
+    throw InputError(
+        "each run has its own cache here (ANNULUS_CACHE is empty, or no home is known); name one: OUT/cache");
+  const auto folder = cache_of(arguments, {});
   if (arguments.clear) ResultStore::clear(folder);
   constexpr double MB = 1e-6;
   double bytes = 0;

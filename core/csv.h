@@ -22,8 +22,8 @@ struct Csv {
   /// `name`: of the file in messages.
   [[nodiscard]] static Csv parse(const std::string& text, const std::filesystem::path& name);
 
-  /// Rounds to six significant digits, far below any error of a result, and the first column, over which the others
-  /// are told, to nine: bulky tables shrink to less than half. Columns in `exact` stay as they are.
+  /// Rounds to six significant digits, far below any error of a result, and the first column, the abscissa, to nine:
+  /// large tables shrink to less than half. Columns in `exact` stay as they are.
   void round(const std::vector<std::string>& exact = {});
   /// Index of a column; throws InputError naming the column when it is missing.
   [[nodiscard]] std::size_t column(const std::string& name) const;

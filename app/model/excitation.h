@@ -15,12 +15,15 @@ namespace annulus::app {
 /// over all of them.
 [[nodiscard]] dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult& mesh,
                                                      double nominal_load, dynamics::LoadDependence dependence);
-/// Adds everything an excitation depends on: its parameters, or the numbers of the table.
+/// Adds everything an excitation depends on: its parameters, or the numbers and errors of its table and whether all
+/// loads are taken.
 void add_excitation(ContentId& id, const std::string& name, const dynamics::MeshExcitation& excitation,
-                    const MeshResult& mesh);
+                    const StiffnessTable& table);
 
 /// What [dynamics] says of the integration, whatever the kind of stage; fixed steps are counted per cycle of this
 /// frequency (Hz).
 [[nodiscard]] dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double mesh_frequency);
+/// Adds all options that a response depends on; its start is not among them.
+void add_simulation(ContentId& id, const dynamics::SimulationOptions& options);
 
 }  // namespace annulus::app

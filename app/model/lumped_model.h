@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/figure.h"
-#include "dynamics/systems/planetary/study_point.h"
+#include "dynamics/figures/poincare_point.h"
 
 namespace annulus::app {
 

@@ -12,7 +12,7 @@
 #include "app/process/progress.h"
 #include "app/process/tasks.h"
 #include "app/results/content_id.h"
-#include "app/study/design_store.h"
+#include "app/study/design_json.h"
 #include "app/study/evaluation_store.h"
 #include "app/study/studies.h"
 #include "core/errors.h"

@@ -134,6 +134,20 @@ BOOST_AUTO_TEST_CASE(lost_motion_of_backlash) {
   BOOST_TEST(lost.elastic == 0.06 * 58 / 7e4, boost::test_tools::tolerance(1e-12));
 }
 
+// The clearance of the arcs is no part of the model that moves, but of the results beside it.
+BOOST_AUTO_TEST_CASE(another_clearance_is_another_result) {
+  const test::TemporaryFolder folder("reducer_clearance");
+  const auto lost = [&](const std::string& text, const char* out) {
+    return run_reducer(text, folder.path() / out).variants().front().figures.value("lost_motion_rad");
+  };
+  const auto without = test::replaced(test::reducer_scene() + "mesh_cycles = 34\n", "mean_N_per_m = 7.5e8\n",
+                                      "mean_N_per_m = 7.5e8\ncompare = \"computed\"\n"),
+             with = test::replaced(without, "width_mm = 8\n", "width_mm = 8\nclearance_um = 2\n");
+  const double first = lost(without, "same"), second = lost(with, "same");
+  BOOST_TEST(second == lost(with, "fresh"), boost::test_tools::tolerance(1e-14));
+  BOOST_TEST(second > 1.01 * first);
+}
+
 BOOST_AUTO_TEST_CASE(studies_answer_with_named_figures) {
   const test::TemporaryFolder folder("reducer_studies");
   const auto result =

@@ -49,7 +49,7 @@ std::vector<std::size_t> visible_points(const Frame& frame, const std::vector<do
   });
 }
 
-/// Dots that can be told apart: of several thousand, one in each cell of a fine grid over them.
+/// Distinct dots: of several thousand, one in each cell of a fine grid over them.
 std::vector<std::size_t> distinct_dots(const Series& s) {
   constexpr std::size_t few = 4000;
   constexpr double columns = 600, rows = 400;

@@ -40,27 +40,6 @@ void add_pair_gear(ContentId& id, const std::string& name, const dynamics::PairG
   id.add(name + ".error", gear.error.amount).add(name + ".phase", gear.error.phase);
 }
 
-void add_pair_mesh(ContentId& id, const dynamics::MeshExcitation& mesh, const StiffnessTable* table) {
-  if (const auto* c = std::get_if<dynamics::ConstantStiffness>(&mesh)) {
-    id.add("constant", c->mean);
-  } else if (const auto* h = std::get_if<dynamics::HarmonicStiffness>(&mesh)) {
-    id.add("harmonic", h->mean).add("ripple", h->ripple).add("shift", h->phase_shift);
-  } else if (const auto* r = std::get_if<dynamics::RectangularStiffness>(&mesh)) {
-    id.add("rectangular", r->mean).add("ripple", r->ripple).add("duty", r->duty).add("shift", r->phase_shift);
-  } else {
-    require(table != nullptr, "a tabulated stiffness has a table");
-    const bool law = std::get<dynamics::TableStiffness>(mesh).surface != nullptr;
-    id.add("law", law ? 1 : 0);
-    for (const double load : table->loads()) id.add("load", load);
-    for (int phase = 0; phase < table->phases(); ++phase) {
-      for (int load = 0; load < static_cast<int>(table->loads().size()); ++load) {
-        const auto& e = table->at(0, phase, load);
-        id.add("u", e.unloaded_te).add("k", e.stiffness_secant).add("t", e.stiffness_tangent);
-      }
-    }
-  }
-}
-
 }  // namespace
 
 double PairGeometry::to_normal() const { return 1 / std::pow(std::cos(base_helix_angle), 2); }
@@ -135,15 +114,13 @@ std::string pair_id(const dynamics::HelicalPair& pair, const dynamics::Simulatio
   ContentId id;
   add_pair_gear(id, "pinion", pair.pinion);
   add_pair_gear(id, "wheel", pair.wheel);
-  add_pair_mesh(id, pair.mesh, table);
+  add_excitation(id, "mesh", pair.mesh, table ? *table : StiffnessTable());
   id.add("base_helix_angle", pair.base_helix_angle).add("half_backlash", pair.half_backlash.value_or(-1));
   id.add("mesh_error", pair.mesh_error.amount).add("phase", pair.mesh_error.phase);
   id.add("mesh_damping", pair.mesh_damping_ratio).add("bearing_damping", pair.bearing_damping_ratio);
   id.add("always", pair.damping_without_contact ? 1 : 0);
   id.add("speed", pair.pinion_speed).add("torque", pair.pinion_torque);
-  id.add("method", static_cast<int>(options.integrator.method)).add("tolerance", options.integrator.relative_tolerance);
-  id.add("fixed_step", options.integrator.fixed_step).add("cycles", options.mesh_cycles.value_or(0));
-  id.add("confirm", options.confirm ? 1 : 0).add("samples", options.samples_per_cycle);
+  add_simulation(id, options);
   return id.id();
 }
 

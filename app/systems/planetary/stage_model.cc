@@ -120,25 +120,15 @@ std::string response_id(const dynamics::PlanetaryStage& stage, const dynamics::S
   }
   id.add("sun_angle", stage.sun_working_angle).add("ring_angle", stage.ring_working_angle);
   id.add("teeth", stage.sun_teeth).add("teeth", stage.planet_teeth).add("teeth", stage.ring_teeth);
-  add_excitation(id, "sun_mesh", stage.sun_mesh, sun_mesh);
-  add_excitation(id, "ring_mesh", stage.ring_mesh, ring_mesh);
-  // With a table, the stage says whether it takes all loads or the nominal one.
-  for (const auto* mesh : {&stage.sun_mesh, &stage.ring_mesh}) {
-    const auto* table = std::get_if<dynamics::TableStiffness>(mesh);
-    id.add("law", table && table->surface ? 1 : 0);
-  }
+  add_excitation(id, "sun_mesh", stage.sun_mesh, sun_mesh.table);
+  add_excitation(id, "ring_mesh", stage.ring_mesh, ring_mesh.table);
   if (stage.ring_coupling) add_coupling(id, *stage.ring_coupling);
-  id.add("fixed_step", options.integrator.fixed_step);
   id.add("sun_half_backlash", stage.sun_half_backlash.value_or(-1));
   id.add("ring_half_backlash", stage.ring_half_backlash.value_or(-1)).add("mesh_damping", stage.mesh_damping_ratio);
   id.add("support_damping", stage.support_damping_ratio).add("always", stage.damping_without_contact ? 1 : 0);
   id.add("carrier_speed", stage.carrier_speed).add("sun_torque", stage.sun_torque);
   id.add("rotating_frame", stage.rotating_frame ? 1 : 0);
-  id.add("method", static_cast<int>(options.integrator.method)).add("tolerance", options.integrator.relative_tolerance);
-  id.add("cycles", options.mesh_cycles.value_or(0)).add("steady", options.steady_tolerance);
-  id.add("samples", options.samples_per_cycle).add("windows", options.max_windows);
-  id.add("confirm", options.confirm ? 1 : 0).add("where_parting", options.confirm_on_contact_loss ? 1 : 0);
-  id.add("max_window", options.max_window_cycles);
+  add_simulation(id, options);
   return id.id();
 }
 

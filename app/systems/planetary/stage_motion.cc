@@ -60,7 +60,7 @@ void add_orbit(StageMotion& motion, const dynamics::PlanetaryStage& stage, const
   motion.sun_orbit_extent = path.extent;
   motion.sun_orbit_largest = path.largest;
   motion.sun_orbit.columns = {"mesh_cycle", "x_m", "y_m", "housing_x_m", "housing_y_m"};
-  const Eigen::Index stride = response.window_cycles > dynamics::long_window ? 4 : 1;
+  const int stride = written_stride(response.window_cycles);
   for (Eigen::Index i = 0; i < path.x.size(); i += stride) {
     motion.sun_orbit.rows.push_back({static_cast<double>(i) / static_cast<double>(samples_per_cycle), path.x[i],
                                      path.y[i], path.housing_x[i], path.housing_y[i]});
@@ -88,6 +88,8 @@ void add_section(StageMotion& motion, const dynamics::PlanetaryStage& stage, con
 }
 
 }  // namespace
+
+int written_stride(int window_cycles) { return window_cycles > dynamics::long_window ? 3 : 1; }
 
 StageMotion stage_motion(const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response) {
   StageMotion motion;

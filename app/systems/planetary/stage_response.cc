@@ -20,10 +20,8 @@ constexpr const char *response_file = "figures.json", *modes_file = "modes.csv",
 constexpr int waveform_cycles = 6;
 constexpr double highest_order = 8;  // multiples of the mesh frequency kept in the spectrum
 
-/// A long window (a ring on pins repeats after more than a thousand mesh cycles) is written with every third sample: 21
-/// per mesh cycle hold the highest mesh harmonics of the spectrum, in some ten megabytes.
 Csv time_series_table(const dynamics::TimeSeries& series, int window_cycles) {
-  const Eigen::Index stride = window_cycles > dynamics::long_window ? 3 : 1;
+  const int stride = written_stride(window_cycles);
   Csv csv;
   csv.columns.emplace_back("time_s");
   for (const auto& name : series.dofs) csv.columns.push_back(name + "_m");

@@ -16,10 +16,7 @@ class TwoKVLumpedModel final : public LumpedModel {
       : models_(std::move(models)), simulation_(std::move(simulation)), tables_(std::move(tables)) {}
 
   [[nodiscard]] std::string id() const override {
-    return ContentId()
-        .add("two_k_v", two_k_v_id(models_.moving, simulation_, tables_))
-        .add("arc_clearance", models_.arc_clearance)
-        .id();
+    return ContentId().add("two_k_v", two_k_v_id(models_, simulation_, tables_)).id();
   }
 
   [[nodiscard]] StudyPoint answer(Answer wanted) const override {
@@ -40,8 +37,7 @@ class TwoKVLumpedModel final : public LumpedModel {
 }  // namespace
 
 std::unique_ptr<LumpedModel> two_k_v_lumped_model(const Scene& scene, TwoKVTables tables) {
-  TwoKVModels models{make_two_k_v(scene, tables, dynamics::LoadDependence::nominal),
-                     make_two_k_v(scene, tables, scene.dynamics->load_dependence), scene.arc_gear.clearance};
+  auto models = two_k_v_models(scene, tables);
   models.moving.check();
   auto simulation = two_k_v_simulation(scene, models.moving);
   simulation.keep_series = false;

@@ -189,9 +189,16 @@ dynamics::SimulationOptions two_k_v_simulation(const Scene& scene, const dynamic
   return given_simulation(*scene.dynamics, stage.sun_mesh_frequency());
 }
 
-std::string two_k_v_id(const dynamics::TwoKVStage& stage, const dynamics::SimulationOptions& options,
+TwoKVModels two_k_v_models(const Scene& scene, const TwoKVTables& tables) {
+  return {make_two_k_v(scene, tables, dynamics::LoadDependence::nominal),
+          make_two_k_v(scene, tables, scene.dynamics->load_dependence), scene.arc_gear.clearance};
+}
+
+std::string two_k_v_id(const TwoKVModels& models, const dynamics::SimulationOptions& options,
                        const TwoKVTables& tables) {
+  const auto& stage = models.moving;
   ContentId id;
+  id.add("arc_clearance", models.arc_clearance);
   for (const int teeth : {stage.sun_teeth, stage.planet_teeth, stage.pins, stage.cranks, stage.arc_gears})
     id.add("count", teeth);
   id.add("module", stage.module).add("pressure_angle", stage.pressure_angle).add("eccentricity", stage.eccentricity);
@@ -201,21 +208,14 @@ std::string two_k_v_id(const dynamics::TwoKVStage& stage, const dynamics::Simula
   for (const double stiffness : {stage.input_shaft, stage.crank_shaft, stage.crank_bearing, stage.arc_bearing,
                                  stage.input_support, stage.output_support})
     id.add("stiffness", stiffness);
-  add_excitation(id, "sun_mesh", stage.sun_mesh, tables.sun);
-  add_excitation(id, "arc_mesh", stage.arc_mesh, tables.arc);
-  // With a table, the stage says whether it takes all loads or the nominal one.
-  for (const auto* mesh : {&stage.sun_mesh, &stage.arc_mesh}) {
-    const auto* table = std::get_if<dynamics::TableStiffness>(mesh);
-    id.add("law", table && table->surface ? 1 : 0);
-  }
+  add_excitation(id, "sun_mesh", stage.sun_mesh, tables.sun.table);
+  add_excitation(id, "arc_mesh", stage.arc_mesh, tables.arc.table);
   id.add("sun_half_backlash", stage.sun_half_backlash.value_or(-1));
   id.add("arc_half_backlash", stage.arc_half_backlash.value_or(-1));
   id.add("mesh_damping", stage.mesh_damping_ratio).add("support_damping", stage.support_damping_ratio);
   id.add("always", stage.damping_without_contact ? 1 : 0).add("crank_angle", stage.crank_angle);
   id.add("speed", stage.output_speed).add("torque", stage.output_torque);
-  id.add("method", static_cast<int>(options.integrator.method)).add("tolerance", options.integrator.relative_tolerance);
-  id.add("fixed_step", options.integrator.fixed_step).add("cycles", options.mesh_cycles.value_or(0));
-  id.add("steady", options.steady_tolerance).add("samples", options.samples_per_cycle);
+  add_simulation(id, options);
   return id.id();
 }
 

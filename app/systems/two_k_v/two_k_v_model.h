@@ -49,8 +49,17 @@ struct TwoKVTables {
                                                 dynamics::LoadDependence dependence);
 [[nodiscard]] dynamics::SimulationOptions two_k_v_simulation(const Scene& scene, const dynamics::TwoKVStage& stage);
 
-/// Identity of everything the response depends on.
-[[nodiscard]] std::string two_k_v_id(const dynamics::TwoKVStage& stage, const dynamics::SimulationOptions& options,
+/// A 2K-V stage as its results need it.
+struct TwoKVModels {
+  dynamics::TwoKVStage at_nominal;  ///< tables at the nominal load: modes and statics
+  dynamics::TwoKVStage moving;
+  double arc_clearance = 0;  ///< m, see dynamics::lost_motion
+};
+/// Needs [dynamics].
+[[nodiscard]] TwoKVModels two_k_v_models(const Scene& scene, const TwoKVTables& tables);
+
+/// Identity of everything the results depend on.
+[[nodiscard]] std::string two_k_v_id(const TwoKVModels& models, const dynamics::SimulationOptions& options,
                                      const TwoKVTables& tables);
 
 }  // namespace annulus::app

@@ -43,12 +43,6 @@ struct TwoKVMotion {
 
 [[nodiscard]] TwoKVMotion motion_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVResponse& response);
 
-/// A 2K-V stage as its results need it.
-struct TwoKVModels {
-  dynamics::TwoKVStage at_nominal;  ///< tables at the nominal load: modes and statics
-  dynamics::TwoKVStage moving;
-  double arc_clearance = 0;  ///< m, see dynamics::lost_motion
-};
 /// Its results, those of every mesh by itself besides: sun_planet1_dynamic_factor, arc_pins2_dynamic_factor, ...
 [[nodiscard]] dynamics::Evaluation evaluation_of(const TwoKVModels& models, const dynamics::TwoKVResponse& response);
 

@@ -36,11 +36,6 @@ void vibrate(TwoKVCase& c, const std::vector<double>& published, const std::file
   c.response_seconds = watch.seconds();
 }
 
-TwoKVModels models_of(const Scene& scene, const TwoKVTables& tables) {
-  return {make_two_k_v(scene, tables, dynamics::LoadDependence::nominal),
-          make_two_k_v(scene, tables, scene.dynamics->load_dependence), scene.arc_gear.clearance};
-}
-
 /// The model of a case as a function of the tables of its meshes. Every evaluation shoots for the periodic motion
 /// as the nominal one does.
 dynamics::TabulatedModel errors_in(const TwoKVCase& c, dynamics::SimulationOptions simulation) {
@@ -57,7 +52,7 @@ dynamics::TabulatedModel errors_in(const TwoKVCase& c, dynamics::SimulationOptio
     auto tables = c.tables;
     if (sun) tables.sun.table = changed.front();
     if (arc) tables.arc.table = changed.back();
-    const auto models = models_of(c.scene, tables);
+    const auto models = two_k_v_models(c.scene, tables);
     return evaluation_of(models, dynamics::simulate(models.moving, simulation));
   };
   return model;
@@ -65,9 +60,9 @@ dynamics::TabulatedModel errors_in(const TwoKVCase& c, dynamics::SimulationOptio
 
 TwoKVMotion motion_in(const TwoKVCase& c, const RunOptions& options, const std::string& folder) {
   const auto out = options.out / folder / "dynamics";
-  const auto stage = make_two_k_v(c.scene, c.tables, c.scene.dynamics->load_dependence);
-  const auto simulation = two_k_v_simulation(c.scene, stage);
-  const auto id = two_k_v_id(stage, simulation, c.tables);
+  const auto models = two_k_v_models(c.scene, c.tables);
+  const auto simulation = two_k_v_simulation(c.scene, models.moving);
+  const auto id = two_k_v_id(models, simulation, c.tables);
   const std::string name = folder.empty() ? "dynamics" : "dynamics with computed stiffness";
   const bool cached = restore_files(options.store.get(), cached_motions, id, out);
   note_reuse(options, name, cached);
@@ -75,7 +70,7 @@ TwoKVMotion motion_in(const TwoKVCase& c, const RunOptions& options, const std::
     log::info(name + ": unchanged, reused");
     return load_two_k_v(out);
   }
-  auto motion = simulate_two_k_v(models_of(c.scene, c.tables), simulation, errors_in(c, simulation), id, out);
+  auto motion = simulate_two_k_v(models, simulation, errors_in(c, simulation), id, out);
   cache_files(options.store.get(), cached_motions, id, out, two_k_v_files());
   log::info(fmt::format("{}: {} turns of the crank, {}", name, motion.crank_turns,
                         motion.steady ? "periodic steady state" : "no periodic steady state"));

@@ -38,21 +38,23 @@ class TwoKVTrade : public TradeSubject {
   [[nodiscard]] bool has_motion() const override { return scene_.dynamics.has_value(); }
 
   [[nodiscard]] TradeMotion motion_on(const std::vector<MeshResult>& tables) const override {
-    const auto stage = lumped(tables);
-    return motion(stage, simulation_of(stage), tables);
+    const auto all = with_arcs(tables);
+    const auto models = two_k_v_models(scene_, all);
+    return motion(models, simulation_of(models), all);
   }
 
   [[nodiscard]] std::vector<TradeMotion> motions(const std::vector<MeshResult>& tables, const RunOptions&,
                                                  const std::filesystem::path&) const override {
-    const auto stage = lumped(tables);
-    auto given = simulation_of(stage);
+    const auto all = with_arcs(tables);
+    const auto models = two_k_v_models(scene_, all);
+    auto given = simulation_of(models);
     given.integrator.method = dynamics::Integrator::automatic;
     given.integrator.fixed_step = 0;
     std::vector<TradeMotion> list;
     for (const auto& way : shooting_settings()) {
       auto simulation = given;
       way.apply(simulation);
-      list.push_back(motion(stage, simulation, tables));
+      list.push_back(motion(models, simulation, all));
       list.back().fidelity = way.fidelity;
       list.back().settings = way.settings;
       list.back().finest = way.finest;
@@ -61,29 +63,24 @@ class TwoKVTrade : public TradeSubject {
   }
 
  private:
-  [[nodiscard]] dynamics::TwoKVStage lumped(const std::vector<MeshResult>& tables) const {
-    return make_two_k_v(scene_, {tables.front(), arc_pins_result(scene_)}, scene_.dynamics->load_dependence);
+  [[nodiscard]] TwoKVTables with_arcs(const std::vector<MeshResult>& tables) const {
+    return {tables.front(), arc_pins_result(scene_)};
   }
 
-  [[nodiscard]] dynamics::SimulationOptions simulation_of(const dynamics::TwoKVStage& stage) const {
-    auto simulation = two_k_v_simulation(scene_, stage);
+  [[nodiscard]] dynamics::SimulationOptions simulation_of(const TwoKVModels& models) const {
+    auto simulation = two_k_v_simulation(scene_, models.moving);
     simulation.keep_series = false;
     return simulation;
   }
 
-  [[nodiscard]] TradeMotion motion(const dynamics::TwoKVStage& stage, const dynamics::SimulationOptions& simulation,
-                                   const std::vector<MeshResult>& tables) const {
-    return {.fidelity = {},
-            .settings = {},
-            .id = two_k_v_id(stage, simulation, {tables.front(), arc_pins_result(scene_)}),
-            .figures = [models = TwoKVModels{make_two_k_v(scene_, {tables.front(), arc_pins_result(scene_)},
-                                                          dynamics::LoadDependence::nominal),
-                                             stage, scene_.arc_gear.clearance},
-                        simulation] {
-              const auto response = dynamics::simulate(models.moving, simulation);
-              if (!response.steady.steady) throw SolverError("the motion does not become periodic");
-              return evaluation_of(models, response).figures;
-            }};
+  [[nodiscard]] static TradeMotion motion(const TwoKVModels& models, const dynamics::SimulationOptions& simulation,
+                                          const TwoKVTables& tables) {
+    return {
+        .fidelity = {}, .settings = {}, .id = two_k_v_id(models, simulation, tables), .figures = [models, simulation] {
+          const auto response = dynamics::simulate(models.moving, simulation);
+          if (!response.steady.steady) throw SolverError("the motion does not become periodic");
+          return evaluation_of(models, response).figures;
+        }};
   }
 
   const Scene& scene_;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "dynamics/figures/poincare_point.h"
 #include "dynamics/systems/planetary/response.h"
 
 namespace annulus::dynamics {
@@ -16,12 +17,6 @@ struct KindFigures {
   double instantaneous = 0, averaged = 0, quasi_static = 0;  ///< load sharing
   double dynamic_factor = 0;
   double contact_loss = 0;  ///< fraction of the time
-};
-
-/// State of planet 1's sun mesh at the start of a mesh cycle.
-struct PoincarePoint {
-  double force = 0;       ///< N
-  double deflection = 0;  ///< m
 };
 
 /// Results of one response that a study (sweep, sensitivity, Monte Carlo) stores.

@@ -1,4 +1,4 @@
-#include "app/study/design_store.h"
+#include "app/study/design_json.h"
 
 #include "app/study/point_store.h"
 
