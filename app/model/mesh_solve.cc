@@ -58,7 +58,7 @@ fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& op
   fem::LoadedMeshSettings settings = model.settings;
   settings.threads = threads;
   settings.store = options.store;
-  settings.want_fields = !options.for_study;
+  settings.recovery = options.for_study ? fem::Recovery::stresses : fem::Recovery::fields;
   settings.progress = [&](double fraction) { progress.update(fraction); };
   progress.update(0);
   auto solved = fem::solve_loaded_mesh(*model.problem, settings);

@@ -9,9 +9,9 @@
 #include "app/model/gear_system.h"
 #include "app/model/mesh_figures.h"
 #include "app/model/run_options.h"
-#include "app/process/tasks.h"
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
+#include "core/parallel.h"
 #include "dynamics/error_propagation/error_propagation.h"
 
 namespace annulus::app {

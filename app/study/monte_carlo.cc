@@ -6,10 +6,10 @@
 #include "app/model/run_options.h"
 #include "app/model/study_cases.h"
 #include "app/process/progress.h"
-#include "app/process/tasks.h"
 #include "app/results/content_id.h"
 #include "app/study/studies.h"
 #include "core/log.h"
+#include "core/parallel.h"
 #include "core/result_store.h"
 
 namespace annulus::app {

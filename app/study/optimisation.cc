@@ -10,13 +10,13 @@
 #include "app/model/run_options.h"
 #include "app/model/study_cases.h"
 #include "app/process/progress.h"
-#include "app/process/tasks.h"
 #include "app/results/content_id.h"
 #include "app/study/design_json.h"
 #include "app/study/evaluation_store.h"
 #include "app/study/studies.h"
 #include "core/errors.h"
 #include "core/files.h"
+#include "core/parallel.h"
 #include "core/result_store.h"
 
 namespace annulus::app {

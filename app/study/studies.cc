@@ -7,11 +7,11 @@
 #include "app/model/gear_system.h"
 #include "app/model/run_options.h"
 #include "app/process/progress.h"
-#include "app/process/tasks.h"
 #include "app/scene/input_place.h"
 #include "app/study/point_store.h"
 #include "app/study/study_runner.h"
 #include "core/log.h"
+#include "core/parallel.h"
 
 namespace annulus::app {
 

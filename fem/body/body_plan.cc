@@ -49,7 +49,7 @@ BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfil
                         "outside or the end face",
                         words.description));
       model_.held = HeldBoundary::none;
-      model_.want_outside = true;
+      model_.outputs = {SectorOutput::outside};
       break;
   }
 }
@@ -57,7 +57,7 @@ BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfil
 SectorModelOptions BodyPlan::near_field_model() const {
   SectorModelOptions model = model_;
   model.held = HeldBoundary::support;
-  model.want_outside = false;
+  model.outputs.clear();
   model.symmetric_end = false;
   return model;
 }

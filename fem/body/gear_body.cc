@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <sstream>
+#include <string>
 
 #include "core/errors.h"
 #include "core/stopwatch.h"
@@ -39,6 +39,15 @@ StressLine observe(const StressSurface& surface, const SectorModel& model, int m
   return line;
 }
 
+/// Unit normal of the flank (side 1: leading, -1: trailing) out of the material; of a helical gear in its section at z.
+Eigen::Vector3d flank_normal(const geometry::ToothProfile& profile, double roll, double side, double z) {
+  const Eigen::Vector2d normal = profile.flank_normal(roll), point = profile.flank_point(roll);
+  // The normal stands on the tangent (twist e_z x p) + e_z of the helix through the point.
+  const double moment = side * (point.x() * normal.y() - point.y() * normal.x());
+  const Eigen::Vector3d all(normal.x(), side * normal.y(), -profile.twist() * moment);
+  return Eigen::AngleAxisd(profile.twist() * z, Eigen::Vector3d::UnitZ()) * all.normalized();
+}
+
 }  // namespace
 
 Eigen::RowVector3d GearBody::rigid_motion(int port, int sector) const {
@@ -53,19 +62,6 @@ Wrench GearBody::arc_wrench(int arc, int sector) const {
   turned << turn * arc_wrenches[arc].head<3>(), turn * arc_wrenches[arc].tail<3>();
   return turned;
 }
-
-namespace {
-
-/// Unit normal of the flank (side 1: leading, -1: trailing) out of the material; of a helical gear in its section at z.
-Eigen::Vector3d flank_normal(const geometry::ToothProfile& profile, double roll, double side, double z) {
-  const Eigen::Vector2d normal = profile.flank_normal(roll), point = profile.flank_point(roll);
-  // The normal stands on the tangent (twist e_z x p) + e_z of the helix through the point.
-  const double moment = side * (point.x() * normal.y() - point.y() * normal.x());
-  const Eigen::Vector3d all(normal.x(), side * normal.y(), -profile.twist() * moment);
-  return Eigen::AngleAxisd(profile.twist() * z, Eigen::Vector3d::UnitZ()) * all.normalized();
-}
-
-}  // namespace
 
 Wrench resultant(const NodalLoad& load, const std::vector<Eigen::Vector3d>& nodes) {
   Wrench wrench = Wrench::Zero();
@@ -90,6 +86,24 @@ std::vector<Port> flank_forces(const SectorModel& model, const geometry::ToothPr
   return ports;
 }
 
+template <class Stream>
+void members(Stream& stream, Port& port) {
+  stream(port.node, port.direction);
+}
+
+template <class Stream>
+void members(Stream& stream, StressLine& line) {
+  stream(line.first_load, line.components, line.axial_stations, line.angle, line.arc);
+}
+
+template <class Stream>
+void members(Stream& stream, TraceBasis& basis) {
+  int degree = basis.degree();
+  auto stations = basis.stations();
+  stream(degree, stations);
+  if (!stations.empty()) basis = TraceBasis(stations, degree);
+}
+
 namespace {
 
 /// A tooth condensed for the unit loads of its outside, before arcs are put together: what the store keeps. The body's
@@ -98,6 +112,13 @@ struct UnitTooth {
   CondensedTooth tooth;
   OutsideLoads outside;
 };
+
+template <class Stream>
+void members(Stream& stream, UnitTooth& unit) {
+  GearBody& body = unit.tooth.body;
+  stream(unit.tooth.seconds, body.teeth, body.pitch_angle, body.unknowns, body.flank, body.axial, body.ports,
+         body.port_points, body.arc_wrenches, body.root_low, body.root_high, body.rim, unit.outside, unit.tooth.sector);
+}
 
 UnitTooth condense_unit_tooth(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
                               double support_radius, const Material& material, const GearBodyOptions& options) {
@@ -148,57 +169,6 @@ CondensedTooth with_arcs(UnitTooth unit, const std::vector<ArcLoad>& arcs) {
   return tooth;
 }
 
-void write_line(ByteWriter& out, const StressLine& line) {
-  out.add(line.first_load).add(line.components).add(line.axial_stations).add(line.angle).add(line.arc);
-}
-void read_line(ByteReader& in, StressLine& line) {
-  in.get(line.first_load);
-  in.get(line.components);
-  in.get(line.axial_stations);
-  in.get(line.angle);
-  in.get(line.arc);
-}
-
-void write_tooth(ByteWriter& out, const UnitTooth& unit) {
-  const GearBody& body = unit.tooth.body;
-  out.add(unit.tooth.seconds).add(body.teeth).add(body.pitch_angle).add(body.unknowns);
-  for (const auto* trace : {&body.flank, &body.axial}) out.add(trace->degree()).add(trace->stations());
-  out.add(static_cast<std::uint64_t>(body.ports.size()));
-  for (const auto& port : body.ports) out.add(port.node).add(port.direction);
-  out.add(body.port_points).add(body.arc_wrenches);
-  for (const auto* line : {&body.root_low, &body.root_high, &body.rim}) write_line(out, *line);
-  write(out, unit.outside);
-  write(out, unit.tooth.sector);
-}
-
-UnitTooth read_tooth(ByteReader& in) {
-  UnitTooth unit;
-  GearBody& body = unit.tooth.body;
-  in.get(unit.tooth.seconds);
-  in.get(body.teeth);
-  in.get(body.pitch_angle);
-  in.get(body.unknowns);
-  for (auto* trace : {&body.flank, &body.axial}) {
-    const int degree = in.get<int>();
-    std::vector<double> stations;
-    in.get(stations);
-    if (!stations.empty()) *trace = TraceBasis(stations, degree);
-  }
-  const auto ports = in.get<std::uint64_t>();
-  for (std::uint64_t i = 0; i < ports; ++i) {
-    Port port;
-    in.get(port.node);
-    in.get(port.direction);
-    body.ports.push_back(port);
-  }
-  in.get(body.port_points);
-  in.get(body.arc_wrenches);
-  for (auto* line : {&body.root_low, &body.root_high, &body.rim}) read_line(in, *line);
-  unit.outside = read_outside(in);
-  unit.tooth.sector = read_sector(in);
-  return unit;
-}
-
 }  // namespace
 
 CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
@@ -209,14 +179,11 @@ CondensedTooth condense_tooth(const geometry::Mesh& sector_mesh, const geometry:
     unit = condense_unit_tooth(sector_mesh, profile, support_radius, material, options);
     unit.tooth.seconds = watch.seconds();
   };
-  std::ostringstream text;
-  ByteWriter inputs(text);
-  inputs.add(std::string("tooth"));
+  ByteWriter inputs;
+  inputs(std::string("tooth"));
   add_sector_inputs(inputs, sector_mesh, profile, support_radius, material, options.sector);
   add_slices(inputs, options.arcs);
-  const bool reused = read_or_make(
-      options.store, text.str(), [&](ByteReader& in) { unit = read_tooth(in); }, make,
-      [&](ByteWriter& out) { write_tooth(out, unit); });
+  const bool reused = read_or_make(options.store, inputs, unit, make);
   CondensedTooth tooth = with_arcs(std::move(unit), options.arcs);
   tooth.reused = reused;
   return tooth;

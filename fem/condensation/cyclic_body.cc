@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "core/errors.h"
+#include "core/parallel.h"
 #include "fem/condensation/harmonic_matrix.h"
 #include "fem/condensation/lapack.h"
 
@@ -97,8 +98,9 @@ CyclicCompliance compose_ring(const CondensedSector& sector, int sectors, const 
   const HarmonicMatrix harmonics(sector, floating);
 
   std::vector<Eigen::MatrixXd> partial(harmonic_groups);
-  for_each_harmonic_group(threads, [&](int group) {
-    partial[group] = sum_harmonics(harmonics, sector.pitch_angle, sectors, offsets, group, harmonic_groups);
+  for_each_task(harmonic_groups, threads, [&](std::size_t group) {
+    partial[group] =
+        sum_harmonics(harmonics, sector.pitch_angle, sectors, offsets, static_cast<int>(group), harmonic_groups);
   });
   for (int group = 1; group < harmonic_groups; ++group) partial.front() += partial[group];
 

@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "core/errors.h"
+#include "core/parallel.h"
 #include "fem/condensation/harmonic_matrix.h"
 #include "fem/condensation/lapack.h"
 
@@ -39,8 +40,8 @@ CyclicFlexibility compose_loads(const CondensedSector& sector, int sectors, bool
   const Eigen::MatrixXcd low = interfaces.load_low().leftCols(loads), high = interfaces.load_high().leftCols(loads);
   const Eigen::MatrixXcd within = sector.compliance.topRows(loads);
   std::vector<Eigen::MatrixXcd> harmonics(sectors / 2 + 1);
-  for_each_harmonic_group(threads, [&](int group) {
-    for (int h = group; h < static_cast<int>(harmonics.size()); h += harmonic_groups) {
+  for_each_task(harmonic_groups, threads, [&](std::size_t group) {
+    for (int h = static_cast<int>(group); h < static_cast<int>(harmonics.size()); h += harmonic_groups) {
       // A load of the sector before acts on its high interface.
       Eigen::MatrixXcd on_interface = low + std::polar(1.0, -h * sector.pitch_angle) * high;
       lapack::solve_lower(interfaces.factor(h), on_interface);

@@ -1,12 +1,8 @@
 #include "fem/condensation/harmonic_matrix.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <atomic>
 #include <complex>
-#include <exception>
 #include <string>
-#include <thread>
 
 #include "core/errors.h"
 #include "fem/condensation/lapack.h"
@@ -77,24 +73,6 @@ Eigen::MatrixXcd HarmonicMatrix::factor(int harmonic) const {
   if (!lapack::cholesky(matrix))
     throw SolverError("the ring is not held against its harmonic " + std::to_string(harmonic) + " of deformation");
   return matrix;
-}
-
-void for_each_harmonic_group(int threads, const std::function<void(int group)>& work) {
-  std::vector<std::exception_ptr> failures(harmonic_groups);
-  std::atomic<int> next{0};
-  const auto worker = [&] {
-    for (int group = next++; group < harmonic_groups; group = next++) try {
-        work(group);
-      } catch (...) {
-        failures[group] = std::current_exception();
-      }
-  };
-  std::vector<std::thread> pool;
-  for (int t = 1; t < std::min(threads, harmonic_groups); ++t) pool.emplace_back(worker);
-  worker();
-  for (auto& t : pool) t.join();
-  for (const auto& failure : failures)
-    if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace annulus::fem

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 
 #include "fem/condensation/condensed_sector.h"
 
@@ -17,9 +16,8 @@ class HarmonicMatrix {
 
   /// Its Cholesky factor (lower). Throws SolverError when the ring is not held against the harmonic.
   [[nodiscard]] Eigen::MatrixXcd factor(int harmonic) const;
-  [[nodiscard]] const Eigen::MatrixXd& load_low() const {
-    return load_low_;
-  }  ///< loads on the own interface, m x loads
+  /// Loads on the own interface, m x loads.
+  [[nodiscard]] const Eigen::MatrixXd& load_low() const { return load_low_; }
   [[nodiscard]] const Eigen::MatrixXd& load_high() const { return load_high_; }  ///< on the next, in its frame
 
  private:
@@ -29,9 +27,8 @@ class HarmonicMatrix {
   Eigen::MatrixXd load_low_, load_high_;
 };
 
-/// Calls `work` with every group 0 ... groups - 1 on `threads` threads; rethrows the failure of the first group.
-/// Harmonics are shared out to a fixed number of groups, so that sums do not depend on the number of threads.
+/// Tasks that the harmonics are shared out to: h = task, task + harmonic_groups, ... A fixed number, so that sums do
+/// not depend on the number of threads.
 inline constexpr int harmonic_groups = 4;
-void for_each_harmonic_group(int threads, const std::function<void(int group)>& work);
 
 }  // namespace annulus::fem

@@ -1,7 +1,9 @@
 #include "fem/condensation/sparse_schur.h"
 
 #include <cholmod.h>
+#include <fmt/format.h>
 
+#include <Eigen/CholmodSupport>
 #include <algorithm>
 #include <mutex>
 #include <numeric>
@@ -10,6 +12,7 @@
 #include "fem/condensation/lapack.h"
 
 namespace annulus::fem {
+namespace {
 
 /// CHOLMOD's workspace, started and finished with the object.
 struct CholmodWorkspace {
@@ -35,52 +38,16 @@ struct CholmodFactor {
   CholmodFactor(const CholmodFactor&) = delete;
   CholmodFactor& operator=(const CholmodFactor&) = delete;
 };
-struct SparseCholesky::Impl : CholmodFactor {};
-
-namespace {
 
 /// A view of the lower triangle for CHOLMOD; the arrays stay with the Eigen matrix.
-cholmod_sparse lower_view(Eigen::SparseMatrix<double>& lower) {
-  cholmod_sparse view{};
-  view.nrow = static_cast<std::size_t>(lower.rows());
-  view.ncol = static_cast<std::size_t>(lower.cols());
-  view.nzmax = static_cast<std::size_t>(lower.nonZeros());
-  view.p = lower.outerIndexPtr();
-  view.i = lower.innerIndexPtr();
-  view.x = lower.valuePtr();
-  view.stype = -1;
-  view.itype = CHOLMOD_INT;
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 1;
-  view.packed = 1;
-  return view;
+cholmod_sparse lower_view(const Eigen::SparseMatrix<double>& lower) {
+  return Eigen::viewAsCholmod(lower.selfadjointView<Eigen::Lower>());
 }
 
-void check_factor(const CholmodWorkspace& workspace, const cholmod_factor* factor, const char* what) {
-  if (factor == nullptr || workspace.common.status == CHOLMOD_OUT_OF_MEMORY)
-    throw SolverError(std::string("out of memory while factorising the ") + what);
-  if (workspace.common.status == CHOLMOD_NOT_POSDEF || factor->minor < factor->n)
-    throw SolverError(std::string("the ") + what +
-                      " is not positive definite: the body is not held, or a cell of its mesh is inverted");
-}
-
-cholmod_dense dense_view(const Eigen::MatrixXd& matrix) {
-  cholmod_dense view{};
-  view.nrow = static_cast<std::size_t>(matrix.rows());
-  view.ncol = static_cast<std::size_t>(matrix.cols());
-  view.nzmax = view.nrow * view.ncol;
-  view.d = view.nrow;
-  view.x = const_cast<double*>(matrix.data());
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  return view;
-}
-
-/// One of CHOLMOD's solves with a factor.
-Eigen::MatrixXd solve_with(cholmod_factor* factor, int system, const Eigen::MatrixXd& rhs, cholmod_common& common) {
-  cholmod_dense view = dense_view(rhs);
-  cholmod_dense* solution = cholmod_solve(system, factor, &view, &common);
+/// L^-1 rhs
+Eigen::MatrixXd solve_lower(cholmod_factor* factor, Eigen::MatrixXd& rhs, cholmod_common& common) {
+  cholmod_dense view = Eigen::viewAsCholmod(rhs);
+  cholmod_dense* solution = cholmod_solve(CHOLMOD_L, factor, &view, &common);
   if (solution == nullptr) throw SolverError("out of memory while solving with the factorised stiffness matrix");
   Eigen::MatrixXd result =
       Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x), rhs.rows(), rhs.cols());
@@ -108,7 +75,7 @@ void condense_loads(cholmod_factor* factor, const Eigen::MatrixXd& retained_fact
     for (int c = 0; c < columns; ++c)
       for (Eigen::SparseMatrix<double>::InnerIterator it(loads, first + c); it; ++it)
         permuted(row_of[it.row()], c) = it.value();
-    Eigen::MatrixXd y = solve_with(factor, CHOLMOD_L, permuted, common);
+    Eigen::MatrixXd y = solve_lower(factor, permuted, common);
     Eigen::MatrixXd retained(retained_factor.rows(), columns);
     for (int row = 0; row < n; ++row)
       if (rank[row] >= 0) {
@@ -203,7 +170,13 @@ void factorise_retained_last(CholmodFactor& cholesky, Eigen::SparseMatrix<double
   common.method[0].ordering = CHOLMOD_GIVEN;
   cholesky.factor = cholmod_analyze_p(&view, permutation.data(), nullptr, 0, &common);
   if (cholesky.factor != nullptr) cholmod_factorize(&view, cholesky.factor, &common);
-  check_factor(cholesky.workspace, cholesky.factor, "stiffness matrix of the sector");
+  if (cholesky.factor == nullptr || common.status == CHOLMOD_OUT_OF_MEMORY)
+    throw SolverError(fmt::format("out of memory while factorising the stiffness of a sector ({} DOFs)", lower.rows()));
+  if (common.status == CHOLMOD_NOT_POSDEF || cholesky.factor->minor < cholesky.factor->n)
+    throw SolverError(
+        fmt::format("the stiffness of a sector ({} DOFs) is not positive definite: the body is not held, or a cell of "
+                    "its mesh is inverted",
+                    lower.rows()));
 }
 
 /// Numbers of the retained DOFs in the order of their elimination. CHOLMOD postorders the elimination tree: columns of
@@ -265,23 +238,6 @@ void restore_order(const std::vector<int>& rank, SchurComplement& result) {
 }
 
 }  // namespace
-
-SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& matrix) : impl_(std::make_unique<Impl>()) {
-  Eigen::SparseMatrix<double> lower = matrix.triangularView<Eigen::Lower>();
-  cholmod_sparse view = lower_view(lower);
-  impl_->factor = cholmod_analyze(&view, &impl_->workspace.common);
-  if (impl_->factor != nullptr) cholmod_factorize(&view, impl_->factor, &impl_->workspace.common);
-  check_factor(impl_->workspace, impl_->factor, "stiffness matrix");
-}
-
-SparseCholesky::~SparseCholesky() = default;
-SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
-SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
-
-Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_hand_sides) const {
-  require(right_hand_sides.rows() == static_cast<Eigen::Index>(impl_->factor->n), "right-hand side of the wrong size");
-  return solve_with(impl_->factor, CHOLMOD_A, right_hand_sides, impl_->workspace.common);
-}
 
 SchurComplement schur_complement(const Eigen::SparseMatrix<double>& matrix, const std::vector<int>& retained,
                                  double shift_retained, const Eigen::SparseMatrix<double>& loads, int acting) {

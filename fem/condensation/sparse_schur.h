@@ -2,26 +2,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <memory>
 #include <vector>
 
 namespace annulus::fem {
-
-/// Sparse supernodal Cholesky factor (CHOLMOD) of a symmetric positive definite matrix.
-class SparseCholesky {
- public:
-  /// Throws SolverError when the matrix is not positive definite.
-  explicit SparseCholesky(const Eigen::SparseMatrix<double>& matrix);
-  ~SparseCholesky();
-  SparseCholesky(SparseCholesky&&) noexcept;
-  SparseCholesky& operator=(SparseCholesky&&) noexcept;
-
-  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
 
 /// A stiffness matrix and loads condensed to some of the DOFs, r; the others, i, are eliminated.
 struct SchurComplement {

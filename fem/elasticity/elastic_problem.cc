@@ -223,55 +223,6 @@ Eigen::SparseMatrix<double> ElasticProblem<dim>::nodal_mass() const {
 }
 
 template <int dim>
-Eigen::VectorXd ElasticProblem<dim>::body_load(
-    const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& force_density) const {
-  const dealii::QGauss<dim> quadrature(degree_ + 3);
-  dealii::FEValues<dim> values(mapping_, element_, quadrature,
-                               dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(dofs());
-  std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
-  for (const auto& cell : dofs_.active_cell_iterators()) {
-    values.reinit(cell);
-    cell->get_dof_indices(indices);
-    for (unsigned int q = 0; q < quadrature.size(); ++q) {
-      const auto f = force_density(values.quadrature_point(q));
-      for (unsigned int i = 0; i < element_.dofs_per_cell; ++i)
-        load[static_cast<Eigen::Index>(indices[i])] +=
-            f[element_.system_to_component_index(i).first] * values.shape_value(i, q) * values.JxW(q);
-    }
-  }
-  return load;
-}
-
-template <int dim>
-Eigen::VectorXd ElasticProblem<dim>::surface_load(
-    geometry::Boundary boundary,
-    const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&, const dealii::Tensor<1, dim>&)>& traction)
-    const {
-  const dealii::QGauss<dim - 1> quadrature(degree_ + 3);
-  dealii::FEFaceValues<dim> values(mapping_, element_, quadrature,
-                                   dealii::update_values | dealii::update_quadrature_points |
-                                       dealii::update_normal_vectors | dealii::update_JxW_values);
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(dofs());
-  std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
-  for (const auto& cell : dofs_.active_cell_iterators())
-    for (const auto face : cell->face_indices()) {
-      if (!cell->face(face)->at_boundary() ||
-          cell->face(face)->boundary_id() != static_cast<dealii::types::boundary_id>(boundary))
-        continue;
-      values.reinit(cell, face);
-      cell->get_dof_indices(indices);
-      for (unsigned int q = 0; q < quadrature.size(); ++q) {
-        const auto t = traction(values.quadrature_point(q), values.normal_vector(q));
-        for (unsigned int i = 0; i < element_.dofs_per_cell; ++i)
-          load[static_cast<Eigen::Index>(indices[i])] +=
-              t[element_.system_to_component_index(i).first] * values.shape_value(i, q) * values.JxW(q);
-      }
-    }
-  return load;
-}
-
-template <int dim>
 std::vector<SurfaceStress> ElasticProblem<dim>::surface_stress(
     const std::vector<geometry::Boundary>& boundaries) const {
   const double E = material_.youngs_modulus, nu = material_.poisson_ratio;
@@ -388,35 +339,6 @@ VertexField ElasticProblem<dim>::vertex_field() const {
   field.stress.resize(rows, static_cast<Eigen::Index>(node_points_.size()) * dim);
   field.stress.setFromTriplets(entries.begin(), entries.end());
   return field;
-}
-
-template <int dim>
-std::pair<double, double> ElasticProblem<dim>::errors(
-    const Eigen::VectorXd& solution, const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& exact,
-    const std::function<dealii::Tensor<2, dim>(const dealii::Point<dim>&)>& exact_gradient) const {
-  const dealii::QGauss<dim> quadrature(degree_ + 3);
-  dealii::FEValues<dim> values(
-      mapping_, element_, quadrature,
-      dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points | dealii::update_JxW_values);
-  std::vector<dealii::types::global_dof_index> indices(element_.dofs_per_cell);
-  double l2 = 0, h1 = 0;
-  for (const auto& cell : dofs_.active_cell_iterators()) {
-    values.reinit(cell);
-    cell->get_dof_indices(indices);
-    for (unsigned int q = 0; q < quadrature.size(); ++q) {
-      dealii::Tensor<1, dim> u;
-      dealii::Tensor<2, dim> gradient;
-      for (unsigned int i = 0; i < element_.dofs_per_cell; ++i) {
-        const double s = solution[static_cast<Eigen::Index>(indices[i])];
-        const auto c = element_.system_to_component_index(i).first;
-        u[c] += s * values.shape_value(i, q);
-        gradient[c] += s * values.shape_grad(i, q);
-      }
-      l2 += (u - exact(values.quadrature_point(q))).norm_square() * values.JxW(q);
-      h1 += (gradient - exact_gradient(values.quadrature_point(q))).norm_square() * values.JxW(q);
-    }
-  }
-  return {std::sqrt(l2), std::sqrt(h1)};
 }
 
 template <int dim>

@@ -3,7 +3,6 @@
 // Private to annulus_fem and its tests: the only header that shows deal.II.
 
 #include <deal.II/base/point.h>
-#include <deal.II/base/tensor.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q.h>
@@ -11,8 +10,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <array>
 #include <functional>
-#include <memory>
 #include <vector>
 
 #include "fem/elasticity/nodal_load.h"
@@ -38,29 +37,18 @@ class ElasticProblem {
   [[nodiscard]] Eigen::SparseMatrix<double> stiffness() const;
   /// Consistent mass of one displacement component over the nodes (kg; in 2D per metre of width: kg/m).
   [[nodiscard]] Eigen::SparseMatrix<double> nodal_mass() const;
-  [[nodiscard]] Eigen::VectorXd body_load(
-      const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& force_density) const;
-  /// Traction integrated over one boundary; the second argument is the outward normal.
-  [[nodiscard]] Eigen::VectorXd surface_load(
-      geometry::Boundary boundary,
-      const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&, const dealii::Tensor<1, dim>&)>& traction)
-      const;
   /// Stress at all nodes of a free surface made of some boundaries, the mean of the adjacent elements; ascending nodes.
   [[nodiscard]] std::vector<SurfaceStress> surface_stress(const std::vector<geometry::Boundary>& boundaries) const;
   /// The cells' vertices with the stress there.
   [[nodiscard]] VertexField vertex_field() const;
-  /// L2 and energy (strain-energy seminorm: H1) errors against an exact solution and its gradient.
-  [[nodiscard]] std::pair<double, double> errors(
-      const Eigen::VectorXd& solution, const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim>&)>& exact,
-      const std::function<dealii::Tensor<2, dim>(const dealii::Point<dim>&)>& exact_gradient) const;
-
   [[nodiscard]] int dofs() const { return static_cast<int>(dofs_.n_dofs()); }
   /// DOFs of every node: [node][component]; nodes are numbered in order of their first DOF.
   [[nodiscard]] const std::vector<std::array<int, dim>>& node_dofs() const { return node_dofs_; }
   [[nodiscard]] const std::vector<dealii::Point<dim>>& node_points() const { return node_points_; }
   /// Nodes lying on a boundary, each once, ascending.
   [[nodiscard]] std::vector<int> boundary_nodes(geometry::Boundary boundary) const;
-  [[nodiscard]] int degree() const { return degree_; }
+  [[nodiscard]] const dealii::Mapping<dim>& mapping() const { return mapping_; }
+  [[nodiscard]] const dealii::DoFHandler<dim>& dof_handler() const { return dofs_; }
 
  private:
   Material material_;

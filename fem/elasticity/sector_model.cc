@@ -213,12 +213,13 @@ SectorModel discretise(const geometry::Mesh& mesh, const geometry::ToothProfile&
   model.flank = make_trace(problem.boundary_nodes(options.flank), model.nodes, options.degree,
                            [&](const Eigen::Vector3d& p) { return profile.roll_length_at(std::hypot(p.x(), p.y())); });
   const double twist = dim == 3 ? profile.twist() : 0;
-  if (options.want_outside)
+  const auto asked = [&](SectorOutput output) { return options.outputs.count(output) > 0; };
+  if (asked(SectorOutput::outside))
     model.outside = make_trace(problem.boundary_nodes(geometry::Boundary::support), model.nodes, options.degree,
                                [twist](const Eigen::Vector3d& p) { return polar_angle(p, twist); });
-  if (options.want_mass) model.nodal_mass = problem.nodal_mass();
-  if (options.want_field) model.field = problem.vertex_field();
-  if (options.want_stress) add_stress_surfaces(problem, twist, options, in_symmetry, model);
+  if (asked(SectorOutput::mass)) model.nodal_mass = problem.nodal_mass();
+  if (asked(SectorOutput::field)) model.field = problem.vertex_field();
+  if (asked(SectorOutput::stress)) add_stress_surfaces(problem, twist, options, in_symmetry, model);
   return model;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "fem/elasticity/nodal_load.h"
@@ -51,12 +52,19 @@ struct SectorModel {
   std::vector<int> dof;                    ///< [node * dimension + component] -> row of `stiffness`, or -1 when held
   std::vector<int> low_nodes, high_nodes;  ///< matched pairs on the two cyclic interfaces, wholly held nodes left out
   TraceGrid flank;                         ///< of the contact flank
-  TraceGrid outside;                       ///< of the support circle (empty when held)
+  TraceGrid outside;                       ///< of the support circle where it is free
   StressSurface root_low, root_high;       ///< root land and fillet of the trailing (y < 0) and of the leading side
   StressSurface rim;                       ///< of the support circle (empty when held)
-  Eigen::SparseMatrix<double>
-      nodal_mass;     ///< of one component, nodes x nodes; see ElasticProblem (empty unless wanted)
-  VertexField field;  ///< empty unless wanted
+  Eigen::SparseMatrix<double> nodal_mass;  ///< of one component, nodes x nodes; see ElasticProblem
+  VertexField field;
+};
+
+/// Members of a SectorModel that are filled on demand.
+enum class SectorOutput {
+  outside,  ///< outside
+  stress,   ///< root_low, root_high, and rim where the support circle is free
+  mass,     ///< nodal_mass
+  field     ///< field
 };
 
 struct SectorModelOptions {
@@ -66,12 +74,9 @@ struct SectorModelOptions {
   /// The upper end of a solid is a plane of symmetry: its nodes stay in it. The sector is then half of a body.
   bool symmetric_end = false;
   geometry::Boundary flank = geometry::Boundary::leading_flank;
-  bool want_outside = false;
   /// Of a ring whose hoop or flange goes beyond it, m (see geometry::ExtrudeOptions).
   double outside_radius = std::numeric_limits<double>::quiet_NaN();
-  bool want_stress = false;  ///< root_low, root_high, and rim where the support circle is free
-  bool want_mass = false;    ///< nodal_mass
-  bool want_field = false;   ///< field
+  std::set<SectorOutput> outputs{};
 };
 
 [[nodiscard]] SectorModel make_sector_model(const geometry::Mesh& mesh, const geometry::ToothProfile& profile,

@@ -138,7 +138,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   if (accept && accept(result)) {
     solve_positions(problem, settings, true, one_cycle, solve, part_of(progress, compared, 1), result.positions);
     result.stress_curves = worst_curves(problem, bodies, system, result.positions);
-    if (settings.want_fields) result.fields = worst_fields(problem, bodies, system, result.positions);
+    if (settings.recovery == Recovery::fields) result.fields = worst_fields(problem, bodies, system, result.positions);
   }
   result.planet_sector = std::move(bodies.planet_sector);
   result.wheel_sector = std::move(bodies.wheel_sector);

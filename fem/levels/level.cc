@@ -1,11 +1,9 @@
 #include "fem/levels/level.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <mutex>
-#include <thread>
 
+#include "core/parallel.h"
 #include "fem/problem/problem_check.h"
 
 namespace annulus::fem {
@@ -44,41 +42,27 @@ void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings&
   // Chained: one task per load, neighbouring phases warm-start each other. Otherwise one task per load and phase, in
   // which the pins move on from cycle to cycle.
   const int tasks = chained ? loads : loads * (phases + 1);
-  std::atomic<int> next{0}, done{0};
+  int done = 0;
   std::mutex lock;
-  std::exception_ptr failure;
-  const auto worker = [&] {
-    for (int task = next++; task < tasks; task = next++) try {
-        const int load = task % loads;
-        const int first_phase = chained ? 0 : task / loads, last_phase = chained ? phases : first_phase;
-        ContactSystem::PairsCache cache;
-        ContactSystem::WarmStart warm;
-        for (int phase = first_phase; phase <= last_phase; ++phase) {
-          if (!table && !is_compared(problem, phase, load)) continue;
-          for (int cycle = phase == phases ? cycles - 1 : 0; cycle < cycles; ++cycle) {
-            auto& position = positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load];
-            if (position.entry.stiffness_secant != 0) continue;
-            position = solve(cycle, phase, load, cache, warm);
-            check_deflection(problem, settings, position);
-            if (load != loads / 2) position.pressure.clear();
-          }
-        }
-        ++done;
-        if (progress) {
-          const std::lock_guard guard(lock);
-          progress(static_cast<double>(done) / tasks);
-        }
-      } catch (...) {
-        const std::lock_guard guard(lock);
-        if (!failure) failure = std::current_exception();
-        next = tasks;
+  for_each_task(tasks, settings.threads, [&](std::size_t task) {
+    const int load = static_cast<int>(task) % loads;
+    const int first_phase = chained ? 0 : static_cast<int>(task) / loads, last_phase = chained ? phases : first_phase;
+    ContactSystem::PairsCache cache;
+    ContactSystem::WarmStart warm;
+    for (int phase = first_phase; phase <= last_phase; ++phase) {
+      if (!table && !is_compared(problem, phase, load)) continue;
+      for (int cycle = phase == phases ? cycles - 1 : 0; cycle < cycles; ++cycle) {
+        auto& position = positions[static_cast<std::size_t>(cycle * phases + phase) * loads + load];
+        if (position.entry.stiffness_secant != 0) continue;
+        position = solve(cycle, phase, load, cache, warm);
+        check_deflection(problem, settings, position);
+        if (load != loads / 2) position.pressure.clear();
       }
-  };
-  std::vector<std::thread> pool;
-  for (int t = 1; t < std::min(settings.threads, tasks); ++t) pool.emplace_back(worker);
-  worker();
-  for (auto& t : pool) t.join();
-  if (failure) std::rethrow_exception(failure);
+    }
+    const std::lock_guard guard(lock);
+    ++done;
+    if (progress) progress(static_cast<double>(done) / tasks);
+  });
 }
 
 }  // namespace annulus::fem

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <optional>
-#include <thread>
 
-#include "core/errors.h"
+#include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "fem/body/body_plan.h"
 #include "fem/condensation/lapack.h"
@@ -41,29 +39,16 @@ std::vector<Task*> all_tasks(GearTasks& planet, GearTasks& wheel) {
 }
 
 void condense_all(const std::vector<Task*>& tasks, const Material& material, int threads) {
-  std::vector<std::exception_ptr> failures(tasks.size());
-  const auto condense_one = [&](std::size_t i) {
-    try {
-      auto& t = *tasks[i];
-      const Stopwatch watch;
-      CondensedTooth tooth = condense_tooth(t.mesh, *t.profile, t.support_radius, material, t.options);
-      t.reused = tooth.reused;
-      if (t.reused) t.saved_seconds = std::max(0.0, tooth.seconds - watch.seconds());
-      t.body = compose_body(std::move(tooth), t.options);
-      t.seconds = watch.seconds();
-    } catch (...) {
-      failures[i] = std::current_exception();
-    }
-  };
-  if (threads > 1) {
-    std::vector<std::thread> pool;
-    for (std::size_t i = 0; i < tasks.size(); ++i) pool.emplace_back(condense_one, i);
-    for (auto& t : pool) t.join();
-  } else {
-    for (std::size_t i = 0; i < tasks.size(); ++i) condense_one(i);
-  }
-  for (const auto& failure : failures)
-    if (failure) std::rethrow_exception(failure);
+  // The first two take nearly all of the time: all at once, so that neither waits for a small one.
+  for_each_task(tasks.size(), threads > 1 ? static_cast<int>(tasks.size()) : 1, [&](std::size_t i) {
+    auto& t = *tasks[i];
+    const Stopwatch watch;
+    CondensedTooth tooth = condense_tooth(t.mesh, *t.profile, t.support_radius, material, t.options);
+    t.reused = tooth.reused;
+    if (t.reused) t.saved_seconds = std::max(0.0, tooth.seconds - watch.seconds());
+    t.body = compose_body(std::move(tooth), t.options);
+    t.seconds = watch.seconds();
+  });
 }
 
 /// What the reused teeth saved of the time of condense_all.
@@ -107,7 +92,7 @@ class TaskMaker {
     Task task{plan.sector(counts), &plan.profile(), plan.support_radius(), {}};
     task.options.sector = plan.model();
     task.options.store = settings_.store.get();
-    task.options.sector.want_stress = true;
+    task.options.sector.outputs.insert(SectorOutput::stress);
     task.options.threads = solid_ ? settings_.threads : 1;
     if (plan.floating()) task.options.arcs = supports->arcs();
     // In the plane the coupling all around costs little, and stresses are wanted there.

@@ -45,6 +45,9 @@ enum class Fidelity { closed_form, plane, solid, resolved_plane, resolved_solid 
   return f == Fidelity::resolved_plane || f == Fidelity::resolved_solid;
 }
 
+/// What condensed models recover inside the bodies, in a result with a table: its stresses, or its fields as well.
+enum class Recovery { stresses, fields };
+
 struct LoadedMeshSettings {
   Fidelity fidelity = Fidelity::plane;
   /// Wanted relative accuracy of the stiffness at the middle load of the table: the mesh is refined until the estimate
@@ -60,7 +63,7 @@ struct LoadedMeshSettings {
   bool symmetry = true;
   /// In modules: larger ones are refused, because a linear model with its unloaded flanks no longer describes them.
   double largest_deflection = std::numeric_limits<double>::infinity();
-  bool want_fields = false;                         ///< of condensed models: LoadedMeshResult::fields
+  Recovery recovery = Recovery::stresses;
   int threads = 1;                                  ///< changes the time, never the result
   std::function<void(double fraction)> progress{};  ///< called now and then with the finished fraction
   /// Where tooth superelements are cached; may be null. They depend neither on loads and phases nor on the

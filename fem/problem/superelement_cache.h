@@ -8,11 +8,23 @@
 
 namespace annulus::fem {
 
-inline constexpr const char* superelements = "superelements";  ///< kind of these results in a store
-
-/// Reads a superelement that depends on `inputs` from the store, or makes it and writes it there; true when it was
-/// read. Without a store it is made.
-bool read_or_make(const ResultStore* store, const std::string& inputs, const std::function<void(ByteReader&)>& read,
-                  const std::function<void()>& make, const std::function<void(ByteWriter&)>& write);
+/// Reads `value`, which depends on `inputs` and has members() for byte streams, from the store, or has `make` fill it
+/// and writes it there; true when it was read. Without a store it is made.
+template <class T>
+bool read_or_make(const ResultStore* store, const ByteWriter& inputs, T& value, const std::function<void()>& make) {
+  if (store == nullptr) {
+    make();
+    return false;
+  }
+  return store->find_or_make(
+      "superelements", inputs.bytes(), ResultStore::Packing::plain,
+      [&](const std::string& content) { ByteReader{content}(value); },
+      [&] {
+        make();
+        ByteWriter out;
+        out(value);
+        return out.bytes();
+      });
+}
 
 }  // namespace annulus::fem

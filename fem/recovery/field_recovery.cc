@@ -24,8 +24,8 @@ int number(int sector, int teeth) { return ((sector % teeth) + teeth) % teeth; }
 
 SectorModel field_model(const BodySource& source, const Material& material) {
   auto options = source.options;
-  options.want_stress = false;
-  options.want_field = true;
+  options.outputs.erase(SectorOutput::stress);
+  options.outputs.insert(SectorOutput::field);
   return make_sector_model(source.mesh, *source.profile, source.support_radius, material, options);
 }
 

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <string>
 
 #include "fem/body/gear_body.h"
 #include "fem/body/sector_bytes.h"
@@ -80,6 +80,11 @@ struct UnitFlexibleSector {
   OutsideLoads outside;
 };
 
+template <class Stream>
+void members(Stream& stream, UnitFlexibleSector& unit) {
+  stream(unit.sector.resultants, unit.sector.unknowns, unit.outside, unit.sector.sector);
+}
+
 UnitFlexibleSector condense_unit_flexible(const BodyPlan& plan, const geometry::Mesh& mesh,
                                           const SectorModelOptions& wanted, const Material& material,
                                           const RingFlexibilityOptions& options) {
@@ -109,33 +114,6 @@ FlexibleSector with_arcs(UnitFlexibleSector unit, const std::vector<ArcLoad>& ar
   return result;
 }
 
-std::string flexible_inputs(const BodyPlan& plan, const geometry::Mesh& mesh, const SectorModelOptions& wanted,
-                            const Material& material, const RingFlexibilityOptions& options) {
-  std::ostringstream text;
-  ByteWriter inputs(text);
-  inputs.add(std::string("flexibility"));
-  add_sector_inputs(inputs, mesh, plan.profile(), plan.support_radius(), material, wanted);
-  add_slices(inputs, options.arcs);
-  inputs.add(options.roll).add(options.face_width).add(options.solid);
-  inputs.add(options.motions.section).add(options.motions.axial);
-  return text.str();
-}
-
-void write(ByteWriter& out, const UnitFlexibleSector& unit) {
-  out.add(unit.sector.resultants).add(unit.sector.unknowns);
-  write(out, unit.outside);
-  write(out, unit.sector.sector);
-}
-
-UnitFlexibleSector read_flexible(ByteReader& in) {
-  UnitFlexibleSector unit;
-  in.get(unit.sector.resultants);
-  in.get(unit.sector.unknowns);
-  unit.outside = read_outside(in);
-  unit.sector.sector = read_sector(in);
-  return unit;
-}
-
 }  // namespace
 
 RingFlexibility compose_flexibility(const FlexibleSector& sector, const geometry::Gear& gear, bool floating,
@@ -161,13 +139,16 @@ RingFlexibility make_ring_flexibility(const BodyPlan& plan, const BodyResolution
                                       const RingFlexibilityOptions& options) {
   lapack::use_one_thread();
   SectorModelOptions wanted = plan.model();
-  wanted.want_mass = true;
+  wanted.outputs.insert(SectorOutput::mass);
   const geometry::Mesh mesh = plan.sector(resolution);
   UnitFlexibleSector unit;
   const auto make = [&] { unit = condense_unit_flexible(plan, mesh, wanted, material, options); };
-  const bool reused = read_or_make(
-      options.store, flexible_inputs(plan, mesh, wanted, material, options),
-      [&](ByteReader& in) { unit = read_flexible(in); }, make, [&](ByteWriter& out) { write(out, unit); });
+  ByteWriter inputs;
+  inputs(std::string("flexibility"));
+  add_sector_inputs(inputs, mesh, plan.profile(), plan.support_radius(), material, wanted);
+  add_slices(inputs, options.arcs);
+  inputs(options.roll, options.face_width, options.solid, options.motions.section, options.motions.axial);
+  const bool reused = read_or_make(options.store, inputs, unit, make);
   RingFlexibility ring =
       compose_flexibility(with_arcs(std::move(unit), options.arcs), plan.profile().gear(), plan.floating(), options);
   ring.reused = reused;

@@ -9,7 +9,6 @@
 #include "core/errors.h"
 #include "discretised_body.h"
 #include "fem/body/gear_body.h"
-#include "fem/condensation/sparse_schur.h"
 #include "fem/contact/support_row.h"
 #include "fem/recovery/stress_recovery.h"
 #include "geometry/sector_mesh.h"
@@ -119,7 +118,8 @@ double worst_difference(const Case& c, const std::vector<Boundary>& held) {
   Eigen::MatrixXd loads(ring.stiffness.rows(), n);
   for (Eigen::Index i = 0; i < n; ++i) loads.col(i) = unit_load(ring, body, points[i].first, points[i].second);
   const Eigen::MatrixXd free_loads = system.restrict_rows(loads);
-  const Eigen::MatrixXd exact = free_loads.transpose() * annulus::fem::SparseCholesky(system.matrix).solve(free_loads);
+  const Eigen::MatrixXd exact =
+      free_loads.transpose() * annulus::tests::SparseCholesky(system.matrix).solve(free_loads);
   double worst = 0, smallest = exact.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -242,7 +242,7 @@ Eigen::VectorXd support_load(const DiscretisedBody& ring, const SectorModel& sec
 void check_floating(annulus::test::Verification& record, Case c,
                     const std::vector<std::pair<Eigen::Vector3d, int>>& pinned, std::vector<double> slice_edges) {
   c.options.sector.held = HeldBoundary::none;
-  c.options.sector.want_outside = true;
+  c.options.sector.outputs = {annulus::fem::SectorOutput::outside};
   c.options.extent.whole_ring = true;
   SupportPlan plan = uneven_supports(c, std::move(slice_edges));
   c.options.arcs = plan.arcs();
@@ -314,7 +314,7 @@ void check_floating(annulus::test::Verification& record, Case c,
     BOOST_TEST_REQUIRE((resultants.transpose() * f).norm() < 1e-13 * n);
     const double energy = f.dot(compliance * f);
     const Eigen::MatrixXd load = system.restrict_rows(unit * f);
-    const double exact = load.col(0).dot(annulus::fem::SparseCholesky(system.matrix).solve(load).col(0));
+    const double exact = load.col(0).dot(annulus::tests::SparseCholesky(system.matrix).solve(load).col(0));
     BOOST_TEST_MESSAGE(dim << "D floating: energy differs by " << energy / exact - 1);
     record.close("strain energy of balanced loads at teeth and supports", "J", energy, exact, round_off,
                  "rounding x condition number of some 1e6");
@@ -348,7 +348,7 @@ BOOST_AUTO_TEST_CASE(a_floating_solid_ring_as_well) {
 
 /// Stresses found by reciprocity against the same functionals applied to the monolithic displacement.
 void check_stress(annulus::test::Verification& record, Case c, Boundary held) {
-  c.options.sector.want_stress = true;
+  c.options.sector.outputs = {annulus::fem::SectorOutput::stress};
   c.options.extent.whole_ring = c.sector.dimension == 2;
   c.options.extent.max_offset = 5;
   const GearBody body = condensed(c);
@@ -371,7 +371,7 @@ void check_stress(annulus::test::Verification& record, Case c, Boundary held) {
       load += teeth.back().ports[port] / width * unit_load(ring, body, port, tooth);
   }
   const Eigen::VectorXd u =
-      system.extend_rows(annulus::fem::SparseCholesky(system.matrix).solve(system.restrict_rows(load)));
+      system.extend_rows(annulus::tests::SparseCholesky(system.matrix).solve(system.restrict_rows(load)));
   const auto observe = [&](const annulus::fem::NodalLoad& functional, int sector) {
     const Eigen::AngleAxisd turn(sector * body.pitch_angle, Eigen::Vector3d::UnitZ());
     double sum = 0;

@@ -198,7 +198,7 @@ BOOST_AUTO_TEST_CASE(a_solid_tooth_on_pins_is_kept) {
   annulus::fem::GearBodyOptions options;
   options.sector.held = annulus::fem::HeldBoundary::none;
   options.sector.flank = annulus::geometry::Boundary::trailing_flank;
-  options.sector.want_outside = options.sector.want_stress = true;
+  options.sector.outputs = {annulus::fem::SectorOutput::outside, annulus::fem::SectorOutput::stress};
   annulus::test::Verification record("A solid tooth kept for 81, 54 and 24 pins", "the same condensed afresh");
   const auto same = [&](const char* quantity, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
     record.at_most(quantity, "", static_cast<double>((a.array() != b.array()).count()), 0, same_bits);

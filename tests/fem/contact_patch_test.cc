@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "discretised_body.h"
-#include "fem/condensation/sparse_schur.h"
 #include "fem/contact/complementarity.h"
 #include "fem/contact/half_plane.h"
 #include "fem/elasticity/trace_basis.h"
@@ -58,7 +57,7 @@ Block make_block(int cells, int layers, double grading, int degree) {
   }
   const Eigen::MatrixXd free_loads = system.restrict_rows(loads);
   return {TraceBasis(stations, degree),
-          free_loads.transpose() * annulus::fem::SparseCholesky(system.matrix).solve(free_loads)};
+          free_loads.transpose() * annulus::tests::SparseCholesky(system.matrix).solve(free_loads)};
 }
 
 /// Ends of the pressure elements, unlike both meshes.

@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "core/errors.h"
+#include "fem/condensation/lapack.h"
 #include "fem/elasticity/elastic_problem.h"
 
 namespace annulus::tests {
@@ -64,6 +66,16 @@ Eigen::MatrixXd FreeSystem::extend_rows(const Eigen::MatrixXd& free) const {
   for (std::size_t i = 0; i < row.size(); ++i)
     if (row[i] >= 0) result.row(static_cast<Eigen::Index>(i)) = free.row(row[i]);
   return result;
+}
+
+SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& matrix) {
+  fem::lapack::use_one_thread();
+  factor_.compute(matrix);
+  require(factor_.info() == Eigen::Success, "a matrix that is not positive definite");
+}
+
+Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_hand_sides) const {
+  return factor_.solve(right_hand_sides);
 }
 
 }  // namespace annulus::tests

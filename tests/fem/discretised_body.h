@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/CholmodSupport>
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <functional>
@@ -32,6 +33,16 @@ struct FreeSystem {
   FreeSystem(const Eigen::SparseMatrix<double>& full, const std::vector<bool>& fixed);
   [[nodiscard]] Eigen::MatrixXd restrict_rows(const Eigen::MatrixXd& full) const;
   [[nodiscard]] Eigen::MatrixXd extend_rows(const Eigen::MatrixXd& free) const;  ///< zero at the fixed DOFs
+};
+
+/// Direct solution, for comparison.
+class SparseCholesky {
+ public:
+  explicit SparseCholesky(const Eigen::SparseMatrix<double>& matrix);
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const;
+
+ private:
+  Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> factor_;
 };
 
 }  // namespace annulus::tests

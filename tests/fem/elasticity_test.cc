@@ -7,7 +7,7 @@
 
 #include "core/errors.h"
 #include "discretised_body.h"
-#include "fem/condensation/sparse_schur.h"
+#include "elastic_integrals.h"
 #include "structured_mesh.h"
 #include "tests/verification_record.h"
 
@@ -85,7 +85,8 @@ Eigen::VectorXd solve_dirichlet(const ElasticProblem<dim>& problem, const Exact&
   }
   const FreeSystem system(stiffness, fixed);
   const Eigen::VectorXd rest = load - stiffness * prescribed;
-  return prescribed + system.extend_rows(annulus::fem::SparseCholesky(system.matrix).solve(system.restrict_rows(rest)));
+  return prescribed +
+         system.extend_rows(annulus::tests::SparseCholesky(system.matrix).solve(system.restrict_rows(rest)));
 }
 
 /// Largest error of interpolating sin on [0, 1] at the Lobatto nodes of one element of degree p, per (k h)^(p+1):
@@ -111,9 +112,10 @@ void check_rates(annulus::test::Verification& record, int degree, const std::vec
   std::vector<std::pair<double, double>> errors;
   for (const int n : cells) {
     const ElasticProblem<dim> problem(annulus::tests::distorted_box(dim, n, 0.15), {}, steel_like, degree);
-    const auto load = problem.body_load([&](const auto& x) { return exact.force(x, steel_like); });
+    const auto load = annulus::tests::body_load(problem, [&](const auto& x) { return exact.force(x, steel_like); });
     const auto u = solve_dirichlet(problem, exact, load);
-    errors.push_back(problem.errors(u, exact, [&](const auto& x) { return exact.gradient(x); }));
+    errors.push_back(
+        annulus::tests::solution_errors(problem, u, exact, [&](const auto& x) { return exact.gradient(x); }));
     BOOST_TEST_MESSAGE(dim << "D, degree " << degree << ", " << n << " cells a side: L2 " << errors.back().first
                            << ", H1 " << errors.back().second);
   }
@@ -282,8 +284,8 @@ annulus::geometry::Mesh quarter() {
 /// Displacement under internal pressure of a quarter held in its planes of symmetry, ends flat.
 template <int dim>
 Eigen::VectorXd solve_quarter(const ElasticProblem<dim>& problem) {
-  const Eigen::VectorXd load =
-      problem.surface_load(Boundary::root, [](const auto&, const auto& normal) { return -pressure * normal; });
+  const Eigen::VectorXd load = annulus::tests::surface_load(
+      problem, Boundary::root, [](const auto&, const auto& normal) { return -pressure * normal; });
   std::vector<bool> fixed(problem.dofs(), false);
   const auto hold = [&](Boundary boundary, int component) {
     for (const int n : problem.boundary_nodes(boundary)) fixed[problem.node_dofs()[n][component]] = true;
@@ -295,7 +297,7 @@ Eigen::VectorXd solve_quarter(const ElasticProblem<dim>& problem) {
     hold(Boundary::end_high, 2);
   }
   const FreeSystem system(problem.stiffness(), fixed);
-  return system.extend_rows(annulus::fem::SparseCholesky(system.matrix).solve(system.restrict_rows(load)));
+  return system.extend_rows(annulus::tests::SparseCholesky(system.matrix).solve(system.restrict_rows(load)));
 }
 
 /// Largest relative error of the displacement over the nodes of both circles.
@@ -430,8 +432,8 @@ BOOST_AUTO_TEST_CASE(pressure_on_a_curved_boundary_has_the_resultant_of_its_proj
                                      "statics: pressure x projection, whatever the curve");
   // Over a quarter circle: pressure x radius in x and in y; geometry of degree 3, twice refined.
   const ElasticProblem<2> problem(quarter<2>(), on_circle, ring_material, 3, 2);
-  const auto load =
-      problem.surface_load(Boundary::root, [](const auto&, const auto& normal) { return -pressure * normal; });
+  const auto load = annulus::tests::surface_load(problem, Boundary::root,
+                                                 [](const auto&, const auto& normal) { return -pressure * normal; });
   double x = 0, y = 0;
   for (const auto& f : problem.node_dofs()) {
     x += load[f[0]];

@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(stresses_of_the_field_are_those_of_the_surface) {
                                      "surface stress by reciprocity at the same position");
   LoadedMeshSettings settings;
   settings.level = 2;
-  settings.want_fields = true;
+  settings.recovery = annulus::fem::Recovery::fields;
   for (const auto& problem : {ring_mesh(OutsideHeld{}, 8), ring_mesh(paper_pins(24, 0.01), 2), sun_mesh(8)}) {
     const auto result = solve_loaded_mesh(problem, settings);
     BOOST_TEST_REQUIRE(result.fields.size() == 2U);
@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(solid_bodies_have_fields_near_the_contact) {
   LoadedMeshSettings settings;
   settings.level = 1;
   settings.fidelity = annulus::fem::Fidelity::solid;
-  settings.want_fields = true;
+  settings.recovery = annulus::fem::Recovery::fields;
   const auto problem = ring_mesh(annulus::fem::EndFaceHeld{18e-3, 10.6e-3, {}}, 2);
   const auto result = solve_loaded_mesh(problem, settings);
   BOOST_TEST_REQUIRE(result.fields.size() == 2U);

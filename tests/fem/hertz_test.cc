@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "discretised_body.h"
-#include "fem/condensation/sparse_schur.h"
 #include "fem/contact/complementarity.h"
 #include "fem/contact/contact_system.h"
 #include "fem/contact/hertz.h"
@@ -90,7 +89,7 @@ Result press(int cells, int degree) {
   }
   const Eigen::MatrixXd free_loads = system.restrict_rows(loads);
   const Eigen::MatrixXd compliance =
-      free_loads.transpose() * annulus::fem::SparseCholesky(system.matrix).solve(free_loads);
+      free_loads.transpose() * annulus::tests::SparseCholesky(system.matrix).solve(free_loads);
 
   // Elements of constant pressure over a window of 1.5 half-widths to either side, as long as the cells there.
   const TraceBasis trace(stations, degree);

@@ -1,4 +1,5 @@
 #include "fem/ring/ring_coupling.h"
+#include "discretised_body.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
@@ -7,7 +8,6 @@
 #include <numeric>
 
 #include "core/errors.h"
-#include "fem/condensation/sparse_schur.h"
 #include "fem/ring/ring_on_supports.h"
 #include "ring_paper_problems.h"
 #include "small_ring.h"
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(mesh_and_inertia_loads_of_a_held_ring_are_those_of_the_whol
     const Eigen::MatrixXd free = system.restrict_rows(unit);
     // Both sides are per unit of width: the displacement is divided out once.
     const Eigen::MatrixXd exact =
-        free.transpose() * annulus::fem::SparseCholesky(system.matrix).solve(free) / ring.per_width();
+        free.transpose() * annulus::tests::SparseCholesky(system.matrix).solve(free) / ring.per_width();
     double worst = 0;
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = 0; j < n; ++j)
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(a_ring_on_bolts_is_the_whole_mesh_on_springs_and_superposes
     patterns(loaded[i], i) = 1;
   }
   const Eigen::MatrixXd exact =
-      unit.transpose() * annulus::fem::SparseCholesky(system.matrix).solve(unit) / ring.per_width();
+      unit.transpose() * annulus::tests::SparseCholesky(system.matrix).solve(unit) / ring.per_width();
   const auto state = supported.solve(patterns, Eigen::VectorXd::Constant(n, 1e3), {});
   record.at_most("compliance, error over the largest entry", "", largest(state.tangent - exact) / largest(exact),
                  round_off, "rounding x condition number");
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(a_ring_on_bolts_is_the_whole_mesh_on_springs_and_superposes
   double worst = 0;
   for (const auto& [sector, motion] : {std::pair{0, 0}, {3, 2}, {17, motions - 1}}) {
     const Eigen::VectorXd load = ring.whole_load(sector, ring.flexibility.first_motion() + motion);
-    const Eigen::VectorXd u = annulus::fem::SparseCholesky(system.matrix).solve(load);
+    const Eigen::VectorXd u = annulus::tests::SparseCholesky(system.matrix).solve(load);
     const Eigen::Index column = teeth + sector * motions + motion;
     const double own = load.dot(u) / ring.per_width();
     for (Eigen::Index i = 0; i < n; ++i)
@@ -177,7 +177,7 @@ BOOST_AUTO_TEST_CASE(pins_that_lift_off_satisfy_their_conditions_on_the_whole_me
       load += state.support[i] * ring.support_load(plan, i);
     // In equilibrium: the held nodes carry nothing.
     const Eigen::VectorXd u =
-        system.extend_rows(annulus::fem::SparseCholesky(system.matrix).solve(system.restrict_rows(load)));
+        system.extend_rows(annulus::tests::SparseCholesky(system.matrix).solve(system.restrict_rows(load)));
     record.at_most("residual of the equilibrium over the load", "",
                    (ring.whole.stiffness * u - load).norm() / load.norm(), 1e-8, "rounding x condition number");
     // Gaps up to the rigid motion that the touching supports fix.

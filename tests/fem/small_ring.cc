@@ -1,4 +1,5 @@
 #include "small_ring.h"
+#include "discretised_body.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <random>
 
-#include "fem/condensation/sparse_schur.h"
 #include "fem/problem/structures/pin_held.h"
 #include "geometry/sector_mesh.h"
 
@@ -133,8 +133,8 @@ SmallRing small_ring(int teeth, SmallHeld held, const fem::MotionOrder& motions,
                  : solid                    ? fem::HeldBoundary::end_low
                                             : fem::HeldBoundary::none;
   options.flank = Boundary::trailing_flank;
-  options.want_outside = plan != nullptr;
-  options.want_mass = true;
+  options.outputs = {fem::SectorOutput::mass};
+  if (plan != nullptr) options.outputs.insert(fem::SectorOutput::outside);
   ring.sector = make_sector_model(mesh, profile, ring.outside, {}, options);
   fem::RingFlexibilityOptions wanted;
   wanted.roll = profile.roll_length_at(ring.gear.reference_radius());
@@ -166,7 +166,7 @@ SmallRing small_ring(int teeth, SmallHeld held, const fem::MotionOrder& motions,
 
 Eigen::VectorXd lowest_frequencies(const Eigen::SparseMatrix<double>& stiffness,
                                    const Eigen::SparseMatrix<double>& mass, int count) {
-  const fem::SparseCholesky factor(stiffness);
+  const tests::SparseCholesky factor(stiffness);
   std::mt19937 random(3);
   const Eigen::Index spare = 8;
   Eigen::MatrixXd x = Eigen::MatrixXd::NullaryExpr(stiffness.rows(), count + spare,

@@ -7,13 +7,13 @@
 
 #include "app/model/cost_actual.h"
 #include "app/model/mesh_figures.h"
-#include "app/process/tasks.h"
 #include "app/results/content_id.h"
 #include "app/run/pipeline.h"
 #include "app/systems/helical_pair/pair_table_errors.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/log.h"
+#include "core/parallel.h"
 #include "core/units.h"
 #include "dynamics/figures/spectrum.h"
 

@@ -8,11 +8,11 @@
 
 #include "app/model/cost_actual.h"
 #include "app/model/mesh_figures.h"
-#include "app/process/tasks.h"
 #include "app/results/cached_files.h"
 #include "app/run/pipeline.h"
 #include "app/scene/input_place.h"
 #include "core/log.h"
+#include "core/parallel.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 
 namespace annulus::app {

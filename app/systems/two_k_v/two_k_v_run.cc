@@ -7,11 +7,11 @@
 
 #include "app/model/cost_actual.h"
 #include "app/model/mesh_figures.h"
-#include "app/process/tasks.h"
 #include "app/results/cached_files.h"
 #include "app/run/pipeline.h"
 #include "core/files.h"
 #include "core/log.h"
+#include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "dynamics/systems/two_k_v/two_k_v_figures.h"
 

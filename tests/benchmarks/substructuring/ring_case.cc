@@ -13,7 +13,6 @@
 #include "fem/condensation/condensed_sector.h"
 #include "fem/condensation/cyclic_body.h"
 #include "fem/condensation/lapack.h"
-#include "fem/condensation/sparse_schur.h"
 #include "fem/discretised_body.h"
 #include "fem/ring_paper.h"
 #include "geometry/profile.h"
@@ -178,7 +177,7 @@ RingCompliance monolithic(const RingCase& ring) {
   result.unknowns = system.matrix.rows();
   result.discretise_seconds = watch.wall();
   watch = {};
-  const fem::SparseCholesky factor(system.matrix);
+  const tests::SparseCholesky factor(system.matrix);
   result.condense_seconds = watch.wall();
   watch = {};
   const PortMap loaded = map_ports(body, sector, 0);

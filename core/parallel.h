@@ -6,12 +6,14 @@
 #include <thread>
 #include <vector>
 
-namespace annulus::app {
+namespace annulus {
 
-/// Independent tasks on `threads` threads; the first exception of any task is thrown again at the end.
+/// Calls task(0) ... task(tasks - 1), independent of each other, on `threads` threads; they are started in this order.
+/// After a failure no further one is started, and the failure of the first task that has one is thrown: which one that
+/// is does not depend on the number of threads.
 template <class Task>
 void for_each_task(std::size_t tasks, int threads, Task task) {
-  std::atomic<std::size_t> next = 0;
+  std::atomic<std::size_t> next{0};
   std::vector<std::exception_ptr> failures(tasks);
   const auto work = [&] {
     for (std::size_t i = next++; i < tasks; i = next++) {
@@ -19,6 +21,7 @@ void for_each_task(std::size_t tasks, int threads, Task task) {
         task(i);
       } catch (...) {
         failures[i] = std::current_exception();
+        next = tasks;
       }
     }
   };
@@ -26,9 +29,8 @@ void for_each_task(std::size_t tasks, int threads, Task task) {
   for (int i = 1; i < threads && static_cast<std::size_t>(i) < tasks; ++i) pool.emplace_back(work);
   work();
   for (auto& thread : pool) thread.join();
-  for (const auto& failure : failures) {
+  for (const auto& failure : failures)
     if (failure) std::rethrow_exception(failure);
-  }
 }
 
-}  // namespace annulus::app
+}  // namespace annulus
