@@ -19,156 +19,25 @@ fem::LoadedMeshProblem problem_of(const Scene& scene, const std::string& mesh, c
           .name = mesh};
 }
 
-void use(MeshModel& model, fem::Fidelity fidelity) {
-  model.settings.fidelity = fidelity;
-  model.fidelity = fidelity_name(fidelity);
-}
-
-/// The cheapest model the mesh permits, unless the scene asks for another.
-void set_fidelity(MeshModel& model, const Scene& scene, const std::string& why_solid, const std::string& why_plane) {
-  const bool needs_solid = !why_solid.empty();
-  const std::string& why = needs_solid ? why_solid : why_plane;
-  constexpr const char* asked = "the scene asks for it (model)";
-  switch (scene.fidelity) {
-    case Fidelity::automatic:
-      use(model, needs_solid ? fem::Fidelity::solid : fem::Fidelity::plane);
-      model.reason = why;
-      break;
-    case Fidelity::closed_form:
-      use(model, fem::Fidelity::closed_form);
-      model.reason = asked;
-      break;
-    case Fidelity::plane:
-      use(model, fem::Fidelity::plane);
-      model.reason = asked;
-      break;
-    case Fidelity::solid:
-      use(model, fem::Fidelity::solid);
-      model.reason = needs_solid ? why_solid : asked;
-      break;
-    case Fidelity::resolved:
-      use(model, needs_solid ? fem::Fidelity::resolved_solid : fem::Fidelity::resolved_plane);
-      model.reason = std::string(asked) + "; " + why;
-      break;
-  }
-}
-
-/// Formulas do where their error, known beforehand, is within the accuracy.
-void prefer_formulas(MeshModel& model, const Scene& scene) {
-  if (scene.fidelity != Fidelity::automatic || model.settings.fidelity != fem::Fidelity::plane) return;
-  if (scene.accuracy < fem::least_closed_form_error) return;
-  const double error = fem::closed_form_error(*model.problem);
-  if (error > scene.accuracy) return;
-  use(model, fem::Fidelity::closed_form);
-  model.reason += fmt::format("; formulas are within {:.2g} %", 100 * error);
-  model.formula_error = error;
-}
-
-/// Why linear elements would be too stiff, by more than their error estimate tells: they lock where the volume hardly
-/// changes, and where thin parts bend (a rim of two modules on a sleeve four times as long as thick: off by 10.2 %
-/// where they say 9.3 %).
-std::string unfit_for_linear(const fem::LoadedMeshProblem& problem) {
-  constexpr double nearly_incompressible = 0.4, thin_rim = 2.5, slender_sleeve = 0.3;
-  if (problem.material.poisson_ratio > nearly_incompressible)
-    return fmt::format("linear ones are too stiff where Poisson's ratio exceeds {}", nearly_incompressible);
-  const auto sleeve = problem.structure.body(problem.wheel_support_radius).sleeve;
-  if (!sleeve) return "";
-  const auto& gear = problem.pair.wheel();
-  if (problem.wheel_support_radius - gear.root_radius() < thin_rim * gear.parameters().module ||
-      sleeve->thickness < slender_sleeve * sleeve->length)
-    return "linear ones are too stiff where a thin rim or a slender sleeve bends";
-  return "";
-}
-
-/// Edges of single supports, sleeves and flanges that bend, and contacts slanted over the cells leave linear elements
-/// more than 1 % at their first level.
-bool hard_for_linear(const fem::LoadedMeshProblem& problem) {
-  if (problem.pair.planet().helix_angle() != 0) return true;
-  return problem.pair.internal() && !fem::held_outside(problem.structure);
-}
-
-/// What the wanted accuracy asks of a mesh whose problem is complete but for phases and loads.
-void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
-  model.settings.accuracy = scene.accuracy;
-  model.settings.largest_deflection = 0.25;  // small displacements; what is known beforehand: small_displacements.h
-  const auto& pair = model.problem->pair;
-  const double uptake = load_uptake(mean_force, model.problem->face_width, pair.planet().parameters().module,
-                                    model.problem->material.youngs_modulus);
-  auto table = table_resolution(scene.accuracy, uptake, pair.overlap_ratio());
-  model.problem->phases = table.phases;
-  for (const double factor : table.load_factors) model.problem->loads.push_back(factor * mean_force);
-  model.phases = std::move(table.phases_reason);
-  model.loads = std::move(table.loads_reason);
-  prefer_formulas(model, scene);
-  const bool formulas = model.settings.fidelity == fem::Fidelity::closed_form;
-  auto elements = element_choice(formulas ? fem::Fidelity::plane : model.settings.fidelity, scene.accuracy,
-                                 hard_for_linear(*model.problem), unfit_for_linear(*model.problem));
-  // Modes of the ring that take part need their frequencies: of linear elements they are 2 % too high where a mesh is
-  // within 3 %.
-  const bool modes_take_part = scene.dynamics && scene.dynamics->rim_coupling == RimCoupling::elastic;
-  model.coupling_degree = modes_take_part ? 2 : elements.degree;
-  if (formulas) return;
-  model.settings.degree = elements.degree;
-  model.elements = std::move(elements.reason);
-}
-
-/// Why a plane model suffices for a ring without a reason for a solid one; empty for others.
-std::string plane_reason(const fem::RingStructure& structure) {
-  const auto reason = structure.words().plane_reason;
-  return reason.empty() ? "" : reason + ": nothing changes along the face width";
-}
-
-/// Why the mesh of a ring repeats after so many teeth.
-std::string repeats_text(const fem::RingStructure& structure, int teeth, int positions) {
-  if (!fem::on_single_supports(structure)) return "the support is the same behind every tooth: one mesh cycle suffices";
-  const auto supports = structure.words().repetition;
-  if (positions == teeth) return fmt::format("{} teeth on {}: no smaller rotation repeats the ring", teeth, supports);
-  return fmt::format("{} teeth on {}: the ring repeats after {} teeth", teeth, supports, positions);
-}
-
-void add_reason(std::string& reasons, bool applies, const std::string& reason) {
-  if (applies) reasons += (reasons.empty() ? "" : "; ") + reason;
+/// The computed model of a mesh whose problem is complete but for its phases and loads.
+void choose(MeshModel& model, const Scene& scene, const std::string& why_solid, double mean_force) {
+  const fem::MeshWish wish{.model = scene.fidelity,
+                           .accuracy = scene.accuracy,
+                           .mean_force = mean_force,
+                           .ring_modes_count = scene.dynamics && scene.dynamics->rim_coupling == RimCoupling::elastic};
+  static_cast<fem::MeshChoice&>(model) = fem::choose_mesh(*model.problem, why_solid, wish);
+  model.fidelity = fidelity_name(model.settings.fidelity);
 }
 
 bool lead_modified(const GearInput& gear) { return gear.lead_crowning != 0 || gear.lead_slope != 0; }
 
-/// What both meshes have in common: the teeth themselves.
-std::string tooth_reasons(const Scene& scene, const GearInput& planet, const std::string& planet_name,
-                          const GearInput& wheel, const std::string& wheel_name, double misalignment) {
-  constexpr const char* lead = "the lead of the {} is modified, so the load varies along the face width";
-  std::string reasons;
-  add_reason(reasons, scene.stage.helix_angle != 0,
-             "helical teeth enter the contact progressively along the face width");
-  add_reason(reasons, lead_modified(wheel), fmt::format(lead, wheel_name));
-  add_reason(reasons, lead_modified(planet), fmt::format(lead, planet_name));
-  add_reason(reasons, misalignment != 0, "the flanks are misaligned, so the load varies along the face width");
-  return reasons;
-}
-
-void set_given(MeshModel& model, const std::string& shape) {
+void set_given(MeshModel& model, StiffnessShape given) {
+  constexpr const char* names[] = {"computed", "constant", "harmonic",   "rectangular",
+                                   "table",    "iso_6336", "closed_form"};
   model.fidelity = "given";
-  model.reason = fmt::format("the scene gives the stiffness (mesh.{}: {})", model.mesh, shape);
+  model.reason =
+      fmt::format("the scene gives the stiffness (mesh.{}: {})", model.mesh, names[static_cast<std::size_t>(given)]);
   model.repeats = "as given";
-}
-
-std::string shape_text(StiffnessShape shape) {
-  switch (shape) {
-    case StiffnessShape::computed:
-      return "computed";
-    case StiffnessShape::constant:
-      return "constant";
-    case StiffnessShape::harmonic:
-      return "harmonic";
-    case StiffnessShape::rectangular:
-      return "rectangular";
-    case StiffnessShape::iso_6336:
-      return "iso_6336";
-    case StiffnessShape::closed_form:
-      return "closed_form";
-    case StiffnessShape::table:
-      break;
-  }
-  return "table";
 }
 
 void add_gear(ContentId& id, const std::string& name, const geometry::Gear& gear) {
@@ -193,22 +62,6 @@ Decision symmetry_decision(const fem::LoadedMeshProblem& problem, const fem::Loa
 }
 
 }  // namespace
-
-const char* fidelity_name(fem::Fidelity fidelity) {
-  switch (fidelity) {
-    case fem::Fidelity::closed_form:
-      return "closed_form";
-    case fem::Fidelity::plane:
-      return "plane";
-    case fem::Fidelity::solid:
-      return "solid";
-    case fem::Fidelity::resolved_plane:
-      return "resolved_plane";
-    case fem::Fidelity::resolved_solid:
-      break;
-  }
-  return "resolved_solid";
-}
 
 std::vector<Decision> decisions(const MeshModel& model) {
   std::vector<Decision> list = {{"model", model.fidelity, model.reason}};
@@ -273,37 +126,32 @@ const char* MeshModel::body_name(bool planet) const {
 }
 
 std::string solid_reason(const Scene& scene, const RingInput& ring) {
-  std::string reasons;
-  const std::string structure = ring_structure(ring).words().solid_reason;
-  add_reason(reasons, !structure.empty(), structure);
-  const std::string teeth =
-      tooth_reasons(scene, scene.planet, "planet", ring, "ring", scene.errors.ring_planet_misalignment);
-  add_reason(reasons, !teeth.empty(), teeth);
-  return reasons;
+  return fem::solid_reason(ring_structure(ring),
+                           {scene.stage.helix_angle, "planet", "ring", lead_modified(scene.planet), lead_modified(ring),
+                            scene.errors.ring_planet_misalignment});
 }
 
 std::string solid_reason(const Scene& scene) {
-  return tooth_reasons(scene, scene.planet, "planet", scene.sun, "sun", scene.errors.sun_planet_misalignment);
+  return fem::solid_reason({}, {scene.stage.helix_angle, "planet", "sun", lead_modified(scene.planet),
+                                lead_modified(scene.sun), scene.errors.sun_planet_misalignment});
 }
 
 std::string solid_reason(const Scene& scene, const ExternalMesh& mesh) {
-  return tooth_reasons(scene, mesh.planet, mesh.planet_name, mesh.wheel, mesh.wheel_name, mesh.misalignment);
+  return fem::solid_reason({}, {scene.stage.helix_angle, mesh.planet_name, mesh.wheel_name, lead_modified(mesh.planet),
+                                lead_modified(mesh.wheel), mesh.misalignment});
 }
 
 MeshModel external_mesh_model(const Scene& scene, const ExternalMesh& mesh) {
-  MeshModel model{.mesh = mesh.mesh};
+  MeshModel model;
+  model.mesh = mesh.mesh;
   if (mesh.input.stiffness != StiffnessShape::computed) {
-    set_given(model, shape_text(mesh.input.stiffness));
+    set_given(model, mesh.input.stiffness);
     return model;
   }
-  set_fidelity(
-      model, scene, solid_reason(scene, mesh),
-      "spur gears without lead modifications on hubs over the full width: nothing changes along the face width");
-  model.repeats = "equal teeth on concentric hubs: one mesh cycle tells all";
   model.problem = problem_of(scene, model.mesh, mesh.pair, mesh.planet);
   model.problem->wheel_support_radius = mesh.wheel.bore_diameter.value_or(0) / 2;
   model.problem->misalignment = mesh.misalignment;
-  set_resolution(model, scene, mesh.mean_force);
+  choose(model, scene, solid_reason(scene, mesh), mesh.mean_force);
   return model;
 }
 
@@ -322,20 +170,18 @@ MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry) {
 MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
   const auto& input = scene.rings.at(ring);
   const auto& ring_geometry = geometry.rings.at(ring);
-  MeshModel model{.mesh = ring_planet, .ring = input.name};
+  MeshModel model;
+  model.mesh = ring_planet;
+  model.ring = input.name;
   if (scene.ring_planet.stiffness != StiffnessShape::computed) {
-    set_given(model, shape_text(scene.ring_planet.stiffness));
+    set_given(model, scene.ring_planet.stiffness);
     return model;
   }
-  const auto structure = ring_structure(input);
-  set_fidelity(model, scene, solid_reason(scene, input), plane_reason(structure));
-  model.positions = structure.repeating_teeth(input.teeth);
-  model.repeats = repeats_text(structure, input.teeth, model.positions);
   model.problem = problem_of(scene, model.mesh, ring_geometry.set.ring_mesh(), scene.planet);
   model.problem->wheel_support_radius = ring_geometry.outside_radius;
-  model.problem->structure = structure;
+  model.problem->structure = ring_structure(input);
   model.problem->misalignment = scene.errors.ring_planet_misalignment;
-  set_resolution(model, scene, geometry.operating_point.mean_mesh_force);
+  choose(model, scene, solid_reason(scene, input), geometry.operating_point.mean_mesh_force);
   return model;
 }
 

@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "app/plan/accuracy_choice.h"
 #include "app/plan/gear_geometry.h"
 #include "app/plan/ring_structures.h"
 #include "app/scene/scene.h"
+#include "fem/choice/mesh_choice.h"
+#include "fem/choice/table_choice.h"
 #include "fem/loaded_mesh.h"
 
 namespace annulus::app {
@@ -27,26 +28,12 @@ struct Decision {
 struct MeshModel;
 [[nodiscard]] std::vector<Decision> decisions(const MeshModel& model);
 
-/// "plane", "resolved_solid" ...
-[[nodiscard]] const char* fidelity_name(fem::Fidelity fidelity);
-
 /// How the stiffness of one mesh is found, and why so: the decision of the planner, carried out by the pipeline.
-struct MeshModel {
-  std::string mesh{};  ///< "sun_planet", "ring_planet", "pinion_wheel" or "arc_pins"
-  std::string ring{};  ///< empty for the sun mesh, which all rings share
-  std::string
-      fidelity{};  ///< "closed_form", "plane", "solid", "resolved_plane", "resolved_solid", or "given" by the scene
-  std::string reason{};                             ///< why this model
-  int positions = 1;                                ///< ring positions after which the mesh repeats
-  std::string repeats{};                            ///< why so many
-  std::string elements{};                           ///< why elements of this degree
-  int coupling_degree = 2;                          ///< of the elements that tell how ring meshes act on each other
-  std::string phases{};                             ///< why so many positions per mesh cycle
-  std::string loads{};                              ///< why so many loads
+struct MeshModel : fem::MeshChoice {
+  std::string mesh{};                               ///< "sun_planet", "ring_planet", "pinion_wheel" or "arc_pins"
+  std::string ring{};                               ///< empty for the sun mesh, which all rings share
+  std::string fidelity{};                           ///< fem::fidelity_name(), or "given" by the scene
   std::optional<fem::LoadedMeshProblem> problem{};  ///< absent when the stiffness is given
-  fem::LoadedMeshSettings settings{};
-  /// Of formulas, as far as it is known beforehand: relative, of the stiffness, what accuracy cannot reduce left out.
-  std::optional<double> formula_error{};
 
   [[nodiscard]] bool computed() const { return problem.has_value(); }
   /// Index of the nominal load among those of a computed mesh: the middle one, at which the accuracy is met.

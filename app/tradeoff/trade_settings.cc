@@ -16,7 +16,7 @@ std::vector<double> load_factors(int loads) {
     case 3:
       return {0.5, 1, 1.5};
     case 5:
-      return {std::begin(table_load_factors), std::end(table_load_factors)};
+      return {std::begin(fem::table_load_factors), std::end(fem::table_load_factors)};
     case 9:
       return {0.125, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2};
     default:

@@ -16,7 +16,7 @@ enum class TradePart { mesh, dynamics };
 struct MeshSetting {
   fem::Fidelity fidelity = fem::Fidelity::plane;
   int degree = 2, level = 1;  ///< without meaning for the closed form
-  int phases = table_phases;
+  int phases = fem::table_phases;
   int loads = 5;  ///< 1, 3, 5 or 9 of them around the nominal one
   bool finest = false;
 

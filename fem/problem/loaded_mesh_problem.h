@@ -40,6 +40,10 @@ struct LoadedMeshProblem {
 }
 
 enum class Fidelity { closed_form, plane, solid, resolved_plane, resolved_solid };
+[[nodiscard]] constexpr const char* fidelity_name(Fidelity f) {
+  constexpr const char* names[] = {"closed_form", "plane", "solid", "resolved_plane", "resolved_solid"};
+  return names[static_cast<int>(f)];
+}
 [[nodiscard]] constexpr bool is_solid(Fidelity f) { return f == Fidelity::solid || f == Fidelity::resolved_solid; }
 [[nodiscard]] constexpr bool is_resolved(Fidelity f) {
   return f == Fidelity::resolved_plane || f == Fidelity::resolved_solid;

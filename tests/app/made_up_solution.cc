@@ -103,7 +103,7 @@ fem::LoadedMeshResult made_up_solution(const app::MeshModel& model) {
         p.entry = {0, p.load / k, k, k, 0.01};
         p.max_pressure = 0.9e9;
         const double slope = solid ? 0.5454545454545454 * (1 - 0.5 * p.mesh_phase) : 0;
-        add_contact(p, edges, problem.face_width, slope, l == app::nominal_load_index);
+        add_contact(p, edges, problem.face_width, slope, l == fem::nominal_load_index);
         if (solid) p.face_load_factor = 1 + slope * 11.0 / 12;  // the outermost of twelve slices
         p.max_pressure -= 1e6 * p.mesh_phase;
         const double fade = 1 - 0.1 * p.mesh_phase - 0.001 * tooth;

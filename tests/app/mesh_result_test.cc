@@ -43,7 +43,7 @@ app::MeshResult some_result() {
   result.pins.rows = {{1.0}};
   result.picture = "<svg/>";
   result.facts = {{"max_penetration_m", 1e-12}, {"unknowns", 1234}};
-  result.nominal = app::nominal_load_index;
+  result.nominal = fem::nominal_load_index;
   return result;
 }
 
@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(a_range_knows_what_lies_between_its_positions) {
 
 BOOST_AUTO_TEST_CASE(figures) {
   const auto result = some_result();
-  const double load = result.model.problem->loads[app::nominal_load_index];
+  const double load = result.model.problem->loads[fem::nominal_load_index];
   // Sums of two numbers: a few roundings.
   const auto tolerance = boost::test_tools::tolerance(1e-14);
   BOOST_TEST(result.mean_stiffness().value == 1.5e9, tolerance);
@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(everything_known_is_kept) {
     const auto& row = result.line_load.rows[i];
     force += row[4] * (row[3] - row[2]);
   }
-  BOOST_TEST(force == model.problem->loads[app::nominal_load_index], boost::test_tools::tolerance(5e-6));
+  BOOST_TEST(force == model.problem->loads[fem::nominal_load_index], boost::test_tools::tolerance(5e-6));
 
   const test::TemporaryFolder folder("everything");
   app::save(result, folder.path());

@@ -8,6 +8,7 @@
 #include "app/systems/helical_pair/pair_model.h"
 #include "app/systems/helical_pair/pair_stiffness.h"
 #include "core/units.h"
+#include "fem/closed_form/helical_table.h"
 #include "tests/app/pair_scenes.h"
 #include "tests/app/scenes.h"
 
@@ -122,7 +123,7 @@ BOOST_AUTO_TEST_CASE(normal_and_transverse_tables_hold_the_same_work) {
   const auto scene = parsed_pair(test::quick_pair());
   const auto geometry = app::make_pair_geometry(scene);
   const auto transverse = app::closed_form_pair_table(scene, geometry, geometry.transverse_force);
-  const auto normal = app::along_normal(transverse, geometry.base_helix_angle);
+  const auto normal = fem::along_normal(transverse, geometry.base_helix_angle);
   for (int load = 0; load < static_cast<int>(normal.loads().size()); ++load) {
     const auto i = static_cast<std::size_t>(load);
     const auto &n = normal.at(0, 5, load), &t = transverse.at(0, 5, load);

@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(rungs_and_positions) {
   for (const auto& mesh : meshes) BOOST_TEST(!mesh["reason"].get<std::string>().empty());
   // The nominal load is among the tabulated ones, with others on both sides.
   const double nominal = 1e3 * json["stage"]["mean_mesh_force_kN"].get<double>();
-  BOOST_TEST(meshes[0]["loads_N"][app::nominal_load_index].get<double>() == nominal,
+  BOOST_TEST(meshes[0]["loads_N"][fem::nominal_load_index].get<double>() == nominal,
              boost::test_tools::tolerance(1e-12));
 }
 
@@ -97,15 +97,15 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_how_finely_tables_are_resolved) {
   }
   BOOST_TEST(phases == 64);
   // A light load is taken up within a short way, which the positions must not step over: root of the deflection.
-  BOOST_TEST(app::load_uptake(4 * 140.0, 0.1, 0.004, 206e9) == 2 * app::load_uptake(140.0, 0.1, 0.004, 206e9));
-  BOOST_TEST(app::load_uptake(140e3, 0.01, 0.001, 206e9) == 1.0, boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(app::table_resolution(0.01, 1.0 / 64, 0).phases == 64);
-  BOOST_TEST(app::table_resolution(0.01, 1.0 / 65, 0.9).phases == 128);
-  BOOST_TEST(app::table_resolution(0.01, 1e-9, 0).phases == 256);
-  BOOST_TEST(app::table_resolution(0.003, 1.0 / 65, 0).phases == 256);
-  BOOST_TEST(app::table_resolution(0.003, 1.0 / 64, 0).phases == 64);
-  BOOST_TEST(app::table_resolution(0.01, 1e-9, 1).phases == 32);  // helical teeth
-  BOOST_TEST(app::table_resolution(0.003, 1.0 / 64, 1).phases == 64);
+  BOOST_TEST(fem::load_uptake(4 * 140.0, 0.1, 0.004, 206e9) == 2 * fem::load_uptake(140.0, 0.1, 0.004, 206e9));
+  BOOST_TEST(fem::load_uptake(140e3, 0.01, 0.001, 206e9) == 1.0, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(fem::table_resolution(0.01, 1.0 / 64, 0).phases == 64);
+  BOOST_TEST(fem::table_resolution(0.01, 1.0 / 65, 0.9).phases == 128);
+  BOOST_TEST(fem::table_resolution(0.01, 1e-9, 0).phases == 256);
+  BOOST_TEST(fem::table_resolution(0.003, 1.0 / 65, 0).phases == 256);
+  BOOST_TEST(fem::table_resolution(0.003, 1.0 / 64, 0).phases == 64);
+  BOOST_TEST(fem::table_resolution(0.01, 1e-9, 1).phases == 32);  // helical teeth
+  BOOST_TEST(fem::table_resolution(0.003, 1.0 / 64, 1).phases == 64);
 }
 
 BOOST_AUTO_TEST_CASE(solid_meshes_tell_what_of_the_face_they_solve) {

@@ -7,12 +7,13 @@
 
 #include "dynamics/system/mesh_excitation.h"
 #include "dynamics/time_integration/integrate.h"
+#include "fem/choice/wanted_model.h"
 
 namespace annulus::app {
 
 /// Inputs that several kinds of gear systems have, in SI units.
 
-enum class Fidelity { automatic, closed_form, plane, solid, resolved };
+using Fidelity = fem::WantedModel;
 enum class Compare { none, computed };
 enum class StiffnessShape { computed, constant, harmonic, rectangular, table, iso_6336, closed_form };
 enum class MeshDamping { in_contact, always };

@@ -118,7 +118,7 @@ class PairChecker : KeyChecks {
       problem("mesh.pinion_wheel.stiffness", fmt::format("needs a transverse contact ratio of 1 at least; it is {}",
                                                          to_text(pair->gears.contact_ratio(), 4)));
     if (scene_.pinion_wheel.stiffness == StiffnessShape::closed_form) {
-      if (const auto why = no_closed_form(scene_); !why.empty())
+      if (const auto why = no_closed_form(scene_, *pair); !why.empty())
         problem("mesh.pinion_wheel.stiffness", "is not possible: " + why + "; use \"computed\"");
     }
     if (scene_.pinion_wheel.stiffness != StiffnessShape::computed) return;

@@ -4,17 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "app/run/pipeline.h"
 #include "core/errors.h"
+#include "core/not_known.h"
+#include "fem/closed_form/helical_table.h"
 
 namespace annulus::app {
 
 namespace {
 
 constexpr double steel_single_stiffness = 14e9;  // c' of ISO 6336-1, Pa
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 ExternalMesh external_pair(const Scene& scene, const PairGeometry& geometry) {
   return {.mesh = pinion_wheel,
@@ -26,24 +26,6 @@ ExternalMesh external_pair(const Scene& scene, const PairGeometry& geometry) {
           .wheel_name = "wheel",
           .misalignment = scene.errors.pinion_wheel_misalignment,
           .mean_force = geometry.transverse_force};
-}
-
-/// The same teeth as a spur gear: module, pressure angle and shift of the transverse section.
-geometry::Gear transverse_section(const geometry::Gear& gear) {
-  auto p = gear.parameters();
-  const double c = std::cos(p.helix_angle);
-  p.module = gear.transverse_module();
-  p.pressure_angle = gear.transverse_pressure_angle();
-  p.profile_shift *= c;
-  p.root_fillet_factor *= c;
-  p.tip_diameter = 2 * gear.tip_radius();
-  p.root_diameter = 2 * gear.root_radius();
-  p.helix_angle = 0;
-  return geometry::Gear(p);
-}
-
-bool modified(const GearInput& gear) {
-  return gear.tip_relief != 0 || gear.profile_crowning != 0 || gear.lead_crowning != 0 || gear.lead_slope != 0;
 }
 
 double mean_secant(const StiffnessTable& table, double load) {
@@ -74,73 +56,26 @@ double iso_pair_stiffness(const Scene& scene, const PairGeometry& geometry) {
                                             scene.pinion_wheel.single_stiffness.value_or(steel_single_stiffness)});
 }
 
-std::string no_closed_form(const Scene& scene) {
-  if (modified(scene.pinion) || modified(scene.wheel)) return "flanks with modifications have no closed form here";
-  if (scene.errors.pinion_wheel_misalignment != 0) return "misaligned flanks have no closed form";
+std::string no_closed_form(const Scene& scene, const PairGeometry& geometry) {
+  const auto why = fem::no_helical_closed_form(geometry.pinion().parameters(), geometry.wheel().parameters(),
+                                               scene.errors.pinion_wheel_misalignment);
+  if (!why.empty()) return why;
   if (!scene.pinion.bore_diameter || !scene.wheel.bore_diameter) return "it needs bore_diameter_mm of both gears";
-  if (scene.stage.pinion_torque == 0) return "it needs a torque";
-  return "";
+  return scene.stage.pinion_torque == 0 ? "it needs a torque" : "";
 }
 
 StiffnessTable closed_form_pair_table(const Scene& scene, const PairGeometry& geometry, double transverse_force) {
-  if (const auto why = no_closed_form(scene); !why.empty()) throw InputError("no closed form: " + why);
-  constexpr int phases = 64, slices = 64;
+  if (const auto why = no_closed_form(scene, geometry); !why.empty()) throw InputError("no closed form: " + why);
   fem::LoadedMeshProblem problem{
-      .pair = geometry::GearPair(transverse_section(geometry.pinion()), transverse_section(geometry.wheel()),
-                                 geometry.gears.centre_distance()),
+      .pair = geometry.gears,
       .material = {scene.material.youngs_modulus, scene.material.poisson_ratio, scene.material.density},
       .face_width = scene.stage.face_width,
       .planet_bore_radius = *scene.pinion.bore_diameter / 2,
       .wheel_support_radius = *scene.wheel.bore_diameter / 2,
-      .phases = phases};
-  for (const double factor : table_load_factors) problem.loads.push_back(factor * transverse_force);
-  fem::LoadedMeshSettings settings;
-  settings.fidelity = fem::Fidelity::closed_form;
-  const auto spur = fem::solve_loaded_mesh(problem, settings).table;
-  const double overlap = geometry.gears.overlap_ratio();
-  const auto loads = static_cast<int>(spur.loads().size());
-  std::vector<StiffnessEntry> entries(static_cast<std::size_t>(phases * loads));
-  for (int load = 0; load < loads; ++load) {
-    std::vector<double> secant, tangent;
-    for (int i = 0; i < phases; ++i) {
-      secant.push_back(spur.at(0, i, load).stiffness_secant);
-      tangent.push_back(spur.at(0, i, load).stiffness_tangent);
-    }
-    const PeriodicCurve secants(secant, phases), tangents(tangent, phases);
-    for (int i = 0; i < phases; ++i) {
-      StiffnessEntry e;
-      for (int j = 0; j < slices; ++j) {
-        const double cycles = static_cast<double>(i) / phases + overlap * ((j + 0.5) / slices - 0.5);
-        e.stiffness_secant += secants(cycles) / slices;
-        e.stiffness_tangent += tangents(cycles) / slices;
-      }
-      e.lte = spur.loads()[static_cast<std::size_t>(load)] / e.stiffness_secant;
-      e.error_relative = spur.at(0, i, load).error_relative;
-      e.error_parts = spur.at(0, i, load).error_parts;
-      entries[static_cast<std::size_t>(i) * static_cast<std::size_t>(loads) + static_cast<std::size_t>(load)] = e;
-    }
-  }
-  return {pinion_wheel, phases, {0.0}, spur.loads(), std::move(entries)};
-}
-
-StiffnessTable along_normal(const StiffnessTable& transverse, double base_helix_angle) {
-  const double c = std::cos(base_helix_angle);
-  auto loads = transverse.loads();
-  for (auto& load : loads) load /= c;
-  std::vector<StiffnessEntry> entries;
-  for (int position = 0; position < transverse.positions(); ++position) {
-    for (int phase = 0; phase < transverse.phases(); ++phase) {
-      for (int load = 0; load < static_cast<int>(loads.size()); ++load) {
-        auto e = transverse.at(position, phase, load);
-        e.unloaded_te *= c;
-        e.lte *= c;
-        e.stiffness_secant /= c * c;
-        e.stiffness_tangent /= c * c;
-        entries.push_back(e);
-      }
-    }
-  }
-  return {transverse.mesh(), transverse.phases(), transverse.ring_angles(), std::move(loads), std::move(entries)};
+      .phases = 64,
+      .name = pinion_wheel};
+  for (const double factor : fem::table_load_factors) problem.loads.push_back(factor * transverse_force);
+  return fem::helical_closed_form(problem);
 }
 
 MeshResult pair_stiffness(const MeshModel& model, const RunOptions& options) {
@@ -193,7 +128,7 @@ dynamics::MeshExcitation pair_excitation(const Scene& scene, const PairGeometry&
     case StiffnessShape::table:
       break;
   }
-  const auto table = along_normal(*mesh.table, geometry.base_helix_angle);
+  const auto table = fem::along_normal(*mesh.table, geometry.base_helix_angle);
   auto dependence = scene.dynamics->load_dependence;
   // A single load tells nothing about others.
   if (table.loads().size() == 1) dependence = dynamics::LoadDependence::nominal;
@@ -204,9 +139,9 @@ dynamics::MeshExcitation pair_excitation(const Scene& scene, const PairGeometry&
 std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeometry& geometry, const PairMesh& mesh) {
   const auto shape = scene.pinion_wheel.stiffness;
   std::vector<MeanStiffness> list;
-  list.push_back({"iso_6336", iso_pair_stiffness(scene, geometry), no_number,
+  list.push_back({"iso_6336", iso_pair_stiffness(scene, geometry), not_known,
                   "ISO 6336-1 method B: c′ cos β (0.75 ε_α + 0.25) b", shape == StiffnessShape::iso_6336});
-  MeanStiffness closed{"closed_form", no_number, no_number, no_closed_form(scene),
+  MeanStiffness closed{"closed_form", not_known, not_known, no_closed_form(scene, geometry),
                        shape == StiffnessShape::closed_form};
   if (closed.note.empty()) {
     const auto table = closed.taken ? *mesh.table : closed_form_pair_table(scene, geometry, geometry.transverse_force);
@@ -216,7 +151,7 @@ std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeomet
     closed.note = "not available: " + closed.note;
   }
   list.push_back(closed);
-  MeanStiffness computed{"computed", no_number, no_number,
+  MeanStiffness computed{"computed", not_known, not_known,
                          "not solved here; stiffness = \"computed\" in [mesh.pinion_wheel] asks for it",
                          shape == StiffnessShape::computed};
   if (mesh.computed) {
@@ -234,7 +169,7 @@ std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeomet
       value = geometry.to_normal() *
               mean_secant(*mesh.table, std::clamp(geometry.transverse_force, loads.front(), loads.back()));
     }
-    list.push_back({"given", value, no_number, mesh.model.reason, true});
+    list.push_back({"given", value, not_known, mesh.model.reason, true});
   }
   return list;
 }

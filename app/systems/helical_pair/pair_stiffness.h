@@ -24,16 +24,11 @@ namespace annulus::app {
 [[nodiscard]] double iso_pair_stiffness(const Scene& scene, const PairGeometry& geometry);
 
 /// Why there is no closed form of this pair; empty when there is.
-[[nodiscard]] std::string no_closed_form(const Scene& scene);
-/// The closed form of the transverse section (model closed_form, flanks without modifications), its slices staggered
-/// along the helix: at one phase they stand at phases spread over the overlap ratio and share one deflection along the
-/// transverse line of action. Loads around `transverse_force` as in every table. The error of a closed form is not
-/// controlled. Throws InputError where there is none.
+[[nodiscard]] std::string no_closed_form(const Scene& scene, const PairGeometry& geometry);
+/// fem::helical_closed_form, with loads around `transverse_force` as in every table. Throws InputError where there is
+/// none.
 [[nodiscard]] StiffnessTable closed_form_pair_table(const Scene& scene, const PairGeometry& geometry,
                                                     double transverse_force);
-
-/// Forces and transmission errors along the normal of the flanks instead of the transverse line of action.
-[[nodiscard]] StiffnessTable along_normal(const StiffnessTable& transverse, double base_helix_angle);
 
 /// The stiffness the lumped model takes.
 struct PairMesh {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/plan/accuracy_choice.h"
 #include "app/results/cached_files.h"
 #include "app/results/content_id.h"
 #include "app/run/pipeline.h"
@@ -142,7 +141,7 @@ bool may_be_coupled(const Scene& scene, const MeshModel& model) {
   if (!scene.dynamics || scene.dynamics->rim_coupling == RimCoupling::none || scene.stage.planets == 1) return false;
   if (model.mesh != ring_planet || !model.computed() || rests_in_bore(model.problem->structure)) return false;
   if (model.settings.fidelity != fem::Fidelity::closed_form) return true;
-  return scene.fidelity == Fidelity::automatic && scene.accuracy < very_rough_accuracy &&
+  return scene.fidelity == Fidelity::automatic && scene.accuracy < fem::very_rough_accuracy &&
          fem::on_single_supports(model.problem->structure);
 }
 

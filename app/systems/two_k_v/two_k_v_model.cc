@@ -112,7 +112,8 @@ MeshModel two_k_v_sun_model(const Scene& scene) {
 }
 
 MeshModel arc_pins_model(const Scene& scene) {
-  MeshModel model{.mesh = arc_pins};
+  MeshModel model;
+  model.mesh = arc_pins;
   if (is_computed(scene.arc_pins)) {
     model.fidelity = "line_contact";
     model.reason = "line contact of pins and concave arcs, shared by all pins on the loaded side";
@@ -138,19 +139,21 @@ MeshResult arc_pins_result(const Scene& scene) {
   const auto mesh = arc_tooth_mesh(scene);
   require(mesh.has_value(), "a checked scene has the dimensions of its arc teeth");
   std::vector<double> torques;
-  for (const double factor : table_load_factors) torques.push_back(factor * stage.arc_torque());
-  auto table = dynamics::arc_stiffness_table(*mesh, torques, table_phases);
+  for (const double factor : fem::table_load_factors) torques.push_back(factor * stage.arc_torque());
+  auto table = dynamics::arc_stiffness_table(*mesh, torques, fem::table_phases);
   double loaded = 0;
-  for (int i = 0; i < table_phases; ++i)
-    loaded += dynamics::arc_position(*mesh, stage.arc_torque(), static_cast<double>(i) / table_phases).loaded;
+  for (int i = 0; i < fem::table_phases; ++i)
+    loaded += dynamics::arc_position(*mesh, stage.arc_torque(), static_cast<double>(i) / fem::table_phases).loaded;
   ContentId id;
   for (const double x : {double(mesh->pins), mesh->eccentricity, mesh->pin_circle_radius, mesh->pin_radius,
                          mesh->arc_radius, mesh->width, mesh->youngs_modulus, mesh->poisson_ratio, mesh->clearance,
                          double(mesh->approach), stage.arc_torque()})
     id.add("arc", x);
   table.provenance = {{"annulus_version", version()}, {"inputs_id", id.id()}, {"model", model.fidelity}};
-  return {
-      .model = model, .contact_ratio = loaded / table_phases, .table = std::move(table), .nominal = nominal_load_index};
+  return {.model = model,
+          .contact_ratio = loaded / fem::table_phases,
+          .table = std::move(table),
+          .nominal = fem::nominal_load_index};
 }
 
 dynamics::TwoKVStage make_two_k_v(const Scene& scene, const TwoKVTables& tables, dynamics::LoadDependence dependence) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "app/systems/helical_pair/report/pair_report_parts.h"
+#include "fem/closed_form/helical_table.h"
 
 namespace annulus::app {
 
@@ -57,7 +58,7 @@ Blocks means_sentence(const PairRunResult& result) {
 
 Series curve_over_cycle(const std::string& label, const StiffnessTable& transverse, const PairGeometry& geometry,
                         std::size_t colour) {
-  const auto table = along_normal(transverse, geometry.base_helix_angle);
+  const auto table = fem::along_normal(transverse, geometry.base_helix_angle);
   const double wanted = geometry.transverse_force / std::cos(geometry.base_helix_angle);
   const auto curve =
       curves_at_load(table, std::clamp(wanted, table.loads().front(), table.loads().back())).stiffness_secant;

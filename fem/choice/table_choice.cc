@@ -1,0 +1,87 @@
+#include "fem/choice/table_choice.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+namespace annulus::fem {
+
+double load_uptake(double force, double face_width, double module, double youngs_modulus) {
+  constexpr double steel = 206e9;                                      // Pa
+  const double stiffness_per_width = 14e9 * (youngs_modulus / steel);  // N/m^2
+  return std::sqrt(force / face_width / stiffness_per_width / module);
+}
+
+namespace {
+
+/// The smallest one that linear plane elements reach at their first level.
+constexpr double linear_accuracy = 0.01;
+
+/// Why linear elements would be too stiff, by more than their error estimate tells: they lock where the volume hardly
+/// changes, and where thin parts bend (a rim of two modules on a sleeve four times as long as thick: off by 10.2 %
+/// where they say 9.3 %).
+std::string unfit_for_linear(const LoadedMeshProblem& problem) {
+  constexpr double nearly_incompressible = 0.4, thin_rim = 2.5, slender_sleeve = 0.3;
+  if (problem.material.poisson_ratio > nearly_incompressible)
+    return fmt::format("linear ones are too stiff where Poisson's ratio exceeds {}", nearly_incompressible);
+  const auto sleeve = problem.structure.body(problem.wheel_support_radius).sleeve;
+  if (!sleeve) return "";
+  const auto& gear = problem.pair.wheel();
+  if (problem.wheel_support_radius - gear.root_radius() < thin_rim * gear.parameters().module ||
+      sleeve->thickness < slender_sleeve * sleeve->length)
+    return "linear ones are too stiff where a thin rim or a slender sleeve bends";
+  return "";
+}
+
+/// Edges of single supports, sleeves and flanges that bend, and contacts slanted over the cells leave linear elements
+/// more than 1 % at their first level.
+bool hard_for_linear(const LoadedMeshProblem& problem) {
+  if (problem.pair.planet().helix_angle() != 0) return true;
+  return problem.pair.internal() && !held_outside(problem.structure);
+}
+
+}  // namespace
+
+TableResolution table_resolution(double accuracy, double uptake, double overlap_ratio) {
+  TableResolution choice;
+  if (overlap_ratio >= 1 && accuracy >= linear_accuracy) {
+    choice.phases = table_phases;
+    choice.phases_reason = "helical teeth that overlap by a pitch pass their load on slowly: 64 positions tell no more";
+  } else if (accuracy >= very_rough_accuracy) {
+    choice.phases = table_phases;
+    choice.phases_reason = "between 32 positions dynamic factors are missed by 2 %, by 6 % under light loads";
+  } else {
+    choice.phases = 2 * table_phases;
+    choice.phases_reason =
+        "between 64 positions dynamic factors are missed by 0.1 %; between 32 by 2 %, 6 % under light loads";
+    constexpr int most = 8 * table_phases;
+    if (choice.phases * uptake < 1) {
+      const double within = accuracy < linear_accuracy ? 2 : 1;  // positions within which it is taken up
+      while (choice.phases < most && choice.phases * uptake < within) choice.phases *= 2;
+      choice.phases_reason =
+          fmt::format("the load is so light that a pair takes it up within {:.1g} of a mesh cycle", uptake);
+    }
+  }
+  if (accuracy >= rough_accuracy) {
+    choice.load_factors = {0.5, 1, 1.5};
+    choice.loads_reason = "three loads tell how the stiffness follows the load; a single one would miss 1 to 2 %";
+  } else {
+    choice.load_factors = {std::begin(table_load_factors), std::end(table_load_factors)};
+    choice.loads_reason = "five, down to a quarter and up to twice the nominal load: what dynamic loads reach";
+  }
+  return choice;
+}
+
+ElementChoice element_choice(const LoadedMeshProblem& problem, Fidelity fidelity, double accuracy) {
+  if (const auto unfit = unfit_for_linear(problem); !unfit.empty()) return {2, "quadratic elements: " + unfit};
+  const double enough = hard_for_linear(problem) ? rough_accuracy : linear_accuracy;
+  if (accuracy >= enough && (fidelity == Fidelity::plane || fidelity == Fidelity::solid))
+    return {1, fmt::format("linear elements are within {:.0f} % at once, at {} of the cost of quadratic ones, which "
+                           "follow where they are not",
+                           100 * enough, fidelity == Fidelity::plane ? "half" : "an eighth")};
+  return {2, fmt::format("quadratic elements are within {} at once, and their stresses can be used",
+                         fidelity == Fidelity::solid ? "0.3 to 1 %" : "0.3 %")};
+}
+
+}  // namespace annulus::fem
