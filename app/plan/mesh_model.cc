@@ -10,25 +10,6 @@ namespace annulus::app {
 
 namespace {
 
-fem::LoadedMeshProblem problem_of(const Scene& scene, const std::string& mesh, const geometry::GearPair& pair,
-                                  const HubGearInput& planet) {
-  return {.pair = pair,
-          .material = {scene.material.youngs_modulus, scene.material.poisson_ratio, scene.material.density},
-          .face_width = scene.stage.face_width,
-          .planet_bore_radius = planet.bore_diameter.value_or(0) / 2,
-          .name = mesh};
-}
-
-/// The computed model of a mesh whose problem is complete but for its phases and loads.
-void choose(MeshModel& model, const Scene& scene, const std::string& why_solid, double mean_force) {
-  const fem::MeshWish wish{.model = scene.fidelity,
-                           .accuracy = scene.accuracy,
-                           .mean_force = mean_force,
-                           .ring_modes_count = scene.dynamics && scene.dynamics->rim_coupling == RimCoupling::elastic};
-  static_cast<fem::MeshChoice&>(model) = fem::choose_mesh(*model.problem, why_solid, wish);
-  model.fidelity = fidelity_name(model.settings.fidelity);
-}
-
 bool lead_modified(const GearInput& gear) { return gear.lead_crowning != 0 || gear.lead_slope != 0; }
 
 void set_given(MeshModel& model, StiffnessShape given) {
@@ -125,63 +106,38 @@ const char* MeshModel::body_name(bool planet) const {
   return planet ? "planet" : mesh == sun_planet ? "sun" : "ring";
 }
 
-std::string solid_reason(const Scene& scene, const RingInput& ring) {
-  return fem::solid_reason(ring_structure(ring),
-                           {scene.stage.helix_angle, "planet", "ring", lead_modified(scene.planet), lead_modified(ring),
-                            scene.errors.ring_planet_misalignment});
+fem::FaceFeatures face_features(const Scene& scene, const GearInput& planet, const std::string& planet_name,
+                                const GearInput& wheel, const std::string& wheel_name, double misalignment) {
+  return {scene.stage.helix_angle, planet_name, wheel_name, lead_modified(planet), lead_modified(wheel), misalignment};
 }
 
-std::string solid_reason(const Scene& scene) {
-  return fem::solid_reason({}, {scene.stage.helix_angle, "planet", "sun", lead_modified(scene.planet),
-                                lead_modified(scene.sun), scene.errors.sun_planet_misalignment});
+std::string solid_reason(const Scene& scene, const GearMesh& mesh) {
+  return fem::solid_reason(mesh.structure, face_features(scene, mesh.planet, mesh.planet_name, mesh.wheel,
+                                                         mesh.wheel_name, mesh.misalignment));
 }
 
-std::string solid_reason(const Scene& scene, const ExternalMesh& mesh) {
-  return fem::solid_reason({}, {scene.stage.helix_angle, mesh.planet_name, mesh.wheel_name, lead_modified(mesh.planet),
-                                lead_modified(mesh.wheel), mesh.misalignment});
-}
-
-MeshModel external_mesh_model(const Scene& scene, const ExternalMesh& mesh) {
+MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
   MeshModel model;
   model.mesh = mesh.mesh;
+  model.ring = mesh.ring;
   if (mesh.input.stiffness != StiffnessShape::computed) {
     set_given(model, mesh.input.stiffness);
     return model;
   }
-  model.problem = problem_of(scene, model.mesh, mesh.pair, mesh.planet);
-  model.problem->wheel_support_radius = mesh.wheel.bore_diameter.value_or(0) / 2;
-  model.problem->misalignment = mesh.misalignment;
-  choose(model, scene, solid_reason(scene, mesh), mesh.mean_force);
-  return model;
-}
-
-MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry) {
-  return external_mesh_model(scene, {.mesh = sun_planet,
-                                     .pair = geometry.sun_mesh(),
-                                     .input = scene.sun_planet,
-                                     .planet = scene.planet,
-                                     .wheel = scene.sun,
-                                     .planet_name = "planet",
-                                     .wheel_name = "sun",
-                                     .misalignment = scene.errors.sun_planet_misalignment,
-                                     .mean_force = geometry.operating_point.mean_mesh_force});
-}
-
-MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
-  const auto& input = scene.rings.at(ring);
-  const auto& ring_geometry = geometry.rings.at(ring);
-  MeshModel model;
-  model.mesh = ring_planet;
-  model.ring = input.name;
-  if (scene.ring_planet.stiffness != StiffnessShape::computed) {
-    set_given(model, scene.ring_planet.stiffness);
-    return model;
-  }
-  model.problem = problem_of(scene, model.mesh, ring_geometry.set.ring_mesh(), scene.planet);
-  model.problem->wheel_support_radius = ring_geometry.outside_radius;
-  model.problem->structure = ring_structure(input);
-  model.problem->misalignment = scene.errors.ring_planet_misalignment;
-  choose(model, scene, solid_reason(scene, input), geometry.operating_point.mean_mesh_force);
+  model.problem = {.pair = mesh.pair,
+                   .material = {scene.material.youngs_modulus, scene.material.poisson_ratio, scene.material.density},
+                   .face_width = scene.stage.face_width,
+                   .planet_bore_radius = mesh.planet.bore_diameter.value_or(0) / 2,
+                   .wheel_support_radius = mesh.wheel_support_diameter.value_or(0) / 2,
+                   .structure = mesh.structure,
+                   .misalignment = mesh.misalignment,
+                   .name = mesh.mesh};
+  const fem::MeshWish wish{.model = scene.fidelity,
+                           .accuracy = scene.accuracy,
+                           .mean_force = mesh.mean_force,
+                           .ring_modes_count = scene.dynamics && scene.dynamics->rim_coupling == RimCoupling::elastic};
+  static_cast<fem::MeshChoice&>(model) = fem::choose_mesh(*model.problem, solid_reason(scene, mesh), wish);
+  model.fidelity = fidelity_name(model.settings.fidelity);
   return model;
 }
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "app/plan/gear_geometry.h"
-#include "app/plan/ring_structures.h"
 #include "app/scene/scene.h"
 #include "fem/choice/mesh_choice.h"
 #include "fem/choice/table_choice.h"
@@ -46,25 +45,26 @@ struct MeshModel : fem::MeshChoice {
   [[nodiscard]] const char* body_name(bool planet) const;
 };
 
-/// Why a mesh needs a solid model: what changes along its face width. Empty when nothing does.
-[[nodiscard]] std::string solid_reason(const Scene& scene, const RingInput& ring);  ///< ring-planet mesh
-[[nodiscard]] std::string solid_reason(const Scene& scene);                         ///< sun-planet mesh
-
-/// Two external gears on rigid hubs.
-struct ExternalMesh {
-  std::string mesh;  ///< name of files and tables
+/// A mesh of two gears of a scene.
+struct GearMesh {
+  std::string mesh;    ///< name of files and tables
+  std::string ring{};  ///< name of the ring, where the wheel is one of several
   const geometry::GearPair& pair;
   const MeshInput& input;
-  const HubGearInput &planet, &wheel;   ///< in the roles they have in the pair
-  std::string planet_name, wheel_name;  ///< for people
-  double misalignment = 0;              ///< m
-  double mean_force = 0;                ///< N, of one mesh
+  const HubGearInput& planet;  ///< in the roles they have in the pair
+  const GearInput& wheel;
+  std::string planet_name, wheel_name;             ///< for people
+  std::optional<double> wheel_support_diameter{};  ///< m, bore of a wheel on a hub, outside of a ring
+  fem::RingStructure structure{};                  ///< of a ring
+  double misalignment = 0;                         ///< m
+  double mean_force = 0;                           ///< N, of one mesh
 };
-[[nodiscard]] MeshModel external_mesh_model(const Scene& scene, const ExternalMesh& mesh);
+[[nodiscard]] MeshModel mesh_model(const Scene& scene, const GearMesh& mesh);
 /// Why it needs a solid model: what changes along its face width. Empty when nothing does.
-[[nodiscard]] std::string solid_reason(const Scene& scene, const ExternalMesh& mesh);
-
-[[nodiscard]] MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry);
-[[nodiscard]] MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring);
+[[nodiscard]] std::string solid_reason(const Scene& scene, const GearMesh& mesh);
+/// The same before there are gears: fem::solid_reason() of these.
+[[nodiscard]] fem::FaceFeatures face_features(const Scene& scene, const GearInput& planet,
+                                              const std::string& planet_name, const GearInput& wheel,
+                                              const std::string& wheel_name, double misalignment);
 
 }  // namespace annulus::app

@@ -1,6 +1,7 @@
 #include "app/systems/planetary/comparison.h"
 #include "app/model/gear_system.h"
 #include "app/plan/plan.h"
+#include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_run.h"
 
 #include <boost/test/unit_test.hpp>

@@ -9,6 +9,7 @@
 
 #include "app/plan/cost_plan.h"
 #include "app/process/progress.h"
+#include "app/systems/planetary/planetary_model.h"
 #include "tests/app/scenes.h"
 
 namespace annulus {

@@ -7,6 +7,7 @@
 #include "app/report/drawings/dimension.h"
 #include "app/report/drawings/teeth.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
+#include "app/systems/planetary/ring_structures.h"
 #include "core/units.h"
 #include "tests/app/scenes.h"
 #include "tests/geometry/polygons.h"

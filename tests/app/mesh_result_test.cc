@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/run/pipeline.h"
+#include "app/systems/planetary/planetary_model.h"
 #include "core/files.h"
 #include "core/log.h"
 #include "core/result_store.h"

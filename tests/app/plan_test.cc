@@ -13,6 +13,7 @@
 #include "app/plan/cost_model.h"
 #include "app/plan/cost_plan.h"
 #include "app/scene/overrides.h"
+#include "app/systems/planetary/planetary_model.h"
 #include "core/files.h"
 #include "core/units.h"
 #include "fem/loaded_mesh.h"

@@ -7,6 +7,7 @@
 #include "app/report/drawings/mode.h"
 #include "app/report/text/xml.h"
 #include "app/sections/report_parts.h"
+#include "app/systems/planetary/planetary_model.h"
 #include "geometry/sector_mesh.h"
 #include "tests/app/made_up_solution.h"
 

@@ -1,4 +1,5 @@
 #include "app/tradeoff/tradeoff.h"
+#include "app/systems/planetary/planetary_model.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

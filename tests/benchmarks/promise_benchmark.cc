@@ -14,6 +14,7 @@
 #include "app/run/pipeline.h"
 #include "app/scene/overrides.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/planetary_model.h"
 #include "app/tradeoff/trade_report.h"
 #include "app/tradeoff/tradeoff.h"
 #include "core/errors.h"

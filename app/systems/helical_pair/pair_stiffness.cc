@@ -16,7 +16,7 @@ namespace {
 
 constexpr double steel_single_stiffness = 14e9;  // c' of ISO 6336-1, Pa
 
-ExternalMesh external_pair(const Scene& scene, const PairGeometry& geometry) {
+GearMesh external_pair(const Scene& scene, const PairGeometry& geometry) {
   return {.mesh = pinion_wheel,
           .pair = geometry.gears,
           .input = scene.pinion_wheel,
@@ -24,6 +24,7 @@ ExternalMesh external_pair(const Scene& scene, const PairGeometry& geometry) {
           .wheel = scene.wheel,
           .planet_name = "pinion",
           .wheel_name = "wheel",
+          .wheel_support_diameter = scene.wheel.bore_diameter,
           .misalignment = scene.errors.pinion_wheel_misalignment,
           .mean_force = geometry.transverse_force};
 }
@@ -35,7 +36,7 @@ double mean_secant(const StiffnessTable& table, double load) {
 }  // namespace
 
 MeshModel pair_mesh_model(const Scene& scene, const PairGeometry& geometry) {
-  auto model = external_mesh_model(scene, external_pair(scene, geometry));
+  auto model = mesh_model(scene, external_pair(scene, geometry));
   const auto asked = [&](const char* fidelity, const char* what, const char* shape) {
     model.fidelity = fidelity;
     model.reason = fmt::format("{} (stiffness = \"{}\")", what, shape);

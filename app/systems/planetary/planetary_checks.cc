@@ -9,13 +9,12 @@
 #include <set>
 
 #include "app/plan/gear_geometry.h"
-#include "app/plan/mesh_model.h"
-#include "app/plan/ring_structures.h"
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_limits.h"
 #include "app/scene/scene_schema.h"
+#include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_scene.h"
-#include "app/systems/planetary/ring_checks.h"
+#include "app/systems/planetary/ring_structures.h"
 #include "core/errors.h"
 #include "core/units.h"
 
@@ -34,7 +33,7 @@ class PlanetaryChecker : KeyChecks {
     // Problems of rings with the same name could not be assigned, so only the first one is checked.
     std::set<std::string> seen;
     for (auto& ring : scene_.rings) {
-      if (seen.insert(ring.name).second) check_ring(ring, scene_, problems_);
+      if (seen.insert(ring.name).second) check_structure(ring, scene_, problems_);
     }
     wave(scene_.sun_planet, "mesh.sun_planet");
     wave(scene_.ring_planet, "mesh.ring_planet");
@@ -155,7 +154,7 @@ class PlanetaryChecker : KeyChecks {
               "needs a computed ring mesh: a prescribed stiffness does not describe the ring; use \"none\" or "
               "\"automatic\"");
     for (const auto& ring : scene_.rings)
-      if (ring.has_pins() && ring.pin_count() == 1)
+      if (ring_structure(ring).single_supports() == 1)
         problem("dynamics.rim_coupling", "",
                 fmt::format("is not modelled for the ring '{}' on a single pin, which leans on its housing: use "
                             "\"none\" or \"automatic\", or give the ring more pins",

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/plan/mesh_model.h"
 #include "app/scene/bore_checks.h"
 #include "app/scene/small_displacements.h"
+#include "app/systems/planetary/planetary_model.h"
+#include "app/systems/planetary/ring_structures.h"
 #include "core/errors.h"
 #include "core/units.h"
 #include "fem/problem/problem_check.h"
-#include "geometry/sector_mesh.h"
 
 namespace annulus::app {
 
@@ -30,20 +30,7 @@ void check_ring_rim(const Scene& scene, const RingInput& input, const RingGeomet
     refuse("outside_diameter_mm", 2 * ring.outside_radius,
            fmt::format("must be at least {}; {}", length_mm(2 * (root + least)), rim_rule(scene)));
   }
-  if (input.sleeve_thickness && *input.sleeve_thickness > (rim - least) * (1 + diameter_rounding))
-    refuse(
-        "sleeve_thickness_mm", *input.sleeve_thickness,
-        fmt::format("must be in range: 0 < value <= {}: the sleeve lies in the rim, which is {} thick, and keeps {} = "
-                    "{} modules from the root",
-                    length_mm(rim - least), length_mm(rim), length_mm(least), geometry::min_circle_distance));
-  const double smallest = 2 * (root + least), largest = 2 * (ring.outside_radius - least);
-  if (input.clamp_inner_diameter && (*input.clamp_inner_diameter < smallest * (1 - diameter_rounding) ||
-                                     *input.clamp_inner_diameter > largest * (1 + diameter_rounding)))
-    refuse(
-        "clamp_inner_diameter_mm", *input.clamp_inner_diameter,
-        fmt::format("must be in range: {} <= value <= {}: the clamped end faces lie in the rim, and their edge keeps "
-                    "{} = {} modules from root and outside",
-                    length_mm(smallest), length_mm(largest), length_mm(least), geometry::min_circle_distance));
+  check_structure_in_rim(scene, input, ring);
 }
 
 void check_ring_supports(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
@@ -52,12 +39,11 @@ void check_ring_supports(const Scene& scene, const GearGeometry& geometry, std::
   const double turn = fem::turn_on_supports(*model.problem, geometry.operating_point.mean_mesh_force);
   const double modules = turn / scene.stage.module;
   if (modules <= largest_deflection) return;
-  const auto& input = scene.rings.at(ring);
   throw InputError(
       fmt::format("ring '{}': turns on its {} by {} mm = {:.2g} modules under the nominal load; {}: make them stiffer, "
                   "more, or of less clearance",
-                  input.name, input.has_pins() ? "pins or bolts" : "splines", to_text(turn / units::mm, 3), modules,
-                  small_displacements_rule()));
+                  scene.rings.at(ring).name, model.problem->structure.words().supports, to_text(turn / units::mm, 3),
+                  modules, small_displacements_rule()));
 }
 
 void check_errors_of_bodies(const Scene& scene) {

@@ -4,11 +4,52 @@
 #include <utility>
 
 #include "app/results/content_id.h"
+#include "app/systems/planetary/ring_structures.h"
 #include "app/systems/planetary/stage_response.h"
 #include "dynamics/systems/planetary/initial_spread.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 
 namespace annulus::app {
+
+std::string solid_reason(const Scene& scene, const RingInput& ring) {
+  return fem::solid_reason(ring_structure(ring), face_features(scene, scene.planet, "planet", ring, "ring",
+                                                               scene.errors.ring_planet_misalignment));
+}
+
+std::string solid_reason(const Scene& scene) {
+  return fem::solid_reason(
+      {}, face_features(scene, scene.planet, "planet", scene.sun, "sun", scene.errors.sun_planet_misalignment));
+}
+
+MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry) {
+  return mesh_model(scene, {.mesh = sun_planet,
+                            .pair = geometry.sun_mesh(),
+                            .input = scene.sun_planet,
+                            .planet = scene.planet,
+                            .wheel = scene.sun,
+                            .planet_name = "planet",
+                            .wheel_name = "sun",
+                            .wheel_support_diameter = scene.sun.bore_diameter,
+                            .misalignment = scene.errors.sun_planet_misalignment,
+                            .mean_force = geometry.operating_point.mean_mesh_force});
+}
+
+MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring) {
+  const auto& input = scene.rings.at(ring);
+  const auto& made = geometry.rings.at(ring);
+  return mesh_model(scene, {.mesh = ring_planet,
+                            .ring = input.name,
+                            .pair = made.set.ring_mesh(),
+                            .input = scene.ring_planet,
+                            .planet = scene.planet,
+                            .wheel = input,
+                            .planet_name = "planet",
+                            .wheel_name = "ring",
+                            .wheel_support_diameter = 2 * made.outside_radius,
+                            .structure = ring_structure(input),
+                            .misalignment = scene.errors.ring_planet_misalignment,
+                            .mean_force = geometry.operating_point.mean_mesh_force});
+}
 
 std::vector<MeshModel> mesh_models(const Scene& scene, const GearGeometry& geometry) {
   std::vector<MeshModel> models = {sun_mesh_model(scene, geometry)};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "app/model/lumped_model.h"
@@ -10,6 +11,12 @@
 
 namespace annulus::app {
 
+/// Why a mesh needs a solid model: what changes along its face width. Empty when nothing does.
+[[nodiscard]] std::string solid_reason(const Scene& scene, const RingInput& ring);  ///< ring-planet mesh
+[[nodiscard]] std::string solid_reason(const Scene& scene);                         ///< sun-planet mesh
+
+[[nodiscard]] MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry);
+[[nodiscard]] MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring);
 /// Sun mesh first, then one per ring.
 [[nodiscard]] std::vector<MeshModel> mesh_models(const Scene& scene, const GearGeometry& geometry);
 

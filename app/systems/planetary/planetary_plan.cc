@@ -7,6 +7,7 @@
 #include "app/model/stiff_supports.h"
 #include "app/plan/cost_plan.h"
 #include "app/systems/planetary/motion_plan.h"
+#include "app/systems/planetary/ring_structures.h"
 #include "core/units.h"
 
 namespace annulus::app {

@@ -1,4 +1,5 @@
 #include "app/systems/planetary/planetary_trade.h"
+#include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/rim_coupling.h"
 
 #include <algorithm>

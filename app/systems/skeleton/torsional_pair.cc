@@ -168,14 +168,15 @@ class TorsionalPair final : public GearSystem {
 
   [[nodiscard]] std::vector<MeshModel> meshes() const override {
     const auto pair = gears();
-    return {external_mesh_model(scene(), {.mesh = mesh_name,
-                                          .pair = pair,
-                                          .input = scene().pinion_wheel,
-                                          .planet = scene().pinion,
-                                          .wheel = scene().wheel,
-                                          .planet_name = "pinion",
-                                          .wheel_name = "wheel",
-                                          .mean_force = mean_mesh_force()})};
+    return {mesh_model(scene(), {.mesh = mesh_name,
+                                 .pair = pair,
+                                 .input = scene().pinion_wheel,
+                                 .planet = scene().pinion,
+                                 .wheel = scene().wheel,
+                                 .planet_name = "pinion",
+                                 .wheel_name = "wheel",
+                                 .wheel_support_diameter = scene().wheel.bore_diameter,
+                                 .mean_force = mean_mesh_force()})};
   }
 
   [[nodiscard]] double mean_mesh_force() const override {

@@ -73,7 +73,7 @@ class TwoKVChecker : KeyChecks {
   void plane_models() {
     const bool plane = scene_.fidelity == Fidelity::plane || scene_.fidelity == Fidelity::closed_form;
     if (!plane || !wanted(scene_.sun_planet)) return;
-    const std::string why = solid_reason(scene_);
+    const std::string why = fem::solid_reason({}, face_features(scene_, scene_.planet, "planet", scene_.sun, "sun", 0));
     if (!why.empty())
       problem("model", "",
               fmt::format("cannot represent the sun-planet mesh: {}; use \"automatic\" or \"solid\"", why));

@@ -101,14 +101,15 @@ std::optional<Scene> compared_scene(const Scene& scene) {
 
 MeshModel two_k_v_sun_model(const Scene& scene) {
   const auto pair = sun_planet_pair(scene);
-  return external_mesh_model(scene, {.mesh = sun_planet,
-                                     .pair = pair,
-                                     .input = scene.sun_planet,
-                                     .planet = scene.planet,
-                                     .wheel = scene.sun,
-                                     .planet_name = "planet",
-                                     .wheel_name = "sun",
-                                     .mean_force = two_k_v_kinematics(scene).mean_sun_mesh_force()});
+  return mesh_model(scene, {.mesh = sun_planet,
+                            .pair = pair,
+                            .input = scene.sun_planet,
+                            .planet = scene.planet,
+                            .wheel = scene.sun,
+                            .planet_name = "planet",
+                            .wheel_name = "sun",
+                            .wheel_support_diameter = scene.sun.bore_diameter,
+                            .mean_force = two_k_v_kinematics(scene).mean_sun_mesh_force()});
 }
 
 MeshModel arc_pins_model(const Scene& scene) {

@@ -8,6 +8,7 @@
 #include "app/report/drawings/teeth.h"
 #include "app/sections/geometry_parts.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
+#include "app/systems/planetary/ring_structures.h"
 #include "geometry/gear_places.h"
 
 namespace annulus::app {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "app/plan/ring_structures.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
+#include "app/systems/planetary/ring_structures.h"
 
 namespace annulus::app {
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "app/systems/planetary/ring_structures.h"
+#include "fem/problem/structures/pin_held.h"
+
+/// Rings on pins or bolts in a scene.
+namespace annulus::app {
+
+void declare_pins(const StructureKeys& keys);
+/// Pins have room beside each other; a single one gets the bore of the housing that it needs.
+void check_pins(RingInput& ring, Scene& scene, std::vector<Problem>& problems);
+[[nodiscard]] fem::PinHeld on_pins(const RingInput& ring, bool unilateral);
+
+}  // namespace annulus::app

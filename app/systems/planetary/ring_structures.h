@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "app/plan/gear_geometry.h"
+#include "app/scene/scene_declare.h"
+#include "fem/problem/ring_structure.h"
+
+/// Ring structures in a scene: their keys, the rules between these, and the structure that the elastic models see.
+namespace annulus::app {
+
+/// Declares keys that one structure has: refused with others.
+struct StructureKeys {
+  Declarations<RingInput>& ring;
+  Condition structure;  ///< where the keys apply
+
+  template <class Member>
+  Declared optional(const char* name, Member member, const char* meaning) const {
+    return ring.key(name, member, meaning).only_if(structure);
+  }
+  template <class Member>
+  Declared needed(const char* name, Member member, const char* meaning) const {
+    return ring.key(name, member, meaning).needed_if(structure);
+  }
+};
+
+/// The key `structure`, and the keys of all structures.
+void declare_structure(Declarations<RingInput>& ring);
+void declare_structure_keys(Declarations<RingInput>& ring);
+
+/// Outside radius in m, when the scene defines it; what is missing is reported elsewhere.
+[[nodiscard]] std::optional<double> known_outside(const Scene& scene, const RingInput& ring);
+
+/// Dimensions of a ring of this scene that have to agree: flange, hoop, pins, clamp. A single pin gets the bore that it
+/// needs. Problems are appended, never thrown.
+void check_structure(RingInput& ring, Scene& scene, std::vector<Problem>& problems);
+/// Throws GeometryError where a structure does not fit into the rim of its ring.
+void check_structure_in_rim(const Scene& scene, const RingInput& input, const RingGeometry& ring);
+
+/// The structure that the scene asks for, as the elastic models know it. Keys that a faulty scene leaves out count as
+/// zero: its words can be asked for while it is checked.
+[[nodiscard]] fem::RingStructure ring_structure(const RingInput& ring);
+
+}  // namespace annulus::app
