@@ -3,7 +3,10 @@
 #include "fem/closed_form/closed_form_error.h"
 #include "fem/problem/loaded_mesh_problem.h"
 #include "fem/problem/loaded_mesh_result.h"
-#include "fem/problem/structures/structures.h"
+#include "fem/problem/structures/clamped.h"
+#include "fem/problem/structures/pin_held.h"
+#include "fem/problem/structures/spline_held.h"
+#include "fem/problem/structures/surface_held.h"
 
 namespace annulus::fem {
 

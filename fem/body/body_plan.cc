@@ -23,6 +23,12 @@ BodyPlan::BodyPlan(const LoadedMeshProblem& problem, const geometry::ToothProfil
     throw InputError(
         fmt::format("a plane model cannot represent a ring {}: {}", words.description, words.solid_reason));
   ring_ = structure.body(outside);
+  const bool face_held = ring_.held == HeldSurface::low_end_face || ring_.held == HeldSurface::both_end_faces;
+  if (face_held && !(ring_.held_inner_radius > 0 && ring_.held_inner_radius < outside))
+    throw InputError(
+        fmt::format("a ring {} is held from an inner radius of {:.7g} mm out to its outside radius of {:.7g} mm: the "
+                    "inner one has to be positive and smaller",
+                    words.description, 1e3 * ring_.held_inner_radius, 1e3 * outside));
   if (ring_.held_inner_radius > 0) rim_.circles = {ring_.held_inner_radius};
   if (ring_.hoop || ring_.flange) {
     rim_.circles.push_back(outside);

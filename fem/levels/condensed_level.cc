@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/stopwatch.h"
 #include "fem/levels/level.h"
@@ -11,10 +12,10 @@ namespace {
 
 /// A line of the solve as a curve of the real body, at the axial station with the largest stress. The ring mesh is
 /// solved in a mirror image.
-StressCurve make_curve(const char* name, std::ptrdiff_t position, const StressRecovery::Line& line, bool mirrored) {
+StressCurve make_curve(const char* name, std::size_t position, const StressRecovery::Line& line, bool mirrored) {
   StressCurve curve;
   curve.name = name;
-  curve.position = static_cast<std::size_t>(position);
+  curve.position = position;
   Eigen::Index point = 0, station = 0;
   line.von_mises.maxCoeff(&point, &station);
   for (std::size_t i = 0; i < line.abscissa.size(); ++i) {
@@ -31,47 +32,52 @@ StressCurve make_curve(const char* name, std::ptrdiff_t position, const StressRe
   return curve;
 }
 
+/// The position with the largest value under the middle load.
+template <class Value>
+std::size_t worst_position(const std::vector<LoadedPosition>& positions, std::size_t loads, const Value& value) {
+  std::size_t worst = loads / 2;
+  for (std::size_t i = worst; i < positions.size(); i += loads)
+    if (value(positions[i]) > value(positions[worst])) worst = i;
+  return worst;
+}
+
+/// All forces of a position that has been solved.
+ContactForces forces_at(const ContactSystem& system, const LoadedPosition& position) {
+  ContactSystem::WarmStart warm;
+  ContactSystem::PairsCache cache;
+  ContactForces forces;
+  (void)system.solve(position.ring_tooth, position.mesh_phase, position.load, cache, warm, &forces);
+  return forces;
+}
+
 /// The stress curves at the positions with the largest stresses under the middle load.
 std::vector<StressCurve> worst_curves(const LoadedMeshProblem& problem, const MeshBodies& bodies,
                                       const ContactSystem& system, const std::vector<LoadedPosition>& positions) {
   std::vector<StressCurve> result;
-  const std::size_t loads = problem.loads.size();
-  const auto add = [&](const char* name, double BodyStress::*value, bool wheel,
+  const auto add = [&](const char* name, double BodyStress::*value, std::optional<BodyStress> LoadedPosition::*body,
                        StressRecovery::Line StressRecovery::Result::*line) {
-    const auto stress = [&](std::size_t i) {
-      return (wheel ? *positions[i].wheel_stress : *positions[i].planet_stress).*value;
-    };
-    std::size_t worst = loads / 2;
-    for (std::size_t i = worst; i < positions.size(); i += loads)
-      if (stress(i) > stress(worst)) worst = i;
-    if (stress(worst) == 0) return;  // no such line
-    ContactSystem::WarmStart warm;
-    ContactSystem::PairsCache cache;
-    ContactForces forces;
-    (void)system.solve(positions[worst].ring_tooth, positions[worst].mesh_phase, positions[worst].load, cache, warm,
-                       &forces);
-    const auto all = wheel ? bodies.wheel_stress->stresses(forces.wheel, forces.supports)
-                           : bodies.planet_stress->stresses(forces.planet, {});
-    result.push_back(make_curve(name, static_cast<std::ptrdiff_t>(worst), all.*line, problem.pair.internal()));
+    const auto stress = [&](const LoadedPosition& p) { return (*(p.*body)).*value; };
+    const std::size_t worst = worst_position(positions, problem.loads.size(), stress);
+    if (stress(positions[worst]) == 0) return;  // no such line
+    const auto forces = forces_at(system, positions[worst]);
+    const auto all = body == &LoadedPosition::wheel_stress
+                         ? bodies.wheel_stress->stresses(forces.wheel, forces.supports)
+                         : bodies.planet_stress->stresses(forces.planet, {});
+    result.push_back(make_curve(name, worst, all.*line, problem.pair.internal()));
   };
-  add("planet root", &BodyStress::root_von_mises, false, &StressRecovery::Result::root);
-  add("wheel root", &BodyStress::root_von_mises, true, &StressRecovery::Result::root);
-  add("wheel rim", &BodyStress::rim_von_mises, true, &StressRecovery::Result::rim);
+  using Result = StressRecovery::Result;
+  add("planet root", &BodyStress::root_von_mises, &LoadedPosition::planet_stress, &Result::root);
+  add("wheel root", &BodyStress::root_von_mises, &LoadedPosition::wheel_stress, &Result::root);
+  add("wheel rim", &BodyStress::rim_von_mises, &LoadedPosition::wheel_stress, &Result::rim);
   return result;
 }
 
 /// Displacement and stress of both bodies where the wheel's root, or without one the planet's, is stressed most.
 std::vector<BodyField> worst_fields(const LoadedMeshProblem& problem, const MeshBodies& bodies,
                                     const ContactSystem& system, const std::vector<LoadedPosition>& positions) {
-  const std::size_t loads = problem.loads.size();
-  std::size_t worst = loads / 2;
-  for (std::size_t i = worst; i < positions.size(); i += loads)
-    if (positions[i].wheel_stress->root_von_mises > positions[worst].wheel_stress->root_von_mises) worst = i;
-  ContactSystem::WarmStart warm;
-  ContactSystem::PairsCache cache;
-  ContactForces forces;
-  (void)system.solve(positions[worst].ring_tooth, positions[worst].mesh_phase, positions[worst].load, cache, warm,
-                     &forces);
+  const std::size_t worst =
+      worst_position(positions, problem.loads.size(), [](const auto& p) { return p.wheel_stress->root_von_mises; });
+  const auto forces = forces_at(system, positions[worst]);
   std::vector<BodyField> fields;
   const auto add = [&](const char* name, const BodySource& source, const CondensedBody& body,
                        const std::vector<ToothForces>& teeth, const SupportRow* supports) {
@@ -151,11 +157,7 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
     for (int pin = 0; pin < sites.pins; ++pin) result.pin_angles.push_back(-sites.sites[pin].angle);
   }
   result.slice_edges = result.half_face ? mirrored_edges(bodies.slice_edges) : bodies.slice_edges;
-  result.mesh_seconds = bodies.mesh_seconds;
-  result.condense_seconds = bodies.condense_seconds;
-  result.saved_seconds = bodies.saved_seconds;
-  result.condensed_teeth = bodies.condensed_teeth;
-  result.reused_teeth = bodies.reused_teeth;
+  static_cast<SolveCost&>(result) = bodies;
   result.contact_seconds = watch.seconds();
   return result;
 }

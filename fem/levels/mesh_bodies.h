@@ -9,13 +9,14 @@
 #include "fem/contact/flank_contact.h"
 #include "fem/contact/support_row.h"
 #include "fem/problem/loaded_mesh_problem.h"
+#include "fem/problem/loaded_mesh_result.h"
 #include "fem/problem/solved_face.h"
 #include "fem/recovery/stress_recovery.h"
 
 namespace annulus::fem {
 
-/// The two condensed bodies of a loaded mesh at one level of resolution, ready for contact.
-struct MeshBodies {
+/// The two condensed bodies of a loaded mesh at one level of resolution, ready for contact, and what they took.
+struct MeshBodies : SolveCost {
   std::unique_ptr<CondensedBody> planet, wheel;
   std::unique_ptr<SupportRow> supports;  ///< of a floating ring
   std::unique_ptr<StressRecovery> planet_stress, wheel_stress;
@@ -24,9 +25,6 @@ struct MeshBodies {
   std::vector<double> slice_edges;             ///< m, of the solved part of the face
   geometry::Mesh planet_sector, wheel_sector;  ///< over the whole face
   long unknowns = 0;
-  double mesh_seconds = 0, condense_seconds = 0;
-  int condensed_teeth = 0, reused_teeth = 0;
-  double saved_seconds = 0;  ///< by reused teeth
 };
 
 [[nodiscard]] MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& flanks,

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace annulus::fem {
@@ -72,6 +73,16 @@ struct RingDrawing {
   std::optional<OutsideTeeth> teeth{};
   Bore bore = Bore::none;
   ShownForce shown_force = ShownForce::radial;
+};
+
+/// All about a structure but the stiffness of its supports.
+struct RingDescription {
+  RingBody body{};
+  RingWords words{};
+  /// Parameters on which a solution depends, by name, SI.
+  std::vector<std::pair<std::string, double>> parameters{};
+  RingDrawing drawing{};
+  std::vector<double> support_angles{};  ///< rad, of pins, bolts or spline teeth, from the centre of tooth 0
 };
 
 }  // namespace annulus::fem

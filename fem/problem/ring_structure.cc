@@ -1,19 +1,32 @@
 #include "fem/problem/ring_structure.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace annulus::fem {
 
-RingBody OutsideHeld::body(double /*outside_radius*/) const { return {}; }
-
-RingWords OutsideHeld::words() const {
-  RingWords words;
-  words.name = "outside_held";
-  words.description = "outer surface held";
-  words.plane_reason = "the outer surface is held over the full width";
-  return words;
+RingDescription OutsideHeld::describe(double /*outside_radius*/) const {
+  RingDescription d;
+  d.words.name = "outside_held";
+  d.words.description = "outer surface held";
+  d.words.plane_reason = "the outer surface is held over the full width";
+  return d;
 }
 
-std::vector<std::pair<std::string, double>> OutsideHeld::parameters() const { return {}; }
+bool maps_onto_itself(const std::vector<double>& angles, double angle) {
+  constexpr double tolerance = 1e-9;
+  return std::all_of(angles.begin(), angles.end(), [&](double own) {
+    return std::any_of(angles.begin(), angles.end(), [&](double other) {
+      return std::abs(std::remainder(own + angle - other, 2 * M_PI)) < tolerance;
+    });
+  });
+}
 
-RingDrawing OutsideHeld::drawing(double /*outside_radius*/) const { return {}; }
+int RingStructure::repeating_teeth(int teeth) const {
+  const auto angles = value_->describe(0).support_angles;
+  for (int turned = 1; turned < teeth; ++turned)
+    if (teeth % turned == 0 && maps_onto_itself(angles, 2 * M_PI * turned / teeth)) return turned;
+  return teeth;
+}
 
 }  // namespace annulus::fem

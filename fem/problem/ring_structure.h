@@ -13,15 +13,13 @@ namespace annulus::fem {
 
 /// Outer surface held over the full face width.
 struct OutsideHeld {
-  [[nodiscard]] RingBody body(double outside_radius) const;
-  [[nodiscard]] RingWords words() const;
-  [[nodiscard]] std::vector<std::pair<std::string, double>> parameters() const;
-  [[nodiscard]] RingDrawing drawing(double outside_radius) const;
+  [[nodiscard]] RingDescription describe(double outside_radius) const;
 };
 
-/// What holds a ring: a value of one of the types in fem/problem/structures/, or of any type with the member functions
-/// below. A type that is held by a surface leaves out supports(), single_supports() and repeating_teeth(). Nobody else
-/// needs to know which type it is. Copies share the immutable value.
+/// What holds a ring: a value of one of the types in fem/problem/structures/, or of any type with the member function
+/// `RingDescription describe(double outside_radius) const` (m; 0 where it is not known) and, when single supports hold
+/// it, `SupportSites supports(const SupportedRing&) const`. Nobody else needs to know which type it is. Copies share
+/// the immutable value.
 class RingStructure {
  public:
   RingStructure() : RingStructure(OutsideHeld{}) {}
@@ -29,21 +27,22 @@ class RingStructure {
   RingStructure(Type type) : value_(std::make_shared<const Holder<Type>>(std::move(type))) {}
 
   /// Elastic body and held surface of a ring of this outside radius, m.
-  [[nodiscard]] RingBody body(double outside_radius) const { return value_->body(outside_radius); }
-  [[nodiscard]] RingWords words() const { return value_->words(); }
-  /// Parameters on which a solution depends, by name, SI.
-  [[nodiscard]] std::vector<std::pair<std::string, double>> parameters() const { return value_->parameters(); }
-  [[nodiscard]] RingDrawing drawing(double outside_radius) const { return value_->drawing(outside_radius); }
+  [[nodiscard]] RingBody body(double outside_radius) const { return value_->describe(outside_radius).body; }
+  [[nodiscard]] RingWords words() const { return value_->describe(0).words; }
+  [[nodiscard]] std::vector<std::pair<std::string, double>> parameters() const {
+    return value_->describe(0).parameters;
+  }
+  [[nodiscard]] RingDrawing drawing(double outside_radius) const { return value_->describe(outside_radius).drawing; }
   /// Single supports of the outside; none where a surface is held. Angles have the opposite sign of the real ring's:
   /// the frame of the solve is its mirror image. Throws InputError when they cannot hold the ring in equilibrium.
   [[nodiscard]] SupportSites supports(const SupportedRing& ring) const { return value_->supports(ring); }
   /// Whether the ring floats on single supports (pins, bolts, splines).
-  [[nodiscard]] bool floating() const { return value_->floating(); }
+  [[nodiscard]] bool floating() const { return body(0).held == HeldSurface::none; }
   /// Number of pins, bolts or spline teeth; 0 where a surface is held.
-  [[nodiscard]] int single_supports() const { return value_->single_supports(); }
+  [[nodiscard]] int single_supports() const { return static_cast<int>(value_->describe(0).support_angles.size()); }
   /// The smallest number of teeth by which a ring of `teeth` teeth can be rotated so that its structure looks the same:
   /// its contact repeats after so many mesh cycles.
-  [[nodiscard]] int repeating_teeth(int teeth) const { return value_->repeating_teeth(teeth); }
+  [[nodiscard]] int repeating_teeth(int teeth) const;
 
   /// The value, when it is a `Type`; null otherwise.
   template <class Type>
@@ -55,14 +54,8 @@ class RingStructure {
  private:
   struct Interface {
     virtual ~Interface() = default;
-    [[nodiscard]] virtual RingBody body(double outside_radius) const = 0;
-    [[nodiscard]] virtual RingWords words() const = 0;
-    [[nodiscard]] virtual std::vector<std::pair<std::string, double>> parameters() const = 0;
-    [[nodiscard]] virtual RingDrawing drawing(double outside_radius) const = 0;
+    [[nodiscard]] virtual RingDescription describe(double outside_radius) const = 0;
     [[nodiscard]] virtual SupportSites supports(const SupportedRing& ring) const = 0;
-    [[nodiscard]] virtual bool floating() const = 0;
-    [[nodiscard]] virtual int single_supports() const = 0;
-    [[nodiscard]] virtual int repeating_teeth(int teeth) const = 0;
   };
 
   template <class Type, class = void>
@@ -73,28 +66,14 @@ class RingStructure {
   template <class Type>
   struct Holder final : Interface {
     explicit Holder(Type value) : type(std::move(value)) {}
-    [[nodiscard]] RingBody body(double outside_radius) const override { return type.body(outside_radius); }
-    [[nodiscard]] RingWords words() const override { return type.words(); }
-    [[nodiscard]] std::vector<std::pair<std::string, double>> parameters() const override { return type.parameters(); }
-    [[nodiscard]] RingDrawing drawing(double outside_radius) const override { return type.drawing(outside_radius); }
+    [[nodiscard]] RingDescription describe(double outside_radius) const override {
+      return type.describe(outside_radius);
+    }
     [[nodiscard]] SupportSites supports([[maybe_unused]] const SupportedRing& ring) const override {
       if constexpr (OnSingleSupports<Type>::value)
         return type.supports(ring);
       else
         return {};
-    }
-    [[nodiscard]] bool floating() const override { return OnSingleSupports<Type>::value; }
-    [[nodiscard]] int single_supports() const override {
-      if constexpr (OnSingleSupports<Type>::value)
-        return type.single_supports();
-      else
-        return 0;
-    }
-    [[nodiscard]] int repeating_teeth([[maybe_unused]] int teeth) const override {
-      if constexpr (OnSingleSupports<Type>::value)
-        return type.repeating_teeth(teeth);
-      else
-        return 1;
     }
     Type type;
   };
@@ -110,7 +89,9 @@ class RingStructure {
 }
 /// Whether the outer surface is held all around over the full face width.
 [[nodiscard]] inline bool held_outside(const RingStructure& structure) {
-  return structure.as<OutsideHeld>() != nullptr;
+  return structure.body(0).held == HeldSurface::outside;
 }
+/// Whether a rotation by `angle` (rad) maps the angles onto themselves.
+[[nodiscard]] bool maps_onto_itself(const std::vector<double>& angles, double angle);
 
 }  // namespace annulus::fem

@@ -1,9 +1,11 @@
-#include "fem/problem/structures/structures.h"
+#include "fem/problem/support_sites.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
 #include "core/errors.h"
+#include "fem/problem/structures/pin_held.h"
+#include "fem/problem/structures/spline_held.h"
 #include "tests/verification_record.h"
 
 BOOST_AUTO_TEST_SUITE(support_sites)

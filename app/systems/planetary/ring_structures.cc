@@ -13,9 +13,8 @@
 #include "core/errors.h"
 #include "core/units.h"
 #include "fem/problem/structures/clamped.h"
-#include "fem/problem/structures/end_face_held.h"
-#include "fem/problem/structures/flange_held.h"
 #include "fem/problem/structures/spline_held.h"
+#include "fem/problem/structures/surface_held.h"
 #include "geometry/sector_mesh.h"
 
 namespace annulus::app {

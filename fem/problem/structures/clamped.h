@@ -1,9 +1,5 @@
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "fem/problem/ring_body.h"
 
 namespace annulus::fem {
@@ -24,11 +20,7 @@ struct Clamped {
   int dowels = 0;                 ///< equally spaced, on the bolt circle in the middle between two bolts
   double dowel_diameter = 0;      ///< m
 
-  /// Throws InputError unless 0 < inner_radius < outside_radius.
-  [[nodiscard]] RingBody body(double outside_radius) const;
-  [[nodiscard]] RingWords words() const;
-  [[nodiscard]] std::vector<std::pair<std::string, double>> parameters() const;
-  [[nodiscard]] RingDrawing drawing(double outside_radius) const;
+  [[nodiscard]] RingDescription describe(double outside_radius) const;
 };
 
 }  // namespace annulus::fem

@@ -1,38 +1,23 @@
 #include "fem/problem/structures/pin_held.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/errors.h"
+#include "fem/problem/ring_structure.h"
 
 namespace annulus::fem {
-namespace {
 
-/// Does a rotation by `angle` map the angles onto themselves?
-bool maps_onto_itself(const std::vector<double>& angles, double angle) {
-  constexpr double tolerance = 1e-9;
-  return std::all_of(angles.begin(), angles.end(), [&](double own) {
-    return std::any_of(angles.begin(), angles.end(), [&](double other) {
-      return std::abs(std::remainder(own + angle - other, 2 * M_PI)) < tolerance;
-    });
-  });
-}
-
-}  // namespace
-
-RingBody PinHeld::body(double /*outside_radius*/) const {
-  RingBody body;
-  body.held = HeldSurface::none;
-  return body;
-}
-
-RingWords PinHeld::words() const {
-  const int count = single_supports();
-  RingWords words;
+RingDescription PinHeld::describe(double outside_radius) const {
+  constexpr double absent = -1;
+  const auto count = static_cast<int>(angles.size());
+  RingDescription d;
+  d.body.held = HeldSurface::none;
+  auto& words = d.words;
   words.name = unilateral ? "pinned" : "bolted";
   words.support = unilateral ? "pin" : "bolt";
   words.supports = words.support + "s";
-  words.description = std::to_string(count) + " " + (count == 1 ? words.support : words.supports);
+  const auto& called = count == 1 ? words.support : words.supports;
+  words.description = std::to_string(count) + " " + called;
   words.plane_reason = unilateral ? "the pins carry over the full width" : "the bolts hold over the full width";
   if (count == 1)
     words.repetition = "a single support";
@@ -43,28 +28,17 @@ RingWords PinHeld::words() const {
   words.map_caption = unilateral
                           ? "coloured by the force with which the rim presses on it, grey while the rim has lifted off"
                           : "orange while the rim presses outwards on it, blue while the rim pulls";
-  return words;
-}
-
-std::vector<std::pair<std::string, double>> PinHeld::parameters() const {
-  constexpr double absent = -1;
-  std::vector<std::pair<std::string, double>> list;
-  for (const double angle : angles) list.emplace_back("pin", angle);
-  list.insert(list.end(), {{"pin_diameter", pin_diameter},
-                           {"clearance", clearance},
-                           {"free_span", free_span},
-                           {"pin_stiffness", radial_stiffness.value_or(absent)},
-                           {"pin_tangential_stiffness", tangential_stiffness.value_or(absent)},
-                           {"housing_clearance", housing_clearance.value_or(absent)}});
-  return list;
-}
-
-RingDrawing PinHeld::drawing(double outside_radius) const {
-  RingDrawing drawing;
-  const auto own = words();
-  drawing.cylinders = {{angles.size() == 1 ? own.support : own.supports, angles, outside_radius, pin_diameter}};
-  if (housing_clearance) drawing.bore = RingDrawing::Bore::around_outside;
-  return drawing;
+  for (const double angle : angles) d.parameters.emplace_back("pin", angle);
+  d.parameters.insert(d.parameters.end(), {{"pin_diameter", pin_diameter},
+                                           {"clearance", clearance},
+                                           {"free_span", free_span},
+                                           {"pin_stiffness", radial_stiffness.value_or(absent)},
+                                           {"pin_tangential_stiffness", tangential_stiffness.value_or(absent)},
+                                           {"housing_clearance", housing_clearance.value_or(absent)}});
+  d.drawing.cylinders = {{called, angles, outside_radius, pin_diameter}};
+  if (housing_clearance) d.drawing.bore = RingDrawing::Bore::around_outside;
+  d.support_angles = angles;
+  return d;
 }
 
 SupportSites PinHeld::supports(const SupportedRing& ring) const {
@@ -89,7 +63,7 @@ SupportSites PinHeld::supports(const SupportedRing& ring) const {
     tangential.end_stiffness = std::numeric_limits<double>::infinity();
   }
   SupportSites result;
-  result.pins = single_supports();
+  result.pins = static_cast<int>(angles.size());
   for (const double angle : angles)
     result.sites.push_back({-angle, pin_diameter / 2 / ring.outside_radius, true, {radial, tangential}});
   if (housing_clearance) {
@@ -100,12 +74,6 @@ SupportSites PinHeld::supports(const SupportedRing& ring) const {
     for (int tooth = 0; tooth < ring.teeth; ++tooth) result.sites.push_back({-tooth * pitch, pitch / 2, false, {bore}});
   }
   return result;
-}
-
-int PinHeld::repeating_teeth(int teeth) const {
-  for (int turned = 1; turned < teeth; ++turned)
-    if (teeth % turned == 0 && maps_onto_itself(angles, 2 * M_PI * turned / teeth)) return turned;
-  return teeth;
 }
 
 double derived_pin_stiffness(const Material& material, double length) {

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "fem/problem/ring_body.h"
@@ -23,15 +21,10 @@ struct PinHeld {
   std::optional<double> housing_clearance{};     ///< m, radial play of the rim in a housing bore; absent: no bore
   bool unilateral = true;
 
-  [[nodiscard]] RingBody body(double outside_radius) const;
-  [[nodiscard]] RingWords words() const;
-  [[nodiscard]] std::vector<std::pair<std::string, double>> parameters() const;
-  [[nodiscard]] RingDrawing drawing(double outside_radius) const;
+  [[nodiscard]] RingDescription describe(double outside_radius) const;
   /// Every pin radially one-sided or both ways, tangentially both ways. Throws InputError without pins, and for a
   /// single one without a housing bore.
   [[nodiscard]] SupportSites supports(const SupportedRing& ring) const;
-  [[nodiscard]] int single_supports() const { return static_cast<int>(angles.size()); }
-  [[nodiscard]] int repeating_teeth(int teeth) const;
 };
 
 /// Stiffness of one pin between two conforming half-grooves, N/m: a solid cylinder of diameter D squeezed over its

@@ -1,44 +1,31 @@
 #include "fem/problem/structures/spline_held.h"
 
 #include <cmath>
-#include <numeric>
+#include <string>
 
 #include "core/errors.h"
 
 namespace annulus::fem {
 
-RingBody SplineHeld::body(double /*outside_radius*/) const {
-  RingBody body;
-  body.held = HeldSurface::none;
-  return body;
-}
-
-RingWords SplineHeld::words() const {
-  RingWords words;
-  words.name = "splined";
-  words.support = "spline tooth";
-  words.supports = "spline teeth";
-  words.description = std::to_string(teeth) + " splines";
-  words.plane_reason = "the splines carry over the full width";
-  words.repetition = std::to_string(teeth) + " splines";
-  words.map_caption = "coloured by the resultant of its flanks, grey while neither of them touches";
-  return words;
-}
-
-std::vector<std::pair<std::string, double>> SplineHeld::parameters() const {
+RingDescription SplineHeld::describe(double /*outside_radius*/) const {
   constexpr double absent = -1;
-  return {{"splines", teeth},
-          {"first_spline", first_tooth_angle},
-          {"flank_angle", flank_angle},
-          {"clearance", clearance},
-          {"flank_stiffness", flank_stiffness.value_or(absent)}};
-}
-
-RingDrawing SplineHeld::drawing(double /*outside_radius*/) const {
-  RingDrawing drawing;
-  drawing.teeth = {words().supports, equal_angles(teeth, first_tooth_angle), flank_angle};
-  drawing.shown_force = ShownForce::resultant;
-  return drawing;
+  RingDescription d;
+  d.body.held = HeldSurface::none;
+  d.words.name = "splined";
+  d.words.support = "spline tooth";
+  d.words.supports = "spline teeth";
+  d.words.description = d.words.repetition = std::to_string(teeth) + " splines";
+  d.words.plane_reason = "the splines carry over the full width";
+  d.words.map_caption = "coloured by the resultant of its flanks, grey while neither of them touches";
+  d.parameters = {{"splines", teeth},
+                  {"first_spline", first_tooth_angle},
+                  {"flank_angle", flank_angle},
+                  {"clearance", clearance},
+                  {"flank_stiffness", flank_stiffness.value_or(absent)}};
+  d.support_angles = equal_angles(teeth, first_tooth_angle);
+  d.drawing.teeth = {d.words.supports, d.support_angles, flank_angle};
+  d.drawing.shown_force = ShownForce::resultant;
+  return d;
 }
 
 SupportSites SplineHeld::supports(const SupportedRing& ring) const {
@@ -57,8 +44,6 @@ SupportSites SplineHeld::supports(const SupportedRing& ring) const {
     result.sites.push_back({-(first_tooth_angle + tooth * pitch), pitch / 4, false, {counter_clockwise, clockwise}});
   return result;
 }
-
-int SplineHeld::repeating_teeth(int ring_teeth) const { return ring_teeth / std::gcd(ring_teeth, teeth); }
 
 double derived_spline_stiffness(const Material& material, double width) {
   constexpr double of_steel = 14e9, steel = 206e9;  // Pa

@@ -1,9 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "fem/problem/ring_body.h"
 #include "fem/problem/support_sites.h"
@@ -18,15 +15,10 @@ struct SplineHeld {
   std::optional<double> flank_stiffness{};  ///< N/m per flank; absent: derived
   double first_tooth_angle = 0;             ///< rad, from the centre of tooth 0 of the ring
 
-  [[nodiscard]] RingBody body(double outside_radius) const;
-  [[nodiscard]] RingWords words() const;
-  [[nodiscard]] std::vector<std::pair<std::string, double>> parameters() const;
-  [[nodiscard]] RingDrawing drawing(double outside_radius) const;
+  [[nodiscard]] RingDescription describe(double outside_radius) const;
   /// Both flanks of every tooth one-sided along their normals, uniform over the thickness of the tooth, half its pitch.
   /// Throws InputError for fewer than three teeth.
   [[nodiscard]] SupportSites supports(const SupportedRing& ring) const;
-  [[nodiscard]] int single_supports() const { return teeth; }
-  [[nodiscard]] int repeating_teeth(int ring_teeth) const;
 };
 
 /// Stiffness of one flank of a spline tooth, N/m: that of a gear tooth pair, 14 N/(mm um) (ISO 6336-1, magnitude of the
