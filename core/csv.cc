@@ -56,6 +56,7 @@ double to_number(std::string_view cell, const std::filesystem::path& file, int l
 
 Csv parsed(std::istream& stream, const std::filesystem::path& file) {
   Csv csv;
+  csv.file = file.string();
   std::string text;
   int line = 0;
   bool ended = false;
@@ -153,8 +154,23 @@ void Csv::round(const std::vector<std::string>& exact) {
 
 std::size_t Csv::column(const std::string& name) const {
   const auto found = std::find(columns.begin(), columns.end(), name);
-  if (found == columns.end()) throw InputError(fmt::format("no column '{}'; there are: {}", name, column_names()));
+  if (found == columns.end()) throw at_columns(fmt::format("no column '{}'; there are: {}", name, column_names()));
   return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::optional<std::string> Csv::header_value(const std::string& key) const {
+  for (const auto& [name, value] : header)
+    if (name == key) return value;
+  return std::nullopt;
+}
+
+// No blank line is accepted in between, so the line of a row is known.
+InputError Csv::at_row(std::size_t row, const std::string& what) const {
+  return at_line(file, static_cast<int>(header.size() + 2 + row), what);
+}
+
+InputError Csv::at_columns(const std::string& what) const {
+  return file.empty() ? InputError(what) : at_line(file, static_cast<int>(header.size() + 1), what);
 }
 
 std::string Csv::column_names() const {

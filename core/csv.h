@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "core/errors.h"
 
 namespace annulus {
 
@@ -13,6 +15,7 @@ struct Csv {
   std::vector<std::pair<std::string, std::string>> header;
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;
+  std::string file{};  ///< that it was read from, for messages; empty for others
 
   /// As few digits as give every double back.
   [[nodiscard]] std::string text() const;
@@ -25,8 +28,13 @@ struct Csv {
   /// Rounds to six significant digits, far below any error of a result, and the first column, the abscissa, to nine:
   /// large tables shrink to less than half. Columns in `exact` stay as they are.
   void round(const std::vector<std::string>& exact = {});
-  /// Index of a column; throws InputError naming the column when it is missing.
+  /// Index of a column; throws InputError naming the column, and file and line, when it is missing.
   [[nodiscard]] std::size_t column(const std::string& name) const;
+  /// Value of a header line; nothing where there is none.
+  [[nodiscard]] std::optional<std::string> header_value(const std::string& key) const;
+  /// Errors with file and line: of a data row, and of the line with the column names.
+  [[nodiscard]] InputError at_row(std::size_t row, const std::string& what) const;
+  [[nodiscard]] InputError at_columns(const std::string& what) const;
   /// For messages: the names of the first columns, whatever stands in them.
   [[nodiscard]] std::string column_names() const;
 };

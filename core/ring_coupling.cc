@@ -65,38 +65,26 @@ std::vector<std::string> mode_columns(int teeth) {
 const std::vector<std::string> header_keys = {"planets",   "ring_teeth", "load_N",
                                               "per_cycle", "mass_kg",    "rotational_mass_kg"};
 
-/// Reads a number from a header line, whose place is its line.
-double header_number(const Csv& csv, const std::filesystem::path& file, const std::string& key) {
-  for (std::size_t i = 0; i < csv.header.size(); ++i) {
-    const auto& [name, text] = csv.header[i];
-    if (name != key) continue;
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size())
-      throw InputError(fmt::format("{}:{}: {} '{}' is not a number", file.string(), i + 1, key, text));
-    return value;
-  }
-  throw InputError(fmt::format("{}:1: no line '# {}: ...'", file.string(), key));
+double header_number(const Csv& csv, const std::string& key) {
+  const auto text = csv.header_value(key);
+  if (!text) throw InputError(fmt::format("{}:1: no line '# {}: ...'", csv.file, key));
+  double value = 0;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+  if (error != std::errc{} || end != text->data() + text->size())
+    throw InputError(fmt::format("{}:1: {} '{}' is not a number", csv.file, key, *text));
+  return value;
 }
 
-int header_count(const Csv& csv, const std::filesystem::path& file, const std::string& key) {
-  const double value = header_number(csv, file, key);
+int header_count(const Csv& csv, const std::string& key) {
+  const double value = header_number(csv, key);
   if (value != std::round(value) || std::abs(value) > 1e6)
-    throw InputError(fmt::format("{}:1: {} {} is not a whole number", file.string(), key, value));
+    throw InputError(fmt::format("{}:1: {} {} is not a whole number", csv.file, key, value));
   return static_cast<int>(value);
 }
 
-/// Places of the columns; throws naming the line of the column names.
-std::vector<std::size_t> find_columns(const Csv& csv, const std::filesystem::path& file,
-                                      const std::vector<std::string>& names) {
+std::vector<std::size_t> find_columns(const Csv& csv, const std::vector<std::string>& names) {
   std::vector<std::size_t> places;
-  for (const auto& name : names) {
-    try {
-      places.push_back(csv.column(name));
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("{}:{}: {}", file.string(), csv.header.size() + 1, error.what()));
-    }
-  }
+  for (const auto& name : names) places.push_back(csv.column(name));
   return places;
 }
 
@@ -145,18 +133,17 @@ void RingCoupling::write_csv(const std::filesystem::path& compliance_file,
 
 RingCoupling RingCoupling::read_csv(const std::filesystem::path& compliance_file,
                                     const std::filesystem::path& modes_file) {
-  // Csv::read accepts no blank line in between, so the line of a row is known.
-  const auto refuse = [](const std::filesystem::path& file, const Csv& csv, std::size_t row, const std::string& what) {
-    if (!what.empty()) throw InputError(fmt::format("{}:{}: {}", file.string(), csv.header.size() + 2 + row, what));
+  const auto refuse = [](const Csv& csv, std::size_t row, const std::string& what) {
+    if (!what.empty()) throw csv.at_row(row, what);
   };
   const Csv csv = Csv::read(compliance_file);
   RingCoupling result;
-  result.planets = header_count(csv, compliance_file, "planets");
-  result.ring_teeth = header_count(csv, compliance_file, "ring_teeth");
-  result.load = header_number(csv, compliance_file, "load_N");
-  result.per_cycle = header_count(csv, compliance_file, "per_cycle");
-  result.mass = header_number(csv, compliance_file, "mass_kg");
-  result.rotational_mass = header_number(csv, compliance_file, "rotational_mass_kg");
+  result.planets = header_count(csv, "planets");
+  result.ring_teeth = header_count(csv, "ring_teeth");
+  result.load = header_number(csv, "load_N");
+  result.per_cycle = header_count(csv, "per_cycle");
+  result.mass = header_number(csv, "mass_kg");
+  result.rotational_mass = header_number(csv, "rotational_mass_kg");
   for (const double mass : {result.mass, result.rotational_mass})
     if (!std::isfinite(mass) || !(mass >= 0))
       throw InputError(fmt::format("{}:1: a mass of {} kg", compliance_file.string(), mass));
@@ -165,37 +152,36 @@ RingCoupling RingCoupling::read_csv(const std::filesystem::path& compliance_file
   for (const auto& line : csv.header)
     if (std::find(header_keys.begin(), header_keys.end(), line.first) == header_keys.end())
       result.provenance.push_back(line);
-  const auto column = find_columns(csv, compliance_file, compliance_columns(result.planets));
+  const auto column = find_columns(csv, compliance_columns(result.planets));
   for (std::size_t i = 0; i < csv.rows.size(); ++i) {
     const double expected = static_cast<double>(i) / result.per_cycle;
     // Written with fewer digits they are still the same positions.
     if (!(std::abs(csv.rows[i][column[0]] - expected) <= 1e-9 * (1 + expected)))
-      refuse(compliance_file, csv, i,
-             fmt::format("ring_position {} where {} is due", csv.rows[i][column[0]], expected));
+      refuse(csv, i, fmt::format("ring_position {} where {} is due", csv.rows[i][column[0]], expected));
     auto& matrix = result.compliance.emplace_back(result.planets, result.planets);
     for (int n = 0; n < result.planets; ++n)
       for (int m = 0; m < result.planets; ++m) matrix(n, m) = csv.rows[i][column[1 + n * result.planets + m]];
-    refuse(compliance_file, csv, i, complaint(matrix));
+    refuse(csv, i, complaint(matrix));
   }
 
   const Csv shapes = Csv::read(modes_file);
-  if (header_count(shapes, modes_file, "ring_teeth") != result.ring_teeth)
+  if (header_count(shapes, "ring_teeth") != result.ring_teeth)
     throw InputError(fmt::format("{}:1: ring_teeth differs from {} in {}", modes_file.string(), result.ring_teeth,
                                  compliance_file.string()));
-  const auto place = find_columns(shapes, modes_file, mode_columns(result.ring_teeth));
+  const auto place = find_columns(shapes, mode_columns(result.ring_teeth));
   double lowest = 0;
   for (std::size_t i = 0; i < shapes.rows.size(); ++i) {
     const auto cell = [&](std::size_t c) { return shapes.rows[i][place[c]]; };
     RingMode mode;
     mode.frequency = cell(0);
     if (!(std::abs(cell(1)) < 1e6) || cell(1) != std::round(cell(1)))
-      refuse(modes_file, shapes, i, fmt::format("waves {} is not a whole number", cell(1)));
+      refuse(shapes, i, fmt::format("waves {} is not a whole number", cell(1)));
     mode.waves = static_cast<int>(cell(1));
     mode.translation_x = cell(2);
     mode.translation_y = cell(3);
     mode.rotation = cell(4);
     for (int tooth = 0; tooth < result.ring_teeth; ++tooth) mode.closing.push_back(cell(5 + tooth));
-    refuse(modes_file, shapes, i, complaint(mode, lowest, result.ring_teeth));
+    refuse(shapes, i, complaint(mode, lowest, result.ring_teeth));
     lowest = mode.frequency;
     result.modes.push_back(std::move(mode));
   }

@@ -105,12 +105,10 @@ StiffnessTable StiffnessTable::read_csv(const std::filesystem::path& file) {
   const Csv csv = Csv::read(file);
   std::vector<std::size_t> column;
   for (const auto& name : table_columns) {
-    try {
-      column.push_back(csv.column(name));
-    } catch (const InputError& error) {
-      throw InputError(
-          fmt::format("{}:{}: is no stiffness table: {}", file.string(), csv.header.size() + 1, error.what()));
-    }
+    if (std::find(csv.columns.begin(), csv.columns.end(), name) == csv.columns.end())
+      throw csv.at_columns(
+          fmt::format("is no stiffness table: no column '{}'; there are: {}", name, csv.column_names()));
+    column.push_back(csv.column(name));
   }
   std::vector<std::pair<std::size_t, double ErrorParts::*>> part_columns;
   for (const auto& [name, part] : stiffness_error_part_names) {
@@ -118,19 +116,15 @@ StiffnessTable StiffnessTable::read_csv(const std::filesystem::path& file) {
     if (found != csv.columns.end()) part_columns.emplace_back(found - csv.columns.begin(), part);
   }
   const auto cell = [&](std::size_t row, int c) { return csv.rows[row][column[c]]; };
-  // Csv::read accepts no blank line in between, so the line of a row is known.
-  const auto refuse = [&](std::size_t row, const std::string& what) {
-    throw InputError(fmt::format("{}:{}: {}", file.string(), csv.header.size() + 2 + row, what));
-  };
-  const auto mesh = std::find_if(csv.header.begin(), csv.header.end(), [](auto& h) { return h.first == "mesh"; });
-  if (mesh == csv.header.end())
-    throw InputError(file.string() + ":1: no line '# mesh: NAME', such as \"# mesh: ring_planet\"");
+  const auto refuse = [&](std::size_t row, const std::string& what) { throw csv.at_row(row, what); };
+  const auto mesh = csv.header_value("mesh");
+  if (!mesh) throw InputError(file.string() + ":1: no line '# mesh: NAME', such as \"# mesh: ring_planet\"");
   if (csv.rows.empty()) refuse(0, "no data");
   // A table that was cut short between its lines would be another one.
-  const auto count = std::find_if(csv.header.begin(), csv.header.end(), [](auto& h) { return h.first == "rows"; });
-  if (count != csv.header.end() && count->second != std::to_string(csv.rows.size()))
-    refuse(csv.rows.size() - 1, fmt::format("{} rows where {} are said to be; is the file whole?", csv.rows.size(),
-                                            count->second.substr(0, 20)));
+  const auto count = csv.header_value("rows");
+  if (count && *count != std::to_string(csv.rows.size()))
+    refuse(csv.rows.size() - 1,
+           fmt::format("{} rows where the header has {}; is the file whole?", csv.rows.size(), count->substr(0, 20)));
 
   // The axes as the file shows them: loads run fastest, then phases, then positions.
   const std::size_t rows = csv.rows.size();
@@ -164,8 +158,7 @@ StiffnessTable StiffnessTable::read_csv(const std::filesystem::path& file) {
     const auto what = complaint(entries.back(), load_values[load]);
     if (!what.empty()) refuse(row, what);
   }
-  StiffnessTable table(mesh->second, static_cast<int>(phases), std::move(angles), std::move(load_values),
-                       std::move(entries));
+  StiffnessTable table(*mesh, static_cast<int>(phases), std::move(angles), std::move(load_values), std::move(entries));
   for (const auto& line : csv.header)
     if (line.first != "mesh" && line.first != "rows") table.provenance.push_back(line);
   return table;

@@ -80,7 +80,7 @@ bool equidistant(const std::vector<Sample>& samples, double period) {
 /// What the columns say, load by load, phases rising and without the closing row.
 class Curves {
  public:
-  Curves(const std::filesystem::path& file, const Csv& csv) : file_(file.string()), first_line_(csv.header.size() + 2) {
+  explicit Curves(const Csv& csv) : csv_(csv) {
     const auto phase = find(csv, {{"mesh_phase", 1}, {"mesh_cycles", 1}, {"mesh_phase_deg", 1.0 / 360}});
     const auto stiffness =
         find(csv, {{"stiffness_N_per_m", 1}, {"stiffness_N_per_um", 1e6}, {"stiffness_secant_N_per_m", 1}});
@@ -89,8 +89,7 @@ class Curves {
     const auto unloaded = find(csv, {{"unloaded_te_m", 1}, {"unloaded_te_um", units::um}});
     const auto error = find(csv, {{"error_relative", 1}});
     const auto refuse = [&](const std::string& what) {
-      throw InputError(fmt::format("{}:{}: is no stiffness table: {}; there are: {}", file_, first_line_ - 1, what,
-                                   csv.column_names()));
+      throw csv.at_columns(fmt::format("is no stiffness table: {}; there are: {}", what, csv.column_names()));
     };
     if (!phase) refuse("no column mesh_phase, mesh_phase_deg or mesh_cycles");
     if (!stiffness && !lte) refuse("no column stiffness_N_per_m, stiffness_N_per_um, lte_m or lte_um");
@@ -129,9 +128,7 @@ class Curves {
     for (auto& [force, samples] : by_load) tidy(samples);
   }
 
-  [[noreturn]] void refuse_row(std::size_t row, const std::string& what) const {
-    throw InputError(fmt::format("{}:{}: {}", file_, first_line_ + row, what));
-  }
+  [[noreturn]] void refuse_row(std::size_t row, const std::string& what) const { throw csv_.at_row(row, what); }
 
   static constexpr double any_load = 1;
   std::map<double, std::vector<Sample>> by_load{};
@@ -155,8 +152,7 @@ class Curves {
       if (samples[i].cycles - samples[i - 1].cycles <= same_phase) refuse_row(samples[i].line, "the same phase twice");
   }
 
-  std::string file_;
-  std::size_t first_line_;
+  const Csv& csv_;
 };
 
 bool native(const Csv& csv) {
@@ -175,7 +171,7 @@ StiffnessTable import_table(const std::filesystem::path& file, const std::string
       throw InputError(fmt::format("{}: is the table of the mesh {}, not of {}", file.string(), table.mesh(), mesh));
     return table;
   }
-  const Curves curves(file, csv);
+  const Curves curves(csv);
   const int positions = static_cast<int>(curves.period);
   std::size_t most = 0;
   bool even = true;

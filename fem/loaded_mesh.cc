@@ -14,7 +14,6 @@
 #include "fem/levels/error_estimate.h"
 #include "fem/levels/level.h"
 #include "fem/problem/problem_check.h"
-#include "fem/problem/tabulated_result.h"
 
 namespace annulus::fem {
 namespace {

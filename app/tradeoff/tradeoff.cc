@@ -16,7 +16,6 @@
 #include "core/json.h"
 #include "core/log.h"
 #include "core/result_store.h"
-#include "fem/problem/plane_strain_error.h"
 
 namespace annulus::app {
 

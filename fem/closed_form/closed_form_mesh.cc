@@ -11,9 +11,7 @@
 #include "core/stopwatch.h"
 #include "fem/closed_form/tooth_contacts.h"
 #include "fem/condensation/lapack.h"
-#include "fem/problem/plane_strain_error.h"
 #include "fem/problem/problem_check.h"
-#include "fem/problem/tabulated_result.h"
 
 namespace annulus::fem {
 namespace {

@@ -1,10 +1,8 @@
 #include "fem/contact/contact_body.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "core/errors.h"
 #include "fem/condensation/lapack.h"
@@ -37,19 +35,6 @@ Eigen::MatrixXd gather_columns(const Eigen::Ref<const Eigen::MatrixXd>& matrix, 
         result.col(static_cast<Eigen::Index>(e)) += w * matrix.col(u * slices + slice);
   }
   return result;
-}
-
-/// Gauss-Chebyshev points of the second kind: place (of the half-length) and share of a semi-elliptic load.
-const auto& semi_ellipse_rule() {
-  static const auto rule = [] {
-    std::array<std::pair<double, double>, 16> points;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const double parts = static_cast<double>(points.size() + 1), angle = static_cast<double>(i + 1) * M_PI / parts;
-      points[i] = {std::cos(angle), 2 * std::sin(angle) * std::sin(angle) / parts};
-    }
-    return points;
-  }();
-  return rule;
 }
 
 /// A semi-ellipse 2 / sqrt(3) as long as an element has its second moment.
@@ -88,7 +73,7 @@ Eigen::MatrixXd ContactBody::compress(const Eigen::MatrixXd& ports) const {
 
 Eigen::MatrixXd ContactBody::weights_on(const TraceBasis& flank, const std::vector<FlankLoad>& loads) const {
   Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(flank.size(), static_cast<Eigen::Index>(loads.size()));
-  const auto& rule = semi_ellipse_rule();
+  static const auto rule = semi_ellipse_points<16>();
   for (std::size_t l = 0; l < loads.size(); ++l)
     for (const auto& [place, weight] : rule) {
       const double arc = loads[l].arc + loads[l].spread * place;

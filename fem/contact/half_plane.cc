@@ -1,6 +1,5 @@
 #include "fem/contact/half_plane.h"
 
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -23,17 +22,6 @@ double log_potential(double x) {
   return size / (size + root) - 0.5 - std::log(2.0) + std::log(size + root);
 }
 
-/// Places and weights over [-1, 1] for means with the weight (2 / pi) sqrt(1 - t^2).
-std::array<std::pair<double, double>, 12> gauss_chebyshev() {
-  std::array<std::pair<double, double>, 12> points;
-  const double intervals = static_cast<double>(points.size()) + 1;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double angle = static_cast<double>(i + 1) * M_PI / intervals, sine = std::sin(angle);
-    points[i] = {std::cos(angle), 2 * sine * sine / intervals};
-  }
-  return points;
-}
-
 }  // namespace
 
 HalfPlane::HalfPlane(const Material& material)
@@ -54,7 +42,7 @@ double HalfPlane::strips(double distance, double half_a, double half_b) const {
 double HalfPlane::semi_ellipses(double distance, double half_a, double half_b) const {
   if (half_a > half_b) std::swap(half_a, half_b);
   // Gauss quadrature with the weight sqrt(1 - t^2) over the narrower one, in the potential of the wider one.
-  static const auto points = gauss_chebyshev();
+  static const auto points = semi_ellipse_points<12>();
   double mean = 0;
   for (const auto& [place, weight] : points) mean += weight * log_potential((distance + half_a * place) / half_b);
   return factor_ * (mean + std::log(half_b));

@@ -1,7 +1,6 @@
 #include "fem/elasticity/arc_load.h"
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <set>
 
@@ -16,23 +15,14 @@ namespace {
 std::vector<double> over_stations(const ArcLoad& arc, const std::vector<double>& stations, int degree) {
   const TraceBasis basis(stations, degree);
   std::vector<double> over_arc(stations.size(), 0.0);
-  for (int e = 0; e < basis.elements(); ++e) {
-    const double a = std::max(stations[e * degree], arc.centre - arc.half_arc);
-    const double b = std::min(stations[(e + 1) * degree], arc.centre + arc.half_arc);
-    if (b <= a) continue;
-    using Rule = boost::math::quadrature::gauss<double, 7>;
-    const auto add = [&](double abscissa, double weight) {
-      const double angle = (a + b) / 2 + abscissa * (b - a) / 2, x = (angle - arc.centre) / arc.half_arc;
-      const double density = arc.parabolic ? 0.75 * (1 - x * x) : 0.5;
-      const auto values = basis(angle);
-      for (std::size_t i = 0; i < values.weights.size(); ++i)
-        over_arc[values.first + i] += density * weight * (b - a) / 2 / arc.half_arc * values.weights[i];
-    };
-    for (std::size_t q = 0; q < Rule::abscissa().size(); ++q) {
-      add(Rule::abscissa()[q], Rule::weights()[q]);
-      if (Rule::abscissa()[q] != 0) add(-Rule::abscissa()[q], Rule::weights()[q]);
-    }
-  }
+  basis.for_gauss_points(
+      arc.centre - arc.half_arc, arc.centre + arc.half_arc, [&](double angle, double weight, double length) {
+        const double x = (angle - arc.centre) / arc.half_arc;
+        const double density = arc.parabolic ? 0.75 * (1 - x * x) : 0.5;
+        const auto values = basis(angle);
+        for (std::size_t i = 0; i < values.weights.size(); ++i)
+          over_arc[values.first + i] += density * weight * length / 2 / arc.half_arc * values.weights[i];
+      });
   return over_arc;
 }
 

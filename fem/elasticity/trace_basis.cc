@@ -1,7 +1,6 @@
 #include "fem/elasticity/trace_basis.h"
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
 #include "core/errors.h"
@@ -91,22 +90,11 @@ TraceBasis::Values TraceBasis::operator()(double coordinate) const {
 
 std::vector<double> TraceBasis::mean_over(double low, double high) const {
   std::vector<double> result(stations_.size(), 0.0);
-  // Element by element: within one the integrand is smooth.
-  for (int e = 0; e < elements(); ++e) {
-    const double a = std::max(low, stations_[e * degree_]), b = std::min(high, stations_[(e + 1) * degree_]);
-    if (b <= a) continue;
-    using Rule = boost::math::quadrature::gauss<double, 7>;
-    const auto add = [&](double abscissa, double weight) {
-      const double x = (a + b) / 2 + abscissa * (b - a) / 2;
-      const auto values = (*this)(x);
-      for (int i = 0; i <= degree_; ++i)
-        result[values.first + i] += values.weights[i] * weight * (b - a) / 2 / (high - low);
-    };
-    for (std::size_t q = 0; q < Rule::abscissa().size(); ++q) {
-      add(Rule::abscissa()[q], Rule::weights()[q]);
-      if (Rule::abscissa()[q] != 0) add(-Rule::abscissa()[q], Rule::weights()[q]);
-    }
-  }
+  for_gauss_points(low, high, [&](double x, double weight, double length) {
+    const auto values = (*this)(x);
+    for (int i = 0; i <= degree_; ++i)
+      result[values.first + i] += values.weights[i] * weight * length / 2 / (high - low);
+  });
   return result;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <boost/container/static_vector.hpp>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cstddef>
 #include <vector>
 
 namespace annulus::fem {
@@ -21,6 +24,10 @@ class TraceBasis {
   };
   /// Throws InternalError outside the line (beyond a relative 1e-9).
   [[nodiscard]] Values operator()(double coordinate) const;
+  /// Gauss points over [low, high], element by element: within one a shape function is smooth. Calls
+  /// add(coordinate, weight, length), the weights of one element summing to 2 over its part of this length.
+  template <class Add>
+  void for_gauss_points(double low, double high, const Add& add) const;
   /// Integrals of all shape functions over [low, high], divided by its length.
   [[nodiscard]] std::vector<double> mean_over(double low, double high) const;
 
@@ -39,5 +46,19 @@ class TraceBasis {
   /// The isoparametric map of every element, from its first node on: coefficients of xi, xi^2, ...
   std::vector<double> map_;
 };
+
+template <class Add>
+void TraceBasis::for_gauss_points(double low, double high, const Add& add) const {
+  using Rule = boost::math::quadrature::gauss<double, 7>;
+  for (int e = 0; e < elements(); ++e) {
+    const double a = std::max(low, stations_[e * degree_]), b = std::min(high, stations_[(e + 1) * degree_]);
+    if (b <= a) continue;
+    for (std::size_t q = 0; q < Rule::abscissa().size(); ++q)
+      for (const double side : {1.0, -1.0}) {
+        if (side < 0 && Rule::abscissa()[q] == 0) continue;
+        add((a + b) / 2 + side * Rule::abscissa()[q] * (b - a) / 2, Rule::weights()[q], b - a);
+      }
+  }
+}
 
 }  // namespace annulus::fem

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "fem/body/resolution.h"
-#include "fem/problem/plane_strain_error.h"
 
 namespace annulus::fem {
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/stiffness_table.h"
+#include "fem/problem/loaded_mesh_problem.h"
 #include "geometry/mesh.h"
 
 namespace annulus::fem {
@@ -119,5 +120,9 @@ struct LoadedMeshResult : SolvedBodies, SolveCost {
   /// Largest estimated error at the middle load, plane strain not counted: what the accuracy is about.
   double worst_error_relative = 0;
 };
+
+/// The stiffness table of solved positions, with closure and reciprocity. `positions`: [cycle][phase][load] over all
+/// cycles after which the structure repeats, then the closure positions, one per load.
+[[nodiscard]] LoadedMeshResult tabulated(const LoadedMeshProblem& problem, std::vector<LoadedPosition> positions);
 
 }  // namespace annulus::fem

@@ -39,6 +39,12 @@ void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
                     1e6 * problem.misalignment));
 }
 
+double plane_strain_error(const LoadedMeshProblem& problem) {
+  const double nu = problem.material.poisson_ratio;
+  const double width = problem.face_width / problem.pair.planet().parameters().module;
+  return 0.65 * nu * nu / (1 - nu * nu) / (1 + width / 10);
+}
+
 void check_deflection(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
                       const LoadedPosition& position) {
   const double deflection = position.entry.lte - position.entry.unloaded_te;

@@ -5,7 +5,6 @@
 
 #include "fem/levels/error_estimate.h"
 #include "fem/loaded_mesh.h"
-#include "fem/problem/plane_strain_error.h"
 #include "tests/verification_record.h"
 
 namespace annulus::tests {
