@@ -5,7 +5,7 @@
 
 namespace annulus {
 
-/// Base of every error annulus raises on purpose. The message tells what is wrong and how to cure it.
+/// Base of every error annulus raises on purpose. The message says what is wrong and how to cure it.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

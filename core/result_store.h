@@ -19,7 +19,7 @@ class ResultStore {
  public:
   static constexpr std::uintmax_t usual_most_bytes = 1'000'000'000;
 
-  /// `program`: its identity; results of another one are never found. The files are kept below `most_bytes` together:
+  /// `program`: its identity; results of another one are never found. The files stay below `most_bytes` together:
   /// those unused for the longest time are removed.
   ResultStore(std::filesystem::path folder, std::string program, std::uintmax_t most_bytes = usual_most_bytes);
 

@@ -25,7 +25,7 @@ struct RingMode {
 /// finite-element and the lumped side, next to the stiffness table of a single mesh.
 ///
 /// The closing of mesh n falls by sum_m compliance(n, m) F_m beyond what the stiffness table of the single mesh says.
-/// The diagonal is therefore zero for a ring with linear supports; where pins lift off it tells how the presence of the
+/// The diagonal is therefore zero for a ring with linear supports; where pins lift off it shows how the presence of the
 /// other planets changes the mesh itself.
 struct RingCoupling {
   int planets = 0;
@@ -40,7 +40,7 @@ struct RingCoupling {
   /// would add up to in squares. 0: not known.
   double mass = 0, rotational_mass = 0;
 
-  /// Key: value lines kept in front of the file (provenance).
+  /// Key: value lines in front of the file (provenance).
   std::vector<std::pair<std::string, std::string>> provenance;
 
   void write_csv(const std::filesystem::path& compliance_file, const std::filesystem::path& modes_file) const;

@@ -25,7 +25,7 @@ const std::vector<std::string> table_columns = {"mesh_phase",
                                                 "stiffness_tangent_N_per_m",
                                                 "error_relative"};
 
-/// Of an entry: "error_discretisation_relative". Tables from elsewhere may go without.
+/// The column of a part of the error: "error_discretisation_relative". Tables from elsewhere may go without.
 std::string part_column(const char* part) { return fmt::format("error_{}_relative", part); }
 
 /// What is wrong with an entry, empty if nothing is.

@@ -41,7 +41,7 @@ class StiffnessTable {
   [[nodiscard]] const std::vector<double>& loads() const { return loads_; }              ///< N
   [[nodiscard]] const StiffnessEntry& at(int position, int phase, int load) const;
 
-  /// Key: value lines kept in front of the CSV header (provenance: version, scene hash, model, ...).
+  /// Key: value lines in front of the CSV header (provenance: version, scene hash, model, ...).
   std::vector<std::pair<std::string, std::string>> provenance;
 
   void write_csv(const std::filesystem::path& file) const;

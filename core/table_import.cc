@@ -229,7 +229,7 @@ StiffnessTable import_table(const std::filesystem::path& file, const std::string
     }
   }
   std::vector<double> angles(static_cast<std::size_t>(positions));
-  for (int i = 0; i < positions; ++i) angles[static_cast<std::size_t>(i)] = i;  // only told apart by it
+  for (int i = 0; i < positions; ++i) angles[static_cast<std::size_t>(i)] = i;  // it only distinguishes them
   StiffnessTable table(mesh, per_cycle, std::move(angles), std::move(loads), std::move(entries));
   table.provenance = {{"imported_from", file.filename().string()}, {"resampled", even ? "no" : "yes"}};
   return table;

@@ -8,7 +8,7 @@
 namespace annulus {
 
 /// A stiffness table from a CSV that annulus or another program wrote. A file with the columns of the native table is
-/// read as one (StiffnessTable::read_csv; its mesh has to be `mesh`). Any other one is told by the names of its
+/// read as one (StiffnessTable::read_csv; its mesh has to be `mesh`). Any other one is recognised by the names of its
 /// columns, which carry the unit:
 ///
 ///     mesh_phase, mesh_phase_deg or mesh_cycles     place within the mesh cycle; cycles may count beyond 1 (a ring

@@ -161,8 +161,8 @@ void GearPair::check_tips() const {
 }
 
 // The tip corner of the planet's driving flank, followed in the frame of the ring: where it crosses the ring's tip
-// circle the ring's tip corner has to be ahead (no fouling), and inside the ring's space it has to stay clear of the
-// fillet.
+// circle the ring's tip corner has to be ahead (no interference), and inside the ring's space it has to stay clear of
+// the fillet.
 void GearPair::check_internal_tips() const {
   const auto name = pair_name(planet_, wheel_);
   const double a = centre_distance_;

@@ -23,7 +23,7 @@ struct GmshRuntime {
   ~GmshRuntime() {
     try {
       gmsh::finalize();
-    } catch (...) {  // at process exit nobody is left to be told
+    } catch (...) {  // at process exit nobody is left to report to
     }
   }
   GmshRuntime(const GmshRuntime&) = delete;

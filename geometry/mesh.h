@@ -67,7 +67,7 @@ struct ExtrudeOptions {
 };
 
 /// Hexahedra from a plane mesh, stacks from low to high z, each starting where the one before ends. Side, flank, ...
-/// tags are carried over; the lower end of the lowest stack gets `end_low`, the upper end of the highest `end_high`,
+/// tags are copied; the lower end of the lowest stack gets `end_low`, the upper end of the highest `end_high`,
 /// an exposed cylinder face at the ring's own outside radius `outside`, an exposed lower face of a flange beyond that
 /// radius `flange_face`, every other exposed face (inside of a sleeve, toothed end beside it) `inner`. Face vertices
 /// run counter-clockwise seen from outside the body.

@@ -61,7 +61,7 @@ void add_vertices(const Mesh& mesh, int dimension, int entity) {
   gmsh::model::mesh::addNodes(dimension, entity, tags, coordinates);
 }
 
-/// gmsh does not tell when a disk is full.
+/// gmsh does not report a full disk.
 bool ends_as_mesh(const std::filesystem::path& file) {
   const std::string last = "$EndElements\n";
   std::ifstream in(file, std::ios::binary);

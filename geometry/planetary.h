@@ -32,7 +32,7 @@ class PlanetarySet {
   /// Ring teeth by which planet n stands ahead of planet 0, not whole in general: z_r phi_n / 2 pi.
   [[nodiscard]] double ring_teeth_ahead(int n) const;
 
-  /// Of angles written with two decimals of a degree; rad.
+  /// Rounding of angles written with two decimals of a degree; rad.
   static constexpr double angle_tolerance = 1.75e-4;
 
   /// Room between the tip circles of neighbouring planets, modules: a fifth of a module for lubricant and deflection.

@@ -28,7 +28,7 @@ enum class Boundary : int {
   flange_face = 14,  ///< bolted face of a flange: its lower face beyond the ring's outside diameter (3D)
 };
 
-/// The exact outline of one tooth: involute flanks with modifications kept apart, root fillets (generated trochoid for
+/// The exact outline of one tooth: involute flanks with modifications left out, root fillets (generated trochoid for
 /// external gears, circular for internal ones), root and tip circles. Of a helical gear it is the transverse section at
 /// z = 0; at another z it is turned by twist() z about the axis.
 class ToothProfile {

@@ -15,7 +15,7 @@ void add_curve(Points& points, const Curve& curve, double from, double to, doubl
   constexpr int deepest = 12;
   const double middle = 0.5 * (from + to);
   const Eigen::Vector2d a = curve(from), b = curve(to);
-  // The curves bend one way only, so the middle tells; a first halving keeps short ones from becoming one chord.
+  // The curves bend one way only, so the middle decides; a first halving keeps short ones from becoming one chord.
   if (depth < 1 || (depth < deepest && (curve(middle) - 0.5 * (a + b)).norm() > tolerance)) {
     add_curve(points, curve, from, middle, tolerance, depth + 1);
     add_curve(points, curve, middle, to, tolerance, depth + 1);

@@ -29,7 +29,7 @@ class BodyPlan {
   [[nodiscard]] const geometry::ToothProfile& profile() const { return profile_; }
   [[nodiscard]] double support_radius() const { return rim_.support_radius; }
   [[nodiscard]] const SectorModelOptions& model() const { return model_; }
-  /// Of the section held at its support circle: near fields are compared on it.
+  /// The section held at its support circle: near fields are compared on it.
   [[nodiscard]] SectorModelOptions near_field_model() const;
   [[nodiscard]] bool floating() const { return model_.held == HeldBoundary::none; }
 

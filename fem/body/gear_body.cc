@@ -195,9 +195,4 @@ GearBody compose_body(CondensedTooth tooth, const GearBodyOptions& options) {
   return std::move(tooth.body);
 }
 
-GearBody make_gear_body(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile, double support_radius,
-                        const Material& material, const GearBodyOptions& options) {
-  return compose_body(condense_tooth(sector_mesh, profile, support_radius, material, options), options);
-}
-
 }  // namespace annulus::fem

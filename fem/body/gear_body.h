@@ -72,7 +72,7 @@ struct CondensedTooth {
   GearBody body;
   CondensedSector sector;
   bool reused = false;  ///< read from the store
-  double seconds = 0;   ///< wall, that condensing it took, now or when it was kept
+  double seconds = 0;   ///< wall, that condensing it took, now or when it was cached
 };
 
 /// Meshed and condensed without regard to where arcs lie, so that one tooth serves all supports (see OutsideLoads).
@@ -82,8 +82,5 @@ struct CondensedTooth {
 
 /// The body of a tooth, `options` being those that it was condensed with.
 [[nodiscard]] GearBody compose_body(CondensedTooth tooth, const GearBodyOptions& options);
-
-[[nodiscard]] GearBody make_gear_body(const geometry::Mesh& sector_mesh, const geometry::ToothProfile& profile,
-                                      double support_radius, const Material& material, const GearBodyOptions& options);
 
 }  // namespace annulus::fem

@@ -42,7 +42,7 @@ std::string plane_reason(const LoadedMeshProblem& problem) {
 
 /// Why the mesh repeats after so many ring positions.
 std::string repeats_text(const LoadedMeshProblem& problem, int positions) {
-  if (!problem.pair.internal()) return "equal teeth on concentric hubs: one mesh cycle tells all";
+  if (!problem.pair.internal()) return "equal teeth on concentric hubs: one mesh cycle suffices";
   if (!on_single_supports(problem.structure))
     return "the support is the same behind every tooth: one mesh cycle suffices";
   const int teeth = problem.pair.wheel().teeth();

@@ -35,7 +35,7 @@ struct MeshChoice {
   int coupling_degree = 2;  ///< of the elements that give the coupling of ring meshes through the ring
   std::string phases{};     ///< why so many positions per mesh cycle
   std::string loads{};      ///< why so many loads
-  /// Of formulas, as far as it is known beforehand: relative, of the stiffness, what accuracy cannot reduce left out.
+  /// Relative error of the stiffness by formulas, as far as it is known beforehand, without plane strain.
   std::optional<double> formula_error{};
 };
 /// `problem` is complete but for its phases and loads, which are set. `why_solid`: solid_reason() of the mesh.

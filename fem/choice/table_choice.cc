@@ -18,7 +18,7 @@ namespace {
 /// The smallest one that linear plane elements reach at their first level.
 constexpr double linear_accuracy = 0.01;
 
-/// Why linear elements would be too stiff, by more than their error estimate tells: they lock where the volume hardly
+/// Why linear elements would be too stiff, by more than their error estimate: they lock where the volume hardly
 /// changes, and where thin parts bend (a rim of two modules on a sleeve four times as long as thick: off by 10.2 %
 /// where they say 9.3 %).
 std::string unfit_for_linear(const LoadedMeshProblem& problem) {
@@ -47,7 +47,7 @@ TableResolution table_resolution(double accuracy, double uptake, double overlap_
   TableResolution choice;
   if (overlap_ratio >= 1 && accuracy >= linear_accuracy) {
     choice.phases = table_phases;
-    choice.phases_reason = "helical teeth that overlap by a pitch pass their load on slowly: 64 positions tell no more";
+    choice.phases_reason = "helical teeth that overlap by a pitch pass their load on slowly: 64 positions add nothing";
   } else if (accuracy >= very_rough_accuracy) {
     choice.phases = table_phases;
     choice.phases_reason = "between 32 positions dynamic factors are missed by 2 %, by 6 % under light loads";
@@ -65,7 +65,7 @@ TableResolution table_resolution(double accuracy, double uptake, double overlap_
   }
   if (accuracy >= rough_accuracy) {
     choice.load_factors = {0.5, 1, 1.5};
-    choice.loads_reason = "three loads tell how the stiffness follows the load; a single one would miss 1 to 2 %";
+    choice.loads_reason = "three loads show how the stiffness follows the load; a single one would miss 1 to 2 %";
   } else {
     choice.load_factors = {std::begin(table_load_factors), std::end(table_load_factors)};
     choice.loads_reason = "five, down to a quarter and up to twice the nominal load: what dynamic loads reach";

@@ -90,9 +90,7 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
   position.load = load;
   position.reciprocity_relative = contacts.asymmetry;
   const auto& first = contacts.pairs.front();
-  const double tooth = wheel_tooth(flanks_, first.index, cycle) * problem_.pair.wheel().pitch_angle();
-  const double angle = flanks_.wheel_tooth_angle(first.roll) - tooth;
-  position.ring_angle = problem_.pair.internal() ? angle : -angle;  // the ring mesh is solved in a mirror image
+  position.ring_angle = pitch_point_angle(flanks_, first.index, first.roll, cycle);
 
   double unloaded = first.gap, moment = 0;
   const auto pairs = static_cast<Eigen::Index>(contacts.pairs.size());
@@ -159,7 +157,7 @@ void ClosedFormRun::add_supports(const Eigen::VectorXd& force, LoadedPosition& p
       state.radial_force += f * supports_[i].inwards;
       state.tangential_force += f * supports_[i].tangential;
     }
-    // A bolt never parts; of a pin the radial direction tells, of a spline tooth either flank.
+    // A bolt never lifts off; of a pin the radial direction decides, of a spline tooth either flank.
     for (const std::size_t i : {2 * q, 2 * q + 1})
       if (supports_[i].unilateral ? force[static_cast<Eigen::Index>(i)] > 0 : supports_[i].inwards == 1)
         state.touching = true;
@@ -167,7 +165,7 @@ void ClosedFormRun::add_supports(const Eigen::VectorXd& force, LoadedPosition& p
   }
 }
 
-/// Of the stiffness at every position, by the bending rim of a ring on its own supports.
+/// Errors of the stiffness at every position by the bending rim of a ring on its own supports.
 std::vector<double> bending_errors(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
                                    const RimModel& rim, int cycles, const std::vector<LoadedPosition>& positions) {
   std::vector<double> errors(positions.size(), 0.0);

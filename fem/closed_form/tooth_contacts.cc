@@ -6,11 +6,12 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "fem/contact/pair_search.h"
 
 namespace annulus::fem {
 namespace {
 
-/// Of flanks, in base pitches: those that overlap less have no place for a contact.
+/// In base pitches: flanks that overlap less have no room for a contact.
 constexpr double shortest_overlap = 1e-9;
 
 /// Root load of a unit force on the trailing flank from that on the leading one.
@@ -47,7 +48,7 @@ Modification modification(const geometry::ToothProfile& profile, double roll) {
   return result;
 }
 
-/// The gap round a pair of opposite points: by how much the normals of two involutes differ tells its slope.
+/// The gap round a pair of opposite points: its slope is the difference of the normals of two involutes.
 FlankGap gap_around(const FlankContact& flanks, double planet_roll, double wheel_roll, double roll,
                     const FlankContact::Interval& domain) {
   const auto &planet = flanks.planet(), &wheel = flanks.wheel();
@@ -71,7 +72,7 @@ double tip_corner(const geometry::ToothProfile& profile) {
 }
 
 /// Adds the pair to the contacts. Behind the path of contact the tip of a planet may pass that of a ring, against which
-/// it is the flatter one: the gap is not convex there, and its distance is all that is kept.
+/// it is the flatter one: the gap is not convex there, and only its distance is used.
 void add_contact(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
                  const Material& material, double width, int index, double roll, ToothContacts& contacts) {
   const auto& pair = flanks.pair();
@@ -91,7 +92,7 @@ void add_contact(const FlankContact& flanks, const ClosedFormBody& planet, const
       wheel_tip_cuts ? -gap.low : std::max(-gap.low, distance_to_tip(flanks.wheel(), match.wheel_roll));
 
   // How the compliance of both teeth grows along the flank, the depths of the contact included; a ring's own motions
-  // turn all its flanks alike and are no part of it.
+  // turn all its flanks equally and are no part of it.
   const double nu = material.poisson_ratio, local = 2 * (1 - nu * nu) / (M_PI * material.youngs_modulus * width);
   const auto compliance = [&](double x) {
     const double at = std::sqrt(2 * flanks.planet().gear().base_radius() * (arc(flanks.planet(), nearest) + x));
@@ -114,20 +115,12 @@ void add_contact(const FlankContact& flanks, const ClosedFormBody& planet, const
 
 ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
                             const Material& material, double width, double phase) {
-  const auto& pair = flanks.pair();
-  const double pitch = pair.planet().base_pitch();
-  // In the ring mesh the planet drives and contact moves from its root to its tip; in the sun mesh the other way round.
-  const double reference = pair.roll_length_pitch() + (pair.internal() ? 1 : -1) * phase * pitch;
-  const int first = static_cast<int>(std::ceil((pair.roll_length_low() - reference) / pitch - 1));
-  const int last = static_cast<int>(std::floor((pair.roll_length_high() - reference) / pitch + 1));
   ToothContacts contacts;
   contacts.phase = phase;
-  for (int k = first; k <= last; ++k) {
-    const double roll = reference + k * pitch;
-    if (roll <= 0) continue;
+  for (const auto& [index, roll] : possible_pairs(flanks, phase)) {
     const auto domain = flanks.domain(roll);
-    if (domain.high - domain.low < shortest_overlap * pitch) continue;
-    add_contact(flanks, planet, wheel, material, width, k, roll, contacts);
+    if (domain.high - domain.low < shortest_overlap * flanks.pair().planet().base_pitch()) continue;
+    add_contact(flanks, planet, wheel, material, width, index, roll, contacts);
   }
   require(!contacts.pairs.empty(), "no tooth pair faces another");
 

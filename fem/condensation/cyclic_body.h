@@ -9,7 +9,7 @@ namespace annulus::fem {
 
 /// Compliance of a body of N equal sectors, every sector and its interface seen in the frame of that sector.
 ///
-/// Everything is carried from sector to sector by the displacements of the cyclic interfaces: the displacement u of a
+/// Everything passes from sector to sector by the displacements of the cyclic interfaces: the displacement u of a
 /// load's work partner in sector s is
 ///
 ///     u = c f_s + l^T v_s + h^T v_(s+1),     v_s = sum_t G_(s-t) q_t

@@ -31,33 +31,28 @@ namespace annulus::fem::lapack {
 namespace {
 int size(Eigen::Index n) { return static_cast<int>(n); }
 int leading(Eigen::Index n) { return n > 0 ? static_cast<int>(n) : 1; }
+
+template <class Matrix, class Potrf>
+bool factorise(Matrix& matrix, const Potrf& potrf) {
+  const int n = size(matrix.rows()), lda = leading(n);
+  int info = 0;
+  potrf("L", &n, matrix.data(), &lda, &info);
+  return info == 0;
+}
+
+template <class Matrix, class Trsm>
+void solve_in_place(const Matrix& factor, Matrix& rhs, const Trsm& trsm) {
+  const int m = size(rhs.rows()), n = size(rhs.cols()), lda = leading(factor.rows()), ldb = leading(m);
+  const typename Matrix::Scalar one = 1;
+  if (m > 0 && n > 0) trsm("L", "L", "N", "N", &m, &n, &one, factor.data(), &lda, rhs.data(), &ldb);
+}
+
 }  // namespace
 
-bool cholesky(Eigen::MatrixXd& matrix) {
-  const int n = size(matrix.rows()), lda = leading(n);
-  int info = 0;
-  dpotrf_("L", &n, matrix.data(), &lda, &info);
-  return info == 0;
-}
-
-bool cholesky(Eigen::MatrixXcd& matrix) {
-  const int n = size(matrix.rows()), lda = leading(n);
-  int info = 0;
-  zpotrf_("L", &n, matrix.data(), &lda, &info);
-  return info == 0;
-}
-
-void solve_lower(const Eigen::MatrixXd& factor, Eigen::MatrixXd& rhs) {
-  const int m = size(rhs.rows()), n = size(rhs.cols()), lda = leading(factor.rows()), ldb = leading(m);
-  const double one = 1;
-  if (m > 0 && n > 0) dtrsm_("L", "L", "N", "N", &m, &n, &one, factor.data(), &lda, rhs.data(), &ldb);
-}
-
-void solve_lower(const Eigen::MatrixXcd& factor, Eigen::MatrixXcd& rhs) {
-  const int m = size(rhs.rows()), n = size(rhs.cols()), lda = leading(factor.rows()), ldb = leading(m);
-  const std::complex<double> one = 1;
-  if (m > 0 && n > 0) ztrsm_("L", "L", "N", "N", &m, &n, &one, factor.data(), &lda, rhs.data(), &ldb);
-}
+bool cholesky(Eigen::MatrixXd& matrix) { return factorise(matrix, dpotrf_); }
+bool cholesky(Eigen::MatrixXcd& matrix) { return factorise(matrix, zpotrf_); }
+void solve_lower(const Eigen::MatrixXd& factor, Eigen::MatrixXd& rhs) { solve_in_place(factor, rhs, dtrsm_); }
+void solve_lower(const Eigen::MatrixXcd& factor, Eigen::MatrixXcd& rhs) { solve_in_place(factor, rhs, ztrsm_); }
 
 void invert_from_cholesky(Eigen::MatrixXcd& factor) {
   const int n = size(factor.rows()), lda = leading(n);

@@ -22,7 +22,7 @@ class ContactBody {
 
   /// The load that stands for an element on the mesh of a tooth.
   [[nodiscard]] virtual FlankLoad make_load(int tooth, double arc, double half_length) const = 0;
-  /// Length of the shortest element that the compliance tells from its neighbours at a place of a tooth's flank, m.
+  /// Length of the shortest element that the compliance distinguishes from its neighbours there on a flank, m.
   [[nodiscard]] virtual double shortest_element(int tooth, double arc) const = 0;
   /// Fills the weights of a patch whose loads are given.
   void find_weights(FlankPatch& patch, int tooth) const;

@@ -15,8 +15,8 @@ struct ToothForces {
 struct ContactForces {
   std::vector<ToothForces> planet, wheel;
   Eigen::VectorXd supports;  ///< of the support row; empty without
-  /// Of a floating ring, beyond its elastic displacement: x, y (m), rotation about z (rad); of a whole solid one also
-  /// about x and y. Empty without supports.
+  /// Motion of a floating ring beyond its elastic displacement: x, y (m), rotation about z (rad); of a whole solid one
+  /// also about x and y. Empty without supports.
   Eigen::VectorXd rigid;
 };
 

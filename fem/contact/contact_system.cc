@@ -181,12 +181,7 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
     position.mesh_phase = phase;
     position.ring_tooth = cycle;
     position.reciprocity_relative = setup.asymmetry;
-    const auto& reference = setup.pairs.front();
-    // Angle of the pitch point in the wheel's own frame; the ring mesh is solved in a mirror image of the real one.
-    const double tooth =
-        wheel_tooth(face_.flanks(), reference.index, cycle) * face_.flanks().pair().wheel().pitch_angle();
-    const double angle = face_.flanks().wheel_tooth_angle(reference.roll) - tooth;
-    position.ring_angle = face_.flanks().pair().internal() ? angle : -angle;
+    position.ring_angle = pitch_point_angle(face_.flanks(), setup.pairs.front().index, setup.pairs.front().roll, cycle);
     if (half_face_) unfold(position, 2 * face_.slice_edges().back());
     return position;
   }

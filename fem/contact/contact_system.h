@@ -29,14 +29,14 @@ struct ContactOptions : PressureElementOptions {
 /// All tooth pairs (and supports) of one gear mesh as one complementarity problem per position.
 class ContactSystem {
  public:
-  /// References are kept; `supports` may be null. `slice_edges` as for the bodies.
+  /// Everything is referred to; `supports` may be null. `slice_edges` as for the bodies.
   ContactSystem(const FlankContact& flanks, const ContactBody& planet, const ContactBody& wheel,
                 const SupportRow* supports, const Material& material, std::vector<double> slice_edges,
                 const ContactOptions& options);
   ContactSystem(const ContactSystem&) = delete;
   ContactSystem& operator=(const ContactSystem&) = delete;
 
-  /// What carried at the neighbouring position, to start from: elements by pair, and supports (empty: not known).
+  /// The contacts at the neighbouring position, to start from: elements by pair, and supports (empty: not known).
   struct WarmStart {
     std::map<int, std::vector<bool>> pairs;
     std::vector<bool> supports;

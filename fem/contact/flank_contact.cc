@@ -188,4 +188,10 @@ int wheel_tooth(const FlankContact& flanks, int index, int cycle) {
   return flanks.pair().internal() ? index - cycle : -(index + cycle);
 }
 
+double pitch_point_angle(const FlankContact& flanks, int index, double roll, int cycle) {
+  const double tooth = wheel_tooth(flanks, index, cycle) * flanks.pair().wheel().pitch_angle();
+  const double angle = flanks.wheel_tooth_angle(roll) - tooth;
+  return flanks.pair().internal() ? angle : -angle;  // the ring mesh is solved in a mirror image of the real one
+}
+
 }  // namespace annulus::fem

@@ -23,7 +23,7 @@ class FlankContact {
     double wheel_roll = 0;  ///< roll length of the wheel point on the planet's normal, m
     double gap = 0;         ///< distance along the planet's normal, modifications included, m; < 0: overlap
   };
-  /// The wheel point opposite to planet roll `planet_roll`; `contact_roll` tells the position. Throws SolverError when
+  /// The wheel point opposite to planet roll `planet_roll`; `contact_roll` is the position. Throws SolverError when
   /// the planet's normal misses the wheel's involute.
   [[nodiscard]] Match match(double planet_roll, double contact_roll) const;
 
@@ -64,5 +64,8 @@ class FlankContact {
 
 /// Number of the wheel's tooth in pair `index` during mesh cycle `cycle`.
 [[nodiscard]] int wheel_tooth(const FlankContact& flanks, int index, int cycle);
+/// Angle of the pitch point in the real wheel's own frame, rad, when pair `index` has its theoretical contact at the
+/// planet roll length `roll`.
+[[nodiscard]] double pitch_point_angle(const FlankContact& flanks, int index, double roll, int cycle);
 
 }  // namespace annulus::fem

@@ -27,7 +27,7 @@ class ContactTolerances {
   double gap_, force_, motion_ = 0;
 };
 
-/// Of those that are active, rising.
+/// Numbers of those that are active, rising.
 [[nodiscard]] std::vector<int> indices_of(const std::vector<bool>& active);
 
 /// The active set of a solution by the primal method for convex quadratic programmes (Nocedal and Wright 2006,

@@ -61,7 +61,7 @@ Eigen::MatrixXd SupportPlan::own_compliance() const {
     };
     compliance(i, i) += width / (edges[force.slice + 1] - edges[force.slice]) / own.stiffness;
     // The pin stays straight between its ends: a force at z divides between them by the lever rule. A force and its
-    // mirror image load both ends alike, wherever they act.
+    // mirror image load both ends equally, wherever they act.
     const Eigen::Index first = i - force.slice;
     for (Eigen::Index j = first; j < first + static_cast<Eigen::Index>(edges.size()) - 1; ++j) {
       const double a = middle(force.slice), b = middle(j - first);
@@ -182,7 +182,7 @@ void SupportRow::fill_states(const Eigen::VectorXd& forces, LoadedPosition& posi
     // change their sign twice.
     state.radial_force += forces[i] * direction.inward;
     state.tangential_force += forces[i] * direction.counter_clockwise;
-    // A bolt never parts; of a pin the radial direction tells.
+    // A bolt never lifts off; of a pin the radial direction decides.
     if (unilateral_[i] ? forces[i] > 0 : direction.inward == 1) state.touching = true;
   }
   position.pins.assign(states.begin(), states.begin() + sites.pins);

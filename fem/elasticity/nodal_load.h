@@ -19,7 +19,7 @@ using NodalLoad = std::vector<NodalForce>;
 /// the cross-section, and of a solid also along the axis and the shear between both.
 ///
 /// Without traction on the surface its tangent plane is in plane stress, so that displacements of the surface alone
-/// tell: sigma_t = E / (1 - nu^2) (eps_t + nu eps_z), likewise sigma_z; tau = G gamma_tz. In the plane eps_z = 0.
+/// give it: sigma_t = E / (1 - nu^2) (eps_t + nu eps_z), likewise sigma_z; tau = G gamma_tz. In the plane eps_z = 0.
 struct SurfaceStress {
   int node = 0;
   NodalLoad tangential, axial, shear;

@@ -74,7 +74,7 @@ struct SectorModelOptions {
   /// The upper end of a solid is a plane of symmetry: its nodes stay in it. The sector is then half of a body.
   bool symmetric_end = false;
   geometry::Boundary flank = geometry::Boundary::leading_flank;
-  /// Of a ring whose hoop or flange goes beyond it, m (see geometry::ExtrudeOptions).
+  /// Outside radius of a ring whose hoop or flange goes beyond it, m (see geometry::ExtrudeOptions).
   double outside_radius = std::numeric_limits<double>::quiet_NaN();
   std::set<SectorOutput> outputs{};
 };

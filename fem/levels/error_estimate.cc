@@ -19,7 +19,7 @@ namespace {
 /// The error of the finer of two levels over their difference.
 double left_over(int degree, double difference, std::optional<double> before) {
   const double most = most_left_over(degree);
-  // Two differences tell: the next ones are taken to shrink as these did, and no faster than with the cube.
+  // With two differences the next ones are taken to shrink as these did, and no faster than with the cube.
   if (degree == 1 || !before) return most;
   const double least = 1 / (std::pow(level_ratio, 3) - 1);
   const double ratio = difference / *before;

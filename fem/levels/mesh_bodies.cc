@@ -12,7 +12,7 @@
 namespace annulus::fem {
 namespace {
 
-/// What is to be condensed: kept as data so that meshing (gmsh, serial) and condensing (parallel) can be apart.
+/// A body to be condensed, as data, so that meshing (gmsh, serial) and condensing (parallel) can be apart.
 struct Task {
   geometry::Mesh mesh;
   const geometry::ToothProfile* profile;

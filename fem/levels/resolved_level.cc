@@ -48,7 +48,7 @@ PatchResolution patch_resolution(const geometry::Gear& gear, bool solid, int lev
 /// Where a flank is to be resolved.
 struct PlaceOfContact {
   double arc = 0;               ///< m, along the flank
-  double half_width = 0;        ///< m, if this contact carried the whole load
+  double half_width = 0;        ///< m, if this contact took the whole load
   std::vector<double> edges{};  ///< m, likewise, of tip edges within reach
   double gap = 0;               ///< m, smallest before loading
   double roll = 0;              ///< m, theoretical contact on the planet

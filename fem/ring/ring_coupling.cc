@@ -65,7 +65,7 @@ Eigen::MatrixXd unilateral_coupling(const RingOnSupports& ring, const Eigen::Mat
   return coupling;
 }
 
-/// Of the real ring, whose teeth count the other way round than those of the solve.
+/// Compliance of the real ring, whose teeth count the other way round than those of the solve.
 Eigen::MatrixXd teeth_compliance(const RingFlexibility& ring, const RingOnSupports* supported) {
   const int teeth = ring.teeth;
   Eigen::MatrixXd solved(teeth, teeth), result(teeth, teeth);

@@ -45,7 +45,7 @@ struct SolvedRingCoupling {
   // Estimated: of the discretisation, and the bounds of plane strain.
   double teeth_compliance_error = 0;    ///< m/N, largest of all entries
   double compliance_error = 0;          ///< m/N, largest of all entries
-  double frequency_error_relative = 0;  ///< largest of the modes kept
+  double frequency_error_relative = 0;  ///< largest of the modes of the result
   long unknowns = 0;                    ///< DOFs of the sector
   int condensed_teeth = 0, reused_teeth = 0;
 };
@@ -53,7 +53,7 @@ struct SolvedRingCoupling {
 /// Compliance between the ring meshes of the planets, and the modes of the ring. `teeth_ahead` are the ring teeth by
 /// which each planet stands ahead of the first (PlanetarySet::ring_teeth_ahead): 0 and rising.
 ///
-/// Of the problem pair, material, face width, outside radius and structure count.
+/// Of the problem, only pair, material, face width, outside radius and structure are used.
 ///
 /// A mesh force between two whole positions lies on the four
 /// teeth around it with the weights of cubic interpolation: the far field of teeth that share it.

@@ -120,7 +120,7 @@ std::vector<RingMode> supported_ring_modes(const RingFlexibility& ring, const Ri
                                            const ModeLimits& limits) {
   const Eigen::MatrixXd all = supports.held_compliance();
   const Eigen::Index teeth = ring.teeth, size = all.rows() - teeth;
-  constexpr int spare = 4;  // enough to see whether the last mode kept is one of a pair
+  constexpr int spare = 4;  // enough to see whether the last mode is one of a pair
   const auto wanted = static_cast<int>(std::min<Eigen::Index>(size, limits.count + spare));
   const auto [values, vectors] = lapack::largest_eigenpairs(all.bottomRightCorner(size, size), wanted);
   const Eigen::MatrixXd mesh = lapack::product(all.topRightCorner(teeth, size), vectors);

@@ -16,7 +16,7 @@ class RingOnSupports {
 
   struct State {
     Eigen::VectorXd displacement;  ///< m, of the work partners of the given loads
-    Eigen::MatrixXd tangent;       ///< its derivative by the forces, the touching supports kept, m/N; symmetric
+    Eigen::MatrixXd tangent;       ///< its derivative by the forces, the same supports touching, m/N; symmetric
     std::vector<bool> touching;    ///< per support force
     Eigen::VectorXd support;       ///< N, support forces
   };

@@ -256,7 +256,7 @@ BOOST_AUTO_TEST_CASE(structures_their_fidelity_and_why) {
   BOOST_TEST(text.find("Ring 'one-pin' has a single pin") != std::string::npos);
   BOOST_TEST(text.find("radial play of 30 µm (housing_clearance_um)") != std::string::npos);
   BOOST_TEST(text.find("ring.pin_free_span_mm") != std::string::npos);
-  BOOST_TEST(text.find("162 teeth on 24 supports at given places: the ring repeats after 54 teeth") !=
+  BOOST_TEST(text.find("162 teeth on 24 supports at given angles: the ring repeats after 54 teeth") !=
              std::string::npos);
 
   const auto structure = [&](const std::string& ring) { return mesh(ring).problem->structure; };

@@ -64,7 +64,8 @@ Case plane_case(GearKind kind, int teeth) {
 }
 
 GearBody condensed(const Case& c) {
-  return make_gear_body(c.sector, ToothProfile(c.gear), c.support_radius, Material{}, c.options);
+  return compose_body(condense_tooth(c.sector, ToothProfile(c.gear), c.support_radius, Material{}, c.options),
+                      c.options);
 }
 
 DiscretisedBody monolithic(const Case& c) {

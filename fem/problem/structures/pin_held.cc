@@ -24,7 +24,7 @@ RingDescription PinHeld::describe(double outside_radius) const {
   else if (count > 0 && maps_onto_itself(angles, 2 * M_PI / count))
     words.repetition = std::to_string(count) + " equal supports";
   else
-    words.repetition = std::to_string(count) + " supports at given places";
+    words.repetition = std::to_string(count) + " supports at given angles";
   words.map_caption = unilateral
                           ? "coloured by the force with which the rim presses on it, grey while the rim has lifted off"
                           : "orange while the rim presses outwards on it, blue while the rim pulls";
