@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/errors.h"
-#include "fem/contact/pressure_elements.h"
 
 namespace annulus::fem {
 

@@ -1,21 +1,13 @@
 #pragma once
 
 #include "fem/contact/complementarity.h"
-#include "fem/contact/contact_body.h"
-#include "fem/contact/contact_face.h"
 #include "fem/contact/contact_forces.h"
+#include "fem/contact/pressure_elements.h"
 #include "fem/contact/support_row.h"
 #include "fem/contact/tooth_pairs.h"
 #include "fem/problem/loaded_mesh_result.h"
 
 namespace annulus::fem {
-
-/// What a solved contact is evaluated on; `supports` may be null.
-struct ContactBodies {
-  const ContactFace& face;
-  const ContactBody &planet, &wheel;
-  const SupportRow* supports = nullptr;
-};
 
 /// Stiffness, shares, pressures, balances and supports of a solved position. Throws SolverError when the loaded
 /// transmission error does not exceed the unloaded one.

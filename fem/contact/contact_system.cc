@@ -17,15 +17,11 @@ ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& plan
                              const SupportRow* supports, const Material& material, std::vector<double> slice_edges,
                              const ContactOptions& options)
     : face_(flanks, std::move(slice_edges), options.misalignment),
-      planet_(planet),
-      wheel_(wheel),
-      supports_(supports),
+      bodies_{face_, planet, wheel, supports},
       material_(material),
       window_(options.window),
       half_face_(options.half_face),
-      elements_(face_, planet, wheel, material_, options) {}
-
-ContactBodies ContactSystem::bodies() const { return {face_, planet_, wheel_, supports_}; }
+      elements_(bodies_, material_, options) {}
 
 ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, double window, double reach) const {
   auto result = std::make_shared<ToothPairs>();
@@ -33,7 +29,7 @@ ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, doub
   result->load = load;
   result->window = window;
   result->reach = reach;
-  PairSearch(face_, planet_, wheel_, elements_).find(*result);
+  find_pairs(bodies_, elements_, *result);
   const auto& pairs = result->pairs;
   auto& start = result->start;
   for (const auto& p : pairs) {
@@ -51,25 +47,28 @@ ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, doub
       const int other = wheel_tooth(face_.flanks(), o.index, 0);
       // Both directions are formed on their own: what they differ by measures reciprocity (Betti). Of a pair with
       // itself they are the same.
-      const Eigen::MatrixXd block =
-          planet_.compliance(p.planet, p.index, o.planet, o.index) + wheel_.compliance(p.wheel, tooth, o.wheel, other);
+      const Eigen::MatrixXd block = bodies_.planet.compliance(p.planet, p.index, o.planet, o.index) +
+                                    bodies_.wheel.compliance(p.wheel, tooth, o.wheel, other);
       const Eigen::MatrixXd opposite = i == j ? block
-                                              : planet_.compliance(o.planet, o.index, p.planet, p.index) +
-                                                    wheel_.compliance(o.wheel, other, p.wheel, tooth);
+                                              : bodies_.planet.compliance(o.planet, o.index, p.planet, p.index) +
+                                                    bodies_.wheel.compliance(o.wheel, other, p.wheel, tooth);
       result->asymmetry = std::max(result->asymmetry,
                                    (block - opposite.transpose()).cwiseAbs().maxCoeff() / block.cwiseAbs().maxCoeff());
       const Eigen::MatrixXd mean = (block + opposite.transpose()) / 2;
       compliance.block(start[i], start[j], size, block.cols()) = mean;
       compliance.block(start[j], start[i], block.cols(), size) = mean.transpose();
     }
-    compliance.block(start[i], start[i], size, size) += planet_.near_field(p.planet) + wheel_.near_field(p.wheel);
+    compliance.block(start[i], start[i], size, size) +=
+        bodies_.planet.near_field(p.planet) + bodies_.wheel.near_field(p.wheel);
   }
   return result;
 }
 
 ComplementarityProblem ContactSystem::assemble(const ToothPairs& setup, int cycle) const {
-  const Eigen::Index contacts = setup.contacts, support_forces = supports_ != nullptr ? supports_->size() : 0;
-  const Eigen::Index n = contacts + support_forces, motions = supports_ != nullptr ? supports_->rigid_motions() : 0;
+  const Eigen::Index contacts = setup.contacts,
+                     support_forces = bodies_.supports != nullptr ? bodies_.supports->size() : 0;
+  const Eigen::Index n = contacts + support_forces,
+                     motions = bodies_.supports != nullptr ? bodies_.supports->rigid_motions() : 0;
   ComplementarityProblem problem;
   problem.compliance = Eigen::MatrixXd::Zero(n, n);
   problem.compliance.topLeftCorner(contacts, contacts) = setup.compliance;
@@ -82,27 +81,28 @@ ComplementarityProblem ContactSystem::assemble(const ToothPairs& setup, int cycl
   for (std::size_t i = 0; i < setup.pairs.size(); ++i)
     for (Eigen::Index e = 0; e < setup.pairs[i].size(); ++e)
       problem.gap[setup.start[i] + e] = setup.pairs[i].elements[e].gap;
-  if (supports_ == nullptr) return problem;
+  if (bodies_.supports == nullptr) return problem;
 
-  problem.compliance.bottomRightCorner(support_forces, support_forces) = supports_->compliance();
+  problem.compliance.bottomRightCorner(support_forces, support_forces) = bodies_.supports->compliance();
   for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
     const auto& p = setup.pairs[i];
     const int tooth = wheel_tooth(face_.flanks(), p.index, cycle);
-    const Eigen::MatrixXd coupling = supports_->at_ports(tooth, wheel_.port_weights(p.wheel));
+    const Eigen::MatrixXd coupling = bodies_.supports->at_ports(tooth, bodies_.wheel.port_weights(p.wheel));
     problem.compliance.block(setup.start[i], contacts, coupling.rows(), support_forces) = coupling;
     problem.compliance.block(contacts, setup.start[i], support_forces, coupling.rows()) = coupling.transpose();
     problem.rigid.block(setup.start[i], 1, coupling.rows(), motions) = -wheel_resultants(p, tooth).leftCols(motions);
   }
-  problem.rigid.block(contacts, 1, support_forces, motions) = -supports_->resultants();
+  problem.rigid.block(contacts, 1, support_forces, motions) = -bodies_.supports->resultants();
   // Makes rotations displacements.
   problem.rigid.rightCols(motions - 2) /= face_.flanks().pair().wheel().reference_radius();
-  problem.gap.tail(support_forces) = supports_->gap();
-  std::copy(supports_->unilateral().begin(), supports_->unilateral().end(), problem.unilateral.begin() + contacts);
+  problem.gap.tail(support_forces) = bodies_.supports->gap();
+  std::copy(bodies_.supports->unilateral().begin(), bodies_.supports->unilateral().end(),
+            problem.unilateral.begin() + contacts);
   return problem;
 }
 
 Eigen::MatrixXd ContactSystem::wheel_resultants(const ToothPair& pair, int tooth) const {
-  const Eigen::MatrixXd plane = wheel_.resultants(pair.wheel, tooth);
+  const Eigen::MatrixXd plane = bodies_.wheel.resultants(pair.wheel, tooth);
   Eigen::MatrixXd all(plane.rows(), 5);
   all.leftCols(3) = plane;
   for (Eigen::Index i = 0; i < plane.rows(); ++i) {
@@ -176,8 +176,8 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
       cache = prepare(phase, load, setup.window, 1.5 * given_way);
       continue;
     }
-    LoadedPosition position = evaluate(bodies(), setup, problem, solution);
-    if (forces != nullptr) *forces = port_forces(bodies(), setup, cycle, solution);
+    LoadedPosition position = evaluate(bodies_, setup, problem, solution);
+    if (forces != nullptr) *forces = port_forces(bodies_, setup, cycle, solution);
     position.mesh_phase = phase;
     position.ring_tooth = cycle;
     position.reciprocity_relative = setup.asymmetry;

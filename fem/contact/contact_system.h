@@ -54,12 +54,9 @@ class ContactSystem {
   [[nodiscard]] ComplementarityProblem assemble(const ToothPairs& setup, int cycle) const;
   /// Resultants on the wheel (x, y, moments about z, x, y) of unit (element, slice) forces of a pair.
   [[nodiscard]] Eigen::MatrixXd wheel_resultants(const ToothPair& pair, int tooth) const;
-  [[nodiscard]] ContactBodies bodies() const;
 
   ContactFace face_;
-  const ContactBody& planet_;
-  const ContactBody& wheel_;
-  const SupportRow* supports_;
+  ContactBodies bodies_;
   Material material_;
   double window_;
   bool half_face_;

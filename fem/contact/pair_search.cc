@@ -31,6 +31,65 @@ std::vector<std::pair<int, double>> candidate_pairs(const FlankContact& flanks, 
   return pairs;
 }
 
+/// m, how far a theoretical contact stands before (negative) or behind the path of contact.
+double beyond_path(const geometry::GearPair& pair, double roll) {
+  return roll < pair.roll_length_low() ? roll - pair.roll_length_low() : std::max(0.0, roll - pair.roll_length_high());
+}
+
+/// Wherever flanks may face each other at a phase; domains and gaps are not looked for.
+std::vector<FacingFlanks> facing_flanks(const ContactFace& face, int slices, double phase) {
+  std::vector<FacingFlanks> result;
+  for (const auto& [index, roll] : candidate_pairs(face.flanks(), phase)) {
+    FacingFlanks facing;
+    facing.pair = index;
+    facing.pair_roll = facing.roll = roll;
+    // The section of a helical gear turns along the face width, and the contact moves with it.
+    if (!face.helical()) {
+      facing.slices.resize(slices);
+      std::iota(facing.slices.begin(), facing.slices.end(), 0);
+      result.push_back(std::move(facing));
+    } else {
+      for (int s = 0; s < slices; ++s) {
+        facing.roll = roll + face.slice_roll(s);
+        facing.slices = {s};
+        result.push_back(facing);
+      }
+    }
+  }
+  return result;
+}
+
+/// Domains and gaps of `all` as far as load may close them; returns the least gap without load, as transmission error,
+/// m.
+double find_gaps(const ContactFace& face, std::vector<FacingFlanks>& all, ToothPairs& setup) {
+  const auto& pair = face.flanks().pair();
+  std::vector<std::size_t> outwards(all.size());
+  std::iota(outwards.begin(), outwards.end(), std::size_t{0});
+  std::stable_sort(outwards.begin(), outwards.end(), [&](std::size_t a, std::size_t b) {
+    return std::abs(beyond_path(pair, all[a].roll)) < std::abs(beyond_path(pair, all[b].roll));
+  });
+  const double least_lead_gap = face.smallest_lead_gap();
+  double least = std::numeric_limits<double>::infinity();
+  bool apart_before = false, apart_behind = false;
+  for (const std::size_t i : outwards) {
+    auto& f = all[i];
+    // Beyond either end of the path flanks get further apart all the way.
+    const double beyond = beyond_path(pair, f.roll);
+    if (beyond < 0 ? apart_before : beyond > 0 && apart_behind) continue;
+    f.domain = face.flanks().domain(f.roll);
+    if (f.domain.empty()) continue;
+    f.centre_roll = face.flanks().nearest_roll(f.roll, f.domain);
+    f.gap = face.normal_factor() * face.flanks().match(f.centre_roll, f.roll).gap;
+    for (const int s : f.slices) least = std::min(least, gap_without_load(face, f, s));
+    const double further = (f.gap + least_lead_gap) / face.normal_factor() - least;
+    if (beyond == 0 || further <= setup.reach) continue;
+    (beyond < 0 ? apart_before : apart_behind) = true;
+    setup.nearest_left_out = std::min(setup.nearest_left_out, further);
+  }
+  require(std::isfinite(least), "no tooth pair faces another");
+  return least;
+}
+
 }  // namespace
 
 std::vector<std::pair<int, double>> possible_pairs(const FlankContact& flanks, double phase) {
@@ -41,69 +100,14 @@ std::vector<std::pair<int, double>> possible_pairs(const FlankContact& flanks, d
   return pairs;
 }
 
-double PairSearch::beyond_path(double roll) const {
-  const auto& pair = face_.flanks().pair();
-  return roll < pair.roll_length_low() ? roll - pair.roll_length_low() : std::max(0.0, roll - pair.roll_length_high());
-}
-
-std::vector<FacingFlanks> PairSearch::facing(double phase) const {
-  std::vector<FacingFlanks> result;
-  for (const auto& [index, roll] : candidate_pairs(face_.flanks(), phase)) {
-    FacingFlanks facing;
-    facing.pair = index;
-    facing.pair_roll = facing.roll = roll;
-    // The section of a helical gear turns along the face width, and the contact moves with it.
-    if (!face_.helical()) {
-      facing.slices.resize(planet_.slices());
-      std::iota(facing.slices.begin(), facing.slices.end(), 0);
-      result.push_back(std::move(facing));
-    } else {
-      for (int s = 0; s < planet_.slices(); ++s) {
-        facing.roll = roll + face_.slice_roll(s);
-        facing.slices = {s};
-        result.push_back(facing);
-      }
-    }
-  }
-  return result;
-}
-
-double PairSearch::find_gaps(std::vector<FacingFlanks>& all, ToothPairs& setup) const {
-  std::vector<std::size_t> outwards(all.size());
-  std::iota(outwards.begin(), outwards.end(), std::size_t{0});
-  std::stable_sort(outwards.begin(), outwards.end(), [&](std::size_t a, std::size_t b) {
-    return std::abs(beyond_path(all[a].roll)) < std::abs(beyond_path(all[b].roll));
-  });
-  const double least_lead_gap = face_.smallest_lead_gap();
-  double least = std::numeric_limits<double>::infinity();
-  bool apart_before = false, apart_behind = false;
-  for (const std::size_t i : outwards) {
-    auto& f = all[i];
-    // Beyond either end of the path flanks get further apart all the way.
-    const double beyond = beyond_path(f.roll);
-    if (beyond < 0 ? apart_before : beyond > 0 && apart_behind) continue;
-    f.domain = face_.flanks().domain(f.roll);
-    if (f.domain.empty()) continue;
-    f.centre_roll = face_.flanks().nearest_roll(f.roll, f.domain);
-    f.gap = face_.normal_factor() * face_.flanks().match(f.centre_roll, f.roll).gap;
-    for (const int s : f.slices) least = std::min(least, gap_without_load(face_, f, s));
-    const double further = (f.gap + least_lead_gap) / face_.normal_factor() - least;
-    if (beyond == 0 || further <= setup.reach) continue;
-    (beyond < 0 ? apart_before : apart_behind) = true;
-    setup.nearest_left_out = std::min(setup.nearest_left_out, further);
-  }
-  require(std::isfinite(least), "no tooth pair faces another");
-  return least;
-}
-
-void PairSearch::find(ToothPairs& setup) const {
-  auto all = facing(setup.phase);
-  const double least = find_gaps(all, setup);
+void find_pairs(const ContactBodies& bodies, const PressureElements& elements, ToothPairs& setup) {
+  auto all = facing_flanks(bodies.face, bodies.planet.slices(), setup.phase);
+  const double least = find_gaps(bodies.face, all, setup);
   for (auto& f : all) {
     if (f.domain.empty()) continue;
     std::vector<int> near;
     for (const int s : f.slices) {
-      const double further = gap_without_load(face_, f, s) - least;
+      const double further = gap_without_load(bodies.face, f, s) - least;
       if (further <= setup.reach)
         near.push_back(s);
       else
@@ -116,13 +120,13 @@ void PairSearch::find(ToothPairs& setup) const {
       setup.pairs.back().index = f.pair;
       setup.pairs.back().roll = f.pair_roll;
     }
-    elements_.add(setup.pairs.back(), f, setup.load, setup.window);
+    elements.add(setup.pairs.back(), f, setup.load, setup.window);
   }
   const auto empty = [](const ToothPair& p) { return p.elements.empty(); };
   setup.pairs.erase(std::remove_if(setup.pairs.begin(), setup.pairs.end(), empty), setup.pairs.end());
   for (auto& p : setup.pairs) {
-    planet_.find_weights(p.planet, p.index);
-    wheel_.find_weights(p.wheel, wheel_tooth(face_.flanks(), p.index, 0));
+    bodies.planet.find_weights(p.planet, p.index);
+    bodies.wheel.find_weights(p.wheel, wheel_tooth(bodies.face.flanks(), p.index, 0));
   }
 }
 

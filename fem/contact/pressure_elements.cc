@@ -9,13 +9,13 @@
 namespace annulus::fem {
 
 double PressureElements::shortest(const ToothPair& pair, double arc) const {
-  const auto& flanks = face_.flanks();
-  const double planet = planet_.shortest_element(pair.index, arc);
+  const auto& flanks = bodies_.face.flanks();
+  const double planet = bodies_.planet.shortest_element(pair.index, arc);
   if (planet == 0) return 0;
   const double roll = std::sqrt(2 * flanks.pair().planet().base_radius() * std::max(arc, 0.0));
   const double opposite = flanks.match(roll, pair.roll).wheel_roll;
   const double wheel_arc = opposite * opposite / (2 * flanks.pair().wheel().base_radius());
-  return std::max(planet, wheel_.shortest_element(wheel_tooth(flanks, pair.index, 0), wheel_arc));
+  return std::max(planet, bodies_.wheel.shortest_element(wheel_tooth(flanks, pair.index, 0), wheel_arc));
 }
 
 std::vector<double> PressureElements::edges(const ToothPair& pair, double centre, double direction, double half,
@@ -44,12 +44,12 @@ std::vector<double> PressureElements::edges(const ToothPair& pair, double centre
 }
 
 void PressureElements::add(ToothPair& pair, const FacingFlanks& facing, double load, double window) const {
-  const auto& flanks = face_.flanks();
-  const auto& z = face_.slice_edges();
+  const auto& flanks = bodies_.face.flanks();
+  const auto& z = bodies_.face.slice_edges();
   const auto& domain = facing.domain;
   const double roll = facing.roll, centre_roll = facing.centre_roll;
   const double base = flanks.pair().planet().base_radius(), wheel_base = flanks.pair().wheel().base_radius();
-  const double half_width = hertz_half_width(flanks, roll, load / face_.width(), material_);
+  const double half_width = hertz_half_width(flanks, roll, load / bodies_.face.width(), material_);
   const auto arc_of = [&](double planet_roll) { return planet_roll * planet_roll / (2 * base); };
   const auto roll_of = [&](double arc) {
     return std::clamp(std::sqrt(2 * base * std::max(arc, 0.0)), domain.low, domain.high);
@@ -98,19 +98,20 @@ void PressureElements::add(ToothPair& pair, const FacingFlanks& facing, double l
         wheel_arc += weight * arc;
         if (q + 1 == Rule::abscissa().size()) (side < 0 ? wheel_low : wheel_high) = arc;
       }
-    pair.planet.loads.push_back(planet_.make_load(pair.index, (low + high) / 2, (high - low) / 2));
-    pair.wheel.loads.push_back(wheel_.make_load(wheel_tooth(flanks, pair.index, 0), wheel_arc,
-                                                std::abs(wheel_high - wheel_low) / 2 / Rule::abscissa().back()));
+    pair.planet.loads.push_back(bodies_.planet.make_load(pair.index, (low + high) / 2, (high - low) / 2));
+    pair.wheel.loads.push_back(bodies_.wheel.make_load(wheel_tooth(flanks, pair.index, 0), wheel_arc,
+                                                       std::abs(wheel_high - wheel_low) / 2 / Rule::abscissa().back()));
     for (const int s : facing.slices) {
-      element.gap = face_.normal_factor() * gap + face_.lead_gap(s);
-      element.area = (high - low) * (z[s + 1] - z[s]) / face_.normal_factor();
+      element.gap = bodies_.face.normal_factor() * gap + bodies_.face.lead_gap(s);
+      element.area = (high - low) * (z[s + 1] - z[s]) / bodies_.face.normal_factor();
       pair.elements.push_back(element);
       const FlankPatch::Element of_patch{first_load + static_cast<int>(e), s};
       pair.planet.elements.push_back(of_patch);
       pair.wheel.elements.push_back(of_patch);
     }
   }
-  for (const int s : facing.slices) pair.smallest_gap = std::min(pair.smallest_gap, gap_without_load(face_, facing, s));
+  for (const int s : facing.slices)
+    pair.smallest_gap = std::min(pair.smallest_gap, gap_without_load(bodies_.face, facing, s));
 }
 
 double gap_without_load(const ContactFace& face, const FacingFlanks& facing, int slice) {

@@ -9,6 +9,15 @@
 
 namespace annulus::fem {
 
+class SupportRow;
+
+/// Both bodies in contact over a face; `supports` may be null. Everything is referred to.
+struct ContactBodies {
+  const ContactFace& face;
+  const ContactBody &planet, &wheel;
+  const SupportRow* supports = nullptr;
+};
+
 struct PressureElementOptions {
   /// Pressure elements to either side of the centre of a pair, over a half-window of `window`: independent of the mesh,
   /// fine at the centre, so that a pair that carries little has its share of them too. Bodies whose mesh alone carries
@@ -21,9 +30,8 @@ struct PressureElementOptions {
 /// Divides the contact windows of tooth pairs into pressure elements. Everything is referred to.
 class PressureElements {
  public:
-  PressureElements(const ContactFace& face, const ContactBody& planet, const ContactBody& wheel,
-                   const Material& material, const PressureElementOptions& options)
-      : face_(face), planet_(planet), wheel_(wheel), material_(material), options_(options) {}
+  PressureElements(const ContactBodies& bodies, const Material& material, const PressureElementOptions& options)
+      : bodies_(bodies), material_(material), options_(options) {}
 
   /// Elements of `pair` where flanks face each other; `load` (N) of the whole mesh, `window` in Hertz half-widths of
   /// it.
@@ -37,8 +45,7 @@ class PressureElements {
   /// Length of the shortest element both flanks carry at a planet arc length, m.
   [[nodiscard]] double shortest(const ToothPair& pair, double arc) const;
 
-  const ContactFace& face_;
-  const ContactBody &planet_, &wheel_;
+  ContactBodies bodies_;
   const Material& material_;
   PressureElementOptions options_;
 };

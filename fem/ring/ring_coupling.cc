@@ -17,17 +17,6 @@
 namespace annulus::fem {
 namespace {
 
-/// The coupling at one level of resolution.
-struct Level {
-  std::vector<Eigen::MatrixXd> compliance;
-  std::vector<RingMode> modes;
-  Eigen::MatrixXd teeth;  // compliance between the mesh forces of all teeth, numbered as in the real ring
-  double own = 0;
-  long unknowns = 0;
-  double mass = 0, rotational_mass = 0;
-  bool reused = false;  // the condensed sector
-};
-
 bool solved_as_solid(const LoadedMeshProblem& problem, RingModel model) {
   return model == RingModel::solid || needs_solid(problem.structure) || problem.pair.wheel().helix_angle() != 0;
 }
@@ -80,8 +69,9 @@ Eigen::MatrixXd teeth_compliance(const RingFlexibility& ring, const RingOnSuppor
   return 0.5 * (result + result.transpose());
 }
 
-Level solve_level(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead, double load,
-                  const RingCouplingSettings& settings, int level) {
+/// The coupling at one level of resolution, without its errors.
+SolvedRingCoupling solve_level(const LoadedMeshProblem& problem, const std::vector<double>& teeth_ahead, double load,
+                               const RingCouplingSettings& settings, int level) {
   const auto planets = static_cast<Eigen::Index>(teeth_ahead.size());
   const bool solid = solved_as_solid(problem, settings.model);
   const geometry::ToothProfile profile(mirrored(problem.pair.wheel()));
@@ -100,9 +90,14 @@ Level solve_level(const LoadedMeshProblem& problem, const std::vector<double>& t
       body, solid ? solid_resolution(level, settings.degree) : plane_resolution(profile.gear(), level, settings.degree),
       problem.material, options);
 
-  Level result;
+  SolvedRingCoupling result;
   result.unknowns = ring.unknowns;
-  result.reused = ring.reused;
+  ++(ring.reused ? result.reused_teeth : result.condensed_teeth);
+  auto& of_planets = result.coupling;
+  of_planets.planets = static_cast<int>(planets);
+  of_planets.ring_teeth = ring.teeth;
+  of_planets.load = load;
+  of_planets.per_cycle = settings.per_cycle;
   std::optional<RingOnSupports> supported;
   if (plan) supported.emplace(ring, *plan);
   const Eigen::VectorXd loads = Eigen::VectorXd::Constant(planets, load);
@@ -115,7 +110,8 @@ Level solve_level(const LoadedMeshProblem& problem, const std::vector<double>& t
       const auto state = supported->solve(patterns, loads, touching);
       touching = state.touching;
       coupling = state.tangent;
-      if (supported->unilateral()) coupling = unilateral_coupling(*supported, patterns, load, state, result.own);
+      if (supported->unilateral())
+        coupling = unilateral_coupling(*supported, patterns, load, state, result.own_compliance);
     } else {
       coupling = Eigen::MatrixXd::Zero(planets, planets);
       for (int a = 0; a < ring.teeth; ++a)
@@ -125,19 +121,19 @@ Level solve_level(const LoadedMeshProblem& problem, const std::vector<double>& t
       coupling = (0.5 * (coupling + coupling.transpose())).eval();
     }
     if (!supported || !supported->unilateral()) {
-      result.own += coupling.trace();
+      result.own_compliance += coupling.trace();
       coupling.diagonal().setZero();
     }
-    result.compliance.push_back(std::move(coupling));
+    of_planets.compliance.push_back(std::move(coupling));
   }
-  result.own /= static_cast<double>(positions) * static_cast<double>(planets);
-  result.teeth = teeth_compliance(ring, supported ? &*supported : nullptr);
-  result.modes =
+  result.own_compliance /= static_cast<double>(positions) * static_cast<double>(planets);
+  result.teeth_compliance = teeth_compliance(ring, supported ? &*supported : nullptr);
+  of_planets.modes =
       supported ? supported_ring_modes(ring, *supported, settings.modes) : held_ring_modes(ring, settings.modes);
   for (int s = 0; s < ring.teeth; ++s) {
     const Eigen::Vector3d squares = ring.resultants_of(s, ring.first_motion(), ring.motions).rowwise().squaredNorm();
-    result.mass += squares.x();
-    result.rotational_mass += squares.z() / std::pow(ring.base_radius, 2);
+    of_planets.mass += squares.x();
+    of_planets.rotational_mass += squares.z() / std::pow(ring.base_radius, 2);
   }
   return result;
 }
@@ -206,38 +202,28 @@ SolvedRingCoupling solve_ring_coupling(const LoadedMeshProblem& problem, const s
   RingCouplingSettings before = settings;
   before.motions.section = std::max(1, settings.motions.section - 1);
   before.motions.axial = std::max(0, settings.motions.axial - 1);
-  const Level coarser = solve_level(problem, teeth_ahead, load, before, settings.level - 1);
-  Level level = solve_level(problem, teeth_ahead, load, settings, settings.level);
+  const SolvedRingCoupling coarser = solve_level(problem, teeth_ahead, load, before, settings.level - 1);
+  SolvedRingCoupling result = solve_level(problem, teeth_ahead, load, settings, settings.level);
+  result.condensed_teeth += coarser.condensed_teeth;
+  result.reused_teeth += coarser.reused_teeth;
 
-  SolvedRingCoupling result;
-  const double left = most_left_over(settings.degree);
-  for (std::size_t i = 0; i < level.compliance.size(); ++i)
-    result.compliance_error =
-        std::max(result.compliance_error, left * (level.compliance[i] - coarser.compliance[i]).cwiseAbs().maxCoeff());
-  for (std::size_t k = 0; k < std::min(level.modes.size(), coarser.modes.size()); ++k)
-    result.frequency_error_relative = std::max(
-        result.frequency_error_relative, left * std::abs(coarser.modes[k].frequency / level.modes[k].frequency - 1));
-  result.own_compliance = level.own;
-  result.teeth_compliance_error = left * (level.teeth - coarser.teeth).cwiseAbs().maxCoeff();
-  const auto plane = plane_strain_bounds(problem, settings.model);
-  double largest = 0;
-  for (const auto& compliance : level.compliance) largest = std::max(largest, compliance.cwiseAbs().maxCoeff());
-  result.compliance_error += plane.compliance * largest;
-  result.teeth_compliance_error += plane.compliance * level.teeth.cwiseAbs().maxCoeff();
-  result.frequency_error_relative += plane.frequency;
-  result.teeth_compliance = std::move(level.teeth);
-  result.unknowns = level.unknowns;
-  result.reused_teeth = (coarser.reused ? 1 : 0) + (level.reused ? 1 : 0);
-  result.condensed_teeth = 2 - result.reused_teeth;
   auto& coupling = result.coupling;
-  coupling.planets = static_cast<int>(teeth_ahead.size());
-  coupling.ring_teeth = problem.pair.wheel().teeth();
-  coupling.load = load;
-  coupling.per_cycle = settings.per_cycle;
-  coupling.compliance = std::move(level.compliance);
-  coupling.modes = std::move(level.modes);
-  coupling.mass = level.mass;
-  coupling.rotational_mass = level.rotational_mass;
+  const double left = most_left_over(settings.degree);
+  double largest = 0;
+  for (std::size_t i = 0; i < coupling.compliance.size(); ++i) {
+    const auto &own = coupling.compliance[i], &other = coarser.coupling.compliance[i];
+    result.compliance_error = std::max(result.compliance_error, left * (own - other).cwiseAbs().maxCoeff());
+    largest = std::max(largest, own.cwiseAbs().maxCoeff());
+  }
+  for (std::size_t k = 0; k < std::min(coupling.modes.size(), coarser.coupling.modes.size()); ++k)
+    result.frequency_error_relative =
+        std::max(result.frequency_error_relative,
+                 left * std::abs(coarser.coupling.modes[k].frequency / coupling.modes[k].frequency - 1));
+  result.teeth_compliance_error = left * (result.teeth_compliance - coarser.teeth_compliance).cwiseAbs().maxCoeff();
+  const auto plane = plane_strain_bounds(problem, settings.model);
+  result.compliance_error += plane.compliance * largest;
+  result.teeth_compliance_error += plane.compliance * result.teeth_compliance.cwiseAbs().maxCoeff();
+  result.frequency_error_relative += plane.frequency;
   coupling.provenance = {{"compliance_error_m_per_N", fmt::format("{:.3g}", result.compliance_error)},
                          {"frequency_error_relative", fmt::format("{:.3g}", result.frequency_error_relative)}};
   return result;
