@@ -90,7 +90,7 @@ bool hard_for_linear(const fem::LoadedMeshProblem& problem) {
 /// What the wanted accuracy asks of a mesh whose problem is complete but for phases and loads.
 void set_resolution(MeshModel& model, const Scene& scene, double mean_force) {
   model.settings.accuracy = scene.accuracy;
-  model.settings.largest_deflection = 0.25;  // small displacements; what is known beforehand: small_displacements.h
+  model.settings.largest_deflection = 0.25;  // small displacements; what is known beforehand: model_limits.h
   const auto& pair = model.problem->pair;
   const double uptake = load_uptake(mean_force, model.problem->face_width, pair.planet().parameters().module,
                                     model.problem->material.youngs_modulus);

@@ -176,8 +176,7 @@ void declare_clamp(RingDeclarations& ring) {
 
 Table ring_table() {
   RingDeclarations ring("ring", "A ring gear and its supports; several rings are compared with each other.",
-                        [](Scene& s, std::size_t i) -> RingInput& { return s.rings.at(i); });
-  ring.repeated([](Scene& s, std::size_t n) { s.rings.resize(n); });
+                        &Scene::rings);
   declare_ring_body(ring);
   declare_flange(ring);
   declare_sleeve(ring);
