@@ -220,7 +220,7 @@ int run_command_line(int argc, char** argv) {
     return fail(error.what(), wrong_input);
   } catch (const std::bad_alloc&) {
     return fail(
-        "out of memory: ask for less accuracy or fewer threads; finished results are kept and reused by the next run",
+        "out of memory: ask for less accuracy or fewer threads; finished results are stored and reused by the next run",
         refused);
   } catch (const std::exception& error) {
     return fail(std::string("defect in annulus, please report it: ") + error.what(), defect);

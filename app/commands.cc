@@ -52,7 +52,7 @@ RunLimits limits_of(const Arguments& arguments) {
   return limits;
 }
 
-/// Whether results can be written there, told before anything is computed; makes nothing.
+/// Whether results can be written there, before anything is computed; makes nothing.
 void check_out(const std::filesystem::path& out) {
   namespace fs = std::filesystem;
   fs::path there = fs::absolute(out).lexically_normal();
@@ -208,9 +208,7 @@ void explain_command(const Arguments& arguments) {
   auto names = all_keys();
   for (const auto& kind : system_kinds())
     for (auto& key : figure_keys(kind.figures())) names.push_back(std::move(key));
-  const std::string near = nearest(arguments.key, names);
-  throw InputError(arguments.key + ": there is no such key or result" +
-                   (near.empty() ? "" : "; did you mean " + near + "?"));
+  throw InputError(arguments.key + ": there is no such key or result" + did_you_mean(arguments.key, names));
 }
 
 void export_command(const Arguments& arguments) {

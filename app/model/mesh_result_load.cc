@@ -67,7 +67,7 @@ StiffnessTable sampled(const std::string& mesh, const MeshInput& input, double l
 MeshResult given_stiffness(const MeshModel& model, const MeshInput& input, const Scene& scene, double contact_ratio,
                            double nominal_load) {
   if (input.stiffness == StiffnessShape::table) {
-    auto table = given_table(scene, model.mesh, input);
+    auto table = given_table(scene, model.mesh, *input.file);
     const auto nominal = nearest_load(table, nominal_load);
     return {.model = model, .contact_ratio = contact_ratio, .table = std::move(table), .nominal = nominal};
   }

@@ -25,7 +25,7 @@ void watch_for_interruption(int exit_status) {
     int signal = 0;
     while (::sigwait(&signals, &signal) != 0) {
     }
-    constexpr char text[] = "\ninterrupted; finished results are kept and reused by the next run\n";
+    constexpr char text[] = "\ninterrupted; finished results are stored and reused by the next run\n";
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, sizeof text - 1);
     std::_Exit(exit_status);
   }).detach();

@@ -9,7 +9,7 @@ namespace {
 
 Table top_level_table() {
   Declarations<Scene> top("", "The whole scene.", [](Scene& s, std::size_t) -> Scene& { return s; });
-  top.key("title", &Scene::title, "Title of the report.").fallback(std::string("Planetary stage"), "");
+  top.key("title", &Scene::title, "Title of the report.").fallback("Planetary stage", "");
   top.key("accuracy", &Scene::accuracy, "Wanted relative accuracy of the mesh stiffness.")
       .fallback(0.01, "well below the spread of unknown inputs such as support stiffnesses")
       .from(1e-5, 0.2);
@@ -23,7 +23,7 @@ Table top_level_table() {
          "Kind of model of the elastic bodies: closed_form, tooth and curved-beam formulas, seconds, its error is "
          "not controlled; plane or solid, finite elements with condensed flanks; resolved, the contact patch itself "
          "is meshed, plane or solid as the scene requires.")
-      .fallback(std::string("automatic"), "the cheapest with a controlled error that the scene permits")
+      .fallback("automatic", "the cheapest with a controlled error that the scene permits")
       .formerly("rung");
   top.key("reference", &Scene::reference, "File of published values to compare with, relative to the scene.")
       .absent("no comparison");
@@ -31,8 +31,7 @@ Table top_level_table() {
 }
 
 Table stage_table() {
-  Declarations<StageInput> stage("stage", "The gear set and its operating point.",
-                                 [](Scene& s, std::size_t) -> StageInput& { return s.stage; });
+  Declarations stage("stage", "The gear set and its operating point.", &Scene::stage);
   std::vector<Choice<std::string>> kinds;
   for (const auto& kind : scene_kinds()) kinds.push_back({kind.name, kind.name});
   stage.choice("kind", &StageInput::kind, kinds, "Kind of stage.").required();
@@ -52,8 +51,7 @@ Table stage_table() {
 }
 
 Table material_table() {
-  Declarations<MaterialInput> material("material", "Material of all gears.",
-                                       [](Scene& s, std::size_t) -> MaterialInput& { return s.material; });
+  Declarations material("material", "Material of all gears.", &Scene::material);
   material.key("youngs_modulus_GPa", &MaterialInput::youngs_modulus, "Young's modulus.").required().from(1e-6, 2000);
   material.key("poisson_ratio", &MaterialInput::poisson_ratio, "Poisson's ratio.")
       .fallback(0.3, "steel")
@@ -77,7 +75,7 @@ void declare_integration(Declarations<DynamicsInput>& lumped) {
               "implicit: L-stable Runge-Kutta of order 5 (ARKODE), for speeds so low that vibrations decay within a "
               "mesh cycle; runge_kutta_4: the classical method with fixed steps, as in the papers; automatic: "
               "explicit, bdf or implicit by stiffness ratio and damping.")
-      .fallback(std::string("automatic"), "the faster one of those that are accurate");
+      .fallback("automatic", "the faster one of those that are accurate");
   lumped.key("steps_per_cycle", &DynamicsInput::steps_per_cycle, "Steps per mesh cycle.")
       .from(10, 1e6)
       .needed_if(is("integrator", {"runge_kutta_4"}), "its steps are fixed; the other methods choose theirs");
@@ -90,11 +88,7 @@ void declare_integration(Declarations<DynamicsInput>& lumped) {
 }
 
 Table dynamics_table() {
-  Declarations<DynamicsInput> lumped("dynamics", "The lumped model; absent: meshes and stiffness only.",
-                                     [](Scene& s, std::size_t) -> DynamicsInput& {
-                                       if (!s.dynamics) s.dynamics.emplace();
-                                       return *s.dynamics;
-                                     });
+  Declarations lumped("dynamics", "The lumped model; absent: meshes and stiffness only.", &Scene::dynamics);
   lumped.optional();
   lumped
       .key("half_backlash_um", &DynamicsInput::half_backlash, "Half the backlash along the line of action, every mesh.")
@@ -110,13 +104,13 @@ Table dynamics_table() {
       .choice("mesh_damping", &DynamicsInput::mesh_damping,
               {{"in_contact", MeshDamping::in_contact}, {"always", MeshDamping::always}},
               "When mesh damping acts. `always` is the literal form of the papers; it lets separated flanks pull.")
-      .fallback(std::string("in_contact"), "separated flanks exert no force");
+      .fallback("in_contact", "separated flanks exert no force");
   lumped
       .choice("load_dependence", &DynamicsInput::load_dependence,
               {{"table", dynamics::LoadDependence::table}, {"nominal", dynamics::LoadDependence::nominal}},
               "Force of a mesh with a stiffness table. table: force as a function of deflection through all tabulated "
               "loads; nominal: linear, with the secant stiffness at the mean mesh force.")
-      .fallback(std::string("table"), "right at whatever load the mesh carries at the moment");
+      .fallback("table", "right at whatever load the mesh carries at the moment");
   declare_integration(lumped);
   return lumped.done();
 }

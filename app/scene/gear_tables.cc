@@ -13,9 +13,7 @@ void declare_planets(Declarations<StageInput>& stage) {
   stage.key("planets", &StageInput::planets, "Number of planets.").from(1, 50).required();
 }
 
-Declarations<MeshInput> declare_mesh(const char* path, const char* meaning, MeshInput& (*section)(Scene&, std::size_t),
-                                     const MeshKeys& keys) {
-  Declarations<MeshInput> t(path, meaning, section);
+Declarations<MeshInput> declare_mesh(Declarations<MeshInput> t, const MeshKeys& keys) {
   t.optional();
   std::vector<Choice<StiffnessShape>> shapes = {{"computed", StiffnessShape::computed},
                                                 {"constant", StiffnessShape::constant},

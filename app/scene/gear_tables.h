@@ -84,14 +84,12 @@ void declare_bore(Declarations<Section>& t, const Condition& computed) {
 /// planets of [stage].
 void declare_planets(Declarations<StageInput>& stage);
 
-/// The keys of one [mesh.NAME].
+/// Keys of one [mesh.NAME] beside those of all.
 struct MeshKeys {
   std::vector<Choice<StiffnessShape>> more_shapes{};  ///< besides computed and the prescribed ones
   std::vector<std::string> more_waves{};              ///< of these shapes, those that may have a ripple and a phase
   const char* constant_shape = "";                    ///< what a shape of `more_waves` is without a ripple
 };
-[[nodiscard]] Declarations<MeshInput> declare_mesh(const char* path, const char* meaning,
-                                                   MeshInput& (*section)(Scene&, std::size_t),
-                                                   const MeshKeys& keys = {});
+[[nodiscard]] Declarations<MeshInput> declare_mesh(Declarations<MeshInput> mesh, const MeshKeys& keys = {});
 
 }  // namespace annulus::app

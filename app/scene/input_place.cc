@@ -43,7 +43,7 @@ const Input* talked_about(const Scene& scene, const std::string& message) {
 }  // namespace
 
 std::string place_text(const Scene& scene, const std::string& key, std::size_t entry) {
-  return text_of(scene, first(scene, [&](const Input& i) { return i.key == key && i.entry == entry; }));
+  return text_of(scene, scene.find(key, entry));
 }
 
 std::string with_place(const Scene& scene, const std::string& message) {

@@ -8,12 +8,14 @@ namespace annulus::app {
 namespace {
 
 Json value_json(const Value& value) {
-  if (const auto* v = std::get_if<long>(&value)) return *v;
-  if (const auto* v = std::get_if<double>(&value)) return std::isinf(*v) ? Json("inf") : Json(*v);
-  if (const auto* v = std::get_if<std::string>(&value)) return *v;
-  if (const auto* v = std::get_if<std::vector<double>>(&value)) return *v;
-  if (const auto* v = std::get_if<std::vector<std::string>>(&value)) return *v;
-  return nullptr;
+  if (const auto* v = std::get_if<double>(&value); v && std::isinf(*v)) return "inf";
+  const auto json = [](const auto& v) -> Json {
+    if constexpr (std::is_same_v<decltype(v), const std::monostate&>)
+      return nullptr;
+    else
+      return v;
+  };
+  return std::visit(json, value);
 }
 
 }  // namespace

@@ -6,46 +6,48 @@
 
 namespace annulus::app {
 
-const Input* KeyChecks::find(const std::string& key, const std::string& ring) const {
-  for (const auto& input : scene_.inputs) {
-    if (input.key == key && input.ring == ring) return &input;
-  }
-  return nullptr;
+Input* KeyChecks::find(const std::string& key, const Entry& entry) const {
+  const auto* ring = std::get_if<std::string>(&entry);
+  const auto found = std::find_if(scene_.inputs.begin(), scene_.inputs.end(), [&](const Input& input) {
+    return input.key == key && (ring ? input.ring == *ring : input.entry == std::get<std::size_t>(entry));
+  });
+  return found == scene_.inputs.end() ? nullptr : &*found;
 }
 
-bool KeyChecks::given(const std::string& key, const std::string& ring) const {
-  const Input* input = find(key, ring);
+bool KeyChecks::given(const std::string& key, const Entry& entry) const {
+  const Input* input = find(key, entry);
   return input && input->origin == Origin::scene;
 }
 
-bool KeyChecks::usable(const std::string& key, const std::string& ring) const {
-  const Input* input = find(key, ring);
+bool KeyChecks::usable(const std::string& key, const Entry& entry) const {
+  const Input* input = find(key, entry);
   return input && !std::holds_alternative<std::monostate>(input->value);
 }
 
-void KeyChecks::problem(const std::string& key, const std::string& ring, const std::string& rule) {
-  const Input* input = find(key, ring);
+void KeyChecks::problem(const std::string& key, const Entry& entry, const std::string& rule) {
+  const Input* input = find(key, entry);
+  const auto* named = std::get_if<std::string>(&entry);
+  const std::string ring = input ? input->ring : named ? *named : "";
   std::string head = key;
   if (input && input->origin == Origin::scene) head += " = " + shown(to_text(input->value));
   if (!ring.empty()) head += " (ring '" + shown(ring) + "')";
   problems_.push_back({input ? input->line : 0, input ? input->column : 0, head + ": " + rule});
 }
 
-void KeyChecks::derive(const std::string& key, double value, const char* how) {
-  for (auto& input : scene_.inputs) {
-    if (input.key != key) continue;
-    input.value = value;
-    input.origin = Origin::derived;
-    input.note = how;
-    return;
-  }
+void KeyChecks::set(const std::string& key, const Value& value, Origin origin, const std::string& how,
+                    const Entry& entry) {
+  Input* input = find(key, entry);
+  if (!input) return;
+  input->origin = origin;
+  input->value = value;
+  input->note = how;
 }
 
 void KeyChecks::wave(const MeshInput& m, const std::string& path, const std::vector<StiffnessShape>& harmonic) {
   if (std::find(harmonic.begin(), harmonic.end(), m.stiffness) != harmonic.end() && m.ripple && *m.ripple >= 1)
-    problem(path + ".ripple", "", "must stay below 1: the stiffness would become negative");
+    problem(path + ".ripple", "must stay below 1: the stiffness would become negative");
   if (m.stiffness == StiffnessShape::rectangular && m.ripple && m.duty && *m.ripple * *m.duty >= 1)
-    problem(path + ".ripple", "", "times duty must stay below 1: the stiffness would become negative");
+    problem(path + ".ripple", "times duty must stay below 1: the stiffness would become negative");
 }
 
 }  // namespace annulus::app

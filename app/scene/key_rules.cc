@@ -3,19 +3,162 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
-#include "app/scene/scene_limits.h"
+#include "app/scene/key_checks.h"
+#include "app/scene/scene_schema.h"
 
 namespace annulus::app {
 
 namespace {
 
+std::string table_of(const std::string& key) {
+  const auto dot = key.rfind('.');
+  return dot == std::string::npos ? "" : key.substr(0, dot);
+}
+
+std::string quoted_list(std::vector<std::string> values) {
+  for (auto& value : values) value = '"' + value + '"';
+  return listed(values, " or ");
+}
+
+/// A key as a condition of `table` names it.
+std::string full_key(const std::string& key, const std::string& table) {
+  return key.find('.') == std::string::npos && !table.empty() ? table + "." + key : key;
+}
+std::string shown_key(const std::string& key, const std::string& table) {
+  return table_of(key) == table && !table.empty() ? key.substr(table.size() + 1) : key;
+}
+
+std::string joined(const std::vector<Condition>& parts, const char* between,
+                   const std::function<std::string(const Condition&)>& text) {
+  std::string all;
+  for (const auto& part : parts) all += (all.empty() ? "" : between) + text(part);
+  return all;
+}
+
+}  // namespace
+
+KeyValues::KeyValues(const std::vector<Input>& inputs, const std::vector<Table>& tables)
+    : inputs_(inputs), tables_(tables) {
+  for (std::size_t i = 0; i < inputs.size(); ++i) places_.emplace(std::pair(inputs[i].key, inputs[i].entry), i);
+}
+
+const Input* KeyValues::find(const std::string& key, std::size_t entry) const {
+  const auto place = places_.find({key, entry});
+  return place == places_.end() ? nullptr : &inputs_[place->second];
+}
+
+bool KeyValues::given(const std::string& key, std::size_t entry) const {
+  const Input* input = find(key, entry);
+  return input != nullptr && input->origin == Origin::scene;
+}
+
+std::optional<std::string> KeyValues::text(const std::string& key, std::size_t entry) const {
+  if (const Input* input = find(key, entry)) {
+    const bool none = std::holds_alternative<std::monostate>(input->value);
+    if (none && input->origin == Origin::scene) return std::nullopt;
+    return none ? "" : to_text(input->value);
+  }
+  if (has_table(table_of(key))) return std::nullopt;  // required, and reported as missing
+  const Parameter* p = find_parameter(key, tables_);
+  return p ? p->without_table : "";
+}
+
+bool KeyValues::has_table(const std::string& path) const {
+  const auto head = path + ".";
+  for (auto next = places_.lower_bound({head, 0}); next != places_.end(); ++next) {
+    const auto& key = next->first.first;
+    if (!key.starts_with(head)) return false;
+    if (table_of(key) == path) return true;  // not that of a table below, as [[monte_carlo.input]]
+  }
+  return false;
+}
+
+std::optional<bool> Condition::holds(const KeyValues& keys, const std::string& table, std::size_t entry) const {
+  const auto full = full_key(key, table);
+  const auto at = table_of(full) == table ? entry : 0;
+  if (kind == Kind::key) return keys.given(full, at);
+  if (kind == Kind::table) return keys.has_table(key);
+  if (kind == Kind::value) {
+    const auto value = keys.text(full, at);
+    if (!value) return std::nullopt;
+    return std::find(values.begin(), values.end(), *value) != values.end();
+  }
+  if (kind == Kind::none) {
+    auto part = parts.front().holds(keys, table, entry);
+    if (part) part = !*part;
+    return part;
+  }
+  const bool decisive = kind == Kind::any;  // one part with this value decides
+  std::optional<bool> result = !decisive;
+  for (const auto& part : parts) {
+    const auto value = part.holds(keys, table, entry);
+    if (value == decisive) return decisive;
+    if (!value) result = std::nullopt;
+  }
+  return result;
+}
+
+std::string Condition::text(const std::string& table) const {
+  switch (kind) {
+    case Kind::value:
+      return shown_key(key, table) + " = " + quoted_list(values);
+    case Kind::key:
+      return shown_key(key, table);
+    case Kind::table:
+      return "[" + key + "]";
+    case Kind::none: {
+      const auto& part = parts.front();
+      if (part.kind != Kind::value) return "no " + part.text(table);
+      return shown_key(part.key, table) + " other than " + quoted_list(part.values);
+    }
+    case Kind::all:
+    case Kind::any:
+      break;
+  }
+  return joined(parts, kind == Kind::all ? " and " : " or ", [&](const Condition& c) { return c.text(table); });
+}
+
+std::string Condition::cause(const KeyValues& keys, const std::string& table, std::size_t entry) const {
+  if (kind == Kind::value) {
+    const auto full = full_key(key, table);
+    const auto at = table_of(full) == table ? entry : 0;
+    const bool implied = keys.find(full, at) == nullptr;
+    return shown_key(key, table) + " = \"" + keys.text(full, at).value_or("") + "\"" +
+           (implied ? " (the scene has no [" + table_of(full) + "])" : "");
+  }
+  if (kind == Kind::any) {
+    for (const auto& part : parts)
+      if (part.holds(keys, table, entry) == true) return part.cause(keys, table, entry);
+  }
+  if (kind != Kind::all) return text(table);
+  return joined(parts, " and ", [&](const Condition& c) { return c.cause(keys, table, entry); });
+}
+
+Condition is(std::string key, std::vector<std::string> values) {
+  return {.kind = Condition::Kind::value, .key = std::move(key), .values = std::move(values)};
+}
+Condition given(std::string key_or_table) {
+  if (!key_or_table.starts_with('[')) return {.kind = Condition::Kind::key, .key = std::move(key_or_table)};
+  return {.kind = Condition::Kind::table, .key = key_or_table.substr(1, key_or_table.size() - 2)};
+}
+Condition operator&&(Condition a, Condition b) {
+  return {.kind = Condition::Kind::all, .parts = {std::move(a), std::move(b)}};
+}
+Condition operator||(Condition a, Condition b) {
+  return {.kind = Condition::Kind::any, .parts = {std::move(a), std::move(b)}};
+}
+Condition operator!(Condition a) { return {.kind = Condition::Kind::none, .parts = {std::move(a)}}; }
+
+namespace {
+
 std::string reason_text(const KeyRule& rule) { return rule.why.empty() ? "" : ": " + rule.why; }
 
-class RuleChecker {
+class RuleChecker : KeyChecks {
  public:
   RuleChecker(const std::vector<Table>& tables, Scene& scene, std::vector<Problem>& problems)
-      : tables_(tables), scene_(scene), problems_(problems), keys_(scene.inputs, tables) {}
+      : KeyChecks(scene, problems), tables_(tables), keys_(scene.inputs, tables) {}
 
   void run() {
     for (const auto& table : tables_) {
@@ -44,19 +187,20 @@ class RuleChecker {
   void check(const Parameter& p, std::size_t entry) {
     if (const auto* rule = broken(p, entry)) {
       if (written(p, entry))
-        problem(p, entry, fmt::format("has a meaning only with {}{}", rule->when.text(p.table), reason_text(*rule)));
+        problem(p.key(), entry,
+                fmt::format("has a meaning only with {}{}", rule->when.text(p.table), reason_text(*rule)));
       return;
     }
     if (unknown(p, entry)) return;
     for (const auto& rule : p.refused_if) {
       if (keys_.given(p.key(), entry) && rule.when.holds(keys_, p.table, entry) == true)
-        problem(p, entry, fmt::format("cannot stand beside {}: {}", rule.when.text(p.table), rule.why));
+        problem(p.key(), entry, fmt::format("cannot stand beside {}: {}", rule.when.text(p.table), rule.why));
     }
     if (!keys_.given(p.key(), entry)) {
       fall_back(p, entry);
       for (const auto& rule : p.required_if) {
         if (rule.when.holds(keys_, p.table, entry) != true) continue;
-        problem(p, entry,
+        problem(p.key(), entry,
                 fmt::format("is required by {}{}", rule.when.cause(keys_, p.table, entry), reason_text(rule)));
         break;
       }
@@ -87,13 +231,8 @@ class RuleChecker {
 
   void fall_back(const Parameter& p, std::size_t entry) {
     if (p.presence != Parameter::Presence::defaulted || !p.default_where_it_applies) return;
-    for (auto& input : scene_.inputs) {
-      if (input.entry != entry || input.key != p.key()) continue;
-      input.value = p.default_value;
-      input.note = p.note;
-      p.store(scene_, entry, input.value);
-      return;
-    }
+    set(p.key(), p.default_value, Origin::default_value, p.note, entry);
+    p.store(scene_, entry, p.default_value);
   }
 
   void check_partners(const Parameter& p, std::size_t entry) {
@@ -112,7 +251,7 @@ class RuleChecker {
     const auto missing = std::find_if_not(p.instead_of.begin(), p.instead_of.end(), is_given);
     const auto others = listed(p.instead_of);
     if (is_given(p.name)) {
-      if (one) problem(p, entry, fmt::format("give either {} or {}", others, p.name));
+      if (one) problem(p.key(), entry, fmt::format("give either {} or {}", others, p.name));
     } else if (missing != p.instead_of.end()) {
       std::string by;
       for (const auto& rule : p.only_if) by += (by.empty() ? " by " : " and ") + rule.when.cause(keys_, p.table, entry);
@@ -122,18 +261,7 @@ class RuleChecker {
     }
   }
 
-  void problem(const Parameter& p, std::size_t entry, const std::string& rule) { problem(p.key(), entry, rule); }
-  void problem(const std::string& key, std::size_t entry, const std::string& rule) {
-    const Input* input = keys_.find(key, entry);
-    std::string head = key;
-    if (input && input->origin == Origin::scene) head += " = " + shown(to_text(input->value));
-    if (input && !input->ring.empty()) head += " (ring '" + shown(input->ring) + "')";
-    problems_.push_back({input ? input->line : 0, input ? input->column : 0, head + ": " + rule});
-  }
-
   const std::vector<Table>& tables_;
-  Scene& scene_;
-  std::vector<Problem>& problems_;
   KeyValues keys_;
 };
 

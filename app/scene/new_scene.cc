@@ -3,32 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
-#include <type_traits>
 
 #include "app/scene/scene_kind.h"
+#include "app/scene/scene_limits.h"
+#include "core/json.h"
 
 namespace annulus::app {
 
 namespace {
 
+/// As in JSON, whose escapes TOML shares.
 std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      result += std::string("\\") + c;
-    else if (static_cast<unsigned char>(c) < ' ' || c == '\x7f')
-      result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
-      result += c;
-  }
-  return result + "\"";
-}
-
-std::string number(double value) {
-  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
-  return to_text(value, 17);
+  return Json(without_controls(text)).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 /// Lines of a comment, broken between words.
@@ -48,54 +35,40 @@ std::string comment(const std::string& text) {
 
 /// What stands behind the meaning: "number in mm, 0 < value <= 100 mm; default 3 (why)".
 std::string facts(const Parameter& p) {
-  std::string text = p.type_text();
-  if (!p.unit.empty()) text += " in " + p.unit;
-  if (const auto range = p.range_text(); !range.empty()) text += ", " + range;
-  text += "; " + presence_text(p);
+  std::string text = expected_text(p) + "; " + presence_text(p);
   for (const auto& rule : rule_texts(p)) text += "; " + rule;
   return text;
 }
 
 std::string key_lines(const Parameter& p, const NewValues& values) {
-  const bool required = p.presence == Parameter::Presence::required;
-  const auto given = values.find(p.key());
-  std::string text = comment(p.meaning + " (" + facts(p) + ")");
-  if (given != values.end()) {
-    text += p.name + " = " + given->second.text;
-    return text + (given->second.remark.empty() ? "\n" : "    # " + given->second.remark + "\n");
+  const std::string text = comment(p.meaning + " (" + facts(p) + ")");
+  if (const auto given = values.find(p.key()); given != values.end()) {
+    const auto& [value, remark] = given->second;
+    return text + p.name + " = " + value + (remark.empty() ? "" : "    # " + remark) + "\n";
   }
-  if (required) return text + "# " + p.name + " =      <- to be filled in\n";
+  const bool required = p.presence == Parameter::Presence::required;
+  const bool defaulted = p.presence == Parameter::Presence::defaulted;
   return text + "# " + p.name + " =" +
-         (p.presence == Parameter::Presence::defaulted ? " " + toml_text(p.default_value) : "") + "\n";
+         (required    ? "      <- to be filled in"
+          : defaulted ? " " + toml_text(p.default_value)
+                      : "") +
+         "\n";
 }
 
 }  // namespace
 
 std::string toml_text(const Value& value) {
-  return std::visit(
-      [](const auto& v) -> std::string {
-        using T = std::decay_t<decltype(v)>;
-        if constexpr (std::is_same_v<T, std::monostate>) {
-          return {};
-        } else if constexpr (std::is_same_v<T, long>) {
-          return std::to_string(v);
-        } else if constexpr (std::is_same_v<T, double>) {
-          return number(v);
-        } else if constexpr (std::is_same_v<T, std::string>) {
-          return quoted(v);
-        } else {
-          std::string list;
-          for (const auto& item : v) {
-            if (!list.empty()) list += ", ";
-            if constexpr (std::is_same_v<T, std::vector<double>>)
-              list += number(item);
-            else
-              list += quoted(item);
-          }
-          return "[" + list + "]";
-        }
-      },
-      value);
+  if (std::holds_alternative<std::monostate>(value)) return {};
+  if (const auto* number = std::get_if<double>(&value)) return to_text(*number, 17);
+  if (const auto* text = std::get_if<std::string>(&value)) return quoted(*text);
+  std::vector<std::string> items;
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value))
+    for (const double x : *numbers) items.push_back(to_text(x, 17));
+  else if (const auto* texts = std::get_if<std::vector<std::string>>(&value))
+    for (const auto& text : *texts) items.push_back(quoted(text));
+  else
+    return to_text(value);
+  return fmt::format("[{}]", fmt::join(items, ", "));
 }
 
 NewValues example_values(const std::string& kind) {
@@ -103,9 +76,7 @@ NewValues example_values(const std::string& kind) {
   for (const auto& input : parse_scene(scene_kind(kind).example, "example.toml").inputs) {
     const auto* p = find_parameter(input.key);
     if (p == nullptr || input.origin != Origin::scene || input.entry > 0 || is_study_table(p->table)) continue;
-    const auto& tables = schema(kind);
-    const auto table = std::find_if(tables.begin(), tables.end(), [&](const auto& t) { return t.path == p->table; });
-    if (table->on_request && table->path != "dynamics") continue;
+    if (find_table(p->table, schema(kind))->on_request) continue;
     values[input.key] = {toml_text(input.value)};
   }
   values.erase("reference");

@@ -27,6 +27,10 @@ struct InputTarget {
   const Parameter* parameter = nullptr;
   std::vector<std::size_t> rings;    ///< which rings; empty for all other tables
   std::optional<std::size_t> index;  ///< within a list, from 0
+  std::vector<double> list{};        ///< the present one, of several rings the shortest
+
+  /// Which tables of an array have the input.
+  [[nodiscard]] std::vector<std::size_t> entries() const { return rings.empty() ? std::vector<std::size_t>{0} : rings; }
 };
 
 /// Throws InputError, with the nearest valid path, when the scene has no such numeric input.
@@ -38,17 +42,6 @@ struct InputTarget {
 /// "errors.planet_pin_position_error_um[*]" as one path per planet, any other path as itself.
 [[nodiscard]] std::vector<std::string> expand_planets(const Scene& scene, const std::string& path);
 
-/// One number to be set in one table of the file.
-struct InputEdit {
-  const Parameter* parameter = nullptr;
-  double value = 0;  ///< whole where the key is
-  std::optional<std::size_t> index{}, ring{};
-  std::size_t length = 0;  ///< of the list
-};
-/// Throws what find_input throws, and InputError for a number that is not whole where one has to be or a factor without
-/// a value.
-[[nodiscard]] std::vector<InputEdit> resolve(const Scene& scene, const std::vector<Override>& overrides);
-
 /// The path as part of a file name: "supports.planet_N_per_m" -> "supports_planet_N_per_m".
 [[nodiscard]] std::string file_name(const std::string& path);
 
@@ -56,7 +49,6 @@ struct InputEdit {
 /// file that says so. Without studies. Throws InputError for an unknown input, a number that is not whole where one has
 /// to be, and SceneError for what the checks find.
 [[nodiscard]] Scene with_overrides(const Scene& scene, const std::vector<Override>& overrides);
-[[nodiscard]] Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides);
 
 /// The scene with another wanted accuracy, studies and assumptions included; `note` says where it comes from.
 [[nodiscard]] Scene with_accuracy(const Scene& scene, double accuracy, const std::string& note);

@@ -1,133 +1,71 @@
 #include "app/scene/reference.h"
 
-#include <fmt/format.h>
-
-#include <toml++/toml.h>
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "app/scene/scene_limits.h"
-#include "core/errors.h"
+#include "app/scene/scene_declare.h"
+#include "app/scene/toml/values.h"
 
 namespace annulus::app {
 
 namespace {
 
-/// One file of references, whose entries are refused with their line.
-class ReferenceReader {
- public:
-  explicit ReferenceReader(std::string file) : file_(std::move(file)) {}
+constexpr double widest = 1e30;
 
-  [[nodiscard]] InputError refusal(const toml::node& at, const std::string& what) const {
-    return InputError(fmt::format("{}:{}: {}", file_, std::max<std::uint32_t>(1, at.source().begin.line), what));
-  }
+/// The tables [[path]].
+template <class Entry>
+Declarations<Entry> entries(const char* path, const char* meaning, std::vector<Entry> Reference::*list) {
+  Declarations<Entry> table(
+      path, meaning, [list](Scene& s, std::size_t i) -> Entry& { return (s.own<Reference>().*list).at(i); },
+      [list](Scene& s, std::size_t n) { (s.own<Reference>().*list).resize(n); });
+  table.optional();
+  return table;
+}
 
-  [[nodiscard]] std::string text(const toml::table& table, const char* key, bool required) const {
-    const auto* node = table.get(key);
-    if (!node && !required) return "";
-    const auto value = node ? node->value_exact<std::string>() : std::nullopt;
-    if (!value)
-      throw refusal(node ? *node : table,
-                    fmt::format("'{}' {}", key, node ? "must be a text in quotes" : "is missing"));
-    if (has_controls(*value))
-      throw refusal(*node, fmt::format("'{}' must be one line without control characters", key));
-    return *value;
-  }
+/// What the paper says, and where.
+template <class Entry>
+Table stated(Declarations<Entry>& table) {
+  table.key("statement", &Entry::statement, "What is stated.").required();
+  table.key("where", &Entry::where, "Section or figure of the source.");
+  return table.done();
+}
 
-  [[nodiscard]] double number(const toml::table& table, const char* key, double low,
-                              std::optional<double> absent) const {
-    const auto* node = table.get(key);
-    if (!node && absent) return *absent;
-    if (!node) throw refusal(table, fmt::format("a [[value]] needs the published number, {} = ...", key));
-    return number(*node, key, low);
-  }
+std::vector<Table> reference_tables() {
+  Declarations<Reference> top("", "", [](Scene& s, std::size_t) -> Reference& { return s.own<Reference>(); });
+  top.key("source", &Reference::source, "Where the values were published.").required();
+  top.key("doi", &Reference::doi, "Its digital object identifier.");
+  top.key("note", &Reference::note, "What has to be known to judge the comparison.");
 
-  [[nodiscard]] double number(const toml::node& node, const char* key, double low) const {
-    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value || !std::isfinite(*value) || *value < low)
-      throw refusal(node, fmt::format("'{}' must be a number{}", key, low < 0 ? "" : " from zero on"));
-    return *value;
-  }
+  using Order = Reference::Order;
+  auto order = entries("order", "Rings in the order of one result.", &Reference::orders);
+  order.key("quantity", &Order::quantity, "The result.").required();
+  order.key("rings", &Order::rings, "Largest first; a single one is larger than all others.")
+      .not_empty("ring")
+      .required();
+  order.key("values", &Order::values, "Published numbers, one per ring or none.").from(-widest, widest);
+  order.key("margin", &Order::margin, "Relative difference that is stated.").from(0, widest);
 
-  [[nodiscard]] const toml::array* list(const toml::table& table, const char* key) const {
-    const auto* node = table.get(key);
-    if (node && !node->is_array()) throw refusal(*node, fmt::format("'{}' must be a list", key));
-    return node ? node->as_array() : nullptr;
-  }
+  using AtPin = Reference::AtPin;
+  auto at_pin = entries("at_pin", "A ring stiffer at a pin than between pins.", &Reference::at_pins);
+  at_pin.key("ring", &AtPin::ring, "Its name.").required();
 
-  /// The tables [[key]].
-  [[nodiscard]] std::vector<const toml::table*> tables(const toml::table& root, const char* key) const {
-    std::vector<const toml::table*> result;
-    if (const auto* array = list(root, key))
-      for (const auto& entry : *array) {
-        if (!entry.is_table()) throw refusal(entry, fmt::format("write each {0} as [[{0}]]", key));
-        result.push_back(entry.as_table());
-      }
-    return result;
-  }
-
-  [[nodiscard]] Reference::Order order(const toml::table& table) const {
-    Reference::Order order{.quantity = text(table, "quantity", true),
-                           .rings = {},
-                           .values = {},
-                           .margin = number(table, "margin", 0, 0.0),
-                           .statement = text(table, "statement", true),
-                           .where = text(table, "where", false)};
-    if (const auto* rings = list(table, "rings"))
-      for (const auto& ring : *rings) {
-        if (!ring.is_string()) throw refusal(ring, "'rings' must be names of rings in quotes");
-        order.rings.push_back(**ring.as_string());
-      }
-    if (const auto* values = list(table, "values"))
-      for (const auto& value : *values) order.values.push_back(number(value, "values", -HUGE_VAL));
-    if (order.rings.empty()) throw refusal(table, "an [[order]] names no rings");
-    if (!order.values.empty() && order.values.size() != order.rings.size())
-      throw refusal(table, "an [[order]] needs one value per ring, or none");
-    return order;
-  }
-
-  [[nodiscard]] toml::table parsed() const {
-    std::ifstream in(file_, std::ios::binary);
-    if (!in || std::filesystem::is_directory(file_)) throw InputError(file_ + ":1: cannot be read; is the path right?");
-    std::string text(largest_scene + 1, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(in.gcount()));
-    check_scene_text(text, file_);
-    try {
-      return toml::parse(text, file_);
-    } catch (const toml::parse_error& error) {
-      throw InputError(fmt::format("{}:{}: {}", file_, error.source().begin.line, error.description()));
-    }
-  }
-
- private:
-  std::string file_;
-};
+  using Number = Reference::Value;
+  auto value = entries("value", "A published number.", &Reference::values);
+  value.key("quantity", &Number::quantity, "The result.").required();
+  value.key("value", &Number::value, "The published number.").required().from(-widest, widest);
+  value.key("within", &Number::within, "Relative difference that counts as agreement.").from(0, widest);
+  return {top.done(), stated(order), stated(at_pin), stated(value)};
+}
 
 }  // namespace
 
 Reference read_reference(const std::filesystem::path& file) {
-  const ReferenceReader reader(file.string());
-  const auto root = reader.parsed();
-  Reference reference;
-  reference.source = reader.text(root, "source", true);
-  reference.doi = reader.text(root, "doi", false);
-  reference.note = reader.text(root, "note", false);
-  for (const auto* table : reader.tables(root, "order")) reference.orders.push_back(reader.order(*table));
-  for (const auto* table : reader.tables(root, "at_pin"))
-    reference.at_pins.push_back({reader.text(*table, "ring", true), reader.text(*table, "statement", true),
-                                 reader.text(*table, "where", false)});
-  for (const auto* table : reader.tables(root, "value"))
-    reference.values.push_back({reader.text(*table, "quantity", true),
-                                reader.number(*table, "value", -HUGE_VAL, std::nullopt),
-                                reader.number(*table, "within", 0, 0.0), reader.text(*table, "statement", true),
-                                reader.text(*table, "where", false)});
+  static const auto tables = reference_tables();
+  const Scene holder = read_tables(parse_toml(text_of_file(file), file.string()), file, &tables);
+  auto reference = holder.own<Reference>();
+  for (std::size_t i = 0; i < reference.orders.size(); ++i) {
+    const auto& order = reference.orders[i];
+    if (order.values.empty() || order.values.size() == order.rings.size()) continue;
+    const Input& values = *holder.find("order.values", i);
+    throw SceneError(file.string(), {{values.line, values.column, "order.values: needs one value per ring, or none"}});
+  }
   return reference;
 }
 

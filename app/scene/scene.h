@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <any>
 #include <filesystem>
 #include <map>
@@ -51,6 +52,13 @@ struct Scene : PlanetaryInput, PairInput, TwoKVInput, StudyInput {
 
   std::vector<Input> inputs;                   ///< every input with its origin, in the order of the schema
   std::map<std::string, std::string> assumed;  ///< key -> reason, as declared in [assumed]
+
+  /// nullptr when the scene has no such input. `entry` counts the tables of an array.
+  [[nodiscard]] const Input* find(const std::string& key, std::size_t entry = 0) const {
+    const auto found =
+        std::find_if(inputs.begin(), inputs.end(), [&](const Input& i) { return i.key == key && i.entry == entry; });
+    return found == inputs.end() ? nullptr : &*found;
+  }
 
  private:
   std::any own_;

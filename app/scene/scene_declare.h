@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -37,13 +38,13 @@ struct Choice {
 };
 
 /// Further properties of a key, chained behind its declaration. Conditions name keys of the same table, keys of others
-/// with their table, and "[tables]" (condition.h).
+/// with their table, and "[tables]" (key_rules.h).
 class Declared {
  public:
   explicit Declared(Parameter& p) : p_(p) {}
   Declared& required() { return p_.presence = Parameter::Presence::required, *this; }
   /// A key stored in an optional has its default only where its conditions (only_if) hold.
-  Declared& fallback(Value value, const char* why) {
+  Declared& fallback(Value value, const char* why = "") {
     p_.presence = Parameter::Presence::defaulted;
     p_.default_value = std::move(value);
     p_.note = why;
@@ -58,6 +59,9 @@ class Declared {
   Declared& above(double low, double high) { return p_.low_included = false, from(low, high); }
   /// Most values of a list.
   Declared& longest(std::size_t values) { return p_.longest = values, *this; }
+  /// A list that may not be empty; `what`: one of its values, for messages.
+  Declared& not_empty(const char* what) { return p_.at_least_one = what, *this; }
+  Declared& distinct() { return p_.distinct = true, *this; }
   Declared& infinite() { return p_.may_be_infinite = true, *this; }
   /// The only permitted texts of a list of texts.
   Declared& among(std::vector<std::string> names) { return p_.choices = std::move(names), *this; }
@@ -73,7 +77,7 @@ class Declared {
   /// Exactly one is given where the conditions of this key hold: this key, or all of `keys`.
   Declared& instead_of(std::vector<std::string> keys) { return p_.instead_of = std::move(keys), *this; }
   /// An earlier name, refused with the present one.
-  Declared& formerly(const char* name) { return p_.old_names.emplace_back(name), *this; }
+  Declared& formerly(std::string name) { return p_.old_names.push_back(std::move(name)), *this; }
 
  private:
   Declared& add(std::vector<KeyRule>& rules, Condition when, const char* why) {
@@ -85,24 +89,64 @@ class Declared {
 };
 
 template <class T>
-inline constexpr bool is_optional = false;
+struct ValueOf {
+  using Type = T;
+};
 template <class T>
-inline constexpr bool is_optional<std::optional<T>> = true;
+struct ValueOf<std::optional<T>> {
+  using Type = T;
+};
+/// The type of what a member or an optional one holds.
+template <class T>
+using value_of = typename ValueOf<T>::Type;
 
-/// Builds a table whose keys are bound to the members of `Section`.
+/// A checked value (in the unit of the file) as a member holds it.
+template <class T>
+T in_si(const Value& value, double si) {
+  if constexpr (std::is_same_v<T, int>) {
+    return static_cast<int>(std::get<long>(value));
+  } else {
+    T result = std::get<T>(value);
+    if constexpr (std::is_same_v<T, double>) result *= si;
+    if constexpr (std::is_same_v<T, std::vector<double>>)
+      for (double& x : result) x *= si;
+    return result;
+  }
+}
+
+/// Builds a table whose keys are bound to the members of `Section`, a member of the scene: alone, in an optional that
+/// is there with the table, or one in a vector for each [[table]].
 template <class Section>
 class Declarations {
  public:
-  Declarations(std::string path, std::string meaning, Section& (*section)(Scene&, std::size_t)) : section_(section) {
+  Declarations(std::string path, std::string meaning, std::function<Section&(Scene&, std::size_t)> section)
+      : section_(std::move(section)) {
     table_.path = std::move(path);
     table_.meaning = std::move(meaning);
   }
-
-  Declarations& repeated(std::function<void(Scene&, std::size_t)> resize) {
+  template <class Base>
+  Declarations(std::string path, std::string meaning, Section Base::*member)
+      : Declarations(std::move(path), std::move(meaning),
+                     [member](Scene& s, std::size_t) -> Section& { return s.*member; }) {}
+  template <class Base>
+  Declarations(std::string path, std::string meaning, std::optional<Section> Base::*member)
+      : Declarations(std::move(path), std::move(meaning), [member](Scene& s, std::size_t) -> Section& {
+          return s.*member ? *(s.*member) : (s.*member).emplace();
+        }) {}
+  /// [[path]]: `resize` makes room for the tables.
+  Declarations(std::string path, std::string meaning, std::function<Section&(Scene&, std::size_t)> section,
+               std::function<void(Scene&, std::size_t)> resize)
+      : Declarations(std::move(path), std::move(meaning), std::move(section)) {
     table_.repeated = true;
     table_.resize = std::move(resize);
-    return *this;
   }
+  template <class Base>
+  Declarations(std::string path, std::string meaning, std::vector<Section> Base::*member)
+      : Declarations(
+            std::move(path), std::move(meaning),
+            [member](Scene& s, std::size_t i) -> Section& { return (s.*member).at(i); },
+            [member](Scene& s, std::size_t n) { (s.*member).resize(n); }) {}
+
   Declarations& optional() { return table_.required = false, *this; }
   /// Optional, and without effect when absent.
   Declarations& on_request() { return table_.on_request = true, optional(); }
@@ -116,40 +160,31 @@ class Declarations {
     table_.only_if.push_back({std::move(when), why, {}});
     return *this;
   }
+  /// The keys of another table of this path.
+  Declarations& add(Table more) {
+    std::move(more.parameters.begin(), more.parameters.end(), std::back_inserter(table_.parameters));
+    return *this;
+  }
   Table done() { return std::move(table_); }
 
   template <class Base, class T>
-  Declared key(const char* name, T Base::*member, const char* meaning) {
-    Parameter& p = declare(name, meaning);
-    constexpr bool real = std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>;
-    p.default_where_it_applies = is_optional<T>;
-    if constexpr (real) {
-      p.kind = Parameter::Kind::real;
-      store(p, member, [si = p.si](const Value& v) { return std::get<double>(v) * si; });
-    } else if constexpr (std::is_same_v<T, int> || std::is_same_v<T, std::optional<int>>) {
-      p.kind = Parameter::Kind::integer;
-      store(p, member, [](const Value& v) { return static_cast<int>(std::get<long>(v)); });
-    } else if constexpr (std::is_same_v<T, std::string> || std::is_same_v<T, std::optional<std::string>>) {
-      p.kind = Parameter::Kind::text;
-      store(p, member, [](const Value& v) { return std::get<std::string>(v); });
-    } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
-      p.kind = Parameter::Kind::texts;
-      store(p, member, [](const Value& v) { return std::get<std::vector<std::string>>(v); });
-    } else {
-      static_assert(std::is_same_v<T, std::vector<double>>);
-      p.kind = Parameter::Kind::reals;
-      store(p, member, [si = p.si](const Value& v) {
-        auto list = std::get<std::vector<double>>(v);
-        for (auto& x : list) x *= si;
-        return list;
-      });
-    }
+  Declared key(const std::string& name, T Base::*member, std::string meaning) {
+    using Kind = Parameter::Kind;
+    using V = value_of<T>;
+    Parameter& p = declare(name, std::move(meaning));
+    p.default_where_it_applies = !std::is_same_v<T, V>;
+    p.kind = std::is_same_v<V, double>                ? Kind::real
+             : std::is_same_v<V, int>                 ? Kind::integer
+             : std::is_same_v<V, std::string>         ? Kind::text
+             : std::is_same_v<V, std::vector<double>> ? Kind::reals
+                                                      : Kind::texts;
+    store(p, member, [si = p.si](const Value& v) { return in_si<V>(v, si); });
     return Declared(p);
   }
 
   template <class Base, class T>
-  Declared choice(const char* name, T Base::*member, std::vector<Choice<T>> choices, const char* meaning) {
-    Parameter& p = declare(name, meaning);
+  Declared choice(const std::string& name, T Base::*member, std::vector<Choice<T>> choices, std::string meaning) {
+    Parameter& p = declare(name, std::move(meaning));
     p.kind = Parameter::Kind::choice;
     for (const auto& c : choices) {
       p.choices.push_back(c.name);
@@ -163,19 +198,16 @@ class Declarations {
   }
 
  private:
-  Parameter& declare(const char* name, const char* meaning) {
+  Parameter& declare(const std::string& name, std::string meaning) {
     Parameter& p = table_.parameters.emplace_back();
     p.table = table_.path;
     p.name = name;
-    p.meaning = meaning;
-    for (const auto& unit : key_units) {
-      const std::string suffix = unit.suffix;
-      if (p.name.size() > suffix.size() && p.name.ends_with(suffix)) {
-        p.unit = unit.text;
-        p.si = unit.si;
-        break;
-      }
-    }
+    p.meaning = std::move(meaning);
+    const auto unit = std::find_if(std::begin(key_units), std::end(key_units),
+                                   [&](const Unit& u) { return name.ends_with(u.suffix); });
+    if (unit == std::end(key_units)) return p;
+    p.unit = unit->text;
+    p.si = unit->si;
     return p;
   }
 
@@ -187,7 +219,7 @@ class Declarations {
   }
 
   Table table_;
-  Section& (*section_)(Scene&, std::size_t);
+  std::function<Section&(Scene&, std::size_t)> section_;
 };
 
 }  // namespace annulus::app

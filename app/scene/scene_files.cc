@@ -32,11 +32,6 @@ auto with_file(const Scene& scene, const std::string& key, const std::string& na
   }
 }
 
-StiffnessTable table_of_file(const Scene& scene, const std::string& mesh, const std::string& name) {
-  return with_file(scene, "mesh." + mesh + ".file", name,
-                   [&](const std::filesystem::path& file) { return import_table(file, mesh); });
-}
-
 }  // namespace
 
 std::filesystem::path file_of_scene(const Scene& scene, const std::string& key, const std::string& name) {
@@ -60,8 +55,9 @@ std::filesystem::path file_of_scene(const Scene& scene, const std::string& key, 
   return file;
 }
 
-StiffnessTable given_table(const Scene& scene, const std::string& mesh, const MeshInput& input) {
-  return table_of_file(scene, mesh, *input.file);
+StiffnessTable given_table(const Scene& scene, const std::string& mesh, const std::string& name) {
+  return with_file(scene, "mesh." + mesh + ".file", name,
+                   [&](const std::filesystem::path& file) { return import_table(file, mesh); });
 }
 
 void check_files(const Scene& scene) {
@@ -69,7 +65,7 @@ void check_files(const Scene& scene) {
   for (const auto& input : scene.inputs) {
     const auto* name = std::get_if<std::string>(&input.value);
     if (name == nullptr || !input.key.starts_with(head) || !input.key.ends_with(tail)) continue;
-    (void)table_of_file(scene, input.key.substr(head.size(), input.key.size() - head.size() - tail.size()), *name);
+    (void)given_table(scene, input.key.substr(head.size(), input.key.size() - head.size() - tail.size()), *name);
   }
   if (scene.reference)
     with_file(scene, "reference", *scene.reference, [](const auto& file) { return read_reference(file); });

@@ -12,8 +12,9 @@ namespace annulus::app {
 /// throws InputError for absolute paths, for those that lead elsewhere, links followed, and for what is no file.
 [[nodiscard]] std::filesystem::path file_of_scene(const Scene& scene, const std::string& key, const std::string& name);
 
-/// The stiffness table that [mesh.NAME] names. Throws InputError, naming place and key, when it cannot be used.
-[[nodiscard]] StiffnessTable given_table(const Scene& scene, const std::string& mesh, const MeshInput& input);
+/// The stiffness table in the file that [mesh.NAME] names. Throws InputError, with place and key, when it cannot be
+/// used.
+[[nodiscard]] StiffnessTable given_table(const Scene& scene, const std::string& mesh, const std::string& name);
 
 /// Reads every file the scene names, so that a bad one is refused before time is spent. Throws InputError.
 void check_files(const Scene& scene);

@@ -3,19 +3,28 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 
 #include "app/scene/scene_kind.h"
 #include "app/scene/scene_schema.h"
 
 namespace annulus::app {
 
-const Parameter* find_parameter(const std::string& key) {
-  for (const auto& table : schema()) {
-    for (const auto& p : table.parameters) {
-      if (p.key() == key) return &p;
-    }
-  }
-  return nullptr;
+const Table* find_table(const std::string& path, const std::vector<Table>& tables) {
+  const auto found = std::find_if(tables.begin(), tables.end(), [&](const Table& t) { return t.path == path; });
+  return found == tables.end() ? nullptr : &*found;
+}
+
+const Parameter* Table::find(const std::string& name) const {
+  const auto found =
+      std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.name == name; });
+  return found == parameters.end() ? nullptr : &*found;
+}
+
+const Parameter* find_parameter(const std::string& key, const std::vector<Table>& tables) {
+  const auto dot = key.rfind('.');
+  const Table* table = find_table(dot == std::string::npos ? "" : key.substr(0, dot), tables);
+  return table ? table->find(key.substr(dot + 1)) : nullptr;
 }
 
 std::string renamed_key(const std::string& old_key) {
@@ -28,9 +37,8 @@ std::string renamed_key(const std::string& old_key) {
 
 std::vector<std::string> all_keys() {
   std::vector<std::string> keys;
-  for (const auto& table : schema()) {
+  for (const auto& table : schema())
     for (const auto& p : table.parameters) keys.push_back(p.key());
-  }
   return keys;
 }
 
@@ -43,10 +51,9 @@ const std::vector<std::string>& stage_kinds() {
   return kinds;
 }
 
-std::string listed(const std::vector<std::string>& names) {
+std::string listed(const std::vector<std::string>& names, const char* last) {
   std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  for (std::size_t i = 0; i < names.size(); ++i) text += (i == 0 ? "" : i + 1 == names.size() ? last : ", ") + names[i];
   return text;
 }
 
@@ -76,9 +83,8 @@ bool has_condition_of(const KeyRule& rule, const std::vector<KeyRule>& others, c
 }  // namespace
 
 bool is_study_table(const std::string& path) {
-  const auto& tables = schema();
-  return std::any_of(tables.begin(), tables.end(),
-                     [&](const Table& t) { return t.path == path && t.role == Table::Role::study; });
+  const Table* table = find_table(path);
+  return table && table->role == Table::Role::study;
 }
 
 bool Table::applies_to(const std::string& kind) const { return kinds.empty() || among(kind, kinds); }
@@ -97,35 +103,19 @@ std::vector<std::string> rule_texts(const Parameter& p) {
     if (!has_condition_of(rule, p.only_if, p.table)) list.push_back(rule_text("required by ", rule, p.table));
   for (const auto& rule : p.refused_if) list.push_back(rule_text("refused beside ", rule, p.table));
   for (const auto& name : p.together_with) list.push_back("together with " + name);
-  std::string others;
-  for (std::size_t i = 0; i < p.instead_of.size(); ++i)
-    others += (i == 0 ? "" : i + 1 == p.instead_of.size() ? " and " : ", ") + p.instead_of[i];
-  if (!others.empty()) list.push_back("either this or " + others);
+  if (!p.instead_of.empty()) list.push_back("either this or " + listed(p.instead_of));
   return list;
 }
 
-std::string choices_text(const Parameter& p) {
-  std::string text = "one of";
-  for (const auto& c : p.choices) text += (c == p.choices.front() ? " \"" : ", \"") + c + "\"";
-  return text;
-}
+std::string choices_text(const Parameter& p) { return fmt::format("one of \"{}\"", fmt::join(p.choices, "\", \"")); }
 
 std::string Parameter::type_text() const {
-  switch (kind) {
-    case Kind::integer:
-      return "a whole number";
-    case Kind::real:
-      return "a number";
-    case Kind::text:
-      return "a text in quotes";
-    case Kind::reals:
-      return "a list of numbers";
-    case Kind::texts:
-      return "a list of texts in quotes";
-    case Kind::choice:
-      break;
-  }
-  return choices_text(*this);
+  static const std::map<Kind, std::string> texts = {{Kind::integer, "a whole number"},
+                                                    {Kind::real, "a number"},
+                                                    {Kind::text, "a text in quotes"},
+                                                    {Kind::reals, "a list of numbers"},
+                                                    {Kind::texts, "a list of texts in quotes"}};
+  return kind == Kind::choice ? choices_text(*this) : texts.at(kind);
 }
 
 bool Parameter::in_range(double x) const {
@@ -147,30 +137,26 @@ std::string Parameter::range_text() const {
 }
 
 std::string presence_text(const Parameter& p) {
-  switch (p.presence) {
-    case Parameter::Presence::required:
-      return "required";
-    case Parameter::Presence::optional: {
-      const std::string kinds = p.required_for.empty() ? "" : "required for " + listed(p.required_for) + ", else ";
-      const std::string word = p.required_if.empty() ? "optional" : "conditional";
-      return kinds + (p.note.empty() ? word : word + "; absent: " + p.note);
-    }
-    case Parameter::Presence::defaulted:
-      break;
+  if (p.presence == Parameter::Presence::required) return "required";
+  if (p.presence == Parameter::Presence::optional) {
+    const std::string kinds = p.required_for.empty() ? "" : "required for " + listed(p.required_for) + ", else ";
+    const std::string word = p.required_if.empty() ? "optional" : "conditional";
+    return kinds + (p.note.empty() ? word : word + "; absent: " + p.note);
   }
-  const auto* list = std::get_if<std::vector<double>>(&p.default_value);
-  const auto* texts = std::get_if<std::vector<std::string>>(&p.default_value);
-  const auto* text = std::get_if<std::string>(&p.default_value);
-  std::string value = text ? "\"" + *text + "\"" : to_text(p.default_value);
-  if ((list && list->empty()) || (texts && texts->empty())) return "default " + p.note;
+  const std::string value = p.kind == Parameter::Kind::choice || p.kind == Parameter::Kind::text
+                                ? '"' + to_text(p.default_value) + '"'
+                                : to_text(p.default_value);
+  if (value == "[]") return "default " + p.note;
   return "default " + value + (p.note.empty() ? "" : " (" + p.note + ")");
 }
 
+std::string expected_text(const Parameter& p) {
+  const auto range = p.range_text();
+  return p.type_text() + (p.unit.empty() ? "" : " in " + p.unit) + (range.empty() ? "" : ", " + range);
+}
+
 std::string explain(const Parameter& p) {
-  std::string text = p.key() + "\n  " + p.meaning + "\n  " + p.type_text();
-  if (!p.unit.empty()) text += " in " + p.unit;
-  if (const auto range = p.range_text(); !range.empty()) text += "; " + range;
-  text += "\n  " + presence_text(p) + "\n";
+  std::string text = p.key() + "\n  " + p.meaning + "\n  " + expected_text(p) + "\n  " + presence_text(p) + "\n";
   for (const auto& rule : rule_texts(p)) text += "  " + rule + "\n";
   if (!p.kinds.empty()) text += "  for stages of kind " + listed(p.kinds) + "\n";
   return text;

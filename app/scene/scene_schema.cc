@@ -24,22 +24,18 @@ auto by_name(List& parameters, const std::string& name) {
 
 /// The common tables with the keys of one kind added, its own tables between them.
 std::vector<Table> tables_of(const SceneKind& kind) {
-  auto first = first_common_tables(), last = last_common_tables();
-  std::vector<Table> own;
+  auto tables = first_common_tables();
+  auto own = static_cast<std::ptrdiff_t>(tables.size());
+  auto last = last_common_tables();
+  std::move(last.begin(), last.end(), std::back_inserter(tables));
   for (auto& table : kind.tables()) {
-    auto* shared = &first;
-    auto common = by_path(first, table.path);
-    if (common == first.end()) {
-      shared = &last;
-      common = by_path(last, table.path);
-    }
-    if (common == shared->end())
-      own.push_back(std::move(table));
+    const auto common = by_path(tables, table.path);
+    if (common == tables.end())
+      tables.insert(tables.begin() + own++, std::move(table));
     else
       std::move(table.parameters.begin(), table.parameters.end(), std::back_inserter(common->parameters));
   }
-  for (auto* part : {&own, &last}) std::move(part->begin(), part->end(), std::back_inserter(first));
-  return first;
+  return tables;
 }
 
 /// Adds the rules of another kind. A rule of all of them has no list of kinds.

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene/condition.h"
+#include "app/scene/key_rules.h"
 #include "app/scene/scene.h"
 #include "app/scene/scene_limits.h"
 
@@ -33,6 +33,8 @@ struct Parameter {
   bool low_included = true;
   bool may_be_infinite = false;
   std::size_t longest = longest_list;  ///< values of a list
+  std::string at_least_one{};          ///< what a list consists of that may not be empty: "torque"
+  bool distinct = false;               ///< no value of a list stands twice
   std::vector<std::string> choices{};  ///< permitted texts; empty: any
   std::string meaning{};
   std::vector<std::string> old_names{};  ///< refused with the present name
@@ -74,6 +76,8 @@ struct Table {
   std::function<void(Scene&, std::size_t)> resize{};
 
   [[nodiscard]] bool applies_to(const std::string& kind) const;
+  /// nullptr when the table has no such key.
+  [[nodiscard]] const Parameter* find(const std::string& name) const;
   [[nodiscard]] std::string header() const { return repeated ? "[[" + path + "]]" : "[" + path + "]"; }
 };
 
@@ -87,13 +91,15 @@ struct Table {
 /// Names of the registered kinds of gear systems, in their order.
 [[nodiscard]] const std::vector<std::string>& stage_kinds();
 /// "from, to and count"; empty without names.
-[[nodiscard]] std::string listed(const std::vector<std::string>& names);
+[[nodiscard]] std::string listed(const std::vector<std::string>& names, const char* last = " and ");
 
 /// Tables that ask for studies: no inputs of the model.
 [[nodiscard]] bool is_study_table(const std::string& path);
 
+/// nullptr when there is no such table.
+[[nodiscard]] const Table* find_table(const std::string& path, const std::vector<Table>& tables = schema());
 /// nullptr when there is no such key.
-[[nodiscard]] const Parameter* find_parameter(const std::string& key);
+[[nodiscard]] const Parameter* find_parameter(const std::string& key, const std::vector<Table>& tables = schema());
 [[nodiscard]] std::vector<std::string> all_keys();
 /// The present key of an earlier one: "errors.sun_installation_um" -> "errors.sun_position_error_um"; empty when
 /// there is none.
@@ -106,6 +112,8 @@ struct Table {
 [[nodiscard]] std::string presence_text(const Parameter& parameter);
 /// "one of "linear", "logarithmic"".
 [[nodiscard]] std::string choices_text(const Parameter& parameter);
+/// What a key takes: "a number in mm, 0 < value <= 100 mm".
+[[nodiscard]] std::string expected_text(const Parameter& parameter);
 /// The rules between this key and others, one sentence each; empty without.
 [[nodiscard]] std::vector<std::string> rule_texts(const Parameter& parameter);
 

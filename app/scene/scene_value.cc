@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
 
 #include "app/scene/scene_limits.h"
 
@@ -16,49 +17,34 @@ std::string to_text(double value, int digits) {
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
   const double rounded = std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
   if (rounded == 0) return "0";
-  const bool large = std::abs(rounded) >= 1e6, small = std::abs(rounded) < 1e-4;
-  if (!large && !small) return fmt::format("{}", rounded);
-  // 1e9, 1.364e9, 1e-6: without the zeros, plus sign and leading zero of "1.3640e+09".
-  std::string text = fmt::format("{:.{}e}", rounded, digits - 1);
-  const auto e = text.find('e');
-  std::string mantissa = text.substr(0, e);
-  if (mantissa.find('.') != std::string::npos) {
-    mantissa.erase(mantissa.find_last_not_of('0') + 1);
-    if (mantissa.back() == '.') mantissa.pop_back();
-  }
-  return mantissa + "e" + std::to_string(std::stoi(text.substr(e + 1)));
+  if (std::abs(rounded) < 1e6 && std::abs(rounded) >= 1e-4) return fmt::format("{}", rounded);
+  // 1e9, 1.364e9, 1e-6: without the plus sign and leading zero of "1.364e+09".
+  std::array<char, 32> text{};
+  auto* const end = std::to_chars(text.data(), text.data() + text.size(), rounded, std::chars_format::scientific).ptr;
+  auto* const e = std::find(text.data(), end, 'e');
+  return std::string(text.data(), e) + "e" + std::to_string(std::atoi(e + 1));
 }
 
 std::string to_text(const Value& value) {
   struct Visitor {
     std::string operator()(std::monostate) const { return "none"; }
-    std::string operator()(long v) const { return fmt::format("{}", v); }
+    std::string operator()(long v) const { return std::to_string(v); }
     std::string operator()(double v) const { return to_text(v); }
     std::string operator()(const std::string& v) const { return v; }
     std::string operator()(const std::vector<double>& v) const {
-      std::string text = "[";
-      for (std::size_t i = 0; i < v.size(); ++i) text += (i ? ", " : "") + to_text(v[i]);
-      return text + "]";
+      std::vector<std::string> texts;
+      for (const double x : v) texts.push_back(to_text(x));
+      return fmt::format("[{}]", fmt::join(texts, ", "));
     }
     std::string operator()(const std::vector<std::string>& v) const {
-      std::string text = "[";
-      for (std::size_t i = 0; i < v.size(); ++i) text += (i ? ", \"" : "\"") + v[i] + "\"";
-      return text + "]";
+      return v.empty() ? "[]" : fmt::format("[\"{}\"]", fmt::join(v, "\", \""));
     }
   };
   return std::visit(Visitor{}, value);
 }
 
 const char* to_text(Origin origin) {
-  switch (origin) {
-    case Origin::scene:
-      return "scene";
-    case Origin::default_value:
-      return "default";
-    case Origin::derived:
-      return "derived";
-  }
-  return "";
+  return origin == Origin::scene ? "scene" : origin == Origin::default_value ? "default" : "derived";
 }
 
 namespace {
@@ -113,6 +99,12 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
     }
   }
   return best;
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates,
+                         const std::string& otherwise) {
+  const std::string near = nearest(word, candidates);
+  return near.empty() ? otherwise : "; did you mean " + near + "?";
 }
 
 }  // namespace annulus::app

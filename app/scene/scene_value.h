@@ -51,5 +51,8 @@ class SceneError : public InputError {
 
 /// The candidate with the smallest edit distance to `word`, if it is near enough to be what was meant; else empty.
 [[nodiscard]] std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
+/// "; did you mean CANDIDATE?", or `otherwise` where none is near.
+[[nodiscard]] std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates,
+                                       const std::string& otherwise = "");
 
 }  // namespace annulus::app

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
+#include "app/scene/key_checks.h"
 #include "app/scene/overrides.h"
-#include "app/scene/scene_checks.h"
 #include "app/scene/scene_kind.h"
-#include "app/scene/scene_limits.h"
 
 namespace annulus::app {
 
@@ -25,9 +23,9 @@ std::vector<double> SweepInput::points() const {
 
 namespace {
 
-class StudyChecker {
+class StudyChecker : KeyChecks {
  public:
-  StudyChecker(const Scene& scene, std::vector<Problem>& problems) : scene_(scene), problems_(problems) {}
+  using KeyChecks::KeyChecks;
 
   void run() {
     for (std::size_t i = 0; i < scene_.sweeps.size(); ++i) row("sweep.", scene_.sweeps[i], i);
@@ -40,24 +38,6 @@ class StudyChecker {
   }
 
  private:
-  [[nodiscard]] const Input* find(const std::string& key, std::size_t entry) const {
-    for (const auto& input : scene_.inputs) {
-      if (input.key == key && input.entry == entry) return &input;
-    }
-    return nullptr;
-  }
-  [[nodiscard]] bool given(const std::string& key, std::size_t entry) const {
-    const Input* input = find(key, entry);
-    return input && input->origin == Origin::scene;
-  }
-
-  void problem(const std::string& key, std::size_t entry, const std::string& rule) {
-    const Input* input = find(key, entry);
-    std::string head = key;
-    if (input && input->origin == Origin::scene) head += " = " + shown(to_text(input->value));
-    problems_.push_back({input ? input->line : 0, input ? input->column : 0, head + ": " + rule});
-  }
-
   bool input(const std::string& key, std::size_t entry, const std::string& path) {
     try {
       (void)find_input(scene_, path);
@@ -75,14 +55,7 @@ class StudyChecker {
   /// `table` with the prefix of its keys: "sweep.", "grid.x_".
   void row(const std::string& table, const SweepInput& s, std::size_t i) {
     if (!input(table + "input", i, s.input)) return;
-    if (given(table + "values", i)) {
-      if (s.values.empty()) return problem(table + "values", i, "needs at least one value");
-      const std::set<double> distinct(s.values.begin(), s.values.end());
-      if (distinct.size() != s.values.size())
-        return problem(table + "values", i, "contains the same value twice; leave one out");
-    } else if (*s.from == *s.to) {
-      return problem(table + "to", i, "must differ from `from`");
-    }
+    if (s.values.empty() && *s.from == *s.to) return problem(table + "to", i, "must differ from `from`");
     const auto points = s.points();
     const auto& parameter = *find_input(scene_, s.input).parameter;
     for (const double x : points) {
@@ -111,48 +84,46 @@ class StudyChecker {
                           most_points));
   }
 
+  /// Whether a table before the `i`-th names the same input.
+  template <class List>
+  static bool repeated(const List& list, std::size_t i) {
+    const auto end = list.begin() + static_cast<std::ptrdiff_t>(i);
+    return std::any_of(list.begin(), end, [&](const auto& other) { return other.input == list[i].input; });
+  }
+
   void random(const RandomInput& r, std::size_t i) {
     const std::string table = "monte_carlo.input.";
     for (const auto& path : expand_planets(scene_, r.input)) {
       if (!input(table + "input", i, path)) return;
     }
-    for (std::size_t j = 0; j < i; ++j) {
-      if (scene_.random_inputs[j].input == r.input)
-        return problem(table + "input", i, "is declared twice: each input has one distribution; leave one out");
-    }
+    if (repeated(scene_.random_inputs, i))
+      problem(table + "input", i, "is declared twice: each input has one distribution; leave one out");
   }
 
   void optimise() {
     if (!scene_.optimise) return;
     const auto& o = *scene_.optimise;
     const auto known = scene_kind(scene_.stage.kind).results();
-    if (o.objective.empty()) problem("optimise.objective", 0, "needs at least one result");
     for (const auto& figure : o.objective) {
       if (std::find(known.begin(), known.end(), figure) != known.end()) continue;
-      const std::string near = nearest(figure, known);
-      problem("optimise.objective", 0,
-              fmt::format("there is no result \"{}\"; {}", figure,
-                          near.empty() ? "annulus explain lists the results" : "did you mean \"" + near + "\"?"));
+      problem("optimise.objective", fmt::format("there is no result \"{}\"{}", figure,
+                                                did_you_mean(figure, known, "; annulus explain lists the results")));
     }
     if (!o.weights.empty() && o.weights.size() != o.objective.size())
-      problem(
-          "optimise.weights", 0,
-          fmt::format("needs one weight per result: {} weights for {} results", o.weights.size(), o.objective.size()));
-    if (o.optimisers.empty()) problem("optimise.optimisers", 0, "needs at least one");
-    if (o.population % 2) problem("optimise.population", 0, "must be even: parents are crossed in pairs");
+      problem("optimise.weights", fmt::format("needs one weight per result: {} weights for {} results",
+                                              o.weights.size(), o.objective.size()));
+    if (o.population % 2) problem("optimise.population", "must be even: parents are crossed in pairs");
     if (o.ring &&
         std::none_of(scene_.rings.begin(), scene_.rings.end(), [&](const auto& r) { return r.name == *o.ring; }))
-      problem("optimise.ring", 0, "there is no ring of this name in the scene");
-    if (scene_.variables.empty()) problem("optimise.objective", 0, "needs an [[optimise.variable]] at least");
+      problem("optimise.ring", "there is no ring of this name in the scene");
+    if (scene_.variables.empty()) problem("optimise.objective", "needs an [[optimise.variable]] at least");
     for (std::size_t i = 0; i < scene_.variables.size(); ++i) variable(scene_.variables[i], i);
   }
 
   void variable(const VariableInput& v, std::size_t i) {
     const std::string table = "optimise.variable.";
     if (!input(table + "input", i, v.input)) return;
-    for (std::size_t j = 0; j < i; ++j) {
-      if (scene_.variables[j].input == v.input) return problem(table + "input", i, "is declared twice; leave one out");
-    }
+    if (repeated(scene_.variables, i)) return problem(table + "input", i, "is declared twice; leave one out");
     const auto& parameter = *find_input(scene_, v.input).parameter;
     for (const auto& [key, value] : {std::pair{"low", v.low}, {"high", v.high}}) {
       if (!parameter.in_range(value))
@@ -167,13 +138,10 @@ class StudyChecker {
     if (whole && (v.low != std::floor(v.low) || v.high != std::floor(v.high)))
       problem(table + "low", i, v.input + " is a whole number, so must be its limits");
   }
-
-  const Scene& scene_;
-  std::vector<Problem>& problems_;
 };
 
 }  // namespace
 
-void check_study_keys(const Scene& scene, std::vector<Problem>& problems) { StudyChecker(scene, problems).run(); }
+void check_study_keys(Scene& scene, std::vector<Problem>& problems) { StudyChecker(scene, problems).run(); }
 
 }  // namespace annulus::app

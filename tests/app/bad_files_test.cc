@@ -293,6 +293,7 @@ BOOST_AUTO_TEST_CASE(references_that_are_none) {
         order + "margin = nan",
         order + "margin = \"a\"",
         order + "margin = -1",
+        order + "margins = 1",
         std::string("source = \"s\"\n[[order]]\nquantity = \"q\"\nrings = [1]\nstatement = \"s\""),
         std::string("source = \"s\"\n[[value]]\nquantity = \"q\"\nvalue = inf\nstatement = \"s\""),
         std::string("source = \"s\"\n[[value]]\nquantity = \"q\"\nvalue = 1\nwithin = -1\nstatement = \"s\""),

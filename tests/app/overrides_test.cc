@@ -68,8 +68,8 @@ BOOST_AUTO_TEST_CASE(values_are_set_before_the_checks) {
   for (std::size_t n = 0; n < 5; ++n)
     BOOST_TEST(changed.errors.planet_eccentricity[n] == eccentricity[n] * units::um,
                boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(changed.errors.planet_installation_phase[4] == 90 * units::deg, boost::test_tools::tolerance(1e-15));
-  BOOST_TEST(changed.errors.planet_installation_phase[0] == 0.0);
+  BOOST_TEST(changed.errors.planet_pin_position_phase[4] == 90 * units::deg, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(changed.errors.planet_pin_position_phase[0] == 0.0);
   // The scene itself is as it was, and so is one changed by nothing.
   BOOST_TEST(scene.stage.power == 2958.8e3);
   const auto same = app::with_overrides(scene, {});

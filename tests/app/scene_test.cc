@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(origins_and_defaults) {
   BOOST_CHECK(input(scene, "stage.module_mm").origin == app::Origin::scene);
   BOOST_CHECK(input(scene, "material.poisson_ratio").origin == app::Origin::default_value);
   BOOST_TEST(scene.material.poisson_ratio == 0.3);
-  BOOST_TEST(scene.errors.planet_installation.size() == 5U);  // an absent list becomes zeros
+  BOOST_TEST(scene.errors.planet_pin_position.size() == 5U);  // an absent list becomes zeros
   BOOST_TEST(std::isinf(scene.supports.ring));                // an absent support is rigid
   BOOST_TEST(scene.supports.sun_torsional == 0.0);
 }

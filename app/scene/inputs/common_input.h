@@ -50,13 +50,14 @@ struct HubGearInput : GearInput {
   std::optional<double> bore_diameter;
 };
 
-/// An eccentricity turns with its body; a position error (`installation`) is fixed in the housing or on the carrier.
+/// An eccentricity turns with its body; a position error is fixed in the housing or on the carrier.
+struct BodyErrorInput {
+  double eccentricity = 0, eccentricity_phase = 0, position = 0, position_phase = 0;
+};
+
 struct ErrorInput {
-  std::vector<double> planet_eccentricity, planet_eccentricity_phase, planet_installation, planet_installation_phase;
-  double sun_eccentricity = 0, sun_eccentricity_phase = 0, sun_installation = 0, sun_installation_phase = 0;
-  double ring_eccentricity = 0, ring_eccentricity_phase = 0, ring_installation = 0, ring_installation_phase = 0;
-  double carrier_eccentricity = 0, carrier_eccentricity_phase = 0;
-  double carrier_installation = 0, carrier_installation_phase = 0;
+  std::vector<double> planet_eccentricity, planet_eccentricity_phase, planet_pin_position, planet_pin_position_phase;
+  BodyErrorInput sun, ring, carrier;
   double sun_planet_misalignment = 0, ring_planet_misalignment = 0;  ///< over the face width, normal to the flanks
   // Of a helical pair: waves along the normal of the flanks, at mesh frequency and once per turn.
   std::optional<double> mesh_error;

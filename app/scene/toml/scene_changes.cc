@@ -1,54 +1,83 @@
+#include <fmt/format.h>
+
+#include <cmath>
 #include <sstream>
 
 #include "app/scene/overrides.h"
-#include "app/scene/scene_limits.h"
 #include "app/scene/scene_schema.h"
-#include "app/scene/toml/tables.h"
+#include "app/scene/toml/values.h"
 #include "core/errors.h"
 
 namespace annulus::app {
 
 namespace {
 
-toml::table& table_at(toml::table& root, const InputEdit& edit) {
-  if (edit.ring) return *root.get("ring")->as_array()->get(*edit.ring)->as_table();
+toml::table& table_at(toml::table& root, const InputTarget& target, std::size_t entry) {
+  if (!target.rings.empty()) return *root.get("ring")->as_array()->get(entry)->as_table();
   toml::table* table = &root;
-  std::istringstream path(edit.parameter->table);
+  std::istringstream path(target.parameter->table);
   for (std::string name; std::getline(path, name, '.');) {
-    if (!table->contains(name)) table->insert(name, toml::table{});
+    table->insert(name, toml::table{});  // unless there is one
     table = table->get(name)->as_table();
     require(table != nullptr, "a checked scene has tables where its schema has");
   }
   return *table;
 }
 
-void set_number(toml::table& root, const InputEdit& edit) {
-  const Parameter& p = *edit.parameter;
-  toml::table& table = table_at(root, edit);
-  if (p.kind == Parameter::Kind::integer) {
-    table.insert_or_assign(p.name, static_cast<std::int64_t>(edit.value));
-  } else if (p.kind == Parameter::Kind::reals) {
-    toml::array list;
-    const auto* present = table[p.name].as_array();
-    for (std::size_t i = 0; i < edit.length; ++i)
-      list.push_back(i == *edit.index                 ? edit.value
-                     : present && i < present->size() ? present->get(i)->value_or(0.0)
-                                                      : 0.0);
-    table.insert_or_assign(p.name, std::move(list));
-  } else {
-    table.insert_or_assign(p.name, edit.value);
+/// The number that an override gives its input in one table.
+double changed_value(const Scene& scene, const InputTarget& target, std::size_t entry, const Override& change) {
+  double value = change.value;
+  if (change.factor) {
+    const auto present = input_value(scene, target, entry);
+    if (!present) throw InputError(change.input + ": has no value in this scene that could be multiplied");
+    if (std::isinf(*present)) throw InputError(change.input + ": is rigid (inf), a factor does not change it");
+    value *= *present;
+  }
+  const bool whole = target.parameter->kind == Parameter::Kind::integer;
+  if (whole && (value != std::floor(value) || std::abs(value) > 1e9))
+    throw InputError(
+        fmt::format("{} = {}: must be a whole number, and is never rounded", change.input, to_text(value, 15)));
+  return value;
+}
+
+void apply(const Scene& scene, const Override& change, toml::table& root) {
+  const auto target = find_input(scene, change.input);
+  const Parameter& p = *target.parameter;
+  for (const auto entry : target.entries()) {
+    const double value = changed_value(scene, target, entry, change);
+    toml::table& table = table_at(root, target, entry);
+    if (p.kind == Parameter::Kind::integer) {
+      table.insert_or_assign(p.name, static_cast<std::int64_t>(value));
+    } else if (target.index) {
+      if (!table[p.name].is_array()) table.insert_or_assign(p.name, toml::array{});
+      auto& list = *table[p.name].as_array();
+      for (const double x : target.list)
+        if (list.size() < target.list.size()) list.push_back(x);
+      list.replace(list.cbegin() + static_cast<std::ptrdiff_t>(*target.index), value);
+    } else {
+      table.insert_or_assign(p.name, value);
+    }
   }
 }
 
-toml::table changed_root(const Scene& scene, const std::vector<Override>& overrides) {
+toml::table root_of(const Scene& scene) {
   require(!scene.text.empty(), "only a scene read from a file or text can be changed");
-  toml::table root = toml::parse(scene.text, scene.file.string());
+  return parse_toml(scene.text, scene.file.string());
+}
+
+std::string text_of(const toml::table& root) {
+  std::ostringstream text;
+  text << root << '\n';
+  return text.str();
+}
+
+toml::table changed_root(const Scene& scene, const std::vector<Override>& overrides) {
+  toml::table root = root_of(scene);
   // A changed scene answers one question: it has no studies of its own, and no one asks for its assumptions.
-  for (const auto& table : schema()) {
-    if (is_study_table(table.path)) root.erase(table.path);
-  }
+  for (const auto& table : schema())
+    if (table.role == Table::Role::study) root.erase(table.path);
   root.erase("assumed");
-  for (const auto& edit : resolve(scene, overrides)) set_number(root, edit);
+  for (const auto& change : overrides) apply(scene, change, root);
   return root;
 }
 
@@ -59,12 +88,9 @@ Scene with_overrides(const Scene& scene, const std::vector<Override>& overrides)
 }
 
 Scene with_accuracy(const Scene& scene, double accuracy, const std::string& note) {
-  require(!scene.text.empty(), "only a scene read from a file or text can be changed");
-  toml::table root = toml::parse(scene.text, scene.file.string());
+  toml::table root = root_of(scene);
   root.insert_or_assign("accuracy", accuracy);
-  std::ostringstream text;
-  text << root << '\n';
-  Scene changed = parse_scene(text.str(), scene.file);
+  Scene changed = parse_scene(text_of(root), scene.file);
   for (auto& input : changed.inputs) {
     if (input.key != "accuracy") continue;
     input.origin = Origin::derived;
@@ -76,13 +102,7 @@ Scene with_accuracy(const Scene& scene, double accuracy, const std::string& note
 std::string scene_text(const Scene& scene, const std::vector<Override>& overrides) {
   toml::table root = changed_root(scene, overrides);
   root.erase("reference");  // its path is relative to the original
-  std::ostringstream text;
-  text << root << '\n';
-  return text.str();
-}
-
-Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  return with_overrides(read_scene(file), overrides);
+  return text_of(root);
 }
 
 }  // namespace annulus::app

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <set>
 #include <sstream>
 
 #include "app/scene/scene_limits.h"
@@ -12,10 +14,6 @@
 namespace annulus::app {
 
 namespace {
-
-std::string too_long(const Parameter& p, std::size_t size) {
-  return fmt::format("has {} values, at most {} are possible", size, p.longest);
-}
 
 /// "must be one of ..." for a text that is none of the permitted ones; empty for those.
 std::string choice_rule(const Parameter& p, const std::string& text) {
@@ -26,11 +24,11 @@ std::string choice_rule(const Parameter& p, const std::string& text) {
   return "must be " + choices_text(p) + (near.empty() ? "" : "; did you mean \"" + near + "\"?");
 }
 
-}  // namespace
-
-Place place_of(const toml::source_region& source) {
-  return {static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+double as_double(const toml::node& node) {
+  return node.is_integer() ? static_cast<double>(**node.as_integer()) : **node.as_floating_point();
 }
+
+}  // namespace
 
 std::string node_text(const toml::node& node) {
   if (node.is_table() || node.is_array_of_tables()) return "{...}";
@@ -46,11 +44,6 @@ std::string node_text(const toml::node& node) {
   return shown(out.str());
 }
 
-std::string expected_text(const Parameter& p) {
-  const auto range = p.range_text();
-  return p.type_text() + (range.empty() ? "" : ", " + range);
-}
-
 std::string text_rule(const std::string& text) {
   if (has_controls(text)) return "must be one line without control characters";
   if (text.size() > longest_text)
@@ -59,61 +52,69 @@ std::string text_rule(const std::string& text) {
 }
 
 std::string read_value(const Parameter& p, const toml::node& node, Value& value) {
-  switch (p.kind) {
-    case Parameter::Kind::integer:
-      if (!node.is_integer()) return "must be " + expected_text(p);
+  using Kind = Parameter::Kind;
+  const bool texts = p.kind == Kind::text || p.kind == Kind::texts || p.kind == Kind::choice;
+  const auto right_type = [&](const toml::node& n) {
+    return texts ? n.is_string() : n.is_integer() || (p.kind != Kind::integer && n.is_floating_point());
+  };
+  const auto rule = [&](const toml::node& n) -> std::string {
+    if (!texts) return p.in_range(as_double(n)) ? "" : "must be in range: " + p.range_text();
+    const std::string& text = **n.as_string();
+    const auto wrong = p.kind == Kind::choice ? "" : text_rule(text);
+    return wrong.empty() ? choice_rule(p, text) : wrong;
+  };
+  if (p.kind != Kind::reals && p.kind != Kind::texts) {
+    if (!right_type(node)) return "must be " + expected_text(p);
+    if (p.kind == Kind::integer)
       value = static_cast<long>(**node.as_integer());
-      if (!p.in_range(static_cast<double>(std::get<long>(value)))) return "must be in range: " + p.range_text();
-      break;
-    case Parameter::Kind::real:
-      if (!node.is_number()) return "must be " + expected_text(p);
-      value = *node.value<double>();
-      if (!p.in_range(std::get<double>(value))) return "must be in range: " + p.range_text();
-      break;
-    case Parameter::Kind::reals: {
-      const auto* array = node.as_array();
-      if (array && array->size() > p.longest) return too_long(p, array->size());
-      std::vector<double> list;
-      for (std::size_t i = 0; array && i < array->size(); ++i) {
-        const auto* item = array->get(i);
-        if (!item->is_number()) return "must be " + expected_text(p);
-        list.push_back(*item->value<double>());
-        if (!p.in_range(list.back())) return fmt::format("value {} must be in range: {}", i + 1, p.range_text());
-      }
-      if (!array) return "must be " + expected_text(p);
-      value = std::move(list);
-      break;
-    }
-    case Parameter::Kind::texts: {
-      const auto* array = node.as_array();
-      if (array && array->size() > p.longest) return too_long(p, array->size());
-      std::vector<std::string> list;
-      for (std::size_t i = 0; array && i < array->size(); ++i) {
-        const auto* item = array->get(i)->as_string();
-        if (!item) return "must be " + expected_text(p);
-        if (auto rule = text_rule(**item); !rule.empty()) return rule;
-        list.push_back(**item);
-      }
-      if (!array) return "must be " + expected_text(p);
-      for (std::size_t i = 0; i < list.size(); ++i)
-        if (auto rule = choice_rule(p, list[i]); !rule.empty()) return fmt::format("value {} {}", i + 1, rule);
-      value = std::move(list);
-      break;
-    }
-    case Parameter::Kind::text:
-      if (!node.is_string()) return "must be " + expected_text(p);
-      if (auto rule = text_rule(**node.as_string()); !rule.empty()) return rule;
+    else if (texts)
       value = **node.as_string();
-      break;
-    case Parameter::Kind::choice: {
-      const auto text = node.value<std::string>();
-      if (!text) return "must be " + expected_text(p);
-      if (auto rule = choice_rule(p, *text); !rule.empty()) return rule;
-      value = *text;
-      break;
-    }
+    else
+      value = as_double(node);
+    return rule(node);
   }
+  const auto* array = node.as_array();
+  if (!array || !std::all_of(array->begin(), array->end(), right_type)) return "must be " + expected_text(p);
+  if (array->size() > p.longest) return fmt::format("has {} values, at most {} are possible", array->size(), p.longest);
+  std::vector<double> numbers;
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const auto& item = *array->get(i);
+    if (const auto wrong = rule(item); !wrong.empty()) return fmt::format("value {} {}", i + 1, wrong);
+    if (texts)
+      words.push_back(**item.as_string());
+    else
+      numbers.push_back(as_double(item));
+  }
+  if (!p.at_least_one.empty() && array->empty()) return "needs at least one " + p.at_least_one;
+  if (p.distinct && std::set<double>(numbers.begin(), numbers.end()).size() != numbers.size())
+    return "contains the same value twice; leave one out";
+  if (texts)
+    value = std::move(words);
+  else
+    value = std::move(numbers);
   return "";
+}
+
+toml::table parse_toml(const std::string& text, const std::string& file) {
+  check_scene_text(text, file);
+  try {
+    return toml::parse(text, file);
+  } catch (const toml::parse_error& error) {
+    const auto& at = error.source().begin;
+    throw SceneError(file, {{static_cast<int>(at.line), static_cast<int>(at.column),
+                             "not valid TOML: " + std::string(error.description())}});
+  }
+}
+
+std::string text_of_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file))
+    throw InputError(file.string() + ": cannot be read; is the path right?");
+  std::string text(largest_scene + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
 }
 
 }  // namespace annulus::app

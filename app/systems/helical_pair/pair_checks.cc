@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "app/scene/key_checks.h"
-#include "app/scene/scene_schema.h"
+#include "app/scene/model_limits.h"
 #include "app/systems/helical_pair/pair_errors.h"
 #include "app/systems/helical_pair/pair_model.h"
 #include "app/systems/helical_pair/pair_scene.h"
@@ -23,15 +22,12 @@ class PairChecker : KeyChecks {
   void run() {
     stiffness();
     errors();
-    transmission_error();
     dynamics();
     // What follows needs values that are all there.
     if (problems_.empty()) geometry();
   }
 
  private:
-  void problem(const std::string& key, const std::string& rule) { KeyChecks::problem(key, "", rule); }
-
   void stiffness() {
     if (!usable("mesh.pinion_wheel.stiffness") && given("mesh.pinion_wheel.stiffness")) return;
     const auto& m = scene_.pinion_wheel;
@@ -69,19 +65,6 @@ class PairChecker : KeyChecks {
     }
   }
 
-  void transmission_error() {
-    if (!scene_.transmission_error) return;
-    const char* key = "transmission_error.pinion_torques_Nm";
-    if (!usable(key)) return;
-    const auto& t = *scene_.transmission_error;
-    if (t.pinion_torques.empty()) problem(key, "needs at least one torque");
-    for (const auto& [name, list] :
-         {std::pair{key, &t.pinion_torques}, {"transmission_error.pinion_speeds_rpm", &t.pinion_speeds}}) {
-      if (std::set<double>(list->begin(), list->end()).size() != list->size())
-        problem(name, "contains the same value twice; leave one out");
-    }
-  }
-
   void dynamics() {
     if (!scene_.dynamics) return;
     const auto& e = scene_.errors;
@@ -96,7 +79,8 @@ class PairChecker : KeyChecks {
     for (const auto& [name, gear] : {std::pair{"pinion", &scene_.pinion}, {"wheel", &scene_.wheel}}) {
       const auto inertia = pair_inertia(scene_, *gear);
       if (!given(std::string(name) + ".inertia_kg_m2") && inertia)
-        derive(std::string(name) + ".inertia_kg_m2", *inertia, "½ m r² of a solid disc, r: reference circle");
+        set(std::string(name) + ".inertia_kg_m2", *inertia, Origin::derived,
+            "½ m r² of a solid disc, r: reference circle");
     }
     std::optional<PairGeometry> pair;
     try {
@@ -105,8 +89,8 @@ class PairChecker : KeyChecks {
       return;  // reported with its reason where the gears are made
     }
     if (!given("stage.centre_distance_mm"))
-      derive("stage.centre_distance_mm", pair->gears.centre_distance() / units::mm,
-             "no backlash at the profile shifts");
+      set("stage.centre_distance_mm", pair->gears.centre_distance() / units::mm, Origin::derived,
+          "no backlash at the profile shifts");
     for (const auto& [name, gear, input] :
          {std::tuple{"pinion", &pair->pinion(), &scene_.pinion}, {"wheel", &pair->wheel(), &scene_.wheel}}) {
       if (input->bore_diameter && *input->bore_diameter >= 2 * gear->root_radius())
@@ -136,5 +120,25 @@ class PairChecker : KeyChecks {
 }  // namespace
 
 void check_pair_scene(Scene& scene, std::vector<Problem>& problems) { PairChecker(scene, problems).run(); }
+
+void check_pair_geometry(const Scene& scene, const PairGeometry& geometry) {
+  const auto stiffness = scene.pinion_wheel.stiffness;
+  const bool elastic = stiffness == StiffnessShape::computed || stiffness == StiffnessShape::closed_form;
+  if (elastic) {
+    check_bore(scene, "pinion", scene.pinion, geometry.pinion());
+    check_bore(scene, "wheel", scene.wheel, geometry.wheel());
+  }
+  constexpr const char* load = "stage.pinion_torque_Nm";
+  if (scene.dynamics) {
+    check_deviations(scene);
+    const double across = geometry.transverse_force, along = across * std::tan(std::abs(scene.stage.helix_angle));
+    check_prescribed_mesh(scene, load, scene.pinion_wheel, across);
+    check_bearing(scene, "pinion.bearing_transverse_N_per_m", scene.pinion.bearing_transverse, across);
+    check_bearing(scene, "wheel.bearing_transverse_N_per_m", scene.wheel.bearing_transverse, across);
+    check_bearing(scene, "pinion.bearing_axial_N_per_m", scene.pinion.bearing_axial, along);
+    check_bearing(scene, "wheel.bearing_axial_N_per_m", scene.wheel.bearing_axial, along);
+  }
+  if (elastic) check_load(scene, load, geometry.transverse_force);
+}
 
 }  // namespace annulus::app

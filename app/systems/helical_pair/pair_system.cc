@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "app/plan/plan.h"
-#include "app/systems/helical_pair/pair_geometry_checks.h"
 #include "app/systems/helical_pair/pair_lumped_model.h"
 #include "app/systems/helical_pair/pair_run.h"
 #include "app/systems/helical_pair/pair_scene.h"
@@ -22,11 +21,7 @@ class PairSystem final : public GearSystem {
     return fmt::format("helical pair, {} and {} teeth", scene().pinion.teeth, scene().wheel.teeth);
   }
 
-  void check() const override {
-    const auto geometry = make_pair_geometry(scene());
-    check_rims(scene(), geometry);
-    check_displacements(scene(), geometry);
-  }
+  void check() const override { check_pair_geometry(scene(), make_pair_geometry(scene())); }
 
   [[nodiscard]] std::vector<MeshModel> meshes() const override {
     return {pair_mesh_model(scene(), make_pair_geometry(scene()))};

@@ -6,7 +6,7 @@ namespace annulus::app {
 namespace {
 
 Table pair_stage_table() {
-  Declarations<StageInput> stage("stage", "", [](Scene& s, std::size_t) -> StageInput& { return s.stage; });
+  Declarations stage("stage", "", &Scene::stage);
   declare_centre_distance(stage).absent("that without backlash, from the profile shifts");
   stage
       .key("pinion_torque_Nm", &StageInput::pinion_torque,
@@ -17,8 +17,8 @@ Table pair_stage_table() {
   return stage.done();
 }
 
-Table pair_gear_table(const char* path, const char* meaning, PairGearInput& (*section)(Scene&, std::size_t)) {
-  Declarations<PairGearInput> gear(path, meaning, section);
+Table pair_gear_table(const char* path, const char* meaning, PairGearInput Scene::*member) {
+  Declarations gear(path, meaning, member);
   declare_teeth(gear, Flanks::external);
   declare_mass(gear);
   declare_inertia(gear).absent("½ m r² of a solid disc, r: reference circle");
@@ -34,8 +34,7 @@ Table pair_gear_table(const char* path, const char* meaning, PairGearInput& (*se
 }
 
 Table pair_errors_table() {
-  Declarations<ErrorInput> errors("errors", "Manufacturing errors.",
-                                  [](Scene& s, std::size_t) -> ErrorInput& { return s.errors; });
+  Declarations errors("errors", "Manufacturing errors.", &Scene::errors);
   errors.optional();
   const auto wave = [&](const char* name, double ErrorInput::*member, const char* meaning, double limit) {
     return errors.key(name, member, meaning).fallback(0.0, "no error").from(-limit, limit);
@@ -64,11 +63,11 @@ Table pair_errors_table() {
 
 Table pair_mesh_table() {
   auto mesh = declare_mesh(
-      "mesh.pinion_wheel",
-      "Stiffness of the mesh along the normal of the flanks. computed: finite elements (`model`); iso_6336: mean after "
-      "ISO 6336-1 method B, with `ripple` if one is given; closed_form: tooth formulas of the transverse section, "
-      "staggered along the helix. Forces and errors of a table are those of the transverse section.",
-      [](Scene& s, std::size_t) -> MeshInput& { return s.pinion_wheel; },
+      {"mesh.pinion_wheel",
+       "Stiffness of the mesh along the normal of the flanks. computed: finite elements (`model`); iso_6336: mean "
+       "after ISO 6336-1 method B, with `ripple` if one is given; closed_form: tooth formulas of the transverse "
+       "section, staggered along the helix. Forces and errors of a table are those of the transverse section.",
+       &Scene::pinion_wheel},
       {.more_shapes = {{"iso_6336", StiffnessShape::iso_6336}, {"closed_form", StiffnessShape::closed_form}},
        .more_waves = {"iso_6336"},
        .constant_shape = "iso_6336: constant"});
@@ -92,15 +91,12 @@ std::vector<Choice<std::string>> reading_choices() {
 }
 
 Table manufacturing_error_table() {
-  Declarations<ManufacturingErrorInput> t(
+  Declarations t(
       "manufacturing_error",
       "Tangential composite deviations of both gears as random amplitudes: X₁ = (F′ − f′)/2 once per turn and X₂ = "
       "f′/2 once per tooth, Rayleigh, under a uniform phase. One reading of their quantile becomes the error at mesh "
       "frequency.",
-      [](Scene& s, std::size_t) -> ManufacturingErrorInput& {
-        if (!s.manufacturing_error) s.manufacturing_error.emplace();
-        return *s.manufacturing_error;
-      });
+      &Scene::manufacturing_error);
   t.on_request();
   const auto deviation = [&](const char* name, double ManufacturingErrorInput::*member, const char* meaning) {
     t.key(name, member, meaning).required().from(0, 1e4);
@@ -112,10 +108,10 @@ Table manufacturing_error_table() {
   deviation("wheel_total_um", &ManufacturingErrorInput::wheel_total, "F′ᵢ of the wheel.");
   deviation("wheel_tooth_to_tooth_um", &ManufacturingErrorInput::wheel_tooth_to_tooth, "f′ᵢ of the wheel.");
   t.key("samples", &ManufacturingErrorInput::samples, "Draws of each gear.")
-      .fallback(10000L, "as in the paper")
+      .fallback(10000, "as in the paper")
       .from(100, 1e7);
   t.key("seed", &ManufacturingErrorInput::seed, "Other seeds give other draws.")
-      .fallback(1L, "any number will do")
+      .fallback(1, "any number will do")
       .from(0, 2147483647);
   t.key("probability", &ManufacturingErrorInput::probability, "Of the quantiles.")
       .fallback(0.95, "as in the paper")
@@ -126,34 +122,34 @@ Table manufacturing_error_table() {
   t.choice("divisor", &ManufacturingErrorInput::divisor,
            {{"printed", ErrorDivisor::printed}, {"exact", ErrorDivisor::exact}},
            "Scale of the Rayleigh law = deviation / divisor: 6.8 as printed, or 2√(−2 ln 0.003) = 6.817.")
-      .fallback(std::string("printed"), "the source's rounding");
+      .fallback("printed", "the source's rounding");
   t.choice("reading", &ManufacturingErrorInput::reading, reading_choices(),
            "Which quantity's quantile becomes the error at mesh frequency: pinion_ or wheel_ with error (one-sided), "
            "error_magnitude, x1, x2, envelope √(X₁² + X₂²) or crest X₁ + X₂; sum or sum_magnitude of both gears; "
            "none: the law is reported, the error is that of errors.mesh_error_um.")
-      .fallback(std::string("pinion_envelope"), "the amplitude of one gear, both terms");
+      .fallback("pinion_envelope", "the amplitude of one gear, both terms");
   t.choice("amount", &ManufacturingErrorInput::amount, {{"sample", ErrorAmount::sample}, {"exact", ErrorAmount::exact}},
            "Quantile of the draws, or of the law itself.")
-      .fallback(std::string("sample"), "as in the paper; its confidence interval stands beside it");
+      .fallback("sample", "as in the paper; its confidence interval stands beside it");
   return t.done();
 }
 
 Table transmission_error_table() {
-  Declarations<TransmissionErrorInput> shares(
-      "transmission_error", "Causes of the transmission error: all causes, the errors alone and the stiffness alone.",
-      [](Scene& s, std::size_t) -> TransmissionErrorInput& {
-        if (!s.transmission_error) s.transmission_error.emplace();
-        return *s.transmission_error;
-      });
+  Declarations shares("transmission_error",
+                      "Causes of the transmission error: all causes, the errors alone and the stiffness alone.",
+                      &Scene::transmission_error);
   shares.on_request().only_if(given("[dynamics]"), "the shares are those of the lumped model");
   shares
       .key("pinion_torques_Nm", &TransmissionErrorInput::pinion_torques,
            "Torques of the pinion at which the causes are separated; the speed is that of the stage.")
+      .not_empty("torque")
+      .distinct()
       .required()
       .above(0, 1e9);
   shares
       .key("pinion_speeds_rpm", &TransmissionErrorInput::pinion_speeds,
            "Speeds of the pinion at which the causes are separated as well; the torque is that of the stage.")
+      .distinct()
       .fallback(std::vector<double>{}, "none")
       .above(0, 1e6);
   return shares.done();
@@ -163,10 +159,8 @@ Table transmission_error_table() {
 
 std::vector<Table> pair_tables() {
   return {pair_stage_table(),
-          pair_gear_table("pinion", "The driving gear of a pair.",
-                          [](Scene& s, std::size_t) -> PairGearInput& { return s.pinion; }),
-          pair_gear_table("wheel", "The driven gear of a pair.",
-                          [](Scene& s, std::size_t) -> PairGearInput& { return s.wheel; }),
+          pair_gear_table("pinion", "The driving gear of a pair.", &Scene::pinion),
+          pair_gear_table("wheel", "The driven gear of a pair.", &Scene::wheel),
           pair_mesh_table(),
           pair_errors_table(),
           manufacturing_error_table(),

@@ -37,8 +37,7 @@ class PlanetaryChecker : KeyChecks {
     }
     wave(scene_.sun_planet, "mesh.sun_planet");
     wave(scene_.ring_planet, "mesh.ring_planet");
-    resolved_model();
-    axial_force();
+    single_supports();
     plane_models();
     rim_coupling();
   }
@@ -49,13 +48,13 @@ class PlanetaryChecker : KeyChecks {
     if (!given(key) || !usable(key) || !usable("stage.planets")) return;
     const auto& angles = scene_.stage.planet_angles;
     if (angles.size() != static_cast<std::size_t>(scene_.stage.planets)) {
-      problem(key, "",
+      problem(key,
               fmt::format("needs one angle per planet: {} angles for {} planets", angles.size(), scene_.stage.planets));
     } else if (angles.front() != 0) {
-      problem(key, "", "the first angle must be 0, from which the others are measured");
+      problem(key, "the first angle must be 0, from which the others are measured");
     } else if (std::adjacent_find(angles.begin(), angles.end(), std::greater_equal<>()) != angles.end() ||
                angles.back() >= 2 * std::numbers::pi) {
-      problem(key, "", "angles must increase and stay below 360");
+      problem(key, "angles must increase and stay below 360");
     }
   }
 
@@ -63,8 +62,8 @@ class PlanetaryChecker : KeyChecks {
     auto& e = scene_.errors;
     list("errors.planet_eccentricity_um", e.planet_eccentricity);
     list("errors.planet_eccentricity_phase_deg", e.planet_eccentricity_phase);
-    list("errors.planet_pin_position_error_um", e.planet_installation);
-    list("errors.planet_pin_position_error_phase_deg", e.planet_installation_phase);
+    list("errors.planet_pin_position_error_um", e.planet_pin_position);
+    list("errors.planet_pin_position_error_phase_deg", e.planet_pin_position_phase);
   }
 
   void list(const std::string& key, std::vector<double>& values) {
@@ -72,31 +71,28 @@ class PlanetaryChecker : KeyChecks {
     const auto planets = static_cast<std::size_t>(scene_.stage.planets);
     if (values.empty() && !given(key)) values.assign(planets, 0);
     if (values.size() != planets) {
-      problem(key, "", fmt::format("needs one value per planet: {} values for {} planets", values.size(), planets));
+      problem(key, fmt::format("needs one value per planet: {} values for {} planets", values.size(), planets));
     }
   }
 
-  void resolved_model() {
-    if (scene_.fidelity != Fidelity::resolved) return;
-    if (scene_.ring_planet.stiffness == StiffnessShape::computed)
-      for (const auto& ring : scene_.rings)
-        if (fem::on_single_supports(ring_structure(ring)))
-          problem("model", "",
-                  fmt::format("cannot represent the ring-planet mesh of '{}': the resolved model does not cover rings "
-                              "on pins, bolts or splines; use \"automatic\"",
-                              ring.name));
-    if (scene_.stage.helix_angle != 0)
-      problem("model", "", "cannot represent helical gears: use \"automatic\" or \"solid\"");
-  }
-
-  void axial_force() {
-    if (scene_.stage.helix_angle == 0 || scene_.ring_planet.stiffness != StiffnessShape::computed) return;
-    for (const auto& ring : scene_.rings)
-      if (fem::on_single_supports(ring_structure(ring)))
-        problem("stage.helix_angle_deg", "",
+  /// Rings on pins, bolts or splines, and helical gears in the resolved model.
+  void single_supports() {
+    const bool resolved = scene_.fidelity == Fidelity::resolved, helical = scene_.stage.helix_angle != 0;
+    if (resolved && helical) problem("model", "cannot represent helical gears: use \"automatic\" or \"solid\"");
+    if (scene_.ring_planet.stiffness != StiffnessShape::computed) return;
+    for (const auto& ring : scene_.rings) {
+      if (!fem::on_single_supports(ring_structure(ring))) continue;
+      if (resolved)
+        problem("model",
+                fmt::format("cannot represent the ring-planet mesh of '{}': the resolved model does not cover rings "
+                            "on pins, bolts or splines; use \"automatic\"",
+                            ring.name));
+      if (helical)
+        problem("stage.helix_angle_deg",
                 fmt::format("is not modelled for the ring '{}' on pins, bolts or splines: they do not carry the axial "
                             "force",
                             ring.name));
+    }
   }
 
   /// Models in which nothing changes along the face width are refused where something does.
@@ -104,7 +100,7 @@ class PlanetaryChecker : KeyChecks {
     if (scene_.fidelity != Fidelity::plane && scene_.fidelity != Fidelity::closed_form) return;
     const auto refuse = [&](const std::string& mesh, const std::string& why) {
       if (why.empty()) return;
-      problem("model", "",
+      problem("model",
               fmt::format("cannot represent the {}: {}; use \"automatic\", \"solid\" or \"resolved\"", mesh, why));
     };
     if (scene_.sun_planet.stiffness == StiffnessShape::computed) refuse("sun-planet mesh", solid_reason(scene_));
@@ -127,9 +123,9 @@ class PlanetaryChecker : KeyChecks {
     for (const auto& ring : scene_.rings) {
       if (seen.contains(ring.name)) continue;
       seen.insert(ring.name);
-      const bool good = !ring.name.empty() && ring.name.front() != '.' &&
-                        ring.name.find_first_not_of(allowed) == std::string::npos && ring.name.size() <= 64;
-      if (!good) {
+      const bool allowed_name = !ring.name.empty() && ring.name.front() != '.' &&
+                                ring.name.find_first_not_of(allowed) == std::string::npos && ring.name.size() <= 64;
+      if (!allowed_name) {
         problem("ring.name", ring.name,
                 "names a folder: letters, digits, '-', '_', '+' and '.' only, not starting with '.', at most 64");
       } else if (is_of_the_run(ring.name)) {
@@ -150,12 +146,12 @@ class PlanetaryChecker : KeyChecks {
     const auto coupling = scene_.dynamics->rim_coupling;
     if (coupling != RimCoupling::elastic && coupling != RimCoupling::statical) return;
     if (scene_.ring_planet.stiffness != StiffnessShape::computed)
-      problem("dynamics.rim_coupling", "",
+      problem("dynamics.rim_coupling",
               "needs a computed ring mesh: a prescribed stiffness does not describe the ring; use \"none\" or "
               "\"automatic\"");
     for (const auto& ring : scene_.rings)
       if (ring_structure(ring).single_supports() == 1)
-        problem("dynamics.rim_coupling", "",
+        problem("dynamics.rim_coupling",
                 fmt::format("is not modelled for the ring '{}' on a single pin, which leans on its housing: use "
                             "\"none\" or \"automatic\", or give the ring more pins",
                             ring.name));

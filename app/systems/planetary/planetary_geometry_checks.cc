@@ -1,13 +1,10 @@
-#include "app/systems/planetary/planetary_geometry_checks.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "app/scene/bore_checks.h"
-#include "app/scene/small_displacements.h"
+#include "app/scene/model_limits.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/ring_structures.h"
 #include "core/errors.h"
@@ -46,18 +43,6 @@ void check_ring_supports(const Scene& scene, const GearGeometry& geometry, std::
                   modules, small_displacements_rule()));
 }
 
-void check_errors_of_bodies(const Scene& scene) {
-  const auto& e = scene.errors;
-  for (const double x : e.planet_eccentricity) check_error(scene, "errors.planet_eccentricity_um", x);
-  for (const double x : e.planet_installation) check_error(scene, "errors.planet_pin_position_error_um", x);
-  check_error(scene, "errors.sun_eccentricity_um", e.sun_eccentricity);
-  check_error(scene, "errors.sun_position_error_um", e.sun_installation);
-  check_error(scene, "errors.ring_eccentricity_um", e.ring_eccentricity);
-  check_error(scene, "errors.ring_position_error_um", e.ring_installation);
-  check_error(scene, "errors.carrier_eccentricity_um", e.carrier_eccentricity);
-  check_error(scene, "errors.carrier_position_error_um", e.carrier_installation);
-}
-
 /// Least load of the bearing of a central body, in mean mesh forces: planets on one side of it cannot keep it centred.
 /// Forces that add up to one per planet, in directions fixed to the planets, have the smallest resultant when the
 /// outermost two share them.
@@ -84,26 +69,23 @@ void check_planetary_bearings(const Scene& scene, const GearGeometry& geometry) 
 
 }  // namespace
 
-void check_rims(const Scene& scene, const GearGeometry& geometry) {
+void check_planetary_geometry(const Scene& scene, const GearGeometry& geometry) {
   const bool sun = scene.sun_planet.stiffness == StiffnessShape::computed;
   const bool ring = scene.ring_planet.stiffness == StiffnessShape::computed;
   if (sun) check_bore(scene, "sun", scene.sun, geometry.sun_mesh().wheel());
   if (sun || ring) check_bore(scene, "planet", scene.planet, geometry.sun_mesh().planet());
-  if (!ring) return;
-  for (std::size_t i = 0; i < scene.rings.size(); ++i) check_ring_rim(scene, scene.rings[i], geometry.rings.at(i));
-}
+  for (std::size_t i = 0; ring && i < scene.rings.size(); ++i)
+    check_ring_rim(scene, scene.rings[i], geometry.rings.at(i));
 
-void check_displacements(const Scene& scene, const GearGeometry& geometry) {
   constexpr const char* load = "stage.power_kW";
   const double mesh_force = geometry.operating_point.mean_mesh_force;
   if (scene.dynamics) {
-    check_errors_of_bodies(scene);
+    check_deviations(scene);
     check_planetary_bearings(scene, geometry);
     for (const auto* mesh : {&scene.sun_planet, &scene.ring_planet})
       check_prescribed_mesh(scene, load, *mesh, mesh_force);
   }
-  if (has_elastic_bodies(scene.sun_planet) || has_elastic_bodies(scene.ring_planet))
-    check_load(scene, load, mesh_force);
+  if (sun || ring) check_load(scene, load, mesh_force);
   for (std::size_t i = 0; i < scene.rings.size(); ++i) check_ring_supports(scene, geometry, i);
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "app/model/mesh_figures.h"
-#include "app/systems/planetary/planetary_geometry_checks.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_plan.h"
 #include "app/systems/planetary/planetary_run.h"
@@ -32,10 +31,7 @@ class PlanetarySystem final : public GearSystem {
     return names;
   }
 
-  void check() const override {
-    check_rims(scene(), geometry());
-    check_displacements(scene(), geometry());
-  }
+  void check() const override { check_planetary_geometry(scene(), geometry()); }
 
   /// The sun mesh, then one mesh per ring.
   [[nodiscard]] std::vector<MeshModel> meshes() const override { return mesh_models(scene(), geometry()); }

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "app/scene/bore_checks.h"
+#include "app/scene/model_limits.h"
 #include "app/scene/key_checks.h"
 #include "app/systems/planetary/ring_pins.h"
 #include "core/errors.h"

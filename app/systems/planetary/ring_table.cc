@@ -26,8 +26,7 @@ void declare_ring_body(Declarations<RingInput>& ring) {
 
 Table ring_table() {
   Declarations<RingInput> ring("ring", "A ring gear and its supports; several rings are compared with each other.",
-                               [](Scene& s, std::size_t i) -> RingInput& { return s.rings.at(i); });
-  ring.repeated([](Scene& s, std::size_t n) { s.rings.resize(n); });
+                               &Scene::rings);
   declare_ring_body(ring);
   declare_structure_keys(ring);
   return ring.done();

@@ -35,6 +35,10 @@ void add_body(ContentId& id, const std::string& name, const dynamics::CentralBod
   add_deviation(id, name, body.errors);
 }
 
+dynamics::BodyErrors deviations_of(const BodyErrorInput& e) {
+  return {{e.eccentricity, e.eccentricity_phase}, {e.position, e.position_phase}};
+}
+
 }  // namespace
 
 dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
@@ -50,21 +54,19 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
   stage.sun.mass = *scene.sun.mass;
   stage.sun.inertia = *scene.sun.inertia;
   stage.sun.torsional_support = scene.supports.sun_torsional;
-  stage.sun.errors = {{e.sun_eccentricity, e.sun_eccentricity_phase}, {e.sun_installation, e.sun_installation_phase}};
+  stage.sun.errors = deviations_of(e.sun);
   stage.ring.mass = *input.mass;
   stage.ring.inertia = *input.inertia;
-  stage.ring.errors = {{e.ring_eccentricity, e.ring_eccentricity_phase},
-                       {e.ring_installation, e.ring_installation_phase}};
+  stage.ring.errors = deviations_of(e.ring);
   stage.carrier.mass = *scene.carrier.mass;
   stage.carrier.inertia = *scene.carrier.inertia;
   stage.carrier.torsional_support = scene.supports.carrier_torsional;
-  stage.carrier.errors = {{e.carrier_eccentricity, e.carrier_eccentricity_phase},
-                          {e.carrier_installation, e.carrier_installation_phase}};
+  stage.carrier.errors = deviations_of(e.carrier);
   stage.planet.mass = *scene.planet.mass;
   stage.planet.inertia = *scene.planet.inertia;
   for (std::size_t n = 0; n < static_cast<std::size_t>(scene.stage.planets); ++n) {
     stage.planet_errors.push_back({{e.planet_eccentricity[n], e.planet_eccentricity_phase[n]},
-                                   {e.planet_installation[n], e.planet_installation_phase[n]}});
+                                   {e.planet_pin_position[n], e.planet_pin_position_phase[n]}});
   }
   stage.sun_mesh = excitation_of(scene.sun_planet, sun_mesh, point.mean_mesh_force, scene.dynamics->load_dependence);
   stage.ring_mesh = excitation_of(scene.ring_planet, ring_mesh, point.mean_mesh_force, scene.dynamics->load_dependence);

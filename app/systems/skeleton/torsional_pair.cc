@@ -26,9 +26,8 @@ struct DriveInput {
   double inertia = 0;  ///< kg m^2
 };
 
-template <class Gear>
-Table gear_table(const char* path, const char* meaning, Gear section) {
-  Declarations<PairGearInput> gear(path, meaning, section);
+Table gear_table(const char* path, const char* meaning, PairGearInput Scene::*member) {
+  Declarations gear(path, meaning, member);
   declare_teeth(gear, Flanks::external);
   declare_inertia(gear).required();
   declare_flanks(gear, Flanks::external);
@@ -37,19 +36,17 @@ Table gear_table(const char* path, const char* meaning, Gear section) {
 }
 
 std::vector<Table> tables() {
-  Declarations<StageInput> stage("stage", "", [](Scene& s, std::size_t) -> StageInput& { return s.stage; });
+  Declarations stage("stage", "", &Scene::stage);
   declare_centre_distance(stage).required();
   stage.key("pinion_torque_Nm", &StageInput::pinion_torque, "Torque that drives the pinion.").above(0, 1e9).required();
   Declarations<DriveInput> drive("drive", "The machine on the shaft of the pinion.",
                                  [](Scene& s, std::size_t) -> DriveInput& { return s.own<DriveInput>(); });
   drive.optional();
   drive.key("inertia_kg_m2", &DriveInput::inertia, "Its moment of inertia.").fallback(0.0, "none").from(0, 1e6);
-  auto mesh = declare_mesh("mesh.pinion_wheel", "Stiffness of the mesh along the line of action.",
-                           [](Scene& s, std::size_t) -> MeshInput& { return s.pinion_wheel; }, {});
-  return {stage.done(),
-          gear_table("pinion", "The driving gear.", [](Scene& s, std::size_t) -> PairGearInput& { return s.pinion; }),
-          gear_table("wheel", "The driven gear.", [](Scene& s, std::size_t) -> PairGearInput& { return s.wheel; }),
-          drive.done(), mesh.done()};
+  auto mesh =
+      declare_mesh({"mesh.pinion_wheel", "Stiffness of the mesh along the line of action.", &Scene::pinion_wheel});
+  return {stage.done(), gear_table("pinion", "The driving gear.", &Scene::pinion),
+          gear_table("wheel", "The driven gear.", &Scene::wheel), drive.done(), mesh.done()};
 }
 
 class Checker : KeyChecks {

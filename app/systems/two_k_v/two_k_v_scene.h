@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "app/scene/scene_schema.h"
+#include "geometry/gear_pair.h"
 
 namespace annulus::app {
 
@@ -11,5 +12,9 @@ namespace annulus::app {
 
 /// Checks values that have to agree.
 void check_two_k_v_scene(Scene& scene, std::vector<Problem>& problems);
+
+/// Refuses bores of sun and planet without a rim where their mesh is computed, and loads and bearings too large for
+/// small displacements. Throws what model_limits.h throws.
+void check_two_k_v_geometry(const Scene& scene, const geometry::GearPair& pair);
 
 }  // namespace annulus::app

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "app/plan/plan.h"
-#include "app/systems/two_k_v/two_k_v_geometry_checks.h"
 #include "app/systems/two_k_v/two_k_v_lumped_model.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "app/systems/two_k_v/two_k_v_scene.h"
@@ -26,8 +25,7 @@ class TwoKVSystem final : public GearSystem {
 
   void check() const override {
     check_two_k_v(scene());
-    check_rims(scene(), sun_planet_pair(scene()));
-    check_two_k_v_displacements(scene());
+    check_two_k_v_geometry(scene(), sun_planet_pair(scene()));
   }
 
   [[nodiscard]] std::vector<MeshModel> meshes() const override { return two_k_v_meshes(scene()); }

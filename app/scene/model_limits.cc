@@ -1,4 +1,4 @@
-#include "app/scene/small_displacements.h"
+#include "app/scene/model_limits.h"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "core/units.h"
+#include "geometry/sector_mesh.h"
 
 namespace annulus::app {
 
@@ -22,6 +23,23 @@ constexpr const char* no_engagement = "beyond that the teeth hardly engage";
 double displacement_limit(const Scene& scene) { return largest_gear_displacement * scene.stage.module; }
 
 }  // namespace
+
+std::string length_mm(double length) { return to_text(length / units::mm, 7) + " mm"; }
+
+double least_rim(const Scene& scene) { return geometry::min_circle_distance * scene.stage.module; }
+
+std::string rim_rule(const Scene& scene) {
+  return fmt::format("a computed mesh needs {} = {} modules of rim behind the root", length_mm(least_rim(scene)),
+                     geometry::min_circle_distance);
+}
+
+void check_bore(const Scene& scene, const char* table, const HubGearInput& input, const geometry::Gear& gear) {
+  if (!input.bore_diameter) return;
+  const double most = 2 * (gear.root_radius() - least_rim(scene));
+  if (*input.bore_diameter <= most * (1 + diameter_rounding)) return;
+  throw GeometryError(fmt::format("{}.bore_diameter_mm = {}: must be in range: 0 < value <= {}; {}", table,
+                                  to_text(*input.bore_diameter / units::mm), length_mm(most), rim_rule(scene)));
+}
 
 std::string small_displacements_rule() {
   return fmt::format("small displacements and strains are computed, up to {} modules", largest_deflection);
@@ -64,15 +82,21 @@ void check_torsional_support(const char* key, double stiffness, double force, do
                   key, to_text(stiffness, 6), largest, to_text(force / (largest * radius), 3)));
 }
 
-void check_error(const Scene& scene, const char* key, double value) {
-  if (std::abs(value) <= displacement_limit(scene)) return;
-  const std::string limit = to_text(displacement_limit(scene) / units::um, 6);
-  throw InputError(fmt::format("{} = {}: must be in range: -{} <= value <= {} µm, {} of the module: {}", key,
-                               to_text(value / units::um), limit, limit, largest_gear_displacement, no_engagement));
-}
-
-bool has_elastic_bodies(const MeshInput& mesh) {
-  return mesh.stiffness == StiffnessShape::computed || mesh.stiffness == StiffnessShape::closed_form;
+void check_deviations(const Scene& scene) {
+  const double limit = displacement_limit(scene) / units::um;
+  const auto check = [&](const std::string& key, double value) {
+    if (std::abs(value) <= limit) return;
+    const std::string text = to_text(limit, 6);
+    throw InputError(fmt::format("{} = {}: must be in range: -{} <= value <= {} µm, {} of the module: {}", key,
+                                 to_text(value), text, text, largest_gear_displacement, no_engagement));
+  };
+  for (const auto& input : scene.inputs) {
+    const bool deviation = input.key.starts_with("errors.") && input.key.ends_with("_um");
+    if (!deviation || input.key.ends_with("_misalignment_um")) continue;
+    if (const auto* value = std::get_if<double>(&input.value)) check(input.key, *value);
+    if (const auto* list = std::get_if<std::vector<double>>(&input.value))
+      for (const double value : *list) check(input.key, value);
+  }
 }
 
 }  // namespace annulus::app
