@@ -12,31 +12,21 @@ namespace annulus::app {
 
 namespace {
 
-std::vector<std::string> variant_names(const std::vector<ComparedRun>& runs) {
-  std::vector<std::string> names;
-  for (const auto* variant : all_variants(runs)) names.push_back(variant->name);
-  return names;
-}
-
 /// A table with one column per variant.
-PageTable variant_table(const std::vector<ComparedRun>& runs) {
+PageTable variant_table(const Comparison& comparison) {
   PageTable table{.head = {""}, .style = PageTable::Style::numbers};
-  for (const auto& name : variant_names(runs)) table.head.emplace_back(name);
+  table.head.insert(table.head.end(), comparison.variants.begin(), comparison.variants.end());
   return table;
 }
 
-Section figures_part(const std::vector<ComparedRun>& runs, const std::vector<ComparedQuantity>& quantities) {
-  auto table = variant_table(runs);
-  for (const auto& compared : quantities) {
-    const auto quantity = in_unit(compared);
-    std::vector<Text> row = {quantity.name};
-    for (const auto& name : variant_names(runs)) {
-      const auto found =
-          std::find_if(quantity.rings.begin(), quantity.rings.end(), [&](const Measured& m) { return m.ring == name; });
-      row.emplace_back(found == quantity.rings.end() ? "–" : measured(found->value, found->error));
-    }
-    table.rows.push_back(std::move(row));
-  }
+void add_row(PageTable& table, const Text& name, const std::vector<std::string>& cells) {
+  auto& row = table.rows.emplace_back(1, name);
+  row.insert(row.end(), cells.begin(), cells.end());
+}
+
+Section figures_part(const Comparison& comparison) {
+  auto table = variant_table(comparison);
+  for (const auto& quantity : comparison.quantities) add_row(table, quantity.shown.name, quantity.cells);
   return {"figures", "Figures",
           paragraph(
               "± is the estimated numerical error; it does not contain the uncertainty of the inputs. A value without "
@@ -44,37 +34,26 @@ Section figures_part(const std::vector<ComparedRun>& runs, const std::vector<Com
               table};
 }
 
-Section differences_part(const std::vector<ComparedRun>& runs, const std::vector<ComparedQuantity>& quantities) {
+Section differences_part(const Comparison& comparison) {
   Section section{"differences", "Differences"};
   PageTable table{.head = {"figure", "difference"}};
-  for (const auto& compared : quantities) {
-    const auto texts = difference_texts(compared);
-    const Text cell = joined({texts.begin(), texts.end()}, line_break());
-    if (!cell.empty()) table.rows.push_back({in_unit(compared).name, cell});
-  }
+  for (const auto& quantity : comparison.quantities)
+    if (const auto& texts = quantity.differences; !texts.empty())
+      table.rows.push_back({quantity.shown.name, joined({texts.begin(), texts.end()}, line_break())});
   if (!table.rows.empty())
     section.blocks =
         paragraph(phrase("Against {}. A difference that is not larger than both error bars together says nothing.",
-                         bold(variant_names(runs).front()))) +
+                         bold(comparison.variants.front()))) +
         table;
   return section;
 }
 
-Section inputs_part(const std::vector<ComparedRun>& runs) {
+Section inputs_part(const Comparison& comparison) {
   Section section{"inputs", "Inputs that differ"};
-  const auto inputs = differing_inputs(runs);
-  const auto unknown = unknown_inputs_text(runs);
-  if (!unknown.empty()) section.blocks += paragraph(unknown);
-  if (inputs.empty()) {
-    if (unknown.empty()) section.blocks += paragraph("No input differs.");
-    return section;
-  }
-  auto table = variant_table(runs);
-  for (const auto& input : inputs) {
-    std::vector<Text> row = {code(input.key)};
-    for (const auto& value : input.values) row.emplace_back(value);
-    table.rows.push_back(std::move(row));
-  }
+  if (!comparison.inputs_remark.empty()) section.blocks += paragraph(comparison.inputs_remark);
+  if (comparison.inputs.empty()) return section;
+  auto table = variant_table(comparison);
+  for (const auto& input : comparison.inputs) add_row(table, code(input.key), input.values);
   section.blocks += table;
   return section;
 }
@@ -110,10 +89,9 @@ Section cost_part(const std::vector<ComparedRun>& runs) {
 }  // namespace
 
 Page comparison_page(const std::vector<ComparedRun>& runs) {
-  const auto quantities = compared_quantities(runs);
+  const Comparison comparison(runs);
   std::vector<RingQuantity> plain;
-  plain.reserve(quantities.size());
-  for (const auto& compared : quantities) plain.push_back(compared.quantity);
+  for (const auto& quantity : comparison.quantities) plain.push_back(quantity.si);
   std::vector<Text> names;
   List scenes;
   for (const auto& run : runs) {
@@ -122,11 +100,11 @@ Page comparison_page(const std::vector<ComparedRun>& runs) {
   }
   Blocks answer = answer_sentences(plain);
   if (answer.empty()) answer = paragraph("These runs hold neither stiffness nor load sharing in common.");
-  return {.title = "Comparison of " + enumerated(names).plain(),
-          .sub = fmt::format("annulus {} · {} finished runs", version(), runs.size()),
-          .summary = verdict_box(answer) + answer_picture(plain, variant_names(runs)) + scenes,
-          .sections = {figures_part(runs, quantities), differences_part(runs, quantities), inputs_part(runs),
-                       cost_part(runs)}};
+  return {
+      .title = "Comparison of " + enumerated(names).plain(),
+      .sub = fmt::format("annulus {} · {} finished runs", version(), runs.size()),
+      .summary = verdict_box(answer) + answer_picture(plain, comparison.variants) + scenes,
+      .sections = {figures_part(comparison), differences_part(comparison), inputs_part(comparison), cost_part(runs)}};
 }
 
 std::string comparison_html(const std::vector<ComparedRun>& runs) { return page_html(comparison_page(runs)); }

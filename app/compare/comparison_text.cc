@@ -1,11 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "app/compare/compared_quantities.h"
 #include "app/compare/comparison_page.h"
 #include "app/results/content_id.h"
-#include "app/sections/report_parts.h"
 #include "core/csv.h"
 
 namespace annulus::app {
@@ -22,36 +22,25 @@ std::string column(const std::string& text, std::size_t width) {
 }  // namespace
 
 std::string comparison_text(const std::vector<ComparedRun>& runs) {
-  const auto variants = all_variants(runs);
-  const auto quantities = compared_quantities(runs);
-  constexpr std::size_t figure_width = 56, least_width = 22;
-  std::string text = column("", figure_width);
-  for (const auto* variant : variants) text += column(variant->name, std::max(least_width, variant->name.size() + 2));
-  text += "\n";
-  for (const auto& compared : quantities) {
-    const auto quantity = in_unit(compared);
-    text += column(quantity.name, figure_width);
-    for (const auto* variant : variants) {
-      const auto found = std::find_if(quantity.rings.begin(), quantity.rings.end(),
-                                      [&](const Measured& m) { return m.ring == variant->name; });
-      text += column(found == quantity.rings.end() ? "–" : measured(found->value, found->error),
-                     std::max(least_width, variant->name.size() + 2));
-    }
+  const Comparison comparison(runs);
+  const auto& variants = comparison.variants;
+  constexpr std::size_t name_width = 56, least_width = 22;
+  std::string text;
+  const auto add_line = [&](const std::string& name, const std::vector<std::string>& cells) {
+    text += column(name, name_width);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      text += column(cells[i], std::max(least_width, variants[i].size() + 2));
     text += "\n";
-  }
-  text += "\nAgainst " + variants.front()->name + "\n";
-  for (const auto& compared : quantities)
-    for (const auto& difference : difference_texts(compared))
-      text += "  " + in_unit(compared).name + ": " + difference + "\n";
-  const auto inputs = differing_inputs(runs);
-  const auto unknown = unknown_inputs_text(runs);
-  if (!inputs.empty() || unknown.empty()) text += inputs.empty() ? "\nNo input differs.\n" : "\nInputs that differ\n";
-  for (const auto& input : inputs) {
-    text += "  " + column(input.key, 40);
-    for (std::size_t i = 0; i < variants.size(); ++i) text += (i ? " | " : " ") + input.values[i];
-    text += "\n";
-  }
-  if (!unknown.empty()) text += "\n" + unknown + "\n";
+  };
+  add_line("", variants);
+  for (const auto& quantity : comparison.quantities) add_line(quantity.shown.name, quantity.cells);
+  text += "\nAgainst " + variants.front() + "\n";
+  for (const auto& quantity : comparison.quantities)
+    for (const auto& difference : quantity.differences) text += "  " + quantity.shown.name + ": " + difference + "\n";
+  if (!comparison.inputs.empty()) text += "\nInputs that differ\n";
+  for (const auto& input : comparison.inputs)
+    text += fmt::format("  {} {}\n", column(input.key, 40), fmt::join(input.values, " | "));
+  if (!comparison.inputs_remark.empty()) text += "\n" + comparison.inputs_remark + "\n";
   text += "\n";
   for (const auto& run : runs) {
     double total = 0;
@@ -68,15 +57,14 @@ std::string comparison_csv(const std::vector<ComparedRun>& runs) {
   std::string text = fmt::format("# annulus_version: {}\n# kind: {}\n", version(), runs.front().kind);
   for (const auto& run : runs) text += "# run: " + run.name + " = " + run.folder.string() + "\n";
   text += "figure,unit,variant,value,error,difference_to_first,errors_together,against_first\n";
-  for (const auto& compared : compared_quantities(runs)) {
-    const auto quantity = in_unit(compared);
-    const auto& first = quantity.rings.front();
-    for (const auto& m : quantity.rings) {
-      const bool other = &m != &first;
-      text += csv_cell(compared.spec.title) + "," + compared.spec.unit + "," + csv_cell(m.ring) + "," +
-              csv_cell(m.value) + "," + csv_cell(m.error) + "," + (other ? csv_cell(m.value - first.value) : "") + "," +
-              (other ? csv_cell(m.error + first.error) : "") + "," +
-              (other ? csv_cell(difference_text(first, m, quantity.digits)) : "") + "\n";
+  for (const auto& [spec, si, shown, cells, differences] : Comparison(runs).quantities) {
+    const auto& first = shown.rings.front();
+    for (const auto& m : shown.rings) {
+      text += fmt::format("{},{},{},{},{},", csv_cell(spec->title), spec->unit, csv_cell(m.ring), csv_cell(m.value),
+                          csv_cell(m.error));
+      text += &m == &first ? ",,\n"
+                           : fmt::format("{},{},{}\n", csv_cell(m.value - first.value), csv_cell(m.error + first.error),
+                                         csv_cell(difference_text(first, m, shown.digits)));
     }
   }
   return text;
