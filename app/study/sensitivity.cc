@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 #include "app/model/run_options.h"
 #include "app/results/content_id.h"
 #include "app/study/studies.h"
-#include "app/study/study_runner.h"
+#include "app/study/study_points.h"
 #include "core/files.h"
 
 namespace annulus::app {
@@ -18,9 +17,8 @@ namespace {
 std::vector<std::size_t> order_of(const std::vector<StudyPoint>& variants, const std::string& figure) {
   std::vector<std::size_t> order(variants.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  for (const auto& point : variants) {
-    if (!point.failure.empty()) return {};
-  }
+  if (std::any_of(variants.begin(), variants.end(), [](const auto& point) { return !point.failure.empty(); }))
+    return {};
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return variants[a].value(figure) > variants[b].value(figure); });
   return order;
@@ -61,9 +59,8 @@ SensitivityResult run_sensitivity(const StudySubject& subject) {
     for (const auto& variant : points.variants) list.push_back(variant[i]);
     return list;
   };
-  const auto& figures = subject.figures();
-  const auto ordering = std::find_if(figures.begin(), figures.end(), [](const auto& f) { return f.ordering; });
-  const std::string figure = ordering == figures.end() ? "" : ordering->key;
+  const auto* ordering = ordering_figure(subject.figures());
+  const std::string figure = ordering ? ordering->key : "";
   SensitivityResult result{scene.sensitivity->factor, column(cases.size() - 1), {}};
   const auto order = order_of(result.nominal, figure);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -72,8 +69,7 @@ SensitivityResult run_sensitivity(const StudySubject& subject) {
     for (std::size_t variant = 0; variant < points.variants.size(); ++variant) {
       const bool has =
           target.rings.empty() || std::find(target.rings.begin(), target.rings.end(), variant) != target.rings.end();
-      row.values.push_back(has ? input_value(scene, target, variant).value_or(0)
-                               : std::numeric_limits<double>::quiet_NaN());
+      row.values.push_back(has ? input_value(scene, target, variant).value_or(0) : not_known);
     }
     row.order_stays =
         !order.empty() && order_of(row.divided, figure) == order && order_of(row.multiplied, figure) == order;

@@ -3,60 +3,47 @@
 #include "app/model/run_options.h"
 #include "app/results/content_id.h"
 #include "app/study/studies.h"
-#include "app/study/study_runner.h"
+#include "app/study/study_points.h"
 
 namespace annulus::app {
 
 namespace {
 
-void add_point(Csv& csv, std::vector<double> row, const StudyPoint& point, const std::vector<FigureSpec>& figures,
-               std::size_t number) {
-  row.push_back(point.failure.empty() ? 0.0 : 1.0);
-  for (const auto& figure : figures) row.push_back(point.value(figure.key));
-  csv.rows.push_back(std::move(row));
-  if (!point.failure.empty()) csv.header.emplace_back(fmt::format("failure_{}", number), point.failure);
+using Header = std::vector<std::pair<std::string, std::string>>;
+
+std::vector<double> inputs_of(const StudyCase& study_case) {
+  std::vector<double> values;
+  for (const auto& change : study_case.overrides) values.push_back(change.value);
+  return values;
 }
 
-void write_sweep(const StudySubject& subject, std::size_t number, const SweepResult& result) {
-  const std::vector<std::pair<std::string, std::string>> header = {
-      {"annulus_version", version()}, {"input", result.sweep.input}, {"unit", result.unit}};
-  const auto& specs = subject.figures();
-  for (std::size_t variant = 0; variant < result.variants.size(); ++variant) {
-    Csv figures, poincare;
-    figures.header = poincare.header = header;
-    figures.columns = {file_name(result.sweep.input), "failed"};
-    for (const auto& f : specs) figures.columns.push_back(f.key);
-    poincare.columns = {file_name(result.sweep.input), "mesh_cycle", "force_N", "deflection_m"};
-    for (std::size_t i = 0; i < result.values.size(); ++i) {
-      const auto& point = result.variants[variant][i];
-      add_point(figures, {result.values[i]}, point, specs, i + 1);
-      double cycle = 0;
-      for (const auto& p : point.poincare) poincare.rows.push_back({result.values[i], cycle++, p.force, p.deflection});
-    }
-    const auto folder = subject.folder(variant);
-    std::filesystem::create_directories(folder);
-    figures.write(folder / fmt::format("sweep_{}.csv", number));
-    if (!poincare.rows.empty()) poincare.write(folder / fmt::format("sweep_{}_poincare.csv", number));
+/// The points of every variant as a table of its own.
+void write_points(const StudySubject& subject, const std::string& file, const Header& header,
+                  const std::vector<StudyCase>& cases, const CasePoints& points) {
+  PointColumns columns{.header = header, .results = figure_keys(subject.figures())};
+  for (const auto& change : cases.front().overrides) columns.inputs.push_back(file_name(change.input));
+  for (std::size_t variant = 0; variant < points.variants.size(); ++variant) {
+    auto csv = columns.empty_table();
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      columns.add(csv, i + 1, inputs_of(cases[i]), points.variants[variant][i]);
+    std::filesystem::create_directories(subject.folder(variant));
+    csv.write(subject.folder(variant) / file);
   }
 }
 
-void write_grid(const StudySubject& subject, std::size_t number, const GridResult& result) {
-  const auto& specs = subject.figures();
-  for (std::size_t variant = 0; variant < result.variants.size(); ++variant) {
-    Csv csv;
-    csv.header = {{"annulus_version", version()},
-                  {"x_input", result.grid.x.input},
-                  {"x_unit", result.x_unit},
-                  {"y_input", result.grid.y.input},
-                  {"y_unit", result.y_unit}};
-    csv.columns = {file_name(result.grid.x.input), file_name(result.grid.y.input), "failed"};
-    for (const auto& f : specs) csv.columns.push_back(f.key);
-    for (std::size_t i = 0; i < result.variants[variant].size(); ++i)
-      add_point(csv, {result.x[i % result.x.size()], result.y[i / result.x.size()]}, result.variants[variant][i], specs,
-                i + 1);
-    const auto folder = subject.folder(variant);
-    std::filesystem::create_directories(folder);
-    csv.write(folder / fmt::format("grid_{}.csv", number));
+void write_poincare(const StudySubject& subject, const std::string& file, const Header& header,
+                    const std::vector<StudyCase>& cases, const CasePoints& points) {
+  for (std::size_t variant = 0; variant < points.variants.size(); ++variant) {
+    Csv csv{.header = {{"annulus_version", version()}},
+            .columns = {file_name(cases.front().overrides.front().input), "mesh_cycle", "force_N", "deflection_m"},
+            .rows = {}};
+    csv.header.insert(csv.header.end(), header.begin(), header.end());
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      double cycle = 0;
+      for (const auto& p : points.variants[variant][i].poincare)
+        csv.rows.push_back({cases[i].overrides.front().value, cycle++, p.force, p.deflection});
+    }
+    if (!csv.rows.empty()) csv.write(subject.folder(variant) / file);
   }
 }
 
@@ -64,28 +51,35 @@ void write_grid(const StudySubject& subject, std::size_t number, const GridResul
 
 SweepResult run_sweep(const StudySubject& subject, std::size_t sweep) {
   const auto& input = subject.scene().sweeps.at(sweep);
-  auto points = run_cases(subject, sweep_cases(subject.scene(), sweep), "sweep over " + input.input);
-  SweepResult result{.sweep = input,
-                     .unit = find_input(subject.scene(), input.input).parameter->unit,
-                     .values = input.points(),
-                     .tables = points.tables,
-                     .variants = std::move(points.variants)};
-  write_sweep(subject, sweep + 1, result);
-  return result;
+  const auto cases = sweep_cases(subject.scene(), sweep);
+  auto points = run_cases(subject, cases, "sweep over " + input.input);
+  const auto unit = unit_of_input(subject.scene(), input.input);
+  const Header header = {{"input", input.input}, {"unit", unit}};
+  write_points(subject, fmt::format("sweep_{}.csv", sweep + 1), header, cases, points);
+  write_poincare(subject, fmt::format("sweep_{}_poincare.csv", sweep + 1), header, cases, points);
+  return {.sweep = input,
+          .unit = unit,
+          .values = input.points(),
+          .tables = points.tables,
+          .variants = std::move(points.variants)};
 }
 
 GridResult run_grid(const StudySubject& subject, std::size_t grid) {
   const auto& input = subject.scene().grids.at(grid);
-  auto points = run_cases(subject, grid_cases(subject.scene(), grid),
-                          fmt::format("grid over {} and {}", input.x.input, input.y.input));
+  const auto cases = grid_cases(subject.scene(), grid);
+  auto points = run_cases(subject, cases, fmt::format("grid over {} and {}", input.x.input, input.y.input));
   GridResult result{.grid = input,
-                    .x_unit = find_input(subject.scene(), input.x.input).parameter->unit,
-                    .y_unit = find_input(subject.scene(), input.y.input).parameter->unit,
+                    .x_unit = unit_of_input(subject.scene(), input.x.input),
+                    .y_unit = unit_of_input(subject.scene(), input.y.input),
                     .x = input.x.points(),
                     .y = input.y.points(),
                     .tables = points.tables,
-                    .variants = std::move(points.variants)};
-  write_grid(subject, grid + 1, result);
+                    .variants = {}};
+  write_points(
+      subject, fmt::format("grid_{}.csv", grid + 1),
+      {{"x_input", input.x.input}, {"x_unit", result.x_unit}, {"y_input", input.y.input}, {"y_unit", result.y_unit}},
+      cases, points);
+  result.variants = std::move(points.variants);
   return result;
 }
 
