@@ -152,7 +152,6 @@ MonteCarloResult run_monte_carlo(const StudySubject& subject) {
     }
     failures += variant.failed;
     variant.statistics = statistics_of(variant.samples, quick_keys(figures));
-    std::filesystem::create_directories(subject.folder(i));
     variant.samples.write(subject.folder(i) / "monte_carlo.csv");
     if (variant.failed)
       log::warn(fmt::format("Monte Carlo{}: {} of {} samples failed; monte_carlo.csv states why",

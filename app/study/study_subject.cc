@@ -27,7 +27,9 @@ FigureSet StudySubject::nominal(std::size_t variant) const {
 }
 
 std::filesystem::path StudySubject::folder(std::size_t variant) const {
-  return options_.out / variants_.at(variant) / "dynamics";
+  auto folder = options_.out / variants_.at(variant) / "dynamics";
+  std::filesystem::create_directories(folder);
+  return folder;
 }
 
 bool StudySubject::prepare(const StudyCase& changed) const {

@@ -37,7 +37,7 @@ class StudySubject {
   /// good one.
   [[nodiscard]] std::unique_ptr<LumpedModel> model(const StudyCase& changed, std::size_t variant) const;
 
-  /// OUT/<variant>/dynamics
+  /// OUT/<variant>/dynamics, which exists afterwards.
   [[nodiscard]] std::filesystem::path folder(std::size_t variant) const;
 
  private:

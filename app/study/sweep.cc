@@ -26,7 +26,6 @@ void write_points(const StudySubject& subject, const std::string& file, const He
     auto csv = columns.empty_table();
     for (std::size_t i = 0; i < cases.size(); ++i)
       columns.add(csv, i + 1, inputs_of(cases[i]), points.variants[variant][i]);
-    std::filesystem::create_directories(subject.folder(variant));
     csv.write(subject.folder(variant) / file);
   }
 }

@@ -238,7 +238,6 @@ class Measurement {
     if (scene_.dynamics) {
       try {
         const auto done = measured_figures(as_run(tables), options_.store.get());
-        point.response = done.cost;
         if (!done.failure.empty()) throw SolverError(done.failure);
         figures.add(figure_set_of(Json::parse(done.answer)));
       } catch (const Error& error) {

@@ -57,7 +57,6 @@ struct TradePoint {
   std::optional<MeshSetting> mesh{};    ///< of a fixed setting of the meshes
   std::optional<double> planned_for{};  ///< the wanted accuracy for which the planner chose it; absent: a fixed setting
   Cost cost{};            ///< meshes: of all tables, the memory of the largest one; dynamics: of the response
-  Cost response{};        ///< meshes: of the response on these tables and its errors
   std::string failure{};  ///< why there are no figures
   std::vector<TradeValue> values{};  ///< those that it gives
   double contact_loss = 0;           ///< largest fraction of the time that a mesh spends without contact
