@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "app/model/model_ways.h"
 #include "app/model/plan_studies.h"
 #include "app/model/system_run.h"
 #include "app/plan/plan.h"

@@ -15,7 +15,6 @@
 
 namespace annulus::app {
 
-struct ModelWays;
 struct Plan;
 struct RunOptions;
 struct SystemRun;

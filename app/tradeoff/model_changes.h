@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/model/model_ways.h"
+#include "app/model/lumped_model.h"
 #include "app/tradeoff/trade_settings.h"
 
 namespace annulus::app {

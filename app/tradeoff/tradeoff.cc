@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "app/model/gear_system.h"
-#include "app/model/model_ways.h"
 #include "app/results/cached_files.h"
 #include "app/results/content_id.h"
 #include "app/run/model_run.h"

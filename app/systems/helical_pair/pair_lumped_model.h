@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "app/model/lumped_model.h"
-#include "app/model/model_ways.h"
 #include "app/systems/helical_pair/pair_stiffness.h"
 
 namespace annulus::app {

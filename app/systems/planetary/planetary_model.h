@@ -5,7 +5,6 @@
 
 #include "app/model/lumped_model.h"
 #include "app/model/mesh_result.h"
-#include "app/model/model_ways.h"
 #include "app/plan/gear_geometry.h"
 #include "app/scene/scene.h"
 

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "app/model/lumped_model.h"
-#include "app/model/model_ways.h"
 #include "app/systems/two_k_v/two_k_v_model.h"
 
 namespace annulus::app {
