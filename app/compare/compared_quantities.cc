@@ -4,7 +4,11 @@
 #include <cmath>
 #include <set>
 
+#include "app/sections/report_parts.h"
+
 namespace annulus::app {
+
+namespace {
 
 std::vector<const ComparedVariant*> all_variants(const std::vector<ComparedRun>& runs) {
   std::vector<const ComparedVariant*> list;
@@ -13,40 +17,42 @@ std::vector<const ComparedVariant*> all_variants(const std::vector<ComparedRun>&
   return list;
 }
 
-std::vector<ComparedQuantity> compared_quantities(const std::vector<ComparedRun>& runs) {
-  std::vector<ComparedQuantity> list;
+ComparedQuantity quantity_of(const FigureSpec& spec, const std::vector<const ComparedVariant*>& variants) {
+  ComparedQuantity compared{.spec = &spec, .si = {spec.quantity, spec.title, {}, spec.digits}};
+  compared.shown = compared.si;
+  if (!spec.unit.empty()) compared.shown.name += ", " + spec.unit;
+  for (const auto* variant : variants) {
+    const auto [value, error] = variant->figures.figure(spec.key);
+    const bool known = std::isfinite(value);
+    const Measured shown{variant->name, value * spec.scale, error * spec.scale};
+    compared.cells.push_back(known ? measured(shown.value, shown.error) : "–");
+    if (!known) continue;
+    compared.si.rings.push_back({variant->name, value, error});
+    compared.shown.rings.push_back(shown);
+  }
+  const auto& rings = compared.shown.rings;
+  if (rings.size() < 2) return compared;
+  if (std::all_of(rings.begin(), rings.end(), [&](const Measured& m) { return same(rings.front(), m); })) {
+    compared.differences = {"the same everywhere"};
+  } else {
+    for (std::size_t i = 1; i < rings.size(); ++i)
+      compared.differences.push_back(difference_text(rings.front(), rings[i], spec.digits));
+  }
+  return compared;
+}
+
+}  // namespace
+
+Comparison::Comparison(const std::vector<ComparedRun>& runs)
+    : inputs(differing_inputs(runs)), inputs_remark(unknown_inputs_text(runs)) {
+  const auto all = all_variants(runs);
+  for (const auto* variant : all) variants.push_back(variant->name);
   for (const auto& spec : *runs.front().specs) {
     if (!spec.compared) continue;
-    ComparedQuantity compared{spec, {spec.quantity, spec.title, {}, spec.digits}};
-    for (const auto* variant : all_variants(runs)) {
-      const auto [value, error] = variant->figures.figure(spec.key);
-      if (std::isfinite(value)) compared.quantity.rings.push_back({variant->name, value, error});
-    }
-    if (!compared.quantity.rings.empty()) list.push_back(std::move(compared));
+    auto compared = quantity_of(spec, all);
+    if (!compared.si.rings.empty()) quantities.push_back(std::move(compared));
   }
-  return list;
-}
-
-RingQuantity in_unit(const ComparedQuantity& compared) {
-  auto quantity = compared.quantity;
-  if (!compared.spec.unit.empty()) quantity.name += ", " + compared.spec.unit;
-  for (auto& m : quantity.rings) {
-    m.value *= compared.spec.scale;
-    m.error *= compared.spec.scale;
-  }
-  return quantity;
-}
-
-std::vector<std::string> difference_texts(const ComparedQuantity& compared) {
-  const auto quantity = in_unit(compared);
-  std::vector<std::string> texts;
-  if (quantity.rings.size() < 2) return texts;
-  const auto& first = quantity.rings.front();
-  if (std::all_of(quantity.rings.begin(), quantity.rings.end(), [&](const Measured& m) { return same(first, m); }))
-    return {"the same everywhere"};
-  for (std::size_t i = 1; i < quantity.rings.size(); ++i)
-    texts.push_back(difference_text(first, quantity.rings[i], quantity.digits));
-  return texts;
+  if (inputs.empty() && inputs_remark.empty()) inputs_remark = "No input differs.";
 }
 
 std::vector<DifferingInput> differing_inputs(const std::vector<ComparedRun>& runs) {

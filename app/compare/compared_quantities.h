@@ -9,22 +9,14 @@
 
 namespace annulus::app {
 
-/// A figure over all variants of all runs, SI.
+/// A result over all variants of all runs.
 struct ComparedQuantity {
-  FigureSpec spec;
-  RingQuantity quantity;  ///< the variants that have it
+  const FigureSpec* spec = nullptr;
+  RingQuantity si{};                       ///< the variants that have it
+  RingQuantity shown{};                    ///< the same in the unit people read it in, which its name states
+  std::vector<std::string> cells{};        ///< of all variants, with errors; "–" where one does not have it
+  std::vector<std::string> differences{};  ///< every other variant against the first one, in words
 };
-/// Those that at least one variant has.
-[[nodiscard]] std::vector<ComparedQuantity> compared_quantities(const std::vector<ComparedRun>& runs);
-
-/// The quantity in the unit people read it in.
-[[nodiscard]] RingQuantity in_unit(const ComparedQuantity& compared);
-
-/// Every other variant against the first one, in words.
-[[nodiscard]] std::vector<std::string> difference_texts(const ComparedQuantity& compared);
-
-/// All variants, in the order of the runs.
-[[nodiscard]] std::vector<const ComparedVariant*> all_variants(const std::vector<ComparedRun>& runs);
 
 /// An input that is not the same everywhere: its value in every variant, "–" where it has none.
 struct DifferingInput {
@@ -32,7 +24,17 @@ struct DifferingInput {
   std::vector<std::string> values;
 };
 [[nodiscard]] std::vector<DifferingInput> differing_inputs(const std::vector<ComparedRun>& runs);
-/// What the inputs cannot tell: runs that do not list them. Empty: they all do.
+/// What the inputs do not state: runs that do not list them. Empty: they all do.
 [[nodiscard]] std::string unknown_inputs_text(const std::vector<ComparedRun>& runs);
+
+/// Finished runs side by side: what text, table and page show.
+struct Comparison {
+  explicit Comparison(const std::vector<ComparedRun>& runs);
+
+  std::vector<std::string> variants{};         ///< in the order of the runs
+  std::vector<ComparedQuantity> quantities{};  ///< those that at least one variant has
+  std::vector<DifferingInput> inputs{};
+  std::string inputs_remark{};  ///< instead of them, or besides
+};
 
 }  // namespace annulus::app

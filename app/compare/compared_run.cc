@@ -22,6 +22,9 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t largest_summary = 50'000'000;  // bytes; those of long searches have a few millions
 
+constexpr const char *give_a_run = "give a folder that 'annulus run SCENE -o OUT' wrote",
+                     *give_one = "give one that 'annulus run SCENE -o OUT' wrote";
+
 /// Whether something of a run lies here: results of meshes, or a cache.
 bool has_begun(const fs::path& folder) {
   std::error_code error;
@@ -37,10 +40,11 @@ bool has_begun(const fs::path& folder) {
 Json read_summary(const fs::path& folder) {
   const auto file = folder / "summary.json";
   std::error_code error;
-  if (!fs::exists(folder, error))
-    throw InputError(folder.string() + ": there is no such folder; give one that 'annulus run SCENE -o OUT' wrote");
-  if (!fs::is_directory(folder, error))
-    throw InputError(folder.string() + ": is not a folder; give one that 'annulus run SCENE -o OUT' wrote");
+  const auto refuse = [&](const char* why, const char* remedy) {
+    throw InputError(fmt::format("{}: {}; {}", folder.string(), why, remedy));
+  };
+  if (!fs::exists(folder, error)) refuse("there is no such folder", give_one);
+  if (!fs::is_directory(folder, error)) refuse("is not a folder", give_one);
   const auto unfinished = [&](const std::string& why) {
     return InputError(
         fmt::format("{0}: its run is not finished ({1}); 'annulus run SCENE -o {0}' with its scene goes on "
@@ -49,8 +53,7 @@ Json read_summary(const fs::path& folder) {
   };
   if (!fs::exists(file, error)) {
     if (has_begun(folder)) throw unfinished("no summary.json");
-    throw InputError(folder.string() +
-                     ": holds no run (no summary.json); give a folder that 'annulus run SCENE -o OUT' wrote");
+    refuse("holds no run (no summary.json)", give_a_run);
   }
   if (fs::file_size(file, error) > largest_summary || error)
     throw InputError(fmt::format("{}: cannot be read or is larger than {} bytes; run its scene again", file.string(),
@@ -64,13 +67,6 @@ Json read_summary(const fs::path& folder) {
   }
   if (const auto why = why_unfinished(folder)) throw unfinished(*why);
   return summary;
-}
-
-/// The results that runs of a kind have; nullptr for a name that is none.
-const std::vector<FigureSpec>* specs_of(const std::string& kind) {
-  for (const auto& k : system_kinds())
-    if (kind == k.scene.name) return &k.figures();
-  return nullptr;
 }
 
 std::string input_text(const Json& value) {
@@ -100,7 +96,8 @@ ComparedRun run_of(const Json& json, const fs::path& folder) {
                   .kind = json.at("kind"),
                   .accuracy = json.at("accuracy_wanted"),
                   .inputs_known = json.contains("inputs")};
-  run.specs = specs_of(run.kind);
+  for (const auto& kind : system_kinds())
+    if (run.kind == kind.scene.name) run.specs = &kind.figures();
   if (!run.specs) throw InputError(fmt::format("kind is '{}'; the kinds are {}", run.kind, listed(stage_kinds())));
   for (const auto& variant : json.at("variants")) {
     const std::string name = variant.at("name");
@@ -108,11 +105,10 @@ ComparedRun run_of(const Json& json, const fs::path& folder) {
         {.name = name, .figures = figure_set_of(variant.at("figures")), .inputs = inputs_of(json, name)});
   }
   if (run.variants.empty()) throw InputError("it has no variants");
-  const auto has_results = [](const ComparedVariant& variant) {
-    return std::any_of(variant.figures.entries().begin(), variant.figures.entries().end(),
-                       [](const auto& entry) { return std::isfinite(entry.figure.value); });
-  };
-  if (std::none_of(run.variants.begin(), run.variants.end(), has_results)) throw InputError("it holds no results");
+  bool has_results = false;
+  for (const auto& variant : run.variants)
+    for (const auto& entry : variant.figures.entries()) has_results |= std::isfinite(entry.figure.value);
+  if (!has_results) throw InputError("it holds no results");
   for (const auto& [stage, seconds] : json.at("timings_s").items()) run.timings.emplace_back(stage, seconds);
   run.peak_memory_MB = json.at("peak_memory_MB");
   if (json.contains("reuse")) run.read_back = json.at("reuse").at("reused").size();
@@ -121,18 +117,11 @@ ComparedRun run_of(const Json& json, const fs::path& folder) {
 
 ComparedRun read_run(const fs::path& folder) {
   const auto json = read_summary(folder);
-  const auto foreign = [&](const std::string& why) {
-    return InputError(
-        fmt::format("{}: is not a summary of annulus: {}; give a folder that 'annulus run SCENE -o OUT' "
-                    "wrote",
-                    (folder / "summary.json").string(), why));
-  };
   try {
     return run_of(json, folder);
-  } catch (const Json::exception& what) {
-    throw foreign(what.what());
-  } catch (const InputError& what) {
-    throw foreign(what.what());
+  } catch (const std::exception& what) {  // of the JSON library, or InputError
+    throw InputError(fmt::format("{}: is not a summary of annulus: {}; {}", (folder / "summary.json").string(),
+                                 what.what(), give_a_run));
   }
 }
 
@@ -144,7 +133,7 @@ std::string last_parts(const fs::path& folder, std::size_t parts) {
   return name.generic_string();
 }
 
-/// As few parents as tell the runs apart.
+/// As few parents as make the names differ.
 void name_runs(std::vector<ComparedRun>& runs, const std::vector<fs::path>& places) {
   constexpr std::size_t deepest = 64;
   for (std::size_t parts = 1; parts < deepest; ++parts) {

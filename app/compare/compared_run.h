@@ -13,7 +13,7 @@ namespace annulus::app {
 /// One ring of a finished run with its figures; a stage without rings has one variant, or two where it compares given
 /// with computed stiffness.
 struct ComparedVariant {
-  std::string name{};                           ///< of the run, and of the ring where that is needed to tell them apart
+  std::string name{};                           ///< of the run, and of the ring where a run has several
   FigureSet figures{};                          ///< SI
   std::map<std::string, std::string> inputs{};  ///< by key, as in a scene file
 };
@@ -31,7 +31,7 @@ struct ComparedRun {
   std::size_t read_back = 0;  ///< results that were reused and cost no time
 };
 
-/// The finished runs in these folders, named by their folders as shortly as tells them apart. Throws InputError with
+/// The finished runs in these folders, named by their folders as shortly as they differ. Throws InputError with
 /// place and remedy: fewer than two folders or one twice; no such folder; no finished run in it; a summary that cannot
 /// be read, is not one of annulus, or of another kind of stage than the first.
 [[nodiscard]] std::vector<ComparedRun> read_finished_runs(const std::vector<std::string>& folders);

@@ -1,42 +1,41 @@
 #include "app/compare/comparison_page.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "app/compare/compared_quantities.h"
 #include "app/results/content_id.h"
 #include "app/sections/report_parts.h"
+#include "core/csv.h"
 
 namespace annulus::app {
 
 namespace {
 
-std::vector<std::string> variant_names(const std::vector<ComparedRun>& runs) {
-  std::vector<std::string> names;
-  for (const auto* variant : all_variants(runs)) names.push_back(variant->name);
-  return names;
+/// Padded by characters, not by bytes.
+std::string column(const std::string& text, std::size_t width) {
+  const auto characters =
+      static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+  return text + std::string(characters < width ? width - characters : 1, ' ');
 }
 
 /// A table with one column per variant.
-PageTable variant_table(const std::vector<ComparedRun>& runs) {
+PageTable variant_table(const Comparison& comparison) {
   PageTable table{.head = {""}, .style = PageTable::Style::numbers};
-  for (const auto& name : variant_names(runs)) table.head.emplace_back(name);
+  table.head.insert(table.head.end(), comparison.variants.begin(), comparison.variants.end());
   return table;
 }
 
-Section figures_part(const std::vector<ComparedRun>& runs, const std::vector<ComparedQuantity>& quantities) {
-  auto table = variant_table(runs);
-  for (const auto& compared : quantities) {
-    const auto quantity = in_unit(compared);
-    std::vector<Text> row = {quantity.name};
-    for (const auto& name : variant_names(runs)) {
-      const auto found =
-          std::find_if(quantity.rings.begin(), quantity.rings.end(), [&](const Measured& m) { return m.ring == name; });
-      row.emplace_back(found == quantity.rings.end() ? "–" : measured(found->value, found->error));
-    }
-    table.rows.push_back(std::move(row));
-  }
+void add_row(PageTable& table, const Text& name, const std::vector<std::string>& cells) {
+  auto& row = table.rows.emplace_back(1, name);
+  row.insert(row.end(), cells.begin(), cells.end());
+}
+
+Section figures_part(const Comparison& comparison) {
+  auto table = variant_table(comparison);
+  for (const auto& quantity : comparison.quantities) add_row(table, quantity.shown.name, quantity.cells);
   return {"figures", "Figures",
           paragraph(
               "± is the estimated numerical error; it does not contain the uncertainty of the inputs. A value without "
@@ -44,37 +43,26 @@ Section figures_part(const std::vector<ComparedRun>& runs, const std::vector<Com
               table};
 }
 
-Section differences_part(const std::vector<ComparedRun>& runs, const std::vector<ComparedQuantity>& quantities) {
+Section differences_part(const Comparison& comparison) {
   Section section{"differences", "Differences"};
   PageTable table{.head = {"figure", "difference"}};
-  for (const auto& compared : quantities) {
-    const auto texts = difference_texts(compared);
-    const Text cell = joined({texts.begin(), texts.end()}, line_break());
-    if (!cell.empty()) table.rows.push_back({in_unit(compared).name, cell});
-  }
+  for (const auto& quantity : comparison.quantities)
+    if (const auto& texts = quantity.differences; !texts.empty())
+      table.rows.push_back({quantity.shown.name, joined({texts.begin(), texts.end()}, line_break())});
   if (!table.rows.empty())
     section.blocks =
         paragraph(phrase("Against {}. A difference that is not larger than both error bars together says nothing.",
-                         bold(variant_names(runs).front()))) +
+                         bold(comparison.variants.front()))) +
         table;
   return section;
 }
 
-Section inputs_part(const std::vector<ComparedRun>& runs) {
+Section inputs_part(const Comparison& comparison) {
   Section section{"inputs", "Inputs that differ"};
-  const auto inputs = differing_inputs(runs);
-  const auto unknown = unknown_inputs_text(runs);
-  if (!unknown.empty()) section.blocks += paragraph(unknown);
-  if (inputs.empty()) {
-    if (unknown.empty()) section.blocks += paragraph("No input differs.");
-    return section;
-  }
-  auto table = variant_table(runs);
-  for (const auto& input : inputs) {
-    std::vector<Text> row = {code(input.key)};
-    for (const auto& value : input.values) row.emplace_back(value);
-    table.rows.push_back(std::move(row));
-  }
+  if (!comparison.inputs_remark.empty()) section.blocks += paragraph(comparison.inputs_remark);
+  if (comparison.inputs.empty()) return section;
+  auto table = variant_table(comparison);
+  for (const auto& input : comparison.inputs) add_row(table, code(input.key), input.values);
   section.blocks += table;
   return section;
 }
@@ -109,11 +97,59 @@ Section cost_part(const std::vector<ComparedRun>& runs) {
 
 }  // namespace
 
+std::string comparison_text(const std::vector<ComparedRun>& runs) {
+  const Comparison comparison(runs);
+  const auto& variants = comparison.variants;
+  constexpr std::size_t name_width = 56, least_width = 22;
+  std::string text;
+  const auto add_line = [&](const std::string& name, const std::vector<std::string>& cells) {
+    text += column(name, name_width);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      text += column(cells[i], std::max(least_width, variants[i].size() + 2));
+    text += "\n";
+  };
+  add_line("", variants);
+  for (const auto& quantity : comparison.quantities) add_line(quantity.shown.name, quantity.cells);
+  text += "\nAgainst " + variants.front() + "\n";
+  for (const auto& quantity : comparison.quantities)
+    for (const auto& difference : quantity.differences) text += "  " + quantity.shown.name + ": " + difference + "\n";
+  if (!comparison.inputs.empty()) text += "\nInputs that differ\n";
+  for (const auto& input : comparison.inputs)
+    text += fmt::format("  {} {}\n", column(input.key, 40), fmt::join(input.values, " | "));
+  if (!comparison.inputs_remark.empty()) text += "\n" + comparison.inputs_remark + "\n";
+  text += "\n";
+  for (const auto& run : runs) {
+    double total = 0;
+    for (const auto& [stage, seconds] : run.timings)
+      if (stage == "total") total = seconds;
+    text += column("cost    " + run.name, 40) +
+            fmt::format("{:.2f} s, {:.0f} MB{}\n", total, run.peak_memory_MB,
+                        run.read_back > 0 ? fmt::format(", {} results read back", run.read_back) : "");
+  }
+  return text;
+}
+
+std::string comparison_csv(const std::vector<ComparedRun>& runs) {
+  std::string text = fmt::format("# annulus_version: {}\n# kind: {}\n", version(), runs.front().kind);
+  for (const auto& run : runs) text += "# run: " + run.name + " = " + run.folder.string() + "\n";
+  text += "figure,unit,variant,value,error,difference_to_first,errors_together,against_first\n";
+  for (const auto& [spec, si, shown, cells, differences] : Comparison(runs).quantities) {
+    const auto& first = shown.rings.front();
+    for (const auto& m : shown.rings) {
+      text += fmt::format("{},{},{},{},{},", csv_cell(spec->title), spec->unit, csv_cell(m.ring), csv_cell(m.value),
+                          csv_cell(m.error));
+      text += &m == &first ? ",,\n"
+                           : fmt::format("{},{},{}\n", csv_cell(m.value - first.value), csv_cell(m.error + first.error),
+                                         csv_cell(difference_text(first, m, shown.digits)));
+    }
+  }
+  return text;
+}
+
 Page comparison_page(const std::vector<ComparedRun>& runs) {
-  const auto quantities = compared_quantities(runs);
+  const Comparison comparison(runs);
   std::vector<RingQuantity> plain;
-  plain.reserve(quantities.size());
-  for (const auto& compared : quantities) plain.push_back(compared.quantity);
+  for (const auto& quantity : comparison.quantities) plain.push_back(quantity.si);
   std::vector<Text> names;
   List scenes;
   for (const auto& run : runs) {
@@ -122,11 +158,11 @@ Page comparison_page(const std::vector<ComparedRun>& runs) {
   }
   Blocks answer = answer_sentences(plain);
   if (answer.empty()) answer = paragraph("These runs hold neither stiffness nor load sharing in common.");
-  return {.title = "Comparison of " + enumerated(names).plain(),
-          .sub = fmt::format("annulus {} · {} finished runs", version(), runs.size()),
-          .summary = verdict_box(answer) + answer_picture(plain, variant_names(runs)) + scenes,
-          .sections = {figures_part(runs, quantities), differences_part(runs, quantities), inputs_part(runs),
-                       cost_part(runs)}};
+  return {
+      .title = "Comparison of " + enumerated(names).plain(),
+      .sub = fmt::format("annulus {} · {} finished runs", version(), runs.size()),
+      .summary = verdict_box(answer) + answer_picture(plain, comparison.variants) + scenes,
+      .sections = {figures_part(comparison), differences_part(comparison), inputs_part(comparison), cost_part(runs)}};
 }
 
 std::string comparison_html(const std::vector<ComparedRun>& runs) { return page_html(comparison_page(runs)); }

@@ -1,12 +1,11 @@
 #include "app/export/export.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "app/export/array_files.h"
-#include "app/export/png_file.h"
 #include "app/export/rexs.h"
 #include "app/export/table_text.h"
 #include "app/scene/scene.h"
@@ -23,13 +22,6 @@ namespace {
 void write_plain_csv(const std::filesystem::path& file, Csv csv) {
   csv.header.clear();
   csv.write(file);
-}
-
-void write_arrays(const std::string& format, const std::filesystem::path& file, const NamedArrays& arrays) {
-  if (format == "hdf5")
-    write_hdf5(file, arrays);
-  else
-    write_matlab(file, arrays);
 }
 
 bool has_column(const Csv& csv, const std::string& name) {
@@ -75,38 +67,27 @@ Csv stiffness_csv(const Csv& compliance) {
   return csv;
 }
 
-std::string formats_text() {
-  std::string text;
-  for (const auto& f : export_formats()) text += (text.empty() ? "" : ", ") + std::string(f.name);
-  return text;
-}
-
-void export_table(const std::filesystem::path& source, const std::string& format, const std::filesystem::path& file) {
+void export_table(const std::filesystem::path& source, const ExportFormat& format, const std::filesystem::path& file) {
   const Csv csv = Csv::read(source);
-  const bool arrays = format == "hdf5" || format == "matlab";
+  const bool plain = std::string(format.name) == "csv";
   if (has_column(csv, "stiffness_secant_N_per_m") && has_column(csv, "mesh_phase")) {
     const auto table = StiffnessTable::read_csv(source);
-    if (format == "csv") return write_plain_csv(file, csv);
-    if (arrays) return write_arrays(format, file, arrays_of(table));
-    if (format == "modelica") return write_file(file, modelica_text(table));
-    if (format == "adams") return write_file(file, adams_text(table));
-    if (format == "simpack") return write_file(file, simpack_text(table));
-    throw InputError(source.string() + ": is a stiffness table; rexs takes a scene");
+    if (plain) return write_plain_csv(file, csv);
+    return format.write_arrays ? format.write_arrays(file, arrays_of(table))
+                               : write_file(file, format.table_text(table));
   }
-  if (format != "csv" && !arrays)
+  if (!plain && !format.write_arrays)
     throw InputError(
         fmt::format("{}: is no stiffness table, and {} takes nothing else; csv, hdf5 and matlab take any table",
-                    source.string(), format));
-  if (has_column(csv, "tooth") && has_column(csv, "compliance_tooth_0_m_per_N")) {
-    try {
-      return format == "csv" ? write_plain_csv(file, stiffness_csv(csv))
-                             : write_arrays(format, file, ring_matrices(csv));
-    } catch (const InputError& error) {
-      throw InputError(source.string() + ": " + error.what());
-    }
+                    source.string(), format.name));
+  const bool matrix = has_column(csv, "tooth") && has_column(csv, "compliance_tooth_0_m_per_N");
+  try {
+    if (plain) return write_plain_csv(file, matrix ? stiffness_csv(csv) : csv);
+    format.write_arrays(file, matrix ? ring_matrices(csv) : arrays_of(csv));
+  } catch (const InputError& error) {
+    if (!matrix) throw;
+    throw InputError(source.string() + ": " + error.what());
   }
-  if (format == "csv") return write_plain_csv(file, csv);
-  write_arrays(format, file, arrays_of(csv));
 }
 
 void export_scene(const std::filesystem::path& source, std::string ring, const std::filesystem::path& file) {
@@ -120,11 +101,11 @@ void export_scene(const std::filesystem::path& source, std::string ring, const s
 const std::vector<ExportFormat>& export_formats() {
   static const std::vector<ExportFormat> formats = {
       {"csv", ".plain.csv", "columns alone, for spreadsheets"},
-      {"hdf5", ".h5", "HDF5 with named axes and units"},
-      {"matlab", ".mat", "MATLAB, Octave, SciPy"},
-      {"modelica", ".txt", "CombiTable1D and CombiTable2D of the Modelica Standard Library"},
-      {"simpack", ".afs", "input functions of Simpack"},
-      {"adams", ".adm", "SPLINE statements of Adams"},
+      {"hdf5", ".h5", "HDF5 with named axes and units", nullptr, write_hdf5},
+      {"matlab", ".mat", "MATLAB, Octave, SciPy", nullptr, write_matlab},
+      {"modelica", ".txt", "CombiTable1D and CombiTable2D of the Modelica Standard Library", modelica_text},
+      {"simpack", ".afs", "input functions of Simpack", simpack_text},
+      {"adams", ".adm", "SPLINE statements of Adams", adams_text},
       {"rexs", ".rexs", "gear data of a scene as REXS 1.4 (XML)"},
       {"png", ".png", "a picture of a report (OUT/pictures/*.svg) in pixels"}};
   return formats;
@@ -136,11 +117,10 @@ std::filesystem::path export_file(const std::filesystem::path& source, const std
   const auto found = std::find_if(formats.begin(), formats.end(), [&](const auto& f) { return f.name == format; });
   if (found == formats.end()) {
     std::vector<std::string> names;
-    names.reserve(formats.size());
     for (const auto& f : formats) names.emplace_back(f.name);
     const std::string near = nearest(format, names);
     throw InputError(fmt::format("--to {}: there is no such format{}; the formats are {}", format,
-                                 near.empty() ? "" : ", did you mean " + near + "?", formats_text()));
+                                 near.empty() ? "" : ", did you mean " + near + "?", fmt::join(names, ", ")));
   }
   const bool is_scene = source.extension() == ".toml", is_picture = source.extension() == ".svg";
   if (is_picture != (format == "png"))
@@ -162,7 +142,7 @@ std::filesystem::path export_file(const std::filesystem::path& source, const std
   else if (is_scene)
     export_scene(source, ring, file);
   else
-    export_table(source, format, file);
+    export_table(source, *found, file);
   return file;
 }
 

@@ -4,11 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "app/export/named_arrays.h"
+
 /// `annulus export`: results and gear data in the formats of other programs.
 namespace annulus::app {
 
 struct ExportFormat {
   const char *name, *ending, *what;
+  std::string (*table_text)(const StiffnessTable& table) = nullptr;  ///< takes stiffness tables and nothing else
+  void (*write_arrays)(const std::filesystem::path& file, const NamedArrays& arrays) = nullptr;  ///< takes any table
 };
 [[nodiscard]] const std::vector<ExportFormat>& export_formats();
 
@@ -23,5 +27,8 @@ struct ExportFormat {
 /// Throws InputError when the source is none of these or cannot be had in that format.
 [[nodiscard]] std::filesystem::path export_file(const std::filesystem::path& source, const std::string& format,
                                                 const std::filesystem::path& out, const std::string& ring);
+
+/// A picture in pixels. Throws InputError naming the file.
+void write_png(const std::filesystem::path& svg, const std::filesystem::path& png);
 
 }  // namespace annulus::app

@@ -2,9 +2,9 @@
 #include <hdf5.h>
 #include <hdf5_hl.h>
 
-#include <map>
+#include <set>
 
-#include "app/export/array_files.h"
+#include "app/export/named_arrays.h"
 #include "core/errors.h"
 #include "core/files.h"
 
@@ -36,17 +36,15 @@ void write_arrays(const std::filesystem::path& file, const NamedArrays& all) {
   const Handle out(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
   for (const auto& [key, value] : all.provenance)
     check(H5LTset_attribute_string(out.id(), "/", key.c_str(), value.c_str()));
-  std::map<std::string, bool> is_axis;
-  for (const auto& array : all.arrays) {
-    for (const auto& axis : array.axes) is_axis[axis] = true;
-  }
+  std::set<std::string> axes;
+  for (const auto& array : all.arrays) axes.insert(array.axes.begin(), array.axes.end());
   for (const auto& array : all.arrays) {
     const std::vector<hsize_t> shape(array.shape.begin(), array.shape.end());
     check(H5LTmake_dataset_double(out.id(), array.name.c_str(), static_cast<int>(shape.size()), shape.data(),
                                   array.values.data()));
     if (const auto unit = unit_of_name(array.name); !unit.empty())
       check(H5LTset_attribute_string(out.id(), array.name.c_str(), "unit", unit.c_str()));
-    if (!is_axis[array.name]) continue;
+    if (axes.count(array.name) == 0) continue;
     const Handle scale(H5Dopen2(out.id(), array.name.c_str(), H5P_DEFAULT), H5Dclose);
     check(H5DSset_scale(scale.id(), array.name.c_str()));
   }
@@ -63,7 +61,7 @@ void write_arrays(const std::filesystem::path& file, const NamedArrays& all) {
 }  // namespace
 
 void write_hdf5(const std::filesystem::path& file, const NamedArrays& arrays) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // told once, by the exception
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // reported once, by the exception
   UnfinishedFile unfinished(file);
   try {
     write_arrays(unfinished.temporary(), arrays);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "app/export/array_files.h"
+#include "app/export/named_arrays.h"
 #include "core/errors.h"
 #include "core/files.h"
 
@@ -12,34 +12,22 @@ namespace annulus::app {
 
 namespace {
 
-struct CloseFile {
-  void operator()(mat_t* file) const { Mat_Close(file); }
-};
-struct FreeVariable {
-  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
-};
-using Variable = std::unique_ptr<matvar_t, FreeVariable>;
+using Variable = std::unique_ptr<matvar_t, decltype(&Mat_VarFree)>;
 
 Variable checked(matvar_t* variable) {
   if (variable == nullptr) throw InputError("out of memory");
-  return Variable(variable);
+  return {variable, Mat_VarFree};
 }
 
-/// The first index runs fastest there.
+/// The first index runs fastest there. Arrays have up to three axes.
 std::vector<double> columns_first(const NamedArray& array) {
-  const std::size_t dimensions = array.shape.size();
-  std::vector<std::size_t> index(dimensions, 0), stride(dimensions, 1);
-  for (std::size_t d = 1; d < dimensions; ++d) stride[d] = stride[d - 1] * array.shape[d - 1];
+  auto shape = array.shape;
+  shape.resize(3, 1);
   std::vector<double> values(array.values.size());
-  for (const double value : array.values) {
-    std::size_t at = 0;
-    for (std::size_t d = 0; d < dimensions; ++d) at += index[d] * stride[d];
-    values[at] = value;
-    for (std::size_t d = dimensions; d-- > 0;) {
-      if (++index[d] < array.shape[d]) break;
-      index[d] = 0;
-    }
-  }
+  auto value = array.values.begin();
+  for (std::size_t i = 0; i < shape[0]; ++i)
+    for (std::size_t j = 0; j < shape[1]; ++j)
+      for (std::size_t k = 0; k < shape[2]; ++k) values[i + shape[0] * (j + shape[1] * k)] = *value++;
   return values;
 }
 
@@ -67,7 +55,8 @@ void write(mat_t* file, const Variable& variable) {
 void write_matlab(const std::filesystem::path& file, const NamedArrays& arrays) {
   UnfinishedFile unfinished(file);
   try {
-    const std::unique_ptr<mat_t, CloseFile> out(Mat_CreateVer(unfinished.temporary().c_str(), "annulus", MAT_FT_MAT5));
+    const std::unique_ptr<mat_t, decltype(&Mat_Close)> out(
+        Mat_CreateVer(unfinished.temporary().c_str(), "annulus", MAT_FT_MAT5), Mat_Close);
     if (!out) throw InputError("no such folder, or not writable");
     for (const auto& array : arrays.arrays) write(out.get(), array_variable(array));
     if (!arrays.provenance.empty()) {

@@ -54,10 +54,7 @@ NamedArrays arrays_of(const StiffnessTable& table) {
         for (std::size_t l = 0; l < loads; ++l) array.values.push_back(value(table.at(r, p, static_cast<int>(l))));
     all.arrays.push_back(std::move(array));
   };
-  add("unloaded_te_m", [](const StiffnessEntry& e) { return e.unloaded_te; });
-  add("lte_m", [](const StiffnessEntry& e) { return e.lte; });
-  add("stiffness_secant_N_per_m", [](const StiffnessEntry& e) { return e.stiffness_secant; });
-  add("stiffness_tangent_N_per_m", [](const StiffnessEntry& e) { return e.stiffness_tangent; });
+  for (const auto& column : table_columns) add(column.name, [&](const StiffnessEntry& e) { return e.*column.value; });
   add("error_relative", [](const StiffnessEntry& e) { return e.error_relative; });
   for (const auto& [name, part] : stiffness_error_part_names)
     add(fmt::format("error_{}_relative", name),

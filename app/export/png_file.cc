@@ -1,5 +1,3 @@
-#include "app/export/png_file.h"
-
 #include <fmt/format.h>
 #include <librsvg/rsvg.h>
 
@@ -7,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/export/export.h"
 #include "core/errors.h"
 #include "core/files.h"
 

@@ -106,14 +106,17 @@ bool known_to_rexs(const std::string& key) {
   return false;
 }
 
-/// Values of the scene that REXS has no name for, of one table (and ring).
-void custom_attributes(Rexs::Component& component, const Scene& scene, const std::string& table,
+/// Values of the scene that REXS has no name for, of these tables (and ring): by their keys in a table, of several
+/// tables by whole keys.
+void custom_attributes(Rexs::Component& component, const Scene& scene, const std::vector<std::string>& tables,
                        const std::string& ring = "") {
   for (const auto& input : scene.inputs) {
     const auto* p = find_parameter(input.key);
-    if (p == nullptr || p->table != table || input.origin != Origin::scene || known_to_rexs(input.key)) continue;
+    if (p == nullptr || input.origin != Origin::scene || known_to_rexs(input.key)) continue;
+    if (std::find(tables.begin(), tables.end(), p->table) == tables.end()) continue;
     if (!ring.empty() && input.ring != ring) continue;
-    component.attribute("custom_annulus_" + p->name, input.unit, toml_text(input.value));
+    component.attribute("custom_annulus_" + (tables.size() > 1 ? p->key() : p->name), input.unit,
+                        toml_text(input.value));
   }
 }
 
@@ -165,17 +168,9 @@ Rexs::Component material_component(Rexs& rexs, const Scene& scene) {
   return material;
 }
 
-const char* const stage_tables[] = {"stage",           "errors",           "supports",         "dynamics",
-                                    "mesh.sun_planet", "mesh.ring_planet", "mesh.pinion_wheel"};
-/// Of tables that belong to the stage as a whole: custom_annulus_<key path>.
-void stage_attributes(Rexs::Component& component, const Scene& scene) {
-  for (const auto& input : scene.inputs) {
-    const auto* p = find_parameter(input.key);
-    if (p == nullptr || input.origin != Origin::scene || known_to_rexs(input.key)) continue;
-    if (std::find(std::begin(stage_tables), std::end(stage_tables), p->table) == std::end(stage_tables)) continue;
-    component.attribute("custom_annulus_" + p->key(), input.unit, toml_text(input.value));
-  }
-}
+/// Those that belong to the stage as a whole.
+const std::vector<std::string> stage_tables = {"stage",           "errors",           "supports",         "dynamics",
+                                               "mesh.sun_planet", "mesh.ring_planet", "mesh.pinion_wheel"};
 
 }  // namespace
 
@@ -187,13 +182,13 @@ std::string rexs_text(const Scene& scene, const std::string& ring) {
   auto unit = rexs.component("gear_unit", scene.title);
   const auto material = material_component(rexs, scene);
   if (scene.stage.kind == "helical_pair") {
-    stage_attributes(unit, scene);
+    custom_attributes(unit, scene, stage_tables);
     auto pinion = gear(rexs, scene, "pinion", scene.pinion,
                        make_gear(scene, scene.pinion, geometry::GearKind::external, 1), material);
     auto wheel = gear(rexs, scene, "wheel", scene.wheel,
                       make_gear(scene, scene.wheel, geometry::GearKind::external, -1), material);
-    custom_attributes(pinion, scene, "pinion");
-    custom_attributes(wheel, scene, "wheel");
+    custom_attributes(pinion, scene, {"pinion"});
+    custom_attributes(wheel, scene, {"wheel"});
     stage(rexs, "pinion - wheel", pair_centre_distance(scene), unit, nullptr, pinion, wheel);
     return rexs.text();
   }
@@ -207,19 +202,19 @@ std::string rexs_text(const Scene& scene, const std::string& ring) {
   }
   const auto set = make_geometry(scene).rings[static_cast<std::size_t>(found - scene.rings.begin())].set;
   auto planetary = rexs.component("planetary_stage", scene.title);
-  stage_attributes(planetary, scene);
+  custom_attributes(planetary, scene, stage_tables);
   rexs.relation("assembly", {{"assembly", &unit}, {"part", &planetary}});
   auto carrier = rexs.component("planet_carrier", "carrier");
   if (scene.carrier.mass) carrier.attribute("mass_of_component", "kg", *scene.carrier.mass);
-  custom_attributes(carrier, scene, "carrier");
+  custom_attributes(carrier, scene, {"carrier"});
   rexs.relation("assembly", {{"assembly", &unit}, {"part", &carrier}});
   auto sun = gear(rexs, scene, "sun", scene.sun, set.sun_mesh().wheel(), material);
-  custom_attributes(sun, scene, "sun");
+  custom_attributes(sun, scene, {"sun"});
   auto annulus = gear(rexs, scene, "ring " + found->name, *found, set.ring_mesh().wheel(), material);
-  custom_attributes(annulus, scene, "ring", found->name);
+  custom_attributes(annulus, scene, {"ring"}, found->name);
   for (int n = 1; n <= scene.stage.planets; ++n) {
     auto planet = gear(rexs, scene, fmt::format("planet {}", n), scene.planet, set.sun_mesh().planet(), material);
-    custom_attributes(planet, scene, "planet");
+    custom_attributes(planet, scene, {"planet"});
     const double distance = scene.stage.centre_distance;
     stage(rexs, fmt::format("sun - planet {}", n), distance, unit, &planetary, sun, planet);
     // As the number of teeth of the ring.

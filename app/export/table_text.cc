@@ -1,36 +1,39 @@
 #include "app/export/table_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <array>
 #include <vector>
+
+#include "app/export/named_arrays.h"
 
 namespace annulus::app {
 
 namespace {
 
-struct TableColumn {
-  const char *name, *unit, *what;
-  double StiffnessEntry::*value;
-};
-constexpr std::array<TableColumn, 4> quantities = {
-    {{"unloaded_te_m", "m", "unloaded transmission error", &StiffnessEntry::unloaded_te},
-     {"lte_m", "m", "loaded transmission error", &StiffnessEntry::lte},
-     {"stiffness_secant_N_per_m", "N/m", "force over deflection", &StiffnessEntry::stiffness_secant},
-     {"stiffness_tangent_N_per_m", "N/m", "derivative of the force by the deflection",
-      &StiffnessEntry::stiffness_tangent}}};
-
 /// One whole period with its first point again at the end.
 struct Cycles {
-  explicit Cycles(const StiffnessTable& t) : table(t) {}
+  explicit Cycles(const StiffnessTable& t) : table(t) {
+    for (int i = 0; i <= t.positions() * t.phases(); ++i) passed.push_back(static_cast<double>(i) / t.phases());
+  }
+
   const StiffnessTable& table;
-  [[nodiscard]] int count() const { return table.positions() * table.phases() + 1; }
-  [[nodiscard]] double at(int i) const { return static_cast<double>(i) / table.phases(); }
-  [[nodiscard]] const StiffnessEntry& entry(int i, std::size_t load) const {
-    const int wrapped = i % (table.positions() * table.phases());
-    return table.at(wrapped / table.phases(), wrapped % table.phases(), static_cast<int>(load));
+  std::vector<double> passed{};  ///< mesh cycles
+
+  [[nodiscard]] double value(std::size_t i, std::size_t load, const TableColumn& column) const {
+    const int wrapped = static_cast<int>(i) % (table.positions() * table.phases());
+    return table.at(wrapped / table.phases(), wrapped % table.phases(), static_cast<int>(load)).*column.value;
+  }
+  [[nodiscard]] std::vector<double> over_loads(std::size_t i, const TableColumn& column) const {
+    std::vector<double> values;
+    for (std::size_t l = 0; l < table.loads().size(); ++l) values.push_back(value(i, l, column));
+    return values;
   }
 };
+
+std::string numbers(const std::vector<double>& values, const char* separator = " ") {
+  return fmt::format("{:.17g}", fmt::join(values, separator));
+}
 
 std::string provenance_lines(const StiffnessTable& table, const char* mark) {
   std::string text = fmt::format("{} annulus: mesh {}\n", mark, table.mesh());
@@ -42,14 +45,18 @@ std::string provenance_lines(const StiffnessTable& table, const char* mark) {
 class Statement {
  public:
   explicit Statement(const std::string& head) : text_(head) {}
-  void add(const std::string& word) {
+  /// `name`: in front of the first value.
+  void add(const char* name, const std::vector<double>& values) {
     constexpr std::size_t longest = 78;
-    const std::size_t length = text_.size() - line_;
-    if (length + word.size() + 2 > longest) {
-      text_ += "\n";
-      line_ = text_.size();
+    for (const double value : values) {
+      const auto word = fmt::format("{}{:.12g}", name, value);
+      if (text_.size() - line_ + word.size() + 2 > longest) {
+        text_ += "\n";
+        line_ = text_.size();
+      }
+      text_ += ", " + word;
+      name = "";
     }
-    text_ += ", " + word;
   }
   [[nodiscard]] std::string text() const { return text_ + "\n"; }
 
@@ -63,98 +70,80 @@ class Statement {
 std::string modelica_text(const StiffnessTable& table) {
   const Cycles cycles(table);
   const auto& loads = table.loads();
-  fmt::memory_buffer out;
-  const auto to = std::back_inserter(out);
-  fmt::format_to(to, "#1\n{}", provenance_lines(table, "#"));
-  fmt::format_to(
-      to,
-      "# First column: mesh cycles passed, period {}; the last row repeats the first (Extrapolation.Periodic).\n"
-      "# Matrices named after a quantity: first row the loads in N (CombiTable2D).\n"
-      "# curves_<i>: columns",
-      table.positions());
-  fmt::format_to(to, " mesh_cycles");
-  for (const auto& q : quantities) fmt::format_to(to, ", {}", q.name);
-  fmt::format_to(to, " at a load (CombiTable1D):");
-  for (std::size_t l = 0; l < loads.size(); ++l) fmt::format_to(to, " {} {:.6g} N", l + 1, loads[l]);
-  fmt::format_to(to, "\n");
-  for (const auto& q : quantities) {
-    fmt::format_to(to, "# {}: {}, {}\ndouble {}({}, {})\n0", q.name, q.what, q.unit, q.name, cycles.count() + 1,
-                   loads.size() + 1);
-    for (const double load : loads) fmt::format_to(to, " {:.17g}", load);
-    fmt::format_to(to, "\n");
-    for (int i = 0; i < cycles.count(); ++i) {
-      fmt::format_to(to, "{:.17g}", cycles.at(i));
-      for (std::size_t l = 0; l < loads.size(); ++l) fmt::format_to(to, " {:.17g}", cycles.entry(i, l).*q.value);
-      fmt::format_to(to, "\n");
-    }
+  std::string text = "#1\n" + provenance_lines(table, "#") +
+                     fmt::format(
+                         "# First column: mesh cycles passed, period {}; the last row repeats the first "
+                         "(Extrapolation.Periodic).\n"
+                         "# Matrices named after a quantity: first row the loads in N (CombiTable2D).\n"
+                         "# curves_<i>: columns mesh_cycles",
+                         table.positions());
+  for (const auto& c : table_columns) text += fmt::format(", {}", c.name);
+  text += " at a load (CombiTable1D):";
+  for (std::size_t l = 0; l < loads.size(); ++l) text += fmt::format(" {} {:.6g} N", l + 1, loads[l]);
+  text += "\n";
+  for (const auto& c : table_columns) {
+    text += fmt::format("# {}: {}, {}\ndouble {}({}, {})\n0 {}\n", c.name, c.what, c.unit, c.name,
+                        cycles.passed.size() + 1, loads.size() + 1, numbers(loads));
+    for (std::size_t i = 0; i < cycles.passed.size(); ++i)
+      text += fmt::format("{:.17g} {}\n", cycles.passed[i], numbers(cycles.over_loads(i, c)));
   }
   for (std::size_t l = 0; l < loads.size(); ++l) {
-    fmt::format_to(to, "double curves_{}({}, {})\n", l + 1, cycles.count(), quantities.size() + 1);
-    for (int i = 0; i < cycles.count(); ++i) {
-      fmt::format_to(to, "{:.17g}", cycles.at(i));
-      for (const auto& q : quantities) fmt::format_to(to, " {:.17g}", cycles.entry(i, l).*q.value);
-      fmt::format_to(to, "\n");
+    text += fmt::format("double curves_{}({}, {})\n", l + 1, cycles.passed.size(), table_columns.size() + 1);
+    for (std::size_t i = 0; i < cycles.passed.size(); ++i) {
+      std::vector<double> row = {cycles.passed[i]};
+      for (const auto& c : table_columns) row.push_back(cycles.value(i, l, c));
+      text += numbers(row) + "\n";
     }
   }
-  return fmt::to_string(out);
+  return text;
 }
 
 std::string adams_text(const StiffnessTable& table) {
   const Cycles cycles(table);
   // Units are those of the dataset, which has to say UNITS/ ... LENGTH=METER, FORCE=NEWTON.
-  std::string text = provenance_lines(table, "!") +
-                     "! Units: metres and newtons. x: mesh cycles passed, z: load.\n"
-                     "! Extrapolate by the period: mod(cycles, " +
-                     std::to_string(table.positions()) + ").\n";
+  std::string text = provenance_lines(table, "!") + fmt::format(
+                                                        "! Units: metres and newtons. x: mesh cycles passed, z: load.\n"
+                                                        "! Extrapolate by the period: mod(cycles, {}).\n",
+                                                        table.positions());
+  const bool one_load = table.loads().size() == 1;
   int id = 0;
-  for (const auto& q : quantities) {
-    text += fmt::format("! {}: {}, {}\n", q.name, q.what, q.unit);
+  for (const auto& c : table_columns) {
     Statement statement(fmt::format("SPLINE/{}", ++id));
-    for (int i = 0; i < cycles.count(); ++i) statement.add(fmt::format("{}{:.12g}", i == 0 ? "X=" : "", cycles.at(i)));
+    statement.add("X=", cycles.passed);
     for (std::size_t l = 0; l < table.loads().size(); ++l) {
-      if (table.loads().size() > 1) statement.add(fmt::format("Y={:.12g}", table.loads()[l]));
-      for (int i = 0; i < cycles.count(); ++i)
-        statement.add(
-            fmt::format("{}{:.12g}", i == 0 && table.loads().size() == 1 ? "Y=" : "", cycles.entry(i, l).*q.value));
+      if (!one_load) statement.add("Y=", {table.loads()[l]});
+      std::vector<double> values;
+      for (std::size_t i = 0; i < cycles.passed.size(); ++i) values.push_back(cycles.value(i, l, c));
+      statement.add(one_load ? "Y=" : "", values);
     }
-    text += statement.text();
+    text += fmt::format("! {}: {}, {}\n{}", c.name, c.what, c.unit, statement.text());
   }
   return text;
 }
 
 std::string simpack_text(const StiffnessTable& table) {
   const Cycles cycles(table);
-  const auto& loads = table.loads();
-  fmt::memory_buffer out;
-  const auto to = std::back_inserter(out);
-  fmt::format_to(to, "{}", provenance_lines(table, "!"));
-  fmt::format_to(to, "header.begin\n  file.type    = 'afs'\n  file.version = 1.0\nheader.end\n\narrfunc.begin\n");
-  fmt::format_to(to, "  type         = 'z(xi,yj)'\n");
-  for (std::size_t k = 0; k < quantities.size(); ++k)
-    fmt::format_to(to, "  name({})      = '{}'    ! {}\n", k + 1, quantities[k].name, quantities[k].what);
-  fmt::format_to(to,
-                 "  eval.type    = 'linear-linear'\n  x.unit       = '-'    ! mesh cycles passed, period {}\n"
-                 "  y.unit       = 'N'    ! load\n",
-                 table.positions());
-  for (std::size_t k = 0; k < quantities.size(); ++k)
-    fmt::format_to(to, "  z.unit({})    = '{}'\n", k + 1, quantities[k].unit);
-  fmt::format_to(to, "  data.begin\n    x.begin\n");
-  for (int i = 0; i < cycles.count(); ++i) fmt::format_to(to, "      {:.17g}\n", cycles.at(i));
-  fmt::format_to(to, "    x.end\n    y.begin\n");
-  for (const double load : loads) fmt::format_to(to, "      {:.17g}\n", load);
-  fmt::format_to(to, "    y.end\n");
-  for (std::size_t k = 0; k < quantities.size(); ++k) {
-    fmt::format_to(to, "    z({}).begin    ! a row per x, a column per y\n", k + 1);
-    for (int i = 0; i < cycles.count(); ++i) {
-      fmt::format_to(to, "     ");
-      for (std::size_t l = 0; l < loads.size(); ++l)
-        fmt::format_to(to, " {:.17g}", cycles.entry(i, l).*quantities[k].value);
-      fmt::format_to(to, "\n");
-    }
-    fmt::format_to(to, "    z({}).end\n", k + 1);
+  std::string names, units, values;
+  int number = 0;
+  for (const auto& c : table_columns) {
+    ++number;
+    names += fmt::format("  name({})      = '{}'    ! {}\n", number, c.name, c.what);
+    units += fmt::format("  z.unit({})    = '{}'\n", number, c.unit);
+    values += fmt::format("    z({}).begin    ! a row per x, a column per y\n", number);
+    for (std::size_t i = 0; i < cycles.passed.size(); ++i)
+      values += fmt::format("      {}\n", numbers(cycles.over_loads(i, c)));
+    values += fmt::format("    z({}).end\n", number);
   }
-  fmt::format_to(to, "  data.end\narrfunc.end\n");
-  return fmt::to_string(out);
+  return provenance_lines(table, "!") +
+         fmt::format(
+             "header.begin\n  file.type    = 'afs'\n  file.version = 1.0\nheader.end\n\narrfunc.begin\n"
+             "  type         = 'z(xi,yj)'\n{}"
+             "  eval.type    = 'linear-linear'\n  x.unit       = '-'    ! mesh cycles passed, period {}\n"
+             "  y.unit       = 'N'    ! load\n{}"
+             "  data.begin\n    x.begin\n      {}\n    x.end\n    y.begin\n      {}\n    y.end\n{}"
+             "  data.end\narrfunc.end\n",
+             names, table.positions(), units, numbers(cycles.passed, "\n      "), numbers(table.loads(), "\n      "),
+             values);
 }
 
 }  // namespace annulus::app

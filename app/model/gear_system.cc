@@ -7,7 +7,6 @@
 
 #include "app/model/plan_studies.h"
 #include "app/model/system_run.h"
-#include "app/model/trade_subject.h"
 #include "app/plan/plan.h"
 #include "app/scene/input_place.h"
 #include "core/errors.h"
@@ -45,7 +44,19 @@ std::vector<std::size_t> GearSystem::meshes_of(std::size_t /*variant*/) const {
 
 std::unique_ptr<SystemRun> GearSystem::run() const { return nullptr; }
 
-std::vector<std::unique_ptr<TradeSubject>> GearSystem::trades() const { return {}; }
+std::string GearSystem::title(std::size_t variant) const {
+  const auto name = variants().at(variant);
+  return name.empty() ? scene_.stage.kind : name;
+}
+
+std::shared_ptr<const SolvedCoupling> GearSystem::coupling(const MeshResult& /*mesh*/, const RunOptions& /*options*/,
+                                                           const std::filesystem::path& /*folder*/) const {
+  return nullptr;
+}
+
+ModelWays GearSystem::ways(std::size_t /*variant*/, const std::vector<const MeshResult*>& /*tables*/) const {
+  return {};
+}
 
 std::unique_ptr<GearSystem> make_system(const Scene& scene) { return system_kind(scene.stage.kind).make(scene); }
 

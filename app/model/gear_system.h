@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,7 +18,7 @@ namespace annulus::app {
 struct Plan;
 struct RunOptions;
 struct SystemRun;
-class TradeSubject;
+struct SolvedCoupling;
 
 /// A gear system of a scene: what one kind of them answers to the commands, which know no kind. A new kind is a class
 /// of this sort in a folder of its own and a line in systems/registry.cc.
@@ -65,8 +66,16 @@ class GearSystem {
 
   /// A run of this kind that has not begun; nothing: by the lumped models alone (run/model_run.h).
   [[nodiscard]] virtual std::unique_ptr<SystemRun> run() const;
-  /// What the cost study measures, one per variant. They refer to the scene.
-  [[nodiscard]] virtual std::vector<std::unique_ptr<TradeSubject>> trades() const;
+
+  /// The name of a variant in the cost study: the kind of one without a name.
+  [[nodiscard]] virtual std::string title(std::size_t variant) const;
+  /// How a coupled mesh is coupled with the others, cached or solved, with its files in `folder`; null without.
+  [[nodiscard]] virtual std::shared_ptr<const SolvedCoupling> coupling(const MeshResult& mesh,
+                                                                       const RunOptions& options,
+                                                                       const std::filesystem::path& folder) const;
+  /// The ways that the cost study compares to make and solve the model of a variant; system and tables are referred
+  /// to. Needs [dynamics].
+  [[nodiscard]] virtual ModelWays ways(std::size_t variant, const std::vector<const MeshResult*>& tables) const;
 
  protected:
   /// Fills what a kind has of its own: inputs, quantities, degrees of freedom, decisions about the motion, remarks.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,6 +43,23 @@ class LumpedModel {
   [[nodiscard]] virtual StudyPoint answer(Answer wanted) const = 0;
   /// The motion followed from several initial conditions; nothing for kinds that do not offer it.
   [[nodiscard]] virtual std::optional<StartSpread> starts(int /*count*/, int /*seed*/) const { return std::nullopt; }
+};
+
+/// One way to make and solve a lumped model, as the cost study measures it.
+struct ModelWay {
+  std::string fidelity{};      ///< "harmonic balance", "time integration", "shooting", "coupling"; empty: as in a run
+  std::string settings{};      ///< "64 samples per mesh cycle", "sun held in place"
+  std::string id{};            ///< identity of everything the results depend on
+  bool finest = false;         ///< the others are compared with it
+  bool changes_model = false;  ///< its error is not one of numbers
+  /// The results, with the errors that the program states. Throws when there is no periodic motion.
+  std::function<FigureSet()> figures{};
+};
+
+/// All ways to a lumped model on some tables.
+struct ModelWays {
+  ModelWay as_run{};  ///< with the errors of the tables; without `figures`: its LumpedModel with propagated errors
+  std::vector<ModelWay> others{};
 };
 
 }  // namespace annulus::app

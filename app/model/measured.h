@@ -26,7 +26,7 @@ struct RingQuantity {
 
 /// "'a' 1.2 and 'b' 1.3", in so many digits.
 [[nodiscard]] std::string both_text(const Measured& a, const Measured& b, int digits);
-/// Why two numbers that are not told apart are not.
+/// Why two numbers cannot be distinguished.
 [[nodiscard]] std::string undecided_text(const Measured& a, const Measured& b, int digits);
 /// A sentence without its full stop: by how much `b` differs from `a`, and whether that is more than the error bars
 /// together.

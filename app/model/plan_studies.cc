@@ -22,7 +22,7 @@ int count_tables(const Scene& scene, const std::vector<StudyCase>& cases) {
 std::string row_text(const Scene& scene, const SweepInput& s) {
   const auto values = s.points();
   return fmt::format("{} from {} to {} {}, {} values", s.input, to_text(values.front()), to_text(values.back()),
-                     find_input(scene, s.input).parameter->unit, values.size());
+                     unit_of_input(scene, s.input), values.size());
 }
 
 }  // namespace
@@ -38,15 +38,14 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
     const auto n = static_cast<long>(cases);
     list.push_back({std::move(name), std::move(what), n * variants, tables, each * static_cast<double>(n)});
   };
-  for (std::size_t i = 0; i < scene.sweeps.size(); ++i) {
-    const auto cases = sweep_cases(scene, i);
-    add(fmt::format("[[sweep]] {}", i + 1), row_text(scene, scene.sweeps[i]), cases.size(), count_tables(scene, cases));
-  }
-  for (std::size_t i = 0; i < scene.grids.size(); ++i) {
-    const auto cases = grid_cases(scene, i);
-    add(fmt::format("[[grid]] {}", i + 1), row_text(scene, scene.grids[i].x) + "; " + row_text(scene, scene.grids[i].y),
-        cases.size(), count_tables(scene, cases));
-  }
+  const auto add_cases = [&](std::string name, std::string what, const std::vector<StudyCase>& cases) {
+    add(std::move(name), std::move(what), cases.size(), count_tables(scene, cases));
+  };
+  for (std::size_t i = 0; i < scene.sweeps.size(); ++i)
+    add_cases(fmt::format("[[sweep]] {}", i + 1), row_text(scene, scene.sweeps[i]), sweep_cases(scene, i));
+  for (std::size_t i = 0; i < scene.grids.size(); ++i)
+    add_cases(fmt::format("[[grid]] {}", i + 1),
+              row_text(scene, scene.grids[i].x) + "; " + row_text(scene, scene.grids[i].y), grid_cases(scene, i));
   if (scene.monte_carlo)
     add("[monte_carlo]",
         fmt::format("{} samples of {} random inputs, seed {}", scene.monte_carlo->samples,

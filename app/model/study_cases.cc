@@ -1,6 +1,7 @@
 #include "app/model/study_cases.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -63,22 +64,6 @@ dynamics::Distribution distribution_of(const RandomInput& r) {
 
 }  // namespace
 
-std::vector<StudyCase> sweep_cases(const Scene& scene, std::size_t sweep) {
-  const auto& s = scene.sweeps.at(sweep);
-  const auto values = s.points();
-  const auto place = place_text(scene, "sweep.input", sweep);
-  std::vector<StudyCase> cases;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::string text = to_text(values[i], 15);
-    cases.push_back({{{s.input, values[i]}},
-                     fmt::format("[[sweep]] {}, value {} of {} ({} = {})", sweep + 1, i + 1, values.size(), s.input,
-                                 to_text(values[i])),
-                     "sweep/" + file_name(s.input) + "/" + text,
-                     place});
-  }
-  return cases;
-}
-
 void rethrow_at(const Scene& scene, const std::string& where, const std::string& place) {
   const std::string head = (place.empty() ? scene.file.string() : place) + ": " + where + ": ";
   try {
@@ -100,56 +85,83 @@ Scene change_scene(const Scene& scene, const StudyCase& study_case) {
   }
 }
 
-std::vector<StudyCase> grid_cases(const Scene& scene, std::size_t grid) {
-  const auto& g = scene.grids.at(grid);
-  const auto xs = g.x.points(), ys = g.y.points();
-  const auto place = place_text(scene, "grid.x_input", grid);
+namespace {
+
+/// All combinations of the values of some inputs, the first input fastest. `study`: "[[grid]] 1", `noun`: of a case;
+/// `folder`: from the values as texts.
+std::vector<StudyCase> combinations(const std::vector<SweepInput>& inputs, const std::string& study, const char* noun,
+                                    const std::string& place) {
+  std::vector<std::vector<Override>> points = {{}};
+  for (auto input = inputs.rbegin(); input != inputs.rend(); ++input) {
+    std::vector<std::vector<Override>> longer;
+    for (const auto& point : points)
+      for (const double value : input->points()) {
+        longer.push_back(point);
+        longer.back().insert(longer.back().begin(), {input->input, value});
+      }
+    points = std::move(longer);
+  }
   std::vector<StudyCase> cases;
-  for (const double y : ys) {
-    for (const double x : xs)
-      cases.push_back(
-          {{{g.x.input, x}, {g.y.input, y}},
-           fmt::format("[[grid]] {}, point {} of {} ({} = {}, {} = {})", grid + 1, cases.size() + 1,
-                       xs.size() * ys.size(), g.x.input, to_text(x), g.y.input, to_text(y)),
-           fmt::format("grid/{}_{}_{}_{}", file_name(g.x.input), to_text(x, 15), file_name(g.y.input), to_text(y, 15)),
-           place});
+  for (auto& point : points) {
+    std::vector<std::string> texts, folder;
+    for (const auto& o : point) {
+      texts.push_back(o.input + " = " + to_text(o.value));
+      folder.push_back(file_name(o.input));
+      folder.push_back(to_text(o.value, 15));
+    }
+    cases.push_back(
+        {std::move(point),
+         fmt::format("{}, {} {} of {} ({})", study, noun, cases.size() + 1, points.size(), fmt::join(texts, ", ")),
+         inputs.size() == 1 ? fmt::format("sweep/{}", fmt::join(folder, "/"))
+                            : fmt::format("grid/{}", fmt::join(folder, "_")),
+         place});
   }
   return cases;
 }
 
-namespace {
+/// Supports, bearings, damping and backlash.
+bool often_assumed(const Parameter& p) {
+  return p.table == "supports" || p.name.starts_with("bearing_") || p.key() == "dynamics.mesh_damping_ratio" ||
+         p.key() == "dynamics.support_damping_ratio" || p.key() == "dynamics.half_backlash_um";
+}
 
 /// Stiffnesses and inertias of a 2K-V stage.
-bool among_usually_assumed(const Parameter& p) {
-  for (const char* table : {"crank", "arc_gear", "input", "output"}) {
-    if (p.table == table && (p.unit == "N/m" || p.unit == "N m/rad" || p.unit == "kg m²" || p.unit == "kg"))
-      return true;
-  }
-  return false;
+bool often_assumed_in_reducers(const Parameter& p) {
+  constexpr std::string_view tables[] = {"crank", "arc_gear", "input", "output"},
+                             units[] = {"N/m", "N m/rad", "kg m²", "kg"};
+  return std::find(std::begin(tables), std::end(tables), p.table) != std::end(tables) &&
+         std::find(std::begin(units), std::end(units), p.unit) != std::end(units);
 }
 
 }  // namespace
+
+std::string unit_of_input(const Scene& scene, const std::string& input) {
+  return find_input(scene, input).parameter->unit;
+}
+
+std::vector<StudyCase> sweep_cases(const Scene& scene, std::size_t sweep) {
+  return combinations({scene.sweeps.at(sweep)}, fmt::format("[[sweep]] {}", sweep + 1), "value",
+                      place_text(scene, "sweep.input", sweep));
+}
+
+std::vector<StudyCase> grid_cases(const Scene& scene, std::size_t grid) {
+  const auto& g = scene.grids.at(grid);
+  return combinations({g.x, g.y}, fmt::format("[[grid]] {}", grid + 1), "point",
+                      place_text(scene, "grid.x_input", grid));
+}
 
 std::vector<std::string> sensitivity_inputs(const Scene& scene) {
   if (!scene.sensitivity) return {};
   if (!scene.sensitivity->inputs.empty()) return scene.sensitivity->inputs;
   std::vector<std::string> inputs;
-  for (const auto& table : schema()) {
-    for (const auto& p : table.parameters) {
-      const bool assumed_mostly = p.table == "supports" || p.name.starts_with("bearing_") ||
-                                  p.key() == "dynamics.mesh_damping_ratio" ||
-                                  p.key() == "dynamics.support_damping_ratio" || p.key() == "dynamics.half_backlash_um";
-      if (!assumed_mostly || !table.applies_to(scene.stage.kind) || !p.applies_to(scene.stage.kind)) continue;
-      const double value = input_value(scene, find_input(scene, p.key())).value_or(0);
-      if (value != 0 && std::isfinite(value)) inputs.push_back(p.key());
-    }
-  }
-  for (const auto& table : schema()) {
-    for (const auto& p : table.parameters) {
-      if (!among_usually_assumed(p) || !table.applies_to(scene.stage.kind)) continue;
-      const double value = input_value(scene, find_input(scene, p.key())).value_or(0);
-      const bool listed = std::find(inputs.begin(), inputs.end(), p.key()) != inputs.end();
-      if (!listed && value != 0 && std::isfinite(value)) inputs.push_back(p.key());
+  for (const auto applies : {often_assumed, often_assumed_in_reducers}) {
+    for (const auto& table : schema()) {
+      for (const auto& p : table.parameters) {
+        if (!applies(p) || !table.applies_to(scene.stage.kind) || !p.applies_to(scene.stage.kind)) continue;
+        const double value = input_value(scene, find_input(scene, p.key())).value_or(0);
+        const bool listed = std::find(inputs.begin(), inputs.end(), p.key()) != inputs.end();
+        if (!listed && value != 0 && std::isfinite(value)) inputs.push_back(p.key());
+      }
     }
   }
   return inputs;
@@ -171,6 +183,15 @@ std::vector<StudyCase> sensitivity_cases(const Scene& scene) {
   return cases;
 }
 
+std::vector<StudyCase> all_cases(const Scene& scene) {
+  std::vector<StudyCase> all;
+  const auto add = [&](const std::vector<StudyCase>& cases) { all.insert(all.end(), cases.begin(), cases.end()); };
+  for (std::size_t i = 0; i < scene.sweeps.size(); ++i) add(sweep_cases(scene, i));
+  for (std::size_t i = 0; i < scene.grids.size(); ++i) add(grid_cases(scene, i));
+  add(sensitivity_cases(scene));
+  return all;
+}
+
 std::vector<RandomVariable> random_variables(const Scene& scene) {
   std::vector<RandomVariable> variables;
   if (!scene.monte_carlo) return variables;
@@ -185,7 +206,7 @@ std::vector<RandomVariable> random_variables(const Scene& scene) {
 
 namespace {
 
-/// Name of the random numbers of an input. A renamed key keeps those of its first name, so that the samples of a seed
+/// Name of the random numbers of an input. A renamed key has those of its first name, so that the samples of a seed
 /// stay the same.
 std::string random_stream(const std::string& input) {
   const std::string key = input.substr(0, input.find('['));

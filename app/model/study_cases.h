@@ -11,11 +11,14 @@ namespace annulus::app {
 
 /// One changed scene.
 struct StudyCase {
-  std::vector<Override> overrides;
-  std::string where;    ///< for messages: "[[sweep]] 1, value 7 of 20 (stage.power_kW = 900)"
-  std::string folder;   ///< of tables of its own, below OUT
-  std::string place{};  ///< of the study's input in the scene: "scene.toml:40:1"; empty: not known
+  std::vector<Override> overrides{};
+  std::string where{};   ///< for messages: "[[sweep]] 1, value 7 of 20 (stage.power_kW = 900)"
+  std::string folder{};  ///< of tables of its own, below OUT
+  std::string place{};   ///< of the study's input in the scene: "scene.toml:40:1"; empty: not known
 };
+
+/// The unit of a key path.
+[[nodiscard]] std::string unit_of_input(const Scene& scene, const std::string& input);
 
 /// One per value.
 [[nodiscard]] std::vector<StudyCase> sweep_cases(const Scene& scene, std::size_t sweep);
@@ -35,6 +38,9 @@ struct StudyCase {
 [[nodiscard]] std::vector<std::string> sensitivity_inputs(const Scene& scene);
 /// Two per input: divided, multiplied.
 [[nodiscard]] std::vector<StudyCase> sensitivity_cases(const Scene& scene);
+
+/// The cases of all sweeps, grids and [sensitivity].
+[[nodiscard]] std::vector<StudyCase> all_cases(const Scene& scene);
 
 /// One random number of every sample.
 struct RandomVariable {

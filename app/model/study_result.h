@@ -43,7 +43,12 @@ struct VariantSamples {
   int failed = 0, not_steady = 0;
   std::vector<FigureStatistics> statistics;  ///< over the samples that did not fail
 
-  [[nodiscard]] const FigureStatistics* find(const std::string& figure) const;  ///< nullptr: none
+  /// nullptr: none.
+  [[nodiscard]] const FigureStatistics* find(const std::string& figure) const {
+    for (const auto& s : statistics)
+      if (s.figure == figure) return &s;
+    return nullptr;
+  }
 };
 
 /// In what share of the samples variant a's figure lies above variant b's, both with the same draws.
@@ -81,7 +86,7 @@ struct OptimiseRun {
   std::string optimiser;
   int repeat = 0;
   dynamics::OptimiseResult search;  ///< its values are to be made small: negative where the goal is the largest
-  int kept = 0;                     ///< evaluations answered from an earlier run
+  int reused = 0;                   ///< evaluations answered from an earlier run
 };
 
 /// A design and its figures.
@@ -100,12 +105,19 @@ struct OptimiseResults {
   std::vector<OptimiseRun> runs{};
   std::size_t best_run = 0;
   Design given{}, best{};
-  double numerical_error = 0;        ///< of the objective, where the scene's own figures tell it
+  double numerical_error = 0;        ///< of the objective, where the scene's own results have one
   dynamics::ObjectiveRange range{};  ///< over all evaluations of all runs, of values to be made small
   /// Evaluations until the objective of the best run was met within 1 % of the gain (at least the numerical error), by
   /// run; absent: never.
   std::vector<std::optional<long>> evaluations_to_best{};
 };
+
+/// The result that orders the variants; nullptr when none does.
+[[nodiscard]] inline const FigureSpec* ordering_figure(const std::vector<FigureSpec>& figures) {
+  for (const auto& figure : figures)
+    if (figure.ordering) return &figure;
+  return nullptr;
+}
 
 struct StudyResults {
   std::vector<std::string> variants;  ///< names; a single empty one for kinds without variants
@@ -117,8 +129,7 @@ struct StudyResults {
   std::optional<SensitivityResult> sensitivity{};
   std::optional<OptimiseResults> optimise{};
 
-  /// The figure that orders the variants; nullptr when none does.
-  [[nodiscard]] const FigureSpec* ordering() const;
+  [[nodiscard]] const FigureSpec* ordering() const { return ordering_figure(figures); }
 };
 
 }  // namespace annulus::app

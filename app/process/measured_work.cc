@@ -13,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <iterator>
+#include <memory>
 
 #include "app/process/interruption.h"
 #include "core/errors.h"
@@ -31,24 +32,12 @@ std::ptrdiff_t thread_count() {
 /// OpenBLAS starts threads as it is loaded, and takes care of them where a process forks.
 const std::ptrdiff_t threads_at_start = thread_count();
 
-void write_all(int file, const std::string& text) {
-  for (std::size_t done = 0; done < text.size();) {
-    const auto written = ::write(file, text.data() + done, text.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return;  // nobody reads any more
-    done += static_cast<std::size_t>(written);
-  }
-}
-
 std::string read_all(int file) {
+  const std::unique_ptr<FILE, decltype(&std::fclose)> stream(::fdopen(file, "r"), std::fclose);
   std::string text;
   char buffer[4096];
-  for (;;) {
-    const auto count = ::read(file, buffer, sizeof buffer);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return text;
-    text.append(buffer, static_cast<std::size_t>(count));
-  }
+  while (const auto count = std::fread(buffer, 1, sizeof buffer, stream.get())) text.append(buffer, count);
+  return text;
 }
 
 [[noreturn]] void work_and_leave(int file, const std::function<std::string()>& work) {
@@ -60,8 +49,8 @@ std::string read_all(int file) {
   } catch (const std::exception& error) {
     message = failed + std::string(error.what());
   }
-  write_all(file, message);
-  ::close(file);
+  FILE* stream = ::fdopen(file, "w");
+  std::fwrite(message.data(), 1, message.size(), stream);
   std::fflush(nullptr);
   ::_exit(0);
 }
@@ -93,7 +82,6 @@ MeasuredWork measured(const std::function<std::string()>& work) {
   }
   ::close(ends[1]);
   const std::string message = read_all(ends[0]);
-  ::close(ends[0]);
   int status = 0;
   rusage usage{};
   while (::wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "app/model/cost_actual.h"
-#include "app/model/gear_system.h"
 #include "app/model/mesh_figures.h"
 #include "app/model/run_options.h"
 #include "app/sections/report_parts.h"
@@ -27,9 +26,15 @@ dynamics::Evaluation evaluation_of(const LumpedModel& model, const std::vector<F
   return evaluation;
 }
 
-/// The results of one lumped model with the errors that its tables bring.
-FigureSet results_of(const GearSystem& system, std::size_t variant, const std::vector<const MeshResult*>& tables,
-                     const std::vector<FigureSpec>& specs) {
+std::string value_text(const FigureSpec& spec, const Figure& figure) {
+  return measured(figure.value * spec.scale, std::isfinite(figure.error) ? figure.error * spec.scale : 0) +
+         (spec.unit.empty() ? "" : " " + spec.unit);
+}
+
+}  // namespace
+
+FigureSet model_results(const GearSystem& system, std::size_t variant, const std::vector<const MeshResult*>& tables) {
+  const auto& specs = system_kind(system.scene().stage.kind).model_figures();
   dynamics::TabulatedModel model{.meshes = {}, .evaluate = {}, .seeks_steady_state = true, .nominal_alike = true};
   std::vector<std::size_t> tabulated;
   for (std::size_t i = 0; i < tables.size(); ++i) {
@@ -50,13 +55,6 @@ FigureSet results_of(const GearSystem& system, std::size_t variant, const std::v
   return dynamics::propagate_errors(evaluation_of(*system.model(variant, tables), specs), model);
 }
 
-std::string value_text(const FigureSpec& spec, const Figure& figure) {
-  return measured(figure.value * spec.scale, std::isfinite(figure.error) ? figure.error * spec.scale : 0) +
-         (spec.unit.empty() ? "" : " " + spec.unit);
-}
-
-}  // namespace
-
 void ModelRun::solve_meshes(const RunOptions& options) {
   const auto system = make_system(scene);
   for (const auto& mesh : system->model_meshes()) tables_.push_back(system->stiffness(mesh, options));
@@ -65,13 +63,12 @@ void ModelRun::solve_meshes(const RunOptions& options) {
 void ModelRun::respond(const RunOptions& options) {
   const auto timer = timers.measure("dynamics");
   const auto system = make_system(scene);
-  const auto& specs = system_kind(scene.stage.kind).model_figures();
   responses_.resize(system->variants().size());
   const auto tables = model_tables();
   for_each_task(responses_.size(), options.threads, [&](std::size_t variant) {
     std::vector<const MeshResult*> own;
     for (const std::size_t i : system->meshes_of(variant)) own.push_back(tables.at(i));
-    responses_[variant] = results_of(*system, variant, own, specs);
+    responses_[variant] = model_results(*system, variant, own);
   });
 }
 

@@ -3,9 +3,14 @@
 #include <string>
 #include <vector>
 
+#include "app/model/gear_system.h"
 #include "app/model/system_run.h"
 
 namespace annulus::app {
+
+/// The results of the lumped model of a variant with the errors that its tables bring.
+[[nodiscard]] FigureSet model_results(const GearSystem& system, std::size_t variant,
+                                      const std::vector<const MeshResult*>& tables);
 
 /// A run by the lumped models of a gear system alone: stiffness tables, results with the errors of the tables carried
 /// into them, and a page with the sections that all kinds have. A kind that has more to show has a SystemRun of its

@@ -1,5 +1,3 @@
-#include "app/study/optimisation.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,16 +6,13 @@
 #include <numeric>
 
 #include "app/model/run_options.h"
-#include "app/model/study_cases.h"
 #include "app/process/progress.h"
 #include "app/results/content_id.h"
-#include "app/study/design_json.h"
-#include "app/study/evaluation_store.h"
 #include "app/study/studies.h"
+#include "app/study/study_points.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/parallel.h"
-#include "core/result_store.h"
 
 namespace annulus::app {
 
@@ -60,7 +55,7 @@ class DesignObjective {
     return point.value("steady") == 0 ? "the motion does not become periodic" : "";
   }
 
-  /// Of the objective at the scene as given, as far as its figures carry errors.
+  /// The error of the objective at the scene as given, as far as its results have errors.
   [[nodiscard]] double numerical_error() const {
     const auto nominal = subject_.nominal(variant_);
     double error = 0;
@@ -88,45 +83,40 @@ class DesignObjective {
 
   /// Whatever is wrong at x fails the point alone. Any number of threads at once.
   [[nodiscard]] StudyPoint evaluate(const std::vector<double>& x, Answer wanted) const {
-    const auto changed = study_case(x);
-    try {
-      {
-        // Tables are solved with all threads.
-        const std::scoped_lock lock(solving_);
-        subject_.prepare(changed.overrides, changed.where, changed.folder);
-      }
-      return app::evaluate(*subject_.model(changed.overrides, changed.where, variant_, changed.folder), wanted);
-    } catch (const InputError& error) {
-      return {.failure = one_line(error.what())};
-    } catch (const SolverError& error) {
-      return {.failure = one_line(error.what())};
-    }
+    return attempted([&] { return model(study_case(x))->answer(wanted); });
   }
 
-  /// Cached, or found and cached. One that fails is found anew.
+  /// Cached, or found and cached.
   [[nodiscard]] Design design(const std::vector<double>& x) const {
-    const auto changed = study_case(x);
-    std::string id;
+    ContentId id;
     try {
-      subject_.prepare(changed.overrides, changed.where, changed.folder);
-      const auto model = subject_.model(changed.overrides, changed.where, variant_, changed.folder);
-      id = ContentId()
-               .add("design", model->id())
-               .add("quick", quick_ ? 1 : 0)
-               .add("starts", settings_.starts)
-               .add("seed", settings_.seed)
-               .id();
+      id.add("design", model(study_case(x))->id());
     } catch (const Error&) {
-      return found_design(x);  // fails the same way, and tells why
+      return found_design(x);  // fails the same way, and states why
     }
-    constexpr const char* designs = "designs";
-    const auto& store = subject_.options().store;
-    const auto cached = store ? store->find(designs, id) : std::nullopt;
-    count_reuse(subject_.options(), study_responses, cached ? 1 : 0, cached ? 0 : 1);
-    Design d = cached ? design_of(Json::parse(*cached), x, figures_) : found_design(x);
-    d.objective = value(d.point);
-    if (store && !cached && d.point.failure.empty()) store->keep(designs, id, design_json(d, figures_).dump());
-    return d;
+    id.add("quick", quick_ ? 1 : 0).add("starts", settings_.starts).add("seed", settings_.seed);
+    auto design = design_of(
+        cached_response(subject_.options(), "designs", id.id(), [&] { return to_json(found_design(x), figures_); }), x,
+        figures_);
+    design.objective = value(design.point);
+    return design;
+  }
+
+  [[nodiscard]] std::vector<double> given() const {
+    std::vector<double> x;
+    for (const auto& v : scene_.variables)
+      x.push_back(input_value(scene_, find_input(scene_, v.input), variant_).value_or(std::nan("")));
+    return x;
+  }
+
+ private:
+  /// Tables that it needs are solved first, with all threads.
+  [[nodiscard]] std::unique_ptr<LumpedModel> model(const StudyCase& changed) const {
+    {
+      const std::scoped_lock lock(solving_);
+      subject_.prepare(changed);
+    }
+    return subject_.model(changed, variant_);
   }
 
   [[nodiscard]] Design found_design(const std::vector<double>& x) const {
@@ -138,32 +128,17 @@ class DesignObjective {
         if (figure.effort != FigureEffort::motion) d.point.figures.set(figure.key, as_searched.value(figure.key));
     }
     d.objective = value(d.point);
-    if (!d.point.failure.empty() || settings_.starts == 0) return d;
-    const auto changed = study_case(x);
-    d.starts = subject_.model(changed.overrides, changed.where, variant_, changed.folder)
-                   ->starts(settings_.starts, settings_.seed);
+    if (d.point.failure.empty() && settings_.starts != 0)
+      d.starts = model(study_case(x))->starts(settings_.starts, settings_.seed);
     return d;
   }
 
-  [[nodiscard]] std::vector<double> given() const {
-    std::vector<double> x;
-    for (const auto& v : scene_.variables)
-      x.push_back(input_value(scene_, find_input(scene_, v.input), variant_).value_or(std::nan("")));
-    return x;
-  }
-
- private:
   static std::size_t variant_of(const StudySubject& subject) {
     const auto& ring = subject.scene().optimise->ring;
     if (!ring) return 0;
     const auto names = subject.variants();
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), *ring) - names.begin());
   }
-  static std::string one_line(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-  }
-
   const StudySubject& subject_;
   const Scene& scene_;
   const OptimiseInput& settings_;
@@ -186,7 +161,11 @@ std::vector<dynamics::OptimiseVariable> search_variables(const Scene& scene) {
 }
 
 dynamics::OptimiseOptions search_options(const OptimiseInput& s, const std::string& optimiser, int repeat) {
-  return {.optimiser = optimiser_of(optimiser),
+  const auto& names = optimiser_names();
+  constexpr dynamics::Optimiser kinds[] = {dynamics::Optimiser::genetic, dynamics::Optimiser::cma_es,
+                                           dynamics::Optimiser::differential_evolution};
+  // The scene has been checked: it is one of these.
+  return {.optimiser = kinds[std::find(names.begin(), names.end(), optimiser) - names.begin()],
           .generations = s.generations,
           .population = s.population,
           .seed = static_cast<std::uint64_t>(s.seed) + static_cast<std::uint64_t>(repeat),
@@ -198,42 +177,38 @@ dynamics::OptimiseOptions search_options(const OptimiseInput& s, const std::stri
 OptimiseRun search(const StudySubject& subject, const DesignObjective& objective, const std::string& optimiser,
                    int repeat, TaskProgress& progress) {
   const auto& scene = subject.scene();
-  std::vector<std::string> variables, figures;
-  for (const auto& v : scene.variables) variables.push_back(file_name(v.input));
-  for (const auto& f : subject.figures()) {
-    if (f.effort != FigureEffort::motion || !objective.quick()) figures.push_back(f.key);
-  }
   // The answers depend on the scene, not on how the search goes on; what is cached together is one search's.
   const auto id = ContentId()
-                      .add("model", subject.model({}, "[optimise]", objective.variant(), "")->id())
+                      .add("model", subject.model({.where = "[optimise]"}, objective.variant())->id())
                       .add("optimiser", optimiser)
                       .add("repeat", repeat)
                       .id();
-  EvaluationStore store(subject.options().store.get(), id, variables, figures, subject.figures());
-  OptimiseRun run{.optimiser = optimiser, .repeat = repeat + 1, .search = {}, .kept = 0};
+  PointColumns columns{.header = {{"inputs_id", id}}};
+  for (const auto& v : scene.variables) columns.inputs.push_back(file_name(v.input));
+  for (const auto& f : subject.figures())
+    if (f.effort != FigureEffort::motion || !objective.quick()) columns.results.push_back(f.key);
+  PointTable points(subject.options().store.get(), "searches", id, columns, subject.figures());
   const auto answer = [&](const std::vector<double>& x) {
-    const StudyPoint* known = store.find(x);
-    if (known) {
-      ++run.kept;
-    } else {
-      store.add(x, objective.evaluate(x, objective.searched()));
-      known = store.find(x);
-    }
-    if (const auto trouble = objective.trouble(*known); !trouble.empty()) throw SolverError(trouble);
-    return objective.sign() * objective.value(*known);
+    const auto& point = points.point(x, [&] { return objective.evaluate(x, objective.searched()); });
+    if (const auto trouble = objective.trouble(point); !trouble.empty()) throw SolverError(trouble);
+    return objective.sign() * objective.value(point);
   };
   const auto options = search_options(*scene.optimise, optimiser, repeat);
+  OptimiseRun run{.optimiser = optimiser, .repeat = repeat + 1, .search = {}};
   run.search = dynamics::optimise(search_variables(scene), answer, options, [&](const auto&) { progress.done(); });
-  store.save();
+  run.reused = points.reused();
+  points.save();
   const auto folder = subject.folder(objective.variant()) / "optimise";
   std::filesystem::create_directories(folder);
-  store.table().write(folder / fmt::format("{}_{}.csv", optimiser, run.repeat));
-  count_reuse(subject.options(), search_evaluations, run.kept,
-              static_cast<long>(run.search.evaluations.size()) - run.kept);
+  points.table().write(folder / fmt::format("{}_{}.csv", optimiser, run.repeat));
+  count_reuse(subject.options(), search_evaluations, run.reused,
+              static_cast<long>(run.search.evaluations.size()) - run.reused);
   return run;
 }
 
-void write_history(const StudySubject& subject, const OptimiseResults& result, double sign) {
+/// The course of every search, and the best design as a scene.
+void write_searches(const StudySubject& subject, const OptimiseResults& result, const DesignObjective& objective) {
+  const double sign = objective.sign();
   const auto folder = subject.folder(result.variant) / "optimise";
   for (const auto& run : result.runs) {
     Csv csv;
@@ -244,12 +219,7 @@ void write_history(const StudySubject& subject, const OptimiseResults& result, d
                           sign * g.mean, sign * g.worst, static_cast<double>(g.failed)});
     csv.write(folder / fmt::format("{}_{}_history.csv", run.optimiser, run.repeat));
   }
-  write_file(folder / "best.toml", scene_text(subject.scene(), [&] {
-               std::vector<Override> list;
-               for (std::size_t i = 0; i < result.best.x.size(); ++i)
-                 list.push_back({result.variables[i].input, result.best.x[i]});
-               return list;
-             }()));
+  write_file(folder / "best.toml", scene_text(subject.scene(), objective.overrides(result.best.x)));
 }
 
 }  // namespace
@@ -259,22 +229,13 @@ const std::vector<std::string>& optimiser_names() {
   return names;
 }
 
-dynamics::Optimiser optimiser_of(const std::string& name) {
-  const auto& names = optimiser_names();
-  const auto found = std::find(names.begin(), names.end(), name);
-  require(found != names.end(), "optimisers are checked when the scene is read");
-  constexpr dynamics::Optimiser kinds[] = {dynamics::Optimiser::genetic, dynamics::Optimiser::cma_es,
-                                           dynamics::Optimiser::differential_evolution};
-  return kinds[found - names.begin()];
-}
-
 OptimiseResults run_optimise(const StudySubject& subject) {
   const auto& scene = subject.scene();
   const auto& settings = *scene.optimise;
   const DesignObjective objective(subject);
   OptimiseResults result{
       .settings = settings, .variables = scene.variables, .units = {}, .variant = objective.variant()};
-  for (const auto& v : scene.variables) result.units.push_back(find_input(scene, v.input).parameter->unit);
+  for (const auto& v : scene.variables) result.units.push_back(unit_of_input(scene, v.input));
 
   const auto repeats = static_cast<std::size_t>(settings.repeats);
   const std::size_t tasks = settings.optimisers.size() * repeats;
@@ -300,7 +261,7 @@ OptimiseResults run_optimise(const StudySubject& subject) {
   for (const auto& run : result.runs)
     result.evaluations_to_best.push_back(dynamics::evaluations_to_reach(
         run.search.evaluations, best, std::max(result.range.least_meaning, 0.01 * gain)));
-  write_history(subject, result, objective.sign());
+  write_searches(subject, result, objective);
   progress.finish(fmt::format("{} evaluations, best {}", all.size(), to_text(result.best.objective, 6)));
   return result;
 }

@@ -5,13 +5,8 @@
 #include <algorithm>
 
 #include "app/model/gear_system.h"
-#include "app/model/run_options.h"
-#include "app/process/progress.h"
 #include "app/scene/input_place.h"
-#include "app/study/point_store.h"
-#include "app/study/study_runner.h"
-#include "core/log.h"
-#include "core/parallel.h"
+#include "core/errors.h"
 
 namespace annulus::app {
 
@@ -57,13 +52,7 @@ void check_random_input(const Scene& scene, const RandomVariable& variable) {
 
 void check_studies(const Scene& scene) {
   if (!scene.dynamics) return;
-  for (std::size_t i = 0; i < scene.sweeps.size(); ++i) {
-    for (const auto& study_case : sweep_cases(scene, i)) (void)change_scene(scene, study_case);
-  }
-  for (std::size_t i = 0; i < scene.grids.size(); ++i) {
-    for (const auto& study_case : grid_cases(scene, i)) (void)change_scene(scene, study_case);
-  }
-  for (const auto& study_case : sensitivity_cases(scene)) (void)change_scene(scene, study_case);
+  for (const auto& study_case : all_cases(scene)) (void)change_scene(scene, study_case);
   if (!scene.monte_carlo) return;
   const auto variables = random_variables(scene);
   if (variables.empty())
@@ -74,44 +63,6 @@ void check_studies(const Scene& scene) {
     const bool phase = variable.input.find("_phase_deg") != std::string::npos;
     if (!phase) check_random_input(scene, variable);
   }
-}
-
-CasePoints run_cases(const StudySubject& subject, const std::vector<StudyCase>& cases, const std::string& label) {
-  const auto names = subject.variants();
-  const std::size_t variants = names.size(), n = cases.size();
-  CasePoints result;
-  result.variants.assign(variants, std::vector<StudyPoint>(n));
-  std::vector<std::string> failures(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    try {
-      result.tables += subject.prepare(cases[i].overrides, cases[i].where, cases[i].folder) ? 1 : 0;
-    } catch (const SolverError& error) {
-      failures[i] = error.what();
-    }
-  }
-  TaskProgress progress(label, n * variants);
-  const PointStore store(subject);
-  for_each_task(n * variants, subject.options().threads, [&](std::size_t task) {
-    const std::size_t i = task / variants, variant = task % variants;
-    auto& point = result.variants[variant][i];
-    if (failures[i].empty())
-      point = store.point(cases[i].overrides, cases[i].where, variant, cases[i].folder);
-    else
-      point.failure = failures[i];
-    progress.done();
-  });
-  std::size_t failed = 0;
-  for (std::size_t variant = 0; variant < variants; ++variant) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto& point = result.variants[variant][i];
-      if (point.failure.empty()) continue;
-      ++failed;
-      log::warn(fmt::format("{}{}: {}", cases[i].where, names[variant].empty() ? "" : ", ring '" + names[variant] + "'",
-                            point.failure));
-    }
-  }
-  progress.finish(fmt::format("{} responses{}", n * variants, failed ? fmt::format(", {} failed", failed) : ""));
-  return result;
 }
 
 StudyResults run_studies(const StudySubject& subject) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "app/study/study_subject.h"
 
 /// [[sweep]], [[grid]], [monte_carlo], [sensitivity] and [optimise]: the dynamics of a scene again, for other inputs.
@@ -10,9 +13,12 @@ namespace annulus::app {
 void check_studies(const Scene& scene);
 
 /// All studies of the nominal scene on its tables and others where needed. Writes OUT/<variant>/dynamics/sweep_<n>.csv,
-/// sweep_<n>_poincare.csv, grid_<n>.csv, monte_carlo.csv, optimise/ and OUT/sensitivity.csv; finished points are kept
-/// and reused.
+/// sweep_<n>_poincare.csv, grid_<n>.csv, monte_carlo.csv, optimise/ and OUT/sensitivity.csv; finished points are
+/// cached.
 [[nodiscard]] StudyResults run_studies(const StudySubject& subject);
+
+/// As in the scene: "genetic", "cma_es", "differential_evolution".
+[[nodiscard]] const std::vector<std::string>& optimiser_names();
 
 // The studies one by one.
 [[nodiscard]] SweepResult run_sweep(const StudySubject& subject, std::size_t sweep);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "app/model/run_options.h"
-#include "app/model/study_cases.h"
 #include "app/model/system_run.h"
 #include "core/errors.h"
 #include "core/log.h"
@@ -28,13 +27,14 @@ FigureSet StudySubject::nominal(std::size_t variant) const {
 }
 
 std::filesystem::path StudySubject::folder(std::size_t variant) const {
-  return options_.out / variants_.at(variant) / "dynamics";
+  auto folder = options_.out / variants_.at(variant) / "dynamics";
+  std::filesystem::create_directories(folder);
+  return folder;
 }
 
-bool StudySubject::prepare(const std::vector<Override>& overrides, const std::string& where,
-                           const std::string& folder) const {
-  const auto changed = with_overrides(scene(), overrides);
-  const auto system = make_system(changed);
+bool StudySubject::prepare(const StudyCase& changed) const {
+  const auto scene_of_case = with_overrides(scene(), changed.overrides);
+  const auto system = make_system(scene_of_case);
   const auto meshes = system->model_meshes();
   bool any = false;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -42,24 +42,23 @@ bool StudySubject::prepare(const std::vector<Override>& overrides, const std::st
     any = true;
     {
       const std::lock_guard guard(lock_);
-      if (prepared_.count({folder, i}) > 0) continue;
+      if (prepared_.count({changed.folder, i}) > 0) continue;
     }
     RunOptions inside = options_;
-    inside.out /= folder;
+    inside.out /= changed.folder;
     inside.for_study = true;
-    log::info(where + ":");
+    log::info(changed.where + ":");
     auto mesh = stiffness_alone(system->stiffness(meshes[i], inside));
     const std::lock_guard guard(lock_);
-    prepared_.emplace(Place{folder, i}, std::move(mesh));
+    prepared_.emplace(Place{changed.folder, i}, std::move(mesh));
   }
   return any;
 }
 
-std::unique_ptr<LumpedModel> StudySubject::model(const std::vector<Override>& overrides, const std::string& where,
-                                                 std::size_t variant, const std::string& folder) const {
+std::unique_ptr<LumpedModel> StudySubject::model(const StudyCase& changed, std::size_t variant) const {
   try {
-    const auto changed = with_overrides(scene(), overrides);
-    const auto system = make_system(changed);
+    const auto scene_of_case = with_overrides(scene(), changed.overrides);
+    const auto system = make_system(scene_of_case);
     const auto meshes = system->model_meshes();
     const double force = system->mean_mesh_force();
     std::vector<const MeshResult*> tables;
@@ -69,7 +68,7 @@ std::unique_ptr<LumpedModel> StudySubject::model(const std::vector<Override>& ov
         continue;
       }
       const std::lock_guard guard(lock_);
-      const auto found = prepared_.find({folder, i});
+      const auto found = prepared_.find({changed.folder, i});
       if (found == prepared_.end())
         throw InputError(fmt::format("the {} is not tabulated for a mean mesh force of {} kN", meshes[i].label(),
                                      to_text(force / 1e3, 5)));
@@ -77,19 +76,7 @@ std::unique_ptr<LumpedModel> StudySubject::model(const std::vector<Override>& ov
     }
     return system->model(variant, tables);
   } catch (const InputError&) {
-    rethrow_at(scene(), where);
-  }
-}
-
-StudyPoint evaluate(const LumpedModel& model, Answer wanted) {
-  try {
-    return model.answer(wanted);
-  } catch (const Error& error) {
-    std::string reason = error.what();
-    for (auto& c : reason) {
-      if (c == '\n' || c == '\r') c = ' ';
-    }
-    return {{}, {}, std::move(reason)};
+    rethrow_at(scene(), changed.where);
   }
 }
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/model/gear_system.h"
+#include "app/model/study_cases.h"
 #include "app/model/study_result.h"
-#include "app/scene/overrides.h"
 
 namespace annulus::app {
 
@@ -18,7 +18,7 @@ namespace annulus::app {
 /// where these serve and on others where not.
 class StudySubject {
  public:
-  /// Of a run whose meshes are solved. Both are referred to.
+  /// `nominal`: a run whose meshes are solved. Both are referred to.
   StudySubject(const SystemRun& nominal, const RunOptions& options);
 
   [[nodiscard]] const Scene& scene() const;
@@ -29,16 +29,15 @@ class StudySubject {
   /// The results of the scene as it is with their errors; empty without [dynamics].
   [[nodiscard]] FigureSet nominal(std::size_t variant) const;
 
-  /// Solves what a changed scene needs beyond the nominal results (stiffness tables), with all threads, into
-  /// OUT/`folder`; true when there was anything. Throws what solving throws.
-  bool prepare(const std::vector<Override>& overrides, const std::string& where, const std::string& folder) const;
-  /// Any number of threads at once. Tables are those that `prepare` made for `folder`; with an empty folder only the
-  /// nominal results serve. The model refers to them. Throws InputError, naming `where`, for a scene that is not a good
-  /// one.
-  [[nodiscard]] std::unique_ptr<LumpedModel> model(const std::vector<Override>& overrides, const std::string& where,
-                                                   std::size_t variant, const std::string& folder) const;
+  /// Solves what a changed scene needs beyond the nominal results (stiffness tables), with all threads, into its folder
+  /// below OUT; true when there was anything. Throws what solving throws.
+  bool prepare(const StudyCase& changed) const;
+  /// Any number of threads at once. Tables are those that `prepare` made for its folder; with an empty folder only the
+  /// nominal results serve. The model refers to them. Throws InputError, naming the case, for a scene that is not a
+  /// good one.
+  [[nodiscard]] std::unique_ptr<LumpedModel> model(const StudyCase& changed, std::size_t variant) const;
 
-  /// OUT/<variant>/dynamics
+  /// OUT/<variant>/dynamics, which exists afterwards.
   [[nodiscard]] std::filesystem::path folder(std::size_t variant) const;
 
  private:
@@ -52,8 +51,5 @@ class StudySubject {
   mutable std::mutex lock_;
   mutable std::map<Place, MeshResult> prepared_;
 };
-
-/// The answer; errors of solver and input become the failure of the point.
-[[nodiscard]] StudyPoint evaluate(const LumpedModel& model, Answer wanted);
 
 }  // namespace annulus::app

@@ -1,9 +1,8 @@
 #include "app/study/summary_studies.h"
-#include "core/json.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 
 namespace annulus::app {
 
@@ -29,19 +28,19 @@ Json point_json(const StudyResults& studies, const StudyPoint& point) {
   return json;
 }
 
-int count_failed(const std::vector<StudyPoint>& points) {
-  int failed = 0;
-  for (const auto& point : points) failed += point.failure.empty() ? 0 : 1;
-  return failed;
-}
-
-void add_plotted(Json& json, const StudyResults& studies, const std::vector<StudyPoint>& points) {
+/// A sweep or grid: after its inputs the file, how many points failed, the axes, and the results that are plotted.
+Json points_json(Json json, const std::string& file,
+                 const std::vector<std::pair<const char*, std::vector<double>>>& axes, const StudyResults& studies,
+                 const std::vector<StudyPoint>& points) {
+  json["file"] = file;
+  json["failed"] = std::count_if(points.begin(), points.end(), [](const auto& p) { return !p.failure.empty(); });
+  for (const auto& [name, values] : axes) json[name] = values;
   for (const auto& figure : studies.figures) {
     if (!figure.plotted) continue;
-    auto list = Json::array();
+    auto& list = json[figure.key] = Json::array();
     for (const auto& point : points) list.push_back(json_number(point.value(figure.key)));
-    json[figure.key] = std::move(list);
   }
+  return json;
 }
 
 }  // namespace
@@ -60,26 +59,18 @@ Json variant_studies_json(const StudyResults& studies, std::size_t variant) {
   }
   for (std::size_t n = 0; n < studies.sweeps.size(); ++n) {
     const auto& sweep = studies.sweeps[n];
-    const auto& points = sweep.variants.at(variant);
-    Json json = {{"input", sweep.sweep.input}, {"unit", sweep.unit}, {"file", fmt::format("sweep_{}.csv", n + 1)}};
-    json["failed"] = count_failed(points);
-    json["values"] = sweep.values;
-    add_plotted(json, studies, points);
-    all["sweeps"].push_back(std::move(json));
+    all["sweeps"].push_back(points_json({{"input", sweep.sweep.input}, {"unit", sweep.unit}},
+                                        fmt::format("sweep_{}.csv", n + 1), {{"values", sweep.values}}, studies,
+                                        sweep.variants.at(variant)));
   }
   for (std::size_t n = 0; n < studies.grids.size(); ++n) {
     const auto& grid = studies.grids[n];
-    const auto& points = grid.variants.at(variant);
-    Json json = {{"x_input", grid.grid.x.input},
-                 {"x_unit", grid.x_unit},
-                 {"y_input", grid.grid.y.input},
-                 {"y_unit", grid.y_unit},
-                 {"file", fmt::format("grid_{}.csv", n + 1)}};
-    json["failed"] = count_failed(points);
-    json["x"] = grid.x;
-    json["y"] = grid.y;
-    add_plotted(json, studies, points);
-    all["grids"].push_back(std::move(json));
+    all["grids"].push_back(points_json({{"x_input", grid.grid.x.input},
+                                        {"x_unit", grid.x_unit},
+                                        {"y_input", grid.grid.y.input},
+                                        {"y_unit", grid.y_unit}},
+                                       fmt::format("grid_{}.csv", n + 1), {{"x", grid.x}, {"y", grid.y}}, studies,
+                                       grid.variants.at(variant)));
   }
   return all;
 }

@@ -19,8 +19,13 @@ namespace {
 
 constexpr double wanted_accuracies[] = {0.1, 0.01, 0.001};
 
+constexpr TradePart both_parts[] = {TradePart::mesh, TradePart::dynamics};
 const char* part_name(TradePart part) { return part == TradePart::mesh ? "mesh" : "dynamics"; }
 const char* part_title(TradePart part) { return part == TradePart::mesh ? "Stiffness tables" : "Dynamics"; }
+/// "held, stiffness tables"
+std::string part_of(const VariantTrade& variant, TradePart part) {
+  return variant.name + (part == TradePart::mesh ? ", stiffness tables" : ", dynamics");
+}
 
 std::string percent(double share) { return to_text(100 * share, 2) + " %"; }
 
@@ -44,10 +49,25 @@ std::string planned_text(const VariantTrade& variant, const TradePoint& p) {
                             percent(variant.guaranteed_error(p)), worst ? " (" + variant.title(worst->key) + ")" : "");
 }
 
+/// Both for all accuracies.
+std::vector<std::string> cheapest_texts(const VariantTrade& variant, TradePart part) {
+  std::vector<std::string> texts;
+  for (const double accuracy : wanted_accuracies) texts.push_back(cheapest_text(variant, part, accuracy));
+  for (const auto* p : variant.of(part))
+    if (p->planned_for) texts.push_back(planned_text(variant, *p));
+  return texts;
+}
+
 const TradePoint* finest_of(const VariantTrade& variant, TradePart part) {
-  const auto found = std::find_if(variant.points.begin(), variant.points.end(),
-                                  [part](const TradePoint& p) { return p.part == part && p.finest; });
-  return found == variant.points.end() ? nullptr : &*found;
+  for (const auto* p : variant.of(part))
+    if (p->finest) return p;
+  return nullptr;
+}
+
+Plot errors_plot(const std::string& title, const std::string& y_label, int height) {
+  Plot plot{.title = title, .x_label = "wall time, s", .y_label = y_label, .width = 640, .height = height};
+  plot.x_log = plot.y_log = plot.legend = true;
+  return plot;
 }
 
 /// The cheapest setting for every figure and accuracy: what a user asks who wants one thing.
@@ -68,10 +88,7 @@ PageTable cheapest_table(const VariantTrade& variant, TradePart part) {
 
 /// The front of every figure.
 Plot fronts_plot(const VariantTrade& variant, TradePart part) {
-  Plot plot{.title = "The front of every figure", .x_label = "wall time, s", .y_label = "error"};
-  plot.x_log = plot.y_log = plot.legend = true;
-  plot.width = 640;
-  plot.height = 460;
+  Plot plot = errors_plot("The front of every figure", "error", 460);
   for (std::size_t f = 0; f < variant.figures.size(); ++f) {
     const auto& figure = variant.figures[f];
     Series series{.label = figure.title, .colour = f};
@@ -87,38 +104,37 @@ Plot fronts_plot(const VariantTrade& variant, TradePart part) {
 
 /// How far the program's own estimates are from the errors, over all figures with both.
 Blocks estimates_text(const VariantTrade& variant, TradePart part) {
-  int kept = 0, all = 0;
-  for (const auto& p : variant.points) {
-    if (p.part != part || p.finest || p.changes_model || !p.failure.empty()) continue;
-    for (const auto& v : p.values) {
+  int within = 0, all = 0;
+  for (const auto* p : variant.of(part)) {
+    if (p->finest || p->changes_model || !p->failure.empty()) continue;
+    for (const auto& v : p->values) {
       if (!std::isfinite(v.error) || !std::isfinite(v.error_estimate)) continue;
       ++all;
-      kept += v.error <= v.error_estimate;
+      within += v.error <= v.error_estimate;
     }
   }
   if (all == 0) return {};
-  return paragraph(fmt::format("{} of {} errors lie within their own estimates.", kept, all));
+  return paragraph(fmt::format("{} of {} errors lie within their own estimates.", within, all));
 }
 
 PageTable points_table(const VariantTrade& variant, TradePart part) {
   PageTable table{.head = {"how", "setting", "wall", "processor", "memory", "largest error", "in"},
                   .style = PageTable::Style::numbers};
   const auto front = variant.front(part);
-  for (const auto& p : variant.points) {
-    if (p.part != part) continue;
-    const bool best = std::find(front.begin(), front.end(), &p) != front.end();
+  for (const auto* point : variant.of(part)) {
+    const auto& p = *point;
+    const bool best = std::find(front.begin(), front.end(), point) != front.end();
     const auto marked = [&](const std::string& text) { return best ? bold(text) : Text(text); };
     std::vector<Text> row = {marked(p.fidelity), marked(p.settings), duration_text(p.cost.wall),
                              duration_text(p.cost.processor), fmt::format("{:.0f} MB", p.cost.peak_memory_MB)};
-    if (!p.failure.empty()) {
-      row.insert(row.end(), {"failed", p.failure});
-    } else if (p.finest) {
-      row.insert(row.end(), {"finest", ""});
-    } else if (const auto* worst = p.worst()) {
-      row.insert(row.end(), {percent(p.error()), variant.title(worst->key)});
-    } else {
-      row.insert(row.end(), {"", ""});
-    }
+    std::pair<std::string, std::string> error;
+    if (!p.failure.empty())
+      error = {"failed", p.failure};
+    else if (p.finest)
+      error = {"finest", ""};
+    else if (const auto* worst = p.worst())
+      error = {percent(p.error()), variant.title(worst->key)};
+    row.insert(row.end(), {error.first, error.second});
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -128,11 +144,11 @@ PageTable points_table(const VariantTrade& variant, TradePart part) {
 PageTable errors_table(const VariantTrade& variant, TradePart part) {
   PageTable table{.head = {"setting"}, .style = PageTable::Style::numbers};
   for (const auto& f : variant.figures) table.head.emplace_back(f.title);
-  for (const auto& p : variant.points) {
-    if (p.part != part || !p.failure.empty() || p.finest) continue;
-    std::vector<Text> row = {setting_text(p)};
+  for (const auto* p : variant.of(part)) {
+    if (!p->failure.empty() || p->finest) continue;
+    std::vector<Text> row = {setting_text(*p)};
     for (const auto& f : variant.figures) {
-      const auto* v = p.find(f.key);
+      const auto* v = p->find(f.key);
       Text cell = v && std::isfinite(v->error) ? percent(v->error) : "–";
       if (v && std::isfinite(v->error_estimate)) cell += " " + muted("(" + percent(v->error_estimate) + ")");
       row.push_back(std::move(cell));
@@ -149,9 +165,7 @@ Blocks part_section(const VariantTrade& variant, TradePart part) {
   if (!finest->failure.empty())
     return title + paragraph("The finest setting failed, so no errors are known: " + finest->failure);
   List cheapest;
-  for (const double accuracy : wanted_accuracies) cheapest.items.emplace_back(cheapest_text(variant, part, accuracy));
-  for (const auto& p : variant.points)
-    if (p.part == part && p.planned_for) cheapest.items.emplace_back(planned_text(variant, p));
+  for (const auto& text : cheapest_texts(variant, part)) cheapest.items.emplace_back(text);
   return title +
          paragraph(fmt::format("Compared with: {}; {}, {:.0f} MB.", setting_text(*finest),
                                duration_text(finest->cost.wall), finest->cost.peak_memory_MB)) +
@@ -170,29 +184,22 @@ Blocks part_section(const VariantTrade& variant, TradePart part) {
 }  // namespace
 
 Plot trade_plot(const VariantTrade& variant, TradePart part) {
-  Plot plot{.title = fmt::format("{}, {}", variant.name, part == TradePart::mesh ? "stiffness tables" : "dynamics"),
-            .x_label = "wall time, s",
-            .y_label = "largest error"};
-  plot.x_log = plot.y_log = plot.legend = true;
-  plot.width = 640;
-  plot.height = 400;
+  Plot plot = errors_plot(part_of(variant, part), "largest error", 400);
   Series front{.label = "front", .colour = 6};
   for (const auto* p : variant.front(part)) {
     front.x.push_back(p->cost.wall);
     front.y.push_back(p->error());
   }
   plot.series.push_back(std::move(front));
-  for (const auto& p : variant.points) {
-    if (p.part != part || p.finest || !(p.error() > 0)) continue;
+  for (const auto* p : variant.of(part)) {
+    if (p->finest || !(p->error() > 0)) continue;
     auto same =
-        std::find_if(plot.series.begin(), plot.series.end(), [&](const Series& s) { return s.label == p.fidelity; });
-    if (same == plot.series.end()) {
-      plot.series.push_back(
-          {.label = p.fidelity, .colour = plot.series.size() - 1, .style = Series::Style::dots, .size = 7});
-      same = plot.series.end() - 1;
-    }
-    same->x.push_back(p.cost.wall);
-    same->y.push_back(p.error());
+        std::find_if(plot.series.begin(), plot.series.end(), [&](const Series& s) { return s.label == p->fidelity; });
+    if (same == plot.series.end())
+      same = plot.series.insert(
+          same, {.label = p->fidelity, .colour = plot.series.size() - 1, .style = Series::Style::dots, .size = 7});
+    same->x.push_back(p->cost.wall);
+    same->y.push_back(p->error());
   }
   return plot;
 }
@@ -219,15 +226,13 @@ std::string trade_csv(const TradeOff& trade) {
 std::string trade_text(const TradeOff& trade) {
   std::string text;
   for (const auto& variant : trade.variants) {
-    for (const auto part : {TradePart::mesh, TradePart::dynamics}) {
+    for (const auto part : both_parts) {
       if (!finest_of(variant, part)) continue;
       text += fmt::format("{}{}, {}\n", text.empty() ? "" : "\n", variant.name, part_title(part));
       for (const auto* p : variant.front(part))
         text += fmt::format("  {:>9}  {:>6.0f} MB  error {:>8}  {}\n", duration_text(p->cost.wall),
                             p->cost.peak_memory_MB, percent(p->error()), setting_text(*p));
-      for (const double accuracy : wanted_accuracies) text += "  " + cheapest_text(variant, part, accuracy) + "\n";
-      for (const auto& p : variant.points)
-        if (p.part == part && p.planned_for) text += "  " + planned_text(variant, p) + "\n";
+      for (const auto& line : cheapest_texts(variant, part)) text += "  " + line + "\n";
     }
   }
   return text;
@@ -241,10 +246,10 @@ Page trade_page(const TradeOff& trade) {
   for (const auto& variant : trade.variants) {
     page.sections.push_back({file_name(variant.name), variant.name,
                              part_section(variant, TradePart::mesh) + part_section(variant, TradePart::dynamics)});
-    for (const auto part : {TradePart::mesh, TradePart::dynamics}) {
-      if (finest_of(variant, part) && !finest_of(variant, part)->values.empty())
-        verdict += paragraph(bold(variant.name + ", " + (part == TradePart::mesh ? "stiffness tables" : "dynamics")) +
-                             ". " + cheapest_text(variant, part, 0.01));
+    for (const auto part : both_parts) {
+      const auto* finest = finest_of(variant, part);
+      if (finest && !finest->values.empty())
+        verdict += paragraph(bold(part_of(variant, part)) + ". " + cheapest_text(variant, part, 0.01));
     }
   }
   page.summary = verdict_box(verdict);
@@ -258,7 +263,7 @@ void write_tradeoff(const TradeOff& trade, const std::filesystem::path& folder) 
   write_file(folder / "tradeoff.csv", trade_csv(trade));
   write_file(folder / "tradeoff.html", trade_html(trade));
   for (const auto& variant : trade.variants) {
-    for (const auto part : {TradePart::mesh, TradePart::dynamics}) {
+    for (const auto part : both_parts) {
       if (!variant.front(part).empty())
         write_file(folder / fmt::format("tradeoff_{}_{}.svg", file_name(variant.name), part_name(part)),
                    to_svg(trade_plot(variant, part)));

@@ -2,28 +2,20 @@
 
 #include <fmt/format.h>
 
-#include "core/errors.h"
+#include <map>
+
+#include "fem/choice/table_choice.h"
 
 namespace annulus::app {
 
 namespace {
 
-/// Multiples of the nominal load; the middle one is 1.
-std::vector<double> load_factors(int loads) {
-  switch (loads) {
-    case 1:
-      return {1};
-    case 3:
-      return {0.5, 1, 1.5};
-    case 5:
-      return {std::begin(fem::table_load_factors), std::end(fem::table_load_factors)};
-    case 9:
-      return {0.125, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2};
-    default:
-      break;
-  }
-  throw InternalError(fmt::format("internal error: no load factors for {} loads", loads));
-}
+/// Multiples of the nominal load by their number; the middle one is 1.
+const std::map<int, std::vector<double>> load_factors = {
+    {1, {1}},
+    {3, {0.5, 1, 1.5}},
+    {5, {std::begin(fem::table_load_factors), std::end(fem::table_load_factors)}},
+    {9, {0.125, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2}}};
 
 MotionSetting with_tolerance(const char* fidelity, const char* name, dynamics::Integrator method, double tolerance) {
   return {fidelity, fmt::format("{}, relative tolerance {:.0e}", name, tolerance),
@@ -33,7 +25,7 @@ MotionSetting with_tolerance(const char* fidelity, const char* name, dynamics::I
           }};
 }
 
-/// With a step of their own choice. `few`: where each is dear.
+/// With a step of their own choice. `few`: where each is expensive.
 std::vector<MotionSetting> integrators(const char* fidelity, bool few) {
   using dynamics::Integrator;
   std::vector<MotionSetting> list;
@@ -68,30 +60,29 @@ MeshModel MeshSetting::applied(const MeshModel& planned, bool needs_solid) const
   model.settings.level = level;
   model.problem->phases = phases;
   model.problem->loads.clear();
-  for (const double factor : load_factors(loads)) model.problem->loads.push_back(factor * nominal);
+  for (const double factor : load_factors.at(loads)) model.problem->loads.push_back(factor * nominal);
   return model;
 }
 
 std::vector<MeshSetting> mesh_settings(const MeshModel& planned, bool needs_solid) {
   using fem::Fidelity;
   std::vector<MeshSetting> list;
-  const auto add = [&](Fidelity fidelity, const std::vector<int>& degrees, const std::vector<int>& levels) {
-    for (const int degree : degrees) {
-      for (const int level : levels) list.push_back({.fidelity = fidelity, .degree = degree, .level = level});
-    }
+  const auto add = [&](Fidelity fidelity, int degree, const std::vector<int>& levels) {
+    for (const int level : levels) list.push_back({.fidelity = fidelity, .degree = degree, .level = level});
   };
   if (needs_solid) {
-    add(Fidelity::solid, {1, 2}, {1});
-    add(Fidelity::solid, {1}, {2});
+    add(Fidelity::solid, 1, {1});
+    add(Fidelity::solid, 2, {1});
+    add(Fidelity::solid, 1, {2});
     for (const int phases : {8, 16}) list.push_back({.fidelity = Fidelity::solid, .phases = phases});
     for (const int loads : {1, 3}) list.push_back({.fidelity = Fidelity::solid, .loads = loads});
     list.push_back({.fidelity = Fidelity::solid, .degree = 2, .level = 2, .finest = true});
     return list;
   }
-  add(Fidelity::closed_form, {2}, {1});
-  add(Fidelity::plane, {1}, {1, 2, 3, 4});
-  add(Fidelity::plane, {2}, {1, 2, 3, 4});
-  add(Fidelity::plane, {3}, {1, 2});
+  add(Fidelity::closed_form, 2, {1});
+  add(Fidelity::plane, 1, {1, 2, 3, 4});
+  add(Fidelity::plane, 2, {1, 2, 3, 4});
+  add(Fidelity::plane, 3, {1, 2});
   for (const int phases : {8, 16, 64}) list.push_back({.fidelity = Fidelity::plane, .level = 2, .phases = phases});
   for (const int loads : {1, 3, 9}) list.push_back({.fidelity = Fidelity::plane, .level = 2, .loads = loads});
   // The resolved model knows no pins, and every position of it has a mesh of its own.

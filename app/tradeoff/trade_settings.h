@@ -30,7 +30,7 @@ struct MeshSetting {
 /// the finest of all.
 [[nodiscard]] std::vector<MeshSetting> mesh_settings(const MeshModel& planned, bool needs_solid);
 
-/// Samples per mesh cycle of the finest direct solution.
+/// Samples per mesh cycle of the finest harmonic balance.
 inline constexpr int finest_samples = 128;
 
 /// How a periodic motion is found.
@@ -41,9 +41,9 @@ struct MotionSetting {
   bool finest = false;
 };
 
-/// Of a motion that repeats after `period` mesh cycles; the finest last.
+/// Settings for a motion that repeats after `period` mesh cycles; the finest last.
 [[nodiscard]] std::vector<MotionSetting> motion_settings(double mesh_frequency, int period);
-/// Of one found by shooting; the finest last. Steps of one length are not among them: stiff bearings would need
+/// Settings for shooting; the finest last. Steps of one length are not among them: stiff bearings would need
 /// thousands per mesh cycle.
 [[nodiscard]] std::vector<MotionSetting> shooting_settings();
 

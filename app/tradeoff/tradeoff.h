@@ -14,15 +14,21 @@
 /// Every model and setting measured: what it costs and how wrong it is (`annulus tradeoff`).
 namespace annulus::app {
 
+struct MeshResult;
+
 /// A result that the cost study measures.
 struct TradeFigure {
   std::string key, title;
   Guarantee guarantee = Guarantee::none;
   std::optional<std::size_t> entries_of{};  ///< it stands for every entry of the table of that mesh
 };
-/// Of these meshes, mean, entries and transmission error; then those of the lumped model.
+/// Mean, entries and transmission error of these meshes; then the results of the lumped model.
 [[nodiscard]] std::vector<TradeFigure> trade_figures(const std::vector<MeshModel>& meshes,
                                                      const std::vector<FigureSpec>& model);
+
+/// Results of one mesh: the mean, with its own error; the mean again with the largest error of any position, which the
+/// wanted accuracy is about; the transmission error. What all settings leave out is not counted.
+[[nodiscard]] FigureSet trade_figures(const MeshResult& mesh);
 
 /// A figure as one setting gives it.
 struct TradeValue {
@@ -39,6 +45,8 @@ struct StiffnessCycle {
   int phases = 0;               ///< entries per mesh cycle
 };
 
+[[nodiscard]] StiffnessCycle stiffness_cycle(const MeshResult& mesh);
+
 /// One setting of a ring, a pair or a reducer.
 struct TradePoint {
   TradePart part = TradePart::mesh;
@@ -49,7 +57,6 @@ struct TradePoint {
   std::optional<MeshSetting> mesh{};    ///< of a fixed setting of the meshes
   std::optional<double> planned_for{};  ///< the wanted accuracy for which the planner chose it; absent: a fixed setting
   Cost cost{};            ///< meshes: of all tables, the memory of the largest one; dynamics: of the response
-  Cost response{};        ///< meshes: of the response on these tables and its errors
   std::string failure{};  ///< why there are no figures
   std::vector<TradeValue> values{};  ///< those that it gives
   double contact_loss = 0;           ///< largest fraction of the time that a mesh spends without contact
@@ -58,7 +65,7 @@ struct TradePoint {
 
   /// nullptr: it does not give it.
   [[nodiscard]] const TradeValue* find(const std::string& key) const;
-  /// Of one result; without a key, the largest over all that both settings give. NaN for a failure.
+  /// The error of one result; without a key, the largest over all that both settings give. NaN for a failure.
   [[nodiscard]] double error(const std::string& key = {}) const;
   [[nodiscard]] const TradeValue* worst() const;  ///< nullptr: no error is known
 };
@@ -69,7 +76,12 @@ struct VariantTrade {
   std::vector<TradeFigure> figures;
   std::vector<TradePoint> points;  ///< those of the meshes, then those of the dynamics
 
-  [[nodiscard]] const std::string& title(const std::string& key) const;
+  /// Sets the errors of a part.
+  void compare_with_finest(TradePart part);
+
+  [[nodiscard]] const TradeFigure& figure(const std::string& key) const;
+  [[nodiscard]] const std::string& title(const std::string& key) const { return figure(key).title; }
+  [[nodiscard]] std::vector<const TradePoint*> of(TradePart part) const;
   /// The largest error of the results that the wanted accuracy covers, and which one it is. NaN for a failure.
   [[nodiscard]] double guaranteed_error(const TradePoint& point) const;
   [[nodiscard]] const TradeValue* worst_guaranteed(const TradePoint& point) const;

@@ -8,7 +8,7 @@
 #include "app/scene/overrides.h"
 #include "app/scene/scene_declare.h"
 #include "app/scene/scene_kind.h"
-#include "app/study/optimisation.h"
+#include "app/study/studies.h"
 #include "core/errors.h"
 #include "tests/app/bad_scenes.h"
 #include "tests/app/scene_edit.h"

@@ -1,4 +1,4 @@
-#include "app/study/optimisation.h"
+#include "app/study/studies.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(searches_are_the_same_for_any_number_of_threads_and_find_wh
   BOOST_TEST(o.best.objective < o.given.objective - o.range.least_meaning);
   BOOST_TEST_REQUIRE(o.runs.size() == 3U);
   for (const auto& run : o.runs) {
-    BOOST_TEST(run.kept == 0);
+    BOOST_TEST(run.reused == 0);
     BOOST_TEST(run.search.value >= o.best.objective - 1e-12);
     for (std::size_t i = 1; i < run.search.history.size(); ++i)
       BOOST_TEST(run.search.history[i].best <= run.search.history[i - 1].best);
@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(searches_are_the_same_for_any_number_of_threads_and_find_wh
   // A repeated search asks nothing anew.
   const auto again = run_search(text, folder.path() / "two");
   for (const auto& run : again.studies.optimise->runs)
-    BOOST_TEST(run.kept == static_cast<int>(run.search.evaluations.size()));
+    BOOST_TEST(run.reused == static_cast<int>(run.search.evaluations.size()));
   BOOST_TEST(again.studies.optimise->best.x == o.best.x, boost::test_tools::per_element());
 }
 

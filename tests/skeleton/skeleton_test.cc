@@ -9,6 +9,7 @@
 #include "app/scene/new_scene.h"
 #include "app/scene/scene_schema.h"
 #include "app/systems/skeleton/torsional_pair.h"
+#include "app/tradeoff/tradeoff.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/files.h"
@@ -53,6 +54,41 @@ std::unique_ptr<app::SystemRun> run(const std::string& text, const std::filesyst
 }  // namespace
 
 BOOST_AUTO_TEST_SUITE(skeleton)
+
+/// The first case: it needs a process without threads, which the others leave behind.
+BOOST_AUTO_TEST_CASE(the_cost_study_is_that_of_every_kind,
+                     *boost::unit_test::precondition([](boost::unit_test::test_unit_id) {
+                       return app::has_its_first_threads_alone();
+                     })) {
+  const test::TemporaryFolder folder("skeleton_tradeoff");
+  app::TradeLists lists;
+  lists.accuracies = {0.1};
+  lists.mesh = [](const app::MeshModel&, bool needs_solid) {
+    BOOST_TEST(!needs_solid);
+    return std::vector<app::MeshSetting>{
+        {.fidelity = fem::Fidelity::plane, .degree = 1, .level = 1, .phases = 8, .loads = 1},
+        {.fidelity = fem::Fidelity::plane, .degree = 2, .level = 1, .phases = 8, .loads = 1, .finest = true}};
+  };
+  const auto trade =
+      app::measure_tradeoff(app::parse_scene(scene_text(), "scene.toml"), {.out = folder.path(), .threads = 1}, lists);
+  BOOST_TEST_REQUIRE(trade.variants.size() == 1U);
+  BOOST_TEST(trade.variants.front().name == "torsional_pair");
+  const auto& points = trade.variants.front().points;
+  BOOST_TEST_REQUIRE(points.size() == 3U);
+  for (const auto& p : points) BOOST_TEST(p.failure == "", p.settings << ": " << p.failure);
+  // A frequency follows the root of the stiffness.
+  const auto& stiff = points.front();
+  const double stiffness = stiff.find("pinion_wheel_mean_stiffness_N_per_m")->value /
+                           points[1].find("pinion_wheel_mean_stiffness_N_per_m")->value;
+  const auto* hertz = stiff.find("natural_frequency_Hz");
+  BOOST_TEST_REQUIRE(hertz != nullptr);
+  BOOST_TEST(hertz->error == std::sqrt(stiffness) - 1, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(hertz->error_estimate > 0);
+  // A prescribed stiffness leaves nothing to measure: this kind offers no ways to its motion.
+  BOOST_CHECK_THROW((void)app::measure_tradeoff(app::parse_scene(scene_text() + prescribed, "scene.toml"),
+                                                {.out = folder.path() / "prescribed", .threads = 1}),
+                    InputError);
+}
 
 BOOST_AUTO_TEST_CASE(a_scene_is_read_checked_and_planned) {
   BOOST_TEST(registered);

@@ -10,5 +10,7 @@ namespace annulus::app {
 /// The pair on this stiffness.
 [[nodiscard]] std::unique_ptr<LumpedModel> pair_lumped_model(const Scene& scene, const PairGeometry& geometry,
                                                              const PairMesh& mesh);
+/// The ways of the cost study to it.
+[[nodiscard]] ModelWays pair_ways(const Scene& scene, const PairGeometry& geometry, const PairMesh& mesh);
 
 }  // namespace annulus::app

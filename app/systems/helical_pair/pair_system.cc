@@ -1,5 +1,4 @@
 #include "app/systems/helical_pair/pair_system.h"
-#include "app/systems/helical_pair/pair_trade.h"
 
 #include <fmt/format.h>
 
@@ -50,10 +49,11 @@ class PairSystem final : public GearSystem {
 
   [[nodiscard]] std::unique_ptr<SystemRun> run() const override { return std::make_unique<PairRunResult>(scene()); }
 
-  [[nodiscard]] std::vector<std::unique_ptr<TradeSubject>> trades() const override {
-    std::vector<std::unique_ptr<TradeSubject>> list;
-    list.push_back(pair_trade_subject(scene()));
-    return list;
+  [[nodiscard]] std::string title(std::size_t /*variant*/) const override { return "pinion and wheel"; }
+
+  [[nodiscard]] ModelWays ways(std::size_t /*variant*/, const std::vector<const MeshResult*>& tables) const override {
+    const auto geometry = make_pair_geometry(scene());
+    return pair_ways(scene(), geometry, pair_mesh(scene(), geometry, *tables.front()));
   }
 
  protected:

@@ -30,26 +30,21 @@ std::string numbers_text(const RingQuantity& quantity) {
   return text;
 }
 
-/// Outcome of "a is larger than b": undecided when the error bars overlap or are not known.
-Verdict::Outcome larger(const Measured& a, const Measured& b) {
-  if (!told_apart(a, b)) return Verdict::Outcome::undecided;
-  return a.value > b.value ? Verdict::Outcome::agrees : Verdict::Outcome::disagrees;
-}
-
+/// "a is larger than b by this margin" agrees, or the verdict becomes worse: undecided when the error bars overlap or
+/// are not known.
 void worsen(Verdict& verdict, const Measured& a, const Measured& b, double margin, int digits) {
-  const auto outcome = larger(a, b);
+  const bool decided = told_apart(a, b), in_order = a.value > b.value;
   const double ahead = a.value / b.value - 1;
-  const bool too_close = outcome == Verdict::Outcome::agrees && ahead < margin;
-  if (outcome == Verdict::Outcome::agrees && !too_close) return;
+  if (decided && in_order && ahead >= margin) return;
   verdict.why += verdict.why.empty() ? "" : "; ";
-  if (outcome == Verdict::Outcome::undecided) {
+  if (!decided) {
     verdict.why += undecided_text(a, b, digits);
     if (verdict.outcome == Verdict::Outcome::agrees) verdict.outcome = Verdict::Outcome::undecided;
     return;
   }
   const std::string values = both_text(a, b, digits);
-  verdict.why += too_close ? fmt::format("{} differ by only {:.2g} %", values, 100 * ahead)
-                           : values + " are in the opposite order";
+  verdict.why +=
+      in_order ? fmt::format("{} differ by only {:.2g} %", values, 100 * ahead) : values + " are in the opposite order";
   verdict.outcome = Verdict::Outcome::disagrees;
 }
 
@@ -101,21 +96,18 @@ Verdict judge(const Reference::Order& order, const RingQuantity& quantity, const
   return verdict;
 }
 
-struct NominalRow {
-  double angle = 0, stiffness = 0;
-};
-/// Contact positions at the nominal load in order, the closure position left out.
-std::vector<NominalRow> nominal_rows(const MeshResult& mesh) {
+/// Ring angle of the contact and stiffness at the nominal load, in order, the closure position left out.
+std::vector<std::pair<double, double>> nominal_stiffness(const MeshResult& mesh) {
   const auto& csv = mesh.positions;
   const auto angle = csv.column("ring_angle_deg"), load = csv.column("load_N"), phase = csv.column("mesh_phase");
   const auto lte = csv.column("lte_um"), unloaded = csv.column("unloaded_te_um");
   const double nominal = mesh.table.loads()[mesh.nominal];
-  std::vector<NominalRow> rows;
+  std::vector<std::pair<double, double>> samples;
   for (const auto& row : csv.rows) {
     if (row[load] != nominal || row[phase] >= 1) continue;
-    rows.push_back({row[angle] * units::deg, nominal / ((row[lte] - row[unloaded]) * units::um)});
+    samples.emplace_back(row[angle] * units::deg, nominal / ((row[lte] - row[unloaded]) * units::um));
   }
-  return rows;
+  return samples;
 }
 
 /// Angle from the contact to the pin that carries the largest radial force, over all positions.
@@ -151,36 +143,34 @@ std::vector<Verdict> judge_pin(const Reference::AtPin& statement, const RunResul
                   .why = {}};
   const auto found =
       std::find_if(result.rings.begin(), result.rings.end(), [&](const auto& r) { return r.name == statement.ring; });
-  if (found == result.rings.end()) {
-    verdict.why = "ring '" + statement.ring + "' is not part of this run";
-    return {verdict};
-  }
-  const auto effect = pin_effect(result, static_cast<std::size_t>(found - result.rings.begin()));
+  const auto effect = found == result.rings.end()
+                          ? std::nullopt
+                          : pin_effect(result, static_cast<std::size_t>(found - result.rings.begin()));
   if (!effect) {
-    verdict.why = "the stiffness of this ring was not computed over its pins";
+    verdict.why = found == result.rings.end() ? "ring '" + statement.ring + "' is not part of this run"
+                                              : "the stiffness of this ring was not computed over its pins";
     return {verdict};
   }
-  const double error = found->mesh.mean_stiffness().error_relative;
-  const auto outcome = [&](double relative) {
-    if (std::abs(relative) <= error) return Verdict::Outcome::undecided;
-    return relative > 0 ? Verdict::Outcome::agrees : Verdict::Outcome::disagrees;
+  const auto reading = [&](const char* quantity, double relative, std::string computed) {
+    verdict.quantity = quantity;
+    verdict.computed = fmt::format("{:+.1f} % {}", 100 * relative, computed);
+    verdict.outcome = std::abs(relative) <= found->mesh.mean_stiffness().error_relative ? Verdict::Outcome::undecided
+                      : relative > 0                                                    ? Verdict::Outcome::agrees
+                                                                                        : Verdict::Outcome::disagrees;
+    return verdict;
   };
-  Verdict loaded = verdict;
-  verdict.quantity = "ring mesh stiffness with the contact at a pin against between pins";
-  verdict.computed = fmt::format("{:+.1f} % at a pin; stiffest with the contact {:+.1f} teeth from the nearest pin",
-                                 100 * effect->contact_at_pin, effect->stiffest_teeth);
-  verdict.outcome = outcome(effect->contact_at_pin);
-  if (verdict.outcome != Verdict::Outcome::agrees) {
-    verdict.why = fmt::format(
+  const auto force = reading(
+      "ring mesh stiffness with a pin in the path of the force against between pins", effect->force_at_pin,
+      fmt::format("with a pin {:+.1f} teeth from the contact, where a pin carries most", effect->loaded_pin_teeth));
+  auto contact = reading(
+      "ring mesh stiffness with the contact at a pin against between pins", effect->contact_at_pin,
+      fmt::format("at a pin; stiffest with the contact {:+.1f} teeth from the nearest pin", effect->stiffest_teeth));
+  if (contact.outcome != Verdict::Outcome::agrees)
+    contact.why = fmt::format(
         "the force does not reach the housing behind the contact: the pin that carries most stands {:+.1f} teeth from "
         "it",
         effect->loaded_pin_teeth);
-  }
-  loaded.quantity = "ring mesh stiffness with a pin in the path of the force against between pins";
-  loaded.computed = fmt::format("{:+.1f} % with a pin {:+.1f} teeth from the contact, where a pin carries most",
-                                100 * effect->force_at_pin, effect->loaded_pin_teeth);
-  loaded.outcome = outcome(effect->force_at_pin);
-  return {loaded, verdict};
+  return {force, contact};
 }
 
 }  // namespace
@@ -213,15 +203,11 @@ std::vector<RingQuantity> ring_quantities(const RunResult& result) {
 std::vector<Verdict> compare(const Reference& reference, const RunResult& result) {
   const auto quantities = ring_quantities(result);
   std::vector<Verdict> verdicts;
-  for (const auto& order : reference.orders) {
-    for (const auto& quantity : quantities) {
+  for (const auto& order : reference.orders)
+    for (const auto& quantity : quantities)
       if (quantity.key == order.quantity) verdicts.push_back(judge(order, quantity, result));
-    }
-  }
-  for (const auto& statement : reference.at_pins) {
-    const auto both = judge_pin(statement, result);
-    verdicts.insert(verdicts.end(), both.begin(), both.end());
-  }
+  for (const auto& statement : reference.at_pins)
+    for (auto& verdict : judge_pin(statement, result)) verdicts.push_back(std::move(verdict));
   return verdicts;
 }
 
@@ -246,8 +232,7 @@ std::optional<PinEffect> pin_effect(const RunResult& result, std::size_t ring) {
   PinEffect effect;
   const auto loaded_pin = most_loaded_pin(mesh.pins);
   effect.loaded_pin_teeth = loaded_pin / tooth;
-  std::vector<std::pair<double, double>> samples;  // ring angle of the contact, stiffness
-  for (const auto& row : nominal_rows(mesh)) samples.emplace_back(row.angle, row.stiffness);
+  const auto samples = nominal_stiffness(mesh);
   effect.contact_at_pin = near_over_far(samples, first_pin, pitch);
   effect.force_at_pin = near_over_far(samples, first_pin - loaded_pin, pitch);
   // Means over one tooth pitch take out the ripple of the teeth themselves.

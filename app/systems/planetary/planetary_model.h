@@ -24,5 +24,8 @@ namespace annulus::app {
 [[nodiscard]] std::unique_ptr<LumpedModel> planetary_model(const Scene& scene, const GearGeometry& geometry,
                                                            std::size_t ring, const MeshResult& sun_mesh,
                                                            const MeshResult& ring_mesh);
+/// The ways of the cost study to this model. All arguments are referred to.
+[[nodiscard]] ModelWays planetary_ways(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
+                                       const MeshResult& sun_mesh, const MeshResult& ring_mesh);
 
 }  // namespace annulus::app

@@ -1,5 +1,4 @@
 #include "app/systems/planetary/planetary_system.h"
-#include "app/systems/planetary/planetary_trade.h"
 
 #include <fmt/format.h>
 
@@ -59,10 +58,14 @@ class PlanetarySystem final : public GearSystem {
 
   [[nodiscard]] std::unique_ptr<SystemRun> run() const override { return std::make_unique<RunResult>(scene()); }
 
-  [[nodiscard]] std::vector<std::unique_ptr<TradeSubject>> trades() const override {
-    std::vector<std::unique_ptr<TradeSubject>> list;
-    for (std::size_t i = 0; i < scene().rings.size(); ++i) list.push_back(planetary_trade_subject(scene(), i));
-    return list;
+  [[nodiscard]] std::shared_ptr<const SolvedCoupling> coupling(const MeshResult& mesh, const RunOptions& options,
+                                                               const std::filesystem::path& folder) const override {
+    return std::make_shared<SolvedCoupling>(
+        solve_coupling(scene(), geometry(), mesh.model, 1 / mesh.mean_stiffness().value, options, folder));
+  }
+
+  [[nodiscard]] ModelWays ways(std::size_t ring, const std::vector<const MeshResult*>& tables) const override {
+    return planetary_ways(scene(), geometry(), ring, *tables.front(), *tables.back());
   }
 
  protected:

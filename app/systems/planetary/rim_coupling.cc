@@ -145,39 +145,28 @@ bool may_be_coupled(const Scene& scene, const MeshModel& model) {
          fem::on_single_supports(model.problem->structure);
 }
 
-SolvedCoupling load_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
-                             double mesh_compliance, const std::filesystem::path& folder) {
-  const auto& ring = ring_of(scene, model);
-  SolvedCoupling cached{.coupling = RingCoupling::read_csv(folder / coupling_file, folder / ring_modes_file),
-                        .mesh_compliance = mesh_compliance};
-  cached.compliance_error = provenance(cached.coupling, error_key);
-  cached.frequency_error_relative = provenance(cached.coupling, frequency_error_key);
-  cached.seconds = provenance(cached.coupling, seconds_key);
-  cached.highest_frequency = highest_frequency(geometry, ring);
-  cached.path_compliance = path_compliance(scene, geometry, mesh_compliance);
-  cached.reused = true;
-  return cached;
-}
-
-std::optional<SolvedCoupling> cached_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
-                                              double mesh_compliance, const RunOptions& options,
-                                              const std::filesystem::path& folder) {
-  const auto id = coupling_id(scene, geometry, model, ring_of(scene, model));
-  if (!restore_files(options.store.get(), cached_couplings, id, folder)) return std::nullopt;
-  return load_coupling(scene, geometry, model, mesh_compliance, folder);
-}
-
 SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
                               double mesh_compliance, const RunOptions& options, const std::filesystem::path& folder) {
-  if (auto cached = cached_coupling(scene, geometry, model, mesh_compliance, options, folder))
-    return std::move(*cached);
   const auto& ring = ring_of(scene, model);
+  const auto id = coupling_id(scene, geometry, model, ring);
+  SolvedCoupling result{.coupling = {},
+                        .mesh_compliance = mesh_compliance,
+                        .path_compliance = path_compliance(scene, geometry, mesh_compliance),
+                        .highest_frequency = highest_frequency(geometry, ring)};
+  if (restore_files(options.store.get(), cached_couplings, id, folder)) {
+    result.coupling = RingCoupling::read_csv(folder / coupling_file, folder / ring_modes_file);
+    result.compliance_error = provenance(result.coupling, error_key);
+    result.frequency_error_relative = provenance(result.coupling, frequency_error_key);
+    result.seconds = provenance(result.coupling, seconds_key);
+    result.reused = true;
+    return result;
+  }
   fem::RingCouplingSettings settings;
   settings.level = coupling_level;
   settings.degree = model.coupling_degree;
   settings.threads = options.threads;
   settings.store = options.store;
-  settings.modes.highest_frequency = highest_frequency(geometry, ring);
+  settings.modes.highest_frequency = result.highest_frequency;
   StageTimers timers;
   fem::SolvedRingCoupling solved;
   {
@@ -185,25 +174,21 @@ SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, 
     solved = fem::solve_ring_coupling(*model.problem, places_on_ring(geometry, ring),
                                       geometry.operating_point.mean_mesh_force, settings);
   }
-  SolvedCoupling result{.coupling = std::move(solved.coupling),
-                        .mesh_compliance = mesh_compliance,
-                        .path_compliance = path_compliance(scene, geometry, mesh_compliance),
-                        .compliance_error = solved.compliance_error,
-                        .frequency_error_relative = solved.frequency_error_relative,
-                        .highest_frequency = settings.modes.highest_frequency,
-                        .seconds = timers.seconds("coupling"),
-                        .reused_teeth = solved.reused_teeth};
+  result.coupling = std::move(solved.coupling);
+  result.compliance_error = solved.compliance_error;
+  result.frequency_error_relative = solved.frequency_error_relative;
+  result.seconds = timers.seconds("coupling");
+  result.reused_teeth = solved.reused_teeth;
   count_reuse(options, condensed_teeth, solved.reused_teeth, solved.condensed_teeth);
   result.coupling.provenance = {{"annulus_version", version()},
-                                {id_key, coupling_id(scene, geometry, model, ring)},
+                                {id_key, id},
                                 {error_key, fmt::format("{:.17g}", result.compliance_error)},
                                 {frequency_error_key, fmt::format("{:.17g}", result.frequency_error_relative)},
                                 {seconds_key, fmt::format("{:.3f}", result.seconds)}};
   std::filesystem::create_directories(folder);
-  write_teeth_compliance(solved, coupling_id(scene, geometry, model, ring), folder / compliance_file);
+  write_teeth_compliance(solved, id, folder / compliance_file);
   result.coupling.write_csv(folder / coupling_file, folder / ring_modes_file);
-  cache_files(options.store.get(), cached_couplings, coupling_id(scene, geometry, model, ring), folder,
-              {coupling_file, ring_modes_file, compliance_file});
+  cache_files(options.store.get(), cached_couplings, id, folder, {coupling_file, ring_modes_file, compliance_file});
   log::info(fmt::format(
       "coupling of the meshes through ring '{}': {} ring positions, {} modes below {:.0f} Hz; {:.2f} s", ring.name,
       result.coupling.compliance.size(), result.coupling.modes.size(), result.highest_frequency, result.seconds));

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "app/plan/gear_geometry.h"
@@ -47,17 +46,9 @@ struct CouplingChoice {
 /// the accuracy is not very rough.
 [[nodiscard]] bool may_be_coupled(const Scene& scene, const MeshModel& model);
 /// From the cache if unchanged, else solved; in `folder` (OUT/<ring>) as ring_coupling.csv and ring_modes.csv.
-/// `mesh_compliance` (m/N) is that of the mesh by its table.
+/// `mesh_compliance` (m/N) is that of the mesh by its table. Throws InputError where cached files are damaged.
 [[nodiscard]] SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
                                             double mesh_compliance, const RunOptions& options,
                                             const std::filesystem::path& folder);
-/// Only from the cache; nothing when it is not there.
-[[nodiscard]] std::optional<SolvedCoupling> cached_coupling(const Scene& scene, const GearGeometry& geometry,
-                                                            const MeshModel& model, double mesh_compliance,
-                                                            const RunOptions& options,
-                                                            const std::filesystem::path& folder);
-/// What is in `folder`. Throws InputError where files are missing or damaged.
-[[nodiscard]] SolvedCoupling load_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
-                                           double mesh_compliance, const std::filesystem::path& folder);
 
 }  // namespace annulus::app

@@ -98,6 +98,7 @@ const std::vector<FigureSpec>& model_figures() {
        .guarantee = Guarantee::always,
        .digits = 5,
        .compared = true,
+       .cost_study = true,
        .plotted = true,
        .spread = true},
       {.key = "static_deflection_m",

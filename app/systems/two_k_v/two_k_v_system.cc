@@ -1,5 +1,4 @@
 #include "app/systems/two_k_v/two_k_v_system.h"
-#include "app/systems/two_k_v/two_k_v_trade.h"
 
 #include <fmt/format.h>
 
@@ -52,10 +51,10 @@ class TwoKVSystem final : public GearSystem {
 
   [[nodiscard]] std::unique_ptr<SystemRun> run() const override { return std::make_unique<TwoKVResult>(scene()); }
 
-  [[nodiscard]] std::vector<std::unique_ptr<TradeSubject>> trades() const override {
-    std::vector<std::unique_ptr<TradeSubject>> list;
-    list.push_back(two_k_v_trade_subject(scene()));
-    return list;
+  [[nodiscard]] std::string title(std::size_t /*variant*/) const override { return "reducer"; }
+
+  [[nodiscard]] ModelWays ways(std::size_t /*variant*/, const std::vector<const MeshResult*>& tables) const override {
+    return two_k_v_ways(scene(), {*tables.front(), arc_pins_result(scene())});
   }
 
  protected:
