@@ -14,8 +14,14 @@
 
 namespace annulus::app {
 
-PlanCost GearSystem::cost(int threads, const CostModel& costs) const {
-  return plan_cost(meshes(), responses(threads), plan_studies(scene_), threads, costs,
+double GearSystem::response_seconds() const {
+  double seconds = 0;
+  for (const auto& response : responses()) seconds += response.study_s;
+  return seconds;
+}
+
+PlanCost GearSystem::cost(int threads) const {
+  return plan_cost(meshes(), responses(), plan_studies(scene_), threads,
                    [this](const MeshModel& mesh) { return coupled(mesh); });
 }
 
@@ -25,7 +31,7 @@ Plan GearSystem::plan(int threads) const {
   plan.meshes = meshes();
   plan.studies = plan_studies(scene_);
   describe(plan);
-  plan.cost = cost(threads, CostModel::of_this_machine());
+  plan.cost = cost(threads).at_pace(machine_pace());
   return plan;
 }
 

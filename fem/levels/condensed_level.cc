@@ -153,7 +153,6 @@ SolvedLevel solve_condensed_level(const LoadedMeshProblem& problem, const Loaded
   result.slice_edges = result.half_face ? mirrored_edges(bodies.slice_edges) : bodies.slice_edges;
   result.mesh_seconds = bodies.mesh_seconds;
   result.condense_seconds = bodies.condense_seconds;
-  result.saved_seconds = bodies.saved_seconds;
   result.condensed_teeth = bodies.condensed_teeth;
   result.reused_teeth = bodies.reused_teeth;
   result.contact_seconds = watch.seconds();

@@ -21,7 +21,6 @@ struct Task {
   double support_radius;
   GearBodyOptions options;
   GearBody body{};
-  double seconds = 0, saved_seconds = 0;  // taken, and spared by a tooth from the store
   bool reused = false;
 };
 
@@ -45,12 +44,9 @@ void condense_all(const std::vector<Task*>& tasks, const Material& material, int
   const auto condense_one = [&](std::size_t i) {
     try {
       auto& t = *tasks[i];
-      const Stopwatch watch;
       CondensedTooth tooth = condense_tooth(t.mesh, *t.profile, t.support_radius, material, t.options);
       t.reused = tooth.reused;
-      if (t.reused) t.saved_seconds = std::max(0.0, tooth.seconds - watch.seconds());
       t.body = compose_body(std::move(tooth), t.options);
-      t.seconds = watch.seconds();
     } catch (...) {
       failures[i] = std::current_exception();
     }
@@ -64,17 +60,6 @@ void condense_all(const std::vector<Task*>& tasks, const Material& material, int
   }
   for (const auto& failure : failures)
     if (failure) std::rethrow_exception(failure);
-}
-
-/// What the reused teeth saved of the time of condense_all.
-double saved_seconds(const std::vector<Task*>& tasks, int threads) {
-  double with = 0, without = 0;
-  for (const auto* t : tasks) {
-    const double own = t->seconds, fresh = t->seconds + t->saved_seconds;
-    with = threads > 1 ? std::max(with, own) : with + own;
-    without = threads > 1 ? std::max(without, fresh) : without + fresh;
-  }
-  return without - with;
 }
 
 /// Meshes the bodies of a level.
@@ -166,7 +151,6 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   const auto tasks = all_tasks(planet, wheel);
   condense_all(tasks, problem.material, settings.threads);
   for (const auto* task : tasks) ++(task->reused ? bodies.reused_teeth : bodies.condensed_teeth);
-  bodies.saved_seconds = saved_seconds(tasks, settings.threads);
   bodies.face = face;
   bodies.slice_edges = face.edges(solid ? slices_per_cell(problem, settings.degree) * counts.face_cells : 1);
   bodies.unknowns = planet.body.body.unknowns + wheel.body.body.unknowns;

@@ -26,7 +26,6 @@ struct MeshBodies {
   long unknowns = 0;
   double mesh_seconds = 0, condense_seconds = 0;
   int condensed_teeth = 0, reused_teeth = 0;
-  double saved_seconds = 0;  ///< by reused teeth
 };
 
 [[nodiscard]] MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& flanks,

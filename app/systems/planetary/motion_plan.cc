@@ -1,10 +1,9 @@
-#include "app/systems/planetary/motion_plan.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "app/plan/accuracy_choice.h"
+#include "app/systems/planetary/planetary_plan.h"
 #include "app/systems/planetary/rim_coupling.h"
 
 namespace annulus::app {
@@ -13,23 +12,9 @@ namespace {
 
 constexpr const char* asked = "the scene asks for it";
 
-const char* integrator_name(dynamics::Integrator method) {
-  switch (method) {
-    case dynamics::Integrator::automatic:
-      return "Cash-Karp 5(4), BDF or ESDIRK 5(4)";
-    case dynamics::Integrator::arkode_explicit:
-      return "Cash-Karp 5(4)";
-    case dynamics::Integrator::cvode_adams:
-      return "Adams";
-    case dynamics::Integrator::cvode_bdf:
-      return "BDF";
-    case dynamics::Integrator::arkode_implicit:
-      return "ESDIRK 5(4)";
-    case dynamics::Integrator::runge_kutta_4:
-      break;
-  }
-  return "Runge-Kutta 4";
-}
+/// In the order of dynamics::Integrator.
+constexpr const char* integrator_names[] = {
+    "Cash-Karp 5(4), BDF or ESDIRK 5(4)", "Cash-Karp 5(4)", "Adams", "BDF", "Runge-Kutta 4", "ESDIRK 5(4)"};
 
 void add_solution(std::vector<Decision>& list, const DynamicsInput& input, const MotionChoice& choice) {
   if (input.mesh_cycles) {
@@ -43,7 +28,7 @@ void add_solution(std::vector<Decision>& list, const DynamicsInput& input, const
 }
 
 void add_integrator(std::vector<Decision>& list, const DynamicsInput& input, const MotionChoice& choice) {
-  list.push_back({"integrator", integrator_name(input.integrator),
+  list.push_back({"integrator", integrator_names[static_cast<int>(input.integrator)],
                   input.integrator == dynamics::Integrator::automatic
                       ? "where time is integrated, the cheaper one for the stiffness ratio and damping found"
                       : asked});
