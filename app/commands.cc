@@ -13,6 +13,7 @@
 #include "app/export/rexs.h"
 #include "app/model/gear_system.h"
 #include "app/model/run_limits.h"
+#include "app/plan/plan.h"
 #include "app/report/page.h"
 #include "app/results/figure_table.h"
 #include "app/results/user_cache.h"
@@ -142,7 +143,9 @@ void plan_command(const Arguments& arguments) {
   check_stage(scene);
   check_files(scene);
   check_studies(scene);
-  fmt::print("{}", plan_scene(scene, arguments.json ? PlanFormat::json : PlanFormat::text, arguments.threads, budget));
+  Plan plan = make_plan(scene, arguments.threads);
+  plan.budget = budget;
+  fmt::print("{}", arguments.json ? to_json(plan) : to_text(plan));
   // The plan itself shows what is too much.
   std::fflush(stdout);
   check_limits(scene, limits_of(arguments), arguments.threads);

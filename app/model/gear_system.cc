@@ -57,12 +57,6 @@ std::unique_ptr<GearSystem> make_system(const Scene& scene) { return system_kind
 
 Plan make_plan(const Scene& scene, int threads) { return make_system(scene)->plan(threads); }
 
-std::string plan_scene(const Scene& scene, PlanFormat format, int threads, const std::string& budget) {
-  Plan plan = make_plan(scene, threads);
-  plan.budget = budget;
-  return format == PlanFormat::json ? to_json(plan) : to_text(plan);
-}
-
 void check_stage(const Scene& scene) {
   try {
     make_system(scene)->check();

@@ -95,11 +95,6 @@ void register_system(SystemKind kind);
 /// What will be modelled and why; the cost is predicted for a run on `threads`.
 [[nodiscard]] Plan make_plan(const Scene& scene, int threads = 1);
 
-enum class PlanFormat { text, json };
-/// `annulus plan`. `budget`: the sentence about a budget, if there was one.
-[[nodiscard]] std::string plan_scene(const Scene& scene, PlanFormat format, int threads = 1,
-                                     const std::string& budget = {});
-
 /// Makes the geometry and whatever else needs no solving. Throws InputError or GeometryError, with the place in the
 /// scene, where the scene is not a good one.
 void check_stage(const Scene& scene);
