@@ -20,7 +20,9 @@ Scene with_rough_stiffness(const Scene& scene, std::initializer_list<MeshInput S
   Scene rough = scene;
   for (const auto mesh : meshes) {
     if ((scene.*mesh).stiffness == StiffnessShape::rectangular) continue;
-    rough.*mesh = {.stiffness = StiffnessShape::constant, .mean = rough_stiffness(scene, scene.*mesh)};
+    rough.*mesh = {};
+    (rough.*mesh).stiffness = StiffnessShape::constant;
+    (rough.*mesh).mean = rough_stiffness(scene, scene.*mesh);
   }
   return rough;
 }
