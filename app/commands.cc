@@ -11,9 +11,9 @@
 #include "app/compare/comparison_page.h"
 #include "app/export/export.h"
 #include "app/export/rexs.h"
-#include "app/model/cost_budget.h"
 #include "app/model/gear_system.h"
 #include "app/model/run_limits.h"
+#include "app/plan/plan.h"
 #include "app/report/page.h"
 #include "app/results/figure_table.h"
 #include "app/results/user_cache.h"
@@ -68,7 +68,7 @@ void check_out(const std::filesystem::path& out) {
 void check_scene(const Scene& scene, const Arguments& arguments, bool with_dynamics = true) {
   check_stage(scene);
   check_files(scene);
-  check_limits(scene, limits_of(arguments), arguments.threads, CostModel::of_this_machine(), with_dynamics);
+  check_limits(scene, limits_of(arguments), arguments.threads, with_dynamics);
 }
 
 /// The scene as the file has it, or as accurate as the budget allows; what that means goes into `sentence`.
@@ -77,7 +77,7 @@ Scene wanted_scene(const Arguments& arguments, std::string& sentence) {
   Scene scene = read_scene(arguments.scene);
   if (!arguments.budget) return scene;
   check_stage(scene);
-  auto choice = fit_budget(scene, budget, arguments.threads, CostModel::of_this_machine());
+  auto choice = fit_budget(scene, budget, arguments.threads);
   sentence = std::move(choice.sentence);
   return std::move(choice.scene);
 }
@@ -143,10 +143,12 @@ void plan_command(const Arguments& arguments) {
   check_stage(scene);
   check_files(scene);
   check_studies(scene);
-  fmt::print("{}", plan_scene(scene, arguments.json ? PlanFormat::json : PlanFormat::text, arguments.threads, budget));
+  Plan plan = make_plan(scene, arguments.threads);
+  plan.budget = budget;
+  fmt::print("{}", arguments.json ? to_json(plan) : to_text(plan));
   // The plan itself shows what is too much.
   std::fflush(stdout);
-  check_limits(scene, limits_of(arguments), arguments.threads, CostModel::of_this_machine());
+  check_limits(scene, limits_of(arguments), arguments.threads);
 }
 
 void check_command(const Arguments& arguments) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "fem/body/resolution.h"
 #include "fem/closed_form/closed_form_mesh.h"
 #include "fem/cost_size.h"
@@ -127,8 +128,11 @@ class Refinement {
 
 LoadedMeshResult solve_loaded_mesh(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings) {
   check_problem(problem, settings.fidelity);
-  if (settings.fidelity == Fidelity::closed_form) return solve_closed_form(problem, settings);
-  return Refinement(problem, settings).run();
+  const ProcessorStopwatch watch;
+  auto result = settings.fidelity == Fidelity::closed_form ? solve_closed_form(problem, settings)
+                                                           : Refinement(problem, settings).run();
+  result.processor_seconds = watch.seconds();
+  return result;
 }
 
 }  // namespace annulus::fem

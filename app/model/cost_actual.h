@@ -15,7 +15,7 @@ namespace annulus::app {
 [[nodiscard]] std::optional<CostRun> actual_mesh(CostRun size, const MeshResult& mesh);
 /// A step of which only the wall time (s) is known.
 [[nodiscard]] CostRun actual_time(CostRun size, double seconds);
-/// Later predictions on this machine learn from it.
+/// Later predictions on this machine learn its pace from it.
 void keep_costs(const PlanCost& done);
 
 /// "predicted 4.1 s and 410 MB, actual 4.4 s and 436 MB"; empty when nothing was computed. The memory is left out when

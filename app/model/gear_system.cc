@@ -13,8 +13,14 @@
 
 namespace annulus::app {
 
-PlanCost GearSystem::cost(int threads, const CostModel& costs) const {
-  return plan_cost(meshes(), responses(threads), plan_studies(scene_), threads, costs,
+double GearSystem::response_seconds() const {
+  double seconds = 0;
+  for (const auto& response : responses()) seconds += response.study_s;
+  return seconds;
+}
+
+PlanCost GearSystem::cost(int threads) const {
+  return plan_cost(meshes(), responses(), plan_studies(scene_), threads,
                    [this](const MeshModel& mesh) { return coupled(mesh); });
 }
 
@@ -24,7 +30,7 @@ Plan GearSystem::plan(int threads) const {
   plan.meshes = meshes();
   plan.studies = plan_studies(scene_);
   describe(plan);
-  plan.cost = cost(threads, CostModel::of_this_machine());
+  plan.cost = cost(threads).at_pace(machine_pace());
   return plan;
 }
 
@@ -61,12 +67,6 @@ ModelWays GearSystem::ways(std::size_t /*variant*/, const std::vector<const Mesh
 std::unique_ptr<GearSystem> make_system(const Scene& scene) { return system_kind(scene.stage.kind).make(scene); }
 
 Plan make_plan(const Scene& scene, int threads) { return make_system(scene)->plan(threads); }
-
-std::string plan_scene(const Scene& scene, PlanFormat format, int threads, const std::string& budget) {
-  Plan plan = make_plan(scene, threads);
-  plan.budget = budget;
-  return format == PlanFormat::json ? to_json(plan) : to_text(plan);
-}
 
 void check_stage(const Scene& scene) {
   try {

@@ -54,14 +54,14 @@ class GearSystem {
   [[nodiscard]] virtual std::unique_ptr<LumpedModel> model(std::size_t variant,
                                                            const std::vector<const MeshResult*>& tables) const = 0;
   /// The responses of a run, one step each; empty without [dynamics], and where they take no time.
-  [[nodiscard]] virtual std::vector<PlannedResponse> responses(int /*threads*/) const { return {}; }
-  /// Wall time of a study's response of all variants on one core, s, rough. Needs [dynamics].
-  [[nodiscard]] virtual double response_seconds() const { return 0; }
+  [[nodiscard]] virtual std::vector<PlannedResponse> responses() const { return {}; }
+  /// Rough processor time of a study's response of all variants, s.
+  [[nodiscard]] double response_seconds() const;
   /// Whether a computed mesh is coupled with the others through its ring, which is solved as a step of its own.
   [[nodiscard]] virtual bool coupled(const MeshModel& /*mesh*/) const { return false; }
-  /// Predicted time and memory of a run.
-  [[nodiscard]] PlanCost cost(int threads, const CostModel& costs) const;
-  /// What will be modelled and why; computes nothing elastic.
+  /// Predicted time and memory of a run by the cost laws.
+  [[nodiscard]] PlanCost cost(int threads) const;
+  /// What will be modelled and why; computes nothing elastic. Its times are scaled to this machine.
   [[nodiscard]] Plan plan(int threads) const;
 
   /// A run of this kind that has not begun; nothing: by the lumped models alone (run/model_run.h).
@@ -103,11 +103,6 @@ void register_system(SystemKind kind);
 
 /// What will be modelled and why; the cost is predicted for a run on `threads`.
 [[nodiscard]] Plan make_plan(const Scene& scene, int threads = 1);
-
-enum class PlanFormat { text, json };
-/// `annulus plan`. `budget`: the sentence about a budget, if there was one.
-[[nodiscard]] std::string plan_scene(const Scene& scene, PlanFormat format, int threads = 1,
-                                     const std::string& budget = {});
 
 /// Makes the geometry and whatever else needs no solving. Throws InputError or GeometryError, with the place in the
 /// scene, where the scene is not a good one.

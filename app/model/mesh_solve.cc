@@ -53,8 +53,7 @@ void write_meshes(const MeshModel& model, const fem::LoadedMeshResult& solved, c
 
 fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& options) {
   const int threads = options.threads;
-  const auto costs = CostModel::of_this_machine();
-  Progress progress(model.label(), costs.predict(mesh_size(model, threads, costs)).seconds);
+  Progress progress(model.label(), machine_pace() * predicted_cost(mesh_size(model), threads).seconds);
   fem::LoadedMeshSettings settings = model.settings;
   settings.threads = threads;
   settings.store = options.store;

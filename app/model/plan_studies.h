@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "app/plan/study_plan.h"
+#include "app/plan/cost_plan.h"
 #include "app/scene/scene.h"
 
 namespace annulus::app {

@@ -10,6 +10,27 @@ constexpr double unseen = 1e-3;  // of the accuracy
 
 }  // namespace
 
+double rough_stiffness(const Scene& scene, const MeshInput& mesh) {
+  constexpr double per_width = 18e9;  // N/m^2, mean of one and two pairs of steel teeth
+  constexpr double steel = 206e9;
+  return mesh.mean.value_or(per_width * scene.stage.face_width * scene.material.youngs_modulus / steel);
+}
+
+Scene with_rough_stiffness(const Scene& scene, std::initializer_list<MeshInput Scene::*> meshes) {
+  Scene rough = scene;
+  for (const auto mesh : meshes) {
+    if ((scene.*mesh).stiffness == StiffnessShape::rectangular) continue;
+    rough.*mesh = {};
+    (rough.*mesh).stiffness = StiffnessShape::constant;
+    (rough.*mesh).mean = rough_stiffness(scene, scene.*mesh);
+  }
+  return rough;
+}
+
+MeshResult unread_table(const std::string& mesh) {
+  return {.model = {}, .table = StiffnessTable(mesh, 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
+}
+
 double rigid_if_stiff(double support, double neighbours, double accuracy) {
   return neighbours <= unseen * accuracy * support ? rigid : support;
 }

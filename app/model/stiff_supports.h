@@ -1,8 +1,18 @@
 #pragma once
 
+#include "app/model/mesh_result.h"
 #include "app/scene/scene.h"
 
+/// Stiffness as far as it matters: before a mesh is solved, and beside neighbours.
 namespace annulus::app {
+
+/// Rough stiffness of a mesh before it is solved, N/m: the prescribed mean, else that of steel teeth of the face width.
+[[nodiscard]] double rough_stiffness(const Scene& scene, const MeshInput& mesh);
+/// The scene with constant rough stiffness of these meshes: periods, steps and degrees of freedom follow from it before
+/// anything is solved. A rectangular wave, whose jumps matter, stays.
+[[nodiscard]] Scene with_rough_stiffness(const Scene& scene, std::initializer_list<MeshInput Scene::*> meshes);
+/// For a mesh whose stiffness is prescribed: a table that nobody reads.
+[[nodiscard]] MeshResult unread_table(const std::string& mesh);
 
 /// A support that gives way by less than a thousandth of the wanted accuracy of what acts on it (`neighbours`, N/m)
 /// counts as rigid: its DOF would cost steps of its own pace and change nothing.

@@ -1,64 +1,88 @@
 #pragma once
 
-#include <map>
-#include <optional>
-#include <string>
 #include <vector>
 
-#include "app/plan/cost_run.h"
-
 namespace annulus::app {
+
+/// What a step of a run computes; each has laws of its own.
+enum class Work {
+  closed_form,
+  plane,
+  solid,
+  solid_half,     ///< on half of a symmetric face
+  solid_helical,  ///< whose contact moves along the face width
+  resolved_plane,
+  resolved_solid,
+  coupling_plane,
+  coupling_pins,  ///< through a ring on pins or splines
+  coupling_solid,
+  response,             ///< of a planetary stage on solved tables, confirmed by time integration
+  response_elastic,     ///< in which elastic modes of the ring may take part
+  response_pins,        ///< the same with a ring on pins or splines
+  response_prescribed,  ///< without tables, whose errors would be propagated
+  response_balanced,    ///< by harmonic balance alone
+  response_pair,
+  response_two_k_v,
+  response_two_k_v_prescribed,
+};
+
+/// The size of one step of a run and, after it, what it took.
+struct CostRun {
+  Work work = Work::plane;
+  int degree = 2;       ///< of the elements
+  int level = 0;        ///< of resolution reached
+  int levels = 1;       ///< solved on the way, the reached one included
+  double unknowns = 0;  ///< of the reached level; of a coupling on pins times the ring positions; of a response mesh
+                        ///< cycles of the period x planets, of a pair x responses
+  /// Contact problems of a level; those of the first mesh cycle twice, because they compute compliances between tooth
+  /// pairs that later cycles read.
+  double contacts = 0;
+  double supports = 0;       ///< forces of pins or splines in every contact problem of a solid ring
+  double integration_s = 0;  ///< processor time of time integration, which is predicted from its steps and not by a law
+  int tasks = 1;             ///< that threads can share
+  double wall_s = 0;
+  double processor_s = 0;  ///< of all threads; 0: not measured
+
+  [[nodiscard]] double seconds() const { return wall_s; }
+};
+
+/// Laws of one kind of work. With N the unknowns in ten thousands:
+///
+///     processor time   sum_levels (body N^body_exponent + contact N^contact_exponent contacts)      s
+///     peak memory      base_MB + per_unknown_MB N, of the last level                                MB
+///
+/// Supports of solid rings add to every contact problem, and a second thread to the memory. The coefficients are fitted
+/// to data/cost_runs.csv, which a test repeats (tests/app/cost_laws_test.cc).
+struct CostLaw {
+  const char* name;
+  double body, body_exponent, contact, contact_exponent;
+  double base_MB, per_unknown_MB;  ///< NaN: not measured
+};
+[[nodiscard]] const CostLaw& cost_law(Work work);
 
 /// What a step is predicted to cost.
 struct PredictedCost {
   double seconds = 0;  ///< wall
-  double peak_MB = 0;  ///< of the whole process
+  double peak_MB = 0;  ///< of the whole process; NaN: not known
 };
 
-/// Laws of one kind of step. With N the unknowns of a level in ten thousands:
-///
-///     bodies    a sum_levels N^b / speed-up                               s
-///     contact   (sum_levels N^c (first_ms first + each_ms all) + support_ms (S / 100)^2 all) / speed-up
-///               ms, `first` and `all` being contact problems, S the forces of supports in each of them
-///     peak      base_MB + per_unknown_MB N (bodies at once)               MB, N of the last level
-///     error     first ratio^(level - 1)                           by degree of the elements
-///
-/// A speed-up on t threads is 1 + efficiency (t - 1), at most as many threads as there are tasks. So is the memory that
-/// two bodies take which are condensed at once.
-struct CostLaw {
-  double body = 0, body_exponent = 1, body_efficiency = 0;
-  double first_ms = 0, each_ms = 0, contact_exponent = 0, contact_efficiency = 0;
-  double support_ms = 0;
-  double base_MB = 0, per_unknown_MB = 0, memory_overlap = 0;
-  struct Error {
-    double first = 0, ratio = 1;
-  };
-  std::map<int, Error> error{};  ///< estimated, by degree
-};
+/// Processor time of a step, s.
+[[nodiscard]] double processor_seconds(const CostRun& size);
+[[nodiscard]] double peak_memory(const CostRun& size, int threads);
+/// On as many threads as can share its tasks.
+[[nodiscard]] PredictedCost predicted_cost(const CostRun& size, int threads);
 
-/// Time and memory of the steps of a run, from measured ones. The laws are fitted to their logarithms by least squares;
-/// where few runs were measured, exponents stay near what such solves usually take.
-class CostModel {
- public:
-  /// `own`: measured on this machine; from the third of a kind on, the median of measured to predicted time scales the
-  /// predictions of that kind.
-  explicit CostModel(const std::vector<CostRun>& kept, const std::vector<CostRun>& own = {});
-  /// From the kept runs and the user's file.
-  [[nodiscard]] static CostModel of_this_machine();
+/// Estimated relative error of a model's table at a level with elements of a degree (that of quadratic ones where
+/// nothing is known of the degree); NaN where nothing is known.
+[[nodiscard]] double expected_error(Work work, int degree, int level);
+/// Level at which refining until `accuracy` is met will end.
+[[nodiscard]] int expected_level(Work work, int degree, double accuracy, int last_level);
 
-  [[nodiscard]] PredictedCost predict(const CostRun& size) const;
-  /// Estimated relative error of a model's table at a level with elements of a degree (that of quadratic ones where
-  /// nothing is known of the degree); NaN where nothing is known.
-  [[nodiscard]] double expected_error(const std::string& kind, int degree, int level) const;
-  /// Level at which refining until `accuracy` is met will end.
-  [[nodiscard]] int expected_level(const std::string& kind, int degree, double accuracy, int last_level) const;
-  /// Of a kind by the user's own runs; 1 without.
-  [[nodiscard]] double scale(const std::string& kind) const;
-  [[nodiscard]] const CostLaw& law(const std::string& kind) const;
-
- private:
-  std::map<std::string, CostLaw> laws_;
-  std::map<std::string, double> scales_;
-};
+/// How many times as long as by the laws this machine takes: the median of processor time to law of its last meshes, 1
+/// before the third. Only predictions for people are scaled by it; what is chosen or refused never depends on it.
+[[nodiscard]] double machine_pace();
+/// Adds measured steps to pace.json in the user cache, which has the last 50. Steps without processor time, and those
+/// too short to say anything, are left out; what cannot be written is lost.
+void learn_pace(const std::vector<CostRun>& done);
 
 }  // namespace annulus::app

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fem/cost_size.h"
 #include "fem/loaded_mesh.h"
@@ -23,7 +22,6 @@ double wall_time(const std::vector<CostStep>& steps, int threads, TimeOf time_of
     if (step.kind == CostKind::response) {
       responses += seconds;
       longest = std::max(longest, seconds);
-      if (std::isnan(seconds)) return seconds;
     } else {
       in_turn += seconds;
     }
@@ -31,80 +29,46 @@ double wall_time(const std::vector<CostStep>& steps, int threads, TimeOf time_of
   return in_turn + std::max(longest, responses / std::max(1, threads));
 }
 
-CostRun coupling_size(const MeshModel& model, int threads) {
-  // Solved at the first level, whatever the mesh needs (rim_coupling.cc).
-  CostRun size;
-  const bool solid = fem::is_solid(model.settings.fidelity);
-  const bool supported = fem::on_single_supports(model.problem->structure);
-  size.kind = solid ? "coupling_solid" : supported ? "coupling_pins" : "coupling_plane";
-  size.level = 1;
-  size.cycles = model.positions;
-  size.threads = threads;
-  auto settings = model.settings;
-  if (settings.fidelity == fem::Fidelity::closed_form) settings.fidelity = fem::Fidelity::plane;
-  size.degree = settings.degree = model.coupling_degree;
-  settings.symmetry = false;  // a ring's modes need not be symmetric
-  // On single supports every ring position is a system of its own.
-  size.unknowns = fem::estimated_unknowns(*model.problem, settings, 1) * (supported ? model.positions : 1);
-  return size;
+/// The largest of the steps that `of` is known of; NaN where one is NaN or there is none.
+template <class Value>
+double largest(const std::vector<CostStep>& steps, std::initializer_list<CostKind> kinds, Value of) {
+  double value = not_known;
+  for (const auto& step : steps) {
+    if (std::find(kinds.begin(), kinds.end(), step.kind) == kinds.end()) continue;
+    if (std::isnan(of(step))) return not_known;
+    value = std::fmax(value, of(step));
+  }
+  return value;
 }
 
-constexpr double unknown_cost = std::numeric_limits<double>::quiet_NaN();
+/// Solved at the first level, whatever the mesh needs (rim_coupling.cc).
+CostRun coupling_size(const MeshModel& model) {
+  const bool solid = fem::is_solid(model.settings.fidelity);
+  const bool supported = fem::on_single_supports(model.problem->structure);
+  auto settings = model.settings;
+  if (settings.fidelity == fem::Fidelity::closed_form) settings.fidelity = fem::Fidelity::plane;
+  settings.degree = model.coupling_degree;
+  settings.symmetry = false;  // a ring's modes need not be symmetric
+  // On single supports every ring position is a system of its own.
+  return {.work = solid       ? Work::coupling_solid
+                  : supported ? Work::coupling_pins
+                              : Work::coupling_plane,
+          .degree = settings.degree,
+          .level = 1,
+          .unknowns = fem::estimated_unknowns(*model.problem, settings, 1) * (supported ? model.positions : 1)};
+}
 
-/// The steps of a run in their order.
-struct CostSteps {
-  PlanCost cost;
-  const CostModel& costs;
-  double longest_table = 0;  // s
-
-  CostSteps(int threads, const CostModel& model) : cost{.steps = {}, .threads = threads}, costs(model) {}
-  void add(CostKind kind, std::string label, std::string ring, CostRun size, double error = unknown_cost,
-           double integration_s = 0) {
-    auto predicted = costs.predict(size);
-    predicted.seconds += integration_s;
-    cost.steps.push_back({kind, std::move(label), std::move(ring), std::move(size), predicted, integration_s, error});
-  }
-  void add_mesh(const MeshModel& model) {
-    const auto size = mesh_size(model, cost.threads, costs);
-    add(CostKind::mesh, model.label(), model.ring, size, expected_error(model, size));
-    longest_table = std::max(longest_table, cost.steps.back().predicted.seconds);
-  }
-  [[nodiscard]] double expected_error(const MeshModel& model, const CostRun& size) const {
-    if (model.settings.fidelity != fem::Fidelity::closed_form)
-      return costs.expected_error(size.kind, size.degree, size.level);
-    const double error = model.formula_error ? *model.formula_error : fem::closed_form_error(*model.problem);
-    return std::isfinite(error) ? error : unknown_cost;
-  }
-  void add_responses(const std::vector<PlannedResponse>& responses) {
-    for (const auto& response : responses)
-      add(CostKind::response, response.label, response.ring, response.size, unknown_cost, response.integration_s);
-  }
-  void add_studies(const std::vector<StudyPlan>& studies) {
-    for (const auto& study : studies)
-      cost.steps.push_back({CostKind::studies,
-                            study.name,
-                            "",
-                            {},
-                            {study.seconds / cost.threads + study.tables * longest_table, unknown_cost},
-                            0,
-                            unknown_cost});
-  }
-};
+double expected_error_of(const MeshModel& model, const CostRun& size) {
+  if (model.settings.fidelity != fem::Fidelity::closed_form) return expected_error(size.work, size.degree, size.level);
+  const double error = model.formula_error ? *model.formula_error : fem::closed_form_error(*model.problem);
+  return std::isfinite(error) ? error : not_known;
+}
 
 }  // namespace
 
 const char* to_text(CostKind kind) {
-  switch (kind) {
-    case CostKind::mesh:
-      return "mesh";
-    case CostKind::coupling:
-      return "coupling";
-    case CostKind::response:
-      return "response";
-    case CostKind::studies:
-      break;
-  }
-  return "studies";
+  constexpr const char* names[] = {"mesh", "coupling", "response", "studies"};
+  return names[static_cast<int>(kind)];
 }
 
 double PlanCost::seconds() const {
@@ -112,29 +76,17 @@ double PlanCost::seconds() const {
 }
 
 double PlanCost::peak_MB() const {
-  double peak = 0;
-  for (const auto& step : steps) {
-    if (step.kind == CostKind::studies || step.kind == CostKind::coupling) continue;
-    if (std::isnan(step.predicted.peak_MB)) return step.predicted.peak_MB;
-    peak = std::max(peak, step.predicted.peak_MB);
-  }
-  return peak;
+  return largest(steps, {CostKind::mesh, CostKind::response}, [](const CostStep& s) { return s.predicted.peak_MB; });
 }
 
 double PlanCost::expected_error() const {
-  double error = std::numeric_limits<double>::quiet_NaN();
-  for (const auto& step : steps) {
-    if (step.kind != CostKind::mesh) continue;
-    if (std::isnan(step.expected_error)) return step.expected_error;
-    error = std::isnan(error) ? step.expected_error : std::max(error, step.expected_error);
-  }
-  return error;
+  return largest(steps, {CostKind::mesh}, [](const CostStep& s) { return s.expected_error; });
 }
 
-PlanCost PlanCost::done() const {
-  PlanCost result{.steps = {}, .threads = threads};
-  for (const auto& step : steps)
-    if (step.actual) result.steps.push_back(step);
+PlanCost PlanCost::at_pace(double machine) const {
+  PlanCost result = *this;
+  for (auto& step : result.steps) step.predicted.seconds *= machine;
+  result.pace *= machine;
   return result;
 }
 
@@ -142,60 +94,88 @@ double PlanCost::actual_seconds() const {
   return wall_time(steps, threads, [](const CostStep& s) { return s.actual ? s.actual->seconds() : 0.0; });
 }
 
-std::string cost_kind(const MeshModel& model) {
-  if (!model.computed() || model.settings.fidelity != fem::Fidelity::solid) return model.fidelity;
-  // The contact of helical teeth moves along the face width: every slice has elements of its own.
-  if (model.problem->pair.planet().helix_angle() != 0) return "solid_helical";
-  // Fewer slices with the same section: the contact falls with them faster than with a coarser section.
-  return fem::solved_face(*model.problem, model.settings).half ? "solid_half" : model.fidelity;
+Work work_of(const MeshModel& model) {
+  constexpr Work works[] = {Work::closed_form, Work::plane, Work::solid, Work::resolved_plane, Work::resolved_solid};
+  const auto fidelity = model.settings.fidelity;
+  if (fidelity != fem::Fidelity::solid) return works[static_cast<int>(fidelity)];
+  // Every slice of helical teeth has elements of its own. Half of a face has fewer slices with the same section: the
+  // contact falls with them faster than with a coarser section.
+  if (model.problem->pair.planet().helix_angle() != 0) return Work::solid_helical;
+  return fem::solved_face(*model.problem, model.settings).half ? Work::solid_half : Work::solid;
 }
 
-CostRun mesh_size(const MeshModel& model, int threads, const CostModel& costs) {
+CostRun mesh_size(const MeshModel& model) {
+  const auto& problem = *model.problem;
   auto settings = model.settings;
   int last = fem::last_level(settings.fidelity);
-  CostRun size;
-  size.kind = cost_kind(model);
+  CostRun size{.work = work_of(model)};
   if (settings.degree == 1 && !settings.level) {
-    const int last_linear = fem::last_linear_level(*model.problem);
-    if (costs.expected_error(size.kind, 1, last_linear) > settings.accuracy)
+    const int last_linear = fem::last_linear_level(problem);
+    if (expected_error(size.work, 1, last_linear) > settings.accuracy)
       settings.degree = 2;  // they follow where linear ones do not do
     else
       last = last_linear;
   }
   size.degree = settings.degree;
-  size.level = std::clamp(
-      settings.level.value_or(costs.expected_level(size.kind, size.degree, settings.accuracy, last)), 0, last);
+  const int needed = expected_level(size.work, size.degree, settings.accuracy, last);
+  size.level = std::clamp(settings.level.value_or(needed), 0, last);
   // A level that is forced is solved with the one before it; refining starts at level 0 and passes them all.
   size.levels = last == 0 ? 1 : settings.level ? 2 : size.level + 1;
-  size.unknowns = fem::estimated_unknowns(*model.problem, settings, size.level);
-  size.supports = fem::support_forces(*model.problem, settings, size.level);
-  size.loads = static_cast<int>(model.problem->loads.size());
-  size.phases = model.problem->phases;
-  size.cycles = model.positions;
-  size.threads = threads;
+  size.unknowns = fem::estimated_unknowns(problem, settings, size.level);
+  size.supports = fem::support_forces(problem, settings, size.level);
+  const double loads = static_cast<double>(problem.loads.size()), phases = problem.phases;
+  size.contacts = loads * (phases + 1) + loads * (phases * model.positions + 1);
+  // A plane table of one mesh cycle is solved load by load, others position by position or body by body.
+  const bool many = fem::is_solid(settings.fidelity) || model.positions > 1;
+  size.tasks = static_cast<int>(many ? size.contacts : loads);
   return size;
 }
 
-double rough_stiffness(const Scene& scene, const MeshInput& mesh) {
-  constexpr double per_width = 18e9;  // N/m^2, mean of one and two pairs of steel teeth
-  constexpr double steel = 206e9;
-  return mesh.mean.value_or(per_width * scene.stage.face_width * scene.material.youngs_modulus / steel);
-}
-
 PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<PlannedResponse>& responses,
-                   const std::vector<StudyPlan>& studies, int threads, const CostModel& costs,
+                   const std::vector<StudyPlan>& studies, int threads,
                    const std::function<bool(const MeshModel&)>& coupled) {
-  CostSteps steps(threads, costs);
+  PlanCost cost{.steps = {}, .threads = threads};
+  const auto add = [&](CostStep step) {
+    if (step.kind != CostKind::studies) step.predicted = predicted_cost(step.size, threads);
+    cost.steps.push_back(std::move(step));
+    return cost.steps.back().predicted.seconds;
+  };
+  double longest_table = 0;
   for (const auto& model : meshes) {
     if (!model.computed()) continue;
-    steps.add_mesh(model);
+    const auto size = mesh_size(model);
+    auto cause = fmt::format(
+        "its size follows from `accuracy` and `model` (here {}, {:.3g} unknowns per pair of "
+        "sectors, {} ring positions)",
+        cost_law(size.work).name, size.unknowns, model.positions);
+    const double seconds = add({.kind = CostKind::mesh,
+                                .label = model.label(),
+                                .ring = model.ring,
+                                .size = size,
+                                .cause = std::move(cause),
+                                .expected_error = expected_error_of(model, size)});
+    longest_table = std::max(longest_table, seconds);
     if (coupled(model))
-      steps.add(CostKind::coupling, fmt::format("coupling through '{}'", model.ring), model.ring,
-                coupling_size(model, threads));
+      add({.kind = CostKind::coupling,
+           .label = fmt::format("coupling through '{}'", model.ring),
+           .ring = model.ring,
+           .size = coupling_size(model),
+           .cause = fmt::format("it follows from `accuracy` and {} ring positions", model.positions)});
   }
-  steps.add_responses(responses);
-  steps.add_studies(studies);
-  return steps.cost;
+  for (const auto& response : responses)
+    add({.kind = CostKind::response,
+         .label = response.label,
+         .ring = response.ring,
+         .size = response.size,
+         .cause = "it follows from dynamics.mesh_cycles or, without it, from the period of the errors"});
+  for (const auto& study : studies)
+    add({.kind = CostKind::studies,
+         .label = study.name,
+         .size = {.unknowns = static_cast<double>(study.responses)},
+         .cause = fmt::format("it asks for {} responses{}", study.responses,
+                              study.tables ? fmt::format(" and {} tables", study.tables) : ""),
+         .predicted = {study.seconds / threads + study.tables * longest_table, not_known}});
+  return cost;
 }
 
 std::string duration_text(double seconds) {
@@ -207,6 +187,9 @@ std::string duration_text(double seconds) {
                             : fmt::format("{:.0f} days", seconds / 86400);
 }
 
-std::string memory_text(double MB) { return std::isfinite(MB) ? fmt::format("{:.0f} MB", MB) : "not known"; }
+std::string memory_text(double MB) {
+  if (!std::isfinite(MB)) return "not known";
+  return MB < 1e4 ? fmt::format("{:.0f} MB", MB) : fmt::format("{:.3g} GB", MB / 1e3);
+}
 
 }  // namespace annulus::app

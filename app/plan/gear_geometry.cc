@@ -2,20 +2,9 @@
 
 #include <numbers>
 
-#include "core/errors.h"
-
 namespace annulus::app {
 
 namespace {
-
-template <class Make>
-auto named(const std::string& what, Make make) {
-  try {
-    return make();
-  } catch (const GeometryError& error) {
-    throw GeometryError(what + ": " + error.what());
-  }
-}
 
 /// Ring fixed, sun driving: Willis with standing ratio -z_r / z_s.
 OperatingPoint operate(const StageInput& stage, const geometry::PlanetarySet& set) {
@@ -58,13 +47,13 @@ double outside_radius(const Scene& scene, const RingInput& ring) {
 
 GearGeometry make_geometry(const Scene& scene) {
   using geometry::GearKind;
-  const auto sun = named("sun", [&] { return make_gear(scene, scene.sun, GearKind::external, -1); });
-  const auto planet = named("planet", [&] { return make_gear(scene, scene.planet, GearKind::external); });
+  const auto sun = geometry_of("sun", [&] { return make_gear(scene, scene.sun, GearKind::external, -1); });
+  const auto planet = geometry_of("planet", [&] { return make_gear(scene, scene.planet, GearKind::external); });
   GearGeometry result;
   for (const auto& input : scene.rings) {
     const std::string name = "ring '" + input.name + "'";
-    const auto ring = named(name, [&] { return make_gear(scene, input, GearKind::internal); });
-    const auto set = named(name, [&] {
+    const auto ring = geometry_of(name, [&] { return make_gear(scene, input, GearKind::internal); });
+    const auto set = geometry_of(name, [&] {
       const auto& stage = scene.stage;
       if (stage.planet_angles.empty())
         return geometry::PlanetarySet(sun, planet, ring, stage.centre_distance, stage.planets);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/scene/scene.h"
+#include "core/errors.h"
 #include "geometry/planetary.h"
 
 namespace annulus::app {
@@ -32,6 +33,16 @@ struct GearGeometry {
 
   [[nodiscard]] const geometry::GearPair& sun_mesh() const { return rings.front().set.sun_mesh(); }
 };
+
+/// What `make` returns; its GeometryError is thrown with the name of what cannot be made in front.
+template <class Make>
+auto geometry_of(const std::string& name, Make make) {
+  try {
+    return make();
+  } catch (const GeometryError& error) {
+    throw GeometryError(name + ": " + error.what());
+  }
+}
 
 /// A gear of the scene. `hand`: 1 for the hand of stage.helix_angle_deg, -1 for the other.
 [[nodiscard]] geometry::Gear make_gear(const Scene& scene, const GearInput& input, geometry::GearKind kind,

@@ -1,6 +1,39 @@
 #include "app/plan/plan.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+
 namespace annulus::app {
+
+Quantity quantity(std::string key, double value, std::string meaning) {
+  static constexpr struct {
+    const char *ending, *unit;
+    double si;
+  } units_of_keys[] = {{"_mm", "mm", units::mm},         {"_um", "µm", units::um}, {"_deg", "°", units::deg},
+                       {"_rpm", "r/min", units::rpm},    {"_Hz", "Hz", 1},         {"_N", "N", 1},
+                       {"_kN", "kN", 1e3},               {"_Nm", "N m", 1},        {"_N_m", "N m", 1},
+                       {"_cycles", "mesh cycles", 1},    {"_N_per_m", "N/m", 1}};
+  for (const auto& [ending, unit, si] : units_of_keys)
+    if (key.ends_with(ending)) return {std::move(key), value / si, unit, std::move(meaning)};
+  return {std::move(key), value, "", std::move(meaning)};
+}
+
+DofPlan supported_dof(std::string name, const std::string& support, double given, double effective, const char* unit) {
+  const bool kept = std::isfinite(effective);
+  if (!std::isfinite(given)) return {std::move(name), kept, fmt::format("rigid {}: dropped", support)};
+  if (given == 0) return {std::move(name), kept, fmt::format("no {}: free to move", support)};
+  return {std::move(name), kept,
+          fmt::format("{} of {} {}{}", support, to_text(given), unit,
+                      kept ? "" : " gives way by less than a thousandth of the accuracy: dropped")};
+}
+
+bool Plan::computes() const {
+  return std::any_of(meshes.begin(), meshes.end(), [](const MeshModel& mesh) { return mesh.computed(); });
+}
 
 long Plan::contact_problems() const {
   long count = 0;
@@ -10,6 +43,40 @@ long Plan::contact_problems() const {
         (static_cast<long>(mesh.positions) * mesh.problem->phases + 1) * static_cast<long>(mesh.problem->loads.size());
   }
   return count;
+}
+
+void add_diameters(std::vector<DerivedInput>& list, const std::string& table, const geometry::Gear& gear,
+                   const std::string& ring) {
+  list.push_back({table + ".tip_diameter_mm", ring, 2 * gear.tip_radius() / units::mm});
+  list.push_back({table + ".root_diameter_mm", ring, 2 * gear.root_radius() / units::mm});
+}
+
+std::vector<Input> resolved_inputs(const Scene& scene, const std::vector<DerivedInput>& derived) {
+  std::vector<Input> list;
+  for (const auto& input : scene.inputs) {
+    if (!std::holds_alternative<std::monostate>(input.value)) {
+      list.push_back(input);
+      continue;
+    }
+    const auto found = std::find_if(derived.begin(), derived.end(), [&](const DerivedInput& d) {
+      return d.key == input.key && d.ring == input.ring;
+    });
+    if (found == derived.end()) continue;
+    list.push_back(input);
+    list.back().value = found->value;
+    list.back().origin = Origin::derived;
+    if (!found->note.empty()) list.back().note = found->note;
+  }
+  return list;
+}
+
+void remark_backlash(std::vector<std::string>& remarks, double half_backlash, const geometry::GearPair& pair,
+                     const std::string& where) {
+  const double half = pair.normal_backlash() / 2;
+  if (half_backlash > half + 1 * units::um)
+    remarks.push_back(fmt::format("The dynamics uses the prescribed half backlash of {} µm; the geometry leaves {} µm{}.",
+                                  to_text(half_backlash / units::um, 4),
+                                  to_text(std::round(1e3 * half / units::um) / 1e3, 3), where));
 }
 
 }  // namespace annulus::app

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/plan/cost_plan.h"
 #include "app/plan/mesh_model.h"
-#include "app/plan/study_plan.h"
 #include "app/scene/scene.h"
 
 namespace annulus::app {
@@ -17,6 +17,8 @@ struct Quantity {
   std::string unit;     ///< for people: "°"
   std::string meaning;  ///< what it is, and from what it follows
 };
+/// A quantity in the unit that its key ends with ("_mm", "_deg", "_rpm" ...; none otherwise). `value`: SI.
+[[nodiscard]] Quantity quantity(std::string key, double value, std::string meaning);
 
 /// A DOF of the lumped model, or a group of equal ones.
 struct DofPlan {
@@ -24,6 +26,10 @@ struct DofPlan {
   bool kept = true;
   std::string reason;
 };
+/// A DOF that stands on a support ("axial bearing") of stiffness `given`, and is dropped where that counts as rigid:
+/// `effective` is infinite (stiff_supports.h).
+[[nodiscard]] DofPlan supported_dof(std::string name, const std::string& support, double given, double effective,
+                                    const char* unit = "N/m");
 
 /// What will be modelled and why; made without computing anything elastic.
 struct Plan {
@@ -39,9 +45,26 @@ struct Plan {
   PlanCost cost{};                   ///< predicted; empty when there is nothing to compute
   std::string budget{};              ///< what is chosen for a budget; empty without one
 
+  [[nodiscard]] bool computes() const;  ///< whether a stiffness is solved
   /// Contact problems per level of resolution: positions x phases x loads, closure included, over all computed meshes.
   [[nodiscard]] long contact_problems() const;
 };
+
+/// The value of an absent input that follows from others.
+struct DerivedInput {
+  std::string key, ring;
+  double value = 0;    ///< in the unit of the key
+  std::string note{};  ///< how; empty: what the schema notes
+};
+/// Tip and root diameter of the gear in a table of the scene ("sun", "ring").
+void add_diameters(std::vector<DerivedInput>& list, const std::string& table, const geometry::Gear& gear,
+                   const std::string& ring = "");
+/// The inputs of a scene that have a value, those that are derived among them.
+[[nodiscard]] std::vector<Input> resolved_inputs(const Scene& scene, const std::vector<DerivedInput>& derived);
+
+/// Remarks where the half backlash of the dynamics (m) is larger than half of what the geometry leaves.
+void remark_backlash(std::vector<std::string>& remarks, double half_backlash, const geometry::GearPair& pair,
+                     const std::string& where = "");
 
 [[nodiscard]] std::string to_text(const Plan& plan);
 [[nodiscard]] std::string to_json(const Plan& plan);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "app/plan/plan.h"
 #include "app/results/content_id.h"
@@ -9,6 +10,18 @@
 #include "core/json.h"
 
 namespace annulus::app {
+
+static void to_json(Json& json, const Decision& d) {
+  json = {{"what", d.what}, {"choice", d.choice}, {"reason", d.reason}};
+}
+static void to_json(Json& json, const DofPlan& d) { json = {{"name", d.name}, {"kept", d.kept}, {"reason", d.reason}}; }
+static void to_json(Json& json, const StudyPlan& s) {
+  json = {{"name", s.name},
+          {"what", s.what},
+          {"responses", s.responses},
+          {"stiffness_tables", s.tables},
+          {"seconds_on_one_core", s.seconds}};
+}
 
 namespace {
 
@@ -34,12 +47,6 @@ std::string decision_lines(const std::vector<Decision>& list) {
   return text;
 }
 
-Json decisions_json(const std::vector<Decision>& list) {
-  Json json = Json::array();
-  for (const auto& d : list) json.push_back({{"what", d.what}, {"choice", d.choice}, {"reason", d.reason}});
-  return json;
-}
-
 Json quantities_json(const std::vector<Quantity>& quantities) {
   Json json = Json::object();
   for (const auto& q : quantities) json[q.key] = q.value;
@@ -47,36 +54,36 @@ Json quantities_json(const std::vector<Quantity>& quantities) {
 }
 
 std::string cost_lines(const Plan& plan) {
-  if (plan.cost.empty()) return "";
   const auto& cost = plan.cost;
+  if (cost.empty()) return "";
   std::string text = fmt::format("\nPredicted cost on {} thread{}\n", cost.threads, cost.threads == 1 ? "" : "s");
   for (const auto& step : cost.steps) {
     text += "  " + pad(step.label, 34) + fmt::format("{:>10}", duration_text(step.predicted.seconds));
-    text += step.kind == CostKind::mesh || step.kind == CostKind::response
-                ? fmt::format("{:>11}", memory_text(step.predicted.peak_MB))
-                : "";
+    if (step.kind == CostKind::mesh || step.kind == CostKind::response)
+      text += fmt::format("{:>11}", memory_text(step.predicted.peak_MB));
     if (step.kind == CostKind::mesh && step.size.unknowns > 0)
       text += fmt::format(
           "   level {}, about {:.0f} thousand unknowns, expected error {}", step.size.level, step.size.unknowns / 1e3,
           std::isfinite(step.expected_error) ? fmt::format("{:.2g} %", 100 * step.expected_error) : "not known");
     // Known before minutes are spent on a result that is refused in the end.
-    if (step.kind == CostKind::mesh && !plan.meshes.empty() && !plan.meshes.front().settings.level &&
-        step.expected_error > plan.meshes.front().settings.accuracy)
-      text += fmt::format(", more than the {:g} % asked: the run may be refused at the end",
-                          100 * plan.meshes.front().settings.accuracy);
+    const auto& settings = plan.meshes.front().settings;
+    if (step.kind == CostKind::mesh && !settings.level && step.expected_error > settings.accuracy)
+      text += fmt::format(", more than the {:g} % asked: the run may be refused at the end", 100 * settings.accuracy);
     text += "\n";
   }
   text += "  " + pad("in all", 34) +
           fmt::format("{:>10}{:>11}\n", duration_text(cost.seconds()), memory_text(cost.peak_MB()));
+  if (cost.pace != 1)
+    text += fmt::format(
+        "  Times are {:.2g} times those of the cost laws: the pace of this machine. --budget and --max-time use the "
+        "laws.\n",
+        cost.pace);
   return plan.budget.empty() ? text : text + "  " + plan.budget + "\n";
 }
 
-}  // namespace
-
-std::string to_text(const Plan& plan) {
-  std::string text = plan.title + "\n\nInputs (origin: scene, default, derived; * assumed)\n";
-  std::string ring;
-  for (const auto& input : plan.inputs) {
+std::string input_lines(const std::vector<Input>& inputs) {
+  std::string text, ring;
+  for (const auto& input : inputs) {
     if (!input.ring.empty() && input.ring != ring) text += "  ring '" + input.ring + "'\n";
     ring = input.ring;
     text += "  " + pad(input.key, 40) + pad(to_text(input.value) + " " + input.unit, 30) +
@@ -84,6 +91,23 @@ std::string to_text(const Plan& plan) {
     if (input.origin != Origin::scene && !input.note.empty()) text += " (" + input.note + ")";
     text += "\n";
   }
+  return text;
+}
+
+/// Those of several rings once.
+std::string assumed_lines(const std::vector<Input>& inputs) {
+  std::string text;
+  std::set<std::string> seen;
+  for (const auto& input : inputs)
+    if (!input.assumed.empty() && seen.insert(input.key).second) text += "  " + input.key + ": " + input.assumed + "\n";
+  return text.empty() ? text : "\nAssumed inputs, and why\n" + text;
+}
+
+}  // namespace
+
+std::string to_text(const Plan& plan) {
+  std::string text =
+      plan.title + "\n\nInputs (origin: scene, default, derived; * assumed)\n" + input_lines(plan.inputs);
   text += "\nDerived\n" + quantity_lines(plan.quantities);
   for (const auto& [name, quantities] : plan.rings) text += "  ring '" + name + "'\n" + quantity_lines(quantities);
 
@@ -105,16 +129,7 @@ std::string to_text(const Plan& plan) {
 
   text += "\nRemarks\n";
   for (const auto& remark : plan.remarks) text += "  " + remark + "\n";
-
-  std::string assumed, last;
-  for (const auto& input : plan.inputs) {
-    if (input.assumed.empty() || input.key + input.assumed == last) continue;
-    last = input.key + input.assumed;
-    if (assumed.find("  " + input.key + ": ") != std::string::npos) continue;  // the same for several rings
-    assumed += "  " + input.key + ": " + input.assumed + "\n";
-  }
-  if (!assumed.empty()) text += "\nAssumed inputs, and why\n" + assumed;
-  return text;
+  return text + assumed_lines(plan.inputs);
 }
 
 std::string to_json(const Plan& plan) {
@@ -127,7 +142,7 @@ std::string to_json(const Plan& plan) {
   for (const auto& mesh : plan.meshes) {
     Json item = {{"mesh", mesh.mesh}, {"model", mesh.fidelity}, {"reason", mesh.reason}};
     if (!mesh.ring.empty()) item["ring"] = mesh.ring;
-    item["decisions"] = decisions_json(decisions(mesh));
+    item["decisions"] = decisions(mesh);
     if (mesh.computed()) {
       item["phases"] = mesh.problem->phases;
       item["ring_positions"] = mesh.positions;
@@ -141,16 +156,9 @@ std::string to_json(const Plan& plan) {
     }
     json["meshes"].push_back(std::move(item));
   }
-  json["motion"] = decisions_json(plan.motion);
-  json["degrees_of_freedom"] = Json::array();
-  for (const auto& f : plan.dofs)
-    json["degrees_of_freedom"].push_back({{"name", f.name}, {"kept", f.kept}, {"reason", f.reason}});
-  for (const auto& s : plan.studies)
-    json["studies"].push_back({{"name", s.name},
-                               {"what", s.what},
-                               {"responses", s.responses},
-                               {"stiffness_tables", s.tables},
-                               {"seconds_on_one_core", s.seconds}});
+  json["motion"] = plan.motion;
+  json["degrees_of_freedom"] = plan.dofs;
+  if (!plan.studies.empty()) json["studies"] = plan.studies;
   json["remarks"] = plan.remarks;
   json["contact_problems"] = plan.contact_problems();
   if (plan.cost.empty()) return json.dump(2) + "\n";

@@ -19,7 +19,6 @@ struct Task {
   double support_radius;
   GearBodyOptions options;
   GearBody body{};
-  double seconds = 0, saved_seconds = 0;  // taken, and spared by a tooth from the store
   bool reused = false;
 };
 
@@ -42,24 +41,10 @@ void condense_all(const std::vector<Task*>& tasks, const Material& material, int
   // The first two take nearly all of the time: all at once, so that neither waits for a small one.
   for_each_task(tasks.size(), threads > 1 ? static_cast<int>(tasks.size()) : 1, [&](std::size_t i) {
     auto& t = *tasks[i];
-    const Stopwatch watch;
     CondensedTooth tooth = condense_tooth(t.mesh, *t.profile, t.support_radius, material, t.options);
     t.reused = tooth.reused;
-    if (t.reused) t.saved_seconds = std::max(0.0, tooth.seconds - watch.seconds());
     t.body = compose_body(std::move(tooth), t.options);
-    t.seconds = watch.seconds();
   });
-}
-
-/// What the reused teeth saved of the time of condense_all.
-double saved_seconds(const std::vector<Task*>& tasks, int threads) {
-  double with = 0, without = 0;
-  for (const auto* t : tasks) {
-    const double own = t->seconds, fresh = t->seconds + t->saved_seconds;
-    with = threads > 1 ? std::max(with, own) : with + own;
-    without = threads > 1 ? std::max(without, fresh) : without + fresh;
-  }
-  return without - with;
 }
 
 /// Meshes the bodies of a level.
@@ -151,7 +136,6 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   const auto tasks = all_tasks(planet, wheel);
   condense_all(tasks, problem.material, settings.threads);
   for (const auto* task : tasks) ++(task->reused ? bodies.reused_teeth : bodies.condensed_teeth);
-  bodies.saved_seconds = saved_seconds(tasks, settings.threads);
   bodies.face = face;
   bodies.slice_edges = face.edges(solid ? slices_per_cell(problem, settings.degree) * counts.face_cells : 1);
   bodies.unknowns = planet.body.body.unknowns + wheel.body.body.unknowns;

@@ -16,7 +16,6 @@ SolveCost& SolveCost::operator+=(const SolveCost& other) {
   mesh_seconds += other.mesh_seconds;
   condense_seconds += other.condense_seconds;
   contact_seconds += other.contact_seconds;
-  saved_seconds += other.saved_seconds;
   condensed_teeth += other.condensed_teeth;
   reused_teeth += other.reused_teeth;
   return *this;

@@ -97,10 +97,10 @@ struct SolvedBodies {
   std::vector<BodyField> fields{};  ///< of both bodies, if wanted, where the wheel's root is stressed most
 };
 
-/// Wall time of a solve and its tooth superelements.
+/// Time of a solve and its tooth superelements.
 struct SolveCost {
-  double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0;
-  double saved_seconds = 0;                   ///< that condense_seconds would be longer without the store
+  double mesh_seconds = 0, condense_seconds = 0, contact_seconds = 0;  ///< wall
+  double processor_seconds = 0;               ///< of all threads of the process, over the whole solve
   int condensed_teeth = 0, reused_teeth = 0;  ///< made, and read from the store; none by resolved models
 
   SolveCost& operator+=(const SolveCost& other);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/model/gear_system.h"
+#include "app/plan/plan.h"
 #include "app/scene/scene_schema.h"
 #include "app/study/studies.h"
 #include "core/errors.h"
@@ -44,7 +45,7 @@ Outcome outcome_of(const std::string& text) {
     try {
       app::check_stage(scene);
       app::check_studies(scene);
-      (void)app::plan_scene(scene, app::PlanFormat::text);
+      (void)app::to_text(app::make_plan(scene));
       return {};
     } catch (const InputError& error) {
       return {error.what()};

@@ -1,4 +1,4 @@
-#include "app/model/cost_budget.h"
+#include "app/model/run_limits.h"
 #include "app/run/pipeline.h"
 #include "app/scene/overrides.h"
 #include "app/systems/planetary/planetary_model.h"
@@ -13,6 +13,7 @@
 #include "app/model/cost_actual.h"
 #include "app/model/gear_system.h"
 #include "app/plan/plan.h"
+#include "app/scene/overrides.h"
 #include "core/files.h"
 #include "tests/app/pair_scenes.h"
 #include "tests/app/run_program.h"
@@ -36,9 +37,7 @@ test::ProgramOutcome program_with_cache(const std::filesystem::path& folder, con
   return test::run_program(folder, arguments, "ANNULUS_CACHE='" + (folder / "cache").string() + "'");
 }
 
-app::BudgetChoice fitted(const app::Scene& scene, double budget) {
-  return app::fit_budget(scene, budget, 2, app::CostModel(app::kept_cost_runs()));
-}
+app::BudgetChoice fitted(const app::Scene& scene, double budget) { return app::fit_budget(scene, budget, 2); }
 
 }  // namespace
 
@@ -88,9 +87,6 @@ BOOST_AUTO_TEST_CASE(a_budget_too_small_is_refused_with_the_figures) {
     return text.find("within 10 %") != std::string::npos && text.find(" MB") != std::string::npos &&
            text.find("budget of 0.1 s") != std::string::npos;
   });
-  BOOST_CHECK_EXCEPTION(
-      (void)app::fit_budget(scene, 1e6, 2, app::CostModel({})), SolverError,
-      [](const SolverError& e) { return std::string(e.what()).find("not known") != std::string::npos; });
   // Nothing to refine: the scene stays as it is, or is refused.
   const auto given = app::parse_scene(test::quick_scene(), "s.toml");
   BOOST_TEST(fitted(given, 1e4).scene.accuracy == given.accuracy);
@@ -100,7 +96,7 @@ BOOST_AUTO_TEST_CASE(a_budget_too_small_is_refused_with_the_figures) {
 BOOST_AUTO_TEST_CASE(every_kind_and_fidelity_has_a_budget) {
   for (const auto& text : {computed_scene("model = \"resolved\"\n"), test::solved_pair(), test::reducer_scene()}) {
     const auto scene = app::parse_scene(text, "s.toml");
-    const auto cost = app::make_system(scene)->cost(2, app::CostModel(app::kept_cost_runs()));
+    const auto cost = app::make_system(scene)->cost(2);
     BOOST_TEST(cost.seconds() > 0);
     BOOST_TEST(cost.peak_MB() > 100);
     const auto choice = fitted(scene, 1e6);
@@ -115,7 +111,7 @@ BOOST_AUTO_TEST_CASE(every_kind_and_fidelity_has_a_budget) {
   // The same accuracy costs many times as much where every contact has a mesh of its own.
   const auto seconds = [](const std::string& top) {
     const auto scene = app::parse_scene(computed_scene(top), "s.toml");
-    return app::make_system(scene)->cost(2, app::CostModel(app::kept_cost_runs())).seconds();
+    return app::make_system(scene)->cost(2).seconds();
   };
   BOOST_TEST(seconds("model = \"resolved\"\naccuracy = 0.01\n") > 10 * seconds("model = \"plane\"\naccuracy = 0.01\n"));
 }
@@ -161,10 +157,10 @@ BOOST_AUTO_TEST_CASE(the_plan_tells_time_and_memory) {
 BOOST_AUTO_TEST_CASE(plans_of_all_kinds_tell_time_and_memory) {
   for (const auto* name : {"helical_pair", "helical_pair_solid", "arc_tooth_2kv", "helical_set", "misaligned_set"}) {
     const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/" + name + ".toml");
-    const auto json = nlohmann::json::parse(app::plan_scene(scene, app::PlanFormat::json, 2));
+    const auto json = nlohmann::json::parse(app::to_json(app::make_plan(scene, 2)));
     BOOST_TEST(json["predicted_s"].is_number(), name);
     BOOST_TEST(json["predicted_peak_MB"].is_number(), name);
-    BOOST_TEST(app::plan_scene(scene, app::PlanFormat::text, 2).find("not known") == std::string::npos, name);
+    BOOST_TEST(app::to_text(app::make_plan(scene, 2)).find("not known") == std::string::npos, name);
   }
 }
 
@@ -201,8 +197,9 @@ BOOST_AUTO_TEST_CASE(predicted_and_actual_of_small_scenes) {
     BOOST_TEST(json["cost"]["actual_s"].get<double>() > 0);
     BOOST_TEST(json["cost"]["steps"].size() == result.cost.steps.size());
     for (const auto& step : result.cost.steps) {
-      BOOST_TEST(step.actual->kind == step.size.kind);
-      if (step.size.kind == "plane") BOOST_TEST(step.actual->level == step.size.level);
+      BOOST_CHECK(step.actual->work == step.size.work);
+      BOOST_TEST((step.actual->processor_s > 0) == (step.kind == app::CostKind::mesh));
+      if (step.size.work == app::Work::plane) BOOST_TEST(step.actual->level == step.size.level);
     }
     BOOST_TEST(read_file(options.out / "report.html").find("as predicted before the run") != std::string::npos);
     // All is reused: nothing to compare.
@@ -229,18 +226,22 @@ BOOST_AUTO_TEST_CASE(progress_of_a_solve_rises_from_nothing_to_all) {
   BOOST_TEST(fractions.front() < 0.31);
 }
 
-BOOST_AUTO_TEST_CASE(the_program_keeps_costs_and_budgets) {
+BOOST_AUTO_TEST_CASE(the_program_learns_its_pace_and_keeps_budgets) {
   const test::TemporaryFolder folder("budget_program");
   write_file(folder.path() / "s.toml", computed_scene("model = \"closed_form\"\n"));
+  write_file(folder.path() / "c.toml", computed_scene());
+  const auto pace = folder.path() / "cache" / "pace.json";
   const auto first = program_with_cache(folder.path(), "run s.toml -q -o out");
   BOOST_TEST(first.status == 0, first.err);
   BOOST_TEST(first.out.find("cost    predicted ") != std::string::npos);
-  const auto costs = app::read_user_costs(folder.path() / "cache" / "costs.csv");
-  BOOST_TEST(costs.size() == 3U);  // two meshes, one response
-  BOOST_TEST(program_with_cache(folder.path(), "run s.toml -q -o out").status == 0);
-  BOOST_TEST(app::read_user_costs(folder.path() / "cache" / "costs.csv").size() == 3U);
+  BOOST_TEST(!std::filesystem::exists(pace));  // formulas are over before their time says anything
+  const auto before = program_with_cache(folder.path(), "plan c.toml --json --budget 1h");
+  BOOST_TEST(program_with_cache(folder.path(), "run c.toml -q -o solved").status == 0);
+  BOOST_REQUIRE(std::filesystem::exists(pace));
+  const auto learned = read_file(pace);
+  BOOST_TEST(program_with_cache(folder.path(), "run c.toml -q -o solved").status == 0);
+  BOOST_TEST(read_file(pace) == learned);  // all was reused
 
-  write_file(folder.path() / "c.toml", computed_scene());
   for (const auto* command : {"run", "plan"}) {
     const auto bad = program_with_cache(folder.path(), std::string(command) + " c.toml --budget soon");
     BOOST_TEST(bad.status == 2);
@@ -254,6 +255,7 @@ BOOST_AUTO_TEST_CASE(the_program_keeps_costs_and_budgets) {
   const auto plan = program_with_cache(folder.path(), "plan c.toml --json --budget 1h");
   BOOST_REQUIRE(plan.status == 0);
   const auto json = nlohmann::json::parse(plan.out);
+  BOOST_TEST(json["budget"] == nlohmann::json::parse(before.out)["budget"]);
   BOOST_TEST(json["predicted_s"].get<double>() < 3600);
   BOOST_TEST(json["budget"].get<std::string>().find("within 0.1 %") != std::string::npos);
 }

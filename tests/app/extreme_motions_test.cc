@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "app/model/gear_system.h"
-#include "app/plan/cost_model.h"
 #include "core/files.h"
 #include "tests/app/pair_scenes.h"
 #include "tests/app/run_program.h"
@@ -438,7 +437,7 @@ BOOST_AUTO_TEST_CASE(reducers) {
 BOOST_AUTO_TEST_CASE(the_cost_of_a_million_mesh_cycles_is_foreseen) {
   const auto cost = [](const std::string& text) {
     const auto scene = app::parse_scene(text, "scene.toml");
-    return app::make_system(scene)->cost(1, app::CostModel::of_this_machine());
+    return app::make_system(scene)->cost(1);
   };
   const std::string sweep = "[[sweep]]\ninput = \"stage.power_kW\"\nfrom = 1000\nto = 2000\ncount = 50\n";
   const auto some = changed(quick(), {{"dynamics.mesh_cycles", "100000"}}),

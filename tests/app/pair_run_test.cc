@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/model/gear_system.h"
+#include "app/plan/plan.h"
 #include "app/study/studies.h"
 #include "core/files.h"
 #include "core/log.h"
@@ -258,8 +259,8 @@ BOOST_AUTO_TEST_CASE(scenes_of_the_paper_are_good) {
   for (const auto* name : {"helical_pair.toml", "helical_pair_solid.toml"}) {
     const auto scene = app::read_scene(std::filesystem::path(ANNULUS_SOURCE_DIR) / "data/scenes" / name);
     app::check_stage(scene);
-    BOOST_TEST(app::plan_scene(scene, app::PlanFormat::text).find("pinion y") != std::string::npos);
-    BOOST_TEST(nlohmann::json::parse(app::plan_scene(scene, app::PlanFormat::json))["degrees_of_freedom"].size() == 6U);
+    BOOST_TEST(app::to_text(app::make_plan(scene)).find("pinion y") != std::string::npos);
+    BOOST_TEST(nlohmann::json::parse(app::to_json(app::make_plan(scene)))["degrees_of_freedom"].size() == 6U);
     BOOST_CHECK_NO_THROW(app::check_studies(scene));
   }
 }

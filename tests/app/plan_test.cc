@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "app/plan/cost_model.h"
 #include "app/plan/cost_plan.h"
 #include "app/scene/overrides.h"
 #include "app/systems/planetary/planetary_model.h"
@@ -143,11 +142,10 @@ BOOST_AUTO_TEST_CASE(solid_meshes_tell_what_of_the_face_they_solve) {
   half_face.settings.degree = whole.settings.degree = 2;
   whole.settings.symmetry = false;
   BOOST_TEST(symmetry(whole).choice == "whole face");
-  const app::CostModel costs(app::kept_cost_runs());
-  const auto half_size = app::mesh_size(half_face, 1, costs), whole_size = app::mesh_size(whole, 1, costs);
+  const auto half_size = app::mesh_size(half_face), whole_size = app::mesh_size(whole);
   // Of 8 quadratic cells: 9 of 17 layers of nodes, the last one without axial DOFs.
   BOOST_TEST(half_size.unknowns / whole_size.unknowns == 26.0 / 51, boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(costs.predict(half_size).seconds < costs.predict(whole_size).seconds);
+  BOOST_TEST(app::processor_seconds(half_size) < app::processor_seconds(whole_size));
 }
 
 BOOST_AUTO_TEST_CASE(more_than_the_finest_solid_gives_is_told_beforehand) {
@@ -310,11 +308,10 @@ BOOST_AUTO_TEST_CASE(helical_sets_are_solid) {
 BOOST_AUTO_TEST_CASE(linear_helical_solids_do_down_to_three_per_cent) {
   auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/helical_set.toml");
   const auto geometry = app::make_geometry(scene);
-  const app::CostModel costs(app::kept_cost_runs());
   for (const auto& [accuracy, degree, level] :
        {std::tuple{0.1, 1, 1}, std::tuple{0.03, 1, 1}, std::tuple{0.01, 2, 1}}) {
     scene.accuracy = accuracy;
-    const auto size = app::mesh_size(app::sun_mesh_model(scene, geometry), 1, costs);
+    const auto size = app::mesh_size(app::sun_mesh_model(scene, geometry));
     BOOST_TEST(size.degree == degree);
     BOOST_TEST(size.level == level);
   }

@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(a_scene_is_read_checked_and_planned) {
   BOOST_TEST(registered);
   const auto scene = app::parse_scene(scene_text(), "scene.toml");
   BOOST_TEST(app::make_system(scene)->describe() == "torsional pair, 24 and 36 teeth");
-  const auto plan = app::plan_scene(scene, app::PlanFormat::text);
+  const auto plan = app::to_text(app::make_plan(scene));
   for (const auto* part : {"mesh force along the line of action", "pinion u"})
     BOOST_TEST(plan.find(part) != std::string::npos, part);
   // New scenes, keys of its own and their refusal come from its tables alone.

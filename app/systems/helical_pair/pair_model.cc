@@ -14,11 +14,7 @@ namespace annulus::app {
 namespace {
 
 geometry::Gear pair_gear(const Scene& scene, const PairGearInput& input, const char* name, int hand) {
-  try {
-    return make_gear(scene, input, geometry::GearKind::external, hand);
-  } catch (const GeometryError& error) {
-    throw GeometryError(std::string(name) + ": " + error.what());
-  }
+  return geometry_of(name, [&] { return make_gear(scene, input, geometry::GearKind::external, hand); });
 }
 
 dynamics::PairGear lumped_gear(const Scene& scene, const PairGearInput& input, const geometry::Gear& gear, double error,
@@ -69,14 +65,10 @@ PairGeometry make_pair_geometry(const Scene& scene) {
   const auto pinion = pair_gear(scene, scene.pinion, "pinion", 1);
   const auto wheel = pair_gear(scene, scene.wheel, "wheel", -1);
   const double distance = pair_centre_distance(scene);
-  try {
-    PairGeometry geometry{geometry::GearPair(pinion, wheel, distance)};
-    geometry.base_helix_angle = std::abs(pinion.base_helix_angle());
-    geometry.transverse_force = std::abs(scene.stage.pinion_torque) / pinion.base_radius();
-    return geometry;
-  } catch (const GeometryError& error) {
-    throw GeometryError(std::string("pinion (as planet) and wheel: ") + error.what());
-  }
+  return {
+      .gears = geometry_of("pinion (as planet) and wheel", [&] { return geometry::GearPair(pinion, wheel, distance); }),
+      .base_helix_angle = std::abs(pinion.base_helix_angle()),
+      .transverse_force = std::abs(scene.stage.pinion_torque) / pinion.base_radius()};
 }
 
 dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry, const dynamics::MeshExcitation& mesh,

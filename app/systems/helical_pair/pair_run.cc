@@ -177,13 +177,6 @@ void save_shares(const std::vector<ShareRow>& rows, const std::filesystem::path&
 
 }  // namespace
 
-double pair_seconds(const Scene& scene) {
-  // Measured: 4 ms at the ends of a torque and speed grid, some tens where the teeth part; a wave once per turn makes
-  // the window longer.
-  const bool turns = scene.errors.pinion_error != 0 || scene.errors.wheel_error != 0;
-  return (turns ? 0.5 : 0.02) + (scene.dynamics->mesh_cycles ? pair_integration_seconds(scene) : 0);
-}
-
 PairRunResult::PairRunResult(const Scene& of) : geometry(make_pair_geometry(of)) { scene = of; }
 
 void PairRunResult::solve_meshes(const RunOptions& options) {

@@ -76,14 +76,9 @@ struct PairRunResult final : SystemRun {
 /// The results of a pair: those of its mesh, then those of its lumped model.
 [[nodiscard]] const std::vector<FigureSpec>& pair_run_figures();
 
-/// Rough wall time of one response on one core, s.
-[[nodiscard]] double pair_seconds(const Scene& scene);
-/// Time integration of one response: of `mesh_cycles`, else of the window that confirms it.
-[[nodiscard]] double pair_integration_seconds(const Scene& scene);
-
-/// What a plan says of a pair (pair_plan.cc).
+/// What a plan reports of a pair (pair_plan.cc).
 void describe_pair(const Scene& scene, const PairGeometry& geometry, Plan& plan);
-/// The responses of a run, as one step: the scene's own, and those that part the transmission error by its causes.
-[[nodiscard]] std::vector<PlannedResponse> pair_responses(const Scene& scene, int threads);
+/// The responses of a run, as one step: the scene's own, and those that divide the transmission error by its causes.
+[[nodiscard]] std::vector<PlannedResponse> pair_responses(const Scene& scene);
 
 }  // namespace annulus::app

@@ -41,11 +41,7 @@ class PairSystem final : public GearSystem {
     return pair_lumped_model(scene(), geometry, pair_mesh(scene(), geometry, std::move(mesh)));
   }
 
-  [[nodiscard]] std::vector<PlannedResponse> responses(int threads) const override {
-    return pair_responses(scene(), threads);
-  }
-
-  [[nodiscard]] double response_seconds() const override { return pair_seconds(scene()); }
+  [[nodiscard]] std::vector<PlannedResponse> responses() const override { return pair_responses(scene()); }
 
   [[nodiscard]] std::unique_ptr<SystemRun> run() const override { return std::make_unique<PairRunResult>(scene()); }
 

@@ -1,10 +1,9 @@
-#include "app/systems/planetary/motion_plan.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "app/plan/accuracy_choice.h"
+#include "app/systems/planetary/planetary_plan.h"
 #include "app/systems/planetary/rim_coupling.h"
 
 namespace annulus::app {
@@ -13,53 +12,14 @@ namespace {
 
 constexpr const char* asked = "the scene asks for it";
 
-const char* integrator_name(dynamics::Integrator method) {
-  switch (method) {
-    case dynamics::Integrator::automatic:
-      return "Cash-Karp 5(4), BDF or ESDIRK 5(4)";
-    case dynamics::Integrator::arkode_explicit:
-      return "Cash-Karp 5(4)";
-    case dynamics::Integrator::cvode_adams:
-      return "Adams";
-    case dynamics::Integrator::cvode_bdf:
-      return "BDF";
-    case dynamics::Integrator::arkode_implicit:
-      return "ESDIRK 5(4)";
-    case dynamics::Integrator::runge_kutta_4:
-      break;
-  }
-  return "Runge-Kutta 4";
-}
-
-void add_solution(std::vector<Decision>& list, const DynamicsInput& input, const MotionChoice& choice) {
-  if (input.mesh_cycles) {
-    list.push_back({"solution", fmt::format("{} mesh cycles in time", *input.mesh_cycles), asked});
-  } else {
-    list.push_back({"solution", "harmonic balance", "one error period, without integrating its transient in time"});
-    list.push_back(
-        {"confirmation", choice.confirm ? "by time integration" : "where contact is lost", choice.confirm_reason});
-  }
-  list.push_back({"samples per mesh cycle", std::to_string(choice.samples_per_cycle), choice.samples_reason});
-}
-
-void add_integrator(std::vector<Decision>& list, const DynamicsInput& input, const MotionChoice& choice) {
-  list.push_back({"integrator", integrator_name(input.integrator),
-                  input.integrator == dynamics::Integrator::automatic
-                      ? "where time is integrated, the cheaper one for the stiffness ratio and damping found"
-                      : asked});
-  if (input.steps_per_cycle)
-    list.push_back({"steps per mesh cycle", std::to_string(*input.steps_per_cycle), asked});
-  else
-    list.push_back(
-        input.relative_tolerance
-            ? Decision{"tolerance", fmt::format("{:.0e}", *input.relative_tolerance), asked}
-            : Decision{"tolerance", fmt::format("{:.0e}", choice.relative_tolerance), choice.tolerance_reason});
-}
+/// In the order of dynamics::Integrator.
+constexpr const char* integrator_names[] = {
+    "Cash-Karp 5(4), BDF or ESDIRK 5(4)", "Cash-Karp 5(4)", "Adams", "BDF", "Runge-Kutta 4", "ESDIRK 5(4)"};
 
 Decision coupling_decision(const Scene& scene, const std::vector<MeshModel>& meshes) {
   constexpr const char* what = "coupling of the meshes";
   if (std::any_of(meshes.begin(), meshes.end(), [&](const MeshModel& m) { return may_be_coupled(scene, m); }))
-    return {what, "solved", "through the ring; taken where it changes more than the wanted accuracy"};
+    return {what, "solved", "through the ring; applied where it changes more than the wanted accuracy"};
   return {what, "left out",
           scene.dynamics->rim_coupling == RimCoupling::none ? asked : "no ring's elasticity is solved by elements"};
 }
@@ -67,7 +27,7 @@ Decision coupling_decision(const Scene& scene, const std::vector<MeshModel>& mes
 Decision stiffness_decision(const DynamicsInput& input, const std::vector<MeshModel>& meshes) {
   constexpr const char* what = "stiffness law";
   if (std::none_of(meshes.begin(), meshes.end(), [](const MeshModel& m) { return m.computed(); }))
-    return {what, "as given", "no stiffness is computed"};
+    return {what, "as prescribed", "no stiffness is computed"};
   if (input.load_dependence == dynamics::LoadDependence::table)
     return {what, "follows the load", "the tables hold several loads"};
   return {what, "of the nominal load", asked};
@@ -76,11 +36,28 @@ Decision stiffness_decision(const DynamicsInput& input, const std::vector<MeshMo
 }  // namespace
 
 std::vector<Decision> motion_decisions(const Scene& scene, const std::vector<MeshModel>& meshes) {
+  const auto& input = *scene.dynamics;
   const auto choice = motion_choice(scene.accuracy);
   std::vector<Decision> list;
-  add_solution(list, *scene.dynamics, choice);
-  add_integrator(list, *scene.dynamics, choice);
-  list.push_back(stiffness_decision(*scene.dynamics, meshes));
+  const auto add = [&](const char* what, std::string decided, std::string reason) {
+    list.push_back({what, std::move(decided), std::move(reason)});
+  };
+  if (input.mesh_cycles) {
+    add("solution", fmt::format("{} mesh cycles in time", *input.mesh_cycles), asked);
+  } else {
+    add("solution", "harmonic balance", "one error period, without integrating its transient in time");
+    add("confirmation", choice.confirm ? "by time integration" : "where contact is lost", choice.confirm_reason);
+  }
+  add("samples per mesh cycle", std::to_string(choice.samples_per_cycle), choice.samples_reason);
+  const bool automatic = input.integrator == dynamics::Integrator::automatic;
+  add("integrator", integrator_names[static_cast<int>(input.integrator)],
+      automatic ? "where time is integrated, the cheaper one for the stiffness ratio and damping found" : asked);
+  if (input.steps_per_cycle)
+    add("steps per mesh cycle", std::to_string(*input.steps_per_cycle), asked);
+  else
+    add("tolerance", fmt::format("{:.0e}", input.relative_tolerance.value_or(choice.relative_tolerance)),
+        input.relative_tolerance ? asked : choice.tolerance_reason);
+  list.push_back(stiffness_decision(input, meshes));
   list.push_back(coupling_decision(scene, meshes));
   return list;
 }

@@ -7,14 +7,14 @@
 
 namespace annulus::app {
 
-/// What a plan says of a planetary stage.
+/// What a plan reports of a planetary stage.
 void describe_planetary(const Scene& scene, const GearGeometry& geometry, Plan& plan);
 
-// planetary_responses.cc
-/// The responses of a planetary scene, one per ring; empty without [dynamics].
+/// How the motion is found in time, and why so (motion_plan.cc). The scene has [dynamics].
+[[nodiscard]] std::vector<Decision> motion_decisions(const Scene& scene, const std::vector<MeshModel>& meshes);
+
+/// The responses of a planetary scene, one per ring (planetary_responses.cc); empty without [dynamics].
 [[nodiscard]] std::vector<PlannedResponse> planetary_responses(const Scene& scene, const GearGeometry& geometry,
                                                                const std::vector<MeshModel>& meshes);
-/// Wall time of a study's response of all rings on one core, s, rough.
-[[nodiscard]] double planetary_response_seconds(const Scene& scene, const GearGeometry& geometry);
 
 }  // namespace annulus::app

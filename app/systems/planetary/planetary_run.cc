@@ -168,11 +168,8 @@ std::optional<CostRun> RunResult::actual(const CostStep& step) const {
   for (const auto& ring : rings) {
     const auto& coupling = ring.mesh.coupling;
     if (step.kind == CostKind::mesh && step.label == ring.mesh.model.label()) return actual_mesh(step.size, ring.mesh);
-    if (step.kind == CostKind::coupling && step.ring == ring.name && coupling && !coupling->reused) {
-      auto time = actual_time(step.size, coupling->seconds);
-      if (coupling->reused_teeth > 0) time.saved_s = not_known;
-      return time;
-    }
+    if (step.kind == CostKind::coupling && step.ring == ring.name && coupling && !coupling->reused)
+      return actual_time(step.size, coupling->seconds);
     if (step.kind == CostKind::response && step.ring == ring.name && ring.response && !ring.response->reused)
       return actual_time(step.size, ring.response_seconds);
   }

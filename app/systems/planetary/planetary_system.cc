@@ -48,11 +48,9 @@ class PlanetarySystem final : public GearSystem {
     return planetary_model(scene(), geometry(), ring, *tables.front(), *tables.back());
   }
 
-  [[nodiscard]] std::vector<PlannedResponse> responses(int /*threads*/) const override {
+  [[nodiscard]] std::vector<PlannedResponse> responses() const override {
     return planetary_responses(scene(), geometry(), meshes());
   }
-
-  [[nodiscard]] double response_seconds() const override { return planetary_response_seconds(scene(), geometry()); }
 
   [[nodiscard]] bool coupled(const MeshModel& mesh) const override { return may_be_coupled(scene(), mesh); }
 

@@ -15,15 +15,6 @@ namespace annulus::app {
 
 namespace {
 
-template <class Make>
-auto of_gear(const char* what, Make make) {
-  try {
-    return make();
-  } catch (const GeometryError& error) {
-    throw GeometryError(std::string(what) + ": " + error.what());
-  }
-}
-
 bool is_computed(const MeshInput& input) { return input.stiffness == StiffnessShape::computed; }
 
 /// No backlash leaves nothing to part: the mesh is then linear, with forces of either sign.
@@ -37,16 +28,16 @@ std::optional<double> half_backlash(const MeshInput& mesh, const DynamicsInput& 
 
 geometry::GearPair sun_planet_pair(const Scene& scene) {
   using geometry::GearKind;
-  const auto sun = of_gear("sun", [&] { return make_gear(scene, scene.sun, GearKind::external); });
-  const auto planet = of_gear("planet", [&] { return make_gear(scene, scene.planet, GearKind::external); });
+  const auto sun = geometry_of("sun", [&] { return make_gear(scene, scene.sun, GearKind::external); });
+  const auto planet = geometry_of("planet", [&] { return make_gear(scene, scene.planet, GearKind::external); });
   const double distance = scene.stage.module * (scene.sun.teeth + scene.planet.teeth) / 2;
   const double apart = 2 * distance * std::sin(std::numbers::pi / scene.stage.planets);
   if (scene.stage.planets > 1 && apart <= 2 * planet.tip_radius())
-    throw InputError(
-        fmt::format("stage.planets = {}: neighbouring planets foul: their centres are {} mm apart, their tip diameter "
-                    "is {} mm; take fewer",
-                    scene.stage.planets, to_text(apart / units::mm, 5), to_text(2e3 * planet.tip_radius(), 5)));
-  return of_gear("sun and planet", [&] { return geometry::GearPair(planet, sun, distance); });
+    throw InputError(fmt::format(
+        "stage.planets = {}: neighbouring planets interfere: their centres are {} mm apart, their tip diameter "
+        "is {} mm; take fewer",
+        scene.stage.planets, to_text(apart / units::mm, 5), to_text(2e3 * planet.tip_radius(), 5)));
+  return geometry_of("sun and planet", [&] { return geometry::GearPair(planet, sun, distance); });
 }
 
 void check_two_k_v(const Scene& scene) {

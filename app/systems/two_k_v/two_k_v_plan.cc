@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/plan/cost_plan.h"
+#include "app/model/stiff_supports.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "core/units.h"
 #include "dynamics/steady_state/integration_cost.h"
@@ -15,38 +15,36 @@ namespace {
 std::vector<Quantity> two_k_v_quantities(const Scene& scene, const geometry::GearPair& pair) {
   const auto stage = two_k_v_kinematics(scene);
   std::vector<Quantity> list = {
-      {"ratio", stage.ratio(), "", "turns of the input per turn of the output: 1 + (planet teeth / sun teeth) × pins"},
-      {"input_speed_rpm", scene.output.speed * stage.ratio() / units::rpm, "r/min", "speed of the input"},
-      {"input_torque_Nm", scene.output.torque / stage.ratio(), "N m", "torque of the input, without losses"},
-      {"crank_circle_radius_mm", stage.crank_circle_radius() / units::mm, "mm",
-       "from the axis to the cranks: the centre distance of sun and planets"},
-      {"arc_teeth", static_cast<double>(stage.arc_teeth), "", "teeth of an arc gear, one less than pins"},
-      {"crank_frequency_Hz", stage.crank_frequency(), "Hz", "turns of the cranks against the carrier"},
-      {"sun_mesh_frequency_Hz", stage.sun_mesh_frequency(), "Hz", "mesh frequency of sun and planets"},
-      {"arc_mesh_frequency_Hz", stage.arc_mesh_frequency(), "Hz", "mesh frequency of arc teeth and pins"},
-      {"mean_sun_mesh_force_N", stage.mean_sun_mesh_force(), "N",
-       "mean force of each sun mesh, along the line of action"},
-      {"mean_arc_mesh_force_N", stage.mean_arc_mesh_force(), "N",
-       "mean force of each arc mesh, along the tangent of the pitch point"},
-      {"sun_mesh_contact_ratio", pair.contact_ratio(), "", "contact ratio of the sun mesh"},
+      quantity("ratio", stage.ratio(),
+               "turns of the input per turn of the output: 1 + (planet teeth / sun teeth) × pins"),
+      quantity("input_speed_rpm", scene.output.speed * stage.ratio(), "speed of the input"),
+      quantity("input_torque_Nm", scene.output.torque / stage.ratio(), "torque of the input, without losses"),
+      quantity("crank_circle_radius_mm", stage.crank_circle_radius(),
+               "from the axis to the cranks: the centre distance of sun and planets"),
+      quantity("arc_teeth", stage.arc_teeth, "teeth of an arc gear, one less than pins"),
+      quantity("crank_frequency_Hz", stage.crank_frequency(), "turns of the cranks against the carrier"),
+      quantity("sun_mesh_frequency_Hz", stage.sun_mesh_frequency(), "mesh frequency of sun and planets"),
+      quantity("arc_mesh_frequency_Hz", stage.arc_mesh_frequency(), "mesh frequency of arc teeth and pins"),
+      quantity("mean_sun_mesh_force_N", stage.mean_sun_mesh_force(),
+               "mean force of each sun mesh, along the line of action"),
+      quantity("mean_arc_mesh_force_N", stage.mean_arc_mesh_force(),
+               "mean force of each arc mesh, along the tangent of the pitch point"),
+      quantity("sun_mesh_contact_ratio", pair.contact_ratio(), "contact ratio of the sun mesh"),
+      // Of unshifted gears only rounding is left.
       {"sun_mesh_normal_backlash_um", std::round(pair.normal_backlash() / units::um * 1e6) / 1e6, "µm",
        "backlash of the sun mesh along the line of action, from the profile shifts"},
-      {"planet_tip_diameter_mm", 2 * pair.planet().tip_radius() / units::mm, "mm", "planet tip diameter"},
-      {"sun_tip_diameter_mm", 2 * pair.wheel().tip_radius() / units::mm, "mm", "sun tip diameter"},
+      quantity("planet_tip_diameter_mm", 2 * pair.planet().tip_radius(), "planet tip diameter"),
+      quantity("sun_tip_diameter_mm", 2 * pair.wheel().tip_radius(), "sun tip diameter"),
   };
   if (const auto arc = arc_tooth_mesh(scene))
-    list.push_back({"shortening", arc->eccentricity * arc->pins / arc->pin_circle_radius, "",
-                    "eccentricity × pins / radius of the pin circle: where the pitch point lies"});
+    list.push_back(quantity("shortening", arc->eccentricity * arc->pins / arc->pin_circle_radius,
+                            "eccentricity × pins / radius of the pin circle: where the pitch point lies"));
   return list;
 }
 
 std::vector<DofPlan> two_k_v_dofs(const Scene& scene) {
   const auto held = [](const std::string& name, double support) {
-    const bool kept = std::isfinite(support);
-    return DofPlan{name, kept,
-                   !kept          ? "held: dropped"
-                   : support == 0 ? "free to turn: carries the power"
-                                  : fmt::format("torsional support of {} N m/rad", to_text(support))};
+    return supported_dof(name, "torsional support", support, support, "N m/rad");
   };
   const std::string planets = fmt::format("planet 1 ... {}", scene.stage.planets),
                     cranks = fmt::format("crank 1 ... {}", scene.stage.planets),
@@ -63,18 +61,8 @@ std::vector<DofPlan> two_k_v_dofs(const Scene& scene) {
 
 /// The stage with rough stiffness, before anything is solved.
 dynamics::TwoKVStage rough_two_k_v(const Scene& scene) {
-  Scene rough = scene;
-  for (auto* mesh : {&rough.sun_planet, &rough.arc_pins}) {
-    const double mean = rough_stiffness(scene, *mesh);
-    *mesh = {};
-    mesh->stiffness = StiffnessShape::constant;
-    mesh->mean = mean;
-  }
-  const auto none = [](const char* mesh) {
-    return MeshResult{.model = {},
-                      .table = StiffnessTable(mesh, 4, {0.0}, {1.0}, std::vector<StiffnessEntry>(4, {0, 1, 1, 1, 0}))};
-  };
-  return make_two_k_v(rough, {none("sun_planet"), none("arc_pins")}, dynamics::LoadDependence::nominal);
+  return make_two_k_v(with_rough_stiffness(scene, {&Scene::sun_planet, &Scene::arc_pins}),
+                      {unread_table(sun_planet), unread_table(arc_pins)}, dynamics::LoadDependence::nominal);
 }
 
 std::vector<std::string> stiff_parts(const Scene& scene) {
@@ -94,16 +82,14 @@ std::vector<std::string> stiff_parts(const Scene& scene) {
   return list;
 }
 
-std::vector<std::string> two_k_v_remarks(const Scene& scene, const std::vector<MeshModel>& meshes) {
+std::vector<std::string> two_k_v_remarks(const Scene& scene, bool computed) {
   std::vector<std::string> list;
-  bool computed = false;
-  for (const auto& mesh : meshes) computed = computed || mesh.computed();
   if (computed) {
     list.emplace_back("Only the driving flanks are solved; friction is left out.");
-    list.emplace_back("All sun meshes are alike and solved once; each meets its own phase of the table.");
+    list.emplace_back("All sun meshes are equal and solved once; each meets its own phase of the table.");
   }
   if (compared_scene(scene))
-    list.emplace_back("Stiffness that is given is also computed, and everything is answered with both.");
+    list.emplace_back("Prescribed stiffness is also computed, and there are results with both.");
   if (!scene.dynamics) {
     list.emplace_back("No [dynamics]: mesh stiffness only.");
     return list;
@@ -113,10 +99,10 @@ std::vector<std::string> two_k_v_remarks(const Scene& scene, const std::vector<M
       "mesh stiffness is constant.");
   list.emplace_back("Centrifugal and gyroscopic terms are left out, as in the paper; the crank turns slowly.");
   if (scene.dynamics->half_backlash == 0)
-    list.emplace_back("Without backlash no mesh parts: its force may take either sign.");
+    list.emplace_back("Without backlash no mesh loses contact: its force may take either sign.");
   for (auto& remark : stiff_parts(scene)) list.push_back(std::move(remark));
   if (!scene.dynamics->mesh_cycles)
-    list.emplace_back("The motion is looked for directly (shooting) and confirmed by time integration.");
+    list.emplace_back("The periodic motion is found by shooting and confirmed by time integration.");
   return list;
 }
 
@@ -130,35 +116,31 @@ std::vector<MeshModel> two_k_v_meshes(const Scene& scene) {
 
 std::vector<PlannedResponse> two_k_v_responses(const Scene& scene) {
   if (!scene.dynamics) return {};
-  CostRun size;
-  size.unknowns = scene.planet.teeth;  // one turn of the crank
-  const double integration = two_k_v_integration_seconds(scene);
-  const auto given_alone = [](const MeshInput& m) { return m.stiffness != StiffnessShape::computed; };
-  const bool given = given_alone(scene.sun_planet) && given_alone(scene.arc_pins);
-  size.kind = given ? "response_two_k_v_given" : "response_two_k_v";
-  std::vector<PlannedResponse> list = {{"dynamics", "", size, integration}};
-  size.kind = "response_two_k_v";
-  if (compared_scene(scene)) list.push_back({"dynamics with computed stiffness", "computed", size, integration});
-  return list;
-}
-
-double two_k_v_integration_seconds(const Scene& scene) {
   const auto stage = rough_two_k_v(scene);
   const auto system = assemble(stage);
   // Shooting integrates a turn of the crank once per state, then twice more.
   const double turns = 2.0 * system.dofs() + 2;
-  const double cycles =
-      scene.dynamics->mesh_cycles.value_or(1) * (scene.dynamics->mesh_cycles ? 1.0 : turns * scene.planet.teeth);
-  return dynamics::integration_seconds(system, stage.sun_mesh_frequency(), cycles,
-                                       two_k_v_simulation(scene, stage).integrator);
+  const double cycles = scene.dynamics->mesh_cycles ? *scene.dynamics->mesh_cycles : turns * scene.planet.teeth;
+  const double integration = dynamics::integration_seconds(system, stage.sun_mesh_frequency(), cycles,
+                                                           two_k_v_simulation(scene, stage).integrator);
+  const bool prescribed =
+      scene.sun_planet.stiffness != StiffnessShape::computed && scene.arc_pins.stiffness != StiffnessShape::computed;
+  // Measured: shooting over one crank turn and two windows of some thousand samples.
+  constexpr double study = 2;
+  CostRun size{.work = prescribed ? Work::response_two_k_v_prescribed : Work::response_two_k_v,
+               .unknowns = static_cast<double>(scene.planet.teeth),  // one turn of the crank
+               .integration_s = integration};
+  std::vector<PlannedResponse> list = {{"dynamics", "", size, study + integration}};
+  size.work = Work::response_two_k_v;
+  if (compared_scene(scene)) list.push_back({"dynamics with computed stiffness", "computed", size});
+  return list;
 }
 
 void describe_two_k_v(const Scene& scene, Plan& plan) {
-  for (const auto& input : scene.inputs)
-    if (!std::holds_alternative<std::monostate>(input.value)) plan.inputs.push_back(input);
+  plan.inputs = resolved_inputs(scene, {});
   plan.quantities = two_k_v_quantities(scene, sun_planet_pair(scene));
   if (scene.dynamics) plan.dofs = two_k_v_dofs(scene);
-  plan.remarks = two_k_v_remarks(scene, plan.meshes);
+  plan.remarks = two_k_v_remarks(scene, plan.computes());
 }
 
 }  // namespace annulus::app

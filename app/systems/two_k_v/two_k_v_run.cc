@@ -165,10 +165,4 @@ const std::vector<FigureSpec>& two_k_v_run_figures() {
   return list;
 }
 
-double two_k_v_seconds(const Scene& scene) {
-  // Measured: shooting over one crank turn and two windows of some thousand samples.
-  constexpr double one_turn = 2;
-  return one_turn + two_k_v_integration_seconds(scene);
-}
-
 }  // namespace annulus::app

@@ -55,16 +55,11 @@ struct TwoKVResult final : SystemRun {
 /// The results of a reducer: those of its meshes, then those of its lumped model.
 [[nodiscard]] const std::vector<FigureSpec>& two_k_v_run_figures();
 
-/// What a plan says of a reducer (two_k_v_plan.cc).
+/// What a plan reports of a reducer (two_k_v_plan.cc).
 void describe_two_k_v(const Scene& scene, Plan& plan);
 /// The meshes that are solved or given: where the scene compares, those of the comparison.
 [[nodiscard]] std::vector<MeshModel> two_k_v_meshes(const Scene& scene);
 /// One for the scene, one for a comparison if it asks for it.
 [[nodiscard]] std::vector<PlannedResponse> two_k_v_responses(const Scene& scene);
-
-/// Rough wall time of one response on one core.
-[[nodiscard]] double two_k_v_seconds(const Scene& scene);
-/// Time integration of one response: of `mesh_cycles`, else of the turns of the crank that shooting takes.
-[[nodiscard]] double two_k_v_integration_seconds(const Scene& scene);
 
 }  // namespace annulus::app

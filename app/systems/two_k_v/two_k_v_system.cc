@@ -43,11 +43,7 @@ class TwoKVSystem final : public GearSystem {
     return two_k_v_lumped_model(scene(), {stiffness_alone(*tables.front()), arc_pins_result(scene())});
   }
 
-  [[nodiscard]] std::vector<PlannedResponse> responses(int /*threads*/) const override {
-    return two_k_v_responses(scene());
-  }
-
-  [[nodiscard]] double response_seconds() const override { return two_k_v_seconds(scene()); }
+  [[nodiscard]] std::vector<PlannedResponse> responses() const override { return two_k_v_responses(scene()); }
 
   [[nodiscard]] std::unique_ptr<SystemRun> run() const override { return std::make_unique<TwoKVResult>(scene()); }
 

@@ -118,10 +118,4 @@ PointFigures evaluate_point(const PlanetaryStage& stage, const PointOptions& opt
 
 const char* point_method() { return "harmonic balance 3"; }
 
-double point_seconds(int planets, int error_period) {
-  // Measured with five planets and 55 mesh cycles: 50 ms by harmonic balance.
-  constexpr double per_cycle_and_planet = 2e-4;
-  return per_cycle_and_planet * planets * std::max(20, error_period);
-}
-
 }  // namespace annulus::dynamics

@@ -47,7 +47,4 @@ struct PointOptions {
 /// Method and version of the responses of studies; part of the identity of stored results.
 [[nodiscard]] const char* point_method();
 
-/// Rough time of evaluate_point on one core (s); the window is `error_period` mesh cycles.
-[[nodiscard]] double point_seconds(int planets, int error_period);
-
 }  // namespace annulus::dynamics
