@@ -78,7 +78,7 @@ class TwoKVTrade : public TradeSubject {
     return {
         .fidelity = {}, .settings = {}, .id = two_k_v_id(models, simulation, tables), .figures = [models, simulation] {
           const auto response = dynamics::simulate(models.moving, simulation);
-          if (!response.steady.steady) throw SolverError("the motion does not become periodic");
+          if (!response.steady) throw SolverError("the motion does not become periodic");
           return evaluation_of(models, response).figures;
         }};
   }
