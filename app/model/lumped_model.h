@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/figure.h"
-#include "dynamics/figures/poincare_point.h"
+#include "dynamics/figures/motion.h"
 
 namespace annulus::app {
 

@@ -132,11 +132,10 @@ ComparisonOptions comparison_options(const SteadyOutcome& nominal, const Simulat
   o.estimate_error = false;
   o.keep_series = false;
   if (!o.mesh_cycles && (!nominal.periodic || !nominal.steady)) {
-    // No steady state to compare, or one too long to integrate again and again: all are integrated alike for a while,
-    // from the nominal motion on, so that only what the change does has to settle.
+    // No steady state to compare, or one too long to integrate again and again: all are integrated in time over the
+    // same length, from the nominal motion on, so that only the effect of the change has to settle.
     constexpr int lead = 60, evaluated = 110;
-    o.mesh_cycles = lead + evaluated;
-    o.max_window_cycles = evaluated;
+    o.integrate_for(lead, evaluated);
     o.start = nominal.begin;
     result.seeks_steady_state = false;
     return result;

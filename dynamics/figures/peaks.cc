@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace annulus::dynamics {
 
@@ -33,16 +32,19 @@ Peak peak_of(const Eigen::Ref<const Eigen::RowVectorXd>& values, const std::vect
 
 Peak peak_of_rows(const Eigen::Ref<const Eigen::MatrixXd>& values, const std::vector<Eigen::Index>& after_jump) {
   Peak peak = peak_of(values.row(0), after_jump);
-  for (Eigen::Index i = 1; i < values.rows(); ++i) {
-    const Peak next = peak_of(values.row(i), after_jump);
-    peak = {std::max(peak.sampled, next.sampled), std::max(peak.refined, next.refined)};
-  }
+  for (Eigen::Index i = 1; i < values.rows(); ++i) peak = higher(peak, peak_of(values.row(i), after_jump));
   return peak;
 }
 
+Peak higher(const Peak& a, const Peak& b) { return {std::max(a.sampled, b.sampled), std::max(a.refined, b.refined)}; }
+Peak operator+(const Peak& a, const Peak& b) { return {a.sampled + b.sampled, a.refined + b.refined}; }
+Peak operator/(const Peak& peak, double scale) { return {peak.sampled / scale, peak.refined / scale}; }
+
+Peak swing_of(const Eigen::Ref<const Eigen::RowVectorXd>& values) { return peak_of(values) + peak_of(-values); }
+
 Figure figure(const Peak& best, std::initializer_list<Peak> others) {
   Figure result{best.refined, 0};
-  if (!std::isfinite(best.refined)) return {best.refined, std::numeric_limits<double>::quiet_NaN()};
+  if (!std::isfinite(best.refined)) return {best.refined, not_known};
   result.error = best.refined - best.sampled;
   for (const auto& other : others) result.error += std::abs(best.refined - other.refined);
   return result;

@@ -22,6 +22,13 @@ struct Peak {
 [[nodiscard]] Peak peak_of_rows(const Eigen::Ref<const Eigen::MatrixXd>& values,
                                 const std::vector<Eigen::Index>& after_jump = {});
 
+/// The higher one of two, each sampled and refined by itself.
+[[nodiscard]] Peak higher(const Peak& a, const Peak& b);
+[[nodiscard]] Peak operator+(const Peak& a, const Peak& b);
+[[nodiscard]] Peak operator/(const Peak& peak, double scale);
+/// Largest less smallest value of a curve.
+[[nodiscard]] Peak swing_of(const Eigen::Ref<const Eigen::RowVectorXd>& values);
+
 /// The refined peak. Its error is the sum of the sampling error and the differences to other runs: independent causes
 /// that may add up.
 [[nodiscard]] Figure figure(const Peak& best, std::initializer_list<Peak> others);

@@ -43,8 +43,8 @@ std::vector<SpectralLine> highest_lines(const Spectrum& spectrum, int count, dou
   const double least = floor * lines.front().amplitude;
   const auto low =
       std::find_if(lines.begin(), lines.end(), [least](const SpectralLine& line) { return line.amplitude < least; });
-  const auto kept = std::min<std::ptrdiff_t>(low - lines.begin(), std::max(count, 0));
-  lines.resize(static_cast<std::size_t>(kept));
+  const auto listed = std::min<std::ptrdiff_t>(low - lines.begin(), std::max(count, 0));
+  lines.resize(static_cast<std::size_t>(listed));
   return lines;
 }
 

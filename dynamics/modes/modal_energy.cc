@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <utility>
 
 namespace annulus::dynamics {
 
@@ -73,13 +75,44 @@ std::string element_group(const std::string& element) {
   return group;
 }
 
-GroupedEnergy by_group(const ModalEnergy& energy) {
-  GroupedEnergy result;
-  std::vector<Eigen::Index> group;
-  for (const auto& element : energy.elements) group.push_back(index_of_name(result.groups, element_group(element)));
-  result.strain = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(result.groups.size()), energy.strain.cols());
-  for (std::size_t e = 0; e < group.size(); ++e)
-    result.strain.row(group[e]) += energy.strain.row(static_cast<Eigen::Index>(e));
+GroupedEnergy by_group(const ModalEnergy& energy, std::vector<std::string> groups, std::vector<std::string> bodies) {
+  const auto summed = [](const std::vector<std::string>& names, const Eigen::MatrixXd& shares,
+                         std::vector<std::string>& groups) {
+    std::vector<Eigen::Index> group;
+    for (const auto& name : names) group.push_back(index_of_name(groups, element_group(name)));
+    Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(groups.size()), shares.cols());
+    for (std::size_t i = 0; i < group.size(); ++i) sums.row(group[i]) += shares.row(static_cast<Eigen::Index>(i));
+    return sums;
+  };
+  GroupedEnergy result{std::move(groups), {}, std::move(bodies), {}};
+  result.strain = summed(energy.elements, energy.strain, result.groups);
+  result.kinetic = summed(energy.bodies, energy.kinetic, result.bodies);
+  return result;
+}
+
+std::string mode_name(const GroupedEnergy& energy, Eigen::Index mode) {
+  if (!(energy.strain.col(mode).sum() > 0)) return "rigid";
+  Eigen::Index body = 0, group = 0;
+  (void)energy.kinetic.col(mode).maxCoeff(&body);
+  (void)energy.strain.col(mode).maxCoeff(&group);
+  return energy.bodies[static_cast<std::size_t>(body)] + " on " + energy.groups[static_cast<std::size_t>(group)];
+}
+
+std::vector<Frequency> frequency_errors(const Modes& modes, const GroupedEnergy& energy,
+                                        const std::vector<GroupError>& errors) {
+  std::vector<Frequency> result;
+  for (std::size_t i = 0; i < modes.modes.size(); ++i) {
+    auto& [figure, parts] = result.emplace_back(Frequency{{modes.modes[i].frequency, 0}});
+    for (const auto& error : errors) {
+      double share = 0;
+      for (std::size_t g = 0; g < energy.groups.size(); ++g)
+        if (std::find(error.groups.begin(), error.groups.end(), energy.groups[g]) != error.groups.end())
+          share += energy.strain(static_cast<Eigen::Index>(g), static_cast<Eigen::Index>(i));
+      const double weight = figure.value * error.sensitivity * std::abs(share);
+      figure.error += weight * error.relative;
+      parts += weight * error.parts;
+    }
+  }
   return result;
 }
 

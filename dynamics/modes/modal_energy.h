@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/figure.h"
 #include "dynamics/modes/modes.h"
 
 namespace annulus::dynamics {
@@ -26,11 +27,37 @@ struct ModalEnergy {
 /// sun_support.
 [[nodiscard]] std::string element_group(const std::string& element);
 
-/// The strain shares summed up by group.
+/// The shares summed up by group.
 struct GroupedEnergy {
-  std::vector<std::string> groups;  ///< in order of first appearance
+  std::vector<std::string> groups;  ///< of elements
   Eigen::MatrixXd strain;           ///< groups x modes
+  std::vector<std::string> bodies;  ///< "planet" for planet1, planet2, ...
+  Eigen::MatrixXd kinetic;          ///< bodies x modes
 };
-[[nodiscard]] GroupedEnergy by_group(const ModalEnergy& energy);
+/// `groups` and `bodies` come first, with zeros where the system has none of them; others follow as they appear.
+[[nodiscard]] GroupedEnergy by_group(const ModalEnergy& energy, std::vector<std::string> groups = {},
+                                     std::vector<std::string> bodies = {});
+/// Name of a mode, "body on group", or "rigid" without strain: those with most kinetic and most strain energy.
+[[nodiscard]] std::string mode_name(const GroupedEnergy& energy, Eigen::Index mode);
+
+/// A natural frequency with its error.
+struct Frequency {
+  Figure figure;  ///< Hz
+  ErrorParts parts{};
+};
+
+/// The relative error of a quantity that some groups of elements are made of.
+struct GroupError {
+  std::vector<std::string> groups;
+  double relative = 0;
+  ErrorParts parts{};  ///< of `relative`, where they are known
+  /// d ln f / d ln quantity of a mode that has all its strain energy in these groups: 1/2 for a stiffness, 1 for the
+  /// own frequencies of an elastic body.
+  double sensitivity = 0.5;
+};
+/// The error of a frequency is the sum of the relative errors times sensitivity and share of the strain energy of the
+/// mode; all quantities are taken to err the same way.
+[[nodiscard]] std::vector<Frequency> frequency_errors(const Modes& modes, const GroupedEnergy& energy,
+                                                      const std::vector<GroupError>& errors);
 
 }  // namespace annulus::dynamics

@@ -46,7 +46,23 @@ Eigen::MatrixXd stiffness_rows(const LumpedSystem& system, const Eigen::VectorXd
   return rows;
 }
 
+Eigen::VectorXd of_meshes(const LumpedSystem& system, double (*stiffness)(const MeshExcitation&)) {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(system.meshes().size()));
+  for (Eigen::Index m = 0; m < result.size(); ++m) result[m] = stiffness(system.meshes()[m].excitation);
+  return result;
+}
+
 }  // namespace
+
+Eigen::VectorXd mean_stiffnesses(const LumpedSystem& system) { return of_meshes(system, mean_stiffness); }
+Eigen::VectorXd mean_tangents(const LumpedSystem& system) { return of_meshes(system, mean_tangent_stiffness); }
+
+Eigen::MatrixXd Modes::shapes() const {
+  const auto n = static_cast<Eigen::Index>(modes.size());
+  Eigen::MatrixXd result(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) result.col(i) = modes[i].shape;
+  return result;
+}
 
 Eigen::MatrixXd mesh_stiffness_matrix(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness) {
   require(mesh_stiffness.size() == static_cast<Eigen::Index>(system.meshes().size()),
@@ -116,6 +132,8 @@ Modes modes(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness) {
   }
   return result;
 }
+
+Modes modes(const LumpedSystem& system) { return modes(system, mean_tangents(system)); }
 
 bool costs_no_force(const Eigen::VectorXd& shape, const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
   constexpr double rounding = 1e-11, noise = 1e-2;  // rounding x noise: what a shape's zeros are, of the whole shape

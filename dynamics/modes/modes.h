@@ -15,13 +15,20 @@ struct Mode {
 
 struct Modes {
   std::vector<std::string> dofs;
-  std::vector<Mode> modes;  ///< rising frequency
+  std::vector<Mode> modes;                       ///< rising frequency
+  [[nodiscard]] Eigen::MatrixXd shapes() const;  ///< DOFs x modes
 };
+
+/// Mean stiffness of every mesh, N/m: over its period, and that for modes (see mesh_excitation.h).
+[[nodiscard]] Eigen::VectorXd mean_stiffnesses(const LumpedSystem& system);
+[[nodiscard]] Eigen::VectorXd mean_tangents(const LumpedSystem& system);
 
 /// Undamped natural frequencies and mode shapes with constant mesh stiffnesses (N/m, one per mesh), all teeth in
 /// contact, without rotation (Omega = 0). Frequencies below 1e-13 of the highest one are rigid motions and are set to
 /// exactly 0. Throws SolverError when the stiffness is indefinite.
 [[nodiscard]] Modes modes(const LumpedSystem& system, const Eigen::VectorXd& mesh_stiffness);
+/// The same with the mean tangents of the meshes.
+[[nodiscard]] Modes modes(const LumpedSystem& system);
 
 /// d forces / d approaches, meshes x meshes, N/m: `mesh_stiffness` on the diagonal, for coupled meshes
 /// (diag(1/k) + D)^-1. D is the mean compliance. When the common body has DOFs of its own, D is taken at time 0, where

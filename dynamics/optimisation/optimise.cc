@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <pagmo/algorithms/cmaes.hpp>
 #include <pagmo/algorithms/de.hpp>
 #include <pagmo/algorithms/sga.hpp>
@@ -14,11 +16,115 @@
 #include <variant>
 
 #include "core/errors.h"
-#include "dynamics/optimisation/optimise_log.h"
 
 namespace annulus::dynamics {
 
 namespace {
+
+/// The objective for an optimiser: a finite function on the unit cube that computes no point twice and stores all.
+class OptimiseLog {
+ public:
+  OptimiseLog(const std::vector<OptimiseVariable>& variables, const Objective& objective)
+      : variables_(variables), objective_(objective) {}
+
+  /// Value of a failed point: worse than any value met, now or later.
+  static constexpr double penalty = 1e300;
+
+  [[nodiscard]] double evaluate(const std::vector<double>& unit);
+  [[nodiscard]] std::vector<double> point(const std::vector<double>& unit) const;
+  [[nodiscard]] std::size_t variables() const { return variables_.size(); }
+  [[nodiscard]] long asked() const { return static_cast<long>(evaluations_.size()) + repeated_; }
+  [[nodiscard]] const OptimiseEvaluation* best() const;
+  [[nodiscard]] OptimiseGeneration generation(int number, const std::vector<std::vector<double>>& values) const;
+  void move_to(OptimiseResult& result);
+  [[nodiscard]] std::string first_trouble() const;
+
+ private:
+  const std::vector<OptimiseVariable>& variables_;
+  const Objective& objective_;
+  std::map<std::vector<double>, double> known_;
+  std::vector<OptimiseEvaluation> evaluations_;
+  long repeated_ = 0, failed_ = 0;
+  std::ptrdiff_t best_ = -1;
+};
+
+std::vector<double> OptimiseLog::point(const std::vector<double>& unit) const {
+  std::vector<double> x(unit.size());
+  for (std::size_t i = 0; i < unit.size(); ++i) {
+    const auto& v = variables_[i];
+    // Whole numbers own equal shares of the unit interval. The ends meet the bounds but for rounding.
+    const double low = v.whole ? v.low - 0.5 : v.low, high = v.whole ? v.high + 0.5 : v.high;
+    double value = v.logarithmic ? low * std::pow(high / low, unit[i]) : low + unit[i] * (high - low);
+    if (v.whole) value = std::round(value);
+    x[i] = std::clamp(value, v.low, v.high);
+  }
+  return x;
+}
+
+double OptimiseLog::evaluate(const std::vector<double>& unit) {
+  auto x = point(unit);
+  const auto found = known_.find(x);
+  if (found != known_.end()) {
+    ++repeated_;
+    return found->second;
+  }
+  OptimiseEvaluation evaluation;
+  try {
+    evaluation.value = objective_(x);
+    if (!std::isfinite(evaluation.value)) evaluation.trouble = fmt::format("the objective is {}", evaluation.value);
+  } catch (const InputError& e) {
+    evaluation.trouble = e.what();
+  } catch (const SolverError& e) {
+    evaluation.trouble = e.what();
+  }
+  if (!evaluation.trouble.empty()) {
+    evaluation.value = not_known;
+    ++failed_;
+  } else if (best_ < 0 || evaluation.value < evaluations_[best_].value) {
+    best_ = static_cast<std::ptrdiff_t>(evaluations_.size());
+  }
+  const double value = evaluation.trouble.empty() ? evaluation.value : penalty;
+  evaluation.x = x;
+  evaluations_.push_back(std::move(evaluation));
+  known_.emplace(std::move(x), value);
+  return value;
+}
+
+const OptimiseEvaluation* OptimiseLog::best() const { return best_ < 0 ? nullptr : &evaluations_[best_]; }
+
+OptimiseGeneration OptimiseLog::generation(int number, const std::vector<std::vector<double>>& values) const {
+  OptimiseGeneration g;
+  g.generation = number;
+  g.evaluations = static_cast<long>(evaluations_.size());
+  g.best = best() ? best()->value : not_known;
+  g.mean = g.worst = not_known;
+  double sum = 0;
+  for (const auto& value : values) {
+    if (value[0] == penalty) {
+      ++g.failed;
+      continue;
+    }
+    sum += value[0];
+    g.worst = std::isnan(g.worst) ? value[0] : std::max(g.worst, value[0]);
+  }
+  const auto good = static_cast<int>(values.size()) - g.failed;
+  if (good > 0) g.mean = sum / good;
+  return g;
+}
+
+std::string OptimiseLog::first_trouble() const {
+  const auto found = std::find_if(evaluations_.begin(), evaluations_.end(),
+                                  [](const OptimiseEvaluation& e) { return !e.trouble.empty(); });
+  return found == evaluations_.end() ? std::string{} : found->trouble;
+}
+
+void OptimiseLog::move_to(OptimiseResult& result) {
+  result.x = best()->x;
+  result.value = best()->value;
+  result.repeated = repeated_;
+  result.failed = failed_;
+  result.evaluations = std::move(evaluations_);
+}
 
 /// What pagmo copies about: a reference to the one log.
 struct UnitCubeProblem {
@@ -78,29 +184,6 @@ void check(const std::vector<OptimiseVariable>& variables, const OptimiseOptions
   if (!(o.elite > 0 && o.elite <= 1)) throw InputError(fmt::format("elite share {} must lie in (0, 1]", o.elite));
   for (const auto& [value, name] : {std::pair{o.crossover, "crossover"}, std::pair{o.mutation, "mutation"}})
     if (!(value >= 0 && value <= 1)) throw InputError(fmt::format("{} rate {} must lie in [0, 1]", name, value));
-  if (o.stop_spread && !(*o.stop_spread >= 0))
-    throw InputError(fmt::format("the spread {} to stop at must not be negative", *o.stop_spread));
-  if (!(o.stop_size >= 0)) throw InputError(fmt::format("the size {} to stop at must not be negative", o.stop_size));
-}
-
-double spread_of(const pagmo::population& population) {
-  const auto [low, high] = std::minmax_element(population.get_f().begin(), population.get_f().end());
-  return (*high)[0] - (*low)[0];
-}
-
-/// Largest extent of the population in the unit cube.
-double size_of(const pagmo::population& population) {
-  double size = 0;
-  const auto& x = population.get_x();
-  for (std::size_t i = 0; i < x.front().size(); ++i) {
-    double low = 1, high = 0;
-    for (const auto& point : x) {
-      low = std::min(low, point[i]);
-      high = std::max(high, point[i]);
-    }
-    size = std::max(size, high - low);
-  }
-  return size;
 }
 
 }  // namespace
@@ -137,8 +220,6 @@ OptimiseResult optimise(const std::vector<OptimiseVariable>& variables, const Ob
   };
   note(0);
   result.stopped = fmt::format("all {} generations", options.generations);
-  constexpr int patience = 5;
-  int flat = 0;
   for (int generation = 1; generation <= options.generations; ++generation) {
     const long asked = log.asked();
     population = std::visit([&](const auto& m) { return m.evolve(std::move(population)); }, method);
@@ -147,19 +228,50 @@ OptimiseResult optimise(const std::vector<OptimiseVariable>& variables, const Ob
       break;
     }
     note(generation);
-    flat = options.stop_spread && spread_of(population) <= *options.stop_spread ? flat + 1 : 0;
-    if (flat == patience) {
-      result.stopped = fmt::format("{} generations differed by no more than {:g}", patience, *options.stop_spread);
-      break;
-    }
-    if (size_of(population) < options.stop_size) {
-      result.stopped = fmt::format("the population is smaller than {:g} of the ranges", options.stop_size);
-      break;
-    }
   }
   if (!log.best()) throw SolverError("every point of the optimisation failed, the first: " + log.first_trouble());
   log.move_to(result);
   return result;
+}
+
+std::optional<long> evaluations_to_reach(const std::vector<OptimiseEvaluation>& evaluations, double value,
+                                         double tolerance) {
+  const auto found = std::find_if(evaluations.begin(), evaluations.end(),
+                                  [&](const OptimiseEvaluation& e) { return e.value <= value + tolerance; });
+  if (found == evaluations.end()) return std::nullopt;
+  return found - evaluations.begin() + 1;
+}
+
+ObjectiveRange objective_range(const std::vector<OptimiseEvaluation>& evaluations, double numerical_error) {
+  if (!(numerical_error >= 0))
+    throw InputError(fmt::format("the numerical error {} of an objective must not be negative", numerical_error));
+  ObjectiveRange range;
+  range.low = std::numeric_limits<double>::infinity();
+  range.high = -range.low;
+  for (const auto& e : evaluations) {
+    if (std::isnan(e.value)) continue;
+    ++range.evaluations;
+    range.low = std::min(range.low, e.value);
+    range.high = std::max(range.high, e.value);
+  }
+  if (range.evaluations < 2) {
+    range.verdict = fmt::format("{} evaluations are too few to judge the shape of the objective", range.evaluations);
+    return range;
+  }
+  constexpr double relative = 1e-6;
+  range.least_meaning = std::max(numerical_error, relative * std::max(std::abs(range.low), std::abs(range.high)));
+  const double difference = range.high - range.low;
+  range.flat = difference <= range.least_meaning;
+  range.verdict = range.flat
+                      ? fmt::format(
+                            "flat: over {} points the objective varies by {:.2g}; differences below {:.2g} are not "
+                            "significant, so no point is better than another",
+                            range.evaluations, difference, range.least_meaning)
+                      : fmt::format(
+                            "over {} points the objective varies by {:.4g}, from {:.6g} to {:.6g}; differences below "
+                            "{:.2g} are not significant",
+                            range.evaluations, difference, range.low, range.high, range.least_meaning);
+  return range;
 }
 
 }  // namespace annulus::dynamics

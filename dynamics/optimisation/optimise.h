@@ -2,10 +2,11 @@
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "core/not_known.h"
 
 namespace annulus::dynamics {
 
@@ -40,18 +41,13 @@ struct OptimiseOptions {
   double elite = 0.2;      ///< in (0, 1]
   double crossover = 0.9;  ///< in [0, 1]
   double mutation = 0.05;  ///< in [0, 1]
-  /// Stops once best and worst of a population without failures differ by no more than this for five generations in a
-  /// row. Meant for the numerical error of the objective. Absent: never.
-  std::optional<double> stop_spread{};
-  /// Stops once all points of a population lie closer than this share of the range of every variable. 0: never.
-  double stop_size = 0;
 };
 
 /// One point that was computed.
 struct OptimiseEvaluation {
   std::vector<double> x;
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< not a number: failed
-  std::string trouble;                                      ///< the cause where it failed, else empty
+  double value = not_known;  ///< not a number: failed
+  std::string trouble;       ///< the cause where it failed, else empty
 };
 
 /// State of the population after a generation; 0 is the first population. Failed points are left out of the values.

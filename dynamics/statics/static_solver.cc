@@ -36,8 +36,7 @@ bool is_open(const LumpedSystem& system, int mesh, const LumpedSystem::Workspace
 StaticSolver::StaticSolver(const LumpedSystem& system)
     : system_(system), base_(system.stiffness()), vectors_(system.mesh_vectors()) {
   const int meshes = static_cast<int>(vectors_.cols());
-  Eigen::VectorXd mean(meshes);
-  for (int m = 0; m < meshes; ++m) mean[m] = mean_stiffness(system.meshes()[m].excitation);
+  const Eigen::VectorXd mean = mean_stiffnesses(system);
   rest_ = Eigen::VectorXd::Zero(system.dofs());
   forces_.resize(meshes);
   const Modes found = modes(system, mean);
@@ -164,6 +163,18 @@ Eigen::VectorXd StaticSolver::solve(double t, LumpedSystem::Workspace& w) {
     }
   }
   throw SolverError(fmt::format("no consistent contact state in {} attempts at t = {:g} s (quasi-static)", tries, t));
+}
+
+StaticPath static_path(const LumpedSystem& system, const Eigen::VectorXd& times) {
+  StaticSolver solver(system);
+  auto workspace = system.workspace();
+  const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
+  StaticPath path{Eigen::MatrixXd(system.dofs(), times.size()), Eigen::MatrixXd(meshes, times.size())};
+  for (Eigen::Index i = 0; i < times.size(); ++i) {
+    path.displacement.col(i) = solver.solve(times[i], workspace);
+    path.force.col(i) = Eigen::Map<const Eigen::VectorXd>(workspace.force.data(), meshes);
+  }
+  return path;
 }
 
 }  // namespace annulus::dynamics

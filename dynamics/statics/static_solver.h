@@ -37,4 +37,11 @@ class StaticSolver {
   Eigen::LLT<Eigen::MatrixXd> factor_;
 };
 
+/// Equilibria at some times.
+struct StaticPath {
+  Eigen::MatrixXd displacement, force;  ///< m, DOFs x times; N, meshes x times
+};
+/// `times`: s, rising. Throws what StaticSolver throws.
+[[nodiscard]] StaticPath static_path(const LumpedSystem& system, const Eigen::VectorXd& times);
+
 }  // namespace annulus::dynamics

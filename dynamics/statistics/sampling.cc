@@ -33,8 +33,13 @@ double probability_between(const Law& law, double low, double high, Tail tail) {
 }
 
 template <class Law>
+Tail tail_of(const Law& law, double low) {
+  return std::isfinite(low) && low > median(law) ? Tail::upper : Tail::lower;
+}
+
+template <class Law>
 double truncated_quantile(const Law& law, double low, double high, double p) {
-  const Tail tail = std::isfinite(low) && low > median(law) ? Tail::upper : Tail::lower;
+  const Tail tail = tail_of(law, low);
   const double share = probability_between(law, low, high, tail);
   const double x = tail == Tail::upper ? quantile(complement(law, cdf(complement(law, low)) - p * share))
                                        : quantile(law, (std::isinf(low) ? 0 : cdf(law, low)) + p * share);
@@ -44,6 +49,15 @@ double truncated_quantile(const Law& law, double low, double high, double p) {
 boost::math::lognormal lognormal_law(const Distribution& d) {
   const double variance = std::log1p(d.deviation * d.deviation / (d.mean * d.mean));
   return {std::log(d.mean) - variance / 2, std::sqrt(variance)};
+}
+
+/// Calls use(law, low, high) with the law of a distribution that is not uniform and its ends within the law's range.
+template <class Use>
+double with_law(const Distribution& d, const Use& use) {
+  if (d.kind == Distribution::Kind::normal) return use(boost::math::normal(d.mean, d.deviation), d.low, d.high);
+  const double low = std::max(d.low, 0.0);
+  if (d.kind == Distribution::Kind::rayleigh) return use(boost::math::rayleigh(d.scale), low, d.high);
+  return use(lognormal_law(d), low, d.high);
 }
 
 std::uint64_t random_word(std::uint64_t seed, std::uint64_t sample, std::string_view quantity) {
@@ -82,19 +96,10 @@ void Distribution::check() const {
   }
   if (kind == Kind::lognormal && !(mean > 0))
     throw InputError(fmt::format("the mean {} of a lognormal distribution must be positive", mean));
-  const double share = [&] {
-    if (kind == Kind::normal) {
-      const boost::math::normal law(mean, deviation);
-      return probability_between(law, low, high, std::isfinite(low) && low > mean ? Tail::upper : Tail::lower);
-    }
-    if (!(high > 0)) return 0.0;
-    if (kind == Kind::rayleigh) {
-      const boost::math::rayleigh law(scale);
-      return probability_between(law, std::max(low, 0.0), high, low > median(law) ? Tail::upper : Tail::lower);
-    }
-    const auto law = lognormal_law(*this);
-    return probability_between(law, std::max(low, 0.0), high, low > median(law) ? Tail::upper : Tail::lower);
-  }();
+  const double share =
+      kind != Kind::normal && !(high > 0) ? 0.0 : with_law(*this, [](const auto& law, double low, double high) {
+        return probability_between(law, low, high, tail_of(law, low));
+      });
   if (!(share >= 1e-3))
     throw InputError(fmt::format("{:.2g} of the distribution lies between its ends {} and {}; at least 0.001 is needed",
                                  share, low, high));
@@ -103,16 +108,10 @@ void Distribution::check() const {
 double Distribution::quantile(double probability) const {
   if (!(probability > 0 && probability < 1))
     require(false, fmt::format("quantile of a probability {} outside (0, 1)", probability));
-  switch (kind) {
-    case Kind::uniform:
-      break;
-    case Kind::normal:
-      return truncated_quantile(boost::math::normal(mean, deviation), low, high, probability);
-    case Kind::rayleigh:
-      return truncated_quantile(boost::math::rayleigh(scale), std::max(low, 0.0), high, probability);
-    case Kind::lognormal:
-      return truncated_quantile(lognormal_law(*this), std::max(low, 0.0), high, probability);
-  }
+  if (kind != Kind::uniform)
+    return with_law(*this, [&](const auto& law, double low, double high) {
+      return truncated_quantile(law, low, high, probability);
+    });
   return low + probability * (high - low);
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/errors.h"
 #include "core/floating_point.h"
+#include "core/not_known.h"
 
 namespace annulus::dynamics {
 
@@ -33,7 +34,7 @@ double at_most(long k, long n, double p) {
 }  // namespace
 
 double standard_deviation(const std::vector<double>& values) {
-  if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
+  if (values.size() < 2) return not_known;
   const double mean = mean_of(values);
   double sum = 0;
   for (const double x : values) sum += (x - mean) * (x - mean);

@@ -31,12 +31,10 @@ FrequencyResponse::FrequencyResponse(const LumpedSystem& system, const Eigen::Ve
   stiffness_ += b_ * mesh_stiffness.asDiagonal() * b_.transpose();
   const Modes found = modes(system, mesh_stiffness);
   const Eigen::Index rigid_motions = neutral_motions(found, stiffness_, mass_);
-  Eigen::MatrixXd shapes(n, n), fixed = stiffness_;
+  const Eigen::MatrixXd shapes = found.shapes();
+  Eigen::MatrixXd fixed = stiffness_;
   Eigen::VectorXd squares(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    shapes.col(i) = found.modes[i].shape;
-    squares[i] = std::pow(2 * std::numbers::pi * found.modes[i].frequency, 2);
-  }
+  for (Eigen::Index i = 0; i < n; ++i) squares[i] = std::pow(2 * std::numbers::pi * found.modes[i].frequency, 2);
   for (Eigen::Index i = 0; i < n && squares[i] == 0; ++i) {
     const Eigen::VectorXd momentum = mass_ * shapes.col(i);
     fixed += mesh_stiffness.maxCoeff() / momentum.cwiseAbs2().maxCoeff() * momentum * momentum.transpose();
@@ -59,7 +57,7 @@ void FrequencyResponse::find_eigenvalues(const Eigen::MatrixXd& shapes, const Ei
                                          Eigen::Index rigid_motions) {
   const Eigen::Index n = mass_.rows(), elastic = n - rigid_motions;
   // State: elastic displacements and all velocities / w in the undamped modes, in time units of 1/w: entries of order
-  // one. Rigid displacements act on nothing; kept, they would make the zero eigenvalue defective.
+  // one. Rigid displacements act on nothing; included, they would make the zero eigenvalue defective.
   const double w = std::sqrt(squares[n - 1]);
   const auto bent = shapes.rightCols(elastic);
   Eigen::MatrixXd state = Eigen::MatrixXd::Zero(elastic + n, elastic + n);

@@ -167,17 +167,16 @@ void fill(PeriodicResponse& response, HarmonicBalance& balance, const Eigen::Mat
         static_cast<double>(samples);
 }
 
-void set_sampling_difference(PeriodicResponse& response, int samples_per_cycle) {
+void set_coarse_difference(PeriodicResponse& response, int samples_per_cycle) {
   response.samples_per_cycle = samples_per_cycle;
-  response.sampling_difference = 0;
+  response.coarse_difference = 0;
   for (Eigen::Index i = 0; i < response.coarse_force.cols(); ++i)
-    response.sampling_difference = std::max(
-        response.sampling_difference, (response.force.col(2 * i) - response.coarse_force.col(i)).cwiseAbs().maxCoeff());
+    response.coarse_difference = std::max(
+        response.coarse_difference, (response.force.col(2 * i) - response.coarse_force.col(i)).cwiseAbs().maxCoeff());
 }
 
 bool wants_more_samples(const PeriodicResponse& response, const PeriodicOptions& options) {
-  return response.converged && options.sampling_tolerance &&
-         response.sampling_difference > *options.sampling_tolerance &&
+  return response.converged && options.sampling_tolerance && response.coarse_difference > *options.sampling_tolerance &&
          2 * response.samples_per_cycle <= options.max_samples_per_cycle;
 }
 
@@ -246,9 +245,9 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
     approach = BalanceSolver(balance, approach, reference.scale, level_options).solve(response);
     failed = failed || response.residual > std::max(level_options.tolerance, level < samples ? out_of_reach : 0.0);
     if (2 * level >= samples) fill(response, balance, approach);
-    if (level == samples && options.motion) balance.motion(response.displacement, response.velocity);
+    if (level == samples) balance.motion(response.displacement, response.velocity);
   }
-  set_sampling_difference(response, options.samples_per_cycle);
+  set_coarse_difference(response, options.samples_per_cycle);
   while (wants_more_samples(response, options)) {
     const Eigen::Index level = 2 * response.time.size();
     problem.transfer = linear.mesh_transfer(spacing, level / 2 - 1);
@@ -258,8 +257,8 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
     approach = BalanceSolver(balance, approach, reference.scale, options).solve(finer);
     if (!finer.converged) break;
     fill(finer, balance, approach);
-    if (options.motion) balance.motion(finer.displacement, finer.velocity);
-    set_sampling_difference(finer, 2 * response.samples_per_cycle);
+    balance.motion(finer.displacement, finer.velocity);
+    set_coarse_difference(finer, 2 * response.samples_per_cycle);
     response = std::move(finer);
   }
   return response;

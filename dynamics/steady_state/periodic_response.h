@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "dynamics/steady_state/response_window.h"
 #include "dynamics/system/lumped_system.h"
 
 namespace annulus::dynamics {
@@ -18,25 +19,33 @@ struct PeriodicOptions {
   /// Largest residual of an approach at any sample / largest quasi-static mesh deflection at time 0.
   double tolerance = 1e-5;
   int max_iterations = 20;  ///< Newton iterations, per level of sampling
-  bool motion = true;       ///< also the displacements and velocities of all DOFs
 };
 
-/// Periodic steady state.
-struct PeriodicResponse {
-  bool converged = false;
-  std::string trouble;                               ///< the cause where it did not converge, else empty
-  double residual = 0;                               ///< as `tolerance`
-  int newton_iterations = 0, linear_iterations = 0;  ///< over all levels of sampling
-  int samples_per_cycle = 0;                         ///< of the answer
+enum class PeriodicMethod {
+  harmonic_balance,
+  piecewise,  ///< exact, for systems whose stiffness is constant between jumps, while no mesh loses contact
+};
 
-  Eigen::VectorXd time;                    ///< s, equidistant over one period from 0, its end not included
-  Eigen::MatrixXd force;                   ///< N, meshes x times; just after a jump where a stiffness jumps
-  Eigen::VectorXd open;                    ///< fraction of the samples without contact, per mesh
-  Eigen::MatrixXd displacement, velocity;  ///< m, m/s, DOFs x times; empty without `motion`
-  Eigen::MatrixXd coarse_force;            ///< N, solved with half the samples, at every other time
+/// Course of the search for a periodic solution without time integration.
+struct PeriodicSolution {
+  PeriodicMethod method = PeriodicMethod::harmonic_balance;
+  bool converged = false;
+  std::string trouble;  ///< the cause where it did not converge
+  double residual = 0;  ///< see PeriodicOptions::tolerance
+  int newton_iterations = 0, linear_iterations = 0;
+  /// Largest force difference to half the samples / mean mesh force; at least the residual.
+  double sampling_difference = 0;
+  /// Largest modulus of a Floquet multiplier: over the period of a piecewise solution, over a mesh cycle of a harmonic
+  /// balance whose stability was examined.
+  std::optional<double> largest_multiplier{};
+};
+
+/// Periodic steady state over one period from time 0, with the course of its search.
+struct PeriodicResponse : PeriodicSolution, ResponseWindow {
+  Eigen::MatrixXd coarse_force;  ///< N, solved with half the samples, at every other time
   /// Largest difference of a force between both samplings (N). It bounds the error of the finer one where the spectrum
   /// decays. With jumps that error is about a third of it (second order).
-  double sampling_difference = 0;
+  double coarse_difference = 0;
 };
 
 /// Periodic response by harmonic balance with the nonlinear forces evaluated in time (alternating frequency-time)

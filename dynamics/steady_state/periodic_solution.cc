@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
+#include <unsupported/Eigen/MatrixFunctions>
 #include <utility>
 
-#include "dynamics/steady_state/floquet.h"
+#include "core/errors.h"
+#include "dynamics/modes/modes.h"
 #include "dynamics/steady_state/piecewise_response.h"
 
 namespace annulus::dynamics {
@@ -24,39 +29,25 @@ std::vector<Eigen::Index> samples_after_jumps(const LumpedSystem& system, double
   return list;
 }
 
-/// The jumps of the exact solution, which spans one period of the excitation, over the whole window.
-void set_exact_jumps(const PiecewiseResponse& exact, double duration, int cycles, ResponseWindow& window) {
-  const Eigen::Index jumps = exact.jump_time.size(), periods = cycles / exact.solved_cycles;
-  window.jump_time.resize(periods * jumps);
-  for (Eigen::Index i = 0; i < periods; ++i)
-    window.jump_time.segment(i * jumps, jumps) =
-        exact.jump_time.array() + static_cast<double>(i) * duration / static_cast<double>(periods);
-  window.force_before = exact.force_before.replicate(1, periods);
-  window.force_after = exact.force_after.replicate(1, periods);
-}
-
-/// The exact solution of a system with piecewise constant stiffness.
+/// The exact solution of a system whose stiffness jumps and is constant between.
 PeriodicSearch solve_piecewise(const LumpedSystem& system, const SteadyProblem& problem, int cycles,
                                const SimulationOptions& options) {
   const double duration = cycles / problem.mesh_frequency;
-  auto exact = piecewise_response(system, duration, cycles, {options.samples_per_cycle, true});
-  auto& periodic = exact.periodic;
-  PeriodicSearch search;
-  search.status = periodic.converged ? PeriodicStatus::found : PeriodicStatus::not_found;
-  search.report = PeriodicSolution{.method = PeriodicMethod::piecewise,
-                                   .converged = periodic.converged,
-                                   .trouble = periodic.trouble,
-                                   .residual = periodic.residual,
-                                   .sampling_difference = periodic.residual,
-                                   .largest_multiplier = exact.largest_multiplier};
-  if (!periodic.converged) return search;
-  auto& fine = search.windows.emplace().fine;
-  fine = {options.samples_per_cycle,        std::move(periodic.time),     std::move(periodic.force),
-          std::move(periodic.displacement), std::move(periodic.velocity), std::move(periodic.open)};
-  fine.dense_force = std::move(exact.dense_force);
-  fine.dense_after_jump = std::move(exact.dense_after_jump);
+  auto exact = piecewise_response(system, duration, cycles, options.samples_per_cycle);
+  exact.sampling_difference = exact.residual;
+  PeriodicSearch search(exact);
+  if (!exact.converged) return search;
+  ResponseWindow& fine = search.windows.emplace().fine = std::move(exact);
   fine.after_jump = samples_after_jumps(system, duration, fine.time.size());
-  if (std::isfinite(system.next_jump(0))) set_exact_jumps(exact, duration, cycles, fine);
+  // The jumps of one period of the excitation over the whole window.
+  const Eigen::Index jumps = fine.jump_time.size(), periods = cycles / exact.solved_cycles;
+  const Eigen::VectorXd first = fine.jump_time;
+  fine.jump_time.resize(periods * jumps);
+  for (Eigen::Index i = 0; i < periods; ++i)
+    fine.jump_time.segment(i * jumps, jumps) =
+        first.array() + static_cast<double>(i) * duration / static_cast<double>(periods);
+  fine.force_before = fine.force_before.replicate(1, periods).eval();
+  fine.force_after = fine.force_after.replicate(1, periods).eval();
   return search;
 }
 
@@ -69,7 +60,6 @@ int most_samples_per_cycle(int period) {
 PeriodicOptions balance_options(const SteadyProblem& problem, const SimulationOptions& options) {
   PeriodicOptions balance = options.periodic;
   balance.samples_per_cycle = options.samples_per_cycle;
-  balance.motion = true;
   if (options.confirm) {
     // The error of a sampling is about a third of the change when the samples are halved.
     balance.sampling_tolerance = 3 * options.steady_tolerance * problem.force_scale;
@@ -82,17 +72,10 @@ PeriodicSearch solve_harmonic_balance(const LumpedSystem& system, const SteadyPr
                                       const SimulationOptions& options) {
   const int period = problem.period_in_cycles;
   auto periodic = periodic_response(system, period / problem.mesh_frequency, period, balance_options(problem, options));
-  PeriodicSearch search;
-  search.status = periodic.converged ? PeriodicStatus::found : PeriodicStatus::not_found;
-  search.report = PeriodicSolution{
-      .converged = periodic.converged,
-      .trouble = periodic.trouble,
-      .residual = periodic.residual,
-      .newton_iterations = periodic.newton_iterations,
-      .linear_iterations = periodic.linear_iterations,
-      // Where the solution with half the samples already satisfies the finer ones, no step is taken and only the
-      // residual is known of the error.
-      .sampling_difference = std::max(periodic.sampling_difference / problem.force_scale, periodic.residual)};
+  // Where the solution with half the samples already satisfies the finer ones, no step is taken and only the residual
+  // is known of the error.
+  periodic.sampling_difference = std::max(periodic.coarse_difference / problem.force_scale, periodic.residual);
+  PeriodicSearch search(periodic);
   if (!periodic.converged) return search;
   // The requested samples only, over all periods of the window.
   const Eigen::Index step = periodic.samples_per_cycle / options.samples_per_cycle;
@@ -111,6 +94,50 @@ PeriodicSearch solve_harmonic_balance(const LumpedSystem& system, const SteadyPr
   windows.coarse->samples_per_cycle = options.samples_per_cycle / 2;
   windows.coarse->force = in_window(periodic.coarse_force);
   return search;
+}
+
+/// Largest modulus of the Floquet multipliers of one mesh cycle about a periodic motion without loss of contact. Above
+/// 1 small disturbances grow (parametric resonance), below 1 they die out.
+///
+/// The tangents at the samples of the first cycle of the window are taken as constant around each sample. Undamped
+/// motions stay at 1 to rounding; limits of resonances are accurate to the second order of the spacing. Throws
+/// SolverError when the eigenvalue solver fails.
+double growth_per_cycle(const LumpedSystem& system, double mesh_frequency, const ResponseWindow& window) {
+  const Eigen::Index n = system.dofs();
+  require(window.samples_per_cycle > 0 && window.displacement.cols() >= window.samples_per_cycle,
+          fmt::format("a window of {} samples must hold a mesh cycle of {}", window.displacement.cols(),
+                      window.samples_per_cycle));
+  const Eigen::MatrixXd b = system.mesh_vectors(), fixed = system.stiffness() + system.rotating_stiffness();
+  const Eigen::VectorXd mean = mean_stiffnesses(system);
+  const Modes found = modes(system, mean);
+  const Eigen::MatrixXd shapes = found.shapes();
+  // Rigid displacements act on nothing. Included, they would make a multiplier of one defective, which rounding splits
+  // by its root.
+  const Eigen::Index free = neutral_motions(found, fixed + b * mean.asDiagonal() * b.transpose(), system.mass());
+  const Eigen::Index elastic = n - free;
+  const auto bent = shapes.rightCols(elastic);
+  const double w = std::max(2 * std::numbers::pi * found.modes.back().frequency, mesh_frequency);
+  // Elastic displacements and all velocities / w: entries of like size.
+  Eigen::MatrixXd tangent(b.cols(), b.cols()), state = Eigen::MatrixXd::Zero(elastic + n, elastic + n),
+                                               map = Eigen::MatrixXd::Identity(elastic + n, elastic + n);
+  state.topRightCorner(elastic, elastic).setIdentity();
+  state.bottomRightCorner(n, n) =
+      -shapes.transpose() * (system.damping_with_meshes() + system.gyroscopic()) * shapes / w;
+  auto workspace = system.workspace();
+  for (int i = 0; i < window.samples_per_cycle; ++i) {
+    const Eigen::VectorXd q = window.displacement.col(i), v = window.velocity.col(i);
+    system.detect_contact(window.time[i], q.data(), workspace);
+    system.evaluate_meshes(window.time[i], q.data(), v.data(), workspace);
+    system.tangent_matrix(workspace, tangent);
+    state.bottomLeftCorner(n, elastic) = -shapes.transpose() * (fixed + b * tangent * b.transpose()) * bent / (w * w);
+    map = (state * (w / (mesh_frequency * window.samples_per_cycle))).exp() * map;
+  }
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(map, false);
+  if (solver.info() != Eigen::Success)
+    throw SolverError(fmt::format("the Floquet multipliers of {} state variables were not found", map.rows()));
+  const double growth = solver.eigenvalues().cwiseAbs().maxCoeff();
+  const double rounding = 100 * std::numeric_limits<double>::epsilon() * (1 + w / mesh_frequency);
+  return growth <= 1 + rounding ? std::min(growth, 1.0) : growth;
 }
 
 /// Does the motion depart from the solution of a harmonic balance? It may do so too slowly for one window to show.

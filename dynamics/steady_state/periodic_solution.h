@@ -23,6 +23,10 @@ enum class PeriodicStatus {
 
 /// A periodic solution, without any time integration.
 struct PeriodicSearch {
+  PeriodicSearch() = default;
+  explicit PeriodicSearch(const PeriodicSolution& solution)
+      : status(solution.converged ? PeriodicStatus::found : PeriodicStatus::not_found), report(solution) {}
+
   PeriodicStatus status = PeriodicStatus::not_tried;
   std::optional<PeriodicSolution> report;  ///< absent when not tried
   std::optional<PeriodicWindows> windows;  ///< present when found

@@ -111,10 +111,9 @@ class PeriodWalk {
              PiecewiseResponse& response)
       : system_(system), linear_(linear), response_(response), step_(period / static_cast<double>(samples)) {
     fine_ = std::max(1, static_cast<int>(std::ceil(step_ * linear.fastest() / radians)));
-    auto& p = response.periodic;
     const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
-    p.time.resize(samples);
-    p.force.resize(meshes, samples);
+    response.time.resize(samples);
+    response.force.resize(meshes, samples);
     states_.resize(linear.size(), samples);
     response.dense_force.resize(meshes, samples * fine_);
     response.least_penetration = std::numeric_limits<double>::infinity();
@@ -122,7 +121,7 @@ class PeriodWalk {
 
   void run(const std::vector<SmoothPiece>& pieces, Eigen::VectorXd z) {
     const auto jumps = static_cast<Eigen::Index>(pieces.size());
-    const Eigen::Index meshes = response_.periodic.force.rows(), samples = states_.cols();
+    const Eigen::Index meshes = response_.force.rows(), samples = states_.cols();
     const double h = step_ / fine_;
     long long next = 0;  // fine step
     response_.jump_time.resize(jumps);
@@ -152,8 +151,8 @@ class PeriodWalk {
         force.noalias() = linear_.force(piece.combination) * z;
         if (next % fine_ == 0) {
           const auto sample = static_cast<Eigen::Index>(next / fine_);
-          response_.periodic.time[sample] = at(next);
-          response_.periodic.force.col(sample) = force;
+          response_.time[sample] = at(next);
+          response_.force.col(sample) = force;
           states_.col(sample) = z;
         }
       }
@@ -166,16 +165,15 @@ class PeriodWalk {
     }
   }
 
-  void keep_motion() {
+  void set_motion() {
     const Eigen::Index n = system_.dofs(), r = linear_.rigid();
     auto rigid_part = states_.middleRows(linear_.inner(), r);
     rigid_part.colwise() -= rigid_part.rowwise().mean().eval();
-    auto& p = response_.periodic;
-    p.displacement.resize(n, states_.cols());
-    p.velocity.resize(n, states_.cols());
+    response_.displacement.resize(n, states_.cols());
+    response_.velocity.resize(n, states_.cols());
     for (Eigen::Index i = 0; i < states_.cols(); ++i) {
-      p.displacement.col(i) = linear_.displacement(states_.col(i));
-      p.velocity.col(i) = linear_.velocity(states_.col(i));
+      response_.displacement.col(i) = linear_.displacement(states_.col(i));
+      response_.velocity.col(i) = linear_.velocity(states_.col(i));
     }
   }
 
@@ -204,35 +202,29 @@ class PeriodWalk {
   Eigen::VectorXd now_, slope_, last_, last_slope_;
 };
 
-/// Columns repeated `times` times.
-void repeat(Eigen::MatrixXd& columns, int times) { columns = columns.replicate(1, times).eval(); }
-
 void repeat_period(PeriodicResponse& p, double period, int times) {
   const Eigen::Index n = p.time.size();
   Eigen::VectorXd time(n * times);
   for (int i = 0; i < times; ++i) time.segment(i * n, n) = p.time.array() + i * period;
   p.time = std::move(time);
-  repeat(p.force, times);
-  if (p.displacement.size() == 0) return;
-  repeat(p.displacement, times);
-  repeat(p.velocity, times);
+  for (auto* columns : {&p.force, &p.displacement, &p.velocity}) *columns = columns->replicate(1, times).eval();
 }
 
 void judge(const LumpedSystem& system, PiecewiseResponse& response) {
   // Rounding: some 1e-16 x the condition of I - Phi, the inverse of the damping over a period.
   constexpr double accuracy = 1e-9;
   // Undamped motions stay on the unit circle to rounding.
-  response.stable = response.largest_multiplier <= 1 + accuracy;
-  auto& p = response.periodic;
-  if (!(p.residual <= accuracy) || !p.force.allFinite())
-    p.trouble = fmt::format("no periodic state: residual {:.1e} (a parametric resonance without damping)", p.residual);
+  response.stable = *response.largest_multiplier <= 1 + accuracy;
+  if (!(response.residual <= accuracy) || !response.force.allFinite())
+    response.trouble =
+        fmt::format("no periodic state: residual {:.1e} (a parametric resonance without damping)", response.residual);
   else if (!response.stable)
-    p.trouble = fmt::format("parametric resonance: the periodic motion is unstable (Floquet multiplier {:.4g})",
-                            response.largest_multiplier);
+    response.trouble = fmt::format("parametric resonance: the periodic motion is unstable (Floquet multiplier {:.4g})",
+                                   *response.largest_multiplier);
   else if (!(response.least_penetration > 0))
-    p.trouble = fmt::format("{} loses contact (by {:.3g} um), which the piecewise solution does not follow",
-                            system.meshes()[response.least_mesh].name, -1e6 * response.least_penetration);
-  p.converged = p.trouble.empty();
+    response.trouble = fmt::format("{} loses contact (by {:.3g} um), which the piecewise solution does not follow",
+                                   system.meshes()[response.least_mesh].name, -1e6 * response.least_penetration);
+  response.converged = response.trouble.empty();
 }
 
 constexpr double most_points = 2e6;  // of every mesh: some hundred megabytes
@@ -266,45 +258,44 @@ bool too_fast_for_piecewise(const LumpedSystem& system, double period, int cycle
   return solved * linear.fastest() / PeriodWalk::radians > most_points;
 }
 
-PiecewiseResponse piecewise_response(const LumpedSystem& system, double period, int cycles,
-                                     const PiecewiseOptions& options) {
+PiecewiseResponse piecewise_response(const LumpedSystem& system, double period, int cycles, int samples_per_cycle) {
   if (!(period > 0) || cycles < 1)
     throw InputError(fmt::format("a periodic response needs a positive period of whole cycles, not {} s and {} cycles",
                                  period, cycles));
-  if (options.samples_per_cycle < 1)
-    throw InputError(
-        fmt::format("a periodic response needs a sample per mesh cycle, not {}", options.samples_per_cycle));
+  if (samples_per_cycle < 1)
+    throw InputError(fmt::format("a periodic response needs a sample per mesh cycle, not {}", samples_per_cycle));
   PiecewiseResponse response;
-  auto& p = response.periodic;
-  p.trouble = why_not_piecewise(system, period);
-  if (!p.trouble.empty()) return response;
+  response.method = PeriodicMethod::piecewise;
+  response.samples_per_cycle = samples_per_cycle;
+  response.trouble = why_not_piecewise(system, period);
+  if (!response.trouble.empty()) return response;
   PiecewiseSystem linear(system);
   if (!linear.neutral()) {
-    p.trouble = "terms of the rotating frame act on the rigid motions of the system";
+    response.trouble = "terms of the rotating frame act on the rigid motions of the system";
     return response;
   }
   response.solved_cycles = cycles_to_solve(system, linear, period, cycles);
   const double solved = response.solved_cycles == cycles ? period : period / cycles;
   const auto pieces = pieces_of(system, linear, solved);
-  const Eigen::Index samples = static_cast<Eigen::Index>(response.solved_cycles) * options.samples_per_cycle;
+  const Eigen::Index samples = static_cast<Eigen::Index>(response.solved_cycles) * samples_per_cycle;
   const double points = solved * linear.fastest() / PeriodWalk::radians;
   if (points > most_points) {
-    p.trouble =
+    response.trouble =
         fmt::format("the fastest motion is too fast for the period: {:.2g} points of every mesh, {:.2g} at most",
                     points, most_points);
     return response;
   }
   const PiecewisePeriodMap map(linear, pieces);
   Eigen::VectorXd start;
-  p.residual = map.solve(start);
+  response.residual = map.solve(start);
   response.largest_multiplier = map.largest_multiplier();
   PeriodWalk walk(system, linear, solved, samples, response);
   walk.run(pieces, start);
-  if (options.motion) walk.keep_motion();
+  walk.set_motion();
   response.solved = true;
   judge(system, response);
-  p.open = Eigen::VectorXd::Zero(p.force.rows());
-  if (response.solved_cycles < cycles) repeat_period(p, solved, cycles);
+  response.open = Eigen::VectorXd::Zero(response.force.rows());
+  if (response.solved_cycles < cycles) repeat_period(response, solved, cycles);
   return response;
 }
 

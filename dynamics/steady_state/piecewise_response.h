@@ -1,40 +1,25 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
-#include <vector>
 
 #include "dynamics/steady_state/periodic_response.h"
 
 namespace annulus::dynamics {
 
-struct PiecewiseOptions {
-  int samples_per_cycle = 32;
-  bool motion = true;  ///< also the displacements and velocities of all DOFs
-};
-
 /// Exact periodic response of a system whose stiffnesses are constant between known jumps.
-struct PiecewiseResponse {
-  /// `converged`: the method applies, the solution exists and is stable, and every mesh stays in contact; `trouble`
-  /// states the cause otherwise. `residual`: of the periodic state, relative. There are no coarse forces.
-  PeriodicResponse periodic;
-  bool solved = false;          ///< the results below are present
-  bool stable = false;          ///< no Floquet multiplier lies outside the unit circle
-  double largest_multiplier{};  ///< modulus, over `solved_cycles` mesh cycles; neutral rigid motions left out
-  int solved_cycles = 0;        ///< period of the excitation; the samples repeat after it
+///
+/// `converged`: the method applies, the solution exists and is stable, and every mesh stays in contact; `trouble`
+/// states the cause otherwise. `residual`: of the periodic state, relative. `largest_multiplier`: over `solved_cycles`
+/// mesh cycles, neutral rigid motions left out. There are no coarse forces. Jumps and forces at closer times are those
+/// of `solved_cycles`; the closer times resolve the peaks of the highest modes.
+struct PiecewiseResponse : PeriodicResponse {
+  bool solved = false;    ///< the results are present
+  bool stable = false;    ///< no Floquet multiplier lies outside the unit circle
+  int solved_cycles = 0;  ///< period of the excitation; the samples repeat after it
   /// Least deflection beyond half backlash over all meshes and times, m (infinite without backlash). Zero or less means
   /// loss of contact, and the response is another one.
   double least_penetration = 0;
   int least_mesh = -1;  ///< its mesh, -1 without backlash
-  /// Times (s) of the jumps within `solved_cycles`, and the mesh forces on both sides (N, meshes x jumps). Where a
-  /// stiffness jumps, so do force and load sharing, and extremes occur there. The beginning of the period is a jump
-  /// too.
-  Eigen::VectorXd jump_time;
-  Eigen::MatrixXd force_before, force_after;
-  /// Forces over `solved_cycles` (N, meshes x times) at equidistant times that resolve the peaks of the highest modes,
-  /// and the samples at or right after a jump.
-  Eigen::MatrixXd dense_force;
-  std::vector<Eigen::Index> dense_after_jump;
 };
 
 /// The reason why piecewise_response does not apply, or empty. It needs constant or rectangular stiffnesses that repeat
@@ -57,6 +42,6 @@ struct PiecewiseResponse {
 /// `period` (s) spans `cycles` mesh cycles. Rigid motions are fixed by nu^T M q = 0 in the mean over the samples.
 /// Throws InputError when the period is not usable or the load is not balanced.
 [[nodiscard]] PiecewiseResponse piecewise_response(const LumpedSystem& system, double period, int cycles,
-                                                   const PiecewiseOptions& options = {});
+                                                   int samples_per_cycle = 32);
 
 }  // namespace annulus::dynamics

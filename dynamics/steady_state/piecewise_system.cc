@@ -44,9 +44,7 @@ PiecewiseSystem::PiecewiseSystem(const LumpedSystem& system)
 }
 
 void PiecewiseSystem::set_modes() {
-  Eigen::VectorXd mean(b_.cols());
-  for (Eigen::Index m = 0; m < mean.size(); ++m) mean[m] = mean_stiffness(system_.meshes()[m].excitation);
-  const Modes found = modes(system_, mean);
+  const Modes found = modes(system_, mean_stiffnesses(system_));
   const Eigen::Index n = dofs_;
   require(n > 0 && found.modes.back().frequency > 0,
           fmt::format("a piecewise linear system needs an elastic mode; {} degrees of freedom have none", n));

@@ -61,72 +61,52 @@ class SteadyStateFinder {
   }
 
   SteadyResponse run() {
-    for (Step step = Step::solve; step != Step::done;) step = take(step);
+    for (Step step{&SteadyStateFinder::solve}; step.take;) step = (this->*step.take)();
     return std::move(response_);
   }
 
  private:
-  enum class Step {
-    solve,      ///< periodic solution without time integration
-    accept,     ///< the periodic solution stands alone
-    confirm,    ///< one window of time integration from the periodic solution
-    search,     ///< windows until two agree
-    integrate,  ///< a prescribed length, or two windows that hold no whole period
-    evaluate,   ///< energies and errors of the last window
-    done
+  /// The next step; none at the end.
+  struct Step {
+    Step (SteadyStateFinder::*take)() = nullptr;
   };
-
-  Step take(Step step) {
-    switch (step) {
-      case Step::solve:
-        return solve();
-      case Step::accept:
-        return accept();
-      case Step::confirm:
-        return confirm();
-      case Step::search:
-        return search();
-      case Step::integrate:
-        return integrate_prescribed();
-      case Step::evaluate:
-        return evaluate();
-      case Step::done:
-        break;
-    }
-    return Step::done;
-  }
 
   /// Can windows repeat, so that there is a steady state to search for?
   [[nodiscard]] bool searchable() const { return !options_.mesh_cycles && response_.whole_period; }
 
+  /// Periodic solution without time integration.
   Step solve() {
     if (options_.steady_state == SteadyState::harmonic_balance && searchable()) {
       periodic_ = find_periodic_solution(system_, problem_, response_.window_cycles, options_);
       response_.periodic = periodic_.report;
     }
-    if (periodic_.status != PeriodicStatus::found) return searchable() ? Step::search : Step::integrate;
+    if (periodic_.status != PeriodicStatus::found)
+      return {searchable() ? &SteadyStateFinder::search : &SteadyStateFinder::integrate_prescribed};
     const bool confirmed_anyway = options_.confirm_on_contact_loss && periodic_.loses_contact();
-    return options_.confirm || confirmed_anyway ? Step::confirm : Step::accept;
+    return {options_.confirm || confirmed_anyway ? &SteadyStateFinder::confirm : &SteadyStateFinder::accept};
   }
 
+  /// The periodic solution stands alone.
   Step accept() {
     auto& [fine, coarse] = *periodic_.windows;
     response_.steady = true;
     response_.begin = response_.end = {0, fine.displacement.col(0), fine.velocity.col(0)};
     response_.best = std::move(fine);
     response_.before = std::move(coarse);
-    return Step::done;
+    return {};
   }
 
+  /// One window of time integration from the periodic solution.
   Step confirm() {
     auto& windows = start_integration();
     windows.advance();
     const double difference = largest_difference(windows.last(), periodic_.windows->fine, problem_.force_scale);
     response_.steady_difference = difference;
     response_.steady = response_.confirmed = difference <= options_.steady_tolerance;
-    return response_.confirmed ? Step::evaluate : Step::search;
+    return {response_.confirmed ? &SteadyStateFinder::evaluate : &SteadyStateFinder::search};
   }
 
+  /// Windows until two agree.
   Step search() {
     auto& windows = integration_ ? *integration_ : start_integration();
     // All windows only for a response that stands alone and has, or may have, a periodic solution.
@@ -134,9 +114,10 @@ class SteadyStateFinder {
     response_.steady = windows.reach_steady_state(options_, problem_.force_scale,
                                                   patient ? Effort::all_windows : Effort::until_out_of_reach);
     response_.steady_difference = windows.difference_to_before(problem_.force_scale);
-    return Step::evaluate;
+    return {&SteadyStateFinder::evaluate};
   }
 
+  /// A prescribed length, or two windows that hold no whole period.
   Step integrate_prescribed() {
     auto& windows = start_integration();
     const int cycles = response_.window_cycles;
@@ -147,15 +128,16 @@ class SteadyStateFinder {
     windows.advance();
     if (compared) response_.steady_difference = windows.difference_to_before(problem_.force_scale);
     if (compared && options_.mesh_cycles) response_.steady = *response_.steady_difference <= options_.steady_tolerance;
-    return Step::evaluate;
+    return {&SteadyStateFinder::evaluate};
   }
 
+  /// Energies and errors of the last window.
   Step evaluate() {
     integration_->finish(problem_, options_, response_);
     if (response_.confirmed) response_.before = std::move(periodic_.windows->fine);
     // Without loss of contact there is nothing but an unstable motion: slow growth does not show yet.
     if (periodic_.status == PeriodicStatus::unstable && response_.best.open.maxCoeff() == 0) response_.steady = false;
-    return Step::done;
+    return {};
   }
 
   /// From the periodic solution, else from the start of the problem, else from quasi-static equilibrium.

@@ -2,11 +2,11 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/not_known.h"
 #include "dynamics/steady_state/periodic_response.h"
 #include "dynamics/steady_state/response_run.h"
 #include "dynamics/time_integration/integrate.h"
@@ -30,7 +30,7 @@ struct SimulationOptions {
   /// Without `confirm`: confirms nevertheless where a mesh loses contact, because other motions may then exist.
   bool confirm_on_contact_loss = false;
   bool keep_series = true;   ///< false: results without time series
-  PeriodicOptions periodic;  ///< `samples_per_cycle` and `motion` are overwritten by the values of this struct
+  PeriodicOptions periodic;  ///< `samples_per_cycle` is overwritten by that of this struct
   IntegratorOptions integrator;
   /// Start of the time integration at time 0 (see SteadyProblem::start). From a harmonic balance the integration starts
   /// with the state of its solution.
@@ -63,6 +63,13 @@ struct SimulationOptions {
     integrator.relative_tolerance = relative_tolerance;
     steady_tolerance = std::max(steady_tolerance, 10 * relative_tolerance);
   }
+  /// Integrates over a prescribed length, of which the last `evaluated` mesh cycles are the window, for comparisons.
+  void integrate_for(int lead, int evaluated) {
+    mesh_cycles = lead + evaluated;
+    max_window_cycles = evaluated;
+    estimate_error = false;
+    keep_series = false;
+  }
 };
 
 struct WindowLength {
@@ -85,30 +92,10 @@ struct TimeSeries {
 
 /// Energies over the window: change of energy = supplied - dissipated. NaN where nothing was integrated in time.
 struct EnergyBalance {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  double supplied = unknown;    ///< J, by torques, errors and stiffness change
-  double dissipated = unknown;  ///< J, by dampers (>= 0)
-  double change = unknown;      ///< J, kinetic + elastic
-  double relative = unknown;    ///< |change - supplied + dissipated| / (dissipated + energy + its resolution)
-};
-
-enum class PeriodicMethod {
-  harmonic_balance,
-  piecewise,  ///< exact, for systems whose stiffness is constant between jumps, while no mesh loses contact
-};
-
-/// Course of the search for a periodic solution without time integration.
-struct PeriodicSolution {
-  PeriodicMethod method = PeriodicMethod::harmonic_balance;
-  bool converged = false;
-  std::string trouble;  ///< the cause where it did not converge
-  double residual = 0;  ///< see PeriodicOptions::tolerance
-  int newton_iterations = 0, linear_iterations = 0;
-  /// Largest force difference to half the samples / mean mesh force; at least the residual.
-  double sampling_difference = 0;
-  /// Largest modulus of a Floquet multiplier: over the period of a piecewise solution, over a mesh cycle of a harmonic
-  /// balance whose stability was examined.
-  std::optional<double> largest_multiplier{};
+  double supplied = not_known;    ///< J, by torques, errors and stiffness change
+  double dissipated = not_known;  ///< J, by dampers (>= 0)
+  double change = not_known;      ///< J, kinetic + elastic
+  double relative = not_known;    ///< |change - supplied + dissipated| / (dissipated + energy + its resolution)
 };
 
 /// Data of the steady state beside the system itself.
@@ -140,8 +127,6 @@ struct SteadyOutcome {
 
 /// The steady state of a system, with the windows that show how well it is known.
 struct SteadyResponse : SteadyOutcome {
-  [[nodiscard]] const SteadyOutcome& outcome() const { return *this; }
-
   ResponseWindow best;
   /// Window that `best` should equal: the periodic solution where it was confirmed, the forces with half the samples
   /// where the harmonic balance stands alone, or the window before. Absent when there is none.

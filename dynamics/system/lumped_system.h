@@ -17,11 +17,6 @@ using LinearForm = std::vector<std::pair<int, double>>;
 [[nodiscard]] LinearForm operator+(const LinearForm& a, const LinearForm& b);
 [[nodiscard]] LinearForm operator*(double factor, const LinearForm& a);
 
-/// Part of the transmission error of a mesh: amount x sin(rate t + phase), in m, rad/s and rad.
-struct HarmonicError {
-  double amount = 0, rate = 0, phase = 0;
-};
-
 /// A part of a mesh vector that changes in time: factor(t) x DOF is added to the approach b^T q, where
 /// factor(t) = curve(frequency t + phase_offset of the mesh) + amount x sin(rate t + phase).
 struct MovingShare {

@@ -46,6 +46,11 @@ struct TableStiffness {
 /// Excitation of one kind of mesh. Several meshes share it, each shifted by its own phase.
 using MeshExcitation = std::variant<ConstantStiffness, HarmonicStiffness, RectangularStiffness, TableStiffness>;
 
+/// Part of the transmission error of a mesh: amount x sin(rate t + phase), in m, rad/s and rad.
+struct HarmonicError {
+  double amount = 0, rate = 0, phase = 0;
+};
+
 enum class LoadDependence {
   nominal,  ///< linear with the secant stiffness at the nominal load
   table,    ///< the law of force over deflection that all loads of the table give

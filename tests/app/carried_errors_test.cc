@@ -103,7 +103,9 @@ BOOST_AUTO_TEST_CASE(frequencies_carry_the_errors_of_the_stiffness) {
     const auto mesh = [&](std::size_t i) {
       return app::mesh_stiffness(scene, geometry, plan.meshes[i], {.out = folder.path()});
     };
-    return app::stage_modes(app::make_stage(scene, geometry, 0, mesh(0), mesh(1)), {base.sun_error, base.ring_error});
+    return app::stage_modes(app::make_stage(scene, geometry, 0, mesh(0), mesh(1)),
+                            {{.groups = {app::sun_planet}, .relative = base.sun_error},
+                             {.groups = {app::ring_planet}, .relative = base.ring_error}});
   };
   const auto nominal = modes_of(1, 1), stiffer = modes_of(1 + base.sun_error, 1 + base.ring_error);
   BOOST_TEST_REQUIRE(nominal.list.size() > 10U);
@@ -143,10 +145,9 @@ BOOST_AUTO_TEST_CASE(frequencies_carry_the_error_of_the_elastic_ring) {
       coupling->modes.push_back(std::move(mode));
     }
     stage.ring_coupling = std::move(coupling);
-    app::MeshStiffnessErrors errors;
-    errors.ring_mode = error;
-    errors.ring_mode_parts.model = error;
-    return app::stage_modes(stage, errors);
+    return app::stage_modes(
+        stage,
+        {{.groups = {"ring_mode", "ring_body"}, .relative = error, .parts = {.model = error}, .sensitivity = 1}});
   };
   const auto nominal = modes_of(1), higher = modes_of(1 + error);
   // Modes of nearly the same frequency change into each other: only their sum is of first order.

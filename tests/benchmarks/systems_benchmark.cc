@@ -89,8 +89,8 @@ void reducer_search(int evaluations) {
     const Stopwatch watch;
     for (int i = 0; i < count; ++i) {
       stage.set_half_backlash(10e-6 * std::pow(100.0, static_cast<double>(i) / count));
-      const auto figures = evaluate_point(stage, point);
-      parted += std::max(figures.sun_planet.contact_loss, figures.ring_planet.contact_loss) > 0;
+      const auto figures = evaluate_point(stage, point).figures;
+      parted += std::max(figures.value("sun_planet_contact_loss"), figures.value("ring_planet_contact_loss")) > 0;
     }
     const double each = watch.cpu() / count;
     const Stopwatch integration;

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/errors.h"
-#include "dynamics/systems/planetary/orbit.h"
+#include "dynamics/systems/planetary/stage_motion.h"
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
 

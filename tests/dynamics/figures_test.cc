@@ -1,5 +1,5 @@
+#include "dynamics/figures/mesh_results.h"
 #include "dynamics/figures/spectrum.h"
-#include "dynamics/systems/planetary/load_sharing.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "core/errors.h"
+#include "dynamics/figures/common_figures.h"
+#include "dynamics/figures/motion.h"
 
 BOOST_AUTO_TEST_SUITE(figures)
 
@@ -17,15 +19,30 @@ BOOST_AUTO_TEST_CASE(load_sharing_of_given_forces) {
   force << 1, 3, 1, 3,  //
       3, 1, 3, 1;
   BOOST_TEST(load_sharing_instantaneous(force) == 1.5);  // 2 x 3/4
-  BOOST_TEST(load_sharing_averaged(force, 2) == 1.0);    // equal over a cycle of two samples
-  BOOST_TEST(load_sharing_averaged(force, 1) == 1.5);
   BOOST_TEST(load_sharing_over_time(force)(1, 2) == 1.5);
-  force(0, 3) = 7;  // last cycle: 8 and 4
-  BOOST_TEST(std::abs(load_sharing_averaged(force, 2) - 4.0 / 3) <= 1e-15);
+  force(0, 3) = 7;
   BOOST_TEST(load_sharing_instantaneous(force) == 1.75);
   force.col(1).setZero();
   BOOST_TEST(load_sharing_instantaneous(force) == std::numeric_limits<double>::infinity());
-  BOOST_CHECK_THROW((void)load_sharing_averaged(force, 5), annulus::InternalError);
+}
+
+BOOST_AUTO_TEST_CASE(curves_are_reduced_to_each_cycle) {
+  Eigen::VectorXd values(6);
+  values << 1, 2, 6, 5, 3, 4;
+  const auto cycles = over_cycles(values, 2);
+  BOOST_TEST((cycles.mean == Eigen::Vector2d(3, 4)));
+  BOOST_TEST((cycles.smallest == Eigen::Vector2d(1, 3)));
+  BOOST_TEST((cycles.largest == Eigen::Vector2d(6, 5)));
+  BOOST_TEST(motion_range(values.transpose()).peak_to_peak == 5.0);
+}
+
+BOOST_AUTO_TEST_CASE(frequencies_are_listed_once_or_as_often_as_they_occur) {
+  const std::vector<Frequency> list = {{{0, 0}}, {{100, 1}}, {{100 * (1 + 1e-9), 2}}, {{150, 3}}};
+  const auto once = frequency_figures(list, 2, Multiples::once), all = frequency_figures(list, 2, Multiples::listed);
+  BOOST_TEST(once.value("frequency_2_Hz") == 150.0);
+  BOOST_TEST(once.figure("frequency_2_Hz").error == 3.0);
+  BOOST_TEST(all.figure("frequency_2_Hz").error == 2.0);
+  BOOST_TEST(!all.find("frequency_3_Hz"));
 }
 
 BOOST_AUTO_TEST_CASE(spectrum_finds_orders_and_amplitudes) {

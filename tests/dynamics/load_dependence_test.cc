@@ -3,8 +3,8 @@
 #include <random>
 
 #include "dynamics/statics/static_solver.h"
-#include "dynamics/systems/planetary/load_sharing.h"
 #include "dynamics/systems/planetary/planetary_modes.h"
+#include "dynamics/systems/planetary/response.h"
 #include "dynamics/time_integration/integrate.h"
 #include "tests/dynamics/stages.h"
 #include "tests/dynamics/tables.h"

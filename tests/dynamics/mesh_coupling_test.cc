@@ -6,8 +6,8 @@
 
 #include "core/errors.h"
 #include "dynamics/statics/static_solver.h"
-#include "dynamics/systems/planetary/load_sharing.h"
 #include "dynamics/systems/planetary/planetary_modes.h"
+#include "dynamics/systems/planetary/response.h"
 #include "dynamics/time_integration/integrate.h"
 #include "tests/dynamics/allocation_counter.h"
 #include "tests/dynamics/stages.h"

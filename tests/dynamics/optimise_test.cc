@@ -166,14 +166,13 @@ BOOST_AUTO_TEST_CASE(a_failing_region_is_left_counted_and_reported) {
                     std::bad_alloc);
 }
 
-BOOST_AUTO_TEST_CASE(a_flat_objective_stops_the_search_and_is_called_flat) {
+BOOST_AUTO_TEST_CASE(a_flat_objective_is_called_flat) {
   const auto ripple = [](const std::vector<double>& x) { return 1.5 + 1e-9 * std::sin(1e4 * x[0]); };
   for (const auto optimiser : all) {
     OptimiseOptions options;
     options.optimiser = optimiser;
-    options.stop_spread = 1e-8;
+    options.generations = 5;
     const auto r = optimise(plane, ripple, options);
-    BOOST_TEST(r.history.size() == 6u);
     const auto range = objective_range(r.evaluations);
     BOOST_TEST(range.flat);
     BOOST_TEST(range.verdict.find("flat") == 0u);
@@ -238,8 +237,9 @@ BOOST_AUTO_TEST_CASE(load_sharing_of_the_backlash_paper_is_flat_over_both_backla
         auto stage = stages::backlash_paper();
         stage.sun_half_backlash = x[0];
         stage.ring_half_backlash = x[1];
-        const auto p = evaluate_point(stage, {.simulation = {}, .motion = false});
-        return 0.5 * (p.sun_planet.instantaneous + p.ring_planet.instantaneous);
+        const auto p = evaluate_point(stage, {.simulation = {}, .motion = false}).figures;
+        return 0.5 *
+               (p.value("sun_planet_load_sharing_instantaneous") + p.value("ring_planet_load_sharing_instantaneous"));
       },
       options);
   const auto range = objective_range(r.evaluations);

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/errors.h"
-#include "dynamics/systems/planetary/load_sharing.h"
+#include "dynamics/systems/planetary/response.h"
 #include "tests/dynamics/stages.h"
 #include "tests/verification_record.h"
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/units.h"
+#include "dynamics/steady_state/piecewise_response.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
 /// Stages the tests share.
@@ -123,3 +124,36 @@ inline Eigen::VectorXd random_state(int n, unsigned seed) {
 }
 
 }  // namespace annulus::dynamics::stages
+
+namespace annulus::dynamics {
+
+/// Harmonic balance and exact solution of a stage alone, over its error period.
+inline PeriodicResponse periodic_response(const PlanetaryStage& stage, const PeriodicOptions& options = {}) {
+  const int cycles = stage.error_period();
+  return periodic_response(assemble(stage), cycles / stage.mesh_frequency(), cycles, options);
+}
+inline PiecewiseResponse piecewise_response(const PlanetaryStage& stage, int samples_per_cycle = 32) {
+  const int cycles = stage.error_period();
+  return piecewise_response(assemble(stage), cycles / stage.mesh_frequency(), cycles, samples_per_cycle);
+}
+
+/// Sum of the terms of a transmission error at a time (s), and its rate.
+struct MeshError {
+  double value = 0, rate = 0;
+};
+inline MeshError sum_of(const std::vector<HarmonicError>& errors, double time) {
+  MeshError e;
+  for (const auto& h : errors) {
+    e.value += h.amount * std::sin(h.rate * time + h.phase);
+    e.rate += h.amount * h.rate * std::cos(h.rate * time + h.phase);
+  }
+  return e;
+}
+inline MeshError sun_mesh_error(const PlanetaryStage& stage, int n, double time) {
+  return sum_of(sun_mesh_errors(stage, n), time);
+}
+inline MeshError ring_mesh_error(const PlanetaryStage& stage, int n, double time) {
+  return sum_of(ring_mesh_errors(stage, n), time);
+}
+
+}  // namespace annulus::dynamics

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <utility>
 
 #include "app/results/content_id.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/log.h"
+#include "dynamics/systems/planetary/planetary_figures.h"
 
 namespace annulus::app {
 
@@ -15,40 +16,37 @@ namespace {
 
 constexpr int lead_cycles = 220, evaluated_cycles = 110;  // the start has decayed; two periods of 55-tooth planets
 
-double largest_factor(const dynamics::MeshKindResult& kind) {
-  double largest = 0;
-  for (const auto& branch : kind.branches) largest = std::max(largest, branch.dynamic_factor_max.value);
-  return largest;
-}
+using Row = CouplingEffect::Row;
+
+/// The values of a row by the keys of dynamics::planetary_figures, which are its columns too.
+constexpr std::pair<const char*, double Row::*> row_values[] = {
+    {"sun_planet_load_sharing_averaged", &Row::averaged},
+    {"sun_planet_load_sharing_instantaneous", &Row::instantaneous},
+    {"sun_planet_load_sharing_quasi_static", &Row::quasi_static},
+    {"sun_planet_dynamic_factor", &Row::sun_factor},
+    {"ring_planet_dynamic_factor", &Row::ring_factor}};
 
 }  // namespace
 
 CouplingEffect coupling_effect(const dynamics::PlanetaryStage& uncoupled, const SolvedCoupling& solved,
                                const dynamics::SimulationOptions& options) {
   dynamics::SimulationOptions integrated = options;
-  integrated.mesh_cycles = lead_cycles + evaluated_cycles;
-  integrated.max_window_cycles = evaluated_cycles;
-  integrated.estimate_error = false;
-  integrated.keep_series = false;
+  integrated.integrate_for(lead_cycles, evaluated_cycles);
   CouplingEffect effect;
   effect.cycles = evaluated_cycles;
   for (const auto model : {RimCoupling::none, RimCoupling::statical, RimCoupling::elastic}) {
     if (model == RimCoupling::elastic && solved.coupling.modes.empty()) continue;
     dynamics::PlanetaryStage stage = uncoupled;
     stage.ring_coupling = taken_coupling(solved, model);
-    std::optional<dynamics::DynamicResponse> solved_response;
     try {
-      solved_response = dynamics::simulate(stage, integrated);
+      const auto figures = dynamics::figures(dynamics::simulate(stage, integrated));
+      auto& row = effect.rows.emplace_back(Row{.model = model});
+      for (const auto& [key, value] : row_values) row.*value = figures.value(key);
     } catch (const SolverError& error) {
       // The comparison is an extra: where a model of it fails, the others stand.
       log::info(fmt::format("coupling through the ring, {}: {}",
                             model == RimCoupling::elastic ? "elastic modes" : "static", error.what()));
-      continue;
     }
-    const auto& response = *solved_response;
-    const auto& sharing = response.sun_planet.load_sharing;
-    effect.rows.push_back({model, sharing.averaged.value, sharing.instantaneous.value, sharing.quasi_static.value,
-                           largest_factor(response.sun_planet), largest_factor(response.ring_planet)});
   }
   return effect;
 }
@@ -59,15 +57,13 @@ void save(const CouplingEffect& effect, const std::string& id, const std::filesy
                 {"inputs_id", id},
                 {"models", "0 none, 1 static, 2 elastic modes of the ring"},
                 {"mesh_cycles", std::to_string(effect.cycles)}};
-  csv.columns = {"model",
-                 "sun_planet_load_sharing_averaged",
-                 "sun_planet_load_sharing_instantaneous",
-                 "sun_planet_load_sharing_quasi_static",
-                 "sun_planet_dynamic_factor",
-                 "ring_planet_dynamic_factor"};
+  csv.columns = {"model"};
+  for (const auto& [key, value] : row_values) csv.columns.emplace_back(key);
   for (const auto& row : effect.rows) {
-    const double model = row.model == RimCoupling::none ? 0 : row.model == RimCoupling::statical ? 1 : 2;
-    csv.rows.push_back({model, row.averaged, row.instantaneous, row.quasi_static, row.sun_factor, row.ring_factor});
+    auto& cells = csv.rows.emplace_back(1, row.model == RimCoupling::none       ? 0
+                                           : row.model == RimCoupling::statical ? 1
+                                                                                : 2);
+    for (const auto& [key, value] : row_values) cells.push_back(row.*value);
   }
   std::filesystem::create_directories(folder);
   csv.write(folder / effect_file);
@@ -78,8 +74,11 @@ CouplingEffect load_effect(const std::filesystem::path& folder) {
   CouplingEffect effect;
   effect.cycles = std::stoi(csv.header.at(3).second);
   for (const auto& row : csv.rows) {
-    const auto model = row[0] == 0 ? RimCoupling::none : row[0] == 1 ? RimCoupling::statical : RimCoupling::elastic;
-    effect.rows.push_back({model, row[1], row[2], row[3], row[4], row[5]});
+    auto& read = effect.rows.emplace_back(Row{.model = row[0] == 0   ? RimCoupling::none
+                                                       : row[0] == 1 ? RimCoupling::statical
+                                                                     : RimCoupling::elastic});
+    std::size_t column = 0;
+    for (const auto& [key, value] : row_values) read.*value = row[++column];
   }
   return effect;
 }

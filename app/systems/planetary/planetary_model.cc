@@ -1,6 +1,5 @@
 #include "app/systems/planetary/planetary_model.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "app/results/content_id.h"
@@ -8,6 +7,7 @@
 #include "app/systems/planetary/stage_response.h"
 #include "dynamics/systems/planetary/initial_spread.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
+#include "dynamics/systems/planetary/study_point.h"
 
 namespace annulus::app {
 
@@ -73,27 +73,19 @@ class PlanetaryModel final : public LumpedModel {
   }
 
   [[nodiscard]] StudyPoint answer(Answer wanted) const override {
-    auto f = dynamics::evaluate_point(stage_, {.simulation = simulation_, .motion = wanted == Answer::all});
-    auto figures = dynamics::figures(f);
-    if (wanted == Answer::all) figures.add(dynamics::motion_figures(f));
-    return {.figures = {dynamics::planetary_figures(), figures}, .poincare = std::move(f.poincare)};
+    auto point = dynamics::evaluate_point(stage_, {.simulation = simulation_, .motion = wanted == Answer::all});
+    return {.figures = {dynamics::planetary_figures(), point.figures}, .poincare = std::move(point.poincare)};
   }
 
   [[nodiscard]] std::optional<StartSpread> starts(int count, int seed) const override {
     const auto spread = dynamics::initial_spread(
         stage_, {.random_starts = count - 1, .seed = static_cast<std::uint64_t>(seed), .simulation = simulation_});
     const auto& specs = dynamics::planetary_figures();
-    StartSpread result{.starts = count, .motions = spread.attractors, .not_steady = spread.unsteady};
-    for (const auto& start : spread.starts) {
-      const FigureRow row(specs,
-                          dynamics::figures(dynamics::PointFigures{start.sun_planet, start.ring_planet, start.steady}));
-      if (result.low.empty()) result.low = result.high = row;
-      for (const auto& spec : specs) {
-        result.low.set(spec.key, std::min(result.low.value(spec.key), row.value(spec.key)));
-        result.high.set(spec.key, std::max(result.high.value(spec.key), row.value(spec.key)));
-      }
-    }
-    return result;
+    return StartSpread{.starts = count,
+                       .motions = spread.attractors,
+                       .low = {specs, spread.low},
+                       .high = {specs, spread.high},
+                       .not_steady = spread.unsteady};
   }
 
  private:

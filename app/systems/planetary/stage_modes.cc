@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "app/systems/planetary/rim_coupling.h"
 #include "core/units.h"
+#include "dynamics/figures/common_figures.h"
 #include "dynamics/systems/planetary/campbell.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
-#include "dynamics/systems/planetary/planetary_modes.h"
 #include "fem/ring/ring_coupling.h"
 
 namespace annulus::app {
@@ -20,44 +17,9 @@ constexpr int campbell_steps = 40;
 constexpr double campbell_reach = 1.5;  // times the operating speed
 constexpr int campbell_orders = 5;
 
-void add_energies(StageModes& result, const dynamics::PlanetaryStage& stage, const dynamics::Modes& modes) {
-  const auto energy = dynamics::modal_energy(stage, modes);
-  const auto grouped = dynamics::by_group(energy);
-  // These columns are there for every stage; elements of other kinds follow.
-  result.groups = {"sun_planet", "ring_planet", "planet_bearing", "sun_support", "ring_support", "carrier_support"};
-  for (const auto& group : grouped.groups) {
-    if (std::find(result.groups.begin(), result.groups.end(), group) == result.groups.end())
-      result.groups.push_back(group);
-  }
-  result.bodies = {"sun", "ring", "carrier", "planets"};
-  for (std::size_t i = 0; i < result.list.size(); ++i) {
-    auto& mode = result.list[i];
-    const auto column = static_cast<Eigen::Index>(i);
-    mode.strain.assign(result.groups.size(), 0.0);
-    for (std::size_t g = 0; g < grouped.groups.size(); ++g) {
-      const auto place = std::find(result.groups.begin(), result.groups.end(), grouped.groups[g]);
-      mode.strain[static_cast<std::size_t>(place - result.groups.begin())] =
-          grouped.strain(static_cast<Eigen::Index>(g), column);
-    }
-    mode.kinetic.assign(result.bodies.size(), 0.0);
-    for (std::size_t b = 0; b < energy.bodies.size(); ++b) {
-      const auto place = std::find(result.bodies.begin(), result.bodies.end() - 1, energy.bodies[b]);
-      mode.kinetic[static_cast<std::size_t>(place - result.bodies.begin())] +=
-          energy.kinetic(static_cast<Eigen::Index>(b), column);
-    }
-  }
-}
-
-/// Frequency and damping ratio at the operating speed, each mode followed from rest by its shape.
-void add_operating_speed(StageModes& result, dynamics::PlanetaryStage stage) {
-  const auto turning = dynamics::rotating_modes(stage, dynamics::ModeDamping::damped);
-  stage.carrier_speed = 0;
-  const auto rest = dynamics::rotating_modes(stage, dynamics::ModeDamping::undamped);
-  const auto next = dynamics::continued_modes(rest, turning, dynamics::assemble(stage).mass());
-  for (std::size_t i = 0; i < result.list.size(); ++i) {
-    result.list[i].damped_frequency = turning.modes[next[i]].frequency;
-    result.list[i].damping_ratio = turning.modes[next[i]].damping_ratio;
-  }
+std::vector<double> column(const Eigen::MatrixXd& shares, std::size_t mode) {
+  const auto values = shares.col(static_cast<Eigen::Index>(mode));
+  return {values.begin(), values.end()};
 }
 
 void add_campbell(StageModes& result, const dynamics::PlanetaryStage& stage) {
@@ -86,11 +48,14 @@ void add_campbell(StageModes& result, const dynamics::PlanetaryStage& stage) {
 
 MeshStiffnessErrors stiffness_errors(const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
   const auto sun = sun_mesh.mean_stiffness(), ring = ring_mesh.mean_stiffness();
-  MeshStiffnessErrors errors{sun.error_relative, ring.error_relative, sun.parts, ring.parts};
+  MeshStiffnessErrors errors = {{.groups = {sun_planet}, .relative = sun.error_relative, .parts = sun.parts},
+                                {.groups = {ring_planet}, .relative = ring.error_relative, .parts = ring.parts}};
   if (!ring_mesh.coupling) return errors;
-  errors.ring_mode = ring_mesh.coupling->frequency_error_relative;
-  errors.ring_mode_parts.model = fem::plane_strain_bounds(*ring_mesh.model.problem).frequency;
-  errors.ring_mode_parts.discretisation = errors.ring_mode - errors.ring_mode_parts.model;
+  auto& elastic = errors.emplace_back(dynamics::GroupError{.groups = {"ring_mode", "ring_body"},
+                                                           .relative = ring_mesh.coupling->frequency_error_relative,
+                                                           .sensitivity = 1});
+  elastic.parts.model = fem::plane_strain_bounds(*ring_mesh.model.problem).frequency;
+  elastic.parts.discretisation = elastic.relative - elastic.parts.model;
   return errors;
 }
 
@@ -99,46 +64,35 @@ StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnes
   StageModes result;
   result.shapes.columns = {"mode", "frequency_Hz"};
   result.shapes.columns.insert(result.shapes.columns.end(), modes.dofs.begin(), modes.dofs.end());
+  if (modes.modes.empty()) return result;
+  // These columns are there for every stage; elements of other kinds follow.
+  const auto energy = dynamics::by_group(
+      dynamics::modal_energy(stage, modes),
+      {"sun_planet", "ring_planet", "planet_bearing", "sun_support", "ring_support", "carrier_support"},
+      {"sun", "ring", "carrier", "planet"});
+  const auto frequencies = dynamics::frequency_errors(modes, energy, errors);
+  const auto turning = dynamics::modes_at_speed(stage);
+  result.groups = energy.groups;
+  result.bodies = {"sun", "ring", "carrier", "planets"};
   for (std::size_t i = 0; i < modes.modes.size(); ++i) {
-    const auto& mode = modes.modes[i];
-    result.list.push_back(
-        {.frequency = mode.frequency, .kind = dynamics::to_string(modes.kinds[i]), .strain = {}, .kinetic = {}});
-    auto& row = result.shapes.rows.emplace_back(std::vector{static_cast<double>(result.list.size()), mode.frequency});
+    const auto& [frequency, shape] = modes.modes[i];
+    result.list.push_back({frequency, frequencies[i].figure.error, frequencies[i].parts,
+                           dynamics::to_string(modes.kinds[i]), turning[i].frequency, turning[i].damping_ratio,
+                           column(energy.strain, i), column(energy.kinetic, i)});
+    auto& row = result.shapes.rows.emplace_back(std::vector{static_cast<double>(i + 1), frequency});
     // The largest amplitude is 1: only the shape means something.
     Eigen::Index top = 0;
-    (void)mode.shape.cwiseAbs().maxCoeff(&top);
-    for (const double value : mode.shape) row.push_back(value / mode.shape[top]);
+    (void)shape.cwiseAbs().maxCoeff(&top);
+    for (const double value : shape) row.push_back(value / shape[top]);
   }
-  if (modes.modes.empty()) return result;
-  add_energies(result, stage, modes);
-  const auto share_of = [&](const StageModes::Mode& mode, const char* group) {
-    const auto found = std::find(result.groups.begin(), result.groups.end(), group);
-    return found == result.groups.end() ? 0 : mode.strain[static_cast<std::size_t>(found - result.groups.begin())];
-  };
-  for (auto& mode : result.list) {  // the first two groups are the meshes
-    const double of_sun = mode.frequency / 2 * mode.strain[0], of_ring = mode.frequency / 2 * mode.strain[1],
-                 of_ring_mode = mode.frequency * std::abs(share_of(mode, "ring_mode") + share_of(mode, "ring_body"));
-    mode.frequency_error = of_sun * errors.sun_planet + of_ring * errors.ring_planet + of_ring_mode * errors.ring_mode;
-    mode.error_parts = of_sun * errors.sun_parts;
-    mode.error_parts += of_ring * errors.ring_parts;
-    mode.error_parts += of_ring_mode * errors.ring_mode_parts;
-  }
-  add_operating_speed(result, stage);
   if (stage.carrier_speed > 0) add_campbell(result, stage);
   return result;
 }
 
 FigureSet frequency_figures(const StageModes& modes) {
-  constexpr double same = 1e-6;  // modes in pairs agree to rounding, neighbours of different kind do not
-  FigureSet set;
-  double last = 0;
-  int count = 0;
-  for (const auto& mode : modes.list) {
-    if (!(mode.frequency > last * (1 + same)) || count == dynamics::planetary_frequencies) continue;
-    set.set(fmt::format("frequency_{}_Hz", ++count), {mode.frequency, mode.frequency_error}, mode.error_parts);
-    last = mode.frequency;
-  }
-  return set;
+  std::vector<dynamics::Frequency> list;
+  for (const auto& mode : modes.list) list.push_back({{mode.frequency, mode.frequency_error}, mode.error_parts});
+  return dynamics::frequency_figures(list, dynamics::planetary_frequencies, dynamics::Multiples::once);
 }
 
 std::string modes_csv(const StageModes& modes) {

@@ -6,6 +6,7 @@
 #include "app/model/mesh_result.h"
 #include "core/csv.h"
 #include "core/figure.h"
+#include "dynamics/modes/modal_energy.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
 namespace annulus::app {
@@ -14,7 +15,7 @@ namespace annulus::app {
 struct StageModes {
   struct Mode {
     double frequency = 0;        ///< Hz, undamped, at rest
-    double frequency_error = 0;  ///< Hz, what the errors of the mesh stiffnesses do to it
+    double frequency_error = 0;  ///< Hz, by the errors of the mesh stiffnesses
     ErrorParts error_parts{};    ///< Hz, of frequency_error
     std::string kind;
     double damped_frequency = 0;  ///< Hz, in the carrier frame at the operating speed
@@ -30,18 +31,11 @@ struct StageModes {
   Csv critical_speeds;              ///< where mesh orders meet them
 };
 
-/// Relative errors of the mean mesh stiffnesses; 0 for given ones, which count as exact.
-struct MeshStiffnessErrors {
-  double sun_planet = 0, ring_planet = 0;
-  ErrorParts sun_parts{}, ring_parts{};  ///< of them, where known
-  double ring_mode = 0;                  ///< relative error of the frequencies of the elastic ring
-  ErrorParts ring_mode_parts{};          ///< of it
-};
+/// Relative errors of the mean mesh stiffnesses and of the frequencies of the elastic ring.
+using MeshStiffnessErrors = std::vector<dynamics::GroupError>;
 [[nodiscard]] MeshStiffnessErrors stiffness_errors(const MeshResult& sun_mesh, const MeshResult& ring_mesh);
 
-/// The error of a frequency is that of the stiffnesses times half their shares of the strain energy of the mode, and
-/// that of the ring's own frequencies times the share of its elasticity (ring_mode, ring_body); all taken to err the
-/// same way.
+/// Modes with the errors of their frequencies, see dynamics::frequency_errors.
 [[nodiscard]] StageModes stage_modes(const dynamics::PlanetaryStage& stage, const MeshStiffnessErrors& errors);
 
 /// The distinct natural frequencies above zero with their errors, by the keys of dynamics::planetary_figures.

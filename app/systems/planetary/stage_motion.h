@@ -1,30 +1,29 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/csv.h"
+#include "core/not_known.h"
 #include "dynamics/systems/planetary/response.h"
 
 namespace annulus::app {
 
 /// What bearings, supports and the sun do over the evaluated window.
 struct StageMotion {
-  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> pin_force_max;              ///< N, largest resultant on the pin of each planet
   std::vector<double> pin_force_mean_tangential;  ///< N
-  double sun_support_max = unknown, ring_support_max = unknown, carrier_support_max = unknown;  ///< N, resultant
-  double ring_torque_mean = unknown;                                                            ///< N m, on the housing
-  double sun_orbit_extent = unknown;   ///< m, largest distance from the mean place, carrier frame
-  double sun_orbit_largest = unknown;  ///< m, largest distance from the axis
-  std::string section;                 ///< period_1, period_n, irregular, undecided
-  std::optional<int> section_period;   ///< mesh cycles
-  int section_clusters = 0;            ///< distinct points of the Poincaré section
-  Csv bearing_forces;                  ///< per mesh cycle
-  Csv sun_orbit;                       ///< over time
-  Csv poincare;                        ///< once per mesh cycle
+  double sun_support_max = not_known, ring_support_max = not_known, carrier_support_max = not_known;  ///< N, resultant
+  double ring_torque_mean = not_known;   ///< N m, on the housing
+  double sun_orbit_extent = not_known;   ///< m, largest distance from the mean position, carrier frame
+  double sun_orbit_largest = not_known;  ///< m, largest distance from the axis
+  std::string section;                   ///< period_1, period_n, irregular, undecided
+  std::optional<int> section_period;     ///< mesh cycles
+  int section_clusters = 0;              ///< distinct points of the Poincaré section
+  Csv bearing_forces;                    ///< per mesh cycle
+  Csv sun_orbit;                         ///< over time
+  Csv poincare;                          ///< once per mesh cycle
 };
 
 /// Of the samples of a window, every how many-th is written. A ring on pins repeats after more than a thousand mesh

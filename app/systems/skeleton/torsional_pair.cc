@@ -12,7 +12,7 @@
 #include "app/run/pipeline.h"
 #include "app/scene/gear_tables.h"
 #include "app/scene/key_checks.h"
-#include "dynamics/figures/steady_figure.h"
+#include "dynamics/figures/common_figures.h"
 
 namespace annulus::app {
 

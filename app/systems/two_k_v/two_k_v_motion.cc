@@ -23,7 +23,7 @@ std::optional<double> optional_number(const Json& json) {
   return json.get<double>();
 }
 
-Json meshes_json(const std::vector<dynamics::TwoKVMeshResult>& meshes) {
+Json meshes_json(const std::vector<dynamics::BranchResult>& meshes) {
   auto json = Json::array();
   for (const auto& m : meshes)
     json.push_back({{"dynamic_factor_max", m.dynamic_factor_max.value},
@@ -34,10 +34,10 @@ Json meshes_json(const std::vector<dynamics::TwoKVMeshResult>& meshes) {
   return json;
 }
 
-std::vector<dynamics::TwoKVMeshResult> meshes_of(const Json& json) {
-  std::vector<dynamics::TwoKVMeshResult> meshes;
+std::vector<dynamics::BranchResult> meshes_of(const Json& json) {
+  std::vector<dynamics::BranchResult> meshes;
   for (const auto& m : json)
-    meshes.push_back({{m.at("dynamic_factor_max"), m.at("dynamic_factor_max_error")},
+    meshes.push_back({{m.at("dynamic_factor_max"), number_of(m.at("dynamic_factor_max_error"))},
                       m.at("dynamic_factor_min"),
                       m.at("mean_force_N"),
                       m.at("contact_loss")});
@@ -120,13 +120,6 @@ Csv motion_series(const dynamics::TimeSeries& series) {
   return csv;
 }
 
-double largest_of(const std::vector<dynamics::TwoKVMeshResult>& meshes,
-                  double (*pick)(const dynamics::TwoKVMeshResult&)) {
-  double largest = 0;
-  for (const auto& mesh : meshes) largest = std::max(largest, pick(mesh));
-  return largest;
-}
-
 }  // namespace
 
 bool TwoKVMotion::output_moves() const {
@@ -134,12 +127,10 @@ bool TwoKVMotion::output_moves() const {
 }
 
 double TwoKVMotion::dynamic_factor(bool arc) const {
-  return largest_of(arc ? arc_pins : sun_planet, [](const auto& mesh) { return mesh.dynamic_factor_max.value; });
+  return dynamics::largest_dynamic_factor(arc ? arc_pins : sun_planet).value;
 }
 
-double TwoKVMotion::contact_loss(bool arc) const {
-  return largest_of(arc ? arc_pins : sun_planet, [](const auto& mesh) { return mesh.contact_loss; });
-}
+double TwoKVMotion::contact_loss(bool arc) const { return dynamics::largest_contact_loss(arc ? arc_pins : sun_planet); }
 
 double TwoKVMotion::largest_bearing_force() const {
   double largest = 0;
@@ -155,12 +146,12 @@ TwoKVMotion motion_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVRe
   m.mean_sun_force = r.mean_sun_force;
   m.mean_arc_force = r.mean_arc_force;
   m.crank_turns = r.crank_turns;
-  m.total_cycles = r.steady.total_cycles;
-  m.steady = r.steady.steady;
-  m.steady_difference = r.steady.steady_difference;
+  m.total_cycles = r.total_cycles;
+  m.steady = r.steady;
+  m.steady_difference = r.steady_difference;
   m.torque_balance_relative = r.torque_balance_relative;
   m.largest_multiplier = r.largest_multiplier;
-  m.energy_relative = r.steady.energy.relative;
+  m.energy_relative = r.energy.relative;
   m.error_peak_to_peak = r.dynamic.peak_to_peak;
   m.error_mean = r.dynamic.mean;
   m.static_error_mean = r.quasi_static.mean;
@@ -200,9 +191,9 @@ std::string factor_key(const char* mesh, std::size_t n) { return fmt::format("{}
 
 dynamics::Evaluation evaluation_of(const TwoKVModels& models, const dynamics::TwoKVResponse& response) {
   dynamics::Evaluation evaluation{.figures = dynamics::static_figures(models.at_nominal, models.arc_clearance),
-                                  .outcome = response.steady};
+                                  .outcome = response};
   evaluation.figures.add(dynamics::figures(models.moving, response));
-  const auto add = [&](const char* mesh, const std::vector<dynamics::TwoKVMeshResult>& list) {
+  const auto add = [&](const char* mesh, const std::vector<dynamics::BranchResult>& list) {
     for (std::size_t n = 0; n < list.size(); ++n)
       evaluation.figures.set(factor_key(mesh, n), list[n].dynamic_factor_max);
   };

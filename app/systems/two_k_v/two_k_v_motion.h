@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/systems/two_k_v/two_k_v_model.h"
 #include "core/csv.h"
 #include "core/figure.h"
 #include "dynamics/error_propagation/error_propagation.h"
@@ -22,7 +23,7 @@ struct TwoKVMotion {
   double energy_relative = 0;
   Figure error_peak_to_peak;  ///< of the output against the input
   double error_mean = 0, static_error_mean = 0, static_error_peak_to_peak = 0;
-  std::vector<dynamics::TwoKVMeshResult> sun_planet, arc_pins;
+  std::vector<dynamics::BranchResult> sun_planet, arc_pins;
   std::vector<dynamics::ArcBearingResult> arc_bearings;
 
   FigureSet results;  ///< by key, with the parts of their errors; of the lumped model and of every mesh

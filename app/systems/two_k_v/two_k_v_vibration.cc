@@ -2,15 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <numbers>
 
 #include "app/results/content_id.h"
 #include "core/csv.h"
 #include "core/errors.h"
+#include "core/stopwatch.h"
 #include "core/units.h"
 
 namespace annulus::app {
@@ -42,38 +40,6 @@ constexpr std::array named_inputs = {
     NamedInput{"eccentricity", "arc_gear.eccentricity_mm", "m"},
 };
 
-double value_of(const dynamics::TwoKVStage& s, const std::string& name) {
-  if (name == "sun_mesh") return dynamics::mean_tangent_stiffness(s.sun_mesh);
-  if (name == "arc_mesh") return dynamics::mean_tangent_stiffness(s.arc_mesh);
-  const std::pair<const char*, double> values[] = {{"input_inertia", s.input_inertia},
-                                                   {"sun_inertia", s.sun_inertia},
-                                                   {"planet_inertia", s.planet_inertia},
-                                                   {"planet_mass", s.planet_mass},
-                                                   {"crank_inertia", s.crank_inertia},
-                                                   {"arc_inertia", s.arc_inertia},
-                                                   {"arc_mass", s.arc_mass},
-                                                   {"output_inertia", s.output_inertia},
-                                                   {"input_shaft", s.input_shaft},
-                                                   {"crank_shaft", s.crank_shaft},
-                                                   {"crank_bearing", s.crank_bearing},
-                                                   {"arc_bearing", s.arc_bearing},
-                                                   {"input_support", s.input_support},
-                                                   {"output_support", s.output_support},
-                                                   {"module", s.module},
-                                                   {"pressure_angle", s.pressure_angle},
-                                                   {"eccentricity", s.eccentricity}};
-  for (const auto& [known, value] : values)
-    if (name == known) return value;
-  throw InternalError("internal error: an input of the first frequency without a value: " + name);
-}
-
-std::optional<double> factor_reaching(const dynamics::TwoKVStage& stage, const std::string& input, double target) {
-  constexpr double close = 1e-6;
-  const auto band = dynamics::band_of_input(stage, input, target, close);
-  if (!band.low || !band.high) return std::nullopt;
-  return std::sqrt(*band.low * *band.high);
-}
-
 std::vector<FrequencyInput> frequency_inputs_of(const dynamics::TwoKVStage& stage, double first,
                                                 const std::vector<double>& targets) {
   std::vector<FrequencyInput> list;
@@ -84,43 +50,18 @@ std::vector<FrequencyInput> frequency_inputs_of(const dynamics::TwoKVStage& stag
     if (!known) throw InternalError("internal error: an input of the first frequency without a key: " + s.input);
     list.push_back({s.input,
                     known->key,
-                    value_of(stage, s.input),
+                    dynamics::input_value(stage, s.input),
                     known->unit,
                     s.value,
                     dynamics::band_of_input(stage, s.input, first, frequency_band),
                     {}});
-    for (const double target : targets) list.back().reaching.push_back(factor_reaching(stage, s.input, target));
+    for (const double target : targets)
+      list.back().reaching.push_back(dynamics::factor_reaching(stage, s.input, target));
   }
   return list;
 }
 
-/// Shapes have no sign of their own: each goes on from the angle before.
-void align_shapes(dynamics::CrankModes& crank) {
-  for (std::size_t i = 0; i < crank.modes.size(); ++i) {
-    for (std::size_t m = 0; m < crank.modes[i].modes.size(); ++m) {
-      auto& shape = crank.modes[i].modes[m].shape;
-      Eigen::Index most = 0;
-      shape.cwiseAbs().maxCoeff(&most);
-      const double along = i == 0 ? shape[most] : shape.dot(crank.modes[i - 1].modes[m].shape);
-      if (along < 0) shape = -shape;
-    }
-  }
-}
-
 }  // namespace
-
-int crank_positions(const dynamics::TwoKVStage& stage) {
-  constexpr int least = 72, per_cycle = 8;
-  return dynamics::constant_stiffness(stage)
-             ? least
-             : std::max(least, per_cycle * std::max(stage.planet_teeth, stage.arc_teeth));
-}
-
-double TwoKVVibration::first_frequency() const {
-  for (const auto& mode : modes.modes)
-    if (mode.frequency > 0) return mode.frequency;
-  throw SolverError("the 2K-V stage has no natural frequency above zero");
-}
 
 TwoKVVibration vibration_of(const dynamics::TwoKVStage& stage, double arc_clearance,
                             const std::vector<double>& targets) {
@@ -128,13 +69,12 @@ TwoKVVibration vibration_of(const dynamics::TwoKVStage& stage, double arc_cleara
   v.targets = targets;
   v.modes = dynamics::modes(stage);
   v.energy = dynamics::modal_energy(stage, v.modes);
-  for (std::size_t m = 0; m < v.modes.modes.size(); ++m)
-    v.names.push_back(dynamics::mode_name(v.energy, static_cast<Eigen::Index>(m)));
-  const auto start = std::chrono::steady_clock::now();
-  const int positions = crank_positions(stage);
+  const auto grouped = dynamics::by_group(v.energy);
+  for (Eigen::Index m = 0; m < grouped.strain.cols(); ++m) v.names.push_back(dynamics::mode_name(grouped, m));
+  const Stopwatch watch;
+  const int positions = dynamics::crank_positions(stage);
   v.over_crank = dynamics::modes_over_crank(stage, positions);
-  v.seconds_per_position = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / positions;
-  align_shapes(v.over_crank);
+  v.seconds_per_position = watch.seconds() / positions;
   v.torsion = dynamics::torsional_stiffness(stage, positions);
   v.estimate = dynamics::one_dof(stage);
   v.lost = dynamics::lost_motion(stage, v.torsion.mean(), arc_clearance);

@@ -8,9 +8,8 @@
 #include "app/scene/scene.h"
 #include "dynamics/systems/two_k_v/two_k_v_modes.h"
 #include "dynamics/systems/two_k_v/two_k_v_sensitivity.h"
-#include "dynamics/systems/two_k_v/two_k_v_statics.h"
 
-/// What a 2K-V stage answers without time: modes over the crank angle, torsional stiffness, sensitivities.
+/// Results of a 2K-V stage without time: modes over the crank angle, torsional stiffness, sensitivities.
 namespace annulus::app {
 
 /// One real input of the model and the first frequency.
@@ -26,14 +25,11 @@ struct FrequencyInput {
 };
 inline constexpr double frequency_band = 0.05;
 
-/// Positions over one turn of the crank: eight per mesh cycle where the mesh stiffness changes.
-[[nodiscard]] int crank_positions(const dynamics::TwoKVStage& stage);
-
 struct TwoKVVibration {
   dynamics::Modes modes;           ///< mean mesh stiffness, at the crank angle of the scene
   std::vector<std::string> names;  ///< "body on group" per mode
   dynamics::ModalEnergy energy;
-  dynamics::CrankModes over_crank;       ///< stiffness at each position; shapes go on without changes of sign
+  dynamics::CrankModes over_crank;       ///< stiffness at each position
   dynamics::TorsionalStiffness torsion;  ///< likewise
   dynamics::OneDof estimate;
   dynamics::LostMotion lost;
@@ -41,7 +37,7 @@ struct TwoKVVibration {
   std::vector<FrequencyInput> inputs;  ///< largest sensitivity first
   double seconds_per_position = 0;     ///< wall time of all modes of one crank angle
 
-  [[nodiscard]] double first_frequency() const;  ///< Hz, above zero
+  [[nodiscard]] double first_frequency() const { return dynamics::first_frequency(modes); }  ///< Hz, above zero
 };
 /// `stage` with the curves of its tables at the nominal load. Throws SolverError when nothing can vibrate.
 [[nodiscard]] TwoKVVibration vibration_of(const dynamics::TwoKVStage& stage, double arc_clearance,

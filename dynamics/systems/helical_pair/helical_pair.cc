@@ -139,15 +139,13 @@ LumpedSystem assemble(const HelicalPair& pair) {
   add_error(pair.wheel.error, pair.wheel_speed());
   builder.add_mesh(std::move(mesh));
 
-  // Alike on both, which is T_2/r_2 = T_1/r_1 balanced to rounding: a pair free to turn does not creep away.
+  // Equal on both, which is T_2/r_2 = T_1/r_1 balanced to rounding: a pair free to turn does not creep away.
   const double force = pair.pinion_torque / pair.pinion.radius;
   builder.add_load(pinion.u, force);
   builder.add_load(wheel.u, force);
   return builder.build();
 }
 
-Modes modes(const HelicalPair& pair) {
-  return modes(assemble(pair), Eigen::VectorXd::Constant(1, mean_tangent_stiffness(pair.mesh)));
-}
+Modes modes(const HelicalPair& pair) { return modes(assemble(pair)); }
 
 }  // namespace annulus::dynamics

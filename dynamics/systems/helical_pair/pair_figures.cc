@@ -1,10 +1,6 @@
 #include "dynamics/systems/helical_pair/pair_figures.h"
 
-#include <fmt/format.h>
-
-#include <string>
-
-#include "dynamics/figures/steady_figure.h"
+#include "dynamics/figures/common_figures.h"
 
 namespace annulus::dynamics {
 
@@ -45,25 +41,12 @@ std::vector<FigureSpec> declared() {
                   .unit = "kN",
                   .scale = 1e-3,
                   .definition = "smallest mesh force over time, in the direction of the load"});
-  list.push_back({.key = "dynamic_factor",
-                  .title = "Dynamic factor",
-                  .axis = "largest force / static force",
-                  .definition = "largest mesh force over time / static mesh force T_1 / (r_b1 cos β_b)",
-                  .better = Better::smaller,
-                  .guarantee = Guarantee::while_in_contact,
-                  .quantity = "dynamic_factor",
-                  .compared = true,
-                  .cost_study = true,
-                  .plotted = true,
-                  .spread = true,
-                  .ordering = true});
-  list.push_back({.key = "contact_loss",
-                  .title = "Time without contact",
-                  .unit = "%",
-                  .scale = 100,
-                  .definition = "fraction of the time in which no tooth touches",
-                  .better = Better::smaller,
-                  .plotted = true});
+  auto factor = dynamic_factor_figure("dynamic_factor", "Dynamic factor", "largest force / static force",
+                                      "largest mesh force over time / static mesh force T_1 / (r_b1 cos β_b)");
+  factor.spread = factor.ordering = true;
+  list.push_back(factor);
+  list.push_back(contact_loss_figure("contact_loss", "Time without contact", "",
+                                     "fraction of the time in which no tooth touches"));
   auto largest = length("transmission_error_max_m", "Largest transmission error",
                         "largest over time of |u_1 + u_2|, the mean included");
   largest.plotted = largest.spread = true;
@@ -85,16 +68,9 @@ std::vector<FigureSpec> declared() {
                         "Relative motion with the bending of shafts and bearings, peak to peak",
                         "range over time of y_1 + u_1 - y_2 + u_2"));
   list.push_back(steady_figure());
-  for (int i = 1; i <= pair_frequencies; ++i)
-    list.push_back({.key = fmt::format("frequency_{}_Hz", i),
-                    .title = fmt::format("Natural frequency {}", i),
-                    .unit = "Hz",
-                    .definition = "undamped natural frequencies above zero, rising, with the mean mesh stiffness",
-                    .effort = FigureEffort::motion,
-                    .guarantee = Guarantee::always,
-                    .digits = 5,
-                    .compared = true,
-                    .cost_study = i <= 3});
+  const auto frequencies = frequency_specs(
+      pair_frequencies, "undamped natural frequencies above zero, rising, with the mean mesh stiffness");
+  list.insert(list.end(), frequencies.begin(), frequencies.end());
   return list;
 }
 
@@ -135,12 +111,7 @@ FigureSet figures(const PairResponse& r) {
 }
 
 FigureSet frequency_figures(const HelicalPair& pair) {
-  FigureSet set;
-  int i = 0;
-  for (const auto& mode : modes(pair).modes)
-    if (mode.frequency > 0 && i < pair_frequencies)
-      set.set(fmt::format("frequency_{}_Hz", ++i), Figure{mode.frequency, 0});
-  return set;
+  return frequency_figures(modes(pair), pair_frequencies, Multiples::listed);
 }
 
 }  // namespace annulus::dynamics

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "core/errors.h"
+#include "dynamics/figures/motion.h"
 #include "dynamics/figures/peaks.h"
 #include "dynamics/statics/static_solver.h"
 
@@ -37,35 +37,24 @@ MotionRows motion_rows(const HelicalPair& pair, const LumpedSystem& system, cons
   return {te, te + dof_row(system, displacement, "pinion_y") - dof_row(system, displacement, "wheel_y")};
 }
 
-/// q'' of all DOFs at the samples of a window.
-Eigen::MatrixXd accelerations(const LumpedSystem& system, const ResponseWindow& window) {
-  const int n = system.dofs();
-  auto workspace = system.workspace();
-  Eigen::VectorXd y(2 * n), dy(2 * n);
-  Eigen::MatrixXd result(n, window.time.size());
-  for (Eigen::Index i = 0; i < window.time.size(); ++i) {
-    y << window.displacement.col(i), window.velocity.col(i);
-    system.detect_contact(window.time[i], y.data(), workspace);
-    system.rhs(window.time[i], y.data(), dy.data(), workspace);
-    result.col(i) = dy.tail(n);
-  }
-  return result;
-}
+/// Both ends of a curve; `low` of its negative.
+struct Range {
+  Peak high, low;
+  Range() = default;
+  explicit Range(const Row& values) : high(peak_of(values)), low(peak_of(-values)) {}
+};
 
 /// Peaks of one window, in the order of PairAccelerations; y, z, u of the gears apart from the sum.
 struct WindowPeaks {
   Peak line_of_action, axial, rotation, tooth;
-  Peak te_high, te_low, relative_high, relative_low;  ///< low: of the negative
-  Peak force_high, force_low;
+  Range te, relative, force;
 };
-
-Peak higher(const Peak& a, const Peak& b) { return {std::max(a.sampled, b.sampled), std::max(a.refined, b.refined)}; }
 
 Peak magnitude(const Row& values) { return peak_of(values.cwiseAbs()); }
 
 WindowPeaks peaks_of(const HelicalPair& pair, const LumpedSystem& system, const ResponseWindow& window) {
   WindowPeaks p;
-  const Eigen::MatrixXd a = accelerations(system, window);
+  const Eigen::MatrixXd a = accelerations(system, window.time, window.displacement, window.velocity);
   for (const bool pinion : {true, false}) {
     const Row y = dof_row(system, a, pinion ? "pinion_y" : "wheel_y");
     const Row z = dof_row(system, a, pinion ? "pinion_z" : "wheel_z");
@@ -77,16 +66,11 @@ WindowPeaks peaks_of(const HelicalPair& pair, const LumpedSystem& system, const 
     p.tooth = higher(p.tooth, magnitude((along.array().square() + z.array().square()).sqrt().matrix()));
   }
   const MotionRows rows = motion_rows(pair, system, window.displacement);
-  p.te_high = peak_of(rows.transmission_error);
-  p.te_low = peak_of(-rows.transmission_error);
-  p.relative_high = peak_of(rows.relative);
-  p.relative_low = peak_of(-rows.relative);
-  p.force_high = peak_of(window.force.row(0));
-  p.force_low = peak_of(-window.force.row(0));
+  p.te = Range(rows.transmission_error);
+  p.relative = Range(rows.relative);
+  p.force = Range(window.force.row(0));
   return p;
 }
-
-Peak sum(const Peak& a, const Peak& b) { return {a.sampled + b.sampled, a.refined + b.refined}; }
 
 /// The peaks of the best window and those it is compared with, or bounds where only the forces are known.
 class PairEvidence {
@@ -125,9 +109,10 @@ class PairEvidence {
   [[nodiscard]] Figure acceleration(Peak WindowPeaks::*peak, double share = 1) const {
     return of(peak, share * acceleration_per_force_);
   }
-  [[nodiscard]] MotionFigures motion(const Row& row, Peak WindowPeaks::*high, Peak WindowPeaks::*low) const {
-    return {row.mean(), of([=](const WindowPeaks& p) { return sum(p.*high, p.*low); }, 2 * motion_per_force_),
-            of([=](const WindowPeaks& p) { return higher(p.*high, p.*low); }, motion_per_force_)};
+  [[nodiscard]] MotionFigures motion(const Row& row, Range WindowPeaks::*range) const {
+    return {row.mean(),
+            of([=](const WindowPeaks& p) { return (p.*range).high + (p.*range).low; }, 2 * motion_per_force_),
+            of([=](const WindowPeaks& p) { return higher((p.*range).high, (p.*range).low); }, motion_per_force_)};
   }
 
  private:
@@ -137,8 +122,8 @@ class PairEvidence {
 };
 
 MotionFigures sampled_motion(const Row& row) {
-  const Peak high = peak_of(row), low = peak_of(-row);
-  return {row.mean(), figure(sum(high, low), {}), figure(higher(high, low), {})};
+  const Range range(row);
+  return {row.mean(), figure(range.high + range.low, {}), figure(higher(range.high, range.low), {})};
 }
 
 PairMotions quasi_static_motions(const HelicalPair& pair, const LumpedSystem& system,
@@ -148,12 +133,10 @@ PairMotions quasi_static_motions(const HelicalPair& pair, const LumpedSystem& sy
   if (period > long_window) positions = std::min(positions, enough_samples(period));
   // Two cycles at least, so that every peak has neighbours.
   const int cycles = std::max(2, std::min(period, options.max_window_cycles));
-  StaticSolver solver(system);
-  auto workspace = system.workspace();
-  Eigen::MatrixXd displacement(system.dofs(), static_cast<Eigen::Index>(cycles) * positions);
-  for (Eigen::Index i = 0; i < displacement.cols(); ++i)
-    displacement.col(i) = solver.solve(static_cast<double>(i) / (positions * pair.mesh_frequency()), workspace);
-  const MotionRows rows = motion_rows(pair, system, displacement);
+  const int count = cycles * positions;
+  const auto path =
+      static_path(system, Eigen::VectorXd::LinSpaced(count, 0, count - 1) / (positions * pair.mesh_frequency()));
+  const MotionRows rows = motion_rows(pair, system, path.displacement);
   return {sampled_motion(rows.transmission_error), sampled_motion(rows.relative)};
 }
 
@@ -200,25 +183,24 @@ PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& opt
   response.mesh_frequency = pair.mesh_frequency();
   response.static_force = pair.static_force();
   const PairEvidence evidence(pair, system, found);
-  response.force_max = evidence.of(&WindowPeaks::force_high, 1);
-  response.force_min = evidence.of(&WindowPeaks::force_low, 1);
+  response.force_max = evidence.of([](const WindowPeaks& p) { return p.force.high; }, 1);
+  response.force_min = evidence.of([](const WindowPeaks& p) { return p.force.low; }, 1);
   response.force_min.value *= -1;
   response.force_mean = averaging_force(found.best).row(0).mean();
   const double f = response.static_force;
-  response.dynamic_factor =
-      f == 0  ? Figure{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()}
-      : f > 0 ? Figure{response.force_max.value / f, response.force_max.error / f}
-              : Figure{response.force_min.value / f, -response.force_min.error / f};
+  response.dynamic_factor = f == 0  ? Figure{not_known, not_known}
+                            : f > 0 ? Figure{response.force_max.value / f, response.force_max.error / f}
+                                    : Figure{response.force_min.value / f, -response.force_min.error / f};
   response.contact_loss = found.best.open[0];
   response.acceleration = {evidence.acceleration(&WindowPeaks::line_of_action),
                            evidence.acceleration(&WindowPeaks::axial), evidence.acceleration(&WindowPeaks::rotation),
                            evidence.acceleration(&WindowPeaks::tooth, 2)};
   const MotionRows rows = motion_rows(pair, system, found.best.displacement);
-  response.dynamic = {evidence.motion(rows.transmission_error, &WindowPeaks::te_high, &WindowPeaks::te_low),
-                      evidence.motion(rows.relative, &WindowPeaks::relative_high, &WindowPeaks::relative_low)};
+  response.dynamic = {evidence.motion(rows.transmission_error, &WindowPeaks::te),
+                      evidence.motion(rows.relative, &WindowPeaks::relative)};
   response.quasi_static = quasi_static_motions(pair, system, options);
 
-  static_cast<SteadyOutcome&>(response) = found.outcome();
+  static_cast<SteadyOutcome&>(response) = found;
   if (options.keep_series) response.series = series_of(system, std::move(found.best));
   return response;
 }

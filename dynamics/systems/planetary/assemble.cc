@@ -6,7 +6,6 @@
 #include "dynamics/system/lumped_system.h"
 #include "dynamics/system/support.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
-#include "dynamics/systems/planetary/stage_errors.h"
 
 namespace annulus::dynamics {
 

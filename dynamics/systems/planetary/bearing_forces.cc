@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/errors.h"
-#include "dynamics/system/lumped_system.h"
+#include "dynamics/figures/motion.h"
 
 namespace annulus::dynamics {
 
@@ -25,12 +27,21 @@ class Motion {
   }
 
   [[nodiscard]] Eigen::RowVectorXd displacement(const std::string& dof) const { return row(series_.displacement, dof); }
-  [[nodiscard]] Eigen::RowVectorXd velocity(const std::string& dof) const { return row(series_.velocity, dof); }
-  [[nodiscard]] Eigen::RowVectorXd acceleration(const std::string& dof) {
-    if (acceleration_.size() == 0) accelerate();
-    return row(acceleration_, dof);
-  }
   [[nodiscard]] bool moves(const std::string& dof) const { return system_.find(dof) >= 0; }
+  /// A sum of factor x DOF over time.
+  struct Course {
+    Eigen::RowVectorXd displacement, velocity, acceleration;
+  };
+  [[nodiscard]] Course course(const std::vector<std::pair<std::string, double>>& form) {
+    if (acceleration_.size() == 0)
+      acceleration_ = accelerations(system_, series_.time, series_.displacement, series_.velocity);
+    const auto sum = [&](const Eigen::MatrixXd& values) {
+      Eigen::RowVectorXd result = Eigen::RowVectorXd::Zero(values.cols());
+      for (const auto& [dof, factor] : form) result += factor * row(values, dof);
+      return result;
+    };
+    return {sum(series_.displacement), sum(series_.velocity), sum(acceleration_)};
+  }
 
   [[nodiscard]] const SpringElement* spring(const std::string& name) const {
     const auto& springs = system_.springs();
@@ -52,19 +63,6 @@ class Motion {
     return values.row(i);
   }
 
-  void accelerate() {
-    auto workspace = system_.workspace();
-    const int n = system_.dofs();
-    acceleration_.resize(n, series_.time.size());
-    Eigen::VectorXd state(2 * n), rate(2 * n);
-    for (Eigen::Index i = 0; i < series_.time.size(); ++i) {
-      state << series_.displacement.col(i), series_.velocity.col(i);
-      system_.detect_contact(series_.time[i], state.data(), workspace);
-      system_.rhs(series_.time[i], state.data(), rate.data(), workspace);
-      acceleration_.col(i) = rate.tail(n);
-    }
-  }
-
   LumpedSystem system_;
   const TimeSeries& series_;
   Eigen::MatrixXd acceleration_;
@@ -77,22 +75,12 @@ Direction across(Direction direction) {
 }
 
 /// Motion of planet n in its radial or tangential coordinate, whether it has the DOF or rides on the carrier.
-struct PlanetCourse {
-  Eigen::RowVectorXd displacement, velocity, acceleration;
-};
-
-PlanetCourse planet_course(const PlanetaryStage& stage, Motion& motion, int n, Direction direction) {
+Motion::Course planet_course(const PlanetaryStage& stage, Motion& motion, int n, Direction direction) {
   const bool radial = direction == Direction::radial;
   const auto dof = "planet" + std::to_string(n + 1) + (radial ? "_x" : "_y");
-  if (motion.moves(dof)) return {motion.displacement(dof), motion.velocity(dof), motion.acceleration(dof)};
-  const double phi = stage.planet_angles[n];
-  const double x = radial ? std::cos(phi) : -std::sin(phi), y = radial ? std::sin(phi) : std::cos(phi);
-  const double u = radial ? 0 : 1;
-  return {x * motion.displacement("carrier_x") + y * motion.displacement("carrier_y") +
-              u * motion.displacement("carrier_u"),
-          x * motion.velocity("carrier_x") + y * motion.velocity("carrier_y") + u * motion.velocity("carrier_u"),
-          x * motion.acceleration("carrier_x") + y * motion.acceleration("carrier_y") +
-              u * motion.acceleration("carrier_u")};
+  if (motion.moves(dof)) return motion.course({{dof, 1}});
+  const double c = std::cos(stage.planet_angles[n]), s = std::sin(stage.planet_angles[n]);
+  return motion.course({{"carrier_x", radial ? c : -s}, {"carrier_y", radial ? s : c}, {"carrier_u", radial ? 0 : 1}});
 }
 
 /// Force on the pin from m (x'' - 2 Omega y' - Omega^2 x) = -sum b F - pin force, and likewise for y.
@@ -102,8 +90,8 @@ Eigen::RowVectorXd pin_force_by_equilibrium(const PlanetaryStage& stage, const T
   const double as = stage.sun_working_angle, ar = stage.ring_working_angle;
   const double sun_b = radial ? -std::sin(as) : -std::cos(as), ring_b = radial ? std::sin(ar) : -std::cos(ar);
   const double speed = stage.rotating_frame ? stage.carrier_speed : 0;
-  const PlanetCourse own = planet_course(stage, motion, n, direction),
-                     other = planet_course(stage, motion, n, across(direction));
+  const Motion::Course own = planet_course(stage, motion, n, direction),
+                       other = planet_course(stage, motion, n, across(direction));
   Eigen::RowVectorXd displacement = own.displacement;
   if (!radial) displacement -= motion.displacement("carrier_u");  // the centrifugal force turns with the carrier
   const Eigen::RowVectorXd inertia =

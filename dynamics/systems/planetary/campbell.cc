@@ -75,7 +75,7 @@ double participation(const PlanetaryStage& stage, const LumpedSystem& system, co
     for (const auto& mode : modes.modes)
       if (one_frequency(mode, modes.modes[position])) shape += mode.shape * mode.shape.dot(b * pull);
     const Eigen::VectorXcd approach = b.transpose() * shape;
-    // Shapes have unit kinetic energy: a approach of 1e-9 is rounding.
+    // Shapes have unit kinetic energy: an approach of 1e-9 is rounding.
     if (shape.norm() > 1e-9) result = std::max(result, std::abs(approach.dot(pull)) / approach.cwiseAbs().sum());
   }
   return result;
@@ -83,11 +83,15 @@ double participation(const PlanetaryStage& stage, const LumpedSystem& system, co
 
 }  // namespace
 
-std::vector<std::size_t> continued_modes(const RotatingModes& before, const RotatingModes& after,
-                                         const Eigen::MatrixXd& mass) {
-  require(before.modes.size() == after.modes.size(),
-          fmt::format("{} and {} modes do not belong to one stage", before.modes.size(), after.modes.size()));
-  return continuation(before, after, mac_matrix(before, after, mass));
+std::vector<RotatingMode> modes_at_speed(const PlanetaryStage& stage) {
+  const auto turning = rotating_modes(stage, ModeDamping::damped);
+  PlanetaryStage still = stage;
+  still.carrier_speed = 0;
+  const auto rest = rotating_modes(still, ModeDamping::undamped);
+  std::vector<RotatingMode> modes;
+  for (const std::size_t i : continuation(rest, turning, mac_matrix(rest, turning, assemble(still).mass())))
+    modes.push_back(turning.modes[i]);
+  return modes;
 }
 
 Campbell campbell(const PlanetaryStage& stage, const std::vector<double>& speeds, const CampbellOptions& options) {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "dynamics/systems/planetary/rotating_modes.h"
+#include "dynamics/systems/planetary/planetary_modes.h"
 
 namespace annulus::dynamics {
 
@@ -35,10 +35,8 @@ struct CriticalSpeed {
   double participation = 0;
 };
 
-/// For each mode of `before` the index of its continuation in `after`, the same stage at another speed or damping.
-/// Pairs with the largest MAC come first; among pairs of equal MAC the nearer frequency. `mass` is M of the stage.
-[[nodiscard]] std::vector<std::size_t> continued_modes(const RotatingModes& before, const RotatingModes& after,
-                                                       const Eigen::MatrixXd& mass);
+/// The modes at rest without dampers, each followed by its shape to the carrier speed of the stage, dampers included.
+[[nodiscard]] std::vector<RotatingMode> modes_at_speed(const PlanetaryStage& stage);
 
 struct Campbell {
   std::vector<double> speeds;            ///< carrier, rad/s

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "core/errors.h"
 #include "dynamics/statics/static_solver.h"
@@ -55,21 +56,17 @@ class StartSampler {
   std::vector<Eigen::VectorXd> rigid_;
 };
 
-bool same_motion(const InitialStart& a, const InitialStart& b, double share) {
-  const auto close = [share](double x, double y) {
+bool same_motion(const FigureSet& a, const FigureSet& b, double share) {
+  const auto close = [&](const std::string& key) {
+    const double x = a.value(key), y = b.value(key);
     return x == y || std::abs(x - y) <= share * std::max(std::abs(x), std::abs(y));
   };
-  const auto kind = [&](const KindFigures& x, const KindFigures& y) {
-    return close(x.instantaneous, y.instantaneous) && close(x.dynamic_factor, y.dynamic_factor) &&
-           // A fraction of the time, itself counted in samples.
-           std::abs(x.contact_loss - y.contact_loss) <= std::max(share, 0.01);
-  };
-  return kind(a.sun_planet, b.sun_planet) && kind(a.ring_planet, b.ring_planet);
-}
-
-void widen(ValueRange& range, double value) {
-  range.low = std::min(range.low, value);
-  range.high = std::max(range.high, value);
+  for (const std::string mesh : {"sun_planet_", "ring_planet_"})
+    if (!close(mesh + "load_sharing_instantaneous") || !close(mesh + "dynamic_factor") ||
+        // A fraction of the time, itself counted in samples.
+        !(std::abs(a.value(mesh + "contact_loss") - b.value(mesh + "contact_loss")) <= std::max(share, 0.01)))
+      return false;
+  return true;
 }
 
 }  // namespace
@@ -83,26 +80,25 @@ InitialSpread initial_spread(const PlanetaryStage& stage, const InitialSpreadOpt
   const StartSampler sampler(stage, options);
   PointOptions point{.simulation = options.simulation, .motion = false};
   point.simulation.steady_state = SteadyState::time_integration;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  constexpr ValueRange nothing{infinity, -infinity};
-  InitialSpread spread{
-      .starts = {}, .sun_load_sharing = nothing, .ring_load_sharing = nothing, .contact_loss = nothing};
+  InitialSpread spread;
   for (int i = 0; i <= options.random_starts; ++i) {
     if (i > 0) point.simulation.start = sampler.draw(static_cast<std::uint64_t>(i));
-    const PointFigures figures = evaluate_point(stage, point);
-    InitialStart start{.steady = figures.steady, .sun_planet = figures.sun_planet, .ring_planet = figures.ring_planet};
+    InitialStart start{.figures = evaluate_point(stage, point).figures};
+    start.steady = start.figures.value("steady") == 1;
     if (start.steady) {
       const auto known = std::find_if(spread.starts.begin(), spread.starts.end(), [&](const InitialStart& other) {
-        return other.steady && same_motion(start, other, options.same);
+        return other.steady && same_motion(start.figures, other.figures, options.same);
       });
       start.attractor = known != spread.starts.end() ? known->attractor : spread.attractors++;
     } else {
       ++spread.unsteady;
     }
-    widen(spread.sun_load_sharing, start.sun_planet.instantaneous);
-    widen(spread.ring_load_sharing, start.ring_planet.instantaneous);
-    widen(spread.contact_loss, std::max(start.sun_planet.contact_loss, start.ring_planet.contact_loss));
-    spread.starts.push_back(start);
+    if (i == 0) spread.low = spread.high = start.figures;
+    for (const auto& [key, figure, parts] : start.figures.entries()) {
+      spread.low.set(key, std::min(spread.low.value(key), figure.value));
+      spread.high.set(key, std::max(spread.high.value(key), figure.value));
+    }
+    spread.starts.push_back(std::move(start));
   }
   return spread;
 }

@@ -23,11 +23,7 @@ struct InitialSpreadOptions {
 struct InitialStart {
   bool steady = false;
   int attractor = -1;  ///< index, in the order found; -1: not steady
-  KindFigures sun_planet, ring_planet;
-};
-
-struct ValueRange {
-  double low = 0, high = 0;
+  FigureSet figures;   ///< by the keys of planetary_figures
 };
 
 /// Results over several starts. Where several motions exist, no single one represents the stage.
@@ -35,8 +31,7 @@ struct InitialSpread {
   std::vector<InitialStart> starts;  ///< the static one first
   int attractors = 0;                ///< distinct steady motions
   int unsteady = 0;                  ///< starts from which windows did not repeat (chaos, or long transients)
-  ValueRange sun_load_sharing, ring_load_sharing;  ///< instantaneous, over all starts
-  ValueRange contact_loss;                         ///< largest of all meshes, over all starts
+  FigureSet low, high;               ///< ends of every result over all starts
 };
 
 /// Integrates the stage in time to its steady state from several starts. The result depends on stage, options and seed

@@ -1,12 +1,8 @@
 #include "dynamics/systems/planetary/planetary_figures.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <string>
-#include <utility>
 
-#include "dynamics/figures/steady_figure.h"
+#include "dynamics/figures/common_figures.h"
 
 namespace annulus::dynamics {
 
@@ -15,90 +11,66 @@ namespace {
 constexpr const char* sun_meshes = "sun_planet_";
 constexpr const char* ring_meshes = "ring_planet_";
 
-void declare_meshes(std::vector<FigureSpec>& list, const std::string& prefix, const std::string& meshes, bool sun) {
-  constexpr const char* share = "N F / ΣF";
-  list.push_back({.key = prefix + "load_sharing_averaged",
-                  .title = "Load sharing of the " + meshes + ", averaged over a mesh cycle",
-                  .symbol = "K_γ",
-                  .axis = share,
-                  .definition = "largest over the planets and mesh cycles of N F_n / ΣF, the forces averaged over the "
-                                "mesh cycle first",
-                  .better = Better::smaller,
-                  .guarantee = sun ? Guarantee::always : Guarantee::none,
-                  .quantity = "load_sharing",
-                  .digits = 5,
-                  .compared = true,
-                  .cost_study = sun,
-                  .plotted = true,
-                  .spread = true,
-                  .ordering = true,
-                  .beside = prefix + "load_sharing_quasi_static"});
-  list.push_back({.key = prefix + "load_sharing_instantaneous",
-                  .title = "Load sharing of the " + meshes + ", instantaneous",
-                  .axis = share,
-                  .definition = "largest over the planets and instants of N F_n / ΣF",
-                  .better = Better::smaller,
-                  .guarantee = sun ? Guarantee::while_in_contact : Guarantee::none,
-                  .quantity = "load_sharing",
-                  .digits = 5,
-                  .compared = true,
-                  .cost_study = sun,
-                  .spread = true});
-  list.push_back({.key = prefix + "load_sharing_quasi_static",
-                  .title = "Load sharing of the " + meshes + ", quasi-static",
-                  .axis = share,
-                  .definition = "largest over the planets and positions of N F_n / ΣF, without inertia and damping",
-                  .better = Better::smaller,
-                  .quantity = "load_sharing",
-                  .digits = 5,
-                  .compared = true,
-                  .spread = true});
-  list.push_back({.key = prefix + "dynamic_factor",
-                  .title = "Dynamic factor of the " + meshes,
-                  .axis = "largest F / mean mesh force",
-                  .definition =
-                      "largest over the planets and instants of F_n over the nominal mesh force, T_s / (N r_bs); "
-                      "it contains the load sharing",
-                  .better = Better::smaller,
-                  .guarantee = Guarantee::while_in_contact,
-                  .quantity = "dynamic_factor",
-                  .compared = true,
-                  .cost_study = true,
-                  .plotted = true,
-                  .spread = true,
-                  .ordering = sun});
-  list.push_back({.key = prefix + "contact_loss",
-                  .title = "Time without contact, " + meshes,
-                  .unit = "%",
-                  .scale = 100,
-                  .axis = "worst planet, %",
-                  .definition = "largest over the planets of the fraction of the time in which no tooth touches",
-                  .better = Better::smaller,
-                  .plotted = true});
+enum class MeshKind { sun, ring };
+
+void declare_meshes(std::vector<FigureSpec>& list, const std::string& prefix, const std::string& meshes,
+                    MeshKind kind) {
+  const bool sun = kind == MeshKind::sun;
+  const auto share = [&](const char* name, const std::string& title, const std::string& definition) {
+    return FigureSpec{.key = prefix + "load_sharing_" + name,
+                      .title = "Load sharing of the " + meshes + ", " + title,
+                      .axis = "N F / ΣF",
+                      .definition = "largest over the planets and " + definition,
+                      .better = Better::smaller,
+                      .quantity = "load_sharing",
+                      .digits = 5,
+                      .compared = true,
+                      .spread = true};
+  };
+  auto averaged = share("averaged", "averaged over a mesh cycle",
+                        "mesh cycles of N F_n / ΣF, the forces averaged over the mesh cycle first");
+  averaged.symbol = "K_γ";
+  averaged.plotted = averaged.ordering = true;
+  averaged.beside = prefix + "load_sharing_quasi_static";
+  auto instantaneous = share("instantaneous", "instantaneous", "instants of N F_n / ΣF");
+  averaged.cost_study = instantaneous.cost_study = sun;
+  if (sun) {
+    averaged.guarantee = Guarantee::always;
+    instantaneous.guarantee = Guarantee::while_in_contact;
+  }
+  list.insert(list.end(),
+              {averaged, instantaneous,
+               share("quasi_static", "quasi-static", "positions of N F_n / ΣF, without inertia and damping")});
+  auto factor =
+      dynamic_factor_figure(prefix + "dynamic_factor", "Dynamic factor of the " + meshes, "largest F / mean mesh force",
+                            "largest over the planets and instants of F_n over the nominal mesh force, T_s / (N r_bs); "
+                            "it contains the load sharing");
+  factor.spread = true;
+  factor.ordering = sun;
+  list.push_back(factor);
+  list.push_back(contact_loss_figure(prefix + "contact_loss", "Time without contact, " + meshes, "worst planet, %",
+                                     "largest over the planets of the fraction of the time in which no tooth touches"));
 }
 
 void declare_motion(std::vector<FigureSpec>& list, const std::string& prefix, const std::string& title,
                     const std::string& definition) {
-  list.push_back({.key = prefix + "_rms_m",
-                  .title = title,
-                  .unit = "µm",
-                  .scale = 1e6,
-                  .axis = "rms, µm",
-                  .definition = "root mean square of " + definition,
-                  .effort = FigureEffort::motion});
-  list.push_back({.key = prefix + "_peak_to_peak_m",
-                  .title = title,
-                  .unit = "µm",
-                  .scale = 1e6,
-                  .axis = "peak to peak, µm",
-                  .definition = "range of " + definition,
-                  .effort = FigureEffort::motion});
+  const auto add = [&](const char* key, const char* axis, const char* reduced) {
+    list.push_back({.key = prefix + key,
+                    .title = title,
+                    .unit = "µm",
+                    .scale = 1e6,
+                    .axis = axis,
+                    .definition = reduced + definition,
+                    .effort = FigureEffort::motion});
+  };
+  add("_rms_m", "rms, µm", "root mean square of ");
+  add("_peak_to_peak_m", "peak to peak, µm", "range of ");
 }
 
 std::vector<FigureSpec> declared() {
   std::vector<FigureSpec> list;
-  declare_meshes(list, sun_meshes, "sun meshes", true);
-  declare_meshes(list, ring_meshes, "ring meshes", false);
+  declare_meshes(list, sun_meshes, "sun meshes", MeshKind::sun);
+  declare_meshes(list, ring_meshes, "ring meshes", MeshKind::ring);
   list.push_back(steady_figure());
   declare_motion(list, "sun", "Motion of the sun", "the distance of the sun's centre from its mean position");
   list[list.size() - 2].plotted = true;
@@ -107,49 +79,19 @@ std::vector<FigureSpec> declared() {
   declare_motion(list, "ring_planet_deflection", "Deflection of the ring mesh",
                  "the deflection of the ring mesh that moves most");
   list.back().plotted = true;
-  for (int i = 1; i <= planetary_frequencies; ++i)
-    list.push_back({.key = fmt::format("frequency_{}_Hz", i),
-                    .title = fmt::format("Natural frequency {}", i),
-                    .unit = "Hz",
-                    .definition = "distinct undamped natural frequencies above zero, rising, at rest and with the mean "
-                                  "mesh stiffness",
-                    .effort = FigureEffort::motion,
-                    .guarantee = Guarantee::always,
-                    .digits = 5,
-                    .compared = i <= 5,
-                    .cost_study = i <= 3});
+  const auto frequencies = frequency_specs(
+      planetary_frequencies,
+      "distinct undamped natural frequencies above zero, rising, at rest and with the mean mesh stiffness");
+  list.insert(list.end(), frequencies.begin(), frequencies.end());
   return list;
 }
 
-struct MeshValues {
-  Figure averaged, instantaneous, quasi_static, dynamic_factor;
-  double contact_loss = 0;
-};
-
-void add(FigureSet& set, const std::string& prefix, const MeshValues& v) {
-  set.set(prefix + "load_sharing_averaged", v.averaged);
-  set.set(prefix + "load_sharing_instantaneous", v.instantaneous);
-  set.set(prefix + "load_sharing_quasi_static", v.quasi_static);
-  set.set(prefix + "dynamic_factor", v.dynamic_factor);
-  set.set(prefix + "contact_loss", v.contact_loss);
-}
-
-MeshValues values_of(const MeshKindResult& kind) {
-  const auto& s = kind.load_sharing;
-  MeshValues v{s.averaged, s.instantaneous, s.quasi_static, {-1, not_known}, 0};
-  for (const auto& b : kind.branches) {
-    if (b.dynamic_factor_max.value > v.dynamic_factor.value) v.dynamic_factor = b.dynamic_factor_max;
-    v.contact_loss = std::max(v.contact_loss, b.contact_loss);
-  }
-  return v;
-}
-
-MeshValues values_of(const KindFigures& f) {
-  return {{f.averaged, not_known},
-          {f.instantaneous, not_known},
-          {f.quasi_static, not_known},
-          {f.dynamic_factor, not_known},
-          f.contact_loss};
+void add(FigureSet& set, const std::string& prefix, const MeshKindResult& kind) {
+  set.set(prefix + "load_sharing_averaged", kind.load_sharing.averaged);
+  set.set(prefix + "load_sharing_instantaneous", kind.load_sharing.instantaneous);
+  set.set(prefix + "load_sharing_quasi_static", kind.load_sharing.quasi_static);
+  set.set(prefix + "dynamic_factor", largest_dynamic_factor(kind.branches));
+  set.set(prefix + "contact_loss", largest_contact_loss(kind.branches));
 }
 
 }  // namespace
@@ -161,30 +103,9 @@ const std::vector<FigureSpec>& planetary_figures() {
 
 FigureSet figures(const DynamicResponse& response) {
   FigureSet set;
-  add(set, sun_meshes, values_of(response.sun_planet));
-  add(set, ring_meshes, values_of(response.ring_planet));
+  add(set, sun_meshes, response.sun_planet);
+  add(set, ring_meshes, response.ring_planet);
   set.set("steady", response.steady ? 1 : 0);
-  return set;
-}
-
-FigureSet figures(const PointFigures& point) {
-  FigureSet set;
-  add(set, sun_meshes, values_of(point.sun_planet));
-  add(set, ring_meshes, values_of(point.ring_planet));
-  set.set("steady", point.steady ? 1 : 0);
-  return set;
-}
-
-FigureSet motion_figures(const PointFigures& point) {
-  FigureSet set;
-  for (const auto& [prefix, range] : {std::pair{"sun", &point.sun},
-                                      {"sun_planet_deflection", &point.sun_mesh},
-                                      {"ring_planet_deflection", &point.ring_mesh}}) {
-    set.set(std::string(prefix) + "_rms_m", range->rms);
-    set.set(std::string(prefix) + "_peak_to_peak_m", range->peak_to_peak);
-  }
-  for (std::size_t i = 0; i < point.frequencies.size(); ++i)
-    set.set(fmt::format("frequency_{}_Hz", i + 1), point.frequencies[i]);
   return set;
 }
 

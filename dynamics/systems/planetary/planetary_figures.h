@@ -3,9 +3,12 @@
 #include <vector>
 
 #include "core/figure.h"
-#include "dynamics/systems/planetary/study_point.h"
+#include "dynamics/systems/planetary/response.h"
 
 namespace annulus::dynamics {
+
+/// Natural frequencies among the results of a planetary stage.
+inline constexpr int planetary_frequencies = 6;
 
 /// The results of the lumped model of a planetary stage, each declared once. Those of both kinds of meshes have keys
 /// that begin with sun_planet_ and ring_planet_.
@@ -14,8 +17,5 @@ namespace annulus::dynamics {
 /// Results of a response with their errors, by the keys above; of the dynamic factor and the loss of contact the
 /// largest over the planets.
 [[nodiscard]] FigureSet figures(const DynamicResponse& response);
-/// Results of a study's response: those of effort `forces`, and those of effort `motion`.
-[[nodiscard]] FigureSet figures(const PointFigures& point);
-[[nodiscard]] FigureSet motion_figures(const PointFigures& point);
 
 }  // namespace annulus::dynamics

@@ -10,7 +10,7 @@
 
 #include "core/errors.h"
 #include "dynamics/system/input_checks.h"
-#include "dynamics/systems/planetary/stage_errors.h"
+#include "geometry/planetary.h"
 
 namespace annulus::dynamics {
 
@@ -66,15 +66,6 @@ void check_coupling(const RingCoupling& coupling, const PlanetaryStage& stage) {
   }
 }
 
-MeshError sum_of(const std::vector<HarmonicError>& errors, double time) {
-  MeshError e;
-  for (const auto& h : errors) {
-    e.value += h.amount * std::sin(h.rate * time + h.phase);
-    e.rate += h.amount * h.rate * std::cos(h.rate * time + h.phase);
-  }
-  return e;
-}
-
 // A stage at rest (for its modes) needs no numbers of teeth.
 double rate_of_planet(const PlanetaryStage& s) {
   return s.carrier_speed == 0 ? 0 : -s.carrier_speed * s.ring_teeth / s.planet_teeth;
@@ -118,14 +109,6 @@ std::vector<HarmonicError> ring_mesh_errors(const PlanetaryStage& s, int n) {
   add(list, +1, s.carrier.errors.eccentricity, 0, -alpha - phi);
   add(list, +1, s.carrier.errors.position, turn, -alpha - phi);
   return list;
-}
-
-MeshError sun_mesh_error(const PlanetaryStage& stage, int n, double time) {
-  return sum_of(sun_mesh_errors(stage, n), time);
-}
-
-MeshError ring_mesh_error(const PlanetaryStage& stage, int n, double time) {
-  return sum_of(ring_mesh_errors(stage, n), time);
 }
 
 double PlanetaryStage::mesh_frequency() const { return ring_teeth * carrier_speed / (2 * std::numbers::pi); }
@@ -202,6 +185,28 @@ void PlanetaryStage::check() const {
           fmt::format("carrier radius, working angles and sun base radius give the torque ratio {:.6g}, "
                       "the teeth {:.6g}: the stage contradicts itself",
                       ratio, expected));
+  }
+}
+
+void set_kinematics(PlanetaryStage& stage, const geometry::PlanetarySet& set) {
+  stage.sun_teeth = set.sun().teeth();
+  stage.planet_teeth = set.planet().teeth();
+  stage.ring_teeth = set.ring().teeth();
+  stage.sun.radius = set.sun().base_radius();
+  stage.planet.radius = set.planet().base_radius();
+  stage.ring.radius = set.ring().base_radius();
+  stage.carrier.radius = set.centre_distance();
+  stage.sun_working_angle = set.sun_mesh().working_pressure_angle();
+  stage.ring_working_angle = set.ring_mesh().working_pressure_angle();
+  stage.planet_angles.clear();
+  stage.sun_phase_lag.clear();
+  stage.ring_phase_lag.clear();
+  stage.ring_tooth_offset.clear();
+  for (int n = 0; n < set.planets(); ++n) {
+    stage.planet_angles.push_back(set.planet_angle(n));
+    stage.sun_phase_lag.push_back(set.sun_phase_lag(n));
+    stage.ring_phase_lag.push_back(set.ring_phase_lag(n));
+    stage.ring_tooth_offset.push_back(set.ring_tooth_offset(n));
   }
 }
 

@@ -122,18 +122,15 @@ struct PlanetaryStage {
   void check() const;
 };
 
-/// Transmission error e (m) of mesh n at time t (s) from eccentricities and position errors alone, and de/dt (m/s),
-/// after [HuFangXuShen2021, eq. (22)], corrected. E, th: eccentricity, A: position error.
+/// Terms of the transmission error e (m) of the meshes of planet n from eccentricities and position errors alone, after
+/// [HuFangXuShen2021, eq. (22)], corrected. E, th: eccentricity, A: position error.
 ///   planet:  e_sn = E sin(w t + th + a_s),           e_rn = E sin(w t + th - a_r),   w = -(z_r/z_p) Omega_c
 ///            e_sn = A sin(th - phi_n + a_s),         e_rn = A sin(th - phi_n - a_r)
 ///   sun:     e_sn = -E sin(w t + th - phi_n + a_s),  w = (z_r/z_s) Omega_c; position: w = -Omega_c
 ///   ring:    e_rn = -E sin(w t + th - phi_n - a_r),  w = -Omega_c, position likewise
 ///   carrier: as a displacement of the planet: + ..., eccentricity w = 0, position w = -Omega_c
-struct MeshError {
-  double value = 0, rate = 0;
-};
-[[nodiscard]] MeshError sun_mesh_error(const PlanetaryStage& stage, int n, double time);
-[[nodiscard]] MeshError ring_mesh_error(const PlanetaryStage& stage, int n, double time);
+[[nodiscard]] std::vector<HarmonicError> sun_mesh_errors(const PlanetaryStage& stage, int n);
+[[nodiscard]] std::vector<HarmonicError> ring_mesh_errors(const PlanetaryStage& stage, int n);
 
 /// Fills teeth, base radii, carrier radius, working and planet angles, phase lags and tooth offsets.
 void set_kinematics(PlanetaryStage& stage, const geometry::PlanetarySet& set);

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/errors.h"
-#include "dynamics/system/lumped_system.h"
+#include "dynamics/figures/motion.h"
 
 namespace annulus::dynamics {
 
@@ -18,27 +18,18 @@ PoincareSection poincare_section(const PlanetaryStage& stage, const TimeSeries& 
   require(series.dofs == system.names(),
           fmt::format("a time series of {} degrees of freedom belongs to another stage than this one of {}",
                       series.dofs.size(), system.dofs()));
-  const auto meshes = static_cast<Eigen::Index>(system.meshes().size());
   PoincareSection result;
-  std::vector<int> sun;
+  Eigen::MatrixXd sun(2, series.time.size());
+  Eigen::Index first = 0;
   for (const std::string dof : {"sun_x", "sun_y"})
     if (const int i = system.find(dof); i >= 0) {
-      sun.push_back(i);
+      sun.row(first++) = series.displacement.row(i);
       result.quantities.push_back(dof + "_m");
     }
   for (const auto& mesh : system.meshes()) result.quantities.push_back(mesh.name + "_deflection_m");
   for (const auto& mesh : system.meshes()) result.quantities.push_back(mesh.name + "_force_N");
-
-  const auto first = static_cast<Eigen::Index>(sun.size());
-  Eigen::MatrixXd values(first + 2 * meshes, series.time.size());
-  auto workspace = system.workspace();
-  for (Eigen::Index i = 0; i < series.time.size(); ++i) {
-    for (Eigen::Index s = 0; s < first; ++s) values(s, i) = series.displacement(sun[s], i);
-    const Eigen::VectorXd q = series.displacement.col(i);
-    system.detect_contact(series.time[i], q.data(), workspace);
-    for (Eigen::Index m = 0; m < meshes; ++m) values(first + m, i) = workspace.delta[m];
-    values.col(i).tail(meshes) = series.force.col(i);
-  }
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(result.quantities.size()), series.time.size());
+  values << sun.topRows(first), deflections(system, series.time, series.displacement), series.force;
   result.swing = values.rowwise().maxCoeff() - values.rowwise().minCoeff();
   const Eigen::Index cycles = values.cols() / samples_per_cycle;
   result.points.resize(values.rows(), cycles);

@@ -3,23 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/errors.h"
-#include "dynamics/systems/planetary/response_evaluation.h"
+#include "dynamics/statics/static_solver.h"
 
 namespace annulus::dynamics {
 
 namespace {
 
-void require_speed(const PlanetaryStage& stage, const char* analysis) {
-  if (!(stage.carrier_speed > 0))
-    throw InputError(fmt::format("{} needs a carrier speed above zero, not {} rad/s", analysis, stage.carrier_speed));
-}
-
 void check_simulation(const PlanetaryStage& stage) {
   stage.check();
-  require_speed(stage, "a time response");
+  if (!(stage.carrier_speed > 0))
+    throw InputError(
+        fmt::format("a time response needs a carrier speed above zero, not {} rad/s", stage.carrier_speed));
   if (!(stage.sun_torque > 0))
     throw InputError(
         fmt::format("a time response needs a positive sun torque (drive flanks loaded), not {} N m", stage.sun_torque));
@@ -33,14 +31,26 @@ Eigen::MatrixXd cycle_means(const Eigen::MatrixXd& values, int cycles) {
   return means;
 }
 
-void set_figures(const PlanetaryStage& stage, const SimulationOptions& options, const ResponseEvidence& evidence,
+void set_figures(const PlanetaryStage& stage, const SimulationOptions& options, const SteadyResponse& found,
                  DynamicResponse& response) {
   int positions = options.samples_per_cycle;
   if (response.window_cycles > long_window) positions = std::min(positions, enough_samples(response.window_cycles));
   const QuasiStatic path = quasi_static(stage, positions, options.max_window_cycles);
   const Eigen::Index n = stage.planets();
-  response.sun_planet = evaluate_meshes(evidence, 0, n, path.sun_force);
-  response.ring_planet = evaluate_meshes(evidence, n, n, path.ring_force);
+  const double mean = response.mean_mesh_force;
+  response.sun_planet = {load_sharing(found, 0, n, path.sun_force), branch_results(found, 0, n, mean)};
+  response.ring_planet = {load_sharing(found, n, n, path.ring_force), branch_results(found, n, n, mean)};
+}
+
+/// See DynamicResponse::force_balance_relative.
+double force_balance(const PlanetaryStage& stage, const LumpedSystem& system, const SteadyResponse& found) {
+  const int u = system.find("sun_u");
+  const double duration = found.window_cycles / stage.mesh_frequency();
+  const double forces = averaging_force(found.best).topRows(stage.planets()).colwise().sum().mean();
+  const double support = system.stiffness()(u, u) * found.best.displacement.row(u).mean() +
+                         system.damping()(u, u) * (found.end.q[u] - found.begin.q[u]) / duration;
+  const double inertia = system.mass()(u, u) * (found.end.v[u] - found.begin.v[u]) / duration;
+  return std::abs((forces + support + inertia) / system.load()[u] - 1);
 }
 
 }  // namespace
@@ -57,28 +67,25 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
                               .stiffness = mean_stiffness(stage.sun_mesh),
                               .start = options.start};
   auto found = steady_response(system, problem, options);
-  static_cast<SteadyOutcome&>(response) = found.outcome();
+  static_cast<SteadyOutcome&>(response) = found;
   response.cycle_force = cycle_means(averaging_force(found.best), found.window_cycles);
-  response.force_balance_relative =
-      force_balance(stage, system, found.best, found.begin, found.end, found.window_cycles);
-  set_figures(stage, options,
-              {found.best, found.before ? *found.before : found.best, found.loose ? *found.loose : found.best,
-               response.mean_mesh_force},
-              response);
+  response.force_balance_relative = force_balance(stage, system, found);
+  set_figures(stage, options, found, response);
   if (options.keep_series) response.series = series_of(system, std::move(found.best));
   return response;
 }
 
-PeriodicResponse periodic_response(const PlanetaryStage& stage, const PeriodicOptions& options) {
-  require_speed(stage, "a periodic response");
-  const int cycles = stage.error_period();
-  return periodic_response(assemble(stage), cycles / stage.mesh_frequency(), cycles, options);
-}
-
-PiecewiseResponse piecewise_response(const PlanetaryStage& stage, const PiecewiseOptions& options) {
-  require_speed(stage, "a piecewise linear response");
-  const int cycles = stage.error_period();
-  return piecewise_response(assemble(stage), cycles / stage.mesh_frequency(), cycles, options);
+QuasiStatic quasi_static(const PlanetaryStage& stage, int positions_per_cycle, int max_cycles) {
+  if (positions_per_cycle < 1 || max_cycles < 1)
+    throw InputError(fmt::format("quasi-static analysis needs at least one position and one mesh cycle, not {} and {}",
+                                 positions_per_cycle, max_cycles));
+  if (!(stage.carrier_speed > 0))
+    throw InputError(fmt::format(
+        "quasi-static positions follow from the carrier speed, {} rad/s, which must be positive", stage.carrier_speed));
+  const int positions = positions_per_cycle * std::min(stage.error_period(), max_cycles);
+  const auto path = static_path(assemble(stage), Eigen::VectorXd::LinSpaced(positions, 0, positions - 1) /
+                                                     (positions_per_cycle * stage.mesh_frequency()));
+  return {path.force.topRows(stage.planets()), path.force.bottomRows(stage.planets())};
 }
 
 }  // namespace annulus::dynamics

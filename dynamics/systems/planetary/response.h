@@ -1,24 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "core/figure.h"
-#include "dynamics/steady_state/periodic_response.h"
-#include "dynamics/steady_state/piecewise_response.h"
-#include "dynamics/steady_state/steady_response.h"
-#include "dynamics/systems/planetary/load_sharing.h"
+#include "dynamics/figures/mesh_results.h"
 #include "dynamics/systems/planetary/planetary_stage.h"
 
 namespace annulus::dynamics {
-
-/// One branch of the power flow: the mesh of one planet with sun or ring.
-struct BranchResult {
-  Figure dynamic_factor_max;      ///< max F / mean mesh force over the window (peaks refined between the samples)
-  double dynamic_factor_min = 0;  ///< min F / mean mesh force
-  double mean_force = 0;          ///< N
-  double contact_loss = 0;        ///< fraction of the time without contact
-};
 
 struct MeshKindResult {
   LoadSharing load_sharing;
@@ -48,10 +35,13 @@ struct DynamicResponse : SteadyOutcome {
 /// no support resists it), SolverError when the integrator fails.
 [[nodiscard]] DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& options = {});
 
-/// Harmonic balance of the stage alone, over its error period. Throws InputError without a speed above zero.
-[[nodiscard]] PeriodicResponse periodic_response(const PlanetaryStage& stage, const PeriodicOptions& options = {});
-/// Exact solution of a stage with piecewise constant stiffness, over its error period. Throws InputError without a
-/// speed above zero.
-[[nodiscard]] PiecewiseResponse piecewise_response(const PlanetaryStage& stage, const PiecewiseOptions& options = {});
+/// Quasi-static mesh forces: K q + sum b k g(b^T q - e(t)) = f at equidistant positions from time 0 on. They span the
+/// error period or its first `max_cycles` mesh cycles.
+struct QuasiStatic {
+  Eigen::MatrixXd sun_force, ring_force;  ///< N, one row per planet, one column per position
+};
+/// Throws InputError for an unbalanced load, SolverError when the contact state is not found.
+[[nodiscard]] QuasiStatic quasi_static(const PlanetaryStage& stage, int positions_per_cycle = 16,
+                                       int max_cycles = 1000);
 
 }  // namespace annulus::dynamics

@@ -2,38 +2,20 @@
 
 #include <vector>
 
-#include "dynamics/figures/poincare_point.h"
+#include "core/figure.h"
+#include "dynamics/figures/motion.h"
 #include "dynamics/systems/planetary/response.h"
 
 namespace annulus::dynamics {
 
-/// Root mean square about the mean and peak to peak of a motion over the window, m.
-struct MotionRange {
-  double rms = 0, peak_to_peak = 0;
-};
-
-/// Largest values over the planets of one kind of mesh.
-struct KindFigures {
-  double instantaneous = 0, averaged = 0, quasi_static = 0;  ///< load sharing
-  double dynamic_factor = 0;
-  double contact_loss = 0;  ///< fraction of the time
-};
-
 /// Results of one response that a study (sweep, sensitivity, Monte Carlo) stores.
 struct PointFigures {
-  KindFigures sun_planet, ring_planet;
-  bool steady = false;
+  /// By the keys of planetary_figures: those of effort `forces`, with PointOptions::motion also those of effort
+  /// `motion`. Motion of the sun: NaN when it is rigid.
+  FigureSet figures;
   int window_cycles = 0;
-  // Only with PointOptions::motion:
-  /// Distance of the sun's centre from its mean position; peak to peak: the larger one of x and y. NaN when rigid.
-  MotionRange sun{};
-  MotionRange sun_mesh{}, ring_mesh{};    ///< deflection of the mesh that moves most
-  std::vector<double> frequencies{};      ///< Hz, the lowest distinct natural frequencies above zero
-  std::vector<PoincarePoint> poincare{};  ///< one per mesh cycle of the window, `poincare_cycles` at most
+  std::vector<PoincarePoint> poincare{};  ///< with motion: one per mesh cycle of the window, `poincare_cycles` at most
 };
-
-/// Natural frequencies among the results of a planetary stage.
-inline constexpr int planetary_frequencies = 6;
 
 struct PointOptions {
   SimulationOptions simulation;

@@ -1,7 +1,5 @@
 #include "dynamics/systems/two_k_v/two_k_v_figures.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,9 +7,8 @@
 #include <utility>
 
 #include "core/units.h"
-#include "dynamics/figures/steady_figure.h"
+#include "dynamics/figures/common_figures.h"
 #include "dynamics/systems/two_k_v/two_k_v_modes.h"
-#include "dynamics/systems/two_k_v/two_k_v_statics.h"
 
 namespace annulus::dynamics {
 
@@ -30,20 +27,11 @@ FigureSpec angle(const char* key, const char* title, const char* definition) {
 }
 
 void declare_statics(std::vector<FigureSpec>& list) {
-  for (int i = 1; i <= two_k_v_frequencies; ++i)
-    list.push_back({.key = fmt::format("frequency_{}_Hz", i),
-                    .title = fmt::format("Natural frequency {}", i),
-                    .unit = "Hz",
-                    .definition =
-                        "undamped natural frequencies above zero, rising, at the crank angle of the scene and "
-                        "with the mean mesh stiffness",
-                    .guarantee = Guarantee::always,
-                    .digits = 5,
-                    .compared = i <= 5,
-                    .cost_study = i <= 3,
-                    .plotted = i == 1,
-                    .spread = i == 1,
-                    .ordering = i == 1});
+  list = frequency_specs(two_k_v_frequencies,
+                         "undamped natural frequencies above zero, rising, at the crank angle of the scene and with "
+                         "the mean mesh stiffness");
+  for (auto& spec : list) spec.effort = FigureEffort::forces;
+  list.front().plotted = list.front().spread = list.front().ordering = true;
   list.push_back({.key = "torsional_stiffness_Nm_per_rad",
                   .title = "Torsional stiffness from the output",
                   .unit = "kN m/rad",
@@ -87,27 +75,14 @@ void declare_motion(std::vector<FigureSpec>& list) {
   still.effort = FigureEffort::motion;
   list.push_back(still);
   for (const auto& [prefix, meshes] : mesh_kinds)
-    list.push_back({.key = std::string(prefix) + "dynamic_factor",
-                    .title = std::string("Dynamic factor of the ") + meshes,
-                    .axis = "largest F / mean mesh force",
-                    .definition = "largest over the meshes and instants of F over the nominal mesh force",
-                    .better = Better::smaller,
-                    .effort = FigureEffort::motion,
-                    .guarantee = Guarantee::while_in_contact,
-                    .quantity = "dynamic_factor",
-                    .compared = true,
-                    .cost_study = true,
-                    .plotted = true});
+    list.push_back(dynamic_factor_figure(std::string(prefix) + "dynamic_factor",
+                                         std::string("Dynamic factor of the ") + meshes, "largest F / mean mesh force",
+                                         "largest over the meshes and instants of F over the nominal mesh force"));
   for (const auto& [prefix, meshes] : mesh_kinds)
-    list.push_back({.key = std::string(prefix) + "contact_loss",
-                    .title = std::string("Time without contact, ") + meshes,
-                    .unit = "%",
-                    .scale = 100,
-                    .axis = "worst, %",
-                    .definition = "largest over the meshes of the fraction of the time in which no tooth touches",
-                    .better = Better::smaller,
-                    .effort = FigureEffort::motion,
-                    .plotted = true});
+    list.push_back(contact_loss_figure(
+        std::string(prefix) + "contact_loss", std::string("Time without contact, ") + meshes, "worst, %",
+        "largest over the meshes of the fraction of the time in which no tooth touches"));
+  for (auto spec = list.end() - 4; spec != list.end(); ++spec) spec->effort = FigureEffort::motion;
   list.push_back({.key = "arc_bearing_force_N",
                   .title = "Largest force of an eccentric's bearing",
                   .unit = "N",
@@ -141,11 +116,7 @@ bool output_moves(double peak_to_peak, double static_peak_to_peak, double mean) 
 }
 
 FigureSet static_figures(const TwoKVStage& at_nominal, double arc_clearance) {
-  FigureSet set;
-  int i = 0;
-  for (const auto& mode : modes(at_nominal).modes)
-    if (mode.frequency > 0 && i < two_k_v_frequencies)
-      set.set(fmt::format("frequency_{}_Hz", ++i), Figure{mode.frequency, 0});
+  FigureSet set = frequency_figures(modes(at_nominal), two_k_v_frequencies, Multiples::listed);
   const auto torsion = torsional_stiffness(at_nominal, stiffness_positions(at_nominal));
   const auto lost = lost_motion(at_nominal, torsion.mean(), arc_clearance);
   constexpr double rounding = 1e-10;  // of the condensation
@@ -161,22 +132,16 @@ FigureSet static_figures(const TwoKVStage& at_nominal, double arc_clearance) {
 FigureSet figures(const TwoKVStage& stage, const TwoKVResponse& r) {
   const auto& range = r.dynamic.peak_to_peak;
   const double static_range = r.quasi_static.peak_to_peak.value;
-  const bool still =
-      constant_stiffness(stage) && r.steady.steady && !output_moves(range.value, static_range, r.dynamic.mean);
+  const bool still = constant_stiffness(stage) && r.steady && !output_moves(range.value, static_range, r.dynamic.mean);
   FigureSet set;
-  set.set("steady", r.steady.steady ? 1 : 0);
+  set.set("steady", r.steady ? 1 : 0);
   set.set("output_error_peak_to_peak_rad", still ? Figure{} : range);
   set.set("output_error_quasi_static_rad", still ? Figure{} : r.quasi_static.peak_to_peak);
-  const std::vector<TwoKVMeshResult>* kinds[] = {&r.sun_planet, &r.arc_pins};
+  const std::vector<BranchResult>* kinds[] = {&r.sun_planet, &r.arc_pins};
   for (std::size_t k = 0; k < std::size(kinds); ++k) {
-    Figure factor{0, not_known};
-    double loss = 0;
-    for (const auto& mesh : *kinds[k]) {
-      if (mesh.dynamic_factor_max.value > factor.value) factor = mesh.dynamic_factor_max;
-      loss = std::max(loss, mesh.contact_loss);
-    }
-    set.set(std::string(mesh_kinds[k].first) + "dynamic_factor", still ? Figure{1, 0} : factor);
-    set.set(std::string(mesh_kinds[k].first) + "contact_loss", loss);
+    const std::string prefix = mesh_kinds[k].first;
+    set.set(prefix + "dynamic_factor", still ? Figure{1, 0} : largest_dynamic_factor(*kinds[k]));
+    set.set(prefix + "contact_loss", largest_contact_loss(*kinds[k]));
   }
   double bearing = 0;
   for (const auto& b : r.arc_bearings) bearing = std::max(bearing, b.largest);

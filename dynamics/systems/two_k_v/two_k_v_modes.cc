@@ -5,9 +5,8 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <map>
 #include <numbers>
+#include <variant>
 
 #include "core/errors.h"
 
@@ -60,35 +59,23 @@ TwoKVStage at_angle(const TwoKVStage& stage, double angle) {
   return turned;
 }
 
+double hertz(double stiffness, double inertia) { return std::sqrt(stiffness / inertia) / (2 * std::numbers::pi); }
+
 }  // namespace
 
 Eigen::VectorXd mesh_stiffness(const TwoKVStage& stage, FrozenStiffness frozen) {
   return frozen_tangents(assemble(stage), frozen);
 }
 
-Modes modes(const TwoKVStage& stage, FrozenStiffness frozen) {
-  const LumpedSystem system = assemble(stage);
-  return modes(system, frozen_tangents(system, frozen));
+Modes modes(const TwoKVStage& stage) { return modes(assemble(stage)); }
+
+ModalEnergy modal_energy(const TwoKVStage& stage, const Modes& modes) {
+  return modal_energy(assemble(stage), mesh_stiffness(stage), modes);
 }
 
-ModalEnergy modal_energy(const TwoKVStage& stage, const Modes& modes, FrozenStiffness frozen) {
-  const LumpedSystem system = assemble(stage);
-  return modal_energy(system, frozen_tangents(system, frozen), modes);
-}
-
-std::string mode_name(const ModalEnergy& energy, Eigen::Index mode) {
-  std::map<std::string, double> bodies, groups;
-  const auto largest = [](const std::map<std::string, double>& shares) {
-    return std::max_element(shares.begin(), shares.end(),
-                            [](const auto& a, const auto& b) { return a.second < b.second; })
-        ->first;
-  };
-  for (std::size_t i = 0; i < energy.bodies.size(); ++i)
-    bodies[element_group(energy.bodies[i])] += energy.kinetic(static_cast<Eigen::Index>(i), mode);
-  for (std::size_t i = 0; i < energy.elements.size(); ++i)
-    groups[element_group(energy.elements[i])] += energy.strain(static_cast<Eigen::Index>(i), mode);
-  if (!(energy.strain.col(mode).sum() > 0)) return "rigid";
-  return largest(bodies) + " on " + largest(groups);
+int crank_positions(const TwoKVStage& stage) {
+  constexpr int least = 72, per_cycle = 8;
+  return constant_stiffness(stage) ? least : std::max(least, per_cycle * std::max(stage.planet_teeth, stage.arc_teeth));
 }
 
 CrankModes modes_over_crank(const TwoKVStage& stage, int count, FrozenStiffness frozen) {
@@ -99,12 +86,17 @@ CrankModes modes_over_crank(const TwoKVStage& stage, int count, FrozenStiffness 
     const LumpedSystem system = assemble(at_angle(stage, result.angle[i]));
     const Eigen::VectorXd stiffness = frozen_tangents(system, frozen);
     auto& found = result.modes.emplace_back(modes(system, stiffness));
-    const ModalEnergy energy = modal_energy(system, stiffness, found);
+    const GroupedEnergy energy = by_group(modal_energy(system, stiffness, found));
     if (i == 0) result.frequency.resize(static_cast<Eigen::Index>(found.modes.size()), count);
     auto& names = result.names.emplace_back();
     for (Eigen::Index m = 0; m < result.frequency.rows(); ++m) {
-      result.frequency(m, i) = found.modes[m].frequency;
+      auto& [frequency, shape] = found.modes[m];
+      result.frequency(m, i) = frequency;
       names.push_back(mode_name(energy, m));
+      // Shapes have no sign of their own.
+      Eigen::Index most = 0;
+      (void)shape.cwiseAbs().maxCoeff(&most);
+      if ((i == 0 ? shape[most] : shape.dot(result.modes[i - 1].modes[m].shape)) < 0) shape = -shape;
     }
   }
   return result;
@@ -126,6 +118,39 @@ TorsionalStiffness torsional_stiffness(const TwoKVStage& stage, int count, Froze
     result.from_input[i] = stiffness_seen_from("input_u", turned, frozen);
   }
   return result;
+}
+
+bool constant_stiffness(const TwoKVStage& stage) {
+  return std::holds_alternative<ConstantStiffness>(stage.sun_mesh) &&
+         std::holds_alternative<ConstantStiffness>(stage.arc_mesh);
+}
+
+OneDof one_dof(const TwoKVStage& stage) {
+  OneDof one;
+  one.stiffness = torsional_stiffness(stage, 1, FrozenStiffness::mean).from_output[0];
+  one.input_inertia = stage.input_inertia * stage.ratio() * stage.ratio();
+  auto free = stage;
+  free.input_support = free.output_support = 0;
+  const auto system = assemble(free);
+  Eigen::VectorXd motion = rigid_motion(free, system);
+  motion[system.find("output_u")] = 0;
+  one.train_inertia = motion.dot(system.mass() * motion);
+  one.input_frequency = hertz(one.stiffness, one.input_inertia);
+  one.train_frequency = hertz(one.stiffness, one.train_inertia);
+  return one;
+}
+
+LostMotion lost_motion(const TwoKVStage& stage, double stiffness, double arc_clearance) {
+  // By virtual work: the mesh forces of one newton metre at the output are the turns of the output per metre of play.
+  const double sun = 1 / (stage.ratio() * stage.sun_base_radius());
+  const double arc = (1 - 1 / stage.ratio()) / (stage.eccentricity * stage.pins);
+  LostMotion lost;
+  lost.backlash =
+      2 * (sun * stage.sun_half_backlash.value_or(0) + arc * (stage.arc_half_backlash.value_or(0) + arc_clearance));
+  constexpr double test_torque = 0.03;  // of the rated torque
+  lost.elastic = 2 * test_torque * stage.output_torque / stiffness;
+  lost.wind_up = stage.output_torque / stiffness;
+  return lost;
 }
 
 }  // namespace annulus::dynamics

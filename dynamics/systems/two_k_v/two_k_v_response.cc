@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "dynamics/figures/peaks.h"
 #include "dynamics/statics/static_solver.h"
+#include "dynamics/steady_state/shooting.h"
 
 namespace annulus::dynamics {
 
@@ -24,21 +25,15 @@ Eigen::VectorXd error_form(const TwoKVStage& stage, const LumpedSystem& system) 
   return form;
 }
 
-/// Swing of a curve: sampled and refined.
-Peak swing(const Eigen::Ref<const Eigen::RowVectorXd>& values) {
-  const Peak top = peak_of(values), bottom = peak_of(-values);
-  return {top.sampled + bottom.sampled, top.refined + bottom.refined};
-}
-
 OutputError output_error(const Eigen::VectorXd& form, const SteadyResponse& steady) {
   OutputError error;
   error.series = steady.best.displacement.transpose() * form;
   error.mean = error.series.mean();
-  const auto swing_of = [&](const std::optional<ResponseWindow>& window) {
+  const auto swing_in = [&](const std::optional<ResponseWindow>& window) {
     const auto& motion = window && window->displacement.size() ? window->displacement : steady.best.displacement;
-    return swing(form.transpose() * motion);
+    return swing_of(form.transpose() * motion);
   };
-  error.peak_to_peak = figure(swing(error.series.transpose()), {swing_of(steady.before), swing_of(steady.loose)});
+  error.peak_to_peak = figure(swing_of(error.series.transpose()), {swing_in(steady.before), swing_in(steady.loose)});
   return error;
 }
 
@@ -46,37 +41,14 @@ OutputError quasi_static_error(const TwoKVStage& stage, const LumpedSystem& syst
                                int positions_per_cycle, Eigen::VectorXd& time) {
   const int count = period_in_crank_turns(stage) * stage.planet_teeth * positions_per_cycle;
   const double period = period_in_crank_turns(stage) / stage.crank_frequency();
-  StaticSolver solver(system);
-  auto workspace = system.workspace();
+  time = Eigen::VectorXd::LinSpaced(count, 0, count - 1) * period / count;
   OutputError error;
+  const auto path = static_path(system, time);
   error.series.resize(count);
-  time.resize(count);
-  for (int i = 0; i < count; ++i) {
-    time[i] = i * period / count;
-    error.series[i] = form.dot(solver.solve(time[i], workspace));
-  }
+  for (int i = 0; i < count; ++i) error.series[i] = form.dot(path.displacement.col(i));
   error.mean = error.series.mean();
-  error.peak_to_peak = figure(swing(error.series.transpose()), {});
+  error.peak_to_peak = figure(swing_of(error.series.transpose()), {});
   return error;
-}
-
-std::vector<TwoKVMeshResult> mesh_results(const SteadyResponse& steady, Eigen::Index first, int count,
-                                          double mean_force) {
-  std::vector<TwoKVMeshResult> results;
-  for (Eigen::Index m = first; m < first + count; ++m) {
-    const auto peak_in = [&](const ResponseWindow& window) {
-      const Peak peak = peak_of(window.force.row(m));
-      return Peak{peak.sampled / mean_force, peak.refined / mean_force};
-    };
-    TwoKVMeshResult result;
-    result.dynamic_factor_max = figure(peak_in(steady.best), {peak_in(steady.before ? *steady.before : steady.best),
-                                                              peak_in(steady.loose ? *steady.loose : steady.best)});
-    result.dynamic_factor_min = steady.best.force.row(m).minCoeff() / mean_force;
-    result.mean_force = averaging_force(steady.best).row(m).mean();
-    result.contact_loss = steady.best.open[m];
-    results.push_back(result);
-  }
-  return results;
 }
 
 /// The two linear meshes of every bearing follow the toothed ones, tangential before radial.
@@ -160,7 +132,7 @@ TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options
   TwoKVResponse response;
   response.largest_multiplier = shoot_for_start(stage, system, options, problem);
   auto steady = steady_response(system, problem, options);
-  response.steady = steady.outcome();
+  static_cast<SteadyOutcome&>(response) = steady;
   response.crank_frequency = stage.crank_frequency();
   response.sun_mesh_frequency = stage.sun_mesh_frequency();
   response.arc_mesh_frequency = stage.arc_mesh_frequency();
@@ -172,8 +144,8 @@ TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options
   response.dynamic = output_error(form, steady);
   constexpr int static_positions = 16;  // per sun mesh cycle
   response.quasi_static = quasi_static_error(stage, system, form, static_positions, response.quasi_static_time);
-  response.sun_planet = mesh_results(steady, 0, stage.cranks, response.mean_sun_force);
-  response.arc_pins = mesh_results(steady, stage.cranks, stage.arc_gears, arc_force);
+  response.sun_planet = branch_results(steady, 0, stage.cranks, response.mean_sun_force);
+  response.arc_pins = branch_results(steady, stage.cranks, stage.arc_gears, arc_force);
   response.arc_bearings = bearing_results(stage, steady.best.force);
   response.torque_balance_relative = torque_balance(stage, system, steady);
   if (steady.window_cycles % stage.planet_teeth == 0)

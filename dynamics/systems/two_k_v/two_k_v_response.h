@@ -4,10 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/figure.h"
+#include "dynamics/figures/mesh_results.h"
 #include "dynamics/figures/spectrum.h"
-#include "dynamics/steady_state/shooting.h"
-#include "dynamics/steady_state/steady_response.h"
 #include "dynamics/systems/two_k_v/two_k_v.h"
 
 namespace annulus::dynamics {
@@ -19,28 +17,20 @@ struct OutputError {
   Figure peak_to_peak;
 };
 
-/// Results of one mesh.
-struct TwoKVMeshResult {
-  Figure dynamic_factor_max;      ///< max F/mean mesh force, peaks refined between the samples
-  double dynamic_factor_min = 0;  ///< min F/mean mesh force
-  double mean_force = 0;          ///< N, of the window
-  double contact_loss = 0;        ///< fraction of the time without contact
-};
-
 /// One bearing of an arc gear on an eccentric, both directions together.
 struct ArcBearingResult {
   int crank = 0, arc_gear = 0;   ///< from 0
   double largest = 0, mean = 0;  ///< N, of the resultant
 };
 
-struct TwoKVResponse {
+struct TwoKVResponse : SteadyOutcome {
   double crank_frequency = 0, sun_mesh_frequency = 0, arc_mesh_frequency = 0;  ///< Hz, in the frame of the carrier
   double mean_sun_force = 0, mean_arc_force = 0;                               ///< N, reference of the factors
   int crank_turns = 0;                                                         ///< in the window
   OutputError dynamic;
   OutputError quasi_static;           ///< K(t) q = f at `quasi_static_time`: the error of the changing stiffness alone
   Eigen::VectorXd quasi_static_time;  ///< s, over one period
-  std::vector<TwoKVMeshResult> sun_planet, arc_pins;
+  std::vector<BranchResult> sun_planet, arc_pins;
   std::vector<ArcBearingResult> arc_bearings;
   Spectrum error_spectrum;  ///< of the dynamic error, rad; orders count turns of the crank. Empty where the window
                             ///< holds no whole turns
@@ -50,7 +40,6 @@ struct TwoKVResponse {
   /// Largest modulus of a Floquet multiplier of one period, without the double unit one of a rigid motion. Below 1 the
   /// motion is stable, above 1 the changing stiffness feeds it. Absent without shooting.
   std::optional<double> largest_multiplier;
-  SteadyOutcome steady;
   TimeSeries series;  ///< empty without `keep_series`
 };
 

@@ -7,11 +7,11 @@
 #include <array>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
-#include <limits>
 #include <string_view>
 #include <utility>
 
 #include "core/errors.h"
+#include "core/not_known.h"
 #include "dynamics/systems/two_k_v/two_k_v_modes.h"
 
 namespace annulus::dynamics {
@@ -99,6 +99,13 @@ const Mode& first_mode(const Modes& found) {
       fmt::format("none of the {} natural frequencies of the 2K-V stage is above zero", found.modes.size()));
 }
 
+const RealInput& real_input(const TwoKVStage& stage, const std::string& name) {
+  for (const auto& known : real_inputs)
+    if (known.name == name && counts(stage, known)) return known;
+  throw InputError(fmt::format("a 2K-V stage has no input '{}' to vary; there are: {}", name,
+                               fmt::join(frequency_inputs(stage), ", ")));
+}
+
 /// d ln f/d ln p of `mode`: the share of the strain energy of the elements the input acts through, halved, or
 /// minus that of the kinetic energy.
 double exact_sensitivity(const RealInput& input, const ModalEnergy& energy, const Modes& found, Eigen::Index mode,
@@ -160,20 +167,23 @@ std::vector<std::string> frequency_inputs(const TwoKVStage& stage) {
 TwoKVStage scaled(const TwoKVStage& stage, const std::string& input, double factor) {
   if (!std::isfinite(factor) || !(factor > 0))
     throw InputError(fmt::format("{}: factor {:g} must be positive", input, factor));
-  for (const auto& known : real_inputs) {
-    if (known.name != input || !counts(stage, known)) continue;
-    TwoKVStage changed = stage;
-    if (known.value)
-      changed.*known.value *= factor;
-    else
-      scale_mesh(changed.*known.mesh, factor, known.name);
-    return changed;
-  }
-  throw InputError(fmt::format("a 2K-V stage has no input '{}' to vary; there are: {}", input,
-                               fmt::join(frequency_inputs(stage), ", ")));
+  const RealInput& known = real_input(stage, input);
+  TwoKVStage changed = stage;
+  if (known.value)
+    changed.*known.value *= factor;
+  else
+    scale_mesh(changed.*known.mesh, factor, known.name);
+  return changed;
 }
 
-double first_frequency(const TwoKVStage& stage) { return first_mode(modes(stage)).frequency; }
+double input_value(const TwoKVStage& stage, const std::string& input) {
+  const RealInput& known = real_input(stage, input);
+  return known.value ? stage.*known.value : mean_tangent_stiffness(stage.*known.mesh);
+}
+
+double first_frequency(const Modes& found) { return first_mode(found).frequency; }
+
+double first_frequency(const TwoKVStage& stage) { return first_frequency(modes(stage)); }
 
 double first_frequency(const TwoKVStage& stage, const std::string& input, double factor) {
   return first_frequency(scaled(stage, input, factor));
@@ -209,7 +219,7 @@ InputBand band_of_input(const TwoKVStage& stage, const std::string& input, doubl
   SampledFrequency sampled;
   for (int i = 0; i < points; ++i) {
     const double factor = reach * (2.0 * i / (points - 1) - 1);
-    double value = std::numeric_limits<double>::quiet_NaN();
+    double value = not_known;
     const TwoKVStage changed = scaled(stage, input, std::exp(factor));
     try {
       changed.check();
@@ -228,6 +238,13 @@ InputBand band_of_input(const TwoKVStage& stage, const std::string& input, doubl
     (rises == (side < 1) ? band.low : band.high) = found;
   }
   return band;
+}
+
+std::optional<double> factor_reaching(const TwoKVStage& stage, const std::string& input, double target) {
+  constexpr double close = 1e-6;
+  const auto band = band_of_input(stage, input, target, close);
+  if (!band.low || !band.high) return std::nullopt;
+  return std::sqrt(*band.low * *band.high);
 }
 
 }  // namespace annulus::dynamics

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/modes/modes.h"
 #include "dynamics/systems/two_k_v/two_k_v.h"
 
 namespace annulus::dynamics {
@@ -14,6 +15,9 @@ namespace annulus::dynamics {
 /// The stage with one of them multiplied by `factor`. Throws InputError for an unknown name, a factor that is not
 /// positive or a law of force over deflection.
 [[nodiscard]] TwoKVStage scaled(const TwoKVStage& stage, const std::string& input, double factor);
+
+/// The value of an input, SI; of a mesh its mean tangent stiffness. Throws InputError for an unknown name.
+[[nodiscard]] double input_value(const TwoKVStage& stage, const std::string& input);
 
 /// d ln f/d ln p of a natural frequency at the crank angle of the stage, mean mesh stiffness.
 struct FrequencySensitivity {
@@ -28,6 +32,7 @@ struct FrequencySensitivity {
 [[nodiscard]] std::vector<FrequencySensitivity> first_frequency_sensitivities(const TwoKVStage& stage);
 
 /// The lowest natural frequency above zero, Hz. Throws SolverError when there is none.
+[[nodiscard]] double first_frequency(const Modes& found);
 [[nodiscard]] double first_frequency(const TwoKVStage& stage);
 /// The same with one input multiplied by `factor`.
 [[nodiscard]] double first_frequency(const TwoKVStage& stage, const std::string& input, double factor);
@@ -44,5 +49,7 @@ struct InputBand {
 /// `target`: Hz. Throws InputError for a target that is not positive or a relative band outside (0, 1).
 [[nodiscard]] InputBand band_of_input(const TwoKVStage& stage, const std::string& input, double target,
                                       double relative);
+/// The factor that brings the first frequency to `target` (Hz); absent where none does.
+[[nodiscard]] std::optional<double> factor_reaching(const TwoKVStage& stage, const std::string& input, double target);
 
 }  // namespace annulus::dynamics

@@ -101,11 +101,9 @@ PageTable motion_table(const TwoKVResult& result) {
                      "largest Floquet multiplier", "periodic", "torque balance, energy balance"});
   for (const auto& shown : shown_cases(result)) {
     const auto& m = *shown.result->motion;
-    const auto factor = [](const std::vector<dynamics::TwoKVMeshResult>& meshes) {
-      const auto top = std::max_element(meshes.begin(), meshes.end(), [](const auto& a, const auto& b) {
-        return a.dynamic_factor_max.value < b.dynamic_factor_max.value;
-      });
-      return measured(top->dynamic_factor_max.value, top->dynamic_factor_max.error);
+    const auto factor = [](const std::vector<dynamics::BranchResult>& meshes) {
+      const auto top = dynamics::largest_dynamic_factor(meshes);
+      return measured(top.value, top.error);
     };
     add_column(
         table, shown.name,

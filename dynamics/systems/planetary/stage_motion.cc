@@ -1,4 +1,4 @@
-#include "dynamics/systems/planetary/orbit.h"
+#include "dynamics/systems/planetary/stage_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +24,25 @@ Orbit orbit(const PlanetaryStage& stage, const TimeSeries& series, const std::st
       std::sqrt(((result.x.array() - result.mean_x).square() + (result.y.array() - result.mean_y).square()).maxCoeff());
   result.largest = std::sqrt((result.x.array().square() + result.y.array().square()).maxCoeff());
   return result;
+}
+
+StageMotion stage_motion(const PlanetaryStage& stage, const DynamicResponse& response) {
+  const auto& series = response.series;
+  const auto samples_per_cycle = static_cast<int>(series.time.size() / response.window_cycles);
+  StageMotion motion{bearing_forces(stage, series),
+                     support_reaction(stage, series, CentralMember::sun),
+                     support_reaction(stage, series, CentralMember::ring),
+                     support_reaction(stage, series, CentralMember::carrier),
+                     orbit(stage, series),
+                     poincare_section(stage, series, samples_per_cycle),
+                     {}};
+  motion.pattern = section_pattern(motion.section, stage.error_period());
+  // One error period alone does not show whether it repeats; the comparison with the window before does.
+  if (motion.pattern.kind == SectionKind::undecided && response.steady && response.whole_period) {
+    motion.pattern.kind = SectionKind::period_1;
+    motion.pattern.period = response.window_cycles;
+  }
+  return motion;
 }
 
 }  // namespace annulus::dynamics

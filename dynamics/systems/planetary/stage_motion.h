@@ -3,7 +3,8 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "dynamics/systems/planetary/planetary_stage.h"
+#include "dynamics/systems/planetary/bearing_forces.h"
+#include "dynamics/systems/planetary/poincare.h"
 #include "dynamics/systems/planetary/response.h"
 
 namespace annulus::dynamics {
@@ -18,5 +19,16 @@ struct Orbit {
 };
 /// `body`: "sun", "ring" or "carrier". The orbit is zero when its support is rigid.
 [[nodiscard]] Orbit orbit(const PlanetaryStage& stage, const TimeSeries& series, const std::string& body = "sun");
+
+/// What bearings, supports and the sun do over the evaluated window.
+struct StageMotion {
+  BearingForces pins;
+  SupportReaction sun_support, ring_support, carrier_support;
+  Orbit sun_orbit;
+  PoincareSection section;
+  SectionPattern pattern;  ///< period_1 too where the section is one error period that the window before confirms
+};
+/// `response` with its time series.
+[[nodiscard]] StageMotion stage_motion(const PlanetaryStage& stage, const DynamicResponse& response);
 
 }  // namespace annulus::dynamics

@@ -1,0 +1,75 @@
+#include "dynamics/figures/common_figures.h"
+
+#include <fmt/format.h>
+
+namespace annulus::dynamics {
+
+FigureSpec steady_figure() {
+  return {.key = "steady",
+          .title = "Periodic",
+          .definition = "1 where a periodic steady state was found, otherwise 0",
+          .better = Better::larger};
+}
+
+FigureSpec dynamic_factor_figure(const std::string& key, const std::string& title, const std::string& axis,
+                                 const std::string& definition) {
+  return {.key = key,
+          .title = title,
+          .axis = axis,
+          .definition = definition,
+          .better = Better::smaller,
+          .guarantee = Guarantee::while_in_contact,
+          .quantity = "dynamic_factor",
+          .compared = true,
+          .cost_study = true,
+          .plotted = true};
+}
+
+FigureSpec contact_loss_figure(const std::string& key, const std::string& title, const std::string& axis,
+                               const std::string& definition) {
+  return {.key = key,
+          .title = title,
+          .unit = "%",
+          .scale = 100,
+          .axis = axis,
+          .definition = definition,
+          .better = Better::smaller,
+          .plotted = true};
+}
+
+std::vector<FigureSpec> frequency_specs(int count, const std::string& definition) {
+  std::vector<FigureSpec> list;
+  for (int i = 1; i <= count; ++i)
+    list.push_back({.key = fmt::format("frequency_{}_Hz", i),
+                    .title = fmt::format("Natural frequency {}", i),
+                    .unit = "Hz",
+                    .definition = definition,
+                    .effort = FigureEffort::motion,
+                    .guarantee = Guarantee::always,
+                    .digits = 5,
+                    .compared = i <= 5,
+                    .cost_study = i <= 3});
+  return list;
+}
+
+FigureSet frequency_figures(const std::vector<Frequency>& frequencies, int count, Multiples multiples) {
+  constexpr double same = 1e-6;  // modes in pairs agree to rounding, neighbours of different kind do not
+  const double apart = multiples == Multiples::once ? 1 + same : 0;
+  FigureSet set;
+  double last = 0;
+  int found = 0;
+  for (const auto& [figure, parts] : frequencies) {
+    if (found == count || !(figure.value > last * apart) || !(figure.value > 0)) continue;
+    set.set(fmt::format("frequency_{}_Hz", ++found), figure, parts);
+    last = figure.value;
+  }
+  return set;
+}
+
+FigureSet frequency_figures(const Modes& modes, int count, Multiples multiples) {
+  std::vector<Frequency> list;
+  for (const auto& mode : modes.modes) list.push_back({{mode.frequency, 0}});
+  return frequency_figures(list, count, multiples);
+}
+
+}  // namespace annulus::dynamics

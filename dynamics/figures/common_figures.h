@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/figure.h"
+#include "dynamics/modes/modal_energy.h"
+
+/// Results that lumped models of all kinds have.
+namespace annulus::dynamics {
+
+/// "steady": whether a periodic steady state was found.
+[[nodiscard]] FigureSpec steady_figure();
+[[nodiscard]] FigureSpec dynamic_factor_figure(const std::string& key, const std::string& title,
+                                               const std::string& axis, const std::string& definition);
+[[nodiscard]] FigureSpec contact_loss_figure(const std::string& key, const std::string& title, const std::string& axis,
+                                             const std::string& definition);
+
+/// frequency_1_Hz ... frequency_`count`_Hz.
+[[nodiscard]] std::vector<FigureSpec> frequency_specs(int count, const std::string& definition);
+
+enum class Multiples {
+  listed,  ///< a multiple frequency as often as it occurs
+  once
+};
+/// The lowest `count` frequencies above zero, by the keys of `frequency_specs`. `frequencies` rise.
+[[nodiscard]] FigureSet frequency_figures(const std::vector<Frequency>& frequencies, int count, Multiples multiples);
+/// The same for modes that are exact for the model they belong to.
+[[nodiscard]] FigureSet frequency_figures(const Modes& modes, int count, Multiples multiples);
+
+}  // namespace annulus::dynamics
