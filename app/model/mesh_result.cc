@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "app/model/mesh_tables.h"
-#include "app/report/drawings/field_view.h"
 #include "app/report/drawings/mesh.h"
 #include "app/results/content_id.h"
 #include "core/files.h"
@@ -183,7 +182,8 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   for (const auto& [name, member] : side_tables) (result.*member).round(keys);
   if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.ring);
   for (const auto& field : solved.fields)
-    result.fields += field_view(field, solved.positions[field.position], model.body_name(field.body == "planet"));
+    result.fields.push_back(
+        body_view(field, solved.positions[field.position], model.body_name(field.body == "planet")));
   result.table.provenance = {{"annulus_version", version()}, {"inputs_id", model.id()}, {"model", model.fidelity}};
   return result;
 }

@@ -79,7 +79,7 @@ std::optional<MeshResult> cached_stiffness(const MeshModel& model, const std::st
   const auto fields = store ? store->find(cached_fields, id) : std::nullopt;
   if (!fields || !restore_files(store, cached_meshes, id, options.out / folder)) return std::nullopt;
   auto result = load(model, options.out / folder);
-  result.fields = *fields;
+  result.fields = unpacked(*fields);
   return result;
 }
 
@@ -97,7 +97,7 @@ MeshResult computed_stiffness(const MeshModel& model, const std::string& folder,
   save(*result, options.out / folder);
   if (const auto* store = options.store.get()) {
     const auto id = files_id(model, options);
-    store->keep(cached_fields, id, result->fields);
+    store->keep(cached_fields, id, packed(result->fields));
     cache_files(store, cached_meshes, id, options.out / folder, mesh_files(model));
   }
   return std::move(*result);

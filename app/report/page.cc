@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/replace.hpp>
+#include <cctype>
 #include <cstdlib>
-#include <map>
+#include <set>
 
-#include "app/report/plot/plot_data.h"
-#include "app/report/text/xml.h"
+#include "app/report/plot/chart.h"
+#include "app/report/plot/colour_scale.h"
+#include "app/report/text/svg.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/log.h"
@@ -24,22 +27,6 @@ std::string attribute(const std::string& element, const std::string& name) {
   return element.substr(begin, element.find('"', begin) - begin);
 }
 
-/// Behind the end of the <svg> element that begins at `at`, which may hold others of its kind.
-std::size_t end_of_svg(const std::string& text, std::size_t at) {
-  static const std::string opening = "<svg", closing = "</svg>";
-  for (int depth = 0;;) {
-    const auto open = text.find(opening, at), close = text.find(closing, at);
-    require(close != std::string::npos, "a picture without an end");
-    if (open < close) {
-      ++depth;
-      at = open + opening.size();
-    } else {
-      at = close + closing.size();
-      if (--depth == 0) return at;
-    }
-  }
-}
-
 /// Drawn to stand beside others; alone and as wide as the page its letters would be those of a headline.
 bool is_narrow(const std::string& svg) {
   constexpr double usual_width = 500;
@@ -47,45 +34,39 @@ bool is_narrow(const std::string& svg) {
   return box.starts_with("0 0 ") && std::strtod(box.c_str() + 4, nullptr) < usual_width;
 }
 
-const char* css_class(Text::Look look) {
-  switch (look) {
-    case Text::Look::agrees:
-      return "tag agrees";
-    case Text::Look::disagrees:
-      return "tag disagrees";
-    case Text::Look::undecided:
-      return "tag undecided";
-    case Text::Look::assumed:
-      return "tag assumed";
-    default:
-      return "muted";
-  }
-}
+/// Markup around a run of text, in the order of Text::Look; fields are target and text.
+constexpr const char* markup[] = {"{1}",
+                                  "<b>{1}</b>",
+                                  "<code>{1}</code>",
+                                  "<span class=\"muted\">{1}</span>",
+                                  "<sub>{1}</sub>",
+                                  "<span class=\"tag agrees\">{1}</span>",
+                                  "<span class=\"tag disagrees\">{1}</span>",
+                                  "<span class=\"tag undecided\">{1}</span>",
+                                  "<span class=\"tag assumed\">{1}</span>",
+                                  "<a href=\"#{0}\">{1}</a>",
+                                  "<br>"};
 
-std::string html(const Text::Run& run) {
-  const std::string text = escape(run.text);
-  switch (run.look) {
-    case Text::Look::plain:
-      return text;
-    case Text::Look::bold:
-      return "<b>" + text + "</b>";
-    case Text::Look::code:
-      return "<code>" + text + "</code>";
-    case Text::Look::subscript:
-      return "<sub>" + text + "</sub>";
-    case Text::Look::link:
-      return "<a href=\"#" + escape(run.target) + "\">" + text + "</a>";
-    case Text::Look::line_break:
-      return "<br>";
-    default:
-      return fmt::format("<span class=\"{}\">{}</span>", css_class(run.look), text);
+/// A file name from a title: "Mean mesh stiffness, N/mm" -> "mean_mesh_stiffness_n_mm".
+std::string slug(const std::string& title) {
+  constexpr std::size_t longest = 60;
+  std::string result;
+  for (const char c : title) {
+    const auto u = static_cast<unsigned char>(c);
+    if (u < 128 && std::isalnum(u) != 0)
+      result += static_cast<char>(std::tolower(u));
+    else if (!result.empty() && result.back() != '_')
+      result += '_';
   }
+  result = result.substr(0, longest);
+  while (!result.empty() && result.back() == '_') result.pop_back();
+  return result;
 }
 
 /// Writes blocks as HTML; remembers what is drawn and which scripts that needs.
 class BlockWriter {
  public:
-  explicit BlockWriter(std::string section) : section_(std::move(section)) {}
+  explicit BlockWriter(std::string anchor = {}) : section(std::move(anchor)) {}
 
   [[nodiscard]] std::string written(const std::vector<Block>& blocks) {
     std::string text;
@@ -93,6 +74,7 @@ class BlockWriter {
     return text;
   }
 
+  std::string section;  ///< anchor of the one that is being written
   std::vector<PictureFile> pictures;
   bool has_plots = false, has_views = false;
 
@@ -130,29 +112,23 @@ class BlockWriter {
   }
 
   std::string written(const Pictures& figure) {
-    static const std::map<Pictures::Layout, const char*> classes = {{Pictures::Layout::row, ""},
-                                                                    {Pictures::Layout::shapes, " class=\"shapes\""},
-                                                                    {Pictures::Layout::meshes, " class=\"meshes\""},
-                                                                    {Pictures::Layout::fields, " class=\"fields\""}};
+    static constexpr const char* classes[] = {"row", "shapes", "meshes", "fields"};  // in the order of Layout
     const bool one = figure.list.size() == 1 && figure.layout == Pictures::Layout::row;
     bool narrow = false;
     std::string cells;
     for (const auto& picture : figure.list) {
       const auto first = pictures.size();
       const auto drawn = std::visit([this](const auto& d) { return written(d); }, picture.drawn);
-      narrow = one && pictures.size() > first && is_narrow(pictures[first].svg);
-      if (std::holds_alternative<StoredViews>(picture.drawn)) {
-        cells += drawn;  // cells already
-        continue;
-      }
+      narrow = one && is_narrow(pictures[first].svg);
       cells += "<div>";
       if (!picture.title.empty()) cells += "<h3>" + app::html(picture.title) + "</h3>";
       cells += drawn;
       if (!picture.caption.empty()) cells += "<figcaption>" + app::html(picture.caption) + "</figcaption>";
       cells += "</div>\n";
     }
-    std::string text = fmt::format("<figure{}>{}<div class=\"row{}{}\">{}</div>", classes.at(figure.layout),
-                                   written(figure.legend), one ? " one" : "", narrow ? " narrow" : "", cells);
+    std::string text = fmt::format("<figure class=\"{}\">{}<div class=\"row{}{}\">{}</div>",
+                                   classes[static_cast<std::size_t>(figure.layout)], written(figure.legend),
+                                   one ? " one" : "", narrow ? " narrow" : "", cells);
     if (!figure.caption.empty()) text += "<figcaption>" + app::html(figure.caption) + "</figcaption>";
     return text + "</figure>\n";
   }
@@ -171,47 +147,39 @@ class BlockWriter {
   }
 
   /// A plot: its picture, and its numbers for page.js.
-  template <class Kind>
-  std::string written(const Kind& plot) {
+  std::string written(const Chart& chart) {
     has_plots = true;
-    const std::string svg = recorded(to_svg(plot));
-    return "<div class=\"plot\">" + svg + "<script type=\"application/json\">" + script_text(plot_data(plot)) +
-           "</script></div>";
+    return fmt::format("<div class=\"plot\">{}{}</div>", recorded(to_svg(chart)), data(plot_data(chart)));
+  }
+
+  /// A body: its picture, and its numbers for view3d.js.
+  std::string written(const BodyView& view) {
+    has_views = true;
+    std::string colours;
+    for (const auto& colour : scale_colours(Ways::one)) colours += "," + colour;
+    return fmt::format(
+        "<div class=\"view3d\">{}{}<div class=\"scale\"><i style=\"background:linear-gradient(to right{})\"></i> von "
+        "Mises stress 0 to {:.3g} MPa and more (at most {:.3g} MPa) · displacement × {:g}, at most {:.3g} µm · mesh "
+        "phase {:.4g}{}</div></div>\n",
+        recorded(to_svg(view)), data(view_data(view)), colours, view.top_MPa, view.largest_stress_MPa,
+        view.exaggeration, 1000 * view.largest_displacement_mm, view.mesh_phase,
+        view.ring_tooth > 0 ? fmt::format(", ring tooth {}", view.ring_tooth) : std::string());
   }
 
   std::string written(const Drawing& drawing) { return recorded(drawing.svg); }
 
-  std::string written(const StoredViews& views) {
-    has_views = true;
-    static const std::string opening = "<svg xmlns=";
-    for (std::size_t at = 0; (at = views.html.find(opening, at)) != std::string::npos;) {
-      const auto end = end_of_svg(views.html, at);
-      (void)recorded(views.html.substr(at, end - at));
-      at = end;
-    }
-    return views.html;
+  /// JSON in a <script> element, which "</script>" and "<!--" within a text would end.
+  static std::string data(const nlohmann::json& numbers) {
+    auto json = numbers.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    boost::replace_all(json, "<", "\\u003c");
+    return "<script type=\"application/json\">" + json + "</script>";
   }
 
   std::string recorded(const std::string& svg) {
-    pictures.push_back({section_, attribute(svg, "aria-label"), svg});
+    pictures.push_back({section, attribute(svg, "aria-label"), svg});
     return svg;
   }
-
-  std::string section_;
 };
-
-/// The page template with the names between {{ and }} replaced.
-std::string filled_template(const std::map<std::string, std::string>& parts) {
-  const std::string pattern = page_template;
-  std::string text;
-  std::size_t begin = 0;
-  for (std::size_t at = 0; (at = pattern.find("{{", begin)) != std::string::npos;) {
-    const auto end = pattern.find("}}", at);
-    text += pattern.substr(begin, at - begin) + parts.at(pattern.substr(at + 2, end - at - 2));
-    begin = end + 2;
-  }
-  return text + pattern.substr(begin);
-}
 
 /// A library with our script on top; nothing when a file of it is not installed.
 std::string scripts(const std::vector<const char*>& libraries, const char* own, const char* package) {
@@ -236,7 +204,8 @@ std::string heading_html(const Section& section) {
 
 std::string html(const Text& text) {
   std::string all;
-  for (const auto& run : text.runs()) all += html(run);
+  for (const auto& run : text.runs())
+    all += fmt::format(fmt::runtime(markup[static_cast<std::size_t>(run.look)]), escape(run.target), escape(run.text));
   return all;
 }
 
@@ -246,36 +215,45 @@ std::string html(const Section& section) {
 }
 
 RenderedPage rendered(const Page& page) {
-  RenderedPage result;
-  bool has_plots = false, has_views = false;
-  const auto write = [&](const std::string& anchor, const Blocks& blocks) {
-    BlockWriter writer(anchor);
-    auto text = writer.written(blocks.list());
-    has_plots = has_plots || writer.has_plots;
-    has_views = has_views || writer.has_views;
-    result.pictures.insert(result.pictures.end(), writer.pictures.begin(), writer.pictures.end());
-    return text;
-  };
-  const auto summary = write({}, page.summary);
+  BlockWriter writer;
+  const auto summary = writer.written(page.summary.list());
   std::string links, sections;
   for (const auto& section : page.sections) {
     if (section.blocks.empty()) continue;
+    writer.section = section.anchor;
     links += fmt::format("<a href=\"#{}\">{}</a>", escape(section.anchor), escape(section.name));
-    sections += heading_html(section) + write(section.anchor, section.blocks);
+    sections += heading_html(section) + writer.written(section.blocks.list());
   }
   std::string script;
-  if (has_plots) script += scripts({ANNULUS_CHART_JS}, page_script, "libjs-chart.js");
-  if (has_views) script += scripts({ANNULUS_THREE_JS, ANNULUS_ORBIT_JS}, view3d_script, "libjs-three");
-  result.html = filled_template({{"title", escape(page.title)},
-                                 {"style", page_style},
-                                 {"sub", html(page.sub)},
-                                 {"summary", summary},
-                                 {"links", links},
-                                 {"sections", sections},
-                                 {"scripts", script}});
-  return result;
+  if (writer.has_plots) script += scripts({ANNULUS_CHART_JS}, page_script, "libjs-chart.js");
+  if (writer.has_views) script += scripts({ANNULUS_THREE_JS, ANNULUS_ORBIT_JS}, view3d_script, "libjs-three");
+  return {fmt::format(fmt::runtime(page_template), fmt::arg("title", escape(page.title)), fmt::arg("style", page_style),
+                      fmt::arg("sub", html(page.sub)), fmt::arg("summary", summary), fmt::arg("links", links),
+                      fmt::arg("sections", sections), fmt::arg("scripts", script)),
+          std::move(writer.pictures)};
 }
 
 std::string page_html(const Page& page) { return rendered(page).html; }
+
+void write_report(const std::filesystem::path& file, const Page& page, const std::string& pictures) {
+  const auto made = rendered(page);
+  write_file(file, made.html);
+  const auto folder = file.parent_path() / pictures;
+  std::set<std::filesystem::path> names;
+  for (const auto& p : made.pictures) {
+    const auto title = slug(p.label);
+    const auto name =
+        fmt::format("{:02}_{}{}.svg", names.size() + 1, slug(p.section), title.empty() ? "" : "_" + title);
+    std::filesystem::create_directories(folder);
+    write_file(folder / name, p.svg);
+    names.insert(name);
+  }
+  // Those of an earlier page. Another run may be at work here: what it makes or removes meanwhile is its own.
+  std::error_code ignored;
+  std::vector<std::filesystem::path> old;
+  for (std::filesystem::directory_iterator at(folder, ignored), end; at != end; at.increment(ignored))
+    if (at->path().extension() == ".svg" && names.count(at->path().filename()) == 0) old.push_back(at->path());
+  for (const auto& picture : old) std::filesystem::remove(picture, ignored);
+}
 
 }  // namespace annulus::app

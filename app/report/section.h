@@ -6,10 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "app/report/plot/bars.h"
-#include "app/report/plot/curves.h"
-#include "app/report/plot/map.h"
-#include "app/report/plot/spread.h"
+#include "app/report/drawings/body_view.h"
+#include "app/report/plot/plots.h"
 #include "app/report/text/text.h"
 
 /// A report is data: sections of blocks. What reads results makes it, page.h draws it.
@@ -37,18 +35,21 @@ struct PageTable {
   Style style = Style::text;
 };
 /// A table of numbers whose first column holds the labels of the rows; columns are added to it.
-[[nodiscard]] PageTable labelled_rows(const std::vector<Text>& labels);
-void add_column(PageTable& table, const Text& head, const std::vector<Text>& cells);
+[[nodiscard]] inline PageTable labelled_rows(const std::vector<Text>& labels) {
+  PageTable table{.head = {""}, .style = PageTable::Style::numbers};
+  for (const auto& label : labels) table.rows.push_back({label});
+  return table;
+}
+inline void add_column(PageTable& table, const Text& head, const std::vector<Text>& cells) {
+  table.head.push_back(head);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) table.rows[i].push_back(cells.at(i));
+}
 
 /// A drawing to scale, as an <svg> element.
 struct Drawing {
   std::string svg;
 };
-/// Deformed bodies as stored beside the meshes (field_view.h).
-struct StoredViews {
-  std::string html;
-};
-using Drawn = std::variant<Plot, BarChart, ColourMap, SpreadPlot, Drawing, StoredViews>;
+using Drawn = std::variant<Plot, BarChart, ColourMap, SpreadPlot, Drawing, BodyView>;
 
 /// Something drawn, with a title above and a caption below when they are not empty.
 struct Picture {
@@ -90,30 +91,28 @@ struct Block {
 class Blocks {
  public:
   Blocks() = default;
-  Blocks(Heading heading) { add(std::move(heading)); }
-  Blocks(Paragraph paragraph) { add(std::move(paragraph)); }
-  Blocks(List list) { add(std::move(list)); }
-  Blocks(PageTable table) { add(std::move(table)); }
-  Blocks(Pictures pictures) { add(std::move(pictures)); }
-  Blocks(Box box) { add(std::move(box)); }
+  template <class Content>
+  requires std::is_constructible_v<decltype(Block::content), Content> Blocks(Content content)
+      : list_({{std::move(content)}}) {}
 
-  Blocks& operator+=(const Blocks& other);
+  Blocks& operator+=(const Blocks& other) {
+    list_.insert(list_.end(), other.list_.begin(), other.list_.end());
+    return *this;
+  }
   [[nodiscard]] bool empty() const { return list_.empty(); }
   [[nodiscard]] const std::vector<Block>& list() const { return list_; }
 
  private:
-  template <class Content>
-  void add(Content content) {
-    list_.push_back({std::move(content)});
-  }
   std::vector<Block> list_;
 };
-[[nodiscard]] Blocks operator+(Blocks a, const Blocks& b);
+[[nodiscard]] inline Blocks operator+(Blocks a, const Blocks& b) { return a += b; }
 
-[[nodiscard]] Box verdict_box(const Blocks& blocks);
-[[nodiscard]] Box details(const Text& summary, const Blocks& blocks);
-[[nodiscard]] Heading heading(const Text& text, const std::string& anchor = {});
-[[nodiscard]] Paragraph paragraph(const Text& text);
+[[nodiscard]] inline Box verdict_box(const Blocks& blocks) { return {.blocks = blocks.list()}; }
+[[nodiscard]] inline Box details(const Text& summary, const Blocks& blocks) {
+  return {Box::Kind::details, blocks.list(), summary};
+}
+[[nodiscard]] inline Heading heading(const Text& text, const std::string& anchor = {}) { return {text, anchor}; }
+[[nodiscard]] inline Paragraph paragraph(const Text& text) { return {text}; }
 
 /// A part of a report page; without blocks it is left out.
 struct Section {

@@ -8,9 +8,12 @@ namespace annulus::app {
 
 Section fields_section(const std::vector<std::pair<std::string, const MeshResult*>>& meshes) {
   Blocks views;
-  for (const auto& [title, mesh] : meshes)
-    if (mesh != nullptr && !mesh->fields.empty())
-      views += heading(title) + Pictures{{StoredViews{mesh->fields}}, {}, {}, Pictures::Layout::fields};
+  for (const auto& [title, mesh] : meshes) {
+    if (mesh == nullptr || mesh->fields.empty()) continue;
+    Pictures figure{.layout = Pictures::Layout::fields};
+    for (const auto& view : mesh->fields) figure.list.emplace_back(view);
+    views += heading(title) + figure;
+  }
   Section section{"fields", "Deformation and stress"};
   if (!views.empty())
     section.blocks =

@@ -7,6 +7,7 @@
 
 #include "app/plan/cost_plan.h"
 #include "app/report/page.h"
+#include "app/report/plot/chart.h"
 #include "app/results/content_id.h"
 #include "app/scene/overrides.h"
 #include "app/sections/report_parts.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "app/report/plot/curves.h"
+#include "app/report/plot/plots.h"
 #include "app/tradeoff/tradeoff.h"
 
 namespace annulus::app {

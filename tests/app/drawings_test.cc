@@ -188,7 +188,7 @@ BOOST_AUTO_TEST_CASE(enlarged_teeth_show_what_contact_follows_from) {
   BOOST_TEST((e - uses(svg, "gear-t-planet").front().at).norm() == scale * 52, boost::test_tools::tolerance(1e-3));
   BOOST_TEST((a - uses(svg, "gear-t-wheel").front().at).norm() == scale * 52, boost::test_tools::tolerance(1e-3));
   // Contact points stand on both outlines.
-  static const std::regex dot("<circle cx=\"([-0-9.]+)\" cy=\"([-0-9.]+)\" r=\"4\" fill=\"#c22f2f\"");
+  static const std::regex dot("<circle cx=\"([-0-9.]+)\" cy=\"([-0-9.]+)\" r=\"4.00\" fill=\"#c22f2f\"");
   std::size_t dots = 0;
   for (std::sregex_iterator at(svg.begin(), svg.end(), dot), end; at != end; ++at, ++dots) {
     const Eigen::Vector2d p(std::stod((*at)[1]), std::stod((*at)[2]));
@@ -247,8 +247,8 @@ BOOST_AUTO_TEST_CASE(dimensions_carry_their_figures) {
   const auto svg = app::dimension({100, 200}, {300, 200}, 20, "a<b");
   BOOST_TEST(svg.find("a&lt;b") != std::string::npos);
   BOOST_TEST(svg.find("translate(200.0 176.5) rotate(0.00)") != std::string::npos);
-  BOOST_TEST(svg.find("M100.0 180.0L") != std::string::npos);
-  BOOST_TEST(svg.find("M300.0 180.0L") != std::string::npos);
+  BOOST_TEST(svg.find("M100.00 180.00L") != std::string::npos);
+  BOOST_TEST(svg.find("M300.00 180.00L") != std::string::npos);
   // Too short for its text: that stands behind the end.
   const auto narrow = app::dimension({100, 200}, {110, 200}, 20, "12.345");
   static const std::regex place("translate\\(([0-9.]+) ");

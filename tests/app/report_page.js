@@ -12,57 +12,51 @@ const painted = (canvas) => {
 };
 const pointer = (type, x, y) => new PointerEvent(type, {clientX: x, clientY: y, bubbles: true});
 
-/// Every point of the curves is there, within the axes.
-function checkCurves(plot, chart, name) {
-  const datasets = chart.data.datasets;
-  for (const s of plot.series) {
-    const own = datasets.filter((d) => d.series === plot.series.indexOf(s) && !d.band);
-    const finite = s.x.filter((x, i) => x !== null && s.y[i] !== null).length;
-    expect(own.length === 1 && own[0].data.filter((p) => p.x !== null && p.y !== null).length >= finite, name + ': points');
-    for (const [scale, values] of [[chart.scales.x, s.x], [chart.scales.y, s.y]]) {
-      const given = scale === chart.scales.x ? plot.x_range : plot.y_range;
-      if (given || plot.y_log) continue;
-      const numbers = values.filter((v) => v !== null), slack = 1e-9 * (scale.max - scale.min);
-      expect(Math.min(...numbers) >= scale.min - slack && Math.max(...numbers) <= scale.max + slack, name + ': cut off');
-    }
-    if (s.low) result.bands += datasets.filter((d) => d.band).length > 0;
-  }
+/// Every point of the marks is there; the axes are those of the picture.
+function checkMarks(panel, chart, name) {
+  const datasets = chart.data.datasets.filter((d) => d.x && !d.band).reverse();
+  expect(datasets.length === panel.sets.length, name + ': marks');
+  panel.sets.forEach((s, i) => {
+    const finite = s.x.filter((x, k) => x !== null && s.y[k] !== null).length;
+    expect(datasets[i].data.filter((p) => p.x !== null && p.y !== null).length === finite, name + ': points');
+    if (s.low) result.bands += chart.data.datasets.some((d) => d.band && d.group === s.group);
+  });
+  for (const [scale, {range}] of [[chart.scales.x, panel.x], [chart.scales.y, panel.y]])
+    expect(scale.min === Math.min(...range) && scale.max === Math.max(...range), name + ': other axes than in the picture');
 }
 
 /// Cells have the colours of their values, where the canvas shows them.
 function checkCells(plot, chart, name) {
   const {x, y} = chart.scales, ratio = chart.currentDevicePixelRatio, {ctx} = chart;
   let seen = 0, right = 0;
-  for (const cell of chart.data.cells) {
-    const [left, end] = cell.x.map((v) => x.getPixelForValue(v)), [low, top] = cell.y.map((v) => y.getPixelForValue(v));
-    if (end - left < 6 || low - top < 6 || cell.value === null) continue;
+  for (const [x1, x2, y1, y2, value] of chart.data.panel.cells) {
+    const [left, end] = [x1, x2].map((v) => x.getPixelForValue(v)), [low, top] = [y1, y2].map((v) => y.getPixelForValue(v));
+    if (end - left < 6 || low - top < 6 || value === null) continue;
     if (left < chart.chartArea.left || end > chart.chartArea.right) continue;
     ++seen;
     const at = [left + 2, top + 2].map((v) => Math.round(v * ratio));
     const [r, g, b] = ctx.getImageData(...at, 1, 1).data;
-    const [least, most] = plot.scale, steps = plot.colours.length;
-    const step = Math.min(steps - 1, Math.max(0, Math.floor((cell.value - least) / (most - least) * steps)));
-    const wanted = [1, 3, 5].map((i) => parseInt(plot.colours[step].slice(i, i + 2), 16));
+    const {range: [least, most], colours} = plot.scale, steps = colours.length;
+    const step = Math.min(steps - 1, Math.max(0, Math.floor((value - least) / (most - least) * steps)));
+    const wanted = [1, 3, 5].map((i) => parseInt(colours[step].slice(i, i + 2), 16));
     right += Math.abs(r - wanted[0]) + Math.abs(g - wanted[1]) + Math.abs(b - wanted[2]) < 12;
   }
   // A line may cross some of them.
   expect(right >= 0.8 * seen, name + `: ${right} of ${seen} cells have their colour`);
 }
 
-const rowsOf = {
-  curves: (plot) => plot.series.reduce((sum, s) => sum + s.x.length, 0),
-  bars: (plot) => plot.bars.length,
-  map: (plot) => plot.panels.reduce((sum, p) => sum + p.cells.length, 0),
-};
+const kindOf = (plot) => (plot.scale ? 'map' : plot.panels[0].y.names ? 'bars' : plot.panels[0].x.names ? 'spreads' : 'curves');
+const rowsOf = (plot) => plot.panels.reduce((sum, p) => sum + (plot.scale ? p.cells.length : p.sets.reduce((n, s) => n + (s.label ? s.x.length : 0), 0)), 0);
 
 /// How many of its charts can be used in that way.
 const good = {drawn: 0, zoomed: 0, reset: 0, hidden: 0, told: 0};
 
 function useChart(plot, chart, name) {
+  const {panel} = chart.data;
   good.drawn += painted(chart.canvas) > 500;
   const datasets = chart.data.datasets;
-  if (plot.kind === 'curves') checkCurves(plot, chart, name);
-  if (plot.kind === 'map') checkCells(plot, chart, name);
+  checkMarks(panel, chart, name);
+  if (plot.scale) checkCells(plot, chart, name);
 
   // A rectangle from a quarter to three quarters of the plot.
   const box0 = chart.canvas.getBoundingClientRect(), area = chart.chartArea;
@@ -71,13 +65,13 @@ function useChart(plot, chart, name) {
   chart.canvas.dispatchEvent(pointer('pointerdown', ...at(0.25)));
   chart.canvas.dispatchEvent(pointer('pointermove', ...at(0.5)));
   window.dispatchEvent(pointer('pointerup', ...at(0.75)));
-  const span = (scale) => plot.x_log ? Math.log(scale.max / scale.min) : scale.max - scale.min;
+  const span = (scale) => panel.x.log ? Math.log(scale.max / scale.min) : scale.max - scale.min;
   const wanted = 0.5 * span({min: before[0], max: before[1]});
   good.zoomed += Math.abs(span(chart.scales.x) / wanted - 1) < 0.02;
   chart.canvas.dispatchEvent(new MouseEvent('dblclick'));
   good.reset += chart.scales.x.min === before[0] && chart.scales.x.max === before[1];
 
-  const item = plot.kind === 'curves' && chart.legend.legendItems[0];
+  const item = chart.legend.legendItems[0];
   if (item) {
     const {group} = datasets[item.datasetIndex];
     chart.options.plugins.legend.onClick(null, item, chart.legend);
@@ -89,31 +83,28 @@ function useChart(plot, chart, name) {
     ++good.hidden;
   }
 
-  // What a reader is told of the first point; of a map, of the cell under the pointer.
-  const shown = (p) => (typeof p === 'number' ? true : p.y !== null && !Number.isNaN(p.y));
-  const first = datasets.findIndex((d) => !d.band && !d.level), index = datasets[first].data.findIndex(shown);
-  if (plot.kind === 'map') {
-    const cells = chart.data.cells.map((c, i) => [c, i]).filter(([c]) => (c.x[0] + c.x[1]) / 2 > chart.scales.x.min && (c.x[0] + c.x[1]) / 2 < chart.scales.x.max);
-    const [cell, i] = cells[Math.floor(cells.length / 2)];
-    const event = {x: chart.scales.x.getPixelForValue((cell.x[0] + cell.x[1]) / 2), y: chart.scales.y.getPixelForValue((cell.y[0] + cell.y[1]) / 2)};
-    const found = Chart.Interaction.modes.cell(chart, event);
-    expect(found.length === 1 && found[0].index === i, name + ': not the cell under the pointer');
-  }
+  // What a reader is told at a point; of a map, at the middle of a cell.
+  const first = datasets.findIndex((d) => d.label && d.data.some((p) => p.y !== null && !Number.isNaN(p.y)));
+  const shown = datasets[first].data.map((p, i) => [p, i]).filter(([p]) => p.y !== null && p.x > chart.scales.x.min && p.x < chart.scales.x.max);
+  const [point, index] = shown.length > 0 ? shown[Math.floor(shown.length / 2)] : [datasets[first].data[0], 0];
+  const event = {x: chart.scales.x.getPixelForValue(point.x), y: chart.scales.y.getPixelForValue(point.y)};
+  const found = Chart.Interaction.modes.pointed(chart, event);
+  expect(found.length === 1 && (!plot.scale || found[0].index === index), name + ': nothing at the pointer');
   chart.tooltip.setActiveElements([{datasetIndex: first, index}], {x: 0, y: 0});
   chart.tooltip.update(true);
   const line = chart.tooltip.body.length === 1 ? chart.tooltip.body[0].lines[0] : '';
-  const head = {curves: datasets[first].label, bars: plot.kind === 'bars' && plot.bars[index].label, map: plot.value_label}[plot.kind];
+  const head = datasets[first].label;
   good.told += line.startsWith(head + ': ') && line.length > head.length + 2;
 }
 
 function usePlot(box) {
-  const plot = JSON.parse(box.querySelector('script').textContent), name = plot.title || plot.kind;
+  const plot = JSON.parse(box.querySelector('script').textContent), name = plot.title || kindOf(plot);
   ++result.plots;
-  ++result[plot.names ? 'spreads' : plot.kind];
+  ++result[kindOf(plot)];
   expect(box.querySelector('svg').getBoundingClientRect().height > 30, name + ': no picture before');
   box.dispatchEvent(new PointerEvent('pointerenter'));
   const charts = box.charts || [];
-  expect(charts.length === (plot.kind === 'map' ? plot.panels.length : 1), name + `: ${charts.length} charts`);
+  expect(charts.length === plot.panels.length, name + `: ${charts.length} charts`);
   for (const what in good) good[what] = 0;
   for (const chart of charts) useChart(plot, chart, name);
   for (const what in good) {
@@ -122,7 +113,7 @@ function usePlot(box) {
   }
 
   const lines = box.plotCsv().trim().split('\n');
-  expect(lines.length === rowsOf[plot.kind](plot) + 1, name + ': CSV of ' + lines.length + ' lines');
+  expect(lines.length === rowsOf(plot) + 1, name + ': CSV of ' + lines.length + ' lines');
   result.rows += lines.length - 1;
 }
 

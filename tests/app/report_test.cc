@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "app/report/plot/map.h"
+#include "app/report/plot/chart.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "tests/app/made_up_solution.h"

@@ -1,11 +1,11 @@
-#include "app/report/plot/curves.h"
+#include "app/report/plot/chart.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
 #include "app/report/drawings/mesh.h"
 #include "app/report/drawings/mode.h"
-#include "app/report/text/xml.h"
+#include "app/report/text/svg.h"
 #include "app/sections/report_parts.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "geometry/sector_mesh.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/report/plot/curves.h"
+#include "app/report/plot/chart.h"
 #include "page.h"
 
 namespace annulus::manual {

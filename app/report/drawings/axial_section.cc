@@ -2,195 +2,168 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <vector>
 
 #include "app/report/drawings/dimension.h"
 #include "app/report/drawings/drawing_page.h"
-#include "app/report/plot/frame.h"
 #include "core/units.h"
 
 namespace annulus::app {
 
 namespace {
 
-constexpr int axial_width = 560;
-constexpr double axial_left = 70, axial_right = 150, axial_top = 70;
+constexpr double axial_width = 560, axial_left = 70, axial_right = 150, axial_top = 70;
 
-/// A rectangle of the section: along the axis, and from radius to radius, m.
-struct AxialBlock {
-  double z_low, z_high, r_low, r_high;
-};
+/// A rectangle of the section, along the axis and from radius to radius, m; a line where it has no extent one way.
+using AxialBox = Eigen::AlignedBox2d;
 
-/// The ring and what belongs to it, as rectangles.
-struct AxialBlocks {
-  AxialBlock rim, teeth;
-  std::vector<AxialBlock> more{};  ///< sleeve, hoop, flange
-  std::vector<AxialBlock> held{};  ///< lines: no extent one way
-  std::vector<AxialBlock> pins{};
-};
-
-AxialBlocks blocks_of(const AxialSection& section) {
-  const auto& ring = section.ring;
-  const double width = ring.parameters().face_width, outside = section.outside_radius;
-  AxialBlocks blocks{{0, width, ring.root_radius(), outside}, {0, width, ring.tip_radius(), ring.root_radius()}};
-  const auto body = section.structure.body(outside);
-  const auto drawing = section.structure.drawing(outside);
-  const double end = body.sleeve ? -body.sleeve->length : 0;
-  if (end < 0) blocks.more.push_back({end, 0, body.held_inner_radius, outside});
-  if (body.hoop) blocks.more.push_back({width - body.hoop->width, width, outside, outside + body.hoop->thickness});
-  if (body.flange)
-    blocks.more.push_back({0, std::min(body.flange->width, width), outside, body.flange->outside_radius});
-  switch (body.held) {
-    case fem::HeldSurface::outside:
-      blocks.held.push_back({0, width, outside, outside});
-      break;
-    case fem::HeldSurface::both_end_faces:
-      blocks.held.push_back({width, width, body.held_inner_radius, outside});
-      [[fallthrough]];
-    case fem::HeldSurface::low_end_face:
-      blocks.held.push_back({end, end, body.held_inner_radius, outside});
-      break;
-    case fem::HeldSurface::flange_face:
-      blocks.held.push_back({0, 0, outside, body.flange->outside_radius});
-      break;
-    case fem::HeldSurface::none:
-      if (drawing.teeth) blocks.held.push_back({0, width, outside, outside});
-      break;
+/// A ring in axial section: z to the right, the radius upwards.
+class AxialDrawing {
+ public:
+  explicit AxialDrawing(const AxialSection& section)
+      : section_(section),
+        width_(section.ring.parameters().face_width),
+        outside_(section.outside_radius),
+        body_(section.structure.body(outside_)),
+        drawing_(section.structure.drawing(outside_)),
+        end_(body_.sleeve ? -body_.sleeve->length : 0) {
+    constexpr double tallest = 420;
+    const std::string wheel = std::string("fill=\"") + wheel_fill + "\" " + edge;
+    if (end_ < 0) add({end_, body_.held_inner_radius}, {0, outside_}, wheel);
+    if (body_.hoop) add({width_ - body_.hoop->width, outside_}, {width_, outside_ + body_.hoop->thickness}, wheel);
+    if (body_.flange) add({0, outside_}, {flange_width(), body_.flange->outside_radius}, wheel);
+    add({0, section.ring.root_radius()}, {width_, outside_}, wheel);
+    add({0, section.ring.tip_radius()}, {width_, section.ring.root_radius()}, std::string(R"(fill="#fbf1e7" )") + edge);
+    for (const auto& cylinders : drawing_.cylinders)
+      add({0, cylinders.circle_radius - cylinders.diameter / 2},
+          {width_, cylinders.circle_radius + cylinders.diameter / 2},
+          R"(fill="#D55E00" fill-opacity="0.6" stroke="#7a3600" stroke-width="0.9")");
+    page_.scale = std::min((axial_width - axial_left - axial_right) / all_.sizes().x(), tallest / all_.sizes().y());
+    page_.origin = svg::Point(axial_left, axial_top) + page_.scale * Eigen::Vector2d(-all_.min().x(), all_.max().y());
   }
-  for (const auto& cylinders : drawing.cylinders)
-    blocks.pins.push_back(
-        {0, width, cylinders.circle_radius - cylinders.diameter / 2, cylinders.circle_radius + cylinders.diameter / 2});
-  return blocks;
-}
 
-AxialBlock bounds(const AxialBlocks& blocks) {
-  AxialBlock all = blocks.rim;
-  for (const auto* list : {&blocks.more, &blocks.pins})
-    for (const auto& b : *list)
-      all = {std::min(all.z_low, b.z_low), std::max(all.z_high, b.z_high), all.r_low, std::max(all.r_high, b.r_high)};
-  all.r_low = blocks.teeth.r_low;
-  return all;
-}
-
-/// Axial coordinate to the right, radius upwards.
-struct AxialPage {
-  double scale, x0, y0;
-  [[nodiscard]] Eigen::Vector2d at(double z, double r) const { return {x0 + scale * z, y0 - scale * r}; }
-};
-
-std::string drawn(const AxialPage& page, const AxialBlock& block, const char* style) {
-  const Eigen::Vector2d corner = page.at(block.z_low, block.r_high);
-  return fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" {}/>", corner.x(), corner.y(),
-                     page.scale * (block.z_high - block.z_low), page.scale * (block.r_high - block.r_low), style);
-}
-
-/// A held line with the hatching of firm ground on its far side.
-std::string ground(const AxialPage& page, const AxialBlock& line) {
-  constexpr double step = 7;
-  const Eigen::Vector2d a = page.at(line.z_low, line.r_low), b = page.at(line.z_high, line.r_high);
-  const bool upright = line.z_low == line.z_high;
-  const double length = (b - a).norm();
-  const Eigen::Vector2d along = (b - a) / length;
-  std::string d;
-  for (double s = 0; s <= length; s += step) {
-    const Eigen::Vector2d p = a + s * along;
-    d += fmt::format("M{:.1f} {:.1f}l{} {}", p.x(), p.y(), upright ? -6 : 6, upright ? 6 : -6);
-  }
-  return fmt::format(
-      "<path d=\"M{:.2f} {:.2f}L{:.2f} {:.2f}\" stroke=\"{}\" stroke-width=\"3\"/><path d=\"{}\" stroke=\"{}\" "
-      "stroke-width=\"0.9\"/>",
-      a.x(), a.y(), b.x(), b.y(), held_colour, d, held_colour);
-}
-
-/// Lengths along the axis below the section or above it, thicknesses at its left.
-std::string dimensions(const AxialPage& page, const AxialSection& section, const AxialBlock& all) {
-  const double width = section.ring.parameters().face_width, outside = section.outside_radius;
-  const auto below = [&](double from, double to, const char* name) {
-    const Eigen::Vector2d a = page.at(from, all.r_low);
-    return dimension(a, page.at(to, all.r_low), -22, name + mm_text(to - from));
-  };
-  const auto above = [&](double from, double to, double r, const char* name) {
-    const Eigen::Vector2d a = page.at(from, r);
-    return dimension(a, page.at(to, r), a.y() - page.at(0, all.r_high).y() + 20, name + mm_text(to - from));
-  };
-  const auto upright = [&](double z, double from, double to, double offset) {
-    return dimension(page.at(z, from), page.at(z, to), offset, mm_text(to - from));
-  };
-  std::string svg = below(0, width, "b = ");
-  const auto body = section.structure.body(outside);
-  const double end = body.sleeve ? -body.sleeve->length : 0;
-  if (end < 0) svg += above(end, 0, outside, "");
-  svg += upright(end, body.held_inner_radius > 0 ? body.held_inner_radius : section.ring.root_radius(), outside, 22);
-  if (body.hoop) {
-    svg += above(width - body.hoop->width, width, outside + body.hoop->thickness, "");
-    svg += upright(width - body.hoop->width, outside, outside + body.hoop->thickness, 14);
-  }
-  if (body.flange) svg += above(0, std::min(body.flange->width, width), body.flange->outside_radius, "");
-  return svg;
-}
-
-/// Diameters at the right, each at its height, moved apart where they would cover each other.
-std::string diameters(const AxialPage& page, const AxialSection& section, const AxialBlock& all) {
-  struct Label {
-    double radius;
+  [[nodiscard]] std::string svg() const {
+    const double bottom = page_.at(all_.min()).y();
     std::string text;
-  };
-  std::vector<Label> labels = {
-      {section.ring.tip_radius(), "tip"}, {section.ring.root_radius(), "root"}, {section.outside_radius, "outside"}};
-  const auto body = section.structure.body(section.outside_radius);
-  const auto drawing = section.structure.drawing(section.outside_radius);
-  if (body.held == fem::HeldSurface::both_end_faces)
-    labels.insert(labels.end() - 1, {body.held_inner_radius, "clamped from"});
-  if (body.flange) labels.push_back({body.flange->outside_radius, "flange"});
-  if (body.hoop) labels.push_back({section.outside_radius + body.hoop->thickness, "hoop"});
-  constexpr double line = 15;
-  double last = 1e9;
-  std::string svg;
-  for (const auto& label : labels) {
-    const Eigen::Vector2d at = page.at(all.z_high, label.radius);
-    const double y = std::min(at.y(), last - line);
-    last = y;
-    svg += fmt::format(
-        "<path d=\"M{:.1f} {:.1f}h8L{:.1f} {:.1f}h6\" fill=\"none\" stroke=\"#888\" stroke-width=\"0.8\"/><text "
-        "x=\"{:.1f}\" y=\"{:.1f}\">⌀ {} {}</text>",
-        at.x() + 2, at.y(), at.x() + 24, y, at.x() + 33, y + 4, mm_text(2 * label.radius), label.text);
+    for (const auto& [block, style] : blocks_)
+      text += svg::rectangle(page_.at(block.min()), page_.at(block.max()), style);
+    for (const auto& line : held()) text += ground(line);
+    text += dimensions() + diameters() + supports();
+    text += scale_bar({14, bottom + 58}, page_.scale, 0.3 * axial_width);
+    return svg::titled_picture(section_.title, section_.label, axial_width, bottom + 78, 14, text);
   }
-  const Eigen::Vector2d corner = page.at(all.z_low, all.r_high);
-  double above = 8;
-  for (const auto& cylinders : drawing.cylinders) {
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{} {} ⌀ {}</text>", corner.x(), corner.y() - above,
-                       cylinders.angles.size(), cylinders.name, mm_text(cylinders.diameter));
-    above += line;
+
+ private:
+  static constexpr const char* edge = R"(stroke="#2c3a48" stroke-width="0.9")";
+  static constexpr double line_height = 15;
+
+  void add(const Eigen::Vector2d& low, const Eigen::Vector2d& high, const std::string& style) {
+    blocks_.emplace_back(AxialBox(low, high), style);
+    all_.extend(blocks_.back().first);
   }
-  if (drawing.teeth)
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{} {}</text>", corner.x(), corner.y() - 14,
-                       drawing.teeth->angles.size(), drawing.teeth->name);
-  return svg;
-}
+  [[nodiscard]] double flange_width() const { return std::min(body_.flange->width, width_); }
+  [[nodiscard]] svg::Point at(double z, double r) const { return page_.at({z, r}); }
+
+  [[nodiscard]] std::vector<AxialBox> held() const {
+    const auto line = [](double z1, double r1, double z2, double r2) {
+      return AxialBox(Eigen::Vector2d(z1, r1), Eigen::Vector2d(z2, r2));
+    };
+    const auto face = [&](double z) { return line(z, body_.held_inner_radius, z, outside_); };
+    switch (body_.held) {
+      case fem::HeldSurface::outside:
+        return {line(0, outside_, width_, outside_)};
+      case fem::HeldSurface::both_end_faces:
+        return {face(width_), face(end_)};
+      case fem::HeldSurface::low_end_face:
+        return {face(end_)};
+      case fem::HeldSurface::flange_face:
+        return {line(0, outside_, 0, body_.flange->outside_radius)};
+      case fem::HeldSurface::none:
+        break;
+    }
+    return drawing_.teeth ? std::vector{line(0, outside_, width_, outside_)} : std::vector<AxialBox>();
+  }
+
+  /// A held line with the hatching of firm ground on its far side.
+  [[nodiscard]] std::string ground(const AxialBox& line) const {
+    constexpr double step = 7;
+    const svg::Point a = page_.at(line.min()), b = page_.at(line.max());
+    const svg::Point along = (b - a).normalized();
+    const auto hatch = line.sizes().x() == 0 ? "l-6 6" : "l6 -6";
+    std::string d;
+    for (double s = 0; s <= (b - a).norm(); s += step) d += svg::through({a + s * along}) + hatch;
+    const auto style = [](double width) { return fmt::format(R"(stroke="{}" stroke-width="{}")", held_colour, width); };
+    return svg::line(a, b, style(3)) + svg::path(d, style(0.9));
+  }
+
+  /// Lengths along the axis below the section or above it, thicknesses at its left.
+  [[nodiscard]] std::string dimensions() const {
+    const auto above = [&](double from, double to, double r) {
+      const double up = at(from, r).y() - page_.at(all_.max()).y() + 20;
+      return dimension(at(from, r), at(to, r), up, mm_text(to - from));
+    };
+    const auto upright = [&](double z, double from, double to, double offset) {
+      return dimension(at(z, from), at(z, to), offset, mm_text(to - from));
+    };
+    std::string text = dimension(at(0, all_.min().y()), at(width_, all_.min().y()), -22, "b = " + mm_text(width_));
+    if (end_ < 0) text += above(end_, 0, outside_);
+    text += upright(end_, body_.held_inner_radius > 0 ? body_.held_inner_radius : section_.ring.root_radius(), outside_,
+                    22);
+    if (body_.hoop) {
+      const double begin = width_ - body_.hoop->width, top = outside_ + body_.hoop->thickness;
+      text += above(begin, width_, top) + upright(begin, outside_, top, 14);
+    }
+    if (body_.flange) text += above(0, flange_width(), body_.flange->outside_radius);
+    return text;
+  }
+
+  /// Diameters at the right, each at its height, moved apart where they would cover each other.
+  [[nodiscard]] std::string diameters() const {
+    std::vector<std::pair<double, std::string>> labels = {{section_.ring.tip_radius(), "tip"},
+                                                          {section_.ring.root_radius(), "root"}};
+    if (body_.held == fem::HeldSurface::both_end_faces) labels.emplace_back(body_.held_inner_radius, "clamped from");
+    labels.emplace_back(outside_, "outside");
+    if (body_.flange) labels.emplace_back(body_.flange->outside_radius, "flange");
+    if (body_.hoop) labels.emplace_back(outside_ + body_.hoop->thickness, "hoop");
+    double y = 1e9;
+    std::string text;
+    for (const auto& [radius, name] : labels) {
+      const svg::Point p = at(all_.max().x(), radius);
+      y = std::min(p.y(), y - line_height);
+      text += svg::path(svg::through({p + svg::Point(2, 0), p + svg::Point(10, 0), {p.x() + 24, y}, {p.x() + 30, y}}),
+                        R"(fill="none" stroke="#888" stroke-width="0.8")");
+      text += svg::words({p.x() + 33, y + 4}, fmt::format("⌀ {} {}", mm_text(2 * radius), name));
+    }
+    return text;
+  }
+
+  /// Pins, bolts and teeth in words above the section.
+  [[nodiscard]] std::string supports() const {
+    svg::Point p = at(all_.min().x(), all_.max().y()) - svg::Point(0, 8);
+    std::string text;
+    for (const auto& c : drawing_.cylinders) {
+      text += svg::words(p, fmt::format("{} {} ⌀ {}", c.angles.size(), c.name, mm_text(c.diameter)));
+      p.y() -= line_height;
+    }
+    if (const auto& teeth = drawing_.teeth)
+      text += svg::words(p - svg::Point(0, 6), fmt::format("{} {}", teeth->angles.size(), teeth->name));
+    return text;
+  }
+
+  const AxialSection& section_;
+  double width_, outside_;
+  fem::RingBody body_;
+  fem::RingDrawing drawing_;
+  double end_;  // of the sleeve, at or below 0
+  std::vector<std::pair<AxialBox, std::string>> blocks_{};
+  AxialBox all_{};
+  DrawingPage page_{.up = DrawingPage::Up::y};
+};
 
 }  // namespace
 
-std::string to_svg(const AxialSection& section) {
-  constexpr double tallest = 420;
-  const auto blocks = blocks_of(section);
-  const auto all = bounds(blocks);
-  const double scale =
-      std::min((axial_width - axial_left - axial_right) / (all.z_high - all.z_low), tallest / (all.r_high - all.r_low));
-  const AxialPage page{scale, axial_left - scale * all.z_low, axial_top + scale * all.r_high};
-  const double bottom = page.at(0, all.r_low).y();
-  std::string svg = open_svg(section.title, axial_width, static_cast<int>(bottom + 78), 14.0, section.label);
-  constexpr const char* edge = "stroke=\"#2c3a48\" stroke-width=\"0.9\"";
-  const auto filled = [&](const char* fill) { return fmt::format("fill=\"{}\" {}", fill, edge); };
-  for (const auto& block : blocks.more) svg += drawn(page, block, filled(wheel_fill).c_str());
-  svg += drawn(page, blocks.rim, filled(wheel_fill).c_str());
-  svg += drawn(page, blocks.teeth, filled("#fbf1e7").c_str());
-  for (const auto& line : blocks.held) svg += ground(page, line);
-  for (const auto& pin : blocks.pins)
-    svg += drawn(page, pin, "fill=\"#D55E00\" fill-opacity=\"0.6\" stroke=\"#7a3600\" stroke-width=\"0.9\"");
-  svg += dimensions(page, section, all) + diameters(page, section, all);
-  svg += scale_bar({14, bottom + 58}, scale, 0.3 * axial_width);
-  return svg + "</svg>";
-}
+std::string to_svg(const AxialSection& section) { return AxialDrawing(section).svg(); }
 
 }  // namespace annulus::app

@@ -2,17 +2,26 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 
+#include "app/report/drawings/facets.h"
+#include "app/report/plot/colour_scale.h"
+#include "app/report/plot/ticks.h"
 #include "core/units.h"
 
 namespace annulus::app {
 
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BodyView, name, place_mm, displacement_mm, stress_MPa, faces, solid,
+                                   largest_displacement_mm, largest_stress_MPa, exaggeration, top_MPa, mesh_phase,
+                                   ring_tooth)
+
 namespace {
 
 constexpr std::size_t most_faces = 5000;  // of a view: some hundred kilobytes
+constexpr double MPa = 1e6;
 
 /// Quadrilaterals seen of some of its cells: in the plane the cells, in space the faces of one of them alone.
 std::vector<std::array<std::uint32_t, 4>> faces_of(const geometry::Mesh& mesh, std::size_t first_cell,
@@ -46,100 +55,132 @@ std::vector<std::array<std::uint32_t, 4>> faces_of(const geometry::Mesh& mesh, s
   return faces;
 }
 
-BodyView near_contact(const fem::BodyField& field) {
+/// The faces seen of whole sectors on both sides of a vertex.
+std::vector<std::array<std::uint32_t, 4>> faces_around(const fem::BodyField& field, std::size_t vertex) {
   const auto& mesh = field.mesh;
-  std::size_t worst = 0;
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    if (field.von_mises(v) > field.von_mises(worst)) worst = v;
-  const double contact = std::atan2(mesh.vertices[worst].y(), mesh.vertices[worst].x());
-  // Whole sectors around it.
   const auto sectors = static_cast<std::size_t>(field.sectors);
-  const std::size_t vertices = mesh.vertices.size() / sectors, cells = mesh.cells.size() / sectors,
-                    middle = worst / vertices;
+  const std::size_t cells = mesh.cells.size() / sectors, middle = vertex / (mesh.vertices.size() / sectors);
   const std::size_t each_side = std::max<std::size_t>(1, most_faces / faces_of(mesh, middle * cells, cells).size() / 2);
   const std::size_t first = middle - std::min(middle, each_side), last = std::min(middle + each_side, sectors - 1);
-  BodyView view;
-  const Eigen::AngleAxisd turn(-contact, Eigen::Vector3d::UnitZ());
-  constexpr std::uint32_t unseen = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> number(mesh.vertices.size(), unseen);
-  Eigen::AlignedBox3d box;
-  for (const auto& face : faces_of(mesh, first * cells, (last - first + 1) * cells)) {
-    auto& kept = view.faces.emplace_back();
+  return faces_of(mesh, first * cells, (last - first + 1) * cells);
+}
+
+/// Page axes of a body whose contact lies in a direction from its axis: in the plane from above, the contact at the
+/// top; in space from before the teeth, a little from below.
+Eigen::Matrix3d page_axes(const geometry::Mesh& mesh, const Eigen::Vector3d& contact) {
+  const auto about_axis = [](double angle) {
+    return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  };
+  const double direction = std::atan2(contact.y(), contact.x());
+  if (mesh.dimension == 2) return about_axis(90 * units::deg - direction);
+  // A ring's teeth point inwards: what touches lies nearer to its axis than its middle.
+  double mean_radius = 0;
+  for (const auto& v : mesh.vertices) mean_radius += v.head<2>().norm() / static_cast<double>(mesh.vertices.size());
+  return eye_axes(contact.head<2>().norm() < mean_radius ? TeethSide::inside : TeethSide::outside) *
+         about_axis(-direction);
+}
+
+/// What only a few of the vertices exceed: the peak under the contact would make all else pale.
+double colour_top(std::vector<double> stress) {
+  const auto at = static_cast<std::ptrdiff_t>(stress.size() - 1 - stress.size() / 200);
+  std::nth_element(stress.begin(), stress.begin() + at, stress.end());
+  return std::max(stress[static_cast<std::size_t>(at)], 1 / MPa);
+}
+
+/// Rounded to a micrometre of the page axes.
+void add_place(std::vector<double>& list, const Eigen::Vector3d& place_mm) {
+  for (const double x : place_mm) list.push_back(std::round(1000 * x) / 1000);
+}
+
+/// Edges of one face alone, of vertices that coincide.
+std::vector<std::array<Eigen::Vector3d, 2>> outline(const BodyView& view) {
+  using Place = std::array<double, 3>;
+  const auto place = [&](std::size_t corner) {
+    const double* p = &view.place_mm[3 * std::size_t{view.faces[corner]}];
+    return Place{p[0], p[1], p[2]};
+  };
+  std::map<std::pair<Place, Place>, int> faces;
+  for (std::size_t f = 0; f < view.faces.size(); f += 4)
     for (std::size_t i = 0; i < 4; ++i) {
-      const bool fresh = number[face[i]] == unseen;
-      if (fresh) number[face[i]] = static_cast<std::uint32_t>(view.place.size());
-      kept[i] = number[face[i]];
-      if (!fresh) continue;
-      view.place.emplace_back(turn * mesh.vertices[face[i]]);
-      view.moved.emplace_back(turn * field.displacement[face[i]]);
-      view.stress.push_back(field.von_mises(face[i]));
-      view.largest_displacement = std::max(view.largest_displacement, view.moved.back().norm());
-      view.largest_stress = std::max(view.largest_stress, view.stress.back());
-      box.extend(view.place.back());
+      const auto a = place(f + i), b = place(f + (i + 1) % 4);
+      ++faces[std::minmax(a, b)];
     }
-  }
-  view.size = box.sizes().maxCoeff();
-  return view;
-}
-
-/// Upper end of the colours: what only a thousandth of the vertices exceeds. The peak under the contact would make all
-/// else pale.
-double colour_top_of(const BodyView& view) {
-  auto sorted = view.stress;
-  const auto at = static_cast<std::ptrdiff_t>(sorted.size() - 1 - sorted.size() / 200);
-  std::nth_element(sorted.begin(), sorted.begin() + at, sorted.end());
-  return std::max(sorted[static_cast<std::size_t>(at)], 1.0);
-}
-
-enum class TeethSide { inside, outside };
-
-/// Page axes and the direction to the eye: in the plane from above, the contact at the top; in space from before the
-/// teeth, a little from below.
-Eigen::Matrix3d camera(int dimension, TeethSide teeth) {
-  Eigen::Matrix3d axes;
-  if (dimension == 2) {
-    axes << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-    return axes;
-  }
-  const double azimuth = -32 * units::deg, elevation = -24 * units::deg, outside = teeth == TeethSide::inside ? -1 : 1;
-  const Eigen::Vector3d towards(outside * std::cos(elevation) * std::cos(azimuth),
-                                outside * std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
-  const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(towards).normalized();
-  axes.row(0) = right;
-  axes.row(1) = towards.cross(right);
-  axes.row(2) = towards;
-  return axes;
-}
-
-/// 1, 2 or 5 times a power of ten, so that the largest displacement becomes about a thirtieth of the body.
-double exaggeration_of(const BodyView& view) {
-  const double wanted = 0.03 * view.size / std::max(view.largest_displacement, 1e-15);
-  const double power = std::pow(10.0, std::floor(std::log10(wanted)));
-  for (const double factor : {5.0, 2.0})
-    if (factor * power <= wanted) return factor * power;
-  return power;
+  std::vector<std::array<Eigen::Vector3d, 2>> lines;
+  for (const auto& [edge, count] : faces)
+    if (count == 1) lines.push_back({Eigen::Vector3d(edge.first.data()), Eigen::Vector3d(edge.second.data())});
+  return lines;
 }
 
 }  // namespace
 
 BodyView body_view(const fem::BodyField& field, const fem::LoadedPosition& position, const std::string& name) {
-  if (field.mesh.cells.empty()) return {};
-  BodyView view = near_contact(field);
-  // A ring's teeth point inwards: what touches lies nearer to its axis than its middle.
-  double contact_radius = 0, mean_radius = 0, highest = 0;
-  for (std::size_t v = 0; v < view.place.size(); ++v) {
-    const double radius = view.place[v].head<2>().norm();
-    mean_radius += radius / static_cast<double>(view.place.size());
-    if (view.stress[v] > highest) highest = view.stress[v], contact_radius = radius;
-  }
-  view.name = name;
-  view.dimension = field.mesh.dimension;
-  view.axes = camera(view.dimension, contact_radius < mean_radius ? TeethSide::inside : TeethSide::outside);
-  view.exaggeration = exaggeration_of(view);
-  view.colour_top = colour_top_of(view);
-  view.mesh_phase = position.mesh_phase;
-  view.ring_tooth = position.ring_tooth;
+  const auto& mesh = field.mesh;
+  BodyView view{
+      .name = name, .solid = mesh.dimension == 3, .mesh_phase = position.mesh_phase, .ring_tooth = position.ring_tooth};
+  if (mesh.cells.empty()) return view;
+  std::size_t worst = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (field.von_mises(v) > field.von_mises(worst)) worst = v;
+  const Eigen::Matrix3d axes = page_axes(mesh, mesh.vertices[worst]) / units::mm;
+  std::map<std::uint32_t, std::uint32_t> numbers;
+  Eigen::AlignedBox3d box;
+  for (const auto& face : faces_around(field, worst))
+    for (const auto v : face) {
+      const auto [number, fresh] = numbers.try_emplace(v, static_cast<std::uint32_t>(numbers.size()));
+      view.faces.push_back(number->second);
+      if (!fresh) continue;
+      const Eigen::Vector3d moved = axes * field.displacement[v];
+      add_place(view.place_mm, axes * mesh.vertices[v]);
+      for (const double x : moved) view.displacement_mm.push_back(significant(x, 4));
+      view.stress_MPa.push_back(significant(field.von_mises(v) / MPa, 4));
+      view.largest_displacement_mm = std::max(view.largest_displacement_mm, moved.norm());
+      view.largest_stress_MPa = std::max(view.largest_stress_MPa, field.von_mises(v) / MPa);
+      box.extend(mesh.vertices[v] / units::mm);
+    }
+  // About a thirtieth of the body.
+  view.exaggeration = round_below(0.03 * box.sizes().maxCoeff() / std::max(view.largest_displacement_mm, 1e-12));
+  view.top_MPa = colour_top(view.stress_MPa);
   return view;
 }
+
+std::string to_svg(const BodyView& view) {
+  const auto colours = scale_colours(Ways::one);
+  std::vector<std::pair<std::size_t, Facet>> facets;  // by level
+  for (std::size_t f = 0; f < view.faces.size(); f += 4) {
+    Facet facet;
+    double stress = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::size_t v = view.faces[f + i];
+      facet.corners[i] =
+          Eigen::Vector3d(&view.place_mm[3 * v]) + view.exaggeration * Eigen::Vector3d(&view.displacement_mm[3 * v]);
+      stress += view.stress_MPa[v] / 4;
+    }
+    if (view.solid && facet.normal().z() <= 0) continue;  // seen from behind
+    const auto level = colour_level(stress / view.top_MPa);
+    facet.fill = colours[level];
+    facets.emplace_back(level, facet);
+  }
+  FacetPicture picture{.label = "Deformed " + view.name, .edge_width = 0.0006};
+  if (!view.solid)
+    std::stable_sort(facets.begin(), facets.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& [level, facet] : facets) picture.facets.push_back(facet);
+  if (view.solid)
+    sort_by_depth(picture.facets);
+  else
+    picture.lines = outline(view);
+  return to_svg(picture);
+}
+
+nlohmann::json view_data(const BodyView& view) {
+  nlohmann::json data = view;
+  data["colours"] = scale_colours(Ways::one);
+  return data;
+}
+
+std::string packed(const std::vector<BodyView>& views) {
+  const auto bytes = nlohmann::json::to_cbor(views);
+  return {bytes.begin(), bytes.end()};
+}
+std::vector<BodyView> unpacked(const std::string& bytes) { return nlohmann::json::from_cbor(bytes); }
 
 }  // namespace annulus::app

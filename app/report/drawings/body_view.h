@@ -1,8 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -10,25 +9,32 @@
 
 namespace annulus::app {
 
-/// A deformed body near its contact: vertices and faces that are seen, turned so that the contact lies in the direction
-/// of x.
+/// A deformed body near its contact: vertices and faces that are seen, in page axes (to the right, upwards, to the
+/// eye). It is drawn as a picture, and by view3d.js as a view that can be rotated.
 struct BodyView {
-  std::string name{};
-  std::vector<Eigen::Vector3d> place{}, moved{};  ///< m: at rest, and displacement
-  std::vector<double> stress{};                   ///< von Mises, Pa, of every vertex
-  std::vector<std::array<std::uint32_t, 4>> faces{};
-  int dimension = 2;
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();   ///< rows: to the right, upwards, to the eye
-  double largest_displacement = 0, largest_stress = 0;  ///< m, Pa
-  double size = 0;                                      ///< m, of the largest side of its box
-  double exaggeration = 1;                              ///< of the displacements
-  double colour_top = 1;                                ///< Pa, upper end of the colours
+  std::string name{};                                 ///< of the body, for readers
+  std::vector<double> place_mm{}, displacement_mm{};  ///< three numbers a vertex
+  std::vector<double> stress_MPa{};                   ///< von Mises, of every vertex
+  std::vector<std::uint32_t> faces{};                 ///< four vertices each
+  bool solid = false;                                 ///< not plane
+  double largest_displacement_mm = 0, largest_stress_MPa = 0;
+  double exaggeration = 1;  ///< of the displacements
+  double top_MPa = 1;       ///< upper end of the colours
   double mesh_phase = 0;
   int ring_tooth = 0;
 };
 
-/// `name`: of the body, for readers. Without faces when the field has no cells.
+/// Without faces when the field has no cells.
 [[nodiscard]] BodyView body_view(const fem::BodyField& field, const fem::LoadedPosition& position,
                                  const std::string& name);
+
+/// Displacements exaggerated, coloured by von Mises stress; grey: the outline of a plane body without load.
+[[nodiscard]] std::string to_svg(const BodyView& view);
+
+/// As JSON for view3d.js, with the colours of its stress.
+[[nodiscard]] nlohmann::json view_data(const BodyView& view);
+/// Views as bytes, and back.
+[[nodiscard]] std::string packed(const std::vector<BodyView>& views);
+[[nodiscard]] std::vector<BodyView> unpacked(const std::string& bytes);
 
 }  // namespace annulus::app

@@ -25,36 +25,34 @@ double filled_to(const DrawnGear& drawn) {
   return std::max((1 - overlap) * root, drawn.inner_radius);
 }
 
-std::string turned(double angle) { return fmt::format("rotate({:.4f})", -angle / units::deg); }
-
 }  // namespace
 
 std::string gear_defs(const DrawingPage& page, const DrawnGear& drawn) {
   const auto& gear = drawn.gear;
   const DrawingPage own{page.scale};
-  const auto outline = geometry::tooth_outline(geometry::ToothProfile(gear), outline_error / page.scale);
-  const bool internal = gear.kind() == geometry::GearKind::internal;
+  auto outline = geometry::tooth_outline(geometry::ToothProfile(gear), outline_error / page.scale);
+  const auto d = own.through(outline);
+  for (const double side : {0.5, -0.5}) outline.push_back(polar(filled_to(drawn), side * gear.pitch_angle()));
   // The body as far as the teeth overlap it.
   const double root = gear.root_radius() * page.scale;
-  const double other = (internal ? drawn.outside_radius : drawn.inner_radius) * page.scale;
-  std::string svg = fmt::format(
-      "<defs><g id=\"tooth-{0}\"><path d=\"{1}L{2}L{3}Z\" fill=\"{4}\"/><path id=\"outline-{0}\" d=\"{1}\" "
-      "fill=\"none\" stroke=\"#2c3a48\" stroke-width=\"0.7\"/></g>",
-      drawn.id, path_through(own, outline), own.text(polar(filled_to(drawn), gear.pitch_angle() / 2)),
-      own.text(polar(filled_to(drawn), -gear.pitch_angle() / 2)), drawn.fill);
-  svg += fmt::format("<g id=\"gear-{}\"><path d=\"{}{}\" fill=\"{}\" fill-rule=\"evenodd\"/>", drawn.id,
-                     circle_path(root), other > 0 ? circle_path(other) : "", drawn.fill);
-  if (other > 0)
-    svg += fmt::format("<circle r=\"{:.2f}\" fill=\"none\" stroke=\"#2c3a48\" stroke-width=\"0.7\"/>", other);
+  const double other =
+      (gear.kind() == geometry::GearKind::internal ? drawn.outside_radius : drawn.inner_radius) * page.scale;
+  std::string body = svg::path(circle_path(root) + (other > 0 ? circle_path(other) : ""),
+                               fmt::format(R"(fill="{}" fill-rule="evenodd")", drawn.fill));
+  if (other > 0) body += svg::circle({0, 0}, other, outline_style);
   for (int i = 0; i < gear.teeth(); ++i)
-    svg += fmt::format("<use href=\"#tooth-{}\" transform=\"{}\"/>", drawn.id, turned(i * gear.pitch_angle()));
-  return svg + "</g></defs>";
+    body += fmt::format("<use href=\"#tooth-{}\" transform=\"rotate({:.4f})\"/>", drawn.id,
+                        -i * gear.pitch_angle() / units::deg);
+  return fmt::format(
+      "<defs><g id=\"tooth-{0}\"><path d=\"{1}Z\" fill=\"{2}\"/><path id=\"outline-{0}\" d=\"{3}\" {4}/></g>"
+      "<g id=\"gear-{0}\">{5}</g></defs>",
+      drawn.id, own.through(outline), drawn.fill, d, outline_style, body);
 }
 
 std::string placed_gear(const DrawingPage& page, const DrawnGear& drawn, const Eigen::Vector2d& centre, double angle) {
-  const Eigen::Vector2d c = page.at(centre);
-  return fmt::format("<use href=\"#gear-{}\" transform=\"translate({:.3f} {:.3f}) {}\"/>", drawn.id, c.x(), c.y(),
-                     turned(angle));
+  const svg::Point c = page.at(centre);
+  return fmt::format("<use href=\"#gear-{}\" transform=\"translate({:.3f} {:.3f}) rotate({:.4f})\"/>", drawn.id, c.x(),
+                     c.y(), -angle / units::deg);
 }
 
 }  // namespace annulus::app

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 
 #include "app/report/drawings/drawing_page.h"
@@ -24,8 +23,9 @@ struct DrawnGear {
                                       double angle);
 
 inline constexpr const char* base_circle_style =
-    "fill=\"none\" stroke=\"#0072B2\" stroke-width=\"1\" stroke-dasharray=\"5 3\"";
+    R"(fill="none" stroke="#0072B2" stroke-width="1" stroke-dasharray="5 3")";
 inline constexpr const char* pitch_circle_style =
-    "fill=\"none\" stroke=\"#555\" stroke-width=\"0.8\" stroke-dasharray=\"12 3 2 3\"";
+    R"(fill="none" stroke="#555" stroke-width="0.8" stroke-dasharray="12 3 2 3")";
+inline constexpr const char* outline_style = R"(fill="none" stroke="#2c3a48" stroke-width="0.7")";
 
 }  // namespace annulus::app

@@ -2,92 +2,90 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <numbers>
 
-#include "app/report/plot/frame.h"
+#include "app/report/drawings/drawing_page.h"
+#include "app/report/plot/ticks.h"
 #include "core/units.h"
 
 namespace annulus::app {
 
 namespace {
 
-constexpr double exaggeration = 0.2;  // of the centre distance, for the largest displacement
-constexpr int picture_width = 260, picture_height = 280;
-constexpr const char *at_rest = "#c4c4c4", *carrier_colour = "#444444";
+using Point = Eigen::Vector2d;
 
-/// StagePage coordinates of a point of the stage, y upwards.
-struct StagePage {
-  double x0, y0, scale;
-  [[nodiscard]] double x(double v) const { return x0 + scale * v; }
-  [[nodiscard]] double y(double v) const { return y0 - scale * v; }
+constexpr double exaggeration = 0.2;  // of the centre distance, for the largest displacement
+constexpr double picture_width = 260, picture_height = 280;
+
+/// A body of the stage: where it is at rest, and by how much it is displaced and turned.
+struct Body {
+  Point at_rest{0, 0}, moved{0, 0};
+  double turned = 0;  ///< rad
 };
 
-std::string circle(const StagePage& page, double x, double y, double radius, const char* colour) {
-  return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"none\" stroke=\"{}\"/>", page.x(x),
-                     page.y(y), page.scale * radius, colour);
-}
+/// Draws the bodies at rest, or displaced.
+struct Stage {
+  DrawingPage page;
+  bool displaced;
 
-std::string line(const StagePage& page, double x1, double y1, double x2, double y2, const char* colour) {
-  return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"{}\"/>", page.x(x1), page.y(y1), page.x(x2),
-                     page.y(y2), colour);
-}
-
-/// A wheel with marks that show how far it turned: `marks` lines from `inner` to the circle.
-std::string wheel(const StagePage& page, double x, double y, double radius, double angle, int marks, double inner,
-                  const char* colour) {
-  std::string svg = circle(page, x, y, radius, colour);
-  for (int i = 0; i < marks; ++i) {
-    const double a = angle + 2 * std::numbers::pi * i / marks, c = std::cos(a), s = std::sin(a);
-    svg += line(page, x + inner * radius * c, y + inner * radius * s, x + radius * c, y + radius * s, colour);
+  [[nodiscard]] std::string style(const char* colour) const {
+    return fmt::format(R"(fill="none" stroke="{}")", displaced ? colour : "#c4c4c4");
   }
-  return svg;
-}
 
-/// A body that swings from where it is drawn, displaced by (dx, dy) and turned by `angle`, to its mirror image about
-/// its place at rest and back; the style of the page says when.
-std::string swinging(const StagePage& page, double x, double y, double dx, double dy, double angle,
-                     const std::string& content) {
-  return fmt::format(
-      "<g class=\"swing\" style=\"--x:{:.2f}px;--y:{:.2f}px;--a:{:.2f}deg;transform-origin:{:.1f}px {:.1f}px\">{}</g>",
-      -2 * page.scale * dx, 2 * page.scale * dy, 2 * angle / units::deg, page.x(x), page.y(y), content);
-}
+  /// A body that swings from where it is drawn to its mirror image about its place at rest and back; the style of the
+  /// page says when.
+  [[nodiscard]] std::string swinging(const Body& body, const std::string& content) const {
+    if (!displaced) return content;
+    const svg::Point axis = page.at(body.at_rest + body.moved), back = 2 * (page.at(body.at_rest) - axis);
+    return svg::group(
+        fmt::format(
+            R"(class="swing" style="--x:{:.2f}px;--y:{:.2f}px;--a:{:.2f}deg;transform-origin:{:.1f}px {:.1f}px")",
+            back.x(), back.y(), 2 * body.turned / units::deg, axis.x(), axis.y()),
+        content);
+  }
 
-std::string draw_stage(const StagePage& page, const ModeDrawing& m, double e, bool moved) {
-  const auto colour = [&](const char* own) { return moved ? own : at_rest; };
-  std::string svg = moved ? "<g stroke-width=\"1.6\">" : "<g stroke-width=\"1\">";
-  const auto body = [&](double x0, double y0, double dx, double dy, double angle, const std::string& content) {
-    svg += moved ? swinging(page, x0 + dx, y0 + dy, dx, dy, angle, content) : content;
+  /// A circle with marks that show how far it turned: `marks` lines from `inner` to the circle.
+  [[nodiscard]] std::string wheel(const Body& body, double radius, double angle, int marks, double inner,
+                                  const char* colour) const {
+    const Point centre = body.at_rest + body.moved;
+    std::string text = page.circle(centre, radius, style(colour));
+    for (int i = 0; i < marks; ++i) {
+      const Point mark = polar(radius, angle + body.turned + 2 * std::numbers::pi * i / marks);
+      text += page.line(centre + inner * mark, centre + mark, style(colour));
+    }
+    return swinging(body, text);
+  }
+};
+
+std::string drawn(const Stage& stage, const ModeDrawing& m) {
+  const double e = stage.displaced ? exaggeration * m.centre_distance : 0;
+  const auto central = [&](const ModeDrawing::Motion& motion, double radius) {
+    return Body{{0, 0}, {e * motion.x, e * motion.y}, e * motion.u / radius};
   };
-  const auto central = [&](const ModeDrawing::Motion& motion, double radius, int marks, double inner, const char* own) {
-    const double x = e * motion.x, y = e * motion.y, turn = e * motion.u / radius;
-    body(0, 0, x, y, turn, wheel(page, x, y, radius, turn, marks, inner, colour(own)));
-  };
-  central(m.ring, m.ring_radius, 12, 1.08, palette(2));
-  const double turn = e * m.carrier.u / m.centre_distance, cx = e * m.carrier.x, cy = e * m.carrier.y;
+  std::string text = stage.wheel(central(m.ring, m.ring_radius), m.ring_radius, 0, 12, 1.08, palette(2));
+  const auto carrier = central(m.carrier, m.centre_distance);
   for (std::size_t n = 0; n < m.planets.size(); ++n) {
-    const double phi = m.planet_angles[n], c = std::cos(phi), s = std::sin(phi);
+    const double phi = m.planet_angles[n];
+    const Point arm = polar(m.centre_distance, phi + carrier.turned);
+    text += stage.swinging(carrier, stage.page.line(carrier.moved, carrier.moved + arm, stage.style("#444444")));
     const auto& p = m.planets[n];
-    body(0, 0, cx, cy, turn,
-         line(page, cx, cy, cx + m.centre_distance * std::cos(phi + turn),
-              cy + m.centre_distance * std::sin(phi + turn), colour(carrier_colour)));
-    const double x = c * m.centre_distance, y = s * m.centre_distance, dx = e * (c * p.x - s * p.y),
-                 dy = e * (s * p.x + c * p.y), own = e * p.u / m.planet_radius;
-    body(x, y, dx, dy, own, wheel(page, x + dx, y + dy, m.planet_radius, phi + own, 2, 0.35, colour(palette(1))));
+    const Body planet{polar(m.centre_distance, phi),
+                      e * (p.x * polar(1, phi) + p.y * polar(1, phi + std::numbers::pi / 2)),
+                      e * p.u / m.planet_radius};
+    text += stage.wheel(planet, m.planet_radius, phi, 2, 0.35, palette(1));
   }
-  central(m.sun, m.sun_radius, 3, 0.3, palette(0));
-  return svg + "</g>";
+  text += stage.wheel(central(m.sun, m.sun_radius), m.sun_radius, 0, 3, 0.3, palette(0));
+  return svg::group(stage.displaced ? R"(stroke-width="1.6")" : R"(stroke-width="1")", text);
 }
 
 }  // namespace
 
 std::string to_svg(const ModeDrawing& mode) {
   const double reach = 1.08 * mode.ring_radius + exaggeration * mode.centre_distance;
-  const StagePage page{picture_width / 2.0, 20 + (picture_height - 20) / 2.0, (picture_width - 8) / 2.0 / reach};
-  std::string svg = open_svg(mode.title, picture_width, picture_height, 4);
-  svg += draw_stage(page, mode, 0, false);
-  svg += draw_stage(page, mode, exaggeration * mode.centre_distance, true);
-  return svg + "</svg>";
+  const DrawingPage page{
+      (picture_width - 8) / 2 / reach, {picture_width / 2, 20 + (picture_height - 20) / 2}, DrawingPage::Up::y};
+  return svg::titled_picture(mode.title, {}, picture_width, picture_height, 4,
+                             drawn({page, false}, mode) + drawn({page, true}, mode));
 }
 
 }  // namespace annulus::app

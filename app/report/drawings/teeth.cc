@@ -8,8 +8,6 @@
 
 #include "app/report/drawings/dimension.h"
 #include "app/report/drawings/gear.h"
-#include "app/report/plot/frame.h"
-#include "app/report/text/xml.h"
 #include "app/scene/scene_value.h"
 #include "core/units.h"
 #include "geometry/gear_places.h"
@@ -18,8 +16,7 @@ namespace annulus::app {
 
 namespace {
 
-constexpr int teeth_width = 560;
-constexpr double teeth_top = 24, legend_row = 17;
+constexpr double teeth_width = 560, teeth_top = 24, legend_row = 17;
 constexpr const char* action_colour = "#c22f2f";
 
 /// What is shown: along the line of centres, and to either side of it, m.
@@ -52,60 +49,45 @@ std::vector<double> contacts(const geometry::GearPair& pair) {
   return rolls;
 }
 
-std::string stroke(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const char* colour, double width) {
-  return fmt::format("<path d=\"M{:.2f} {:.2f}L{:.2f} {:.2f}\" stroke=\"{}\" stroke-width=\"{}\"/>", a.x(), a.y(),
-                     b.x(), b.y(), colour, width);
-}
-
-/// A letter with a white edge, readable on teeth.
-std::string letter(const Eigen::Vector2d& at, const std::string& text) {
-  return fmt::format(
-      "<text x=\"{:.1f}\" y=\"{:.1f}\" font-weight=\"600\" paint-order=\"stroke\" stroke=\"#fff\" "
-      "stroke-width=\"3\">{}</text>",
-      at.x(), at.y(), text);
-}
-
 std::string action(const DrawingPage& page, const geometry::GearPair& pair, const Window& window) {
   const auto line = geometry::action_line(pair);
   const auto at = [&](double roll) { return page.at(line.tangent + roll * line.along); };
+  const auto stroke = [&](double from, double to, double width) {
+    return svg::line(at(from), at(to), fmt::format(R"(stroke="{}" stroke-width="{}")", action_colour, width));
+  };
+  // With a white edge, readable on teeth.
+  const auto letter = [&](double roll, double right, double down, const char* text) {
+    return svg::words(at(roll) + svg::Point(right, down), text,
+                      R"(font-weight="600" paint-order="stroke" stroke="#fff" stroke-width="3")");
+  };
+  const double low = pair.roll_length_low(), pitch = pair.roll_length_pitch(), high = pair.roll_length_high();
   const double beyond = 3 * window.half_width;
-  std::string svg =
-      stroke(at(pair.roll_length_pitch() - beyond), at(pair.roll_length_pitch() + beyond), action_colour, 0.9);
-  svg += stroke(at(pair.roll_length_low()), at(pair.roll_length_high()), action_colour, 2.6);
-  for (const double roll : contacts(pair)) {
-    const Eigen::Vector2d p = at(roll);
-    svg += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\" fill=\"{}\"/>", p.x(), p.y(), action_colour);
-  }
-  const Eigen::Vector2d pitch = at(pair.roll_length_pitch());
-  svg += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"6.5\" fill=\"none\" stroke=\"#000\"/>", pitch.x(),
-                     pitch.y());
-  svg += letter(pitch + Eigen::Vector2d(9, 4), "C");
-  svg += letter(at(pair.roll_length_low()) + Eigen::Vector2d(7, -4), "A");
-  return svg + letter(at(pair.roll_length_high()) + Eigen::Vector2d(7, -4), "E");
+  std::string text = stroke(pitch - beyond, pitch + beyond, 0.9) + stroke(low, high, 2.6);
+  for (const double roll : contacts(pair)) text += svg::circle(at(roll), 4, fmt::format(R"(fill="{}")", action_colour));
+  text += svg::circle(at(pitch), 6.5, R"(fill="none" stroke="#000")");
+  return text + letter(pitch, 9, 4, "C") + letter(low, 7, -4, "A") + letter(high, 7, -4, "E");
 }
 
-std::string legend_entry(double y, const std::string& sample, const std::string& text) {
-  return fmt::format("<g transform=\"translate(6 {:.1f})\"><path d=\"M0 -4h34\" {}/><text x=\"42\">{}</text></g>", y,
-                     sample, escape(text));
-}
-
+/// In rows from `y` on; what is drawn has a sample in front.
 std::string teeth_legend(const TeethInMesh& drawing, const geometry::GearPair& pair, double y, double scale) {
-  const double cosine = std::cos(pair.working_pressure_angle());
   const auto diameters = [&](double factor) {
     return fmt::format("⌀ {} ({}), ⌀ {} ({})", mm_text(2 * factor * pair.planet().base_radius()), drawing.planet_name,
                        mm_text(2 * factor * pair.wheel().base_radius()), drawing.wheel_name);
   };
-  std::string svg =
-      legend_entry(y, fmt::format("stroke=\"{}\" stroke-width=\"2.6\"", action_colour),
-                   fmt::format("path of contact A–E on the line of action, {} mm; ● contact, ○ C pitch point",
-                               mm_text(pair.roll_length_high() - pair.roll_length_low())));
-  svg += legend_entry(y + legend_row, base_circle_style, "base circles " + diameters(1));
-  svg += legend_entry(y + 2 * legend_row, pitch_circle_style, "working pitch circles " + diameters(1 / cosine));
-  svg += fmt::format(
-      "<text x=\"6\" y=\"{:.1f}\">working pressure angle {}°, contact ratio {:.3f}, normal backlash {} µm</text>",
-      y + 3 * legend_row, to_text(pair.working_pressure_angle() / units::deg, 5), pair.contact_ratio(),
-      to_text(std::round(pair.normal_backlash() / units::um * 10) / 10, 5));
-  return svg + scale_bar({teeth_width - 110.0, y + 3 * legend_row - 6}, scale, 90);
+  std::string text;
+  for (const auto& [sample, words] :
+       {std::pair{fmt::format(R"(stroke="{}" stroke-width="2.6")", action_colour),
+                  fmt::format("path of contact A–E on the line of action, {} mm; ● contact, ○ C pitch point",
+                              mm_text(pair.roll_length_high() - pair.roll_length_low()))},
+        {base_circle_style, "base circles " + diameters(1)},
+        {pitch_circle_style, "working pitch circles " + diameters(1 / std::cos(pair.working_pressure_angle()))}}) {
+    text += svg::line({6, y - 4}, {40, y - 4}, sample) + svg::words({48, y}, words);
+    y += legend_row;
+  }
+  text += svg::words({6, y}, fmt::format("working pressure angle {}°, contact ratio {:.3f}, normal backlash {} µm",
+                                         to_text(pair.working_pressure_angle() / units::deg, 5), pair.contact_ratio(),
+                                         to_text(std::round(pair.normal_backlash() / units::um * 10) / 10, 5)));
+  return text + scale_bar({teeth_width - 110.0, y - 6}, scale, 90);
 }
 
 }  // namespace
@@ -113,7 +95,7 @@ std::string teeth_legend(const TeethInMesh& drawing, const geometry::GearPair& p
 std::string to_svg(const TeethInMesh& drawing, const geometry::GearPair& pair) {
   const auto window = window_of(pair);
   const double scale = teeth_width / (2 * window.half_width), height = scale * (window.high - window.low);
-  const DrawingPage page{scale, 0.5 * teeth_width, scale * window.high};
+  const DrawingPage page{scale, {0.5 * teeth_width, scale * window.high}};
   const Eigen::Vector2d axis(0, 0), centre(pair.centre_distance(), 0);
   const auto [planet_angle, wheel_angle] = geometry::pair_places(pair);
   const DrawnGear planet{.gear = pair.planet(), .id = drawing.id + "-planet", .fill = planet_fill};
@@ -121,22 +103,22 @@ std::string to_svg(const TeethInMesh& drawing, const geometry::GearPair& pair) {
                         .id = drawing.id + "-wheel",
                         .fill = pair.internal() ? wheel_fill : sun_fill,
                         .outside_radius = drawing.wheel_outside_radius};
-  std::string svg = open_svg(
-      drawing.title, teeth_width, static_cast<int>(teeth_top + height + 4.6 * legend_row), 6.0,
-      fmt::format("{}, enlarged to scale at pitch-point contact: teeth of {} and {}, base circles, line of action",
-                  drawing.title, drawing.planet_name, drawing.wheel_name));
-  svg += fmt::format("<svg y=\"{0}\" width=\"{1}\" height=\"{2:.1f}\" viewBox=\"0 0 {1} {2:.1f}\">", teeth_top,
-                     teeth_width, height);
-  svg += gear_defs(page, wheel) + placed_gear(page, wheel, axis, wheel_angle);
-  svg += gear_defs(page, planet) + placed_gear(page, planet, centre, planet_angle);
-  const double cosine = std::cos(pair.working_pressure_angle());
+  std::string shown = gear_defs(page, wheel) + placed_gear(page, wheel, axis, wheel_angle);
+  shown += gear_defs(page, planet) + placed_gear(page, planet, centre, planet_angle);
   for (const auto& [where, gear] : {std::pair{centre, pair.planet()}, {axis, pair.wheel()}}) {
-    svg += drawn_circle(page, where, gear.base_radius(), base_circle_style);
-    svg += drawn_circle(page, where, gear.base_radius() / cosine, pitch_circle_style);
+    shown += page.circle(where, gear.base_radius(), base_circle_style);
+    shown += page.circle(where, gear.base_radius() / std::cos(pair.working_pressure_angle()), pitch_circle_style);
   }
-  svg += action(page, pair, window);
-  svg += fmt::format("<rect width=\"{}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#bbb\"/></svg>", teeth_width, height);
-  return svg + teeth_legend(drawing, pair, teeth_top + height + legend_row, scale) + "</svg>";
+  shown += action(page, pair, window);
+  const svg::Point size(teeth_width, height);
+  shown += svg::rectangle({0, 0}, size, R"(fill="none" stroke="#bbb")");
+  return svg::titled_picture(
+      drawing.title,
+      fmt::format("{}, enlarged to scale at pitch-point contact: teeth of {} and {}, base circles, line of action",
+                  drawing.title, drawing.planet_name, drawing.wheel_name),
+      teeth_width, teeth_top + height + 4.6 * legend_row, 6,
+      svg::window({0, teeth_top}, size, {0, 0}, shown) +
+          teeth_legend(drawing, pair, teeth_top + height + legend_row, scale));
 }
 
 }  // namespace annulus::app

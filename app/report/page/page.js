@@ -4,276 +4,176 @@
   'use strict';
   if (typeof Chart === 'undefined') return;
 
-  const grey = '#777';
   const text = (x) =>
     x !== 0 && (Math.abs(x) >= 1e6 || Math.abs(x) < 1e-3) ? x.toExponential(4) : String(Number(x.toPrecision(6)));
-  const range = (numbers) =>
-    numbers.reduce(([a, b], v) => (Number.isFinite(v) ? [Math.min(a, v), Math.max(b, v)] : [a, b]), [Infinity, -Infinity]);
 
-  function axis(label, log, limits, names) {
-    const scale = {type: log ? 'logarithmic' : 'linear', title: {display: Boolean(label), text: label},
-                   ticks: {callback: text, includeBounds: false}};
-    if (limits) [scale.min, scale.max] = limits;
-    // Names of columns in place of numbers, in the middle of each.
-    if (names) {
-      scale.ticks = {callback: (x) => (Number.isInteger(x - 0.5) ? names[x - 0.5] : ''), stepSize: 0.5, maxRotation: 0};
-      scale.grid = {display: false};
-    }
+  function axis({label, log, range, names}) {
+    const scale = {type: log ? 'logarithmic' : 'linear', title: {display: Boolean(label), text: label}, offset: false,
+                   min: Math.min(...range), max: Math.max(...range), reverse: range[0] > range[1],
+                   grid: {display: !names, offset: false}, ticks: {callback: text, includeBounds: false}};
+    // In place of numbers, in the middle of each column or row.
+    if (names)
+      scale.ticks = {callback: (x) => (Number.isInteger(x - 0.5) ? names[x - 0.5] : ''), stepSize: 0.5, maxRotation: 0, autoSkip: false};
     return scale;
   }
 
-  // A kind of plot tells for every chart of it (a view): what Chart.js is given, its axes, and which of them zoom; and
-  // the rows of its CSV file.
-
-  /// As in the picture: x as far as there are points.
-  const x_range = (plot) => plot.x_range || range(plot.series.flatMap((s) => s.x.filter((x) => x !== null)));
-  const group = (s, index) => (s.group === undefined ? index : s.group);
-
-  /// The sets of points; a band is a pair of its own, hidden with its series.
-  function datasets(plot) {
-    const sets = [];
-    plot.series.forEach((s, index) => {
+  /// The sets of points of a panel: those of its marks, each behind its band, and the middles of its cells.
+  function datasets(plot, panel) {
+    const sets = panel.sets.flatMap((s) => {
       const at = (y) => s.x.map((x, i) => ({x, y: y[i]}));
-      const colour = s.colour + (s.fade || '');
-      const common = {series: index, group: group(s, index), borderColor: colour, backgroundColor: colour, pointHoverRadius: 4};
-      if (s.low) {
-        const edge = {...common, band: true, showLine: true, borderWidth: 0, pointRadius: 0, pointHitRadius: 0};
-        sets.push({...edge, label: '', data: at(s.low)});
-        sets.push({...edge, label: '', data: at(s.high), fill: '-1', backgroundColor: s.colour + '29'});
-      }
-      const stems = s.style === 'bars', dots = s.style === 'dots';
-      const data = stems ? at(s.y).flatMap((p) => [{x: p.x, y: 0}, p, {x: p.x, y: NaN}]) : at(s.y);
-      sets.push({
-        ...common, data, label: s.label || plot.title, unnamed: s.unnamed || !s.label, showLine: !dots || s.joined,
-        borderWidth: s.width || 1.6, borderDash: s.dashed ? [5, 3] : [], pointRadius: dots ? s.size / 2 : 0, spanGaps: false,
-      });
+      const all = {showLine: true, pointRadius: 0, pointHoverRadius: s.label ? 4 : 0, ...s};
+      const band = s.low && {...all, label: '', data: [...at(s.high), ...at(s.low).reverse()], fill: 'shape',
+                             borderWidth: 0, backgroundColor: s.borderColor + '29', band: true};
+      return [...(band ? [band] : []), {...all, data: at(s.y)}];
     });
-    const [first, last] = x_range(plot);
-    for (const level of plot.levels)
-      sets.push({
-        label: level.label || '', unnamed: true, level: true, data: [first, last].map((x) => ({x, y: level.value})),
-        showLine: true, borderColor: grey, borderWidth: 1, borderDash: [2, 3], pointRadius: 0, pointHitRadius: 0,
-      });
-    return sets;
+    const middle = (a, b) => (a + b) / 2;
+    if (plot.scale)
+      sets.push({label: plot.scale.label, cells: panel.cells, data: panel.cells.map(([x1, x2, y1, y2]) => ({x: middle(x1, x2), y: middle(y1, y2)})),
+                 pointRadius: 0, pointHoverRadius: 3, pointHoverBackgroundColor: '#fff', pointHoverBorderColor: '#000'});
+    return sets.reverse();  // Chart.js draws the first of them last
   }
 
-  const curves = {
-    views(plot) {
-      const sets = datasets(plot);
-      return [{
-        type: 'scatter', data: {datasets: sets}, title: plot.title, zoomed: ['x', 'y'],
-        axes: () => ({x: axis(plot.x_label, plot.x_log, x_range(plot), plot.names), y: axis(plot.y_label, plot.y_log, plot.y_range)}),
-        interaction: {mode: 'nearest', axis: 'xy', intersect: false},
-        legend: {
-          display: sets.some((s) => !s.band && !s.unnamed),
-          labels: {boxWidth: 16, boxHeight: 2, filter: (item, data) => {
-            const set = data.datasets[item.datasetIndex];
-            return !set.band && !set.unnamed;
-          }},
-          onClick(event, item, legend) {
-            const {chart} = legend, {group: clicked} = chart.data.datasets[item.datasetIndex];
-            const show = !chart.isDatasetVisible(item.datasetIndex);
-            chart.data.datasets.forEach((set, i) => { if (set.group === clicked) chart.setDatasetVisibility(i, show); });
-            chart.update();
-          },
-        },
-        told: (item) => `${item.dataset.label}: ${text(item.parsed.y)}` + (plot.names ? '' : ` at ${text(item.parsed.x)}`),
-      }];
-    },
-    csv(plot) {
-      const rows = [['series', plot.x_label || 'x', plot.y_label || 'y', 'low', 'high']];
-      for (const s of plot.series)
-        s.x.forEach((x, i) => rows.push([s.label || plot.title, x, s.y[i], s.low ? s.low[i] : '', s.low ? s.high[i] : '']));
-      return rows;
-    },
-  };
+  function described(plot, panel, {dataset: set, dataIndex, parsed: {x, y}}) {
+    const error = set.error ? ` ± ${text(set.error)}` : '';
+    if (panel.y.names) return `${set.label}: ${text(x)}${error}`;
+    if (panel.x.names) return `${set.label}: ${text(y)}${error}`;
+    if (!set.cells) return `${set.label}: ${text(y)} at ${text(x)}`;
+    const value = set.cells[dataIndex][4];
+    return `${set.label}: ${value === null ? plot.scale.grey || 'none' : text(value)} at ${text(x)}; ${text(y)}`;
+  }
 
-  const whiskers = {
-    id: 'whiskers',
-    afterDatasetsDraw(chart) {
-      const {ctx, scales: {x}, chartArea: area} = chart;
-      ctx.save();
-      ctx.beginPath();
-      ctx.rect(area.left, area.top, area.width, area.height);
-      ctx.clip();
-      ctx.beginPath();
-      chart.data.bars.forEach((bar, i) => {
-        if (!(bar.error > 0)) return;
-        const [low, high] = [bar.value - bar.error, bar.value + bar.error].map((v) => x.getPixelForValue(v));
-        const {y} = chart.getDatasetMeta(0).data[i];
-        for (const end of [low, high]) { ctx.moveTo(end, y - 4); ctx.lineTo(end, y + 4); }
-        ctx.moveTo(low, y);
-        ctx.lineTo(high, y);
+  /// The point to describe: of a map its cell, of rows the nearest one, else the nearest point that has a label.
+  Chart.Interaction.modes.pointed = (chart, event) => {
+    const {x, y} = chart.scales, at = [x.getValueForPixel(event.x), y.getValueForPixel(event.y)];
+    const rows = chart.data.panel.y.names;
+    const inside = ([x1, x2, y1, y2]) => at[0] >= x1 && at[0] < x2 && at[1] >= y1 && at[1] < y2;
+    let nearest = [], least = Infinity;
+    chart.data.datasets.forEach((set, datasetIndex) => {
+      if (!set.label || !chart.isDatasetVisible(datasetIndex)) return;
+      chart.getDatasetMeta(datasetIndex).data.forEach((element, index) => {
+        if (element.skip || (set.cells && !inside(set.cells[index]))) return;
+        const distance = Math.hypot(rows ? 0 : element.x - event.x, element.y - event.y);
+        if (distance < least) [nearest, least] = [[{element, datasetIndex, index}], distance];
       });
-      ctx.strokeStyle = '#222';
-      ctx.stroke();
-      ctx.restore();
-    },
+    });
+    return nearest;
   };
 
-  const bars = {
-    views: (plot) => [{
-      type: 'bar', title: plot.title, zoomed: ['x'], plugins: [whiskers], indexAxis: 'y', legend: {display: false},
-      data: {bars: plot.bars, labels: plot.bars.map((b) => b.label), datasets: [{
-        label: plot.title, data: plot.bars.map((b) => b.value), backgroundColor: plot.bars.map((b) => b.colour),
-        categoryPercentage: 0.9, barPercentage: 0.8,
-      }]},
-      axes: () => ({x: axis(plot.x_label, false, plot.x_range), y: {type: 'category', ticks: {autoSkip: false}, grid: {display: false}}}),
-      interaction: {mode: 'nearest', axis: 'y', intersect: false},
-      told: ({dataIndex}) => {
-        const bar = plot.bars[dataIndex];
-        return `${bar.label}: ${text(bar.value)}` + (bar.error > 0 ? ` ± ${text(bar.error)}` : '');
-      },
-    }],
-    csv: (plot) => [['bar', plot.x_label || 'value', 'error'], ...plot.bars.map((b) => [b.label, b.value, b.error])],
-  };
-
-  /// The cells of a panel with their ends.
-  const cells = (panel) => panel.cells.map(([left, right, low, high, value]) => (
-    {x: [panel.x_edges[left], panel.x_edges[right]], y: [panel.y_edges[low], panel.y_edges[high]], value}));
-
-  function colourOf(plot, value) {
-    if (value === null) return plot.no_value;
-    const [low, high] = plot.scale, steps = plot.colours.length;
-    return plot.colours[Math.min(steps - 1, Math.max(0, Math.floor((value - low) / (high - low) * steps)))];
+  /// The rows of its CSV file.
+  function csv(plot) {
+    const [{x, y}] = plot.panels, scale = plot.scale;
+    const rows = scale
+      ? [['panel', 'x from', 'x to', 'y from', 'y to', scale.label], ...plot.panels.flatMap((p) => p.cells.map((c) => [p.title, ...c]))]
+      : [['series', ...(x.names ? [] : [x.label || 'x']), ...(y.names ? [] : [y.label || 'y']), 'low', 'high', 'error'],
+         ...plot.panels[0].sets.filter((s) => s.label).flatMap((s) => s.x.map((value, i) =>
+           [s.label, ...(x.names ? [] : [value]), ...(y.names ? [] : [s.y[i]]), s.low ? s.low[i] : '', s.low ? s.high[i] : '', s.error]))];
+    const cell = (c) => (typeof c === 'string' && c !== '' ? '"' + c.replaceAll('"', '""') + '"' : c);
+    return rows.map((row) => row.map(cell).join(',')).join('\n') + '\n';
   }
 
   const rectangles = {
     id: 'rectangles',
     beforeDatasetsDraw(chart) {
-      const {ctx, scales: {x, y}, chartArea: area} = chart, {plot} = chart.data;
+      const {ctx, scales: {x, y}, chartArea: area, data: {datasets, plot: {scale}}} = chart;
+      if (!scale) return;
+      const [low, high] = scale.range, steps = scale.colours.length;
       ctx.save();
       ctx.beginPath();
       ctx.rect(area.left, area.top, area.width, area.height);
       ctx.clip();
-      for (const cell of chart.data.cells) {
-        const [left, right] = cell.x.map((v) => Math.round(x.getPixelForValue(v)));
-        const [bottom, top] = cell.y.map((v) => Math.round(y.getPixelForValue(v)));
-        ctx.fillStyle = colourOf(plot, cell.value);
+      for (const [x1, x2, y1, y2, value] of datasets[0].cells) {
+        const [left, right] = [x1, x2].map((v) => Math.round(x.getPixelForValue(v)));
+        const [bottom, top] = [y1, y2].map((v) => Math.round(y.getPixelForValue(v)));
+        const step = Math.min(steps - 1, Math.max(0, Math.floor((value - low) / (high - low) * steps)));
+        ctx.fillStyle = value === null ? scale.no_value : scale.colours[step];
         ctx.fillRect(left, top, right - left, bottom - top);
       }
       ctx.restore();
     },
   };
 
-  /// The cell under the pointer.
-  if (Chart.Interaction)
-    Chart.Interaction.modes.cell = (chart, event) => {
-      const {x, y} = chart.scales, at = [x.getValueForPixel(event.x), y.getValueForPixel(event.y)];
-      const index = chart.data.cells.findIndex((c) => at[0] >= c.x[0] && at[0] < c.x[1] && at[1] >= c.y[0] && at[1] < c.y[1]);
-      return index < 0 ? [] : [{element: chart.getDatasetMeta(0).data[index], datasetIndex: 0, index}];
-    };
-
-  const map = {
-    views: (plot) => plot.panels.map((panel, number) => {
-      const list = cells(panel), middle = ([a, b]) => (a + b) / 2;
-      return {
-        type: 'scatter', title: panel.title || plot.title, zoomed: ['x', 'y'], plugins: [rectangles], legend: {display: false},
-        data: {plot, cells: list, datasets: [
-          {label: plot.value_label, data: list.map((c) => ({x: middle(c.x), y: middle(c.y)})), pointRadius: 0, pointHoverRadius: 3,
-           pointHoverBackgroundColor: '#fff', pointHoverBorderColor: '#000'},
-          {data: panel.line.map(([x, y]) => ({x, y})), showLine: true, borderColor: '#111', borderWidth: 1.2, pointRadius: 0, pointHitRadius: 0, level: true},
-        ]},
-        axes: () => ({x: axis(plot.x_label, false, panel.x_range), y: axis(number === 0 ? plot.y_label : '', false, plot.y_range)}),
-        interaction: {mode: 'cell', intersect: false},
-        told: ({dataIndex}) => {
-          const {x, y, value} = list[dataIndex];
-          return `${plot.value_label}: ${value === null ? plot.grey || 'none' : text(value)} at ${text(middle(x))}; ${text(middle(y))}`;
-        },
-      };
-    }),
-    below(plot) {
-      const legend = document.createElement('div'), bar = document.createElement('i');
-      legend.className = 'scale';
-      bar.style.background = `linear-gradient(to right, ${plot.colours.join(',')})`;
-      const [low, high] = plot.scale;
-      legend.append(`${plot.value_label}: ${text(low)} `, bar, ` ${text(high)}`);
-      if (plot.grey) {
-        const grey_bar = document.createElement('i');
-        grey_bar.style.cssText = `background: ${plot.no_value}; width: 14px; margin-left: 14px`;
-        legend.append(grey_bar, ` ${plot.grey}`);
-      }
-      return legend;
-    },
-    csv: (plot) => [
-      ['panel', 'x from', 'x to', 'y from', 'y to', plot.value_label],
-      ...plot.panels.flatMap((panel) => cells(panel).map((c) => [panel.title, ...c.x, ...c.y, c.value === null ? '' : c.value])),
-    ],
-  };
-
-  const kinds = {curves, bars, map};
-
   /// Drag a rectangle to see it alone, double click to see everything again.
-  function addZoom(chart, view) {
-    const canvas = chart.canvas;
-    const inside = (event) => {
-      const box = canvas.getBoundingClientRect(), area = chart.chartArea;
-      return [Math.min(Math.max(event.clientX - box.left, area.left), area.right),
-              Math.min(Math.max(event.clientY - box.top, area.top), area.bottom)];
-    };
-    let from = null;
-    canvas.addEventListener('pointerdown', (event) => { from = inside(event); });
-    canvas.addEventListener('pointermove', (event) => {
-      if (!from) return;
-      chart.selection = [from, inside(event)];
-      chart.draw();
-    });
-    window.addEventListener('pointerup', (event) => {
-      if (!from) return;
-      const [a, b] = [from, inside(event)];
-      from = chart.selection = null;
-      if (Math.abs(a[0] - b[0]) < 6 && Math.abs(a[1] - b[1]) < 6) return chart.draw();
-      for (const [name, i] of [['x', 0], ['y', 1]]) {
-        if (!view.zoomed.includes(name)) continue;
-        const ends = [a[i], b[i]].map((pixel) => chart.scales[name].getValueForPixel(pixel));
-        [chart.options.scales[name].min, chart.options.scales[name].max] = [Math.min(...ends), Math.max(...ends)];
-      }
-      chart.update();
-    });
-    canvas.addEventListener('dblclick', () => {
-      Object.assign(chart.options.scales, view.axes());
-      chart.update();
-    });
-  }
-
-  const selection = {
-    id: 'selection',
+  const zoom = {
+    id: 'zoom',
+    afterInit(chart) {
+      const canvas = chart.canvas;
+      const inside = (event) => {
+        const box = canvas.getBoundingClientRect(), area = chart.chartArea;
+        return [Math.min(Math.max(event.clientX - box.left, area.left), area.right),
+                Math.min(Math.max(event.clientY - box.top, area.top), area.bottom)];
+      };
+      let from = null;
+      canvas.addEventListener('pointerdown', (event) => { from = inside(event); });
+      canvas.addEventListener('pointermove', (event) => {
+        if (!from) return;
+        chart.selection = [from, inside(event)];
+        chart.draw();
+      });
+      window.addEventListener('pointerup', (event) => {
+        if (!from) return;
+        const [a, b] = [from, inside(event)];
+        from = chart.selection = null;
+        if (Math.abs(a[0] - b[0]) < 6 && Math.abs(a[1] - b[1]) < 6) return chart.draw();
+        ['x', 'y'].forEach((name, i) => {
+          const ends = [a[i], b[i]].map((pixel) => chart.scales[name].getValueForPixel(pixel));
+          Object.assign(chart.options.scales[name], {min: Math.min(...ends), max: Math.max(...ends)});
+        });
+        chart.update();
+      });
+      canvas.addEventListener('dblclick', () => {
+        Object.assign(chart.options.scales, chart.data.axes());
+        chart.update();
+      });
+    },
     afterDraw(chart) {
       if (!chart.selection) return;
       const [[x1, y1], [x2, y2]] = chart.selection;
-      chart.ctx.save();
       chart.ctx.fillStyle = 'rgba(0, 114, 178, 0.12)';
       chart.ctx.fillRect(x1, y1, x2 - x1, y2 - y1);
-      chart.ctx.restore();
     },
   };
 
-  function makeChart(canvas, view) {
-    const chart = new Chart(canvas, {
-      type: view.type,
-      data: view.data,
-      plugins: [selection, ...(view.plugins || [])],
+  function makeChart(canvas, plot, panel) {
+    const axes = () => ({x: axis(panel.x), y: axis(panel.y)}), sets = datasets(plot, panel);
+    return new Chart(canvas, {
+      type: 'scatter', data: {datasets: sets, plot, panel, axes}, plugins: [zoom, rectangles],
       options: {
-        animation: false, responsive: true, maintainAspectRatio: false, indexAxis: view.indexAxis || 'x',
-        interaction: view.interaction,
-        scales: view.axes(),
+        animation: false, responsive: true, maintainAspectRatio: false, scales: axes(), interaction: {mode: 'pointed'},
         plugins: {
-          title: {display: Boolean(view.title), text: view.title, align: 'start', padding: 2},
-          legend: view.legend,
-          tooltip: {
-            filter: (item) => !item.dataset.band && !item.dataset.level,
-            callbacks: {title: () => '', label: view.told},
+          title: {display: Boolean(panel.title || plot.title), text: panel.title || plot.title, align: 'start', padding: 2},
+          legend: {
+            display: sets.some((s) => s.named), reverse: true,
+            labels: {boxWidth: 16, boxHeight: 2, filter: (item, data) => data.datasets[item.datasetIndex].named && !data.datasets[item.datasetIndex].band},
+            onClick(event, item, {chart}) {
+              const {group} = sets[item.datasetIndex], show = !chart.isDatasetVisible(item.datasetIndex);
+              sets.forEach((set, i) => { if (set.group === group) chart.setDatasetVisibility(i, show); });
+              chart.update();
+            },
           },
+          tooltip: {callbacks: {title: () => '', label: (item) => described(plot, panel, item)}},
         },
       },
     });
-    addZoom(chart, view);
-    return chart;
   }
 
-  function csv(plot) {
-    const cell = (c) => (typeof c === 'string' && c !== '' ? '"' + c.replaceAll('"', '""') + '"' : c);
-    return kinds[plot.kind].csv(plot).map((row) => row.map(cell).join(',')).join('\n') + '\n';
+  const element = (name, className, ...content) => {
+    const made = document.createElement(name);
+    made.className = className;
+    made.append(...content);
+    return made;
+  };
+
+  /// The colours of a map and what they mean.
+  function scaleBar({label, range, colours, grey, no_value}) {
+    const bar = element('i', '');
+    bar.style.background = `linear-gradient(to right, ${colours.join(',')})`;
+    const legend = element('div', 'scale', `${label}: ${text(range[0])} `, bar, ` ${text(range[1])}`);
+    if (grey) {
+      const sample = element('i', '');
+      sample.style.cssText = `background: ${no_value}; width: 14px; margin-left: 14px`;
+      legend.append(sample, ` ${grey}`);
+    }
+    return legend;
   }
 
   function save(name, type, content) {
@@ -286,41 +186,29 @@
 
   for (const box of document.querySelectorAll('.plot')) {
     const plot = JSON.parse(box.querySelector('script').textContent);
-    const kind = kinds[plot.kind];
     const svg = box.querySelector('svg');
     const name = (plot.title || 'plot').replace(/[^A-Za-z0-9]+/g, '_');
-    const tools = document.createElement('div');
-    tools.className = 'tools';
     const button = (label, does) => {
-      const b = document.createElement('button');
-      b.type = 'button';
-      b.textContent = label;
-      b.addEventListener('click', does);
-      tools.append(b);
+      const made = element('button', '', label);
+      made.type = 'button';
+      made.addEventListener('click', does);
+      return made;
     };
-    button('CSV', () => save(name + '.csv', 'text/csv', csv(plot)));
-    button('SVG', () => save(name + '.svg', 'image/svg+xml', svg.outerHTML));
-    tools.append('drag: zoom · double click: all' + (plot.kind === 'curves' ? ' · click on a name: hide' : ''));
-    box.append(tools);
+    const named = plot.panels.some((p) => p.sets.some((s) => s.named));
+    box.append(element('div', 'tools', button('CSV', () => save(name + '.csv', 'text/csv', csv(plot))),
+                       button('SVG', () => save(name + '.svg', 'image/svg+xml', svg.outerHTML)),
+                       'drag: zoom · double click: all' + (named ? ' · click on a name: hide' : '')));
 
     const wake = () => {
       if (box.charts) return;
       const {width, height} = svg.getBoundingClientRect();
-      const live = document.createElement('div');
-      live.className = 'live';
-      const views = kind.views(plot);
-      const canvases = views.map(() => {
-        const frame = document.createElement('div'), canvas = document.createElement('canvas');
-        frame.className = 'chart';
-        frame.style.height = Math.max(height, 220) + 'px';
-        frame.append(canvas);
-        live.append(frame);
-        return canvas;
-      });
-      box.insertBefore(live, svg);
-      if (kind.below) box.insertBefore(kind.below(plot), svg);
+      const canvases = plot.panels.map(() => document.createElement('canvas'));
+      const frames = canvases.map((canvas) => element('div', 'chart', canvas));
+      for (const frame of frames) frame.style.height = Math.max(height, 220) + 'px';
+      box.insertBefore(element('div', 'live', ...frames), svg);
+      if (plot.scale) box.insertBefore(scaleBar(plot.scale), svg);
       box.classList.add('awake');
-      box.charts = width > 0 ? views.map((view, i) => makeChart(canvases[i], view)) : [];
+      box.charts = width > 0 ? canvases.map((canvas, i) => makeChart(canvas, plot, plot.panels[i])) : [];
     };
     box.addEventListener('pointerenter', wake);
     box.addEventListener('focusin', wake);

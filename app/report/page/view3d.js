@@ -39,8 +39,7 @@
     renderer.setClearColor(0xffffff);
     const {geometry, edges} = surface(body);
     place(geometry, body, body.exaggeration);
-    const solid = body.place_mm.some((z, i) => i % 3 === 2 && z !== 0);
-    const material = new (solid ? THREE.MeshLambertMaterial : THREE.MeshBasicMaterial)({
+    const material = new (body.solid ? THREE.MeshLambertMaterial : THREE.MeshBasicMaterial)({
       vertexColors: THREE.VertexColors, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1});
     const lines = new THREE.BufferGeometry();
     lines.setAttribute('position', geometry.getAttribute('position'));

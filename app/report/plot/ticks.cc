@@ -13,17 +13,22 @@ const char* palette(std::size_t index) {
   return colours[index % std::size(colours)];
 }
 
+double round_below(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  return power * (value >= 5 * power ? 5 : value >= 2 * power ? 2 : 1);
+}
+
+double significant(double value, int digits) {
+  if (value == 0) return 0;
+  const double scale = std::pow(10.0, digits - 1 - std::floor(std::log10(std::abs(value))));
+  return std::isfinite(scale) && scale > 0 ? std::round(value * scale) / scale : value;
+}
+
 std::vector<double> nice_ticks(double low, double high, int count) {
   if (!(high > low) || count < 1) return {low};
-  const double raw = (high - low) / count;
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  double step = 10 * power;
-  for (const double candidate : {1.0, 2.0, 5.0}) {
-    if (candidate * power >= raw * 0.999) {
-      step = candidate * power;
-      break;
-    }
-  }
+  // Above the step below: 2 follows 1, 5 follows 2.
+  const double raw = 0.999 * (high - low) / count, below = round_below(raw);
+  const double step = raw <= below ? below : round_below(2.51 * below);
   std::vector<double> ticks;
   // Multiples of the step, so that rounding does not add up; the slack admits an end that is off by an ulp.
   for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)

@@ -9,6 +9,10 @@ namespace annulus::app {
 /// Okabe and Ito's palette, continued with Tol's muted one, safe for colour-blind readers; the index wraps around.
 [[nodiscard]] const char* palette(std::size_t index);
 
+/// The largest 1, 2 or 5 times a power of ten that is not above a value.
+[[nodiscard]] double round_below(double value);
+/// A finite value with so many digits.
+[[nodiscard]] double significant(double value, int digits);
 /// Round values ("nice numbers": 1, 2 or 5 times a power of ten) inside [low, high], about `count` of them.
 [[nodiscard]] std::vector<double> nice_ticks(double low, double high, int count);
 /// 1, 2 and 5 times powers of ten inside [low, high] for a logarithmic axis, over many decades the powers alone; the

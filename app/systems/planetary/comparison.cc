@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "app/model/gear_system.h"
-#include "app/report/plot/curves.h"
+#include "app/report/plot/plots.h"
 #include "core/units.h"
 
 namespace annulus::app {
