@@ -65,12 +65,7 @@ Series line_load_series(const MeshResult& mesh, const PositionKey& at) {
 }
 
 Blocks face_width(const NamedMeshes& meshes) {
-  Plot plot{.title = "Load over the face width",
-            .x_label = "z, mm",
-            .y_label = "line load, N/mm",
-            .legend = true,
-            .width = 900,
-            .height = 340};
+  Plot plot = wide_plot("Load over the face width", "z, mm", "line load, N/mm", 340);
   RangeFinder range;
   range.add(0);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -292,13 +287,11 @@ Blocks stresses(const NamedMeshes& meshes) {
     if (series.empty()) continue;
     const bool rim = name.ends_with("rim");
     const std::string body = name.substr(0, name.find(' '));
-    blocks += Pictures{{Plot{.title = rim ? "Rim of the " + body + ", outside" : "Tooth root of the " + body,
-                             .x_label = rim ? "angle from the contact, °" : "arc length along the tooth space, mm",
-                             .y_label = "stress, MPa",
-                             .series = series,
-                             .legend = true,
-                             .width = 900,
-                             .height = 340}},
+    Plot plot =
+        wide_plot(rim ? "Rim of the " + body + ", outside" : "Tooth root of the " + body,
+                  rim ? "angle from the contact, °" : "arc length along the tooth space, mm", "stress, MPa", 340);
+    plot.series = series;
+    blocks += Pictures{{plot},
                        {},
                        std::string("Solid: stress along the surface, tension positive; dashed: von Mises. ") +
                            (rim ? "Around the whole circumference. "

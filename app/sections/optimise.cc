@@ -81,44 +81,35 @@ void add_starts(List& list, const StudyResults& studies, const OptimiseResults& 
   list.items.emplace_back(text + ".");
 }
 
-/// A series of every search; `fill` gives it its points.
-template <class Fill>
-Plot searches_plot(const OptimiseResults& o, Plot plot, Series::Style style, Fill fill) {
+/// The best of all searches over their evaluations.
+Plot history_picture(const OptimiseResults& o) {
+  Plot plot{.title = "Best objective so far", .x_label = "evaluations", .y_label = "objective", .x_log = true};
   for (const auto& run : o.runs) {
-    Series series{.label = name_of(o, run), .colour = plot.series.size(), .style = style, .size = 2};
-    fill(run.search, series);
-    for (auto& y : series.y) y *= sign_of(o);
+    Series series{.label = name_of(o, run), .colour = plot.series.size()};
+    for (const auto& g : run.search.history) {
+      series.x.push_back(static_cast<double>(std::max(1L, g.evaluations)));
+      series.y.push_back(sign_of(o) * g.best);
+    }
     plot.series.push_back(std::move(series));
   }
   return plot;
 }
 
-Plot history_picture(const OptimiseResults& o) {
-  return searches_plot(
-      o, {.title = "Best objective so far", .x_label = "evaluations", .y_label = "objective", .x_log = true},
-      Series::Style::line, [](const dynamics::OptimiseResult& search, Series& series) {
-        for (const auto& g : search.history) {
-          series.x.push_back(static_cast<double>(std::max(1L, g.evaluations)));
-          series.y.push_back(g.best);
-        }
-      });
-}
-
 /// Every evaluation over one variable.
 Plot cloud_picture(const OptimiseResults& o, std::size_t variable) {
   const auto& v = o.variables[variable];
-  return searches_plot(o,
-                       {.title = "All designs tried",
-                        .x_label = with_unit(v.input, o.units[variable]),
-                        .y_label = "objective",
-                        .x_log = v.scale == SweepScale::logarithmic},
-                       Series::Style::dots, [variable](const dynamics::OptimiseResult& search, Series& series) {
-                         for (const auto& e : search.evaluations) {
-                           if (!std::isfinite(e.value)) continue;
-                           series.x.push_back(e.x[variable]);
-                           series.y.push_back(e.value);
-                         }
-                       });
+  Plot plot{.title = "All designs tried", .x_label = with_unit(v.input, o.units[variable]), .y_label = "objective"};
+  plot.x_log = v.scale == SweepScale::logarithmic;
+  for (const auto& run : o.runs) {
+    Series series{.label = name_of(o, run), .colour = plot.series.size(), .style = Series::Style::dots, .size = 2};
+    for (const auto& e : run.search.evaluations) {
+      if (!std::isfinite(e.value)) continue;
+      series.x.push_back(e.x[variable]);
+      series.y.push_back(sign_of(o) * e.value);
+    }
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
 }
 
 PageTable runs_table(const OptimiseResults& o) {
@@ -130,10 +121,10 @@ PageTable runs_table(const OptimiseResults& o) {
     const auto& run = o.runs[i];
     std::vector<Text> cells = {name_of(o, run), to_text(sign_of(o) * run.search.value, 6)};
     for (const double x : run.search.x) cells.push_back(to_text(x, 5));
-    cells.push_back(std::to_string(run.search.evaluations.size()));
-    cells.push_back(std::to_string(run.search.failed));
-    cells.push_back(o.evaluations_to_best[i] ? std::to_string(*o.evaluations_to_best[i]) : "never");
-    cells.push_back(run.search.stopped);
+    for (const auto& text :
+         {std::to_string(run.search.evaluations.size()), std::to_string(run.search.failed),
+          o.evaluations_to_best[i] ? std::to_string(*o.evaluations_to_best[i]) : "never", run.search.stopped})
+      cells.emplace_back(text);
     table.rows.push_back(std::move(cells));
   }
   return table;

@@ -5,6 +5,10 @@
 
 namespace annulus::app {
 
+Plot wide_plot(const std::string& title, const std::string& x_label, const std::string& y_label, int height) {
+  return {.title = title, .x_label = x_label, .y_label = y_label, .legend = true, .width = 900, .height = height};
+}
+
 std::vector<Picture> on_one_scale(std::vector<Plot> plots) {
   RangeFinder range;
   for (const auto& plot : plots) {

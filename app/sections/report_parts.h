@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -39,6 +40,9 @@ struct ResultGroup {
 [[nodiscard]] std::string key_results_text(const SystemRun& run);
 
 // plots.cc
+/// A plot over the whole width of the page, with a legend.
+[[nodiscard]] Plot wide_plot(const std::string& title, const std::string& x_label, const std::string& y_label,
+                             int height = 320);
 /// The plots on one y axis.
 [[nodiscard]] std::vector<Picture> on_one_scale(std::vector<Plot> plots);
 /// A column of a table, of the rows whose first column lies below `rows_to`, each value times `scale`.
@@ -81,6 +85,13 @@ template <class Subject>
   }
   return table;
 }
+
+// modes.cc
+/// Groups of elements for readers: "crank bearings" for crank_bearing.
+[[nodiscard]] std::string element_group(const std::string& name);
+/// "sun meshes 61 %, crank bearings 30 %": the groups with most strain energy, at most so many and from 5 % on.
+[[nodiscard]] std::string strain_words(const std::vector<std::string>& groups,
+                                       const Eigen::Ref<const Eigen::VectorXd>& shares, std::size_t most);
 
 // answers.cc
 /// What the stiffness of the ring mesh, load sharing and dynamic factors of several rings say, and the last two in one

@@ -106,12 +106,8 @@ Blocks overlays(const NamedMeshes& meshes) {
     if (group.size() == 1) continue;
     int longest = 1;
     for (const auto i : group) longest = std::max(longest, meshes[i].second->table.positions());
-    Plot plot{.title = "Stiffness (secant), " + meshes[group.front()].second->model.mesh + " meshes",
-              .x_label = longest > 1 ? "ring teeth passed (mesh cycles)" : "mesh cycle",
-              .y_label = "N/µm",
-              .legend = true,
-              .width = longest > 1 ? 900 : 430,
-              .height = 320};
+    Plot plot = wide_plot("Stiffness (secant), " + meshes[group.front()].second->model.mesh + " meshes",
+                          longest > 1 ? "ring teeth passed (mesh cycles)" : "mesh cycle", "N/µm");
     std::replace(plot.title.begin(), plot.title.end(), '_', ' ');
     for (const auto i : group) {
       const auto& [name, mesh] = meshes[i];
@@ -130,12 +126,7 @@ Blocks overlays(const NamedMeshes& meshes) {
 }
 
 Blocks over_load(const NamedMeshes& meshes) {
-  Plot plot{.title = "Mean mesh stiffness over load",
-            .x_label = "mesh force, kN",
-            .y_label = "N/µm",
-            .legend = true,
-            .width = 900,
-            .height = 320};
+  Plot plot = wide_plot("Mean mesh stiffness over load", "mesh force, kN", "N/µm");
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     const auto& table = meshes[i].second->table;
     if (table.loads().size() < 2) continue;

@@ -71,14 +71,13 @@ void add_shares(std::vector<Conclusion>& list, const PairRunResult& result) {
 
 /// How far values over the loads stay from their straight line, relative to their range.
 double off_line(const std::vector<double>& x, const std::vector<double>& y) {
-  const auto n = static_cast<double>(x.size());
-  double mx = 0, my = 0, xx = 0, xy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) mx += x[i] / n, my += y[i] / n;
-  for (std::size_t i = 0; i < x.size(); ++i) xx += (x[i] - mx) * (x[i] - mx), xy += (x[i] - mx) * (y[i] - my);
-  double worst = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) worst = std::max(worst, std::abs(y[i] - my - xy / xx * (x[i] - mx)));
-  const auto [low, high] = std::minmax_element(y.begin(), y.end());
-  return worst / (*high - *low);
+  const auto about_mean = [](const std::vector<double>& v) -> Eigen::ArrayXd {
+    const Eigen::Map<const Eigen::ArrayXd> values(v.data(), static_cast<Eigen::Index>(v.size()));
+    return values - values.mean();
+  };
+  const Eigen::ArrayXd dx = about_mean(x), dy = about_mean(y);
+  const double slope = (dx * dy).sum() / dx.square().sum();
+  return (dy - slope * dx).abs().maxCoeff() / (dy.maxCoeff() - dy.minCoeff());
 }
 
 /// Figures 5 and 6: the rows of a grid over torque at its lowest speed.
@@ -107,51 +106,41 @@ void add_loads(std::vector<Conclusion>& list, const PairRunResult& result) {
   }
 }
 
-/// From which multiple of the mesh frequency on the computed transmission error is smaller than its estimated error.
-struct KnownOrders {
-  double error = 0;  ///< m
-  int first_unknown = 1;
-};
-KnownOrders known_orders(const MeshResult& mesh) {
+/// From which multiple of the mesh frequency on the computed transmission error is smaller than `error`, m.
+int first_unknown_order(const MeshResult& mesh, double error) {
   Eigen::VectorXd lte(mesh.table.phases());
   for (int i = 0; i < mesh.table.phases(); ++i) lte[i] = mesh.table.at(0, i, static_cast<int>(mesh.nominal)).lte;
   const auto spectrum = dynamics::spectrum(lte, 1);
-  KnownOrders known{.error = mesh.lte_mean().value * mesh.lte_mean().error_relative};
-  while (known.first_unknown < spectrum.amplitude.size() && spectrum.amplitude[known.first_unknown] > known.error)
-    ++known.first_unknown;
-  return known;
+  int order = 1;
+  while (order < spectrum.amplitude.size() && spectrum.amplitude[order] > error) ++order;
+  return order;
 }
 
 Conclusion excitation(const PairRunResult& result, const SpeedRow& low, const SpeedRow& top, const SpeedRow& high) {
   const auto errors_more = [](const SpeedRow& row) {
     return row.errors_alone.acceleration > row.stiffness_alone.acceleration;
   };
-  const bool stiffness_low = !errors_more(low), errors_high = errors_more(high);
-  Conclusion c{.statement = "Stiffness excites most at low speed, the errors at high speed", .numbers = {}, .why = {}};
+  Conclusion c{
+      .statement = "Stiffness excites most at low speed, the errors at high speed",
+      .numbers = "acceleration, errors alone and stiffness alone: ",
+      .why = fmt::format("More is excited at the lowest speed by the {}, at the highest by the {}. ",
+                         errors_more(low) ? "errors" : "stiffness", errors_more(high) ? "errors" : "stiffness"),
+      .agrees = !errors_more(low) && errors_more(high) && errors_more(top)};
   for (const auto* row : {&low, &top, &high})
-    c.numbers += fmt::format("{}{} and {} m/s² at {}",
-                             c.numbers.empty() ? "acceleration, errors alone and stiffness alone: " : ", ",
-                             to_text(row->errors_alone.acceleration, 3), to_text(row->stiffness_alone.acceleration, 3),
-                             speed_text(row->pinion_speed));
-  c.why = fmt::format("At the lowest speed the {} excite{} more, at the highest the {}. ",
-                      stiffness_low ? "stiffness" : "errors", stiffness_low ? "s" : "",
-                      errors_high ? "errors" : "stiffness");
-  c.agrees = stiffness_low && errors_high && errors_more(top);
-  if (std::holds_alternative<dynamics::HarmonicStiffness>(result.pair->mesh)) {
-    c.why +=
-        "A harmonic stiffness and the error both excite at mesh frequency: their ratio follows from the amplitude of "
-        "the error against the ripple of the deflection, hardly from the speed.";
-  } else {
-    c.why += "At low speed the higher harmonics of the stiffness weigh most.";
-  }
-  if (!result.mesh.computed || !stiffness_low) return c;
+    c.numbers +=
+        fmt::format("{}{} and {} m/s² at {}", row == &low ? "" : ", ", to_text(row->errors_alone.acceleration, 3),
+                    to_text(row->stiffness_alone.acceleration, 3), speed_text(row->pinion_speed));
+  c.why += std::holds_alternative<dynamics::HarmonicStiffness>(result.pair->mesh)
+               ? "A harmonic stiffness and the error both excite at mesh frequency: their ratio hardly depends on the "
+                 "speed."
+               : "At low speed the higher harmonics of the stiffness weigh most.";
+  if (!result.mesh.computed || errors_more(low)) return c;
   // What excites at low speed may be the roughness of the table.
-  const auto known = known_orders(*result.mesh.computed);
-  c.why += fmt::format(
-      " From order {} on those of the table are smaller than its estimated error of ±{} µm: whether they are real is "
-      "not "
-      "known.",
-      known.first_unknown, um_text(known.error, 2));
+  const auto lte = result.mesh.computed->lte_mean();
+  const double error = lte.value * lte.error_relative;
+  c.why +=
+      fmt::format(" From order {} on they are smaller than the estimated error of the table, ±{} µm, and not known.",
+                  first_unknown_order(*result.mesh.computed, error), um_text(error, 2));
   if (c.agrees == true) c.agrees = std::nullopt;
   return c;
 }

@@ -12,8 +12,6 @@ namespace annulus::app {
 /// report.html of a helical pair.
 [[nodiscard]] Page pair_report(const PairRunResult& result);
 
-// pair_geometry.cc
-[[nodiscard]] Section drawings_section(const PairRunResult& result);  ///< the gears to scale
 // conclusions.cc
 [[nodiscard]] Blocks pair_verdict(const PairRunResult& result);  ///< what came out, in plain words
 /// The paper's conclusions compared with the numbers.

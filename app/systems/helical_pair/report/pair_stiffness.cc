@@ -87,12 +87,7 @@ Series prescribed_wave(const std::string& label, double mean, const MeshInput& i
 }
 
 Pictures cycle_picture(const PairRunResult& result) {
-  Plot plot{.title = "Mesh stiffness along the normal, over a mesh cycle",
-            .x_label = "mesh cycle",
-            .y_label = "N/µm",
-            .legend = true,
-            .width = 900,
-            .height = 320};
+  Plot plot = wide_plot("Mesh stiffness along the normal, over a mesh cycle", "mesh cycle", "N/µm");
   const auto& input = result.scene.pinion_wheel;
   const auto& geometry = result.geometry;
   for (const auto& s : result.stiffnesses) {

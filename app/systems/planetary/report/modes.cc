@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "app/report/drawings/mode.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
@@ -16,19 +15,6 @@ constexpr double felt = 0.5;  // participation from which a crossing counts as e
 
 std::size_t kind_colour(const std::string& kind) {
   return kind == "rotational" ? 0 : kind == "translational" ? 1 : kind == "planet" ? 2 : 3;
-}
-
-std::string group_words(const std::string& group) {
-  static const std::map<std::string, std::string> words = {{"sun_planet", "sun meshes"},
-                                                           {"ring_planet", "ring meshes"},
-                                                           {"planet_bearing", "planet bearings"},
-                                                           {"ring_body", "the ring between the meshes"},
-                                                           {"ring_mode", "elastic modes of the ring"}};
-  const auto found = words.find(group);
-  if (found != words.end()) return found->second;
-  std::string text = group;
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
 }
 
 /// Modes of one kind and one frequency.
@@ -65,11 +51,10 @@ Text mode_cell(const StageModes& modes, const Multiple& m) {
   if (m.mode->frequency_error > 0) text += " ± " + to_text(m.mode->frequency_error, 2);
   if (m.count > 1) text += fmt::format(" ×{}", m.count);
   if (m.mode->frequency == 0) return text + " " + muted("free rotation");
-  const auto top = std::max_element(m.mode->strain.begin(), m.mode->strain.end());
-  const auto group = static_cast<std::size_t>(top - m.mode->strain.begin());
+  const Eigen::Map<const Eigen::VectorXd> strain(m.mode->strain.data(),
+                                                 static_cast<Eigen::Index>(m.mode->strain.size()));
   return text + " " +
-         muted(fmt::format("{} {:.0f} %, ζ {:.1f} %", group_words(modes.groups[group]), 100 * *top,
-                           100 * m.mode->damping_ratio));
+         muted(fmt::format("{}, ζ {:.1f} %", strain_words(modes.groups, strain, 1), 100 * m.mode->damping_ratio));
 }
 
 PageTable modes_table(const RunResult& result) {

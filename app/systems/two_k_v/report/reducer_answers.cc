@@ -25,55 +25,38 @@ std::string percent_off(double computed, double published) {
   return fmt::format("{:+.2f} %", 100 * (computed / published - 1));
 }
 
-/// Uncertainty of f1, relative, from the assumed inputs alone: each known to `known` only, root of the sum of squares.
-struct AssumedPart {
-  int assumed = 0, of = 0;
-  double uncertainty = 0;
-};
-constexpr double known_to = 0.2;
-
-AssumedPart assumed_part(const TwoKVResult& result) {
-  AssumedPart part;
-  double squares = 0;
-  for (const auto& input : result.own.vibration->inputs) {
-    ++part.of;
-    if (!result.scene.assumed.contains(input.key)) continue;
-    ++part.assumed;
-    squares += input.sensitivity * input.sensitivity;
-  }
-  part.uncertainty = known_to * std::sqrt(squares);
-  return part;
-}
-
-const Reference::Value* published_frequency(const TwoKVResult& result, std::size_t which) {
-  if (!result.reference) return nullptr;
-  for (const auto& value : result.reference->values)
-    if (value.quantity == "frequency_1_Hz" && which-- == 0) return &value;
-  return nullptr;
-}
-
 /// What an agreement with the published first frequency proves; nothing when none is published.
 std::optional<Text> agreement_text(const TwoKVResult& result) {
-  if (!published_frequency(result, 0)) return std::nullopt;
-  const double f = result.own.vibration->first_frequency();
-  const auto part = assumed_part(result);
+  const auto& v = *result.own.vibration;
+  const double f = v.first_frequency();
   double widest = 0;
   std::vector<Text> published;
-  for (std::size_t i = 0; const auto* value = published_frequency(result, i); ++i) {
-    published.emplace_back(to_text(value->value) + " Hz published: " + percent_off(f, value->value));
-    widest = std::max(widest, std::abs(f / value->value - 1));
+  if (result.reference)
+    for (const auto& value : result.reference->values) {
+      if (value.quantity != "frequency_1_Hz") continue;
+      published.emplace_back(to_text(value.value) + " Hz published: " + percent_off(f, value.value));
+      widest = std::max(widest, std::abs(f / value.value - 1));
+    }
+  if (published.empty()) return std::nullopt;
+  // Of f1, relative, from the assumed inputs alone.
+  constexpr double known_to = 0.2;
+  int assumed = 0;
+  double squares = 0;
+  for (const auto& input : v.inputs) {
+    if (!result.scene.assumed.contains(input.key)) continue;
+    ++assumed;
+    squares += input.sensitivity * input.sensitivity;
   }
+  const double uncertainty = known_to * std::sqrt(squares);
   return joined(published, "; ") +
          fmt::format(
-             ". {} of the {} inputs the first frequency depends on are assumed; if each were known to {:.0f} %, "
-             "the frequency would be known to ±{:.0f} % (root of the sum of squares). ",
-             part.assumed, part.of, 100 * known_to, 100 * part.uncertainty) +
-         bold(
-             widest < part.uncertainty
-                 ? "The differences are smaller than that: the agreement shows that the chosen inputs are possible, it "
-                   "confirms neither them nor the model."
-                 : "The differences are larger than that: model and published values disagree beyond the assumed "
-                   "inputs.");
+             ". {} of the {} inputs of the first frequency are assumed; if each were known to {:.0f} %, the frequency "
+             "would be known to ±{:.0f} % (root of the sum of squares). ",
+             assumed, v.inputs.size(), 100 * known_to, 100 * uncertainty) +
+         bold(widest < uncertainty
+                  ? "The differences are smaller: the agreement shows that the chosen inputs are possible, it confirms "
+                    "neither them nor the model."
+                  : "The differences are larger: model and published values disagree beyond the assumed inputs.");
 }
 
 /// The assumed input that moves the first frequency most, and the input that does so of all.
@@ -98,7 +81,7 @@ Text strongest_inputs(const TwoKVResult& result) {
 /// "input on crank bearings" for "input on crank_bearing".
 std::string mode_words(const std::string& name) {
   const auto at = name.find(" on ");
-  return at == std::string::npos ? name : name.substr(0, at) + " on " + element_words(name.substr(at + 4));
+  return at == std::string::npos ? name : name.substr(0, at) + " on " + element_group(name.substr(at + 4));
 }
 
 /// Whether a computed value agrees with the published one.

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
-
 #include "core/units.h"
 
 namespace annulus::app {
@@ -27,28 +25,13 @@ NamedCases shown_cases(const TwoKVResult& result) {
   return cases;
 }
 
-Legend case_legend(const TwoKVResult& result) {
-  Legend legend;
-  for (const auto& [name, shown] : shown_cases(result)) legend.emplace_back(name, legend.size());
-  return legend;
-}
-
-std::string element_words(const std::string& group) {
-  static const std::map<std::string, std::string> words = {
-      {"sun_planet", "sun meshes"},         {"arc_pins", "arc meshes"},
-      {"crank_arc", "arc gear bearings"},   {"crank_bearing", "crank bearings"},
-      {"input_shaft", "input shaft"},       {"planet_shaft", "crank shafts"},
-      {"input_support", "input's support"}, {"output_support", "output's support"}};
-  const auto found = words.find(group);
-  return found == words.end() ? group : found->second;
-}
-
 Page reducer_report(const TwoKVResult& result) {
   const auto& scene = result.scene;
   NamedMeshes solved;
-  for (const auto* mesh : result.meshes()) solved.emplace_back("Sun mesh", mesh);
+  const SystemRun& run = result;
+  for (const auto* mesh : run.meshes()) solved.emplace_back("Sun mesh", mesh);
   return run_page(
-      result,
+      run,
       {.words = fmt::format("ratio {}, {} N m at {} r/min of the output", to_text(two_k_v_kinematics(scene).ratio(), 6),
                             to_text(scene.output.torque, 5), to_text(scene.output.speed / units::rpm, 5)),
        .answer = reducer_verdict(result),

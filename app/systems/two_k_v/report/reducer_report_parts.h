@@ -15,10 +15,6 @@ namespace annulus::app {
 /// The scene's own stiffness, and the computed one where it is compared.
 using NamedCases = std::vector<std::pair<std::string, const TwoKVCase*>>;
 [[nodiscard]] NamedCases shown_cases(const TwoKVResult& result);
-[[nodiscard]] Legend case_legend(const TwoKVResult& result);
-
-/// "crank bearings" for crank_bearing.
-[[nodiscard]] std::string element_words(const std::string& group);
 
 // reducer_geometry.cc
 [[nodiscard]] Section drawings_section(const TwoKVResult& result);  ///< the gears to scale

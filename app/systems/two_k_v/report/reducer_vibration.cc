@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "app/systems/two_k_v/report/reducer_report_parts.h"
 #include "core/units.h"
@@ -34,42 +35,20 @@ std::size_t body_colour(const std::string& dof) {
   return 7;
 }
 
+/// "arc gear 2 turn" for arc2_u.
 std::string dof_words(const std::string& dof) {
-  std::string text;
-  for (const char c : dof) {
-    if (c == '_') {
-      text += dof.ends_with("_u") ? " turn" : " centre";
-      break;
-    }
-    if (c >= '0' && c <= '9' && !text.empty() && text.back() != ' ' && !(text.back() >= '0' && text.back() <= '9'))
-      text += ' ';
-    text += c;
-  }
-  if (text.starts_with("arc")) text.replace(0, 3, "arc gear");
-  return text;
+  static const std::regex number("([a-z])([0-9])"), arc("^arc");
+  const auto body = std::regex_replace(dof.substr(0, dof.find('_')), number, "$1 $2");
+  return std::regex_replace(body, arc, "arc gear") + (dof.ends_with("_u") ? " turn" : " centre");
 }
 
 std::string body_words(const std::string& body) {
   return body == "arc" ? "arc gears" : body == "planet" || body == "crank" ? body + "s" : body;
 }
 
-std::string strain_words(const TwoKVVibration& v, std::size_t mode) {
-  const auto groups = dynamics::by_group(v.energy);
-  std::vector<std::pair<double, std::string>> shares;
-  for (std::size_t g = 0; g < groups.groups.size(); ++g)
-    shares.emplace_back(groups.strain(static_cast<Eigen::Index>(g), static_cast<Eigen::Index>(mode)), groups.groups[g]);
-  std::stable_sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, shares.size()); ++i) {
-    if (shares[i].first < 0.05) break;
-    text +=
-        fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", element_words(shares[i].second), 100 * shares[i].first);
-  }
-  return text;
-}
-
 PageTable frequency_table(const TwoKVResult& result) {
   const auto& v = *result.own.vibration;
+  const auto energy = dynamics::by_group(v.energy);
   PageTable table{.head = {"mode", "frequency, Hz", "over the crank angle, Hz", "strain energy in", "moves most"}};
   if (result.computed) table.head.emplace_back("with computed stiffness, Hz");
   for (std::size_t m = 0; m < v.modes.modes.size(); ++m) {
@@ -77,7 +56,8 @@ PageTable frequency_table(const TwoKVResult& result) {
     const bool free = v.modes.modes[m].frequency == 0;
     auto& cells = table.rows.emplace_back(std::vector<Text>{
         fmt::format("{}", m + 1), fmt::format("{:.2f}", v.modes.modes[m].frequency),
-        fmt::format("{:.2f} … {:.2f}", row.minCoeff(), row.maxCoeff()), free ? "free rotation" : strain_words(v, m),
+        fmt::format("{:.2f} … {:.2f}", row.minCoeff(), row.maxCoeff()),
+        free ? "free rotation" : strain_words(energy.groups, energy.strain.col(static_cast<Eigen::Index>(m)), 3),
         body_words(v.names[m].substr(0, v.names[m].find(" on ")))});
     if (!result.computed) continue;
     const auto& other = result.computed->vibration->modes.modes;
@@ -239,12 +219,9 @@ Section first_frequency_section(const TwoKVResult& result) {
 Section torsion_section(const TwoKVResult& result) {
   Section section{"torsion", "Torsional stiffness", {}, "Torsional stiffness and lost motion"};
   if (!result.own.vibration) return section;
-  Plot plot{.title = "Torsional stiffness over the crank angle",
-            .x_label = "crank angle against the carrier, °",
-            .y_label = "kN m/rad",
-            .x_range = Range{0, 360},
-            .width = 900,
-            .height = 300};
+  Plot plot =
+      wide_plot("Torsional stiffness over the crank angle", "crank angle against the carrier, °", "kN m/rad", 300);
+  plot.x_range = Range{0, 360};
   for (const auto& [name, shown] : shown_cases(result))
     plot.series.push_back({.label = name,
                            .x = degrees(shown->vibration->torsion.angle),
@@ -261,7 +238,7 @@ Section torsion_section(const TwoKVResult& result) {
       paragraph(
           "Torque over turn of the output with the input held, all elastic parts condensed. Seen from the input with "
           "the output held it is smaller by the ratio squared.") +
-      Pictures{{plot}, case_legend(result)} + side_by_side(shown_cases(result), rows);
+      Pictures{{plot}} + side_by_side(shown_cases(result), rows);
   return section;
 }
 
