@@ -26,7 +26,7 @@ class RowsAt {
   [[nodiscard]] double value(const std::vector<double>* row, const std::string& column) const {
     return (*row)[csv_.column(column)];
   }
-  /// Of the row at this load; NaN without one.
+  /// The value of the row at this load; NaN without one.
   [[nodiscard]] double at_load(double load, const std::string& column) const {
     for (const auto* row : rows_)
       if (value(row, "load_N") == load) return value(row, column);

@@ -90,7 +90,7 @@ class GridPictures {
                      .height = 300};
   }
 
-  static constexpr std::size_t most_lines = 8;  // more cannot be told apart by their colours
+  static constexpr std::size_t most_lines = 8;  // more have no distinct colours
   [[nodiscard]] static std::vector<std::string> line_names(const GridResult& grid) {
     std::vector<std::string> names;
     for (const std::size_t row : shown_rows(grid.y.size()))

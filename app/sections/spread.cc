@@ -10,21 +10,17 @@ namespace annulus::app {
 
 namespace {
 
-std::vector<double> sampled(const VariantSamples& ring, const std::string& figure) {
-  const auto column = ring.samples.column(figure), failed = ring.samples.column("failed");
-  std::vector<double> values;
-  for (const auto& row : ring.samples.rows) {
-    if (row[failed] == 0) values.push_back(row[column]);
-  }
-  return values;
+/// The shown values of the samples that did not fail.
+std::vector<double> sampled(Csv samples, const FigureSpec& figure) {
+  std::erase_if(samples.rows, [failed = samples.column("failed")](const auto& row) { return row[failed] != 0; });
+  return column_values(samples, figure.key, 1e99, figure.scale);
 }
 
 SpreadPlot spread_picture(const StudyResults& studies, const FigureSpec& figure) {
   SpreadPlot plot{.title = figure.title, .y_label = figure.axis_label()};
   for (std::size_t i = 0; i < studies.variants.size(); ++i) {
-    auto values = sampled(studies.monte_carlo->variants[i], figure.key);
+    auto values = sampled(studies.monte_carlo->variants[i].samples, figure);
     if (values.empty()) continue;
-    for (auto& v : values) v *= figure.scale;
     const auto quantile = [&](double p) { return dynamics::quantile_interval(values, p).value; };
     SpreadColumn column{.label = studies.variants[i],
                         .colour = i,

@@ -35,7 +35,7 @@ Pictures histogram_picture(const PairRunResult& result) {
   }
   const double q = 1e6 * reading.sample.value;
   plot.series = {drawn, law, {.label = "quantile", .x = {q, q}, .y = {0, 0.75 * top}, .colour = 5, .dashed = true}};
-  // Beside the line, where the histogram is low; a note ends at its place.
+  // Beside the line, where the histogram is low; a note ends at its position.
   plot.notes.push_back(
       {q + 0.27 * drawn.x.back(), 0.72 * top,
        fmt::format("{:.0f} % of the draws lie below {:.2f} µm", 100 * result.errors.problem->probability, q)});

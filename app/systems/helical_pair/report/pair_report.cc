@@ -27,9 +27,6 @@ Section pair_drawings(const PairRunResult& result) {
       {{.gear = gears.planet(), .id = "pair-pinion", .fill = planet_fill, .inner_radius = bore_radius(scene.pinion)},
        {{centre, stand.planet}}});
   section.lengths.push_back({axis, centre, 0, "a = "});
-  PageTable table = diameter_table();
-  add_gear(table, "pinion", gears.planet(), bore_radius(scene.pinion));
-  add_gear(table, "wheel", gears.wheel(), bore_radius(scene.wheel));
   return geometry_section(Pictures{{drawn(section), drawn(TeethInMesh{.title = "Pinion and wheel in mesh",
                                                                       .id = "pair-teeth",
                                                                       .planet_name = "pinion",
@@ -38,7 +35,8 @@ Section pair_drawings(const PairRunResult& result) {
                                    {},
                                    "All lengths in millimetres. Left: the pair. Right: its " +
                                        teeth_words("pinion", "wheel") + helical_note(scene.stage.helix_angle)} +
-                          table);
+                          diameter_table({{"pinion", gears.planet(), bore_radius(scene.pinion)},
+                                          {"wheel", gears.wheel(), bore_radius(scene.wheel)}}));
 }
 
 Section pair_results(const PairRunResult& result) {

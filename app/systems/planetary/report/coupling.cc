@@ -53,7 +53,7 @@ Section coupling_section(const RunResult& result) {
     section.blocks +=
         paragraph(fmt::format("What it changes. All rows were integrated in time with the same settings and evaluated "
                               "over {} mesh cycles, which "
-                              "need not be a whole period: they compare with each other, not with the key figures.",
+                              "need not be a whole period: they compare with each other, not with the key results.",
                               cycles)) +
         effect;
   if (!negligible.empty())

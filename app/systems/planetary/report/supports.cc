@@ -39,7 +39,8 @@ States states_of(const MeshResult& mesh) {
   return states;
 }
 
-/// A ring that repeats after a few teeth is continued: turned by its period, every support takes the place of another.
+/// A ring that repeats after a few teeth is continued: turned by its period, every support takes the position of
+/// another.
 void continue_to(States& states, double period_deg, int copies) {
   auto& supports = states.supports;
   const std::size_t positions = supports.front().size();

@@ -66,7 +66,6 @@ PageTable frequency_table(const TwoKVResult& result) {
   return table;
 }
 
-/// Of mode `m` (from 0).
 std::string mode_title(std::size_t m) { return fmt::format("mode {}", m + 1); }
 
 Pictures over_crank_plots(const std::string& name, const TwoKVVibration& v) {
