@@ -52,7 +52,8 @@ Series line_load_series(const MeshResult& mesh, const PositionKey& at) {
   std::map<double, RangeFinder> ranges;  // by the slice's lower edge
   for (const auto& row : csv.rows) ranges[row[low]].add(row[load]);
   Series series;
-  for (const auto* row : RowsAt(csv, at).rows()) {
+  const RowsAt shown(csv, at);
+  for (const auto* row : shown.rows()) {
     const auto range = ranges[(*row)[low]].range(0);
     for (const double z : {(*row)[low], (*row)[high]}) {
       series.x.push_back(z);

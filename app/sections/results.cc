@@ -41,6 +41,11 @@ std::vector<std::string> column_names(const std::vector<VariantFigures>& variant
   return names;
 }
 
+std::string part_text(double share) {
+  if (!std::isfinite(share)) return "not known";
+  return share == 0 ? "–" : share < 1e-4 ? "< 0.01 %" : fmt::format("{:.2g} %", 100 * share);
+}
+
 Blocks error_parts(const std::vector<const FigureSpec*>& specs, const std::vector<VariantFigures>& variants) {
   PageTable table{.head = {"", "value ± error", "discretisation", "local contact", "condensation",
                            "table interpolation", "time integration", "model choice"},
@@ -50,11 +55,11 @@ Blocks error_parts(const std::vector<const FigureSpec*>& specs, const std::vecto
       table.rows.push_back({column_names(variants)[static_cast<std::size_t>(&variant - variants.data())]});
     for (const auto* spec : specs) {
       const auto* entry = variant.figures.find(spec->key);
-      if (!entry || entry->parts.total() == 0) continue;
+      if (!entry || entry->parts.total() == 0 || entry->figure.value == 0 || spec->key == "steady") continue;
       auto& row = table.rows.emplace_back(std::vector<Text>{result_title(*spec), result_text(*spec, variant)});
       for (const auto& [name, part] : error_part_names) {
         const double share = std::abs(entry->parts.*part / entry->figure.value);
-        row.emplace_back(share == 0 ? "–" : std::isfinite(share) ? fmt::format("{:.2g} %", 100 * share) : "not known");
+        row.emplace_back(part_text(share));
       }
     }
   }
