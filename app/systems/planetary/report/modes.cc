@@ -191,7 +191,7 @@ ModeDrawing drawing(const StageModes& modes, const geometry::PlanetarySet& set, 
 }
 
 Blocks shapes_part(const RunResult& result) {
-  const auto& [name, response] = responses_of(result).front();
+  const auto [name, response] = responses_of(result).front();  // a copy: the list ends here
   const auto& set = result.geometry.rings.front().set;
   std::vector<Picture> pictures;
   for (const auto& kind : kinds_of(result)) {
