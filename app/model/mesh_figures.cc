@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace annulus::app {
 
@@ -25,11 +26,16 @@ double ripple(const MeshResult& mesh) {
   return (high - low) / mesh.mean_stiffness().value;
 }
 
+/// Stresses of a body: column of the positions behind its name, and title.
+constexpr std::pair<const char*, const char*> stress_names[] = {{"root_tension", "Root stress (tension)"},
+                                                                {"root_von_mises", "Root stress (von Mises)"},
+                                                                {"rim_von_mises", "Rim stress (von Mises)"}};
+
 }  // namespace
 
 std::vector<FigureSpec> mesh_figure_specs(const std::string& mesh, const std::string& title,
-                                          const std::string& quantity) {
-  return {
+                                          const std::string& quantity, const std::vector<std::string>& bodies) {
+  std::vector<FigureSpec> specs = {
       {.key = mesh + "_mean_stiffness_N_per_m",
        .title = "Mean stiffness of the " + title,
        .unit = "N/µm",
@@ -61,6 +67,28 @@ std::vector<FigureSpec> mesh_figure_specs(const std::string& mesh, const std::st
        .better = Better::smaller,
        .effort = FigureEffort::tables,
        .compared = true}};
+  const auto add = [&](const std::string& key, const std::string& name, const std::string& definition) -> FigureSpec& {
+    return specs.emplace_back(FigureSpec{.key = mesh + "_" + key,
+                                         .title = name + ", " + title,
+                                         .definition = definition,
+                                         .better = Better::smaller,
+                                         .effort = FigureEffort::tables});
+  };
+  if (bodies.empty()) return specs;
+  auto& ratio = add("contact_ratio", "Contact ratio", "transverse contact ratio of the gears without load");
+  ratio.symbol = "ε_α";
+  ratio.better = Better::neither;
+  add("face_load_factor", "Face load factor",
+      "largest over mean line load (ISO 6336-1), the largest over the mesh cycles at the nominal load")
+      .symbol = "K_Hβ";
+  for (const auto& body : bodies)
+    for (const auto& [key, name] : stress_names) {
+      auto& stress = add(body + "_" + key + "_Pa", std::string(name) + " of the " + body,
+                         "largest over the mesh cycles at the nominal load");
+      stress.unit = "MPa";
+      stress.scale = 1e-6;
+    }
+  return specs;
 }
 
 FigureSet mesh_figures(const MeshResult& mesh) {
@@ -72,6 +100,15 @@ FigureSet mesh_figures(const MeshResult& mesh) {
   figures.set(name + "_stiffness_ripple", {range, range * relative});
   set(figures, name + "_lte_mean_m", mesh.lte_mean());
   set(figures, name + "_lte_peak_to_peak_m", mesh.lte_peak_to_peak());
+  if (mesh.contact_ratio > 0) figures.set(name + "_contact_ratio", {mesh.contact_ratio, 0});
+  if (const auto factor = mesh.peak("face_load_factor")) figures.set(name + "_face_load_factor", factor->value);
+  if (!mesh.model.computed()) return figures;
+  for (const bool planet : {true, false})
+    for (const auto& [key, title] : stress_names) {
+      const auto column = std::string(mesh.model.body_name(planet)) + "_" + key;
+      if (const auto stress = mesh.peak(column + "_MPa"); stress && std::isfinite(stress->value))
+        figures.set(name + "_" + column + "_Pa", 1e6 * stress->value);
+    }
   return figures;
 }
 

@@ -1,7 +1,5 @@
 #include "app/run/model_run.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <utility>
 
@@ -54,6 +52,8 @@ FigureSet model_results(const GearSystem& system, std::size_t variant, const std
   };
   return dynamics::propagate_errors(evaluation_of(*system.model(variant, tables), specs), model);
 }
+
+}  // namespace
 
 void ModelRun::solve_meshes(const RunOptions& options) {
   const auto system = make_system(scene);
@@ -114,41 +114,17 @@ Json ModelRun::summary() const {
   return json;
 }
 
-std::string ModelRun::text() const {
-  std::string text;
-  const auto& specs = system_kind(scene.stage.kind).figures();
-  for (const auto& variant : variants()) {
-    if (!variant.name.empty()) text += variant.name + "\n";
-    for (const auto& spec : specs)
-      if (const auto* entry = variant.figures.find(spec.key))
-        text += fmt::format("{:<60} {}\n", spec.title, value_text(spec, entry->figure));
-  }
-  return text;
-}
+std::string ModelRun::text() const { return key_results_text(*this); }
 
 Page ModelRun::report() const {
-  const auto all = variants();
-  PageTable results{.head = {"result"}, .style = PageTable::Style::numbers};
-  for (const auto& variant : all) results.head.emplace_back(variant.name.empty() ? "value" : variant.name);
-  for (const auto& spec : system_kind(scene.stage.kind).figures()) {
-    std::vector<Text> row = {spec.title};
-    bool known = false;
-    for (const auto& variant : all) {
-      const auto* entry = variant.figures.find(spec.key);
-      known = known || entry != nullptr;
-      row.emplace_back(entry ? value_text(spec, entry->figure) : "–");
-    }
-    if (known) results.rows.push_back(std::move(row));
-  }
-  std::vector<std::pair<std::string, const MeshResult*>> solved;
+  NamedMeshes solved;
   for (const auto* mesh : meshes()) solved.emplace_back(mesh->model.label(), mesh);
-  const Section key_results{"results", "Results", results},
-      pictures{"meshes", "Meshes", mesh_pictures(solved) + stiffness_errors(solved)},
-      quality{"quality", "Checks and cost", mesh_checks(solved) + cost_blocks(*this)};
-  return scene_page(scene, make_system(scene)->describe(), {},
-                    {{key_results, pictures, fields_section(solved)},
-                     study_sections(scene, studies),
-                     {model_section(plan), inputs_section(plan), quality}});
+  return run_page(*this,
+                  {.words = make_system(scene)->describe(),
+                   .results = {key_results(*this, {{"", ""}}, "")},
+                   .meshes = solved,
+                   .sections = {{"stiffness", "Mesh stiffness", solved.empty() ? Blocks() : stiffness_blocks(solved)},
+                                contact_section(solved)}});
 }
 
 }  // namespace annulus::app

@@ -8,15 +8,17 @@ namespace annulus::app {
 
 double bore_radius(const HubGearInput& gear) { return gear.bore_diameter.value_or(0) / 2; }
 
-PageTable diameter_table() {
-  return {.head = {"", "teeth", "tip ⌀, mm", "root ⌀, mm", "base ⌀, mm", "reference ⌀, mm", "bore or outside ⌀, mm"},
-          .style = PageTable::Style::numbers};
-}
-
-void add_gear(PageTable& table, const std::string& name, const geometry::Gear& gear, double other_radius) {
-  table.rows.push_back({name, fmt::format("{}", gear.teeth()), mm_text(2 * gear.tip_radius()),
-                        mm_text(2 * gear.root_radius()), mm_text(2 * gear.base_radius()),
-                        mm_text(2 * gear.reference_radius()), other_radius > 0 ? mm_text(2 * other_radius) : "–"});
+PageTable diameter_table(const std::vector<NamedGear>& gears) {
+  PageTable table{
+      .head = {"", "teeth", "tip ⌀, mm", "root ⌀, mm", "base ⌀, mm", "reference ⌀, mm", "bore or outside ⌀, mm"},
+      .style = PageTable::Style::numbers};
+  for (const auto& [name, gear, other] : gears) {
+    auto& row = table.rows.emplace_back(std::vector<Text>{name, fmt::format("{}", gear.teeth())});
+    for (const double radius :
+         {gear.tip_radius(), gear.root_radius(), gear.base_radius(), gear.reference_radius(), other})
+      row.emplace_back(radius > 0 ? mm_text(2 * radius) : "–");
+  }
+  return table;
 }
 
 std::string helical_note(double helix_angle) {

@@ -15,9 +15,13 @@ namespace annulus::app {
 /// m; 0 without a bore.
 [[nodiscard]] double bore_radius(const HubGearInput& gear);
 
-/// Diameters of the gears, mm; `other_radius`: of the bore or the outside, m, 0: none.
-[[nodiscard]] PageTable diameter_table();
-void add_gear(PageTable& table, const std::string& name, const geometry::Gear& gear, double other_radius);
+struct NamedGear {
+  std::string name;
+  const geometry::Gear& gear;
+  double other_radius;  ///< of the bore or the outside, m; 0: none
+};
+/// Diameters of the gears, mm.
+[[nodiscard]] PageTable diameter_table(const std::vector<NamedGear>& gears);
 
 [[nodiscard]] std::string helical_note(double helix_angle);
 /// What the enlarged teeth show.

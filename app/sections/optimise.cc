@@ -81,12 +81,12 @@ void add_starts(List& list, const StudyResults& studies, const OptimiseResults& 
   list.items.emplace_back(text + ".");
 }
 
+/// The best of all searches over their evaluations.
 Plot history_picture(const OptimiseResults& o) {
-  Plot plot{.title = "Best objective so far", .x_label = "evaluations", .y_label = "objective"};
-  plot.x_log = true;
-  for (std::size_t i = 0; i < o.runs.size(); ++i) {
-    Series series{.label = name_of(o, o.runs[i]), .colour = i};
-    for (const auto& g : o.runs[i].search.history) {
+  Plot plot{.title = "Best objective so far", .x_label = "evaluations", .y_label = "objective", .x_log = true};
+  for (const auto& run : o.runs) {
+    Series series{.label = name_of(o, run), .colour = plot.series.size()};
+    for (const auto& g : run.search.history) {
       series.x.push_back(static_cast<double>(std::max(1L, g.evaluations)));
       series.y.push_back(sign_of(o) * g.best);
     }
@@ -100,9 +100,9 @@ Plot cloud_picture(const OptimiseResults& o, std::size_t variable) {
   const auto& v = o.variables[variable];
   Plot plot{.title = "All designs tried", .x_label = with_unit(v.input, o.units[variable]), .y_label = "objective"};
   plot.x_log = v.scale == SweepScale::logarithmic;
-  for (std::size_t i = 0; i < o.runs.size(); ++i) {
-    Series series{.label = name_of(o, o.runs[i]), .colour = i, .style = Series::Style::dots, .size = 2};
-    for (const auto& e : o.runs[i].search.evaluations) {
+  for (const auto& run : o.runs) {
+    Series series{.label = name_of(o, run), .colour = plot.series.size(), .style = Series::Style::dots, .size = 2};
+    for (const auto& e : run.search.evaluations) {
       if (!std::isfinite(e.value)) continue;
       series.x.push_back(e.x[variable]);
       series.y.push_back(sign_of(o) * e.value);
@@ -121,10 +121,10 @@ PageTable runs_table(const OptimiseResults& o) {
     const auto& run = o.runs[i];
     std::vector<Text> cells = {name_of(o, run), to_text(sign_of(o) * run.search.value, 6)};
     for (const double x : run.search.x) cells.push_back(to_text(x, 5));
-    cells.push_back(std::to_string(run.search.evaluations.size()));
-    cells.push_back(std::to_string(run.search.failed));
-    cells.push_back(o.evaluations_to_best[i] ? std::to_string(*o.evaluations_to_best[i]) : "never");
-    cells.push_back(run.search.stopped);
+    for (const auto& text :
+         {std::to_string(run.search.evaluations.size()), std::to_string(run.search.failed),
+          o.evaluations_to_best[i] ? std::to_string(*o.evaluations_to_best[i]) : "never", run.search.stopped})
+      cells.emplace_back(text);
     table.rows.push_back(std::move(cells));
   }
   return table;
@@ -159,18 +159,18 @@ Section optimise_section(const StudyResults& studies) {
   add_starts(starts, studies, o, o.given, "As given");
   add_starts(starts, studies, o, o.best, "Best");
   if (!starts.items.empty()) blocks += starts;
-  Legend legend;
-  for (std::size_t i = 0; i < o.runs.size(); ++i) legend.emplace_back(name_of(o, o.runs[i]), i);
+  std::vector<std::string> names;
+  for (const auto& run : o.runs) names.push_back(name_of(o, run));
   std::vector<Picture> pictures = {history_picture(o)};
   for (std::size_t i = 0; i < std::min<std::size_t>(o.variables.size(), 5); ++i)
     pictures.emplace_back(cloud_picture(o, i));
   blocks += Pictures{
-      pictures, legend,
+      pictures, legend_of(names),
       phrase("Tables: {}; the best design as a scene: {} there.", code("dynamics/optimise"), code("best.toml"))};
   blocks += paragraph(
                 "“To the best”: evaluations until the best objective of all searches was met within 1 % of the gain, "
                 "or within the error of the objective where that is larger.") +
-            runs_table(o) + heading("Figures of both designs") + figures_table(studies, o);
+            runs_table(o) + heading("Results of both designs") + figures_table(studies, o);
   return section;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,53 +18,104 @@
 /// out.
 namespace annulus::app {
 
+/// Meshes with their names for readers. The index in the list is the colour.
+using NamedMeshes = std::vector<std::pair<std::string, const MeshResult*>>;
+
+// results.cc
 /// "1.364 ± 0.012": as many digits as the error leaves, five when there is no error.
 [[nodiscard]] std::string measured(double value, double error);
+[[nodiscard]] std::string measured(const Figure& figure, double scale);
 /// "1.2e-10"; "–" for what is not known.
 [[nodiscard]] std::string small_text(double x);
 /// `text` with a unit behind a comma when there is one.
 [[nodiscard]] std::string with_unit(const std::string& text, const std::string& unit);
-
-// sections/shared_plots.cc: what several sections draw
-/// The plots on one y axis.
-[[nodiscard]] std::vector<Picture> on_one_scale(std::vector<Plot> plots, const RangeFinder& range);
-/// One quantity of a stiffness table over the mesh cycles at the nominal load: the solved positions, and the periodic
-/// curve through them that the dynamics uses, with the estimated error around it.
-struct CycleCurve {
-  std::vector<double> cycles, value, low, high;
-  std::vector<double> solved_cycles, solved;
-  double mean = 0;
+/// A heading in the table of results, above those whose keys begin with `prefix` and that no group before has.
+struct ResultGroup {
+  std::string prefix, heading;
 };
-/// `pieces`: of the curve between two solved positions; 1: the positions themselves.
-[[nodiscard]] CycleCurve cycle_curve(const MeshResult& mesh, const std::function<double(const StiffnessEntry&)>& pick,
-                                     int pieces);
-[[nodiscard]] double secant_N_per_um(const StiffnessEntry& entry);
-/// Mean over all positions of a table at one of its loads.
-[[nodiscard]] double mean_at_load(const StiffnessTable& table, std::size_t load,
-                                  const std::function<double(const StiffnessEntry&)>& pick);
+/// All declared results of a run, one column per variant, and what their errors are made of. `conditions`: for which
+/// operating point.
+[[nodiscard]] Section key_results(const SystemRun& run, const std::vector<ResultGroup>& groups, const Text& conditions);
+/// The same as lines of text.
+[[nodiscard]] std::string key_results_text(const SystemRun& run);
+
+// plots.cc
+/// A plot over the whole width of the page, with a legend.
+[[nodiscard]] Plot wide_plot(const std::string& title, const std::string& x_label, const std::string& y_label,
+                             int height = 320);
+/// The plots on one y axis.
+[[nodiscard]] std::vector<Picture> on_one_scale(std::vector<Plot> plots);
 /// A column of a table, of the rows whose first column lies below `rows_to`, each value times `scale`.
 [[nodiscard]] std::vector<double> column_values(const Csv& csv, const std::string& name, double rows_to = 1e99,
                                                 double scale = 1);
+/// A line of a plot: a column over another one.
+struct Line {
+  std::string column, label{};
+  std::size_t colour = 0;
+  bool dashed = false;
+  Series::Style style = Series::Style::line;
+  std::string low{}, high{};  ///< columns of the band; empty: none
+  double offset = 0;          ///< taken off the column
+};
+struct LineTable {
+  std::string x;
+  double x_scale = 1, y_scale = 1;
+  double rows_to = 1e99;  ///< as of column_values
+};
+/// `frame` with lines from a table.
+[[nodiscard]] Plot line_plot(Plot frame, const Csv& csv, const LineTable& table, const std::vector<Line>& lines);
 /// Mesh cycles shown of a window: two error periods of planets with 55 teeth; longer windows are cut in the plots.
 inline constexpr double shown_cycles = 110;
 
-// sections/answers.cc
+/// A table with a row for every line and a column for every subject.
+template <class Subject>
+struct TableRow {
+  Text label;
+  std::function<Text(const Subject&)> cell;
+};
+/// `subjects`: with their names.
+template <class Subject>
+[[nodiscard]] PageTable side_by_side(const std::vector<std::pair<std::string, const Subject*>>& subjects,
+                                     const std::vector<TableRow<Subject>>& rows) {
+  PageTable table{.head = {""}, .style = PageTable::Style::numbers};
+  for (const auto& [name, subject] : subjects) table.head.emplace_back(name);
+  for (const auto& row : rows) {
+    auto& cells = table.rows.emplace_back(1, row.label);
+    for (const auto& [name, subject] : subjects) cells.push_back(row.cell(*subject));
+  }
+  return table;
+}
+
+// modes.cc
+/// Groups of elements for readers: "crank bearings" for crank_bearing.
+[[nodiscard]] std::string element_group(const std::string& name);
+/// "sun meshes 61 %, crank bearings 30 %": the groups with most strain energy, at most so many and from 5 % on.
+[[nodiscard]] std::string strain_words(const std::vector<std::string>& groups,
+                                       const Eigen::Ref<const Eigen::VectorXd>& shares, std::size_t most);
+
+// answers.cc
 /// What the stiffness of the ring mesh, load sharing and dynamic factors of several rings say, and the last two in one
 /// picture: by how much the most loaded planet and the largest dynamic load exceed the ideal. `names`: of the rings, in
 /// the order of their colours.
 [[nodiscard]] Blocks answer_sentences(const std::vector<RingQuantity>& quantities);
 [[nodiscard]] Blocks answer_picture(const std::vector<RingQuantity>& quantities, const std::vector<std::string>& names);
 
-// sections/shared.cc, sections/meshes.cc: the same for all kinds of gear systems
-/// A page of a run: version, scene and `stage_words` in the line below the title; the sections group after group.
-[[nodiscard]] Page scene_page(const Scene& scene, const Text& stage_words, const Blocks& summary,
-                              const std::vector<std::vector<Section>>& groups);
+// run_page.cc
+/// What the page of a kind shows besides the sections that all kinds have.
+struct RunPage {
+  Text words;                       ///< line below the title
+  Blocks answer{};                  ///< what came out
+  std::vector<Section> results{};   ///< in front of the meshes
+  NamedMeshes meshes{};             ///< finite-element models
+  std::vector<Section> sections{};  ///< behind them
+  Blocks checks{};                  ///< of the responses
+};
+/// Version and scene, these sections, then studies, model, inputs, checks and cost.
+[[nodiscard]] Page run_page(const SystemRun& run, const RunPage& page);
 /// Source, DOI and note of the published results.
 [[nodiscard]] Blocks source_blocks(const Reference& reference);
-[[nodiscard]] Section model_section(const Plan& plan);   ///< what was modelled and why
-[[nodiscard]] Section inputs_section(const Plan& plan);  ///< every input with its origin, the assumed ones first
 /// Invariants of the contact solves; meshes that were not computed have none.
-[[nodiscard]] Blocks mesh_checks(const std::vector<std::pair<std::string, const MeshResult*>>& meshes);
+[[nodiscard]] Blocks mesh_checks(const NamedMeshes& meshes);
 /// How responses were found and how well: method, window, balances.
 struct NamedOutcome {
   std::string name;
@@ -70,24 +123,43 @@ struct NamedOutcome {
   double force_balance = std::numeric_limits<double>::quiet_NaN();  ///< relative; NaN: not known
 };
 [[nodiscard]] Blocks solution_checks(const std::vector<NamedOutcome>& responses);
-/// Predicted and actual cost of the steps, wall time of the stages and the peak of the memory.
-[[nodiscard]] Blocks cost_blocks(const SystemRun& run);
-/// Deformation and stress of meshes with their titles; those that are null or were not solved have none.
-[[nodiscard]] Section fields_section(const std::vector<std::pair<std::string, const MeshResult*>>& meshes);
-/// Pictures of the finite-element meshes, each with its title and caption; empty without any.
-[[nodiscard]] Blocks mesh_pictures(const std::vector<std::pair<std::string, const MeshResult*>>& meshes);
-/// Errors of the stiffness of meshes by cause; empty when none was computed.
-[[nodiscard]] Blocks stiffness_errors(const std::vector<std::pair<std::string, const MeshResult*>>& meshes);
 
-// sections/spread.cc, sweeps.cc, grids.cc, sensitivity.cc, optimise.cc
-[[nodiscard]] Section spread_section(const StudyResults& studies);  ///< Monte Carlo samples
+// stiffness.cc
+/// Loaded transmission error and stiffness over the mesh cycles, stiffness over load, load shares of the tooth pairs.
+[[nodiscard]] Blocks stiffness_blocks(const NamedMeshes& meshes);
+/// N/µm, mean secant and tangent stiffness at one of the loads of a table.
+[[nodiscard]] double mean_at_load(const StiffnessTable& table, std::size_t load, double StiffnessEntry::*stiffness);
+// contact.cc
+[[nodiscard]] Section contact_section(const NamedMeshes& meshes);  ///< face width, pressure, stress
+
+// studies.cc, sweeps.cc, grids.cc, spread.cc, sensitivity.cc, optimise.cc
+/// All studies, in their order on the page.
+[[nodiscard]] std::vector<Section> study_sections(const Scene& scene, const StudyResults& studies);
 [[nodiscard]] Section sweeps_section(const Scene& scene, const StudyResults& studies);
 [[nodiscard]] Section grids_section(const Scene& scene, const StudyResults& studies);
+[[nodiscard]] Section spread_section(const StudyResults& studies);  ///< Monte Carlo samples
 [[nodiscard]] Section sensitivity_section(const StudyResults& studies);
 [[nodiscard]] Section optimise_section(const StudyResults& studies);
-/// All of these, in their order on the page.
-[[nodiscard]] std::vector<Section> study_sections(const Scene& scene, const StudyResults& studies);
-/// One colour per variant; empty for a kind without variants.
-[[nodiscard]] Legend variant_legend(const StudyResults& studies);
+/// One colour per name; empty for a single one that is empty.
+[[nodiscard]] Legend legend_of(const std::vector<std::string>& names);
+/// Sentences on the points that failed or are not periodic.
+struct StudyOutcome {
+  int points = 0, failed = 0, not_steady = 0;
+  std::string first{};  ///< failure
+
+  void add(const StudyPoint& point, const std::string& place);
+  [[nodiscard]] std::string text() const;
+};
+/// The pictures of all plotted results that `draw` has one of.
+template <class Draw>
+[[nodiscard]] std::vector<Picture> result_pictures(const StudyResults& studies, Draw draw) {
+  std::vector<Picture> pictures;
+  for (const auto& figure : studies.figures)
+    if (figure.plotted)
+      if (auto drawn = draw(figure)) pictures.emplace_back(*std::move(drawn));
+  return pictures;
+}
+/// Whether a plot shows something: values that are known and not zero throughout.
+[[nodiscard]] bool shows_something(const Plot& plot);
 
 }  // namespace annulus::app

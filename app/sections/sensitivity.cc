@@ -43,11 +43,10 @@ Section sensitivity_section(const StudyResults& studies) {
   PageTable table{.head = {"input", "value"}, .style = PageTable::Style::numbers};
   std::vector<const FigureSpec*> shown;
   std::vector<Text> what;
-  for (std::size_t i = 0; i < studies.figures.size(); ++i) {
-    const auto& figure = studies.figures[i];
+  for (const auto& figure : studies.figures) {
     if (!figure.ordering) continue;
     shown.push_back(&figure);
-    what.emplace_back(figure.title + (figure.axis_label().empty() ? "" : " (" + figure.axis_label() + ")"));
+    what.emplace_back(with_unit(figure.title, figure.axis_label()));
     for (const auto& name : studies.variants) table.head.emplace_back(with_unit(figure.title, name));
   }
   if (compare) table.head.emplace_back("order of the rings");
@@ -65,7 +64,7 @@ Section sensitivity_section(const StudyResults& studies) {
   section.blocks =
       paragraph(phrase("Each input divided by {0}, as it is, and multiplied by {0}, one at a time. {1}.{2}",
                        to_text(s.factor), joined(what, "; "),
-                       compare ? fmt::format(" The order of the rings by the first figure stays for {} of {} inputs.",
+                       compare ? fmt::format(" The order of the rings by the first result stays for {} of {} inputs.",
                                              same_order, s.rows.size())
                                : "")) +
       table;

@@ -10,21 +10,17 @@ namespace annulus::app {
 
 namespace {
 
-std::vector<double> sampled(const VariantSamples& ring, const std::string& figure) {
-  const auto column = ring.samples.column(figure), failed = ring.samples.column("failed");
-  std::vector<double> values;
-  for (const auto& row : ring.samples.rows) {
-    if (row[failed] == 0) values.push_back(row[column]);
-  }
-  return values;
+/// The shown values of the samples that did not fail.
+std::vector<double> sampled(Csv samples, const FigureSpec& figure) {
+  std::erase_if(samples.rows, [failed = samples.column("failed")](const auto& row) { return row[failed] != 0; });
+  return column_values(samples, figure.key, 1e99, figure.scale);
 }
 
 SpreadPlot spread_picture(const StudyResults& studies, const FigureSpec& figure) {
   SpreadPlot plot{.title = figure.title, .y_label = figure.axis_label()};
   for (std::size_t i = 0; i < studies.variants.size(); ++i) {
-    auto values = sampled(studies.monte_carlo->variants[i], figure.key);
+    auto values = sampled(studies.monte_carlo->variants[i].samples, figure);
     if (values.empty()) continue;
-    for (auto& v : values) v *= figure.scale;
     const auto quantile = [&](double p) { return dynamics::quantile_interval(values, p).value; };
     SpreadColumn column{.label = studies.variants[i],
                         .colour = i,
@@ -90,12 +86,8 @@ std::string counted(const StudyResults& studies) {
   std::string text;
   for (std::size_t i = 0; i < studies.variants.size(); ++i) {
     const auto& samples = studies.monte_carlo->variants[i];
-    const std::string with = studies.variants[i].empty() ? "" : " With " + studies.variants[i] + ",";
-    if (samples.failed)
-      text += fmt::format("{} {} samples failed and are left out of the statistics.", with, samples.failed);
-    if (samples.not_steady)
-      text += fmt::format("{} {} samples did not become periodic and count with the window they have.", with,
-                          samples.not_steady);
+    const auto found = StudyOutcome{studies.monte_carlo->samples, samples.failed, samples.not_steady}.text();
+    if (!found.empty()) text += (studies.variants[i].empty() ? "" : " " + studies.variants[i] + ":") + found;
   }
   return text;
 }
@@ -130,14 +122,14 @@ Section spread_section(const StudyResults& studies) {
     if (const auto sentence = order_sentence(studies, order)) sentences.items.push_back(*sentence);
   }
   if (!sentences.items.empty()) section.blocks += paragraph(ordering->title + ", sample by sample:") + sentences;
-  std::vector<Picture> pictures;
-  for (const auto& figure : studies.figures)
-    if (figure.spread && figure.plotted) pictures.emplace_back(spread_picture(studies, figure));
   section.blocks += Pictures{
-      pictures,
+      result_pictures(studies,
+                      [&](const FigureSpec& figure) {
+                        return figure.spread ? std::optional(spread_picture(studies, figure)) : std::nullopt;
+                      }),
       {},
-      "Dots: samples. Box: quartiles and median; whiskers: 5 and 95 %. Diamond: the scene as given, with the numerical "
-      "error of its figure."};
+      "Dots: samples. Box: quartiles and median; whiskers: 5 and 95 %. Diamond: the scene as given with its numerical "
+      "error."};
   section.blocks +=
       paragraph(fmt::format("In brackets: {:.0f} % confidence intervals, of the mean by Student's t, of quantiles "
                             "between order statistics.",

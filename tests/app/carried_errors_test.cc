@@ -193,7 +193,8 @@ BOOST_AUTO_TEST_CASE(errors_are_the_sum_of_their_parts_and_are_kept) {
              parts[0].errors.discretisation);
   BOOST_TEST(ring["dynamic_factor_error_parts"]["ring_planet"][4]["table_interpolation"].get<double>() ==
              parts[15].errors.interpolation);
-  BOOST_TEST(app::html(app::dynamics_section(first)).find("What the error bars contain") != std::string::npos);
+  BOOST_TEST(app::html(app::key_results(first, {{"", ""}}, "")).find("What the error bars contain") !=
+             std::string::npos);
   // Another error is another response.
   BOOST_TEST(!TableScene{.sun_error = 0.02}.run(folder.path()).rings[0].response->reused);
 }
@@ -237,7 +238,7 @@ BOOST_AUTO_TEST_CASE(an_odd_number_of_phases_tells_nothing_about_the_interpolati
     BOOST_TEST(std::isnan(figure.error));
     BOOST_TEST(of_stiffness(e) > 0);
   }
-  BOOST_TEST(app::html(app::dynamics_section(result)).find("not known") != std::string::npos);
+  BOOST_TEST(app::html(app::key_results(result, {{"", ""}}, "")).find("not known") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(waves_are_exact) {

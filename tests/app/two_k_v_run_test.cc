@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(first_frequency_and_its_estimate) {
   BOOST_TEST(json["vibration"]["first_frequency_Hz"].get<double>() == v.first_frequency());
   BOOST_TEST(json["operating_point"]["ratio"] == 103.0);
   const auto report = read_file(folder.path() / "report.html");
-  for (const char* id : {"frequencies", "first-frequency", "torsion", "motion", "meshes", "inputs"})
+  for (const char* id : {"frequencies", "first-frequency", "torsion", "motion", "stiffness", "inputs"})
     BOOST_TEST(report.find("id=\"" + std::string(id) + "\"") != std::string::npos, id);
   for (const char* file : {"modes.csv", "mode_shapes.csv", "mode_shapes_over_crank.csv", "modes_over_crank.csv",
                            "torsional_stiffness.csv", "sensitivity_f1.csv", "time_series.csv", "output_error.csv"})
@@ -186,7 +186,7 @@ BOOST_AUTO_TEST_CASE(plan_and_scenes_without_dynamics) {
   text.erase(text.find("[dynamics]"));
   const auto result = run_reducer(text, folder.path());
   BOOST_TEST(!result.own.vibration.has_value());
-  BOOST_TEST(read_file(folder.path() / "report.html").find("id=\"meshes\"") != std::string::npos);
+  BOOST_TEST(read_file(folder.path() / "report.html").find("id=\"stiffness\"") != std::string::npos);
 }
 
 // The involute pair by finite elements, closed-form model: of the order of ISO 6336's 14 to 20 N/(mm µm).

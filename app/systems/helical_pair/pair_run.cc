@@ -266,7 +266,7 @@ const std::vector<FigureSpec>& pair_run_figures() {
                                       .guarantee = Guarantee::always,
                                       .quantity = "mean_stiffness",
                                       .compared = true}};
-    const auto mesh = mesh_figure_specs(pinion_wheel, "mesh", "pinion_wheel_stiffness");
+    const auto mesh = mesh_figure_specs(pinion_wheel, "mesh", "pinion_wheel_stiffness", {"pinion", "wheel"});
     specs.insert(specs.end(), mesh.begin(), mesh.end());
     const auto& model = dynamics::pair_figures();
     specs.insert(specs.end(), model.begin(), model.end());

@@ -6,6 +6,7 @@
 #include "app/results/content_id.h"
 #include "app/scene/inputs_json.h"
 #include "app/scene/scene_schema.h"
+#include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/helical_pair/pair_run.h"
 #include "core/json.h"
@@ -138,16 +139,7 @@ std::string PairRunResult::text() const {
                         1e6 * result.errors.amplitude, taken->name, to_text(result.errors.problem->probability),
                         result.errors.problem->samples, 1e6 * taken->sample.low, 1e6 * taken->sample.high,
                         1e6 * taken->exact);
-  if (result.response) {
-    const auto& f = result.response->figures;
-    text += fmt::format(
-        "response       acceleration {:.4g} m/s2, mesh force {:.4g} kN{}, transmission error "
-        "{:.2f} um peak to peak, {:.2f} um at most\n",
-        f.acceleration.tooth.value, dynamics::loaded_force(f).largest.value / 1e3,
-        std::isfinite(f.dynamic_factor.value) ? fmt::format(" (dynamic factor {:.3f})", f.dynamic_factor.value) : "",
-        1e6 * f.dynamic.transmission_error.peak_to_peak.value, 1e6 * f.dynamic.transmission_error.largest.value);
-  }
-  return text;
+  return text + key_results_text(*this);
 }
 
 }  // namespace annulus::app

@@ -79,8 +79,8 @@ class PlanetarySystem final : public GearSystem {
 
 const std::vector<FigureSpec>& all_planetary_figures() {
   static const auto list = [] {
-    auto specs = mesh_figure_specs(ring_planet, "ring mesh", "ring_stiffness");
-    const auto sun = mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness");
+    auto specs = mesh_figure_specs(ring_planet, "ring mesh", "ring_stiffness", {"planet", "ring"});
+    const auto sun = mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness", {"planet", "sun"});
     specs.insert(specs.end(), sun.begin(), sun.end());
     const auto& model = dynamics::planetary_figures();
     specs.insert(specs.end(), model.begin(), model.end());

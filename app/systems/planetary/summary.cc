@@ -9,6 +9,7 @@
 #include "app/results/content_id.h"
 #include "app/scene/inputs_json.h"
 #include "app/scene/scene_schema.h"
+#include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
 #include "core/json.h"
 
@@ -136,27 +137,6 @@ Json RunResult::summary() const {
   return json;
 }
 
-std::string RunResult::text() const {
-  std::string text = fmt::format("{:<20} {:>16} {:>12} {:>12} {:>14} {:>14}\n", "ring", "stiffness N/m", "LTE um",
-                                 "p-p um", "load sharing", "dyn. factor");
-  const auto row = [&](const std::string& name, const MeshResult& mesh, const StageResponse* response) {
-    const auto k = mesh.mean_stiffness();
-    // A closed form has no error estimate.
-    const std::string error =
-        std::isfinite(k.error_relative) ? fmt::format("+-{:>2.1f}%", 100 * k.error_relative) : "+-?   ";
-    text += fmt::format("{:<20} {:>10.4g} {} {:>12.3f} {:>12.3f}", name, k.value, error, 1e6 * mesh.lte_mean().value,
-                        1e6 * mesh.lte_peak_to_peak().value);
-    if (response) {
-      double factor = 0;
-      for (const auto& b : response->figures.sun_planet.branches) factor = std::max(factor, b.dynamic_factor_max.value);
-      text += fmt::format(" {:>14.4f} {:>14.3f}", response->figures.sun_planet.load_sharing.averaged.value, factor);
-    }
-    text += "\n";
-  };
-  for (const auto& ring : rings) row(ring.name, ring.mesh, ring.response ? &*ring.response : nullptr);
-  row("(sun mesh)", sun_mesh, nullptr);
-  text += "load sharing: sun meshes, averaged over a mesh cycle; dynamic factor: largest of all sun meshes\n";
-  return text;
-}
+std::string RunResult::text() const { return key_results_text(*this); }
 
 }  // namespace annulus::app

@@ -155,7 +155,7 @@ TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options) {
 
 const std::vector<FigureSpec>& two_k_v_run_figures() {
   static const auto list = [] {
-    auto specs = mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness");
+    auto specs = mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness", {"planet", "sun"});
     const auto arc = mesh_figure_specs(arc_pins, "arc mesh", "arc_stiffness");
     specs.insert(specs.end(), arc.begin(), arc.end());
     const auto& model = dynamics::two_k_v_figures();

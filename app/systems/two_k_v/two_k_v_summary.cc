@@ -7,6 +7,7 @@
 #include "app/results/content_id.h"
 #include "app/scene/inputs_json.h"
 #include "app/scene/scene_schema.h"
+#include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "core/json.h"
@@ -99,23 +100,6 @@ Json TwoKVResult::summary() const {
   return json;
 }
 
-std::string TwoKVResult::text() const {
-  std::string text = fmt::format("{:<12} {:>14} {:>14} {:>12} {:>16} {:>18} {:>12}\n", "stiffness", "sun mesh N/m",
-                                 "arc mesh N/m", "f1 Hz", "torsion Nm/rad", "output error, asec", "dyn. factor");
-  const auto row = [&](const char* name, const TwoKVCase& c) {
-    text += fmt::format("{:<12} {:>14.4g} {:>14.4g}", name, c.tables.sun.mean_stiffness().value,
-                        c.tables.arc.mean_stiffness().value);
-    if (c.vibration)
-      text += fmt::format(" {:>12.2f} {:>16.0f}", c.vibration->first_frequency(), c.vibration->torsion.mean());
-    if (c.motion)
-      text += fmt::format(" {:>18.4f} {:>12.4f}", c.motion->error_peak_to_peak.value / units::arc_second,
-                          std::max(c.motion->dynamic_factor(false), c.motion->dynamic_factor(true)));
-    text += "\n";
-  };
-  row("scene", own);
-  if (computed) row("computed", *computed);
-  text += "output error: peak to peak; dynamic factor: largest of all meshes\n";
-  return text;
-}
+std::string TwoKVResult::text() const { return key_results_text(*this); }
 
 }  // namespace annulus::app

@@ -58,10 +58,14 @@ std::vector<FigureSpec> declared() {
   range.beside = "transmission_error_static_peak_to_peak_m";
   list.push_back(range);
   list.push_back(length("transmission_error_mean_m", "Transmission error, mean", "mean over time of u_1 + u_2"));
+  list.push_back(length("transmission_error_static_mean_m", "Transmission error, mean, quasi-static",
+                        "mean over the positions of u_1 + u_2, without inertia and damping"));
   list.push_back(length("transmission_error_static_max_m", "Largest transmission error, quasi-static",
                         "largest over the positions of |u_1 + u_2|, without inertia and damping"));
   list.push_back(length("transmission_error_static_peak_to_peak_m", "Transmission error, peak to peak, quasi-static",
                         "range over the positions of u_1 + u_2, without inertia and damping"));
+  list.push_back(length("relative_motion_mean_m", "Relative motion with the bending of shafts and bearings, mean",
+                        "mean over time of y_1 + u_1 - y_2 + u_2"));
   list.push_back(length("relative_motion_max_m", "Largest relative motion with the bending of shafts and bearings",
                         "largest over time of |y_1 + u_1 - y_2 + u_2|, the mean included"));
   list.push_back(length("relative_motion_peak_to_peak_m",
@@ -102,8 +106,10 @@ FigureSet figures(const PairResponse& r) {
   set.set("transmission_error_max_m", te.largest);
   set.set("transmission_error_peak_to_peak_m", te.peak_to_peak);
   set.set("transmission_error_mean_m", te.mean);
+  set.set("transmission_error_static_mean_m", still.mean);
   set.set("transmission_error_static_max_m", still.largest);
   set.set("transmission_error_static_peak_to_peak_m", still.peak_to_peak);
+  set.set("relative_motion_mean_m", r.dynamic.relative.mean);
   set.set("relative_motion_max_m", r.dynamic.relative.largest);
   set.set("relative_motion_peak_to_peak_m", r.dynamic.relative.peak_to_peak);
   set.set("steady", r.steady ? 1 : 0);

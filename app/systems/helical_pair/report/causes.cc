@@ -9,6 +9,7 @@ namespace annulus::app {
 
 std::string um_text(double x, int digits) { return to_text(1e6 * x, digits); }
 std::string torque_text(double x) { return to_text(x / 1e3, 4) + " kN m"; }
+std::string speed_text(double x) { return to_text(x / units::rpm, 5) + " r/min"; }
 
 namespace {
 
@@ -22,65 +23,67 @@ std::vector<const Row*> good(const std::vector<Row>& all, double Row::*rising) {
   return rows;
 }
 
-}  // namespace
+using PeakToPeakPart = double dynamics::PeakToPeak::*;
+constexpr PeakToPeakPart still = &dynamics::PeakToPeak::quasi_static, moving = &dynamics::PeakToPeak::dynamic;
 
-std::vector<const ShareRow*> good_rows(const PairRunResult& result) {
-  return good(result.shares, &ShareRow::pinion_torque);
+double largest(const ShareRow& row, PeakToPeakPart part) {
+  return part == moving ? row.largest_dynamic : row.largest_static;
 }
-
-std::vector<const SpeedRow*> good_speeds(const PairRunResult& result) {
-  return good(result.speeds, &SpeedRow::pinion_speed);
-}
-
-namespace {
 
 PageTable shares_table(const std::vector<const ShareRow*>& rows) {
   PageTable table{.head = {"torque of the pinion", "peak to peak, all causes", "errors alone", "stiffness alone",
                            "share of the errors", "largest value", "of which mean deflection"},
                   .style = PageTable::Style::numbers};
-  const auto add = [&](const ShareRow& row, bool dynamic) {
-    const auto& s = row.shares;
-    const auto of = [dynamic](const dynamics::PeakToPeak& p) { return dynamic ? p.dynamic : p.quasi_static; };
-    table.rows.push_back({torque_text(row.pinion_torque), um_text(of(s.all)), um_text(of(s.errors_alone)),
-                          um_text(of(s.stiffness_alone)), fmt::format("{:.0f} %", 100 * of(s.error_share())),
-                          um_text(dynamic ? row.largest_dynamic : row.largest_static), um_text(s.load_deflection)});
-  };
-  table.rows.push_back({"Quasi-static, µm"});
-  for (const auto* row : rows) add(*row, false);
-  table.rows.push_back({"In motion, µm"});
-  for (const auto* row : rows) add(*row, true);
+  for (const auto& [head, part] : {std::pair{"Quasi-static, µm", still}, {"In motion, µm", moving}}) {
+    table.rows.push_back({head});
+    for (const auto* row : rows) {
+      const auto& s = row->shares;
+      table.rows.push_back({torque_text(row->pinion_torque), um_text(s.all.*part), um_text(s.errors_alone.*part),
+                            um_text(s.stiffness_alone.*part), fmt::format("{:.0f} %", 100 * s.error_share().*part),
+                            um_text(largest(*row, part)), um_text(s.load_deflection)});
+    }
+  }
   return table;
 }
 
+/// A line over the rows, from zero on the x axis.
+template <class Row>
+struct CauseLine {
+  std::size_t colour;
+  std::function<double(const Row&)> value;
+  bool dashed = false;
+};
+template <class Row>
+Plot cause_plot(Plot plot, const std::vector<const Row*>& rows, double Row::*x, double x_unit, double y_scale,
+                const std::vector<CauseLine<Row>>& lines) {
+  plot.x_range = Range{0, 1.04 * rows.back()->*x / x_unit};
+  for (const auto& line : lines) {
+    Series series{.colour = line.colour, .dashed = line.dashed};
+    for (const auto* row : rows) {
+      series.x.push_back(row->*x / x_unit);
+      series.y.push_back(y_scale * line.value(*row));
+    }
+    plot.series.push_back(std::move(series));
+  }
+  return plot;
+}
+
 Pictures shares_pictures(const std::vector<const ShareRow*>& rows) {
-  std::vector<double> torque;
-  torque.reserve(rows.size());
-  for (const auto* row : rows) torque.push_back(row->pinion_torque / 1e3);
-  const Range loads{0, 1.04 * torque.back()};
-  const auto series = [&](const char* label, std::size_t colour, bool dashed, auto pick) {
-    Series s{.label = label, .x = torque, .colour = colour, .dashed = dashed};
-    for (const auto* row : rows) s.y.push_back(1e6 * pick(*row));
-    return s;
+  const auto plot = [&](const char* title, const char* y_label, const std::vector<CauseLine<ShareRow>>& lines) {
+    return cause_plot<ShareRow>({.title = title, .x_label = "torque of the pinion, kN m", .y_label = y_label}, rows,
+                                &ShareRow::pinion_torque, 1e3, 1e6, lines);
   };
-  const auto plot = [&](const char* title, bool dynamic) {
-    const auto of = [dynamic](const dynamics::PeakToPeak& p) { return dynamic ? p.dynamic : p.quasi_static; };
-    return Plot{.title = title,
-                .x_label = "torque of the pinion, kN m",
-                .y_label = "peak to peak, µm",
-                .x_range = loads,
-                .series = {series("all", 0, false, [=](const auto& r) { return of(r.shares.all); }),
-                           series("errors", 1, false, [=](const auto& r) { return of(r.shares.errors_alone); }),
-                           series("stiffness", 2, false, [=](const auto& r) { return of(r.shares.stiffness_alone); })}};
+  const auto causes = [](PeakToPeakPart part) {
+    return std::vector<CauseLine<ShareRow>>{{0, [=](const ShareRow& r) { return r.shares.all.*part; }},
+                                            {1, [=](const ShareRow& r) { return r.shares.errors_alone.*part; }},
+                                            {2, [=](const ShareRow& r) { return r.shares.stiffness_alone.*part; }}};
   };
-  Plot largest{
-      .title = "Largest value",
-      .x_label = "torque of the pinion, kN m",
-      .y_label = "µm",
-      .x_range = loads,
-      .series = {series("largest", 0, false, [](const auto& r) { return r.largest_dynamic; }),
-                 series("amplitude", 1, false, [](const auto& r) { return r.shares.errors_alone.quasi_static / 2; }),
-                 series("deflection", 5, true, [](const auto& r) { return r.shares.load_deflection; })}};
-  return Pictures{{plot("Peak to peak, quasi-static", false), plot("Peak to peak, in motion", true), largest},
+  return Pictures{{plot("Peak to peak, quasi-static", "peak to peak, µm", causes(still)),
+                   plot("Peak to peak, in motion", "peak to peak, µm", causes(moving)),
+                   plot("Largest value", "µm",
+                        {{0, [](const ShareRow& r) { return r.largest_dynamic; }},
+                         {1, [](const ShareRow& r) { return r.shares.errors_alone.quasi_static / 2; }},
+                         {5, [](const ShareRow& r) { return r.shares.load_deflection; }, true}})},
                   {{"all causes", 0},
                    {"errors alone (last picture: their amplitude)", 1},
                    {"stiffness alone", 2},
@@ -90,18 +93,11 @@ Pictures shares_pictures(const std::vector<const ShareRow*>& rows) {
 
 Pictures speeds_pictures(const std::vector<const SpeedRow*>& rows) {
   const auto plot = [&](const char* title, const char* y_label, double SpeedRow::Motion::*pick, double scale) {
-    Plot p{.title = title, .x_label = "speed of the pinion, r/min", .y_label = y_label};
-    p.x_range = Range{0, 1.04 * rows.back()->pinion_speed / units::rpm};
-    std::size_t colour = 0;
-    for (const auto cause : {&SpeedRow::all, &SpeedRow::errors_alone, &SpeedRow::stiffness_alone}) {
-      Series s{.colour = colour++};
-      for (const auto* row : rows) {
-        s.x.push_back(row->pinion_speed / units::rpm);
-        s.y.push_back(scale * (row->*cause.*pick));
-      }
-      p.series.push_back(std::move(s));
-    }
-    return p;
+    std::vector<CauseLine<SpeedRow>> lines;
+    for (const auto cause : {&SpeedRow::all, &SpeedRow::errors_alone, &SpeedRow::stiffness_alone})
+      lines.push_back({lines.size(), [=](const SpeedRow& row) { return row.*cause.*pick; }});
+    return cause_plot<SpeedRow>({.title = title, .x_label = "speed of the pinion, r/min", .y_label = y_label}, rows,
+                                &SpeedRow::pinion_speed, units::rpm, scale, lines);
   };
   return Pictures{{plot("Largest acceleration of the teeth", "m/s²", &SpeedRow::Motion::acceleration, 1),
                    plot("Peak-to-peak mesh force", "largest – smallest, kN", &SpeedRow::Motion::force_range, 1e-3),
@@ -111,6 +107,14 @@ Pictures speeds_pictures(const std::vector<const SpeedRow*>& rows) {
 }
 
 }  // namespace
+
+std::vector<const ShareRow*> good_rows(const PairRunResult& result) {
+  return good(result.shares, &ShareRow::pinion_torque);
+}
+
+std::vector<const SpeedRow*> good_speeds(const PairRunResult& result) {
+  return good(result.speeds, &SpeedRow::pinion_speed);
+}
 
 Section pair_shares_section(const PairRunResult& result) {
   Section section{"shares", "Causes of the transmission error"};
@@ -124,8 +128,7 @@ Section pair_shares_section(const PairRunResult& result) {
   for (const auto& row : result.shares)
     if (!row.failure.empty()) failed.items.emplace_back(torque_text(row.pinion_torque) + ": " + row.failure);
   for (const auto& row : result.speeds)
-    if (!row.failure.empty())
-      failed.items.emplace_back(to_text(row.pinion_speed / units::rpm, 5) + " r/min: " + row.failure);
+    if (!row.failure.empty()) failed.items.emplace_back(speed_text(row.pinion_speed) + ": " + row.failure);
   if (!failed.items.empty()) section.blocks += paragraph("Left out, for no response was found:") + failed;
   if (!rows.empty()) section.blocks += shares_pictures(rows) + shares_table(rows);
   if (!speeds.empty()) section.blocks += heading("Over speed") + speeds_pictures(speeds);

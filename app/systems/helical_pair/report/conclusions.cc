@@ -6,23 +6,11 @@
 
 #include "app/study/study_subject.h"
 #include "app/systems/helical_pair/report/pair_report_parts.h"
-#include "core/units.h"
 #include "dynamics/figures/spectrum.h"
 
 namespace annulus::app {
 
 namespace {
-
-/// Up to which torque a statement holds: nothing when at none, infinite when at all.
-template <class Holds>
-std::optional<double> holds_up_to(const std::vector<const ShareRow*>& rows, Holds holds) {
-  std::optional<double> last;
-  for (const auto* row : rows) {
-    if (!holds(*row)) return last;
-    last = row->pinion_torque;
-  }
-  return rows.empty() ? std::nullopt : std::optional(rigid);
-}
 
 bool errors_rule_range(const ShareRow& row) {
   return row.shares.errors_alone.quasi_static > row.shares.stiffness_alone.quasi_static;
@@ -37,48 +25,59 @@ struct Conclusion {
   std::optional<bool> agrees{};  ///< nothing: cannot be decided
 };
 
-std::string where_text(const std::optional<double>& limit, const std::vector<const ShareRow*>& rows) {
-  if (!limit) return "at none of the torques";
-  if (std::isinf(*limit)) return fmt::format("at all torques up to {}", torque_text(rows.back()->pinion_torque));
-  return fmt::format("up to {} only", torque_text(*limit));
-}
+/// Which cause rules at all torques, at a few or at none.
+struct Rule {
+  bool (*holds)(const ShareRow& row);
+  const std::vector<const ShareRow*>& rows;
+
+  /// The first torque at which it does not hold.
+  [[nodiscard]] auto end() const {
+    return std::find_if(rows.begin(), rows.end(), [&](const auto* row) { return !holds(*row); });
+  }
+  [[nodiscard]] bool everywhere() const { return end() == rows.end(); }
+  [[nodiscard]] std::string text() const {
+    if (end() == rows.begin()) return "at none of the torques";
+    const auto last = torque_text((*std::prev(end()))->pinion_torque);
+    return everywhere() ? "at all torques up to " + last : "up to " + last + " only";
+  }
+};
 
 void add_shares(std::vector<Conclusion>& list, const PairRunResult& result) {
   const auto rows = good_rows(result);
   if (rows.empty()) return;
   const auto &first = *rows.front(), &last = *rows.back();
-  const auto range = holds_up_to(rows, errors_rule_range), largest = holds_up_to(rows, errors_rule_largest);
+  const Rule range{errors_rule_range, rows}, largest{errors_rule_largest, rows};
+  const auto numbers = [&](const char* errors, double amplitude, const char* stiffness, auto value) {
+    return fmt::format("{} {} µm; {} {} µm at {} to {} µm at {}", errors, um_text(amplitude), stiffness,
+                       um_text(value(first)), torque_text(first.pinion_torque), um_text(value(last)),
+                       torque_text(last.pinion_torque));
+  };
   list.push_back({"Manufacturing error is the main cause of the transmission error: of its peak-to-peak value",
-                  fmt::format("quasi-static, errors alone {} µm; stiffness alone {} µm at {} to {} µm at {}",
-                              um_text(first.shares.errors_alone.quasi_static),
-                              um_text(first.shares.stiffness_alone.quasi_static), torque_text(first.pinion_torque),
-                              um_text(last.shares.stiffness_alone.quasi_static), torque_text(last.pinion_torque)),
-                  "Holds " + where_text(range, rows) +
-                      ". The errors do not depend on the load, the stiffness ripple "
-                      "moves the teeth in proportion to it.",
-                  range && std::isinf(*range)});
-  list.push_back({"The same of its largest value; deflection under load matters little",
-                  fmt::format("amplitude of the errors {} µm; mean deflection {} µm at {} to {} µm at {}",
-                              um_text(first.shares.errors_alone.quasi_static / 2),
-                              um_text(first.shares.load_deflection), torque_text(first.pinion_torque),
-                              um_text(last.shares.load_deflection), torque_text(last.pinion_torque)),
-                  "Holds " + where_text(largest, rows) +
-                      (largest && std::isinf(*largest)
-                           ? "."
-                           : ". Elsewhere the largest transmission error is deflection of teeth and bearings."),
-                  largest && std::isinf(*largest)});
+                  numbers("quasi-static, errors alone", first.shares.errors_alone.quasi_static, "stiffness alone",
+                          [](const ShareRow& row) { return row.shares.stiffness_alone.quasi_static; }),
+                  "Holds " + range.text() +
+                      ". The errors do not depend on the load; the stiffness ripple moves the teeth in proportion to "
+                      "it.",
+                  range.everywhere()});
+  list.push_back(
+      {"The same of its largest value; deflection under load matters little",
+       numbers("amplitude of the errors", first.shares.errors_alone.quasi_static / 2, "mean deflection",
+               [](const ShareRow& row) { return row.shares.load_deflection; }),
+       "Holds " + largest.text() +
+           (largest.everywhere() ? "."
+                                 : ". Elsewhere the largest transmission error is deflection of teeth and bearings."),
+       largest.everywhere()});
 }
 
 /// How far values over the loads stay from their straight line, relative to their range.
 double off_line(const std::vector<double>& x, const std::vector<double>& y) {
-  const auto n = static_cast<double>(x.size());
-  double mx = 0, my = 0, xx = 0, xy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) mx += x[i] / n, my += y[i] / n;
-  for (std::size_t i = 0; i < x.size(); ++i) xx += (x[i] - mx) * (x[i] - mx), xy += (x[i] - mx) * (y[i] - my);
-  double worst = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) worst = std::max(worst, std::abs(y[i] - my - xy / xx * (x[i] - mx)));
-  const auto [low, high] = std::minmax_element(y.begin(), y.end());
-  return worst / (*high - *low);
+  const auto about_mean = [](const std::vector<double>& v) -> Eigen::ArrayXd {
+    const Eigen::Map<const Eigen::ArrayXd> values(v.data(), static_cast<Eigen::Index>(v.size()));
+    return values - values.mean();
+  };
+  const Eigen::ArrayXd dx = about_mean(x), dy = about_mean(y);
+  const double slope = (dx * dy).sum() / dx.square().sum();
+  return (dy - slope * dx).abs().maxCoeff() / (dy.maxCoeff() - dy.minCoeff());
 }
 
 /// Figures 5 and 6: the rows of a grid over torque at its lowest speed.
@@ -107,52 +106,41 @@ void add_loads(std::vector<Conclusion>& list, const PairRunResult& result) {
   }
 }
 
-std::string rpm_text(const SpeedRow& row) { return to_text(row.pinion_speed / units::rpm, 5) + " r/min"; }
-
-/// From which multiple of the mesh frequency on the computed transmission error is smaller than its estimated error.
-struct KnownOrders {
-  double error = 0;  ///< m
-  int first_unknown = 1;
-};
-KnownOrders known_orders(const MeshResult& mesh) {
+/// From which multiple of the mesh frequency on the computed transmission error is smaller than `error`, m.
+int first_unknown_order(const MeshResult& mesh, double error) {
   Eigen::VectorXd lte(mesh.table.phases());
   for (int i = 0; i < mesh.table.phases(); ++i) lte[i] = mesh.table.at(0, i, static_cast<int>(mesh.nominal)).lte;
   const auto spectrum = dynamics::spectrum(lte, 1);
-  KnownOrders known{.error = mesh.lte_mean().value * mesh.lte_mean().error_relative};
-  while (known.first_unknown < spectrum.amplitude.size() && spectrum.amplitude[known.first_unknown] > known.error)
-    ++known.first_unknown;
-  return known;
+  int order = 1;
+  while (order < spectrum.amplitude.size() && spectrum.amplitude[order] > error) ++order;
+  return order;
 }
 
 Conclusion excitation(const PairRunResult& result, const SpeedRow& low, const SpeedRow& top, const SpeedRow& high) {
   const auto errors_more = [](const SpeedRow& row) {
     return row.errors_alone.acceleration > row.stiffness_alone.acceleration;
   };
-  const bool stiffness_low = !errors_more(low), errors_high = errors_more(high);
-  Conclusion c{.statement = "Stiffness excites most at low speed, the errors at high speed", .numbers = {}, .why = {}};
+  Conclusion c{
+      .statement = "Stiffness excites most at low speed, the errors at high speed",
+      .numbers = "acceleration, errors alone and stiffness alone: ",
+      .why = fmt::format("More is excited at the lowest speed by the {}, at the highest by the {}. ",
+                         errors_more(low) ? "errors" : "stiffness", errors_more(high) ? "errors" : "stiffness"),
+      .agrees = !errors_more(low) && errors_more(high) && errors_more(top)};
   for (const auto* row : {&low, &top, &high})
-    c.numbers += fmt::format(
-        "{}{} and {} m/s² at {}", c.numbers.empty() ? "acceleration, errors alone and stiffness alone: " : ", ",
-        to_text(row->errors_alone.acceleration, 3), to_text(row->stiffness_alone.acceleration, 3), rpm_text(*row));
-  c.why = fmt::format("At the lowest speed the {} excite{} more, at the highest the {}. ",
-                      stiffness_low ? "stiffness" : "errors", stiffness_low ? "s" : "",
-                      errors_high ? "errors" : "stiffness");
-  c.agrees = stiffness_low && errors_high && errors_more(top);
-  if (std::holds_alternative<dynamics::HarmonicStiffness>(result.pair->mesh)) {
-    c.why +=
-        "A harmonic stiffness and the error both excite at mesh frequency: their ratio follows from the amplitude of "
-        "the error against the ripple of the deflection, hardly from the speed.";
-  } else {
-    c.why += "At low speed the higher harmonics of the stiffness weigh most.";
-  }
-  if (!result.mesh.computed || !stiffness_low) return c;
+    c.numbers +=
+        fmt::format("{}{} and {} m/s² at {}", row == &low ? "" : ", ", to_text(row->errors_alone.acceleration, 3),
+                    to_text(row->stiffness_alone.acceleration, 3), speed_text(row->pinion_speed));
+  c.why += std::holds_alternative<dynamics::HarmonicStiffness>(result.pair->mesh)
+               ? "A harmonic stiffness and the error both excite at mesh frequency: their ratio hardly depends on the "
+                 "speed."
+               : "At low speed the higher harmonics of the stiffness weigh most.";
+  if (!result.mesh.computed || errors_more(low)) return c;
   // What excites at low speed may be the roughness of the table.
-  const auto known = known_orders(*result.mesh.computed);
-  c.why += fmt::format(
-      " From order {} on those of the table are smaller than its estimated error of ±{} µm: whether they are real is "
-      "not "
-      "known.",
-      known.first_unknown, um_text(known.error, 2));
+  const auto lte = result.mesh.computed->lte_mean();
+  const double error = lte.value * lte.error_relative;
+  c.why +=
+      fmt::format(" From order {} on they are smaller than the estimated error of the table, ±{} µm, and not known.",
+                  first_unknown_order(*result.mesh.computed, error), um_text(error, 2));
   if (c.agrees == true) c.agrees = std::nullopt;
   return c;
 }
@@ -181,8 +169,8 @@ void add_speeds(std::vector<Conclusion>& list, const PairRunResult& result) {
     if (rises && change < 0.05) agrees = true;
     list.push_back(
         {words,
-         fmt::format("{} at {}, {} at {}, {} {} at most", to_text(scale * a, 4), rpm_text(low), to_text(scale * b, 4),
-                     rpm_text(middle), to_text(scale * peak, 4), unit),
+         fmt::format("{} at {}, {} at {}, {} {} at most", to_text(scale * a, 4), speed_text(low.pinion_speed),
+                     to_text(scale * b, 4), speed_text(middle.pinion_speed), to_text(scale * peak, 4), unit),
          fmt::format("Between the lowest and the middle speed it changes by {:.0f} % of its largest value; from the "
                      "middle speed to the peak it {}. Below 5 % a linear axis shows it as steady, above 20 % it "
                      "does not.",
@@ -211,24 +199,20 @@ Blocks pair_verdict(const PairRunResult& result) {
     blocks += paragraph(fmt::format(
         "Largest mesh force {} kN{}, largest acceleration of the teeth {} m/s², transmission error {} µm peak to peak "
         "about a mean of {} µm.{}",
-        measured(force.value / 1e3, force.error / 1e3),
-        std::isfinite(f.dynamic_factor.value)
-            ? fmt::format(" (dynamic factor {})", measured(f.dynamic_factor.value, f.dynamic_factor.error))
-            : "",
-        measured(f.acceleration.tooth.value, f.acceleration.tooth.error),
-        measured(1e6 * te.peak_to_peak.value, 1e6 * te.peak_to_peak.error), um_text(te.mean),
+        measured(force, 1e-3),
+        std::isfinite(f.dynamic_factor.value) ? fmt::format(" (dynamic factor {})", measured(f.dynamic_factor, 1)) : "",
+        measured(f.acceleration.tooth, 1), measured(te.peak_to_peak, 1e6), um_text(te.mean),
         f.contact_loss > 0 ? fmt::format(" The teeth lose contact for {:.2g} % of the time.", 100 * f.contact_loss)
                            : std::string(" The teeth never lose contact.")));
     if (!f.steady)
-      blocks += paragraph("No periodic steady state was reached; the figures hold for the evaluated window only.");
+      blocks += paragraph("No periodic steady state was reached; the results hold for the evaluated window only.");
   }
   const auto rows = good_rows(result);
   if (!rows.empty()) {
-    const auto range = holds_up_to(rows, errors_rule_range), largest = holds_up_to(rows, errors_rule_largest);
     blocks += paragraph(phrase(
         "Manufacturing error is the main cause of the peak-to-peak transmission error {}, and of its largest value {} "
         "({} torques from {} to {}).",
-        bold(where_text(range, rows)), bold(where_text(largest, rows)), rows.size(),
+        bold(Rule{errors_rule_range, rows}.text()), bold(Rule{errors_rule_largest, rows}.text()), rows.size(),
         torque_text(rows.front()->pinion_torque), torque_text(rows.back()->pinion_torque)));
   }
   const auto all = conclusions(result);

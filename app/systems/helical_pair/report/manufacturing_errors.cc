@@ -15,11 +15,9 @@ std::string micrometre_text(double x) { return std::isfinite(x) ? fmt::format("{
 Pictures histogram_picture(const PairRunResult& result) {
   const auto& h = result.errors.law->histogram;
   const auto& reading = result.errors.law->amplitude();
-  Plot plot{.title = "Amplitude of the pinion's error, √(X₁² + X₂²)",
-            .x_label = "µm",
-            .y_label = fmt::format("draws of {} per bin", result.errors.problem->samples),
-            .width = 900,
-            .height = 340};
+  Plot plot = wide_plot("Amplitude of the pinion's error, √(X₁² + X₂²)", "µm",
+                        fmt::format("draws of {} per bin", result.errors.problem->samples), 340);
+  plot.legend = false;
   // Steps with the area below them shaded: a histogram.
   Series drawn{.label = "drawn", .colour = 0}, law{.label = "exact law", .colour = 1};
   double top = 0;
@@ -37,7 +35,7 @@ Pictures histogram_picture(const PairRunResult& result) {
   }
   const double q = 1e6 * reading.sample.value;
   plot.series = {drawn, law, {.label = "quantile", .x = {q, q}, .y = {0, 0.75 * top}, .colour = 5, .dashed = true}};
-  // Beside the line, where the histogram is low; a note ends at its place.
+  // Beside the line, where the histogram is low; a note ends at its position.
   plot.notes.push_back(
       {q + 0.27 * drawn.x.back(), 0.72 * top,
        fmt::format("{:.0f} % of the draws lie below {:.2f} µm", 100 * result.errors.problem->probability, q)});

@@ -12,8 +12,6 @@ namespace annulus::app {
 /// report.html of a helical pair.
 [[nodiscard]] Page pair_report(const PairRunResult& result);
 
-// pair_geometry.cc
-[[nodiscard]] Section drawings_section(const PairRunResult& result);  ///< the gears to scale
 // conclusions.cc
 [[nodiscard]] Blocks pair_verdict(const PairRunResult& result);  ///< what came out, in plain words
 /// The paper's conclusions compared with the numbers.
@@ -25,15 +23,14 @@ namespace annulus::app {
 [[nodiscard]] std::vector<const SpeedRow*> good_speeds(const PairRunResult& result);
 [[nodiscard]] std::string um_text(double x, int digits = 4);  ///< m as a number of micrometres
 [[nodiscard]] std::string torque_text(double x);              ///< N m as "20 kN m"
+[[nodiscard]] std::string speed_text(double x);               ///< rad/s as "500 r/min"
 // manufacturing_errors.cc
 [[nodiscard]] Section pair_errors_section(const PairRunResult& result);  ///< random errors and their quantiles
 // pair_stiffness.cc
-[[nodiscard]] Section pair_stiffness_section(const PairRunResult& result);
-// torque_speed_maps.cc, pair_motion.cc
-[[nodiscard]] Section pair_figures_section(const PairRunResult& result);
-[[nodiscard]] Section pair_maps_section(const PairRunResult& result);    ///< results over torque and speed
+/// `meshes`: the computed one, if any.
+[[nodiscard]] Section pair_stiffness_section(const PairRunResult& result, const NamedMeshes& meshes);
+// pair_motion.cc
 [[nodiscard]] Section pair_motion_section(const PairRunResult& result);  ///< time history and spectrum
 [[nodiscard]] Section pair_modes_section(const PairRunResult& result);
-[[nodiscard]] Section pair_quality_section(const PairRunResult& result);
 
 }  // namespace annulus::app

@@ -7,17 +7,8 @@ namespace annulus::app {
 
 namespace {
 
-std::string name_of(RimCoupling model) {
-  switch (model) {
-    case RimCoupling::statical:
-      return "static";
-    case RimCoupling::elastic:
-      return "elastic modes";
-    case RimCoupling::automatic:
-    case RimCoupling::none:
-      break;
-  }
-  return "none";
+const char* coupling_name(RimCoupling model) {
+  return model == RimCoupling::statical ? "static" : model == RimCoupling::elastic ? "elastic modes" : "none";
 }
 
 }  // namespace
@@ -26,13 +17,9 @@ Section coupling_section(const RunResult& result) {
   PageTable size, effect;
   size.head = {"ring", "another mesh's load moves a mesh by at most, of what its own does",
                "first elastic mode of the ring, Hz (waves)", "coupling applied", "why"};
-  effect.head = {"ring",
-                 "coupling",
-                 "load sharing, averaged",
-                 "instantaneous",
-                 "quasi-static",
-                 "dynamic factor, sun meshes",
-                 "dynamic factor, ring meshes"};
+  for (const auto* head : {"ring", "coupling", "load sharing, averaged", "instantaneous", "quasi-static",
+                           "dynamic factor, sun meshes", "dynamic factor, ring meshes"})
+    effect.head.emplace_back(head);
   int cycles = 0;
   std::vector<std::string> negligible;
   for (const auto& ring : result.rings) {
@@ -45,14 +32,15 @@ Section coupling_section(const RunResult& result) {
                                      100 * solved.compliance_error / solved.mesh_compliance),
                          modes.empty() ? fmt::format("none below {:.0f}", solved.highest_frequency)
                                        : fmt::format("{:.0f} ({})", modes.front().frequency, modes.front().waves),
-                         name_of(choice.taken), choice.reason});
+                         coupling_name(choice.taken), choice.reason});
     if (is_negligible(result.scene, solved)) negligible.push_back(ring.name);
     if (!ring.coupling_effect) continue;
     cycles = ring.coupling_effect->cycles;
-    for (const auto& row : ring.coupling_effect->rows)
-      effect.rows.push_back({ring.name, name_of(row.model), fmt::format("{:.4f}", row.averaged),
-                             fmt::format("{:.4f}", row.instantaneous), fmt::format("{:.4f}", row.quasi_static),
-                             fmt::format("{:.4f}", row.sun_factor), fmt::format("{:.4f}", row.ring_factor)});
+    for (const auto& row : ring.coupling_effect->rows) {
+      auto& cells = effect.rows.emplace_back(std::vector<Text>{ring.name, coupling_name(row.model)});
+      for (const double x : {row.averaged, row.instantaneous, row.quasi_static, row.sun_factor, row.ring_factor})
+        cells.emplace_back(fmt::format("{:.4f}", x));
+    }
   }
   Section section{"coupling", "Coupling through the ring", {}, "Coupling of the planets through the ring"};
   if (size.rows.empty()) return section;
@@ -65,7 +53,7 @@ Section coupling_section(const RunResult& result) {
     section.blocks +=
         paragraph(fmt::format("What it changes. All rows were integrated in time with the same settings and evaluated "
                               "over {} mesh cycles, which "
-                              "need not be a whole period: they compare with each other, not with the key figures.",
+                              "need not be a whole period: they compare with each other, not with the key results.",
                               cycles)) +
         effect;
   if (!negligible.empty())

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "app/plan/mesh_model.h"
 #include "app/report/drawings/axial_section.h"
@@ -17,10 +18,10 @@ namespace {
 
 /// Whether both draw the same teeth in mesh.
 bool same_teeth(const geometry::GearPair& a, const geometry::GearPair& b) {
-  const auto& p = a.wheel();
-  const auto& q = b.wheel();
-  return p.teeth() == q.teeth() && p.tip_radius() == q.tip_radius() && p.root_radius() == q.root_radius() &&
-         p.form_radius() == q.form_radius() && p.parameters().profile_shift == q.parameters().profile_shift;
+  const auto drawn_by = [](const geometry::Gear& g) {
+    return std::tuple(g.teeth(), g.tip_radius(), g.root_radius(), g.form_radius(), g.parameters().profile_shift);
+  };
+  return drawn_by(a.wheel()) == drawn_by(b.wheel());
 }
 
 }  // namespace
@@ -54,14 +55,12 @@ Section drawings_section(const RunResult& result) {
   const auto& scene = result.scene;
   const auto& rings = result.geometry.rings;
   Blocks blocks = paragraph(
-      "All lengths in millimetres. Sun, planets and ring stand as they mesh: the sun turns counter-clockwise and "
-      "touches "
-      "planet 1 (at the top) in the pitch point." +
+      "All lengths in millimetres. The sun turns counter-clockwise and touches planet 1 (at the top) in the pitch "
+      "point." +
       helical_note(scene.stage.helix_angle));
-  PageTable table = diameter_table();
-  add_gear(table, "sun", rings.front().set.sun(), bore_radius(scene.sun));
-  add_gear(table, "planet", rings.front().set.planet(), bore_radius(scene.planet));
-  for (const auto& ring : rings) add_gear(table, "ring, " + ring.name, ring.set.ring(), ring.outside_radius);
+  std::vector<NamedGear> gears = {{"sun", rings.front().set.sun(), bore_radius(scene.sun)},
+                                  {"planet", rings.front().set.planet(), bore_radius(scene.planet)}};
+  for (const auto& ring : rings) gears.push_back({"ring, " + ring.name, ring.set.ring(), ring.outside_radius});
   for (std::size_t i = 0; i < rings.size(); ++i) {
     const auto& ring = rings[i];
     const auto& input = scene.rings[i];
@@ -94,7 +93,7 @@ Section drawings_section(const RunResult& result) {
                              ring.set.ring_mesh()));
     blocks += Pictures{pictures, {}, "The " + teeth_words("planet", i == 0 ? "sun or ring" : "ring")};
   }
-  return geometry_section(blocks + table);
+  return geometry_section(blocks + diameter_table(gears));
 }
 
 }  // namespace annulus::app

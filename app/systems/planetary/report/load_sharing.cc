@@ -10,41 +10,45 @@ namespace annulus::app {
 
 namespace {
 
-std::string branch(const char* mesh, int planet) { return fmt::format("{}{}", mesh, planet + 1); }
-
-PlanetLines sharing_lines(const char* mesh) {
-  return {.table = [](const StageResponse& r) -> const Csv& { return r.load_sharing; },
-          .stem = mesh,
-          .line = "_averaged",
-          .low = "",
-          .high = "",
-          .y_label = "N F / ΣF",
-          .level = 1};
-}
-PlanetLines factor_lines(const char* mesh) {
-  return {.table = [](const StageResponse& r) -> const Csv& { return r.dynamic_factor; },
-          .stem = mesh,
-          .line = "_max",
-          .low = "_min",
-          .high = "_max",
-          .y_label = "F / mean mesh force",
-          .level = 1};
-}
-/// The first mesh cycles at full resolution.
-PlanetLines waveform_lines(const char* mesh, const Csv StageResponse::*table, const char* y_label) {
-  return {.table = [table](const StageResponse& r) -> const Csv& { return r.*table; },
-          .stem = mesh,
-          .line = "",
-          .low = "",
-          .high = "",
-          .y_label = y_label,
-          .cycles = 6,
-          .level = 1};
+Blocks planets_over_time(const RunResult& result) {
+  struct Shown {
+    const char *mesh, *words;
+  };
+  const std::string cut =
+      fmt::format(" Windows longer than {:.0f} mesh cycles are cut here; the files hold them whole.", shown_cycles);
+  const Text first_cycles = "The first six mesh cycles of the window, at full resolution.";
+  constexpr const char *share = "N F / ΣF", *factor = "F / mean mesh force";
+  Blocks blocks;
+  for (const auto& [mesh, words] : {Shown{sun_planet, "sun meshes"}, {ring_planet, "ring meshes"}})
+    blocks += heading(std::string("Load sharing of the ") + words) +
+              planet_lines(result, {&StageResponse::load_sharing, mesh, "_averaged", "", "", share},
+                           "Each planet's part of the power, forces averaged over a mesh cycle. The load-sharing "
+                           "factor is the highest point." +
+                               cut) +
+              planet_lines(result, {&StageResponse::sharing_waveform, mesh, "", "", "", share, 6}, first_cycles);
+  for (const auto& [mesh, words] : {Shown{sun_planet, "sun meshes"}, {ring_planet, "ring meshes"}})
+    blocks += heading(std::string("Dynamic factor of the ") + words) +
+              planet_lines(result, {&StageResponse::dynamic_factor, mesh, "_max", "_min", "_max", factor},
+                           "Line: largest force of each mesh cycle; band: down to the smallest." + cut) +
+              planet_lines(result, {&StageResponse::waveform, mesh, "", "", "", factor, 6}, first_cycles);
+  return blocks;
 }
 
-dynamics::Spectrum spectrum_of(const RingResult& ring, const std::string& branch) {
-  const auto order = column_values(ring.response->spectrum, "mesh_order");
-  const auto amplitude = column_values(ring.response->spectrum, branch + "_N");
+PageTable factors_table(const RunResult& result) {
+  std::vector<TableRow<StageResponse>> rows;
+  for (const auto& [kind, words] : {std::pair{&dynamics::DynamicResponse::sun_planet, "sun mesh"},
+                                    {&dynamics::DynamicResponse::ring_planet, "ring mesh"}})
+    for (int n = 0; n < result.scene.stage.planets; ++n)
+      rows.push_back(
+          {fmt::format("dynamic factor, {} of planet {}", words, n + 1), [kind = kind, n](const StageResponse& r) {
+             return measured((r.figures.*kind).branches[static_cast<std::size_t>(n)].dynamic_factor_max, 1);
+           }});
+  return side_by_side(responses_of(result), rows);
+}
+
+dynamics::Spectrum spectrum_of(const StageResponse& response, const std::string& branch) {
+  const auto order = column_values(response.spectrum, "mesh_order");
+  const auto amplitude = column_values(response.spectrum, branch + "_N");
   const auto size = static_cast<Eigen::Index>(order.size());
   return {Eigen::Map<const Eigen::VectorXd>(order.data(), size),
           Eigen::Map<const Eigen::VectorXd>(amplitude.data(), size)};
@@ -64,10 +68,10 @@ Blocks spectra(const RunResult& result, const char* mesh) {
   PageTable table{.head = {"highest lines"}, .style = PageTable::Style::numbers};
   for (int i = 0; i < listed; ++i) table.rows.push_back({fmt::format("{}", i + 1)});
   double highest = 0;
-  for (const auto* ring : rings_with_response(result)) {
-    const auto spectrum = spectrum_of(*ring, branch(mesh, 0));
+  for (const auto& [name, response] : responses_of(result)) {
+    const auto spectrum = spectrum_of(*response, std::string(mesh) + "1");
     const auto lines = dynamics::highest_lines(spectrum, listed);
-    table.head.push_back(ring->name);
+    table.head.emplace_back(name);
     for (std::size_t i = 0; i < listed; ++i)
       table.rows[i].push_back(
           i < lines.size() ? phrase("{:.2f} kN {}", lines[i].amplitude / 1e3, muted("at " + order_text(lines[i])))
@@ -77,22 +81,17 @@ Blocks spectra(const RunResult& result, const char* mesh) {
         spectrum.amplitude.tail(spectrum.amplitude.size() - 1) / 1e3;  // without the mean
     const auto order = spectrum.order.tail(kilonewton.size());
     highest = std::max(highest, kilonewton.maxCoeff());
-    plots.push_back({.title = ring->name,
+    plots.push_back({.title = name,
                      .x_label = "order, multiples of the mesh frequency",
                      .y_label = "amplitude, kN",
+                     .x_range = Range{0, order[order.size() - 1]},
                      .series = {{.label = "planet 1",
                                  .x = {order.begin(), order.end()},
                                  .y = {kilonewton.begin(), kilonewton.end()},
-                                 .colour = 0,
                                  .style = Series::Style::bars}}});
   }
-  std::vector<Picture> pictures;
-  for (auto& plot : plots) {
-    plot.y_range = Range{0, 1.08 * highest};
-    plot.x_range = Range{0, plot.series.front().x.back()};
-    pictures.emplace_back(plot);
-  }
-  return Pictures{pictures,
+  for (auto& plot : plots) plot.y_range = Range{0, 1.08 * highest};
+  return Pictures{{plots.begin(), plots.end()},
                   {},
                   fmt::format("Force of planet 1 without its mean. Order 1 is the mesh frequency, {:.1f} Hz; lines "
                               "beside whole orders are sidebands of the errors.",
@@ -100,80 +99,35 @@ Blocks spectra(const RunResult& result, const char* mesh) {
          table;
 }
 
-std::string part_text(double part) { return std::isfinite(part) ? fmt::format("{:.2g}", part) : "not known"; }
-
-struct NamedFigure {
-  const char* name;
-  const Figure& figure;
-  const ErrorParts& errors;
-};
-
-std::vector<NamedFigure> explained_figures(const StageResponse& response) {
-  const auto& sharing = response.figures.sun_planet.load_sharing;
-  const auto& e = response.errors.sun_planet;
-  std::vector<NamedFigure> list = {{"load sharing, averaged over a mesh cycle", sharing.averaged, e.averaged},
-                                   {"load sharing, instantaneous", sharing.instantaneous, e.instantaneous},
-                                   {"load sharing, quasi-static", sharing.quasi_static, e.quasi_static}};
-  const auto& branches = response.figures.sun_planet.branches;
-  const auto largest = std::max_element(branches.begin(), branches.end(), [](const auto& a, const auto& b) {
-    return a.dynamic_factor_max.value < b.dynamic_factor_max.value;
-  });
-  if (largest != branches.end())
-    list.push_back({"largest dynamic factor", largest->dynamic_factor_max,
-                    e.dynamic_factor_max[static_cast<std::size_t>(largest - branches.begin())]});
-  return list;
-}
-
-Blocks error_bars(const RunResult& result) {
-  PageTable table{.head = {"sun meshes", "value ± error", "discretisation", "local contact", "condensation",
-                           "table interpolation", "time integration", "model choice"},
-                  .style = PageTable::Style::numbers};
-  for (const auto* ring : rings_with_response(result)) {
-    table.rows.push_back({ring->name});
-    for (const auto& [name, f, e] : explained_figures(*ring->response))
-      table.rows.push_back({name, measured(f.value, f.error), part_text(e.discretisation), part_text(e.contact),
-                            part_text(e.condensation), part_text(e.interpolation), part_text(e.integration),
-                            part_text(e.model)});
-  }
-  return heading("What the error bars contain", "error-bars") + table +
-         paragraph(
-             "Discretisation, local contact, condensation and model choice: the larger change when all stiffnesses of "
-             "a mesh, or their ripple, are raised by their error estimate, divided as that estimate is; sun mesh plus "
-             "ring mesh. Table interpolation: half of the change with every second position of the tables. Time "
-             "integration: sampling, steady state and integrator. The error is their sum, and not known when a part "
-             "is not; stiffness given as a wave counts as exact.");
-}
-
 }  // namespace
 
-Section dynamics_section(const RunResult& result) {
-  Section section{"dynamics", "Load sharing and dynamic factors"};
-  if (rings_with_response(result).empty()) {
-    section.blocks = paragraph("Not asked for.");
-    return section;
+Pictures planet_lines(const RunResult& result, const PlanetLines& shown, const Text& caption) {
+  const int planets = result.scene.stage.planets;
+  std::vector<Plot> plots;
+  for (const auto& [name, response] : responses_of(result)) {
+    std::vector<Line> lines;
+    for (int n = 0; n < planets; ++n) {
+      const auto stem = fmt::format("{}{}", shown.mesh, n + 1);
+      lines.push_back({.column = stem + shown.line,
+                       .label = fmt::format("planet {}", n + 1),
+                       .colour = static_cast<std::size_t>(n),
+                       .low = shown.low.empty() ? "" : stem + shown.low,
+                       .high = shown.high.empty() ? "" : stem + shown.high});
+    }
+    Plot frame{.title = name, .x_label = "mesh cycle of the evaluated window", .y_label = shown.y_label};
+    if (shown.level) frame.levels.emplace_back(*shown.level, "");
+    plots.push_back(line_plot(frame, shown.table(*response),
+                              {.x = "mesh_cycle", .y_scale = shown.scale, .rows_to = shown.cycles}, lines));
   }
-  const char* first_cycles = "The first six mesh cycles of the window, at full resolution.";
-  const std::string cut =
-      fmt::format(" Windows longer than {:.0f} mesh cycles are cut here; the files hold them whole.", shown_cycles);
-  auto& blocks = section.blocks;
-  const auto add_meshes = [&](const char* mesh, const std::string& words, const std::string& what,
-                              const PlanetLines& lines, const Csv StageResponse::*waveform,
-                              const std::string& caption) {
-    blocks += heading(what + words) + planet_lines(result, lines, caption) +
-              planet_lines(result, waveform_lines(mesh, waveform, lines.y_label), first_cycles);
-  };
-  const std::string share = "Load sharing of the ", factor = "Dynamic factor of the ";
-  add_meshes(sun_planet, "sun meshes", share, sharing_lines(sun_planet), &StageResponse::sharing_waveform,
-             "Each planet's part of the power, forces averaged over a mesh cycle. The coefficient is the highest "
-             "point." +
-                 cut);
-  add_meshes(ring_planet, "ring meshes", share, sharing_lines(ring_planet), &StageResponse::sharing_waveform,
-             "The same for the ring meshes.");
-  add_meshes(sun_planet, "sun meshes", factor, factor_lines(sun_planet), &StageResponse::waveform,
-             "Line: largest force of each mesh cycle; band: down to the smallest." + cut);
-  add_meshes(ring_planet, "ring meshes", factor, factor_lines(ring_planet), &StageResponse::waveform, "As above.");
-  blocks += error_bars(result) + heading("Spectrum of the mesh forces") + paragraph("Sun mesh") +
-            spectra(result, sun_planet) + paragraph("Ring mesh") + spectra(result, ring_planet);
+  return {on_one_scale(plots), planet_legend(planets), caption};
+}
+
+Section dynamics_section(const RunResult& result) {
+  Section section{"dynamics", "Load sharing and dynamic factors", paragraph("Not asked for.")};
+  if (responses_of(result).empty()) return section;
+  section.blocks = planets_over_time(result) + heading("Dynamic factor of every planet") + factors_table(result) +
+                   heading("Spectrum of the mesh forces") + paragraph("Sun mesh") + spectra(result, sun_planet) +
+                   paragraph("Ring mesh") + spectra(result, ring_planet);
   return section;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "app/report/drawings/mode.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
@@ -16,19 +15,6 @@ constexpr double felt = 0.5;  // participation from which a crossing counts as e
 
 std::size_t kind_colour(const std::string& kind) {
   return kind == "rotational" ? 0 : kind == "translational" ? 1 : kind == "planet" ? 2 : 3;
-}
-
-std::string group_words(const std::string& group) {
-  static const std::map<std::string, std::string> words = {{"sun_planet", "sun meshes"},
-                                                           {"ring_planet", "ring meshes"},
-                                                           {"planet_bearing", "planet bearings"},
-                                                           {"ring_body", "the ring between the meshes"},
-                                                           {"ring_mode", "elastic modes of the ring"}};
-  const auto found = words.find(group);
-  if (found != words.end()) return found->second;
-  std::string text = group;
-  std::replace(text.begin(), text.end(), '_', ' ');
-  return text;
 }
 
 /// Modes of one kind and one frequency.
@@ -53,10 +39,9 @@ std::vector<Multiple> multiples(const StageModes& modes, const std::string& kind
 
 std::vector<std::string> kinds_of(const RunResult& result) {
   std::vector<std::string> kinds;
-  for (const auto* ring : rings_with_response(result)) {
-    for (const auto& mode : ring->response->modes.list) {
+  for (const auto& [name, response] : responses_of(result)) {
+    for (const auto& mode : response->modes.list)
       if (std::find(kinds.begin(), kinds.end(), mode.kind) == kinds.end()) kinds.push_back(mode.kind);
-    }
   }
   return kinds;
 }
@@ -66,42 +51,38 @@ Text mode_cell(const StageModes& modes, const Multiple& m) {
   if (m.mode->frequency_error > 0) text += " ± " + to_text(m.mode->frequency_error, 2);
   if (m.count > 1) text += fmt::format(" ×{}", m.count);
   if (m.mode->frequency == 0) return text + " " + muted("free rotation");
-  const auto top = std::max_element(m.mode->strain.begin(), m.mode->strain.end());
-  const auto group = static_cast<std::size_t>(top - m.mode->strain.begin());
+  const Eigen::Map<const Eigen::VectorXd> strain(m.mode->strain.data(),
+                                                 static_cast<Eigen::Index>(m.mode->strain.size()));
   return text + " " +
-         muted(fmt::format("{} {:.0f} %, ζ {:.1f} %", group_words(modes.groups[group]), 100 * *top,
-                           100 * m.mode->damping_ratio));
+         muted(fmt::format("{}, ζ {:.1f} %", strain_words(modes.groups, strain, 1), 100 * m.mode->damping_ratio));
 }
 
 PageTable modes_table(const RunResult& result) {
+  const auto rings = responses_of(result);
   PageTable table{.head = {"kind"}};
-  for (const auto* ring : rings_with_response(result)) table.head.push_back(ring->name + ", Hz");
+  for (const auto& [name, response] : rings) table.head.emplace_back(name + ", Hz");
   for (const auto& kind : kinds_of(result)) {
-    std::vector<std::vector<Multiple>> columns;
-    std::size_t rows = 0;
-    for (const auto* ring : rings_with_response(result)) {
-      columns.push_back(multiples(ring->response->modes, kind));
-      rows = std::max(rows, columns.back().size());
-    }
-    for (std::size_t r = 0; r < rows; ++r) {
-      std::vector<Text> row = {r == 0 ? kind : ""};
-      for (std::size_t c = 0; c < columns.size(); ++c)
-        row.push_back(r < columns[c].size() ? mode_cell(rings_with_response(result)[c]->response->modes, columns[c][r])
-                                            : Text());
-      table.rows.push_back(std::move(row));
+    const auto first = table.rows.size();
+    for (std::size_t c = 0; c < rings.size(); ++c) {
+      const auto& modes = rings[c].second->modes;
+      auto row = first;
+      for (const auto& m : multiples(modes, kind)) {
+        if (row == table.rows.size())
+          table.rows.emplace_back(rings.size() + 1).front() = row == first ? kind : std::string();
+        table.rows[row++][c + 1] = mode_cell(modes, m);
+      }
     }
   }
   return table;
 }
 
-Plot campbell_plot(const RingResult& ring, double sun_speed_rpm) {
-  const auto& modes = ring.response->modes;
+Plot campbell_plot(const std::string& name, const StageModes& modes, double sun_speed_rpm) {
   const auto speed = column_values(modes.campbell, "sun_speed_rpm");
   const auto mesh = column_values(modes.campbell, "mesh_frequency_Hz");
   const auto orders = column_values(modes.critical_speeds, "mesh_order");
   const int highest = orders.empty() ? 1 : static_cast<int>(*std::max_element(orders.begin(), orders.end()));
   const double top = 1.08 * highest * mesh.back() / 1e3;
-  Plot plot{.title = ring.name,
+  Plot plot{.title = name,
             .x_label = "sun speed, r/min",
             .y_label = "frequency, kHz",
             .x_range = Range{0, speed.back()},
@@ -115,8 +96,7 @@ Plot campbell_plot(const RingResult& ring, double sun_speed_rpm) {
     plot.notes.push_back({0.985 * speed.back(), end, fmt::format("{}", h)});
   }
   for (std::size_t i = 0; i < modes.list.size(); ++i) {
-    auto frequency = column_values(modes.campbell, fmt::format("mode{}_Hz", i + 1));
-    for (auto& f : frequency) f /= 1e3;
+    const auto frequency = column_values(modes.campbell, fmt::format("mode{}_Hz", i + 1), 1e99, 1e-3);
     if (*std::min_element(frequency.begin(), frequency.end()) > top) continue;
     plot.series.push_back(
         {.label = modes.list[i].kind, .x = speed, .y = frequency, .colour = kind_colour(modes.list[i].kind)});
@@ -162,17 +142,15 @@ Blocks campbell_part(const RunResult& result) {
   const double speed = result.geometry.operating_point.sun_speed / units::rpm;
   std::vector<Picture> pictures;
   PageTable table{.head = {"ring", "critical speeds nearest to the operating speed"}};
-  for (const auto* ring : rings_with_response(result)) {
-    if (ring->response->modes.campbell.rows.empty()) continue;
-    pictures.emplace_back(campbell_plot(*ring, speed));
-    table.rows.push_back({ring->name, critical_cell(ring->response->modes, speed)});
+  for (const auto& [name, response] : responses_of(result)) {
+    if (response->modes.campbell.rows.empty()) continue;
+    pictures.emplace_back(campbell_plot(name, response->modes, speed));
+    table.rows.push_back({name, critical_cell(response->modes, speed)});
   }
   if (pictures.empty()) return {};
   Legend legend;
   for (const auto& kind : kinds_of(result)) legend.emplace_back(kind, kind_colour(kind));
-  legend.emplace_back("operating speed", 4);
-  legend.emplace_back("mesh orders 1, 2, ...", 6);
-  legend.emplace_back("critical speeds", 7);
+  legend.insert(legend.end(), {{"operating speed", 4}, {"mesh orders 1, 2, ...", 6}, {"critical speeds", 7}});
   return heading("Campbell diagram") +
          Pictures{pictures, legend,
                   "Natural frequencies over speed, seen from the carrier, with gyroscopic and centripetal terms and no "
@@ -181,15 +159,12 @@ Blocks campbell_part(const RunResult& result) {
          table;
 }
 
-ModeDrawing drawing(const RingResult& ring, const geometry::PlanetarySet& set, const Multiple& m) {
-  const auto& csv = ring.response->modes.shapes;
-  const auto& row = csv.rows[m.index];
+ModeDrawing drawing(const StageModes& modes, const geometry::PlanetarySet& set, const Multiple& m) {
+  const auto& dofs = modes.shapes.columns;
+  const auto find = [&](const std::string& dof) { return std::find(dofs.begin(), dofs.end(), dof); };
+  const auto exists = [&](const std::string& dof) { return find(dof) != dofs.end(); };
   const auto value = [&](const std::string& dof) {
-    const auto found = std::find(csv.columns.begin(), csv.columns.end(), dof);
-    return found == csv.columns.end() ? 0.0 : row[static_cast<std::size_t>(found - csv.columns.begin())];
-  };
-  const auto exists = [&](const std::string& dof) {
-    return std::find(csv.columns.begin(), csv.columns.end(), dof) != csv.columns.end();
+    return exists(dof) ? modes.shapes.rows[m.index][static_cast<std::size_t>(find(dof) - dofs.begin())] : 0.0;
   };
   const auto motion = [&](const std::string& body) {
     return ModeDrawing::Motion{value(body + "_x"), value(body + "_y"), value(body + "_u")};
@@ -216,14 +191,14 @@ ModeDrawing drawing(const RingResult& ring, const geometry::PlanetarySet& set, c
 }
 
 Blocks shapes_part(const RunResult& result) {
-  const RingResult& ring = *rings_with_response(result).front();
+  const auto [name, response] = responses_of(result).front();  // a copy: the list ends here
   const auto& set = result.geometry.rings.front().set;
   std::vector<Picture> pictures;
   for (const auto& kind : kinds_of(result)) {
     int drawn = 0;
-    for (const auto& m : multiples(ring.response->modes, kind)) {
+    for (const auto& m : multiples(response->modes, kind)) {
       if (m.mode->frequency == 0 || drawn == 2) continue;
-      pictures.emplace_back(Drawing{to_svg(drawing(ring, set, m))});
+      pictures.emplace_back(Drawing{to_svg(drawing(response->modes, set, m))});
       ++drawn;
     }
   }
@@ -233,7 +208,7 @@ Blocks shapes_part(const RunResult& result) {
                   {{"sun", 0}, {"planets", 1}, {"ring", 2}, {"carrier", 6}},
                   fmt::format("The two lowest of each kind, ring '{}'; grey at rest, displacements not to scale. Point "
                               "at one and it swings. One of each pair or multiple.",
-                              ring.name),
+                              name),
                   Pictures::Layout::shapes};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "app/systems/planetary/report/stage_report_parts.h"
 
@@ -12,56 +13,29 @@ namespace {
 std::string section_words(const StageMotion& m) {
   if (m.section == "period_1") return "repeats with the errors";
   if (m.section == "period_n") return fmt::format("repeats after {} mesh cycles", m.section_period.value_or(0));
-  return m.section == "irregular" ? "does not repeat" : "window too short to tell";
-}
-
-double largest_loss(const dynamics::DynamicResponse& r) {
-  double loss = 0;
-  for (const auto* kind : {&r.sun_planet, &r.ring_planet}) {
-    for (const auto& b : kind->branches) loss = std::max(loss, b.contact_loss);
-  }
-  return loss;
+  return m.section == "irregular" ? "does not repeat" : "window too short to decide";
 }
 
 PageTable motion_table(const RunResult& result) {
-  PageTable table = labelled_rows(
-      {"largest force on a planet pin, kN", "mean tangential force, all pins, kN",
-       "largest force on the sun's support, kN", "largest force on the ring's support, kN",
-       "largest force on the carrier's support, kN", "mean torque on the housing through the ring, kN m",
-       "sun orbit, largest distance from its mean, µm", "contact lost, worst branch", "motion once per mesh cycle"});
-  for (const auto* ring : rings_with_response(result)) {
-    const auto& m = ring->response->motion;
-    double mean = 0;
-    for (const double f : m.pin_force_mean_tangential)
-      mean += f / static_cast<double>(m.pin_force_mean_tangential.size());
-    const double largest = *std::max_element(m.pin_force_max.begin(), m.pin_force_max.end());
-    const double values[] = {largest / 1e3,
-                             mean / 1e3,
-                             m.sun_support_max / 1e3,
-                             m.ring_support_max / 1e3,
-                             m.carrier_support_max / 1e3,
-                             m.ring_torque_mean / 1e3,
-                             m.sun_orbit_extent * 1e6};
-    std::vector<Text> cells;
-    for (const double value : values) cells.emplace_back(fmt::format("{:.2f}", value));
-    cells.emplace_back(fmt::format("{:.2f} %", 100 * largest_loss(ring->response->figures)));
-    cells.emplace_back(section_words(m));
-    add_column(table, ring->name, cells);
-  }
-  return table;
-}
-
-Pictures pin_forces(const RunResult& result) {
-  return planet_lines(result,
-                      {.table = [](const StageResponse& r) -> const Csv& { return r.motion.bearing_forces; },
-                       .stem = "planet",
-                       .line = "_resultant_max_N",
-                       .low = "_resultant_min_N",
-                       .high = "_resultant_max_N",
-                       .y_label = "force on the pin, kN",
-                       .scale = 1e-3},
-                      "Resultant of the radial and tangential force, the planet's centrifugal force included. Line: "
-                      "largest of each mesh cycle; band: down to the smallest.");
+  std::vector<TableRow<StageResponse>> rows;
+  const auto row = [&](const char* label, double scale, double (*value)(const StageMotion&)) {
+    rows.push_back(
+        {label, [=](const StageResponse& r) { return Text(fmt::format("{:.2f}", scale * value(r.motion))); }});
+  };
+  row("largest force on a planet pin, kN", 1e-3,
+      [](const StageMotion& m) { return *std::max_element(m.pin_force_max.begin(), m.pin_force_max.end()); });
+  row("mean tangential force, all pins, kN", 1e-3, [](const StageMotion& m) {
+    const auto& f = m.pin_force_mean_tangential;
+    return std::accumulate(f.begin(), f.end(), 0.0) / static_cast<double>(f.size());
+  });
+  row("largest force on the sun's support, kN", 1e-3, [](const StageMotion& m) { return m.sun_support_max; });
+  row("largest force on the ring's support, kN", 1e-3, [](const StageMotion& m) { return m.ring_support_max; });
+  row("largest force on the carrier's support, kN", 1e-3, [](const StageMotion& m) { return m.carrier_support_max; });
+  row("mean torque on the housing through the ring, kN m", 1e-3,
+      [](const StageMotion& m) { return m.ring_torque_mean; });
+  row("sun orbit, largest distance from its mean, µm", 1e6, [](const StageMotion& m) { return m.sun_orbit_extent; });
+  rows.push_back({"motion once per mesh cycle", [](const StageResponse& r) { return Text(section_words(r.motion)); }});
+  return side_by_side(responses_of(result), rows);
 }
 
 /// Equal ranges for both axes around the middle of the data, one for all plots.
@@ -86,27 +60,17 @@ void make_square(std::vector<Plot>& plots) {
   }
 }
 
-std::vector<double> micrometres(const Csv& csv, const std::string& column, double rows_to = 1e99) {
-  return column_values(csv, column, rows_to, 1e6);
-}
-
 Blocks orbits(const RunResult& result) {
   std::vector<Plot> plots;
-  for (const auto* ring : rings_with_response(result)) {
-    const auto& m = ring->response->motion;
+  for (const auto& [name, response] : responses_of(result)) {
+    const auto& m = response->motion;
     if (m.sun_orbit_largest == 0) continue;  // held
-    plots.push_back({.title = ring->name,
-                     .x_label = "x, µm",
-                     .y_label = "y, µm",
-                     .series = {{.label = "orbit",
-                                 .x = micrometres(m.sun_orbit, "x_m", shown_cycles),
-                                 .y = micrometres(m.sun_orbit, "y_m", shown_cycles),
-                                 .colour = 5},
-                                {.label = "once per mesh cycle",
-                                 .x = micrometres(m.poincare, "sun_x_m", shown_cycles),
-                                 .y = micrometres(m.poincare, "sun_y_m", shown_cycles),
-                                 .colour = 7,
-                                 .style = Series::Style::dots}}});
+    const Plot orbit = line_plot({.title = name, .x_label = "x, µm", .y_label = "y, µm"}, m.sun_orbit,
+                                 {.x = "x_m", .x_scale = 1e6, .y_scale = 1e6, .rows_to = shown_cycles},
+                                 {{.column = "y_m", .label = "orbit", .colour = 5}});
+    plots.push_back(
+        line_plot(orbit, m.poincare, {.x = "sun_x_m", .x_scale = 1e6, .y_scale = 1e6, .rows_to = shown_cycles},
+                  {{.column = "sun_y_m", .label = "once per mesh cycle", .colour = 7, .style = Series::Style::dots}}));
   }
   if (plots.empty()) return {};
   make_square(plots);
@@ -118,19 +82,18 @@ Blocks orbits(const RunResult& result) {
 
 Blocks poincare_sections(const RunResult& result) {
   std::vector<Plot> plots;
-  for (const auto* ring : rings_with_response(result)) {
-    const auto& csv = ring->response->motion.poincare;
-    Plot plot{
-        .title = ring->name, .x_label = "approach of the sun mesh, µm", .y_label = "approach of the ring mesh, µm"};
-    for (int n = 0; n < result.scene.stage.planets; ++n) {
-      plot.series.push_back({.label = fmt::format("planet {}", n + 1),
-                             .x = micrometres(csv, fmt::format("sun_planet{}_deflection_m", n + 1)),
-                             .y = micrometres(csv, fmt::format("ring_planet{}_deflection_m", n + 1)),
-                             .colour = static_cast<std::size_t>(n),
-                             .style = Series::Style::dots});
-    }
+  for (const auto& [name, response] : responses_of(result)) {
+    Plot plot{.title = name, .x_label = "approach of the sun mesh, µm", .y_label = "approach of the ring mesh, µm"};
     RangeFinder x;
-    for (const auto& s : plot.series) x.add(s.x);
+    for (int n = 1; n <= result.scene.stage.planets; ++n) {
+      plot = line_plot(std::move(plot), response->motion.poincare,
+                       {.x = fmt::format("sun_planet{}_deflection_m", n), .x_scale = 1e6, .y_scale = 1e6},
+                       {{.column = fmt::format("ring_planet{}_deflection_m", n),
+                         .label = fmt::format("planet {}", n),
+                         .colour = static_cast<std::size_t>(n - 1),
+                         .style = Series::Style::dots}});
+      x.add(plot.series.back().x);
+    }
     plot.x_range = x.range();
     plots.push_back(std::move(plot));
   }
@@ -138,17 +101,28 @@ Blocks poincare_sections(const RunResult& result) {
          Pictures{{plots.begin(), plots.end()},
                   planet_legend(result.scene.stage.planets),
                   "Dynamic transmission error of both meshes of each planet once per mesh cycle. A motion that repeats "
-                  "with the errors leaves no more points than the error period has mesh cycles; a cloud that keeps "
-                  "filling is one that does not repeat."};
+                  "with the errors has no more points than the error period has mesh cycles. A cloud that keeps "
+                  "filling does not repeat."};
 }
 
 }  // namespace
 
 Section motion_section(const RunResult& result) {
   Section section{"motion", "Bearings and sun orbit"};
-  if (!rings_with_response(result).empty())
-    section.blocks =
-        motion_table(result) + heading("Planet pins") + pin_forces(result) + orbits(result) + poincare_sections(result);
+  if (responses_of(result).empty()) return section;
+  const PlanetLines pins{.table = [](const StageResponse& r) -> const Csv& { return r.motion.bearing_forces; },
+                         .mesh = "planet",
+                         .line = "_resultant_max_N",
+                         .low = "_resultant_min_N",
+                         .high = "_resultant_max_N",
+                         .y_label = "force on the pin, kN",
+                         .scale = 1e-3,
+                         .level = {}};
+  section.blocks = motion_table(result) + heading("Planet pins") +
+                   planet_lines(result, pins,
+                                "Resultant of the radial and tangential force, the planet's centrifugal force "
+                                "included. Line: largest of each mesh cycle; band: down to the smallest.") +
+                   orbits(result) + poincare_sections(result);
   return section;
 }
 

@@ -1,35 +1,57 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "core/units.h"
 
 namespace annulus::app {
 
-std::vector<std::pair<std::string, const MeshResult*>> all_meshes(const RunResult& result) {
-  std::vector<std::pair<std::string, const MeshResult*>> list;
-  for (const auto& ring : result.rings) list.emplace_back(ring.name, &ring.mesh);
-  list.emplace_back("sun mesh", &result.sun_mesh);
+namespace {
+
+/// Forces that the tables do not reach.
+List loads_beyond(const RunResult& result) {
+  List list;
+  const auto add = [&](const std::string& where, const MeshResult& mesh, const dynamics::DynamicResponse& f,
+                       const dynamics::MeshKindResult& kind) {
+    double factor = 0;
+    for (const auto& branch : kind.branches) factor = std::max(factor, branch.dynamic_factor_max.value);
+    const double largest = factor * f.mean_mesh_force, tabulated = mesh.table.loads().back();
+    if (mesh.table.loads().size() > 1 && largest > tabulated)
+      list.items.emplace_back(fmt::format(
+          "{}: forces up to {:.4g} kN lie beyond the tabulated {:.4g} kN, where the law continues with its tangent.",
+          where, largest / 1e3, tabulated / 1e3));
+  };
+  for (const auto& ring : result.rings) {
+    if (!ring.response) continue;
+    const auto& f = ring.response->figures;
+    add(ring.name + ", sun meshes", result.sun_mesh, f, f.sun_planet);
+    add(ring.name + ", ring meshes", ring.mesh, f, f.ring_planet);
+  }
   return list;
 }
 
-std::vector<std::pair<std::string, const MeshResult*>> sun_then_rings(const RunResult& result,
-                                                                      const std::string& ring_head) {
-  std::vector<std::pair<std::string, const MeshResult*>> list = {{"sun mesh", &result.sun_mesh}};
-  for (const auto& ring : result.rings) list.emplace_back(ring_head + ring.name, &ring.mesh);
-  return list;
+Blocks response_checks(const RunResult& result) {
+  std::vector<NamedOutcome> outcomes;
+  for (const auto& [name, response] : responses_of(result))
+    outcomes.push_back({name, &response->figures, response->figures.force_balance_relative});
+  const auto beyond = loads_beyond(result);
+  return beyond.items.empty() ? solution_checks(outcomes) : solution_checks(outcomes) + beyond;
 }
 
-std::vector<std::pair<std::string, const MeshResult*>> titled_meshes(const RunResult& result) {
-  std::vector<std::pair<std::string, const MeshResult*>> list;
+}  // namespace
+
+NamedMeshes named_meshes(const RunResult& result) {
+  NamedMeshes list;
   for (const auto& ring : result.rings) list.emplace_back("Ring mesh, " + ring.name, &ring.mesh);
   list.emplace_back("Sun mesh", &result.sun_mesh);
   return list;
 }
 
-std::vector<const RingResult*> rings_with_response(const RunResult& result) {
-  std::vector<const RingResult*> list;
+NamedResponses responses_of(const RunResult& result) {
+  NamedResponses list;
   for (const auto& ring : result.rings)
-    if (ring.response) list.push_back(&ring);
+    if (ring.response) list.emplace_back(ring.name, &*ring.response);
   return list;
 }
 
@@ -39,49 +61,29 @@ Legend planet_legend(int planets) {
   return legend;
 }
 
-Pictures planet_lines(const RunResult& result, const PlanetLines& lines, const Text& caption) {
-  const int planets = result.scene.stage.planets;
-  std::vector<Plot> plots;
-  RangeFinder range;
-  if (lines.level) range.add(*lines.level);
-  for (const auto* ring : rings_with_response(result)) {
-    const Csv& csv = lines.table(*ring->response);
-    Plot plot{.title = ring->name, .x_label = "mesh cycle of the evaluated window", .y_label = lines.y_label};
-    if (lines.level) plot.levels.emplace_back(*lines.level, "");
-    for (int n = 0; n < planets; ++n) {
-      const auto values = [&](const std::string& suffix) {
-        return column_values(csv, fmt::format("{}{}{}", lines.stem, n + 1, suffix), lines.cycles, lines.scale);
-      };
-      Series series{.label = fmt::format("planet {}", n + 1),
-                    .x = column_values(csv, "mesh_cycle", lines.cycles),
-                    .y = values(lines.line),
-                    .colour = static_cast<std::size_t>(n)};
-      if (!lines.low.empty()) {
-        series.low = values(lines.low);
-        series.high = values(lines.high);
-      }
-      for (const auto* list : {&series.y, &series.low, &series.high}) range.add(*list);
-      plot.series.push_back(std::move(series));
-    }
-    plots.push_back(std::move(plot));
-  }
-  return {on_one_scale(plots, range), planet_legend(planets), caption};
-}
-
 Page stage_report(const RunResult& result) {
   const auto& scene = result.scene;
-  const auto meshes = titled_meshes(result);
-  return scene_page(
-      scene,
-      fmt::format("{} planets, {} kW at {} r/min of the sun", scene.stage.planets, to_text(scene.stage.power / 1e3),
-                  to_text(result.geometry.operating_point.sun_speed / units::rpm, 6)),
-      stage_verdict(result),
-      {{drawings_section(result), key_figures_section(result), comparison_section(result),
-        Section{"meshes", "Meshes", mesh_pictures(meshes)}, fields_section(meshes), stiffness_section(result),
-        supports_section(result), contact_section(result), dynamics_section(result)},
-       study_sections(scene, result.studies),
-       {coupling_section(result), motion_section(result), modes_section(result), model_section(result.plan),
-        inputs_section(result.plan), quality_section(result)}});
+  const auto& point = result.geometry.operating_point;
+  const auto meshes = named_meshes(result);
+  return run_page(
+      result,
+      {.words = fmt::format("{} planets, {} kW at {} r/min of the sun", scene.stage.planets,
+                            to_text(scene.stage.power / 1e3), to_text(point.sun_speed / units::rpm, 6)),
+       .answer = stage_verdict(result),
+       .results = {drawings_section(result),
+                   key_results(
+                       result, {{"ring_planet_", "Ring meshes"}, {"sun_planet_", "Sun meshes"}, {"", "Stage"}},
+                       fmt::format("At the nominal mesh force of {} kN. ", to_text(point.mean_mesh_force / 1e3, 5))),
+                   comparison_section(result)},
+       .meshes = meshes,
+       .sections = {{"stiffness", "Transmission error and stiffness", stiffness_blocks(meshes)},
+                    supports_section(result),
+                    contact_section(meshes),
+                    dynamics_section(result),
+                    coupling_section(result),
+                    motion_section(result),
+                    modes_section(result)},
+       .checks = response_checks(result)});
 }
 
 Page RunResult::report() const { return stage_report(*this); }

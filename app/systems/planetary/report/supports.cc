@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "app/systems/planetary/ring_structures.h"
@@ -10,8 +9,6 @@
 namespace annulus::app {
 
 namespace {
-
-constexpr double kN = 1e3;
 
 /// State of one support at one position.
 struct State {
@@ -37,12 +34,13 @@ States states_of(const MeshResult& mesh) {
     const auto i = static_cast<std::size_t>(row[pin]) - 1;
     if (i >= states.supports.size()) states.supports.resize(i + 1);
     states.supports[i].push_back(
-        {row[angle], row[contact], row[touching] != 0, row[radial] / kN, row[tangential] / kN});
+        {row[angle], row[contact], row[touching] != 0, row[radial] / 1e3, row[tangential] / 1e3});
   }
   return states;
 }
 
-/// A ring that repeats after a few teeth is continued: turned by its period, every support takes the place of another.
+/// A ring that repeats after a few teeth is continued: turned by its period, every support takes the position of
+/// another.
 void continue_to(States& states, double period_deg, int copies) {
   auto& supports = states.supports;
   const std::size_t positions = supports.front().size();
@@ -62,11 +60,6 @@ void continue_to(States& states, double period_deg, int copies) {
       }
     }
   }
-}
-
-/// What the colour of a support means: a pin presses outwards, a bolt pulls as well, a spline flank has two directions.
-double shown_force(const State& s, fem::ShownForce force) {
-  return force == fem::ShownForce::resultant ? std::hypot(s.radial, s.tangential) : s.radial;
 }
 
 /// Place of the contact between the supports, in their numbers, when these follow each other around the ring.
@@ -97,7 +90,7 @@ std::vector<std::pair<double, double>> contact_line(const States& states) {
 ColourMap state_map(const RingInput& input, const MeshResult& mesh) {
   const auto structure = ring_structure(input);
   const auto words = structure.words();
-  const auto force_shown = structure.drawing(0).shown_force;
+  const bool resultant = structure.drawing(0).shown_force == fem::ShownForce::resultant;
   auto states = states_of(mesh);
   constexpr int enough = 24;  // teeth
   const int period = mesh.table.positions();
@@ -120,7 +113,8 @@ ColourMap state_map(const RingInput& input, const MeshResult& mesh) {
       for (std::size_t j = k; j < end; ++j) {
         const auto& s = states.supports[i][j];
         if (!s.touching) continue;
-        const double force = shown_force(s, force_shown);
+        // A pin presses outwards, a bolt pulls as well, a spline flank has two directions.
+        const double force = resultant ? std::hypot(s.radial, s.tangential) : s.radial;
         if (!cell.value || std::abs(force) > std::abs(*cell.value)) cell.value = force;
       }
       lifted = lifted || !cell.value;
@@ -132,7 +126,7 @@ ColourMap state_map(const RingInput& input, const MeshResult& mesh) {
   ColourMap map{.title = fmt::format("{}: {}", input.name, words.supports),
                 .x_label = "ring teeth passed by the planet (mesh cycles)",
                 .y_label = words.support + " number",
-                .value_label = force_shown == fem::ShownForce::resultant ? "force, kN" : "radial force, kN",
+                .value_label = resultant ? "force, kN" : "radial force, kN",
                 .y_range = {0.5, static_cast<double>(count) + 0.5},
                 .y_ticks = static_cast<int>(std::min<std::size_t>(count, 8)),
                 .values = range.range(0),
@@ -143,32 +137,19 @@ ColourMap state_map(const RingInput& input, const MeshResult& mesh) {
 }
 
 Plot force_plot(const std::string& ring, const MeshResult& mesh) {
-  Series out{.label = "radial, outwards", .colour = 0, .style = Series::Style::dots},
-      along{.label = "tangential, counter-clockwise", .colour = 1, .style = Series::Style::dots};
-  for (const auto& support : states_of(mesh).supports) {
-    for (const auto& s : support) {
-      const double from_contact = std::remainder(s.angle - s.contact, 360.0);
-      out.x.push_back(from_contact);
-      out.y.push_back(s.radial);
-      along.x.push_back(from_contact);
-      along.y.push_back(s.tangential);
-    }
+  Plot plot = wide_plot("Forces around the contact, " + ring, "angle of the support from the contact, °",
+                        "force on the support, kN");
+  for (const auto& [label, force] :
+       {std::pair{"radial, outwards", &State::radial}, {"tangential, counter-clockwise", &State::tangential}}) {
+    Series series{.label = label, .colour = plot.series.size(), .style = Series::Style::dots};
+    for (const auto& support : states_of(mesh).supports)
+      for (const auto& s : support) {
+        series.x.push_back(std::remainder(s.angle - s.contact, 360.0));
+        series.y.push_back(s.*force);
+      }
+    plot.series.push_back(std::move(series));
   }
-  return Plot{.title = "Forces around the contact, " + ring,
-              .x_label = "angle of the support from the contact, °",
-              .y_label = "force on the support, kN",
-              .series = {out, along},
-              .legend = true,
-              .width = 900,
-              .height = 320};
-}
-
-std::string caption(const fem::RingWords& words) {
-  const std::string text =
-      "One planet alone at the nominal load travels along the ring, from left to right. Every row is a ";
-  return text + words.support + ", " + words.map_caption +
-         ". The black line follows the contact of the teeth. Below: the same forces over the distance from the "
-         "contact.";
+  return plot;
 }
 
 }  // namespace
@@ -179,7 +160,14 @@ Section supports_section(const RunResult& result) {
     const auto& ring = result.rings[i];
     if (ring.mesh.pins.rows.empty()) continue;
     const auto& input = result.scene.rings[i];
-    section.blocks += Pictures{{state_map(input, ring.mesh)}, {}, caption(ring_structure(input).words())} +
+    const auto words = ring_structure(input).words();
+    section.blocks += Pictures{{state_map(input, ring.mesh)},
+                               {},
+                               "One planet alone at the nominal load travels along the ring, from left to right. Every "
+                               "row is a " +
+                                   words.support + ", " + words.map_caption +
+                                   ". The black line follows the contact of the teeth. Below: the same forces over the "
+                                   "distance from the contact."} +
                       Pictures{{force_plot(ring.name, ring.mesh)}};
   }
   return section;

@@ -41,11 +41,10 @@ TransverseSection arc_section(const dynamics::ArcToothMesh& arc) {
 
 std::string arc_words(const dynamics::ArcToothMesh& arc) {
   return fmt::format(
-      " Below: the first of the arc gears, {} teeth on an eccentricity of {}, among the {} pins of the housing "
-      "(orange, "
-      "⌀ {} on a circle of ⌀ {}); dash-dotted the pitch circles of both, which touch in the pitch point. Its outline "
-      "is "
-      "the one that the pins envelop; arcs of {} replace the flanks of it that carry.",
+      " Below: the first arc gear, {} teeth on an eccentricity of {}, among the {} pins of the housing (orange, ⌀ {} "
+      "on a "
+      "circle of ⌀ {}). Dash-dotted: the pitch circles of both, which touch in the pitch point. The pins envelop the "
+      "outline; arcs of {} replace its loaded flanks.",
       arc.pins - 1, mm_text(arc.eccentricity), arc.pins, mm_text(2 * arc.pin_radius),
       mm_text(2 * arc.pin_circle_radius), mm_text(arc.arc_radius));
 }
@@ -76,10 +75,9 @@ Section drawings_section(const TwoKVResult& result) {
     pictures.push_back(drawn(arc_section(*result.arc)));
     words += arc_words(*result.arc);
   }
-  PageTable table = diameter_table();
-  add_gear(table, "sun", pair.wheel(), bore_radius(scene.sun));
-  add_gear(table, "planet", pair.planet(), bore_radius(scene.planet));
-  return geometry_section(Pictures{pictures, {}, words} + table);
+  return geometry_section(Pictures{pictures, {}, words} +
+                          diameter_table({{"sun", pair.wheel(), bore_radius(scene.sun)},
+                                          {"planet", pair.planet(), bore_radius(scene.planet)}}));
 }
 
 }  // namespace annulus::app

@@ -12,36 +12,27 @@ namespace annulus::app {
 /// report.html of a 2K-V stage.
 [[nodiscard]] Page reducer_report(const TwoKVResult& result);
 
-/// One or two columns of every table: the scene's own stiffness, and the computed one.
-struct ShownCase {
-  std::string name;
-  const TwoKVCase* result;
-  std::size_t colour;
-};
-[[nodiscard]] std::vector<ShownCase> shown_cases(const TwoKVResult& result);
-
-/// "crank bearings" for crank_bearing.
-[[nodiscard]] std::string element_words(const std::string& group);
-/// "input on crank bearings" for "input on crank_bearing".
-[[nodiscard]] std::string mode_words(const std::string& name);
-
-/// Label and colour of every case.
-[[nodiscard]] Legend case_legend(const TwoKVResult& result);
+/// The scene's own stiffness, and the computed one where it is compared.
+using NamedCases = std::vector<std::pair<std::string, const TwoKVCase*>>;
+[[nodiscard]] NamedCases shown_cases(const TwoKVResult& result);
 
 // reducer_geometry.cc
 [[nodiscard]] Section drawings_section(const TwoKVResult& result);  ///< the gears to scale
+// reducer_arc.cc
+[[nodiscard]] Blocks arc_pins_blocks(const TwoKVResult& result);  ///< forces and stiffness by the paper's formulas
+// reducer_answers.cc
+[[nodiscard]] Blocks reducer_verdict(const TwoKVResult& result);
+[[nodiscard]] Section reducer_comparison(const TwoKVResult& result);  ///< with the published results
 // reducer_vibration.cc; without blocks when [dynamics] is missing
 [[nodiscard]] Section frequencies_section(const TwoKVResult& result);      ///< over the crank angle, shapes
 [[nodiscard]] Section first_frequency_section(const TwoKVResult& result);  ///< what it depends on, bands
 [[nodiscard]] Section torsion_section(const TwoKVResult& result);          ///< torsional stiffness, lost motion
 /// The first mode that is no free rotation.
 [[nodiscard]] std::size_t first_elastic_mode(const TwoKVVibration& vibration);
-/// Output error, peak to peak, arc seconds; "0" where it is rounding.
-[[nodiscard]] std::string error_text(const TwoKVMotion& motion);
-
 // reducer_motion.cc; without blocks when [dynamics] is missing
 [[nodiscard]] Section reducer_motion_section(const TwoKVResult& result);
-// reducer_meshes.cc
-[[nodiscard]] Section reducer_meshes_section(const TwoKVResult& result);
+/// Output error, peak to peak, arc seconds; "0" where it is rounding.
+[[nodiscard]] std::string error_text(const TwoKVMotion& motion);
+[[nodiscard]] Blocks motion_checks(const TwoKVResult& result);
 
 }  // namespace annulus::app

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "app/systems/two_k_v/report/reducer_report_parts.h"
 #include "core/units.h"
@@ -34,89 +35,64 @@ std::size_t body_colour(const std::string& dof) {
   return 7;
 }
 
+/// "arc gear 2 turn" for arc2_u.
 std::string dof_words(const std::string& dof) {
-  std::string text;
-  for (const char c : dof) {
-    if (c == '_') {
-      text += dof.ends_with("_u") ? " turn" : " centre";
-      break;
-    }
-    if (c >= '0' && c <= '9' && !text.empty() && text.back() != ' ' && !(text.back() >= '0' && text.back() <= '9'))
-      text += ' ';
-    text += c;
-  }
-  if (text.starts_with("arc")) text.replace(0, 3, "arc gear");
-  return text;
+  static const std::regex number("([a-z])([0-9])"), arc("^arc");
+  const auto body = std::regex_replace(dof.substr(0, dof.find('_')), number, "$1 $2");
+  return std::regex_replace(body, arc, "arc gear") + (dof.ends_with("_u") ? " turn" : " centre");
 }
 
 std::string body_words(const std::string& body) {
   return body == "arc" ? "arc gears" : body == "planet" || body == "crank" ? body + "s" : body;
 }
 
-std::string strain_words(const TwoKVVibration& v, std::size_t mode) {
-  const auto groups = dynamics::by_group(v.energy);
-  std::vector<std::pair<double, std::string>> shares;
-  for (std::size_t g = 0; g < groups.groups.size(); ++g)
-    shares.emplace_back(groups.strain(static_cast<Eigen::Index>(g), static_cast<Eigen::Index>(mode)), groups.groups[g]);
-  std::stable_sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::string text;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, shares.size()); ++i) {
-    if (shares[i].first < 0.05) break;
-    text +=
-        fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", element_words(shares[i].second), 100 * shares[i].first);
-  }
-  return text;
-}
-
 PageTable frequency_table(const TwoKVResult& result) {
   const auto& v = *result.own.vibration;
-  PageTable table{.head = {"mode", "frequency, Hz", "over the crank angle, Hz", "strain energy in", "moves most"},
-                  .rows = {}};
-  if (result.computed) table.head.insert(table.head.begin() + 2, "with computed stiffness, Hz");
+  const auto energy = dynamics::by_group(v.energy);
+  PageTable table{.head = {"mode", "frequency, Hz", "over the crank angle, Hz", "strain energy in", "moves most"}};
+  if (result.computed) table.head.emplace_back("with computed stiffness, Hz");
   for (std::size_t m = 0; m < v.modes.modes.size(); ++m) {
     const auto row = v.over_crank.frequency.row(static_cast<Eigen::Index>(m));
-    const auto of = v.names[m].find(" on ");
-    std::vector<Text> cells = {fmt::format("{}", m + 1), fmt::format("{:.2f}", v.modes.modes[m].frequency),
-                               fmt::format("{:.2f} … {:.2f}", row.minCoeff(), row.maxCoeff()), strain_words(v, m),
-                               body_words(v.names[m].substr(0, of))};
-    if (v.modes.modes[m].frequency == 0) cells[3] = "free rotation";
-    if (result.computed) {
-      const auto& other = result.computed->vibration->modes.modes;
-      cells.insert(cells.begin() + 2, Text(m < other.size() ? fmt::format("{:.2f}", other[m].frequency) : ""));
-    }
-    table.rows.push_back(std::move(cells));
+    const bool free = v.modes.modes[m].frequency == 0;
+    auto& cells = table.rows.emplace_back(std::vector<Text>{
+        fmt::format("{}", m + 1), fmt::format("{:.2f}", v.modes.modes[m].frequency),
+        fmt::format("{:.2f} … {:.2f}", row.minCoeff(), row.maxCoeff()),
+        free ? "free rotation" : strain_words(energy.groups, energy.strain.col(static_cast<Eigen::Index>(m)), 3),
+        body_words(v.names[m].substr(0, v.names[m].find(" on ")))});
+    if (!result.computed) continue;
+    const auto& other = result.computed->vibration->modes.modes;
+    cells.emplace_back(m < other.size() ? fmt::format("{:.2f}", other[m].frequency) : "");
   }
   return table;
 }
 
-Pictures over_crank_plots(const ShownCase& shown) {
-  const auto& v = *shown.result->vibration;
+std::string mode_title(std::size_t m) { return fmt::format("mode {}", m + 1); }
+
+Pictures over_crank_plots(const std::string& name, const TwoKVVibration& v) {
   const auto x = degrees(v.over_crank.angle);
-  Plot absolute{.title = "Natural frequencies, " + shown.name,
+  const auto frame = [&](const std::string& title, const char* y_label) {
+    return Plot{.title = title + name,
                 .x_label = "crank angle against the carrier, °",
-                .y_label = "kHz",
+                .y_label = y_label,
                 .x_range = Range{0, 360},
                 .height = 330};
-  Plot change = absolute;
-  change.title = "Change over the crank angle, " + shown.name;
-  change.y_label = "% of the mean";
-  for (Eigen::Index m = 0; m < v.over_crank.frequency.rows(); ++m) {
-    const auto row = v.over_crank.frequency.row(m);
-    if (!(row.minCoeff() > 0)) continue;
-    const auto colour = static_cast<std::size_t>(m);
-    absolute.series.push_back(
-        {.label = fmt::format("mode {}", m + 1), .x = x, .y = closed(row, 1e-3), .colour = colour});
-    auto relative = closed(row, 100 / row.mean());
-    for (auto& value : relative) value -= 100;
-    change.series.push_back({.label = fmt::format("mode {}", m + 1), .x = x, .y = relative, .colour = colour});
-  }
+  };
+  Plot absolute = frame("Natural frequencies, ", "kHz"),
+       change = frame("Change over the crank angle, ", "% of the mean");
   Legend legend;
-  for (std::size_t m = 0; m < v.modes.modes.size(); ++m)
-    if (v.modes.modes[m].frequency > 0) legend.emplace_back(fmt::format("mode {}", m + 1), m);
-  return {{absolute, change},
-          legend,
-          "Frozen at each crank angle with the mesh stiffness of that position. The bearings of the arc gears "
-          "push along directions that turn with the crank; half a turn exchanges the arc gears."};
+  for (std::size_t m = 0; m < v.modes.modes.size(); ++m) {
+    if (v.modes.modes[m].frequency > 0) legend.emplace_back(mode_title(m), m);
+    const auto row = v.over_crank.frequency.row(static_cast<Eigen::Index>(m));
+    if (!(row.minCoeff() > 0)) continue;
+    absolute.series.push_back({.label = mode_title(m), .x = x, .y = closed(row, 1e-3), .colour = m});
+    change.series.push_back({.label = mode_title(m), .x = x, .y = closed(row, 100 / row.mean()), .colour = m});
+    for (auto& value : change.series.back().y) value -= 100;
+  }
+  return {
+      {absolute, change},
+      legend,
+      "Frozen at each crank angle with the mesh stiffness of that position. The bearings of the arc gears push along "
+      "directions that turn with the crank; half a turn exchanges the arc gears."};
 }
 
 const Legend body_legend = {{"input", 4}, {"sun", 0}, {"planets", 1}, {"cranks", 3}, {"arc gears", 2}};
@@ -126,23 +102,18 @@ Blocks shape_pictures(const TwoKVVibration& v) {
   for (std::size_t m = 0; m < v.modes.modes.size(); ++m) {
     const auto& mode = v.modes.modes[m];
     if (mode.frequency == 0) continue;
-    const double largest = mode.shape.cwiseAbs().maxCoeff();
     Eigen::Index most = 0;
     mode.shape.cwiseAbs().maxCoeff(&most);
-    const double sign = mode.shape[most] < 0 ? -1 : 1;
     BarChart chart{.title = fmt::format("{}: {:.0f} Hz", m + 1, mode.frequency),
-                   .x_label = {},
-                   .bars = {},
                    .reach = 1,
                    .two_sided = true,
                    .width = 260,
                    .label_width = 112,
                    .row_height = 14};
-    for (Eigen::Index i = 0; i < mode.shape.size(); ++i)
-      chart.bars.push_back({dof_words(v.modes.dofs[static_cast<std::size_t>(i)]),
-                            sign * mode.shape[i] / largest,
-                            body_colour(v.modes.dofs[static_cast<std::size_t>(i)]),
-                            {}});
+    for (Eigen::Index i = 0; i < mode.shape.size(); ++i) {
+      const auto& dof = v.modes.dofs[static_cast<std::size_t>(i)];
+      chart.bars.push_back({dof_words(dof), mode.shape[i] / mode.shape[most], body_colour(dof)});
+    }
     pictures.emplace_back(chart);
   }
   return heading("Mode shapes") +
@@ -211,7 +182,7 @@ Section frequencies_section(const TwoKVResult& result) {
                                          "the crank angle of the scene. All modes of one crank angle take {:.0f} µs.",
                                          1e6 * v.seconds_per_position)) +
                    frequency_table(result);
-  for (const auto& shown : shown_cases(result)) section.blocks += over_crank_plots(shown);
+  for (const auto& [name, shown] : shown_cases(result)) section.blocks += over_crank_plots(name, *shown->vibration);
   section.blocks += shape_pictures(v) + shapes_over_crank(v);
   return section;
 }
@@ -247,36 +218,26 @@ Section first_frequency_section(const TwoKVResult& result) {
 Section torsion_section(const TwoKVResult& result) {
   Section section{"torsion", "Torsional stiffness", {}, "Torsional stiffness and lost motion"};
   if (!result.own.vibration) return section;
-  Plot plot{.title = "Torsional stiffness over the crank angle",
-            .x_label = "crank angle against the carrier, °",
-            .y_label = "kN m/rad",
-            .x_range = Range{0, 360},
-            .width = 900,
-            .height = 300};
-  PageTable table = labelled_rows(
-      {"mean stiffness, N m/rad", "mean stiffness, N m/arc minute", "range over the crank angle, % of the mean",
-       "wind-up under the load, arc seconds", "lost motion by backlash, arc seconds",
-       "lost motion by ±3 % of the load, arc seconds", "lost motion, together, arc seconds"});
-  constexpr double rounding = 1e-10;  // of the condensation
-  for (const auto& shown : shown_cases(result)) {
-    const auto& v = *shown.result->vibration;
-    plot.series.push_back({.label = shown.name,
-                           .x = degrees(v.torsion.angle),
-                           .y = closed(v.torsion.from_output, 1e-3),
-                           .colour = shown.colour});
-    std::vector<Text> cells;
-    for (const double value :
-         {v.torsion.mean(), v.torsion.mean() * units::arc_minute,
-          v.torsion.ripple() > rounding ? 100 * v.torsion.ripple() : 0, v.lost.wind_up / units::arc_second,
-          v.lost.backlash / units::arc_second, v.lost.elastic / units::arc_second, v.lost.total() / units::arc_second})
-      cells.emplace_back(to_text(value, 4));
-    add_column(table, shown.name, cells);
-  }
+  Plot plot =
+      wide_plot("Torsional stiffness over the crank angle", "crank angle against the carrier, °", "kN m/rad", 300);
+  plot.x_range = Range{0, 360};
+  for (const auto& [name, shown] : shown_cases(result))
+    plot.series.push_back({.label = name,
+                           .x = degrees(shown->vibration->torsion.angle),
+                           .y = closed(shown->vibration->torsion.from_output, 1e-3),
+                           .colour = plot.series.size()});
+  std::vector<TableRow<TwoKVCase>> rows;
+  for (const auto& [label, value] : std::initializer_list<std::pair<const char*, double (*)(const TwoKVVibration&)>>{
+           {"mean stiffness, N m/arc minute", [](const auto& v) { return v.torsion.mean() * units::arc_minute; }},
+           {"lost motion by backlash, arc seconds", [](const auto& v) { return v.lost.backlash / units::arc_second; }},
+           {"lost motion by ±3 % of the load, arc seconds",
+            [](const auto& v) { return v.lost.elastic / units::arc_second; }}})
+    rows.push_back({label, [value = value](const TwoKVCase& c) { return Text(to_text(value(*c.vibration), 4)); }});
   section.blocks =
       paragraph(
           "Torque over turn of the output with the input held, all elastic parts condensed. Seen from the input with "
           "the output held it is smaller by the ratio squared.") +
-      Pictures{{plot}, case_legend(result)} + table;
+      Pictures{{plot}} + side_by_side(shown_cases(result), rows);
   return section;
 }
 

@@ -31,43 +31,6 @@ std::string solution_text(const dynamics::SteadyOutcome& found) {
   return found.integrator ? text + ". Integrator: " + found.integrator->reason : text;
 }
 
-}  // namespace
-
-std::string measured(double value, double error) {
-  if (!std::isfinite(value)) return "not known";
-  error = std::abs(error);
-  if (!std::isfinite(error) || !(error > 0)) return to_text(value, 5);
-  // Two digits of the error and the value to the same decimal, but no more than five digits of the value: beyond them
-  // the inputs are not known.
-  const auto first_digit = [](double x) { return static_cast<int>(std::floor(std::log10(x))); };
-  const int wanted = 1 - first_digit(error);
-  const int most = value == 0 ? wanted : 4 - first_digit(std::abs(value));
-  const int decimals = std::clamp(std::min(wanted, most), 0, 9);
-  const bool hidden = error < 0.5 * std::pow(10.0, -decimals);
-  return fmt::format("{:.{}f} ± {}{:.{}f}", value, decimals, hidden ? "<" : "",
-                     hidden ? std::pow(10.0, -decimals) : error, decimals);
-}
-
-std::string small_text(double x) { return std::isfinite(x) ? fmt::format("{:.1e}", x) : "–"; }
-
-std::string with_unit(const std::string& text, const std::string& unit) {
-  return unit.empty() ? text : text + ", " + unit;
-}
-
-Page scene_page(const Scene& scene, const Text& stage_words, const Blocks& summary,
-                const std::vector<std::vector<Section>>& groups) {
-  Page page{.title = scene.title,
-            .sub = phrase("annulus {} · scene {} · {}", version(), code(scene.file.filename().string()), stage_words),
-            .summary = summary};
-  for (const auto& sections : groups) page.sections.insert(page.sections.end(), sections.begin(), sections.end());
-  return page;
-}
-
-Blocks source_blocks(const Reference& reference) {
-  return paragraph(reference.source + (reference.doi.empty() ? "" : ", doi:" + reference.doi) + ".") +
-         paragraph(reference.note);
-}
-
 Section model_section(const Plan& plan) {
   PageTable meshes{.head = {"mesh", "model", "why", "positions", "why so many"}};
   for (const auto& m : plan.meshes)
@@ -117,12 +80,73 @@ Section inputs_section(const Plan& plan) {
   return {"inputs", "Inputs", blocks + details("All inputs with their origin, and what follows from them", all)};
 }
 
-Blocks mesh_checks(const std::vector<std::pair<std::string, const MeshResult*>>& meshes) {
+Blocks cost_blocks(const SystemRun& run) {
+  const auto& done = run.cost;
+  Blocks blocks;
+  if (!done.empty()) {
+    PageTable steps{.head = {"step", "predicted time", "actual time", "predicted peak memory"},
+                    .style = PageTable::Style::numbers};
+    for (const auto& step : done.steps)
+      steps.rows.push_back({step.label, duration_text(step.predicted.seconds), duration_text(step.actual->seconds()),
+                            step.kind == CostKind::coupling ? "–" : memory_text(step.predicted.peak_MB)});
+    blocks += paragraph("Cost of the steps that were not reused, as predicted before the run and as measured: " +
+                        cost_sentence(run) + ".") +
+              steps;
+  }
+  PageTable times{.head = {"stage", "wall time, s"}, .style = PageTable::Style::numbers};
+  for (const auto& [stage, seconds] : run.timings) times.rows.push_back({stage, fmt::format("{:.2f}", seconds)});
+  return blocks + times +
+         Paragraph{fmt::format("Peak memory {:.0f} MB. annulus {}. Results that were unchanged since an earlier run "
+                               "were read back and cost no time here.",
+                               run.peak_memory_MB, version()),
+                   Paragraph::Tone::muted};
+}
+
+Section pictures_section(const NamedMeshes& meshes) {
+  Pictures pictures{.layout = Pictures::Layout::meshes};
+  for (const auto& [title, mesh] : meshes) {
+    if (mesh->picture.empty()) continue;
+    pictures.list.emplace_back(Drawing{mesh->picture}, title,
+                               mesh->model.fidelity.ends_with("solid")
+                                   ? "Fixed faces orange, driven flanks blue."
+                                   : "Planet blue; the fixed surface is orange; the circle marks the pitch point.");
+  }
+  return {"meshes", "Meshes", pictures.list.empty() ? Blocks() : Blocks(pictures)};
+}
+
+Section fields_section(const NamedMeshes& meshes) {
+  Blocks views;
+  for (const auto& [title, mesh] : meshes) {
+    if (mesh->fields.empty()) continue;
+    Pictures figure{.layout = Pictures::Layout::fields};
+    for (const auto& view : mesh->fields) figure.list.emplace_back(view);
+    views += heading(title) + figure;
+  }
+  Section section{"fields", "Deformation and stress"};
+  if (!views.empty())
+    section.blocks =
+        paragraph(
+            "Both bodies near the contact, in the position where the root of the second is stressed most, this mesh "
+            "alone at the nominal load. Displacements are exaggerated; those of a gear on a hub are relative to it. "
+            "Grey: the outline without load. The " +
+            code("_field.vtu") + " files hold more teeth, for ParaView.") +
+        views;
+  return section;
+}
+
+}  // namespace
+
+Blocks source_blocks(const Reference& reference) {
+  return paragraph(reference.source + (reference.doi.empty() ? "" : ", doi:" + reference.doi) + ".") +
+         paragraph(reference.note);
+}
+
+Blocks mesh_checks(const NamedMeshes& meshes) {
   PageTable table{.head = {"mesh", "Σ force × lever arm – torque", "work – strain energy", "LTE(1) – LTE(0)",
                            "reciprocity", "largest penetration, m", "largest error estimate", "worst cell", "unknowns"},
                   .style = PageTable::Style::numbers};
   for (const auto& [label, mesh] : meshes) {
-    if (mesh == nullptr || !mesh->model.computed()) continue;
+    if (!mesh->model.computed()) continue;
     std::vector<Text> row = {label};
     for (const char* fact : {"force_balance_relative", "energy_balance_relative", "closure_relative",
                              "reciprocity_relative", "max_penetration_m", "worst_error_relative"})
@@ -153,31 +177,21 @@ Blocks solution_checks(const std::vector<NamedOutcome>& responses) {
   return table.rows.empty() ? Blocks() : Blocks(table);
 }
 
-Blocks cost_blocks(const SystemRun& run) {
-  const auto& done = run.cost;
-  Blocks blocks;
-  if (!done.empty()) {
-    PageTable steps{.head = {"step", "predicted time", "actual time", "predicted peak memory"},
-                    .style = PageTable::Style::numbers};
-    for (const auto& step : done.steps)
-      steps.rows.push_back({step.label, duration_text(step.predicted.seconds), duration_text(step.actual->seconds()),
-                            step.kind == CostKind::coupling ? "–" : memory_text(step.predicted.peak_MB)});
-    blocks += paragraph("Cost of the steps that were not reused, as predicted before the run and as measured: " +
-                        cost_sentence(run) + ".") +
-              steps;
-  }
-  PageTable times{.head = {"stage", "wall time, s"}, .style = PageTable::Style::numbers};
-  for (const auto& [stage, seconds] : run.timings) times.rows.push_back({stage, fmt::format("{:.2f}", seconds)});
-  return blocks + times +
-         Paragraph{fmt::format("Peak memory {:.0f} MB. annulus {}. Results that were unchanged since an earlier run "
-                               "were read back and cost no time here.",
-                               run.peak_memory_MB, version()),
-                   Paragraph::Tone::muted};
-}
-
-std::vector<Section> study_sections(const Scene& scene, const StudyResults& studies) {
-  return {spread_section(studies), sweeps_section(scene, studies), grids_section(scene, studies),
-          sensitivity_section(studies), optimise_section(studies)};
+Page run_page(const SystemRun& run, const RunPage& page) {
+  const auto& scene = run.scene;
+  Page made{.title = scene.title,
+            .sub = phrase("annulus {} · scene {} · {}", version(), code(scene.file.filename().string()), page.words),
+            .summary = page.answer};
+  for (const auto& sections : std::initializer_list<std::vector<Section>>{
+           page.results,
+           {pictures_section(page.meshes), fields_section(page.meshes)},
+           page.sections,
+           study_sections(scene, run.studies),
+           {model_section(run.plan),
+            inputs_section(run.plan),
+            {"quality", "Checks and cost", mesh_checks(page.meshes) + page.checks + cost_blocks(run)}}})
+    made.sections.insert(made.sections.end(), sections.begin(), sections.end());
+  return made;
 }
 
 }  // namespace annulus::app

@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/model/gear_system.h"
+#include "app/sections/report_parts.h"
+
+namespace annulus::app {
+
+namespace {
+
+/// The declared results that at least one variant has.
+std::vector<const FigureSpec*> known_results(const SystemRun& run, const std::vector<VariantFigures>& variants) {
+  std::vector<const FigureSpec*> list;
+  for (const auto& spec : system_kind(run.scene.stage.kind).figures())
+    if (std::any_of(variants.begin(), variants.end(), [&](const auto& v) { return v.figures.find(spec.key); }))
+      list.push_back(&spec);
+  return list;
+}
+
+std::string result_text(const FigureSpec& spec, const VariantFigures& variant) {
+  const auto* entry = variant.figures.find(spec.key);
+  if (!entry || std::isnan(entry->figure.value)) return "–";
+  if (spec.key == "steady") return entry->figure.value != 0 ? "yes" : "no";
+  return measured(entry->figure, spec.scale);
+}
+
+/// "Load sharing of the sun meshes K_γ"
+Text result_title(const FigureSpec& spec) {
+  Text title = spec.title;
+  if (const auto at = spec.symbol.find('_'); at != std::string::npos)
+    title += " " + spec.symbol.substr(0, at) + subscript(spec.symbol.substr(at + 1));
+  return spec.unit.empty() ? title : title + ", " + spec.unit;
+}
+
+std::vector<std::string> column_names(const std::vector<VariantFigures>& variants) {
+  std::vector<std::string> names;
+  for (const auto& v : variants)
+    names.push_back(!v.name.empty() ? v.name : variants.size() == 1 ? "value" : "as in the scene");
+  return names;
+}
+
+std::string part_text(double share) {
+  if (!std::isfinite(share)) return "not known";
+  return share == 0 ? "–" : share < 1e-4 ? "< 0.01 %" : fmt::format("{:.2g} %", 100 * share);
+}
+
+Blocks error_parts(const std::vector<const FigureSpec*>& specs, const std::vector<VariantFigures>& variants) {
+  PageTable table{.head = {"", "value ± error", "discretisation", "local contact", "condensation",
+                           "table interpolation", "time integration", "model choice"},
+                  .style = PageTable::Style::numbers};
+  for (const auto& variant : variants) {
+    if (variants.size() > 1)
+      table.rows.push_back({column_names(variants)[static_cast<std::size_t>(&variant - variants.data())]});
+    for (const auto* spec : specs) {
+      const auto* entry = variant.figures.find(spec->key);
+      if (!entry || entry->parts.total() == 0 || entry->figure.value == 0 || spec->key == "steady") continue;
+      auto& row = table.rows.emplace_back(std::vector<Text>{result_title(*spec), result_text(*spec, variant)});
+      for (const auto& [name, part] : error_part_names) {
+        const double share = std::abs(entry->parts.*part / entry->figure.value);
+        row.emplace_back(part_text(share));
+      }
+    }
+  }
+  if (std::all_of(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.size() == 1; })) return {};
+  return heading("What the error bars contain", "error-bars") +
+         details("Parts of the errors, in % of the value",
+                 table + paragraph("Discretisation: difference of two levels of cells. Local contact: pressure on the "
+                                   "flanks, against twice as many pieces. Condensation: asymmetry of the compliance "
+                                   "between tooth pairs. Model choice: plane strain for a face of finite width, "
+                                   "formulas for teeth; solid elements (model = \"solid\") need no plane strain. "
+                                   "Results of the lumped model: the larger change when all stiffnesses of a mesh, or "
+                                   "their ripple, are raised by their error estimate; all meshes together. Table "
+                                   "interpolation: half of the change with every second position of the tables. Time "
+                                   "integration: sampling, steady state and integrator. The error is the sum of its "
+                                   "parts, and not known when a part is not. Prescribed stiffness is exact."));
+}
+
+}  // namespace
+
+std::string measured(double value, double error) {
+  if (!std::isfinite(value)) return "not known";
+  error = std::abs(error);
+  if (!std::isfinite(error) || !(error > 0)) return to_text(value, 5);
+  // Two digits of the error and the value to the same decimal, but no more than five digits of the value: beyond them
+  // the inputs are not known.
+  const auto first_digit = [](double x) { return static_cast<int>(std::floor(std::log10(x))); };
+  const int wanted = 1 - first_digit(error);
+  const int most = value == 0 ? wanted : 4 - first_digit(std::abs(value));
+  const int decimals = std::clamp(std::min(wanted, most), 0, 9);
+  const bool hidden = error < 0.5 * std::pow(10.0, -decimals);
+  return fmt::format("{:.{}f} ± {}{:.{}f}", value, decimals, hidden ? "<" : "",
+                     hidden ? std::pow(10.0, -decimals) : error, decimals);
+}
+
+std::string measured(const Figure& figure, double scale) {
+  return measured(scale * figure.value, scale * figure.error);
+}
+
+std::string small_text(double x) { return std::isfinite(x) ? fmt::format("{:.1e}", x) : "–"; }
+
+std::string with_unit(const std::string& text, const std::string& unit) {
+  return unit.empty() ? text : text + ", " + unit;
+}
+
+Section key_results(const SystemRun& run, const std::vector<ResultGroup>& groups, const Text& conditions) {
+  const auto variants = run.variants();
+  const auto specs = known_results(run, variants);
+  PageTable table{.head = {""}, .style = PageTable::Style::numbers};
+  for (const auto& name : column_names(variants)) table.head.emplace_back(name);
+  const auto group_of = [&](const FigureSpec& spec) {
+    return std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return spec.key.starts_with(g.prefix); });
+  };
+  for (auto group = groups.begin(); group != groups.end(); ++group) {
+    const auto before = table.rows.size();
+    for (const auto* spec : specs) {
+      if (group_of(*spec) != group) continue;
+      auto& row = table.rows.emplace_back(1, result_title(*spec));
+      for (const auto& variant : variants) row.emplace_back(result_text(*spec, variant));
+    }
+    if (table.rows.size() > before && !group->heading.empty())
+      table.rows.insert(table.rows.begin() + static_cast<std::ptrdiff_t>(before), std::vector<Text>{group->heading});
+  }
+  if (table.rows.empty()) return {"figures", "Key results"};
+  return {"figures", "Key results",
+          paragraph(conditions + "± is the estimated numerical error; it does not contain the uncertainty of the "
+                                 "inputs.") +
+              table + error_parts(specs, variants)};
+}
+
+std::string key_results_text(const SystemRun& run) {
+  const auto variants = run.variants();
+  const auto specs = known_results(run, variants);
+  std::size_t width = 0;
+  for (const auto* spec : specs) width = std::max(width, with_unit(spec->title, spec->unit).size());
+  std::string text;
+  const auto line = [&](const std::string& title, auto cells) {
+    text += fmt::format("{:<{}}", title, width);
+    for (std::size_t i = 0; i < variants.size(); ++i) text += fmt::format(" {:>22}", cells(i));
+    text += "\n";
+  };
+  if (variants.size() > 1) line("", [names = column_names(variants)](std::size_t i) { return names[i]; });
+  for (const auto* spec : specs)
+    line(with_unit(spec->title, spec->unit), [&](std::size_t i) { return result_text(*spec, variants[i]); });
+  return text;
+}
+
+}  // namespace annulus::app
