@@ -8,10 +8,10 @@
 
 #include "app/model/run_options.h"
 #include "app/process/progress.h"
-#include "app/process/tasks.h"
 #include "app/results/content_id.h"
 #include "core/errors.h"
 #include "core/log.h"
+#include "core/parallel.h"
 #include "core/result_store.h"
 
 namespace annulus::app {

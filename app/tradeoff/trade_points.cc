@@ -5,7 +5,7 @@
 #include "app/model/mesh_result.h"
 #include "app/tradeoff/tradeoff.h"
 #include "core/errors.h"
-#include "fem/problem/plane_strain_error.h"
+#include "fem/problem/loaded_mesh_problem.h"
 
 namespace annulus::app {
 

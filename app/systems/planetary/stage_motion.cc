@@ -45,7 +45,7 @@ void add_bearings(StageMotion& motion, const dynamics::StageMotion& found, int c
 
 int written_stride(int window_cycles) { return window_cycles > dynamics::long_window ? 3 : 1; }
 
-StageMotion stage_motion(const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response) {
+StageMotion tabulated_motion(const dynamics::PlanetaryStage& stage, const dynamics::DynamicResponse& response) {
   const auto found = dynamics::stage_motion(stage, response);
   StageMotion motion;
   add_bearings(motion, found, response.window_cycles);

@@ -30,7 +30,7 @@ struct StageMotion {
 /// cycles: there 21 samples per mesh cycle hold the highest mesh harmonics of the spectrum, in some ten megabytes.
 [[nodiscard]] int written_stride(int window_cycles);
 
-[[nodiscard]] StageMotion stage_motion(const dynamics::PlanetaryStage& stage,
-                                       const dynamics::DynamicResponse& response);
+[[nodiscard]] StageMotion tabulated_motion(const dynamics::PlanetaryStage& stage,
+                                           const dynamics::DynamicResponse& response);
 
 }  // namespace annulus::app

@@ -155,7 +155,7 @@ StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage, const dyn
   auto response = dynamics::simulate(stage, options);
   check_power(stage, response, options.steady_tolerance);
   tabulate(result, response, stage.planets());
-  result.motion = stage_motion(stage, response);
+  result.motion = tabulated_motion(stage, response);
   for (const auto& [name, table] : tables_of(result)) table->round();
   write(time_series_table(response.series, response.window_cycles), {{"annulus_version", version()}, {"inputs_id", id}},
         folder / stage_series_file);
