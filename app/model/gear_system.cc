@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "app/model/plan_studies.h"
-#include "app/model/system_run.h"
 #include "app/model/trade_subject.h"
 #include "app/plan/plan.h"
 #include "app/scene/input_place.h"
@@ -42,8 +41,6 @@ std::vector<std::size_t> GearSystem::meshes_of(std::size_t /*variant*/) const {
   std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
 }
-
-std::unique_ptr<SystemRun> GearSystem::run() const { return nullptr; }
 
 std::vector<std::unique_ptr<TradeSubject>> GearSystem::trades() const { return {}; }
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/figure.h"
@@ -42,6 +44,26 @@ class LumpedModel {
   [[nodiscard]] virtual StudyPoint answer(Answer wanted) const = 0;
   /// The motion followed from several initial conditions; nothing for kinds that do not offer it.
   [[nodiscard]] virtual std::optional<StartSpread> starts(int /*count*/, int /*seed*/) const { return std::nullopt; }
+};
+
+/// A lumped model by the function that answers.
+class AnsweringModel final : public LumpedModel {
+ public:
+  using Answers = std::function<StudyPoint(Answer wanted)>;
+  using Starts = std::function<std::optional<StartSpread>(int count, int seed)>;
+  AnsweringModel(std::string id, Answers answers, Starts starts = {})
+      : id_(std::move(id)), answers_(std::move(answers)), starts_(std::move(starts)) {}
+
+  [[nodiscard]] std::string id() const override { return id_; }
+  [[nodiscard]] StudyPoint answer(Answer wanted) const override { return answers_(wanted); }
+  [[nodiscard]] std::optional<StartSpread> starts(int count, int seed) const override {
+    return starts_ ? starts_(count, seed) : std::nullopt;
+  }
+
+ private:
+  std::string id_;
+  Answers answers_;
+  Starts starts_;
 };
 
 }  // namespace annulus::app

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "app/model/mesh_tables.h"
 #include "app/report/drawings/field_view.h"
@@ -15,8 +14,6 @@
 namespace annulus::app {
 
 namespace {
-
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// A closed form needs no mesh.
 bool has_mesh(const fem::LoadedMeshResult& solved) { return !solved.wheel_sector.cells.empty(); }
@@ -163,6 +160,7 @@ MeshResult stiffness_alone(const MeshResult& mesh) {
           .facts = mesh.facts,
           .coupling = mesh.coupling,
           .nominal = mesh.nominal,
+          .tabulated = mesh.tabulated,
           .reused = mesh.reused};
 }
 
@@ -183,7 +181,8 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   for (const auto& [name, member] : side_tables) (result.*member).round(keys);
   if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.ring);
   for (const auto& field : solved.fields)
-    result.fields += field_view(field, solved.positions[field.position], model.body_name(field.body == "planet"));
+    result.fields += field_view(field, solved.positions[field.position],
+                                field.body == "planet" ? model.planet_body : model.wheel_body);
   result.table.provenance = {{"annulus_version", version()}, {"inputs_id", model.id()}, {"model", model.fidelity}};
   return result;
 }
@@ -206,8 +205,9 @@ void save(const MeshResult& result, const std::filesystem::path& folder) {
   for (const auto& [name, value] : result.facts) positions.header.emplace_back(name, fmt::format("{:.17g}", value));
   keep("lte", std::move(positions));
   for (const auto& [name, member] : side_tables) keep(name, result.*member);
-  if (!result.picture.empty()) write_file(folder / "mesh" / (mesh + ".svg"), result.picture);
-  // Written last: its presence says that the others are complete.
+  auto files = result.bodies;
+  files[mesh + ".svg"] = result.picture.empty() ? std::nullopt : std::optional(result.picture);
+  write_files(files, folder / "mesh");
   result.table.write_csv(folder / ("stiffness_" + mesh + ".csv"));
 }
 

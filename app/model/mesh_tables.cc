@@ -4,25 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/not_known.h"
 #include "core/units.h"
 
 namespace annulus::app {
 
 namespace {
 
-constexpr double not_a_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double MPa = 1e6;
 
 std::size_t most_pairs(const fem::LoadedMeshResult& solved) {
   std::size_t pairs = 0;
   for (const auto& p : solved.positions) pairs = std::max(pairs, p.pair_share.size());
   return pairs;
-}
-
-const char* wheel_name(const MeshModel& model) {
-  return model.mesh == sun_planet ? "sun" : model.mesh == pinion_wheel ? "wheel" : "ring";
 }
 
 bool over_face_width(const fem::LoadedMeshResult& solved) { return solved.slice_edges.size() > 2; }
@@ -58,7 +53,7 @@ class StressColumns {
   void fill(std::vector<double>& row, const fem::LoadedPosition& position) const {
     if (!there_) return;
     const auto& stress = position.*member_;
-    if (!stress) return row.insert(row.end(), 6, not_a_value), void();
+    if (!stress) return row.insert(row.end(), 6, not_known), void();
     for (const double value : {stress->root_tension, stress->root_compression, stress->root_von_mises,
                                stress->rim_tension, stress->rim_compression, stress->rim_von_mises})
       row.push_back(value / MPa);
@@ -93,7 +88,7 @@ Csv position_table(const MeshModel& model, const fem::LoadedMeshResult& solved) 
   const bool face_load = over_face_width(solved);
   if (face_load) csv.columns.emplace_back("face_load_factor");
   const StressColumns planet("planet", &fem::LoadedPosition::planet_stress, solved),
-      wheel(wheel_name(model), &fem::LoadedPosition::wheel_stress, solved);
+      wheel(model.wheel_body, &fem::LoadedPosition::wheel_stress, solved);
   planet.name(csv.columns);
   wheel.name(csv.columns);
   const std::size_t pairs = most_pairs(solved);
@@ -124,7 +119,7 @@ Csv position_table(const MeshModel& model, const fem::LoadedMeshResult& solved) 
     wheel.fill(row, p);
     for (std::size_t i = 0; i < pairs; ++i) {
       const bool there = i < p.pair_share.size() && i < p.pair_roll.size();
-      row.push_back(there ? p.pair_roll[i] / units::mm : not_a_value);
+      row.push_back(there ? p.pair_roll[i] / units::mm : not_known);
       row.push_back(there ? p.pair_share[i] : 0);
     }
     csv.rows.push_back(std::move(row));
@@ -197,11 +192,11 @@ Csv stress_table(const MeshModel& model, const fem::LoadedMeshResult& solved) {
     const bool around = curve.name.ends_with("rim");
     const bool of_wheel = curve.name.starts_with("wheel");
     csv.header.emplace_back(fmt::format("curve_{}", c + 1),
-                            of_wheel ? wheel_name(model) + curve.name.substr(5) : curve.name);
+                            of_wheel ? model.wheel_body + curve.name.substr(5) : curve.name);
     for (std::size_t i = 0; i < curve.abscissa.size(); ++i) {
       csv.rows.push_back({static_cast<double>(c + 1), at.mesh_phase, static_cast<double>(at.ring_tooth),
-                          at.ring_angle / units::deg, at.load, around ? not_a_value : curve.abscissa[i] / units::mm,
-                          around ? curve.abscissa[i] / units::deg : not_a_value, curve.tangential.at(i) / MPa,
+                          at.ring_angle / units::deg, at.load, around ? not_known : curve.abscissa[i] / units::mm,
+                          around ? curve.abscissa[i] / units::deg : not_known, curve.tangential.at(i) / MPa,
                           curve.von_mises.at(i) / MPa});
     }
   }

@@ -267,11 +267,6 @@ std::string MeshModel::label() const {
   return ring.empty() ? "sun-planet mesh" : fmt::format("ring-planet mesh of '{}'", ring);
 }
 
-const char* MeshModel::body_name(bool planet) const {
-  if (mesh == pinion_wheel) return planet ? "pinion" : "wheel";
-  return planet ? "planet" : mesh == sun_planet ? "sun" : "ring";
-}
-
 std::string solid_reason(const Scene& scene, const RingInput& ring) {
   std::string reasons;
   const std::string structure = ring_structure(ring).words().solid_reason;
@@ -291,7 +286,7 @@ std::string solid_reason(const Scene& scene, const ExternalMesh& mesh) {
 }
 
 MeshModel external_mesh_model(const Scene& scene, const ExternalMesh& mesh) {
-  MeshModel model{.mesh = mesh.mesh};
+  MeshModel model{.mesh = mesh.mesh, .planet_body = mesh.planet_name, .wheel_body = mesh.wheel_name};
   if (mesh.input.stiffness != StiffnessShape::computed) {
     set_given(model, shape_text(mesh.input.stiffness));
     return model;

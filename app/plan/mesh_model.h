@@ -34,6 +34,7 @@ struct MeshModel;
 struct MeshModel {
   std::string mesh{};  ///< "sun_planet", "ring_planet", "pinion_wheel" or "arc_pins"
   std::string ring{};  ///< empty for the sun mesh, which all rings share
+  std::string planet_body = "planet", wheel_body = "ring";  ///< names of its bodies: "pinion"; "sun", "wheel"
   std::string
       fidelity{};  ///< "closed_form", "plane", "solid", "resolved_plane", "resolved_solid", or "given" by the scene
   std::string reason{};                             ///< why this model
@@ -55,8 +56,6 @@ struct MeshModel {
   [[nodiscard]] std::string id() const;
   /// For messages: "sun-planet mesh", "planet mesh of ring 'pinned'".
   [[nodiscard]] std::string label() const;
-  /// "planet" or "pinion"; its counterpart "sun", "ring" or "wheel".
-  [[nodiscard]] const char* body_name(bool planet) const;
 };
 
 /// Why a mesh needs a solid model: what changes along its face width. Empty when nothing does.

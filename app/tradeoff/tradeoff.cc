@@ -8,8 +8,7 @@
 
 #include "app/model/gear_system.h"
 #include "app/model/trade_subject.h"
-#include "app/results/cached_files.h"
-#include "app/results/content_id.h"
+#include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
 #include "core/errors.h"
 #include "core/files.h"
@@ -17,6 +16,13 @@
 #include "core/log.h"
 #include "core/result_store.h"
 #include "fem/problem/plane_strain_error.h"
+
+namespace annulus {
+
+ANNULUS_MEMBERS(app::Cost, wall, processor, peak_memory_MB);
+ANNULUS_MEMBERS(app::MeasuredWork, cost, answer, failure);
+
+}  // namespace annulus
 
 namespace annulus::app {
 
@@ -65,30 +71,13 @@ double largest_difference(const StiffnessCycle& cycle, const StiffnessCycle& tru
   return largest;
 }
 
-constexpr const char *measured_meshes = "measured_meshes", *measured_responses = "measured_responses",
-                     *cost_file = "cost.json";
-
-std::string work_text(const MeasuredWork& done) {
-  return Json{{"wall_s", done.cost.wall},
-              {"processor_s", done.cost.processor},
-              {"peak_MB", done.cost.peak_memory_MB},
-              {"answer", done.answer},
-              {"failure", done.failure}}
-             .dump(1) +
-         "\n";
-}
-
-MeasuredWork work_of(const std::string& text) {
-  const Json json = Json::parse(text);
-  return {{json.at("wall_s"), json.at("processor_s"), json.at("peak_MB")}, json.at("answer"), json.at("failure")};
-}
+constexpr const char *measured_meshes = "measured_meshes", *measured_responses = "measured_responses";
 
 /// The results of a motion and what they cost: from the cache, else measured.
 MeasuredWork measured_figures(const TradeMotion& motion, const ResultStore* store) {
-  if (const auto cached = store ? store->find(measured_responses, motion.id) : std::nullopt) return work_of(*cached);
-  const auto done = measured([&] { return to_json(motion.figures()).dump(); });
-  if (store) store->keep(measured_responses, motion.id, work_text(done));
-  return done;
+  return cached_value(store, measured_responses, motion.id,
+                      [&] { return measured([&] { return to_json(motion.figures()).dump(); }); })
+      .value;
 }
 
 class Measurement {
@@ -141,21 +130,12 @@ class Measurement {
   /// Solved in a process of its own without anything cached, or with its cost from the cache; read back here.
   std::optional<MeshResult> table(const MeshModel& model, const std::filesystem::path& folder,
                                   TradePoint& point) const {
-    const auto id = ContentId().add("inputs", model.id()).add("mesh", model.mesh).add("ring", model.ring).id();
-    if (!restore_files(options_.store.get(), measured_meshes, id, folder)) {
-      auto afresh = options_in(folder);
-      afresh.store = nullptr;
-      const auto done = measured([&] {
-        (void)computed_stiffness(model, "", afresh);
-        return std::string("solved");
-      });
-      std::filesystem::create_directories(folder);
-      write_file(folder / cost_file, work_text(done));
-      auto files = mesh_files(model);
-      files.emplace_back(cost_file);
-      cache_files(options_.store.get(), measured_meshes, id, folder, files);
-    }
-    const auto done = work_of(read_file(folder / cost_file));
+    const auto [done, reused] =
+        cached_value(options_.store.get(), measured_meshes, identity_of(model.id(), model.mesh, model.ring), [&] {
+          auto afresh = options_;
+          afresh.store = nullptr;
+          return measured([&] { return to_bytes(solved_stiffness(model, folder, afresh)); });
+        });
     point.cost.wall += done.cost.wall;
     point.cost.processor += done.cost.processor;
     point.cost.peak_memory_MB = std::max(point.cost.peak_memory_MB, done.cost.peak_memory_MB);
@@ -163,7 +143,11 @@ class Measurement {
       point.failure = model.label() + ": " + done.failure;
       return std::nullopt;
     }
-    return load(model, folder);
+    auto result = from_bytes<MeshResult>(done.answer);
+    if (reused) save(result, folder);
+    result.model = model;
+    result.bodies.clear();
+    return result;
   }
 
   TradePoint mesh_point(const MeshSetting& setting) {

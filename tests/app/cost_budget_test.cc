@@ -1,4 +1,5 @@
 #include "app/model/cost_budget.h"
+#include "app/scene/overrides.h"
 #include "app/run/pipeline.h"
 #include "app/systems/planetary/planetary_run.h"
 

@@ -4,17 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "app/run/pipeline.h"
+#include "app/model/excitation.h"
+#include "app/model/mesh_solve.h"
 #include "core/errors.h"
+#include "core/not_known.h"
 
 namespace annulus::app {
 
 namespace {
 
 constexpr double steel_single_stiffness = 14e9;  // c' of ISO 6336-1, Pa
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 ExternalMesh external_pair(const Scene& scene, const PairGeometry& geometry) {
   return {.mesh = pinion_wheel,
@@ -143,70 +143,43 @@ StiffnessTable along_normal(const StiffnessTable& transverse, double base_helix_
   return {transverse.mesh(), transverse.phases(), transverse.ring_angles(), std::move(loads), std::move(entries)};
 }
 
-MeshResult pair_stiffness(const MeshModel& model, const RunOptions& options) {
-  return model.computed() ? computed_stiffness(model, "", options) : MeshResult{.model = model, .table = {}};
-}
-
-PairMesh pair_mesh(const Scene& scene, const PairGeometry& geometry, MeshResult solved) {
-  PairMesh mesh{.model = solved.model};
-  const auto& model = mesh.model;
-  if (model.computed()) mesh.computed = std::move(solved);
-  switch (scene.pinion_wheel.stiffness) {
-    case StiffnessShape::computed:
-      require(mesh.computed.has_value(), "a computed mesh has been solved");
-      mesh.table = mesh.computed->table;
-      break;
-    case StiffnessShape::closed_form:
-      mesh.table = closed_form_pair_table(scene, geometry, geometry.transverse_force);
-      break;
-    case StiffnessShape::table:
-      mesh.table =
-          given_stiffness(model, scene.pinion_wheel, scene, geometry.gears.contact_ratio(), geometry.transverse_force)
-              .table;
-      break;
-    case StiffnessShape::constant:
-    case StiffnessShape::harmonic:
-    case StiffnessShape::rectangular:
-    case StiffnessShape::iso_6336:
-      break;
-  }
-  return mesh;
-}
-
-dynamics::MeshExcitation pair_excitation(const Scene& scene, const PairGeometry& geometry, const PairMesh& mesh) {
+MeshResult pair_stiffness(const Scene& scene, const PairGeometry& geometry, const MeshModel& model,
+                          const RunOptions& options) {
   const auto& input = scene.pinion_wheel;
-  const double phase = input.phase.value_or(0);
-  switch (input.stiffness) {
-    case StiffnessShape::constant:
-      return dynamics::ConstantStiffness{*input.mean};
-    case StiffnessShape::harmonic:
-      return dynamics::HarmonicStiffness{*input.mean, *input.ripple, phase};
-    case StiffnessShape::rectangular:
-      return dynamics::RectangularStiffness{*input.mean, *input.ripple, *input.duty, phase};
-    case StiffnessShape::iso_6336: {
-      const double mean = iso_pair_stiffness(scene, geometry);
-      if (input.ripple.value_or(0) == 0) return dynamics::ConstantStiffness{mean};
-      return dynamics::HarmonicStiffness{mean, *input.ripple, phase};
-    }
-    case StiffnessShape::computed:
-    case StiffnessShape::closed_form:
-    case StiffnessShape::table:
-      break;
+  if (model.computed()) return computed_stiffness(model, "", options);
+  if (input.stiffness == StiffnessShape::closed_form)
+    return {.model = model,
+            .table = closed_form_pair_table(scene, geometry, geometry.transverse_force),
+            .nominal = nominal_load_index};
+  if (input.stiffness == StiffnessShape::table)
+    return given_stiffness(model, input, scene, geometry.gears.contact_ratio(), geometry.transverse_force);
+  return {.model = model, .table = {}, .tabulated = false};
+}
+
+PairMesh::PairMesh(const MeshResult& mesh) : model(mesh.model) {
+  if (model.computed()) computed = mesh;
+  if (mesh.tabulated) table = mesh.table;
+}
+
+dynamics::MeshExcitation pair_excitation(const Scene& scene, const PairGeometry& geometry,
+                                         const StiffnessTable& table) {
+  auto input = scene.pinion_wheel;
+  if (input.stiffness == StiffnessShape::iso_6336) {
+    input.mean = iso_pair_stiffness(scene, geometry);
+    input.stiffness = input.ripple.value_or(0) == 0 ? StiffnessShape::constant : StiffnessShape::harmonic;
   }
-  const auto table = along_normal(*mesh.table, geometry.base_helix_angle);
-  auto dependence = scene.dynamics->load_dependence;
-  // A single load tells nothing about others.
-  if (table.loads().size() == 1) dependence = dynamics::LoadDependence::nominal;
-  return dynamics::table_stiffness(table, geometry.transverse_force / std::cos(geometry.base_helix_angle), 0,
-                                   dependence);
+  MeshResult mesh;
+  if (table.phases() > 0) mesh.table = along_normal(table, geometry.base_helix_angle);
+  return excitation_of(input, mesh, geometry.transverse_force / std::cos(geometry.base_helix_angle),
+                       scene.dynamics->load_dependence);
 }
 
 std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeometry& geometry, const PairMesh& mesh) {
   const auto shape = scene.pinion_wheel.stiffness;
   std::vector<MeanStiffness> list;
-  list.push_back({"iso_6336", iso_pair_stiffness(scene, geometry), no_number,
+  list.push_back({"iso_6336", iso_pair_stiffness(scene, geometry), not_known,
                   "ISO 6336-1 method B: c′ cos β (0.75 ε_α + 0.25) b", shape == StiffnessShape::iso_6336});
-  MeanStiffness closed{"closed_form", no_number, no_number, no_closed_form(scene),
+  MeanStiffness closed{"closed_form", not_known, not_known, no_closed_form(scene),
                        shape == StiffnessShape::closed_form};
   if (closed.note.empty()) {
     const auto table = closed.taken ? *mesh.table : closed_form_pair_table(scene, geometry, geometry.transverse_force);
@@ -216,7 +189,7 @@ std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeomet
     closed.note = "not available: " + closed.note;
   }
   list.push_back(closed);
-  MeanStiffness computed{"computed", no_number, no_number,
+  MeanStiffness computed{"computed", not_known, not_known,
                          "not solved here; stiffness = \"computed\" in [mesh.pinion_wheel] asks for it",
                          shape == StiffnessShape::computed};
   if (mesh.computed) {
@@ -234,7 +207,7 @@ std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeomet
       value = geometry.to_normal() *
               mean_secant(*mesh.table, std::clamp(geometry.transverse_force, loads.front(), loads.back()));
     }
-    list.push_back({"given", value, no_number, mesh.model.reason, true});
+    list.push_back({"given", value, not_known, mesh.model.reason, true});
   }
   return list;
 }

@@ -1,13 +1,18 @@
 #include "app/systems/helical_pair/pair_system.h"
-#include "app/systems/helical_pair/pair_trade.h"
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "app/model/mesh_figures.h"
 #include "app/plan/plan.h"
+#include "app/results/content_id.h"
 #include "app/systems/helical_pair/pair_geometry_checks.h"
 #include "app/systems/helical_pair/pair_lumped_model.h"
 #include "app/systems/helical_pair/pair_run.h"
 #include "app/systems/helical_pair/pair_scene.h"
+#include "app/systems/helical_pair/pair_trade.h"
+#include "app/systems/helical_pair/report/pair_report_parts.h"
 #include "example_scenes.h"
 
 namespace annulus::app {
@@ -35,16 +40,17 @@ class PairSystem final : public GearSystem {
   [[nodiscard]] double mean_mesh_force() const override { return make_pair_geometry(scene()).transverse_force; }
 
   [[nodiscard]] MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const override {
-    return pair_stiffness(mesh, options);
+    return pair_stiffness(scene(), make_pair_geometry(scene()), mesh, options);
   }
 
   [[nodiscard]] std::unique_ptr<LumpedModel> model(std::size_t /*variant*/,
                                                    const std::vector<const MeshResult*>& tables) const override {
     const auto geometry = make_pair_geometry(scene());
-    // Of this scene: its stiffness may be prescribed otherwise.
-    auto mesh = stiffness_alone(*tables.front());
-    mesh.model = pair_mesh_model(scene(), geometry);
-    return pair_lumped_model(scene(), geometry, pair_mesh(scene(), geometry, std::move(mesh)));
+    const auto model = pair_mesh_model(scene(), geometry);
+    // What is not computed is that of this scene.
+    return pair_lumped_model(lumped_pair(
+        scene(), geometry, model.computed() ? *tables.front() : pair_stiffness(scene(), geometry, model, {}),
+        pair_errors(scene()).amplitude));
   }
 
   [[nodiscard]] std::vector<PlannedResponse> responses(int threads) const override {
@@ -53,7 +59,33 @@ class PairSystem final : public GearSystem {
 
   [[nodiscard]] double response_seconds() const override { return pair_seconds(scene()); }
 
-  [[nodiscard]] std::unique_ptr<SystemRun> run() const override { return std::make_unique<PairRunResult>(scene()); }
+  void save_inputs(const SystemRun& run, const RunOptions& options) const override {
+    const auto& mesh = run.tables.front();
+    if (mesh.tabulated && !mesh.model.computed()) {
+      auto table = mesh.table;
+      table.provenance = {{"annulus_version", version()}, {"source", mesh.model.reason}};
+      table.write_csv(options.out / "stiffness_pinion_wheel.csv");
+    }
+    save_pair_errors(pair_errors(scene()), options.out / "errors");
+  }
+
+  [[nodiscard]] FigureSet table_figures(const std::vector<const MeshResult*>& tables) const override {
+    const PairMesh mesh(*tables.front());
+    FigureSet figures;
+    for (const auto& s : mean_stiffnesses(scene(), make_pair_geometry(scene()), mesh))
+      if (s.taken) figures.set("mean_stiffness_N_per_m", {s.value, std::abs(s.value) * s.error_relative});
+    if (mesh.computed) figures.add(mesh_figures(*mesh.computed));
+    return figures;
+  }
+
+  [[nodiscard]] std::unique_ptr<RunResponse> respond(const SystemRun& run, std::size_t /*variant*/,
+                                                     const RunOptions& options) const override {
+    return pair_response(scene(), run.tables.front(), options);
+  }
+
+  [[nodiscard]] Json summary(const SystemRun& run) const override { return pair_summary(PairRunResult(run)); }
+  [[nodiscard]] std::string text(const SystemRun& run) const override { return pair_text(PairRunResult(run)); }
+  [[nodiscard]] Page report(const SystemRun& run) const override { return pair_report(PairRunResult(run)); }
 
   [[nodiscard]] std::vector<std::unique_ptr<TradeSubject>> trades() const override {
     std::vector<std::unique_ptr<TradeSubject>> list;
@@ -65,12 +97,34 @@ class PairSystem final : public GearSystem {
   void describe(Plan& plan) const override { describe_pair(scene(), make_pair_geometry(scene()), plan); }
 };
 
+const std::vector<FigureSpec>& all_pair_figures() {
+  static const auto list = [] {
+    std::vector<FigureSpec> specs = {{.key = "mean_stiffness_N_per_m",
+                                      .title = "Mean stiffness along the normal, as applied",
+                                      .unit = "N/µm",
+                                      .scale = 1e-6,
+                                      .definition =
+                                          "mean mesh stiffness along the normal of the flanks that the lumped "
+                                          "model has",
+                                      .effort = FigureEffort::tables,
+                                      .guarantee = Guarantee::always,
+                                      .quantity = "mean_stiffness",
+                                      .compared = true}};
+    const auto mesh = mesh_figure_specs(pinion_wheel, "mesh", "pinion_wheel_stiffness");
+    specs.insert(specs.end(), mesh.begin(), mesh.end());
+    const auto& model = dynamics::pair_figures();
+    specs.insert(specs.end(), model.begin(), model.end());
+    return specs;
+  }();
+  return list;
+}
+
 }  // namespace
 
 SystemKind helical_pair_kind() {
   return {{"helical_pair", pair_tables, check_pair_scene, [] { return figure_keys(dynamics::pair_figures()); },
            helical_pair_example},
-          pair_run_figures,
+          all_pair_figures,
           dynamics::pair_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PairSystem>(scene); }};
 }

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "app/scene/overrides.h"
-#include "app/systems/helical_pair/pair_run.h"
-#include "app/systems/helical_pair/pair_table_errors.h"
+#include "app/systems/helical_pair/pair_errors.h"
+#include "app/systems/helical_pair/pair_lumped_model.h"
 #include "app/tradeoff/trade_settings.h"
 #include "core/errors.h"
 
@@ -45,8 +45,8 @@ class PairTrade : public TradeSubject {
     simulation.keep_series = false;
     simulation.confirm = false;
     const auto result = lumped(tables);
-    return {.fidelity = {}, .settings = {}, .id = id_of(result, simulation), .figures = [result, simulation] {
-              auto response = dynamics::evaluate_pair(*result.pair, simulation);
+    return {.fidelity = {}, .settings = {}, .id = result.id(simulation), .figures = [result, simulation] {
+              auto response = dynamics::evaluate_pair(result.pair, simulation);
               return carried_pair_errors(result, simulation, response);
             }};
   }
@@ -64,14 +64,14 @@ class PairTrade : public TradeSubject {
       auto changed = result;
       changed.pair = pair;
       list.push_back(
-          {.fidelity = fidelity, .settings = settings, .id = id_of(changed, simulation), .figures = [pair, simulation] {
+          {.fidelity = fidelity, .settings = settings, .id = changed.id(simulation), .figures = [pair, simulation] {
              const auto response = dynamics::evaluate_pair(pair, simulation);
              if (!response.steady) throw SolverError("the motion does not become periodic");
              return figures_of(pair, response);
            }});
       return list.back();
     };
-    const auto& pair = *result.pair;
+    const auto& pair = result.pair;
     for (const auto& way : motion_settings(pair.mesh_frequency(), pair.error_period())) {
       auto simulation = given;
       way.apply(simulation);
@@ -96,16 +96,10 @@ class PairTrade : public TradeSubject {
 
  private:
   /// The lumped pair on these tables; without any on the stiffness that the scene gives.
-  [[nodiscard]] PairRunResult lumped(const std::vector<MeshResult>& tables) const {
-    PairRunResult result(scene_);
-    result.mesh =
-        pair_mesh(scene_, geometry_, tables.empty() ? MeshResult{.model = model_, .table = {}} : tables.front());
-    result.pair = make_pair(scene_, geometry_, pair_excitation(scene_, geometry_, result.mesh), errors_.amplitude);
-    return result;
-  }
-
-  [[nodiscard]] static std::string id_of(const PairRunResult& result, const dynamics::SimulationOptions& simulation) {
-    return pair_id(*result.pair, simulation, result.mesh.table ? &*result.mesh.table : nullptr);
+  [[nodiscard]] LumpedPair lumped(const std::vector<MeshResult>& tables) const {
+    return lumped_pair(scene_, geometry_,
+                       tables.empty() ? pair_stiffness(scene_, geometry_, model_, {}) : tables.front(),
+                       errors_.amplitude);
   }
 
   const Scene& scene_;

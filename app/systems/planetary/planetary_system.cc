@@ -1,14 +1,16 @@
 #include "app/systems/planetary/planetary_system.h"
-#include "app/systems/planetary/planetary_trade.h"
 
 #include <fmt/format.h>
 
+#include "app/model/cost_actual.h"
 #include "app/model/mesh_figures.h"
 #include "app/systems/planetary/planetary_geometry_checks.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_plan.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/planetary_scene.h"
+#include "app/systems/planetary/planetary_trade.h"
+#include "app/systems/planetary/report/stage_report_parts.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 #include "example_scenes.h"
@@ -61,7 +63,21 @@ class PlanetarySystem final : public GearSystem {
 
   [[nodiscard]] bool coupled(const MeshModel& mesh) const override { return may_be_coupled(scene(), mesh); }
 
-  [[nodiscard]] std::unique_ptr<SystemRun> run() const override { return std::make_unique<RunResult>(scene()); }
+  [[nodiscard]] std::optional<CostRun> actual_coupling(CostRun size, const MeshResult& mesh) const override {
+    if (!mesh.coupling || mesh.coupling->reused) return std::nullopt;
+    auto time = actual_time(size, mesh.coupling->seconds);
+    if (mesh.coupling->reused_teeth > 0) time.saved_s = not_known;
+    return time;
+  }
+
+  [[nodiscard]] std::unique_ptr<RunResponse> respond(const SystemRun& run, std::size_t ring,
+                                                     const RunOptions& options) const override {
+    return ring_response(scene(), geometry(), ring, run.tables.front(), run.tables.at(ring + 1), options);
+  }
+
+  [[nodiscard]] Json summary(const SystemRun& run) const override { return stage_summary(RunResult(run)); }
+  [[nodiscard]] std::string text(const SystemRun& run) const override { return stage_text(RunResult(run)); }
+  [[nodiscard]] Page report(const SystemRun& run) const override { return stage_report(RunResult(run)); }
 
   [[nodiscard]] std::vector<std::unique_ptr<TradeSubject>> trades() const override {
     std::vector<std::unique_ptr<TradeSubject>> list;

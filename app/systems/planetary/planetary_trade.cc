@@ -180,10 +180,9 @@ class PlanetaryTrade : public TradeSubject {
       log::warn("the coupling of the planets is left out: " + done.failure);
       return {};
     }
-    const auto solved = cached_coupling(scene_, geometry_, mesh.model, compliance, options, folder);
-    if (!solved) return {};
-    Couplings couplings{taken_coupling(*solved, RimCoupling::statical), nullptr};
-    if (!solved->coupling.modes.empty()) couplings.elastic = taken_coupling(*solved, RimCoupling::elastic);
+    const auto solved = solve_coupling(scene_, geometry_, mesh.model, compliance, options, folder);  // from the cache
+    Couplings couplings{taken_coupling(solved, RimCoupling::statical), nullptr};
+    if (!solved.coupling.modes.empty()) couplings.elastic = taken_coupling(solved, RimCoupling::elastic);
     return couplings;
   }
 

@@ -8,7 +8,5 @@ namespace annulus::app {
 
 /// figures.json: figures of merit and modes of one response, with the identity of its inputs.
 [[nodiscard]] std::string response_json(const StageResponse& response, const std::string& id);
-/// Read back. Throws what the JSON library throws where something is missing.
-[[nodiscard]] StageResponse parse_response_json(const std::string& text);
 
 }  // namespace annulus::app

@@ -5,10 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/model/cost_actual.h"
-#include "app/results/content_id.h"
-#include "app/scene/inputs_json.h"
-#include "app/scene/scene_schema.h"
 #include "app/study/summary_studies.h"
 #include "core/json.h"
 
@@ -123,20 +119,20 @@ Json ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
 
 }  // namespace
 
-Json RunResult::summary() const {
-  const auto& point = geometry.operating_point;
+Json stage_summary(const RunResult& result) {
+  const auto& point = result.geometry.operating_point;
   Json json = {{"operating_point",
                 {{"sun_torque_N_m", point.sun_torque},
                  {"mesh_frequency_Hz", point.mesh_frequency},
                  {"mean_mesh_force_N", point.mean_mesh_force}}}};
-  for (std::size_t i = 0; i < rings.size(); ++i) {
-    auto& entry = json["rings"][rings[i].name] = ring_json(rings[i], sun_mesh);
-    entry.update(variant_studies_json(studies, i));
+  for (std::size_t i = 0; i < result.rings.size(); ++i) {
+    auto& entry = json["rings"][result.rings[i].name] = ring_json(result.rings[i], result.sun_mesh);
+    entry.update(variant_studies_json(result.studies, i));
   }
   return json;
 }
 
-std::string RunResult::text() const {
+std::string stage_text(const RunResult& result) {
   std::string text = fmt::format("{:<20} {:>16} {:>12} {:>12} {:>14} {:>14}\n", "ring", "stiffness N/m", "LTE um",
                                  "p-p um", "load sharing", "dyn. factor");
   const auto row = [&](const std::string& name, const MeshResult& mesh, const StageResponse* response) {
@@ -153,8 +149,8 @@ std::string RunResult::text() const {
     }
     text += "\n";
   };
-  for (const auto& ring : rings) row(ring.name, ring.mesh, ring.response ? &*ring.response : nullptr);
-  row("(sun mesh)", sun_mesh, nullptr);
+  for (const auto& ring : result.rings) row(ring.name, ring.mesh, ring.response);
+  row("(sun mesh)", result.sun_mesh, nullptr);
   text += "load sharing: sun meshes, averaged over a mesh cycle; dynamic factor: largest of all sun meshes\n";
   return text;
 }

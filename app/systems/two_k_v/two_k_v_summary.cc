@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/model/cost_actual.h"
-#include "app/results/content_id.h"
-#include "app/scene/inputs_json.h"
-#include "app/scene/scene_schema.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "core/json.h"
@@ -90,16 +86,16 @@ Json case_json(const TwoKVCase& c) {
 
 }  // namespace
 
-Json TwoKVResult::summary() const {
+Json two_k_v_summary(const TwoKVResult& result) {
   Json json = Json::object();
-  for (const auto& q : plan.quantities) json["operating_point"][q.key] = q.value;
-  json.update(case_json(own));
-  if (computed) json["computed"] = case_json(*computed);
-  json.update(variant_studies_json(studies, 0));
+  for (const auto& q : result.plan.quantities) json["operating_point"][q.key] = q.value;
+  json.update(case_json(result.own));
+  if (result.computed) json["computed"] = case_json(*result.computed);
+  json.update(variant_studies_json(result.studies, 0));
   return json;
 }
 
-std::string TwoKVResult::text() const {
+std::string two_k_v_text(const TwoKVResult& result) {
   std::string text = fmt::format("{:<12} {:>14} {:>14} {:>12} {:>16} {:>18} {:>12}\n", "stiffness", "sun mesh N/m",
                                  "arc mesh N/m", "f1 Hz", "torsion Nm/rad", "output error, asec", "dyn. factor");
   const auto row = [&](const char* name, const TwoKVCase& c) {
@@ -112,8 +108,8 @@ std::string TwoKVResult::text() const {
                           std::max(c.motion->dynamic_factor(false), c.motion->dynamic_factor(true)));
     text += "\n";
   };
-  row("scene", own);
-  if (computed) row("computed", *computed);
+  row("scene", result.own);
+  if (result.computed) row("computed", *result.computed);
   text += "output error: peak to peak; dynamic factor: largest of all meshes\n";
   return text;
 }

@@ -22,6 +22,4 @@ Page pair_report(const PairRunResult& result) {
                      {model_section(result.plan), inputs_section(result.plan), pair_quality_section(result)}});
 }
 
-Page PairRunResult::report() const { return pair_report(*this); }
-
 }  // namespace annulus::app

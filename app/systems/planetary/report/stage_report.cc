@@ -84,6 +84,4 @@ Page stage_report(const RunResult& result) {
         inputs_section(result.plan), quality_section(result)}});
 }
 
-Page RunResult::report() const { return stage_report(*this); }
-
 }  // namespace annulus::app

@@ -238,6 +238,4 @@ Page reducer_report(const TwoKVResult& result) {
        {model_section(result.plan), inputs_section(result.plan), reducer_quality(result)}});
 }
 
-Page TwoKVResult::report() const { return reducer_report(*this); }
-
 }  // namespace annulus::app
