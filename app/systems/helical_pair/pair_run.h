@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "app/model/system_run.h"
+#include "app/report/section.h"
 #include "app/systems/helical_pair/pair_errors.h"
 #include "app/systems/helical_pair/pair_stiffness.h"
 #include "core/csv.h"
+#include "core/json.h"
 #include "dynamics/modes/modes.h"
 #include "dynamics/systems/helical_pair/pair_figures.h"
 
@@ -74,6 +76,7 @@ struct PairRunResult : RunView {
 
 [[nodiscard]] Json pair_summary(const PairRunResult& result);      ///< members of summary.json (pair_summary.cc)
 [[nodiscard]] std::string pair_text(const PairRunResult& result);  ///< for the standard output (pair_summary.cc)
+[[nodiscard]] Page pair_report(const PairRunResult& result);       ///< report.html (report/pair_report.cc)
 
 /// All steps of a run of a scene of this kind.
 [[nodiscard]] PairRunResult run_pair(const Scene& scene, const RunOptions& options);

@@ -12,7 +12,6 @@
 #include "app/systems/helical_pair/pair_run.h"
 #include "app/systems/helical_pair/pair_scene.h"
 #include "app/systems/helical_pair/pair_trade.h"
-#include "app/systems/helical_pair/report/pair_report_parts.h"
 #include "example_scenes.h"
 
 namespace annulus::app {

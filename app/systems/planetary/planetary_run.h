@@ -8,8 +8,10 @@
 #include "app/model/mesh_result.h"
 #include "app/model/system_run.h"
 #include "app/plan/gear_geometry.h"
+#include "app/report/section.h"
 #include "app/systems/planetary/coupling_effect.h"
 #include "app/systems/planetary/stage_response.h"
+#include "core/json.h"
 
 /// A run of a planetary stage: one variant per ring.
 namespace annulus::app {
@@ -47,6 +49,7 @@ struct RunResult : RunView {
 
 [[nodiscard]] Json stage_summary(const RunResult& result);      ///< members of summary.json (summary.cc)
 [[nodiscard]] std::string stage_text(const RunResult& result);  ///< for the standard output (summary.cc)
+[[nodiscard]] Page stage_report(const RunResult& result);       ///< report.html (report/stage_report.cc)
 
 /// All steps of a run of a planetary scene.
 [[nodiscard]] RunResult run(const Scene& scene, const RunOptions& options);

@@ -10,7 +10,6 @@
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/planetary_trade.h"
-#include "app/systems/planetary/report/stage_report_parts.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 #include "example_scenes.h"

@@ -101,7 +101,7 @@ void tabulate(StageResponse& result, const dynamics::DynamicResponse& response, 
 
 /// The tables, each in a file of its own.
 template <class Response, class Visit>
-void for_each_table(Response& r, Visit visit) {
+void for_each_stage_table(Response& r, Visit visit) {
   visit("load_sharing.csv", r.load_sharing);
   visit("dynamic_factor.csv", r.dynamic_factor);
   visit("waveform.csv", r.waveform);
@@ -140,7 +140,7 @@ StageResponse simulate_stage(const dynamics::PlanetaryStage& stage, const dynami
   check_power(stage, response, options.steady_tolerance);
   tabulate(result, response, stage.planets());
   result.motion = stage_motion(stage, response);
-  for_each_table(result, [](const char*, Csv& table) { table.round(); });
+  for_each_stage_table(result, [](const char*, Csv& table) { table.round(); });
   result.time_series = time_series_table(response.series, response.window_cycles).text();
   response.series = {};
   result.errors = carried_errors(response, options, tables);
@@ -152,7 +152,7 @@ StageResponse simulate_stage(const dynamics::PlanetaryStage& stage, const dynami
 void save(const StageResponse& response, const std::string& id, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   const std::vector<std::pair<std::string, std::string>> header = {{"annulus_version", version()}, {"inputs_id", id}};
-  for_each_table(response, [&](const char* name, Csv table) {
+  for_each_stage_table(response, [&](const char* name, Csv table) {
     table.header = header;
     table.write(folder / name);
   });

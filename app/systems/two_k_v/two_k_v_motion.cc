@@ -59,7 +59,7 @@ std::string motion_json(const TwoKVMotion& m, const std::string& id) {
 
 /// The tables, each in a file of its own.
 template <class Motion, class Visit>
-void for_each_table(Motion& m, Visit visit) {
+void for_each_motion_table(Motion& m, Visit visit) {
   visit("output_error.csv", m.output_error);
   visit("output_error_static.csv", m.static_error);
   visit("spectrum.csv", m.spectrum);
@@ -187,7 +187,7 @@ TwoKVMotion simulate_two_k_v(const Scene& scene, const TwoKVTables& tables,
   for (const auto& [mesh, list] : {std::pair{"sun_planet", &motion.sun_planet}, {"arc_pins", &motion.arc_pins}})
     for (std::size_t n = 0; n < list->size(); ++n)
       (*list)[n].dynamic_factor_max.error = motion.results.figure(factor_key(mesh, n)).error;
-  for_each_table(motion, [](const char*, Csv& table) { table.round(); });
+  for_each_motion_table(motion, [](const char*, Csv& table) { table.round(); });
   motion.time_series = motion_series(response.series).text();
   return motion;
 }
@@ -195,7 +195,7 @@ TwoKVMotion simulate_two_k_v(const Scene& scene, const TwoKVTables& tables,
 void save(const TwoKVMotion& motion, const std::string& id, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   const std::vector<std::pair<std::string, std::string>> header = {{"annulus_version", version()}, {"inputs_id", id}};
-  for_each_table(motion, [&](const char* name, Csv table) {
+  for_each_motion_table(motion, [&](const char* name, Csv table) {
     table.header = header;
     table.write(folder / name);
   });

@@ -51,6 +51,7 @@ struct TwoKVResult : RunView {
 
 [[nodiscard]] Json two_k_v_summary(const TwoKVResult& result);      ///< members of summary.json (two_k_v_summary.cc)
 [[nodiscard]] std::string two_k_v_text(const TwoKVResult& result);  ///< for the standard output (two_k_v_summary.cc)
+[[nodiscard]] Page reducer_report(const TwoKVResult& result);       ///< report.html (report/reducer_report.cc)
 
 /// All steps of a run of a scene of this kind.
 [[nodiscard]] TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options);

@@ -4,7 +4,6 @@
 
 #include "app/model/mesh_figures.h"
 #include "app/plan/plan.h"
-#include "app/systems/two_k_v/report/reducer_report_parts.h"
 #include "app/systems/two_k_v/two_k_v_geometry_checks.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "app/systems/two_k_v/two_k_v_scene.h"

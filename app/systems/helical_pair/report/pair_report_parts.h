@@ -9,9 +9,6 @@
 /// The sections of a helical pair's report, made from the results alone.
 namespace annulus::app {
 
-/// report.html of a helical pair.
-[[nodiscard]] Page pair_report(const PairRunResult& result);
-
 // pair_geometry.cc
 [[nodiscard]] Section drawings_section(const PairRunResult& result);  ///< the gears to scale
 // conclusions.cc

@@ -14,9 +14,6 @@
 /// The sections of a planetary stage's report.
 namespace annulus::app {
 
-/// report.html of a planetary stage.
-[[nodiscard]] Page stage_report(const RunResult& result);
-
 /// All meshes of a run with a name for readers, the rings' first, then the sun's; the index is their colour.
 [[nodiscard]] std::vector<std::pair<std::string, const MeshResult*>> all_meshes(const RunResult& result);
 /// The same with the sun mesh first and each ring's named `ring_head` + its name, as tables list them.

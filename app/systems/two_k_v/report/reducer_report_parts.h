@@ -9,9 +9,6 @@
 /// The sections of the report of a 2K-V stage, made from the results alone.
 namespace annulus::app {
 
-/// report.html of a 2K-V stage.
-[[nodiscard]] Page reducer_report(const TwoKVResult& result);
-
 /// One or two columns of every table: the scene's own stiffness, and the computed one.
 struct ShownCase {
   std::string name;
