@@ -22,8 +22,8 @@ std::optional<CouplingEffect> effect_of_coupling(const Scene& scene, dynamics::P
                                                  const MeshResult& sun_mesh, const MeshResult& ring_mesh,
                                                  const std::string& name, const RunOptions& options) {
   if (!ring_mesh.coupling || is_negligible(scene, *ring_mesh.coupling)) return std::nullopt;
-  const auto simulation = simulation_options(scene, stage);
   stage.ring_coupling = taken_coupling(*ring_mesh.coupling, RimCoupling::elastic);
+  const auto simulation = simulation_options(scene, stage);
   const auto id = response_id(stage, simulation, sun_mesh, ring_mesh);
   stage.ring_coupling = nullptr;
   const auto [effect, reused] = cached_value(options.store.get(), cached_effects, id,
