@@ -181,8 +181,7 @@ MeshResult pack(const MeshModel& model, const fem::LoadedMeshResult& solved) {
   for (const auto& [name, member] : side_tables) (result.*member).round(keys);
   if (has_mesh(solved)) result.picture = mesh_picture(*model.problem, solved, model.mesh + "-" + model.ring);
   for (const auto& field : solved.fields)
-    result.fields += field_view(field, solved.positions[field.position],
-                                field.body == "planet" ? model.planet_body : model.wheel_body);
+    result.fields += field_view(field, solved.positions[field.position], model.body_name(field.body == "planet"));
   result.table.provenance = {{"annulus_version", version()}, {"inputs_id", model.id()}, {"model", model.fidelity}};
   return result;
 }

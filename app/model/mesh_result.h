@@ -71,7 +71,7 @@ struct MeshResult {
   [[nodiscard]] std::optional<Peak> peak(const std::string& column) const;
 };
 
-/// The tables kept beside the positions, by the first part of their file names.
+/// The tables beside the positions, by the first part of their file names.
 inline constexpr std::pair<const char*, Csv MeshResult::*> side_tables[] = {{"pins", &MeshResult::pins},
                                                                             {"housing", &MeshResult::housing},
                                                                             {"pressure", &MeshResult::pressure},

@@ -76,6 +76,8 @@ struct RunView {
         reuse(of.reuse) {}
   operator const SystemRun&() const { return run; }  // NOLINT(google-explicit-constructor): it is that run
 
+  [[nodiscard]] std::vector<VariantFigures> variants() const { return run.variants(); }
+
   std::shared_ptr<const SystemRun> owner;
   const SystemRun& run;
   const Scene& scene;

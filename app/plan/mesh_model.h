@@ -54,6 +54,7 @@ struct MeshModel {
   [[nodiscard]] std::size_t nominal_load() const { return problem->loads.size() / 2; }
   /// Identity of all inputs this mesh's results depend on.
   [[nodiscard]] std::string id() const;
+  [[nodiscard]] const std::string& body_name(bool planet) const { return planet ? planet_body : wheel_body; }
   /// For messages: "sun-planet mesh", "planet mesh of ring 'pinned'".
   [[nodiscard]] std::string label() const;
 };

@@ -4,7 +4,7 @@
 
 namespace annulus::app {
 
-/// Of the program as it was built: its version and the build identities of the program and of annulus's libraries.
+/// Identity of the program as it was built: its version and the build identities of the program and of annulus's libraries.
 /// Results of another build are computed again.
 [[nodiscard]] const std::string& program_identity();
 

@@ -43,7 +43,7 @@ std::vector<std::pair<std::string, double>> timings_of(const SystemRun& run) {
   return list;
 }
 
-/// Of the inputs and of what is solved.
+/// Identity of the inputs and of what is solved.
 std::string inputs_id(const SystemRun& run) {
   ContentId id;
   for (const auto& input : run.scene.inputs) id.add(input.ring + "." + input.key, to_text(input.value));

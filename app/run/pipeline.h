@@ -12,8 +12,8 @@
 ///
 ///     Scene ─► GearSystem ─► contact ─► StiffnessTable ─► lumped model ─► report
 ///
-/// and `run_system` calls them, for any kind of gear system. Every step leaves files from which the next one can start
-/// again: a result whose inputs have not changed is read back instead of computed.
+/// and `run_system` calls them, for any kind of gear system. Every step caches its result: one whose inputs have not
+/// changed is read back instead of computed.
 namespace annulus::app {
 
 // 1. Scene: what the user wants, checked, SI (scene/scene_files.h):

@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(lost_motion_of_backlash) {
 BOOST_AUTO_TEST_CASE(another_clearance_is_another_result) {
   const test::TemporaryFolder folder("reducer_clearance");
   const auto lost = [&](const std::string& text, const char* out) {
-    return run_reducer(text, folder.path() / out).run.variants().front().figures.value("lost_motion_rad");
+    return run_reducer(text, folder.path() / out).variants().front().figures.value("lost_motion_rad");
   };
   const auto without = test::replaced(test::reducer_scene() + "mesh_cycles = 34\n", "mean_N_per_m = 7.5e8\n",
                                       "mean_N_per_m = 7.5e8\ncompare = \"computed\"\n"),

@@ -196,7 +196,7 @@ std::vector<RingQuantity> ring_quantities(const RunResult& result) {
                                   "sun_planet_dynamic_factor",
                                   "ring_planet_dynamic_factor"};
   const auto& specs = system_kind(result.scene.stage.kind).figures();
-  const auto variants = result.run.variants();
+  const auto variants = result.variants();
   std::vector<RingQuantity> list;
   for (const auto* key : keys) {
     const auto* spec = find_figure(specs, key);
