@@ -33,31 +33,20 @@ enum class Answer { all, without_motion };
 /// A lumped model of a gear system on the stiffness tables of its meshes.
 class LumpedModel {
  public:
-  LumpedModel() = default;
-  LumpedModel(const LumpedModel&) = delete;
-  LumpedModel& operator=(const LumpedModel&) = delete;
-  virtual ~LumpedModel() = default;
-
-  /// Identity of everything the answers depend on.
-  [[nodiscard]] virtual std::string id() const = 0;
   /// The results of the kind's model_figures. Throws what solving throws. Any number of threads at once.
-  [[nodiscard]] virtual StudyPoint answer(Answer wanted) const = 0;
-  /// The motion followed from several initial conditions; nothing for kinds that do not offer it.
-  [[nodiscard]] virtual std::optional<StartSpread> starts(int /*count*/, int /*seed*/) const { return std::nullopt; }
-};
-
-/// A lumped model by the function that answers.
-class AnsweringModel final : public LumpedModel {
- public:
   using Answers = std::function<StudyPoint(Answer wanted)>;
-  using Starts = std::function<std::optional<StartSpread>(int count, int seed)>;
-  AnsweringModel(std::string id, Answers answers, Starts starts = {})
+  /// The motion followed from several initial conditions.
+  using Starts = std::function<StartSpread(int count, int seed)>;
+
+  /// `id`: identity of everything the answers depend on. `starts`: empty for kinds that do not offer it.
+  LumpedModel(std::string id, Answers answers, Starts starts = {})
       : id_(std::move(id)), answers_(std::move(answers)), starts_(std::move(starts)) {}
 
-  [[nodiscard]] std::string id() const override { return id_; }
-  [[nodiscard]] StudyPoint answer(Answer wanted) const override { return answers_(wanted); }
-  [[nodiscard]] std::optional<StartSpread> starts(int count, int seed) const override {
-    return starts_ ? starts_(count, seed) : std::nullopt;
+  [[nodiscard]] const std::string& id() const { return id_; }
+  [[nodiscard]] StudyPoint answer(Answer wanted) const { return answers_(wanted); }
+  [[nodiscard]] std::optional<StartSpread> starts(int count, int seed) const {
+    if (!starts_) return std::nullopt;
+    return starts_(count, seed);
   }
 
  private:

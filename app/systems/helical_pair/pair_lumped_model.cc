@@ -64,12 +64,12 @@ std::unique_ptr<LumpedModel> pair_lumped_model(const LumpedPair& lumped) {
   auto simulation = pair_simulation(lumped.scene);
   simulation.confirm = false;
   simulation.keep_series = false;
-  return std::make_unique<AnsweringModel>(identity_of(lumped.id(simulation), std::string(pair_point_method)),
-                                          [pair = lumped.pair, simulation](Answer wanted) -> StudyPoint {
-                                            auto figures = dynamics::figures(dynamics::evaluate_pair(pair, simulation));
-                                            if (wanted == Answer::all) figures.add(dynamics::frequency_figures(pair));
-                                            return {.figures = {dynamics::pair_figures(), figures}};
-                                          });
+  return std::make_unique<LumpedModel>(identity_of(lumped.id(simulation), std::string(pair_point_method)),
+                                       [pair = lumped.pair, simulation](Answer wanted) -> StudyPoint {
+                                         auto figures = dynamics::figures(dynamics::evaluate_pair(pair, simulation));
+                                         if (wanted == Answer::all) figures.add(dynamics::frequency_figures(pair));
+                                         return {.figures = {dynamics::pair_figures(), figures}};
+                                       });
 }
 
 FigureSet carried_pair_errors(const LumpedPair& lumped, const dynamics::SimulationOptions& options,

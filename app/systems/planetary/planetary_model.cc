@@ -42,7 +42,7 @@ std::unique_ptr<LumpedModel> planetary_model(const Scene& scene, const GearGeome
                                              const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
   const auto stage = make_stage(scene, geometry, ring, sun_mesh, ring_mesh);
   const auto simulation = simulation_options(scene, stage);
-  return std::make_unique<AnsweringModel>(
+  return std::make_unique<LumpedModel>(
       identity_of(response_id(stage, simulation, sun_mesh, ring_mesh), std::string(dynamics::point_method())),
       [stage, simulation](Answer wanted) -> StudyPoint {
         auto f = dynamics::evaluate_point(stage, {.simulation = simulation, .motion = wanted == Answer::all});

@@ -50,7 +50,7 @@ class TwoKVSystem final : public GearSystem {
     models.moving.check();
     auto simulation = two_k_v_simulation(scene(), models.moving);
     simulation.keep_series = false;
-    return std::make_unique<AnsweringModel>(
+    return std::make_unique<LumpedModel>(
         two_k_v_id(models, simulation, both), [models, simulation](Answer wanted) -> StudyPoint {
           auto figures = dynamics::static_figures(models.at_nominal, models.arc_clearance);
           if (wanted == Answer::without_motion)
