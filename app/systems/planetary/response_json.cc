@@ -1,6 +1,5 @@
-#include "app/systems/planetary/response_json.h"
-
 #include "app/results/content_id.h"
+#include "app/systems/planetary/stage_response.h"
 #include "core/json.h"
 
 namespace annulus::app {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "app/results/content_id.h"
-#include "app/systems/planetary/response_json.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "dynamics/figures/spectrum.h"

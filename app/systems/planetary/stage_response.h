@@ -44,6 +44,8 @@ struct StageResponse {
 /// Simulates, and propagates the errors of the tables into the results.
 [[nodiscard]] StageResponse simulate_stage(const dynamics::PlanetaryStage& stage,
                                            const dynamics::SimulationOptions& options, const StageTables& tables);
+/// figures.json: results and modes of one response, with the identity of its inputs (response_json.cc).
+[[nodiscard]] std::string response_json(const StageResponse& response, const std::string& id);
 /// Writes all files of a response into `folder` (OUT/<ring>/dynamics).
 void save(const StageResponse& response, const std::string& id, const std::filesystem::path& folder);
 
