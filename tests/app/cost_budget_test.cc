@@ -1,6 +1,6 @@
 #include "app/model/cost_budget.h"
-#include "app/scene/overrides.h"
 #include "app/run/pipeline.h"
+#include "app/scene/overrides.h"
 #include "app/systems/planetary/planetary_run.h"
 
 #include <algorithm>
