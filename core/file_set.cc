@@ -1,12 +1,8 @@
 #include "core/file_set.h"
 
-#include <fmt/format.h>
-
 #include <system_error>
 
-#include "core/errors.h"
 #include "core/files.h"
-#include "core/json.h"
 
 namespace annulus {
 
@@ -40,36 +36,6 @@ void write_files(const FileSet& files, const std::filesystem::path& folder) {
       write_file(file, *content);
     }
   }
-}
-
-std::string pack_files(const FileSet& files) {
-  // A line of names and sizes, then the contents one after the other.
-  Json sizes = Json::object();
-  for (const auto& [name, content] : files) sizes[name] = content ? Json(content->size()) : Json(nullptr);
-  std::string packed = sizes.dump() + "\n";
-  for (const auto& [name, content] : files) packed += content.value_or("");
-  return packed;
-}
-
-FileSet unpack_files(std::string_view packed) {
-  const auto line = packed.find('\n');
-  FileSet files;
-  try {
-    const auto sizes = Json::parse(packed.substr(0, line));
-    std::size_t at = line + 1;
-    for (const auto& [name, size] : sizes.items()) {
-      auto& content = files[name];
-      if (size.is_null()) continue;
-      const auto count = size.get<std::size_t>();
-      if (line == std::string_view::npos || count > packed.size() - at)
-        throw Error("a set of files that ends too early");
-      content = packed.substr(at, count);
-      at += count;
-    }
-  } catch (const Json::exception& error) {
-    throw Error(fmt::format("no set of files: {}", error.what()));
-  }
-  return files;
 }
 
 }  // namespace annulus

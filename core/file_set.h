@@ -4,7 +4,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace annulus {
@@ -17,9 +16,5 @@ using FileSet = std::map<std::string, std::optional<std::string>>;
 /// Makes the folder hold this set; files that are right already stay untouched. Throws InputError naming the file that
 /// cannot be written.
 void write_files(const FileSet& files, const std::filesystem::path& folder);
-
-/// As one text, and back. `unpack_files` throws Error for what `pack_files` did not write.
-[[nodiscard]] std::string pack_files(const FileSet& files);
-[[nodiscard]] FileSet unpack_files(std::string_view packed);
 
 }  // namespace annulus

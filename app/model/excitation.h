@@ -1,9 +1,8 @@
 #pragma once
 
-#include <string>
+#include <optional>
 
 #include "app/model/mesh_result.h"
-#include "app/results/content_id.h"
 #include "app/scene/scene.h"
 #include "dynamics/steady_state/steady_response.h"
 #include "dynamics/system/mesh_excitation.h"
@@ -15,15 +14,13 @@ namespace annulus::app {
 /// over all of them.
 [[nodiscard]] dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult& mesh,
                                                      double nominal_load, dynamics::LoadDependence dependence);
-/// Adds everything an excitation depends on: its parameters, or the numbers and errors of its table and whether all
-/// loads are taken.
-void add_excitation(ContentId& id, const std::string& name, const dynamics::MeshExcitation& excitation,
-                    const StiffnessTable& table);
+/// The table that an excitation was made from, as an input of identities: without its provenance. Nothing where the
+/// scene prescribes the stiffness.
+[[nodiscard]] std::optional<StiffnessTable> table_behind(const dynamics::MeshExcitation& excitation,
+                                                         const StiffnessTable& table);
 
 /// What [dynamics] says of the integration, whatever the kind of stage; fixed steps are counted per cycle of this
 /// frequency (Hz).
 [[nodiscard]] dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double mesh_frequency);
-/// Adds all options that a response depends on; its start is not among them.
-void add_simulation(ContentId& id, const dynamics::SimulationOptions& options);
 
 }  // namespace annulus::app

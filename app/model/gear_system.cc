@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "app/model/plan_studies.h"
-#include "app/model/system_run.h"
 #include "app/plan/plan.h"
 #include "app/scene/input_place.h"
 #include "core/errors.h"
@@ -47,8 +46,6 @@ std::vector<std::size_t> GearSystem::meshes_of(std::size_t /*variant*/) const {
   std::iota(all.begin(), all.end(), std::size_t{0});
   return all;
 }
-
-std::unique_ptr<SystemRun> GearSystem::run() const { return nullptr; }
 
 std::string GearSystem::title(std::size_t variant) const {
   const auto name = variants().at(variant);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,16 +10,26 @@
 #include "app/model/mesh_result.h"
 #include "app/plan/cost_plan.h"
 #include "app/plan/mesh_model.h"
+#include "app/report/section.h"
 #include "app/scene/scene.h"
 #include "app/scene/scene_kind.h"
 #include "core/figure.h"
+#include "core/json.h"
 
 namespace annulus::app {
 
 struct Plan;
 struct RunOptions;
+struct RunResponse;
 struct SystemRun;
 struct SolvedCoupling;
+
+/// A lumped model that a run answers.
+struct RunVariant {
+  std::string name;                 ///< in results
+  std::string folder;               ///< below OUT
+  std::vector<std::size_t> tables;  ///< those it stands on, by their places in GearSystem::run_meshes
+};
 
 /// A gear system of a scene: what one kind of them answers to the commands, which know no kind. A new kind is a class
 /// of this sort in a folder of its own and a line in systems/registry.cc.
@@ -64,8 +75,29 @@ class GearSystem {
   /// What will be modelled and why; computes nothing elastic. Its times are scaled to this machine.
   [[nodiscard]] Plan plan(int threads) const;
 
-  /// A run of this kind that has not begun; nothing: by the lumped models alone (run/model_run.h).
-  [[nodiscard]] virtual std::unique_ptr<SystemRun> run() const;
+  /// The meshes of a run: model_meshes, and behind them others that it answers beside the scene's own.
+  [[nodiscard]] virtual std::vector<MeshModel> run_meshes() const { return model_meshes(); }
+  /// What a run answers: the variants, and behind them others.
+  [[nodiscard]] virtual std::vector<RunVariant> run_variants() const;
+  /// Writes files of the kind's own into OUT that need nothing but the tables.
+  virtual void save_inputs(const SystemRun& /*run*/, const RunOptions& /*options*/) const {}
+  /// The results of stiffness tables alone.
+  [[nodiscard]] virtual FigureSet table_figures(const std::vector<const MeshResult*>& tables) const;
+  /// What the coupling of a computed mesh cost; nothing where it was reused.
+  [[nodiscard]] virtual std::optional<CostRun> actual_coupling(CostRun /*size*/, const MeshResult& /*mesh*/) const {
+    return std::nullopt;
+  }
+
+  // The defaults of the following know a lumped model by its results alone (run/plain_run.cc).
+  /// The answer of a variant of run_variants on the tables of the run.
+  [[nodiscard]] virtual std::unique_ptr<RunResponse> respond(const SystemRun& run, std::size_t variant,
+                                                             const RunOptions& options) const;
+  /// Members of summary.json beyond those of every kind.
+  [[nodiscard]] virtual Json summary(const SystemRun& run) const;
+  /// The results in a few lines for the standard output.
+  [[nodiscard]] virtual std::string text(const SystemRun& run) const;
+  /// The page of report.html.
+  [[nodiscard]] virtual Page report(const SystemRun& run) const;
 
   /// The name of a variant in the cost study: the kind of one without a name.
   [[nodiscard]] virtual std::string title(std::size_t variant) const;

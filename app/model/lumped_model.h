@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/figure.h"
@@ -32,17 +33,26 @@ enum class Answer { all, without_motion };
 /// A lumped model of a gear system on the stiffness tables of its meshes.
 class LumpedModel {
  public:
-  LumpedModel() = default;
-  LumpedModel(const LumpedModel&) = delete;
-  LumpedModel& operator=(const LumpedModel&) = delete;
-  virtual ~LumpedModel() = default;
-
-  /// Identity of everything the answers depend on.
-  [[nodiscard]] virtual std::string id() const = 0;
   /// The results of the kind's model_figures. Throws what solving throws. Any number of threads at once.
-  [[nodiscard]] virtual StudyPoint answer(Answer wanted) const = 0;
-  /// The motion followed from several initial conditions; nothing for kinds that do not offer it.
-  [[nodiscard]] virtual std::optional<StartSpread> starts(int /*count*/, int /*seed*/) const { return std::nullopt; }
+  using Answers = std::function<StudyPoint(Answer wanted)>;
+  /// The motion followed from several initial conditions.
+  using Starts = std::function<StartSpread(int count, int seed)>;
+
+  /// `id`: identity of everything the answers depend on. `starts`: empty for kinds that do not offer it.
+  LumpedModel(std::string id, Answers answers, Starts starts = {})
+      : id_(std::move(id)), answers_(std::move(answers)), starts_(std::move(starts)) {}
+
+  [[nodiscard]] const std::string& id() const { return id_; }
+  [[nodiscard]] StudyPoint answer(Answer wanted) const { return answers_(wanted); }
+  [[nodiscard]] std::optional<StartSpread> starts(int count, int seed) const {
+    if (!starts_) return std::nullopt;
+    return starts_(count, seed);
+  }
+
+ private:
+  std::string id_;
+  Answers answers_;
+  Starts starts_;
 };
 
 /// One way to make and solve a lumped model, as the cost study measures it.

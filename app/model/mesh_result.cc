@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "app/model/mesh_tables.h"
 #include "app/report/drawings/mesh.h"
@@ -14,8 +13,6 @@
 namespace annulus::app {
 
 namespace {
-
-constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// A closed form needs no mesh.
 bool has_mesh(const fem::LoadedMeshResult& solved) { return !solved.wheel_sector.cells.empty(); }
@@ -162,6 +159,7 @@ MeshResult stiffness_alone(const MeshResult& mesh) {
           .facts = mesh.facts,
           .coupling = mesh.coupling,
           .nominal = mesh.nominal,
+          .tabulated = mesh.tabulated,
           .reused = mesh.reused};
 }
 
@@ -206,8 +204,9 @@ void save(const MeshResult& result, const std::filesystem::path& folder) {
   for (const auto& [name, value] : result.facts) positions.header.emplace_back(name, fmt::format("{:.17g}", value));
   keep("lte", std::move(positions));
   for (const auto& [name, member] : side_tables) keep(name, result.*member);
-  if (!result.picture.empty()) write_file(folder / "mesh" / (mesh + ".svg"), result.picture);
-  // Written last: its presence says that the others are complete.
+  auto files = result.bodies;
+  files[mesh + ".svg"] = result.picture.empty() ? std::nullopt : std::optional(result.picture);
+  write_files(files, folder / "mesh");
   result.table.write_csv(folder / ("stiffness_" + mesh + ".csv"));
 }
 

@@ -9,7 +9,9 @@
 
 #include "app/plan/mesh_model.h"
 #include "app/report/drawings/body_view.h"
+#include "core/bytes.h"
 #include "core/csv.h"
+#include "core/file_set.h"
 #include "core/stiffness_table.h"
 
 namespace annulus::app {
@@ -35,7 +37,7 @@ struct Peak {
   PositionKey at;
 };
 
-/// What is known about one mesh after its solve, and kept in files so that it need not be solved again.
+/// What is known about one mesh after its solve.
 struct MeshResult {
   MeshModel model;
   double contact_ratio = 0;
@@ -49,11 +51,14 @@ struct MeshResult {
   Csv stress{};                    ///< stress_<mesh>.csv: stress along roots and rim; its header names the curves
   std::string picture{};           ///< SVG of the meshes in contact; empty when none was meshed
   std::vector<BodyView> fields{};  ///< deformation and stress of both bodies; in no file, may be empty
+  FileSet bodies{};                ///< OUT/<ring>/mesh: .msh and .vtu of both bodies; empty once they are written
   /// Invariants and sizes by name: force_balance_relative, max_penetration_m, unknowns, mesh_seconds ...
   std::map<std::string, double> facts{};
   /// Ring meshes: how those of all planets act on each other through the ring; null when that was not looked at.
   std::shared_ptr<const SolvedCoupling> coupling{};
   std::size_t nominal = 0;  ///< index of the nominal load in the table
+  /// Whether the lumped model reads the table; else the scene prescribes a stiffness, and the table shows it.
+  bool tabulated = true;
   bool reused = false;
 
   [[nodiscard]] Estimate mean_stiffness() const;  ///< N/m, secant, at the nominal load
@@ -67,7 +72,7 @@ struct MeshResult {
   [[nodiscard]] std::optional<Peak> peak(const std::string& column) const;
 };
 
-/// The tables kept beside the positions, by the first part of their file names.
+/// The tables beside the positions, by the first part of their file names.
 inline constexpr std::pair<const char*, Csv MeshResult::*> side_tables[] = {{"pins", &MeshResult::pins},
                                                                             {"housing", &MeshResult::housing},
                                                                             {"pressure", &MeshResult::pressure},
@@ -83,11 +88,24 @@ inline constexpr std::pair<const char*, Csv MeshResult::*> side_tables[] = {{"pi
 [[nodiscard]] MeshResult given_stiffness(const MeshModel& model, const MeshInput& input, const Scene& scene,
                                          double contact_ratio, double nominal_load);
 
-/// Writes lte_, stiffness_, pins_, ... <mesh>.csv and the picture into `folder` (OUT/<ring>).
+/// Writes lte_, stiffness_, pins_, ... <mesh>.csv, the picture and the bodies into `folder` (OUT/<ring>). What a result
+/// does not have leaves no file behind.
 void save(const MeshResult& result, const std::filesystem::path& folder);
-/// All files that the result of this mesh may have in its folder.
-[[nodiscard]] std::vector<std::string> mesh_files(const MeshModel& model);
-/// The result that `save` wrote into `folder`. Throws InputError where files are missing or damaged.
-[[nodiscard]] MeshResult load(const MeshModel& model, const std::filesystem::path& folder);
 
 }  // namespace annulus::app
+
+namespace annulus {
+
+/// Without the model, the coupling and how it was found, which its reader knows.
+template <>
+struct Members<app::MeshResult> {
+  template <class Value>
+  static auto of(Value& value) {
+    auto& [model, contact_ratio, table, positions, housing, pins, pressure, line_load, stress, picture, fields, bodies,
+           facts, coupling, nominal, tabulated, reused] = value;
+    return std::tie(contact_ratio, table, positions, housing, pins, pressure, line_load, stress, picture, fields,
+                    bodies, facts, nominal, tabulated);
+  }
+};
+
+}  // namespace annulus

@@ -4,25 +4,18 @@
 
 #include "app/plan/cost_plan.h"
 #include "app/process/progress.h"
-#include "app/results/cached_files.h"
-#include "app/results/content_id.h"
+#include "app/results/cached_value.h"
 #include "core/log.h"
-#include "core/result_store.h"
 
 namespace annulus::app {
 
 namespace {
 
-constexpr const char *cached_meshes = "meshes", *cached_fields = "mesh_fields";
+constexpr const char* cached_meshes = "meshes";
 
-/// Of all that the files of a mesh depend on. Pictures name the ring; studies go without fields.
-std::string files_id(const MeshModel& model, const RunOptions& options) {
-  return ContentId()
-      .add("inputs", model.id())
-      .add("mesh", model.mesh)
-      .add("ring", model.ring)
-      .add("fields", options.for_study ? 0 : 1)
-      .id();
+/// All that the result of a mesh depends on. Pictures name the ring; studies go without fields.
+std::string result_id(const MeshModel& model, const RunOptions& options) {
+  return identity_of(model.id(), model.mesh, model.ring, options.for_study);
 }
 
 std::vector<geometry::PointData> point_data(const fem::BodyField& field) {
@@ -36,17 +29,26 @@ std::vector<geometry::PointData> point_data(const fem::BodyField& field) {
   return {std::move(displacement), std::move(von_mises), std::move(stress)};
 }
 
-void write_meshes(const MeshModel& model, const fem::LoadedMeshResult& solved, const std::filesystem::path& folder) {
+/// The .msh and .vtu files of both bodies, written into `folder`; nothing for those that the solution does not have.
+FileSet body_files(const MeshModel& model, const fem::LoadedMeshResult& solved, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  const auto name_of = [&](bool planet) { return model.mesh + "_" + model.body_name(planet); };
-  for (const auto& [mesh, planet] : {std::pair{&solved.planet_sector, true}, {&solved.wheel_sector, false}}) {
+  std::vector<std::string> names;
+  const auto file = [&](const std::string& body, const char* ending) {
+    names.push_back(model.mesh + "_" + body + ending);
+    std::filesystem::remove(folder / names.back());
+    return folder / names.back();
+  };
+  for (const auto& [mesh, body] :
+       {std::pair{&solved.planet_sector, model.planet_body}, {&solved.wheel_sector, model.wheel_body}}) {
+    const auto msh = file(body, ".msh"), vtu = file(body, ".vtu"), field_vtu = file(body, "_field.vtu");
     if (mesh->cells.empty()) continue;  // a closed form meshes nothing
-    const auto name = name_of(planet);
-    geometry::write_msh(*mesh, folder / (name + ".msh"));
-    geometry::write_vtu(*mesh, folder / (name + ".vtu"));
+    geometry::write_msh(*mesh, msh);
+    geometry::write_vtu(*mesh, vtu);
+    for (const auto& field : solved.fields)
+      if ((field.body == "planet") == (mesh == &solved.planet_sector))
+        geometry::write_vtu(field.mesh, field_vtu, point_data(field));
   }
-  for (const auto& field : solved.fields)
-    geometry::write_vtu(field.mesh, folder / (name_of(field.body == "planet") + "_field.vtu"), point_data(field));
+  return read_files(folder, names);
 }
 
 }  // namespace
@@ -72,35 +74,28 @@ fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& op
   return solved;
 }
 
-std::optional<MeshResult> cached_stiffness(const MeshModel& model, const std::string& folder,
-                                           const RunOptions& options) {
-  const auto* store = options.store.get();
-  const auto id = files_id(model, options);
-  const auto fields = store ? store->find(cached_fields, id) : std::nullopt;
-  if (!fields || !restore_files(store, cached_meshes, id, options.out / folder)) return std::nullopt;
-  auto result = load(model, options.out / folder);
-  result.fields = unpacked(*fields);
+MeshResult solved_stiffness(const MeshModel& model, const std::filesystem::path& folder, const RunOptions& options) {
+  const auto solved = solve_contact(model, options);
+  auto result = pack(model, solved);
+  result.bodies = body_files(model, solved, folder / "mesh");
+  save(result, folder);
   return result;
 }
 
 MeshResult computed_stiffness(const MeshModel& model, const std::string& folder, const RunOptions& options) {
-  auto result = cached_stiffness(model, folder, options);
-  note_reuse(options, model.label(), result.has_value());
-  if (options.for_study) count_reuse(options, study_meshes, result ? 1 : 0, result ? 0 : 1);
-  if (result) {
+  const auto out = options.out / folder;
+  auto [result, reused] = cached_value(options.store.get(), cached_meshes, result_id(model, options),
+                                       [&] { return solved_stiffness(model, out, options); });
+  note_reuse(options, model.label(), reused);
+  if (options.for_study) count_reuse(options, study_meshes, reused ? 1 : 0, reused ? 0 : 1);
+  if (reused) {
     log::info(fmt::format("{}: unchanged, reused", model.label()));
-    return std::move(*result);
+    save(result, out);
   }
-  const auto solved = solve_contact(model, options);
-  result = pack(model, solved);
-  write_meshes(model, solved, options.out / folder / "mesh");
-  save(*result, options.out / folder);
-  if (const auto* store = options.store.get()) {
-    const auto id = files_id(model, options);
-    store->keep(cached_fields, id, packed(result->fields));
-    cache_files(store, cached_meshes, id, options.out / folder, mesh_files(model));
-  }
-  return std::move(*result);
+  result.model = model;
+  result.reused = reused;
+  result.bodies.clear();
+  return std::move(result);
 }
 
 }  // namespace annulus::app

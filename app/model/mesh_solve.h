@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <filesystem>
 #include <string>
 
 #include "app/model/mesh_result.h"
@@ -11,12 +11,12 @@ namespace annulus::app {
 /// Contact: gmsh meshes, elastic bodies, contact of one gear mesh at every position and load.
 [[nodiscard]] fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& options);
 
-/// Stiffness table with pictures, shares and invariants in OUT/<folder>: from the cache if unchanged, else solved,
-/// packed and cached.
+/// The same packed, with the files of the bodies, all written into `folder`; nothing is cached.
+[[nodiscard]] MeshResult solved_stiffness(const MeshModel& model, const std::filesystem::path& folder,
+                                          const RunOptions& options);
+/// Stiffness table with pictures, shares and invariants, all written into OUT/<folder>: from the cache if unchanged,
+/// else solved and cached.
 [[nodiscard]] MeshResult computed_stiffness(const MeshModel& model, const std::string& folder,
                                             const RunOptions& options);
-/// Only from the cache; nothing when it is not there.
-[[nodiscard]] std::optional<MeshResult> cached_stiffness(const MeshModel& model, const std::string& folder,
-                                                         const RunOptions& options);
 
 }  // namespace annulus::app

@@ -4,25 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <functional>
+#include <utility>
 
+#include "core/not_known.h"
 #include "core/units.h"
 
 namespace annulus::app {
 
 namespace {
 
-constexpr double not_a_value = std::numeric_limits<double>::quiet_NaN();
 constexpr double MPa = 1e6;
 
 std::size_t most_pairs(const fem::LoadedMeshResult& solved) {
   std::size_t pairs = 0;
   for (const auto& p : solved.positions) pairs = std::max(pairs, p.pair_share.size());
   return pairs;
-}
-
-const char* wheel_name(const MeshModel& model) {
-  return model.mesh == sun_planet ? "sun" : model.mesh == pinion_wheel ? "wheel" : "ring";
 }
 
 bool over_face_width(const fem::LoadedMeshResult& solved) { return solved.slice_edges.size() > 2; }
@@ -36,98 +33,71 @@ void at_nominal_load(const MeshModel& model, const fem::LoadedMeshResult& solved
   }
 }
 
-/// The columns of one body's largest stresses, for all positions or none.
-class StressColumns {
- public:
-  using Member = std::optional<fem::BodyStress> fem::LoadedPosition::*;
+/// Stresses of a body by their names in columns.
+constexpr std::pair<const char*, double fem::BodyStress::*> stress_columns[] = {
+    {"root_tension", &fem::BodyStress::root_tension},       {"root_compression", &fem::BodyStress::root_compression},
+    {"root_von_mises", &fem::BodyStress::root_von_mises},   {"rim_tension", &fem::BodyStress::rim_tension},
+    {"rim_compression", &fem::BodyStress::rim_compression}, {"rim_von_mises", &fem::BodyStress::rim_von_mises}};
 
-  StressColumns(std::string body, Member member, const fem::LoadedMeshResult& solved)
-      : body_(std::move(body)),
-        member_(member),
-        there_(std::any_of(solved.positions.begin(), solved.positions.end(),
-                           [&](const auto& p) { return (p.*member).has_value(); })) {}
-
-  void name(std::vector<std::string>& columns) const {
-    if (!there_) return;
-    for (const auto* place : {"root", "rim"}) {
-      for (const auto* kind : {"tension", "compression", "von_mises"})
-        columns.push_back(fmt::format("{}_{}_{}_MPa", body_, place, kind));
-    }
-  }
-
-  void fill(std::vector<double>& row, const fem::LoadedPosition& position) const {
-    if (!there_) return;
-    const auto& stress = position.*member_;
-    if (!stress) return row.insert(row.end(), 6, not_a_value), void();
-    for (const double value : {stress->root_tension, stress->root_compression, stress->root_von_mises,
-                               stress->rim_tension, stress->rim_compression, stress->rim_von_mises})
-      row.push_back(value / MPa);
-  }
-
- private:
-  std::string body_;
-  Member member_;
-  bool there_;
+/// A column of positions and loads.
+struct PositionColumn {
+  std::string name;
+  std::function<double(const fem::LoadedPosition&)> value;
 };
+
+/// um, the part of the deflection that a relative error of the stiffness is.
+double error_um(const fem::LoadedPosition& p, double relative) {
+  return std::abs(relative * (p.entry.lte - p.entry.unloaded_te)) / units::um;
+}
+
+std::vector<PositionColumn> position_columns(const MeshModel& model, const fem::LoadedMeshResult& solved) {
+  using Position = fem::LoadedPosition;
+  std::vector<PositionColumn> list = {
+      {"mesh_phase", [](const Position& p) { return p.mesh_phase; }},
+      {"ring_tooth", [](const Position& p) { return static_cast<double>(p.ring_tooth); }},
+      {"ring_angle_deg", [](const Position& p) { return p.ring_angle / units::deg; }},
+      {"load_N", [](const Position& p) { return p.load; }},
+      {"unloaded_te_um", [](const Position& p) { return p.entry.unloaded_te / units::um; }},
+      {"lte_um", [](const Position& p) { return p.entry.lte / units::um; }},
+      {"error_um", [](const Position& p) { return error_um(p, p.entry.error_relative); }}};
+  for (const auto& [name, part] : stiffness_error_part_names)
+    list.push_back({fmt::format("error_{}_um", name),
+                    [part = part](const Position& p) { return error_um(p, p.entry.error_parts.*part); }});
+  list.insert(list.end(), {{"max_pressure_MPa", [](const Position& p) { return p.max_pressure / MPa; }},
+                           {"tip_edge_contact", [](const Position& p) { return p.tip_edge_contact ? 1.0 : 0.0; }},
+                           {"force_balance_relative", [](const Position& p) { return p.force_balance_relative; }},
+                           {"energy_balance_relative", [](const Position& p) { return p.energy_balance_relative; }},
+                           {"max_penetration_um", [](const Position& p) { return p.max_penetration / units::um; }}});
+  if (over_face_width(solved))
+    list.push_back({"face_load_factor", [](const Position& p) { return p.face_load_factor; }});
+  for (const auto& [body, member] :
+       {std::pair{model.planet_body, &Position::planet_stress}, {model.wheel_body, &Position::wheel_stress}}) {
+    const auto has_stress = [m = member](const Position& p) { return (p.*m).has_value(); };
+    if (std::none_of(solved.positions.begin(), solved.positions.end(), has_stress)) continue;
+    for (const auto& [name, stress] : stress_columns)
+      list.push_back({fmt::format("{}_{}_MPa", body, name), [m = member, stress = stress](const Position& p) {
+                        return p.*m ? (*(p.*m)).*stress / MPa : not_known;
+                      }});
+  }
+  for (std::size_t i = 0; i < most_pairs(solved); ++i) {
+    const auto there = [i](const Position& p) { return i < p.pair_share.size() && i < p.pair_roll.size(); };
+    list.push_back({fmt::format("pair{}_roll_mm", i + 1),
+                    [i, there](const Position& p) { return there(p) ? p.pair_roll[i] / units::mm : not_known; }});
+    list.push_back(
+        {fmt::format("pair{}_share", i + 1), [i, there](const Position& p) { return there(p) ? p.pair_share[i] : 0; }});
+  }
+  return list;
+}
 
 }  // namespace
 
 Csv position_table(const MeshModel& model, const fem::LoadedMeshResult& solved) {
+  const auto list = position_columns(model, solved);
   Csv csv;
-  csv.columns = {"mesh_phase",
-                 "ring_tooth",
-                 "ring_angle_deg",
-                 "load_N",
-                 "unloaded_te_um",
-                 "lte_um",
-                 "error_um",
-                 "error_discretisation_um",
-                 "error_local_contact_um",
-                 "error_condensation_um",
-                 "error_model_choice_um",
-                 "max_pressure_MPa",
-                 "tip_edge_contact",
-                 "force_balance_relative",
-                 "energy_balance_relative",
-                 "max_penetration_um"};
-  const bool face_load = over_face_width(solved);
-  if (face_load) csv.columns.emplace_back("face_load_factor");
-  const StressColumns planet("planet", &fem::LoadedPosition::planet_stress, solved),
-      wheel(wheel_name(model), &fem::LoadedPosition::wheel_stress, solved);
-  planet.name(csv.columns);
-  wheel.name(csv.columns);
-  const std::size_t pairs = most_pairs(solved);
-  for (std::size_t i = 1; i <= pairs; ++i) {
-    csv.columns.push_back(fmt::format("pair{}_roll_mm", i));
-    csv.columns.push_back(fmt::format("pair{}_share", i));
-  }
+  for (const auto& column : list) csv.columns.push_back(column.name);
   for (const auto& p : solved.positions) {
-    const double deflection = p.entry.lte - p.entry.unloaded_te;
-    std::vector<double> row = {p.mesh_phase,
-                               static_cast<double>(p.ring_tooth),
-                               p.ring_angle / units::deg,
-                               p.load,
-                               p.entry.unloaded_te / units::um,
-                               p.entry.lte / units::um,
-                               std::abs(p.entry.error_relative * deflection) / units::um,
-                               std::abs(p.entry.error_parts.discretisation * deflection) / units::um,
-                               std::abs(p.entry.error_parts.contact * deflection) / units::um,
-                               std::abs(p.entry.error_parts.condensation * deflection) / units::um,
-                               std::abs(p.entry.error_parts.model * deflection) / units::um,
-                               p.max_pressure / MPa,
-                               p.tip_edge_contact ? 1.0 : 0.0,
-                               p.force_balance_relative,
-                               p.energy_balance_relative,
-                               p.max_penetration / units::um};
-    if (face_load) row.push_back(p.face_load_factor);
-    planet.fill(row, p);
-    wheel.fill(row, p);
-    for (std::size_t i = 0; i < pairs; ++i) {
-      const bool there = i < p.pair_share.size() && i < p.pair_roll.size();
-      row.push_back(there ? p.pair_roll[i] / units::mm : not_a_value);
-      row.push_back(there ? p.pair_share[i] : 0);
-    }
-    csv.rows.push_back(std::move(row));
+    auto& row = csv.rows.emplace_back();
+    for (const auto& column : list) row.push_back(column.value(p));
   }
   return csv;
 }
@@ -195,13 +165,12 @@ Csv stress_table(const MeshModel& model, const fem::LoadedMeshResult& solved) {
     const auto& curve = solved.stress_curves[c];
     const auto& at = solved.positions.at(curve.position);
     const bool around = curve.name.ends_with("rim");
-    const bool of_wheel = curve.name.starts_with("wheel");
-    csv.header.emplace_back(fmt::format("curve_{}", c + 1),
-                            of_wheel ? wheel_name(model) + curve.name.substr(5) : curve.name);
+    const auto part = curve.name.substr(curve.name.find(' '));  // of "planet root", "wheel rim"
+    csv.header.emplace_back(fmt::format("curve_{}", c + 1), model.body_name(curve.name.starts_with("planet")) + part);
     for (std::size_t i = 0; i < curve.abscissa.size(); ++i) {
       csv.rows.push_back({static_cast<double>(c + 1), at.mesh_phase, static_cast<double>(at.ring_tooth),
-                          at.ring_angle / units::deg, at.load, around ? not_a_value : curve.abscissa[i] / units::mm,
-                          around ? curve.abscissa[i] / units::deg : not_a_value, curve.tangential.at(i) / MPa,
+                          at.ring_angle / units::deg, at.load, around ? not_known : curve.abscissa[i] / units::mm,
+                          around ? curve.abscissa[i] / units::deg : not_known, curve.tangential.at(i) / MPa,
                           curve.von_mises.at(i) / MPa});
     }
   }

@@ -10,57 +10,83 @@
 #include "app/model/run_options.h"
 #include "app/model/study_result.h"
 #include "app/plan/plan.h"
-#include "app/report/section.h"
 #include "app/results/figure_table.h"
 #include "app/scene/reference.h"
 #include "core/figure.h"
-#include "core/json.h"
 #include "core/log.h"
 
 namespace annulus::app {
 
-/// A run of a gear system, whose results grow step by step: `run_system` (run.h) takes the steps.
-struct SystemRun {
-  Scene scene{};
+class GearSystem;
+
+/// The answer of a lumped model of a run. Kinds add what their summary and report show besides.
+struct RunResponse {
+  virtual ~RunResponse() = default;
+  FigureSet figures{};  ///< results by their keys, with errors
+  bool reused = false;
+  double seconds = 0;  ///< wall; little when it was read back
+};
+
+/// A run of a gear system of any kind, whose results grow step by step: `run_system` (run/pipeline.h) takes the steps.
+struct SystemRun : std::enable_shared_from_this<SystemRun> {
+  explicit SystemRun(const Scene& of);
+  SystemRun(const SystemRun&) = delete;
+  SystemRun& operator=(const SystemRun&) = delete;
+  ~SystemRun();
+
+  Scene scene;
+  std::unique_ptr<const GearSystem> system;  ///< of this scene
   Plan plan{};
-  std::optional<Reference> reference{};                   ///< published results to compare with
-  StudyResults studies{};                                 ///< sweeps, samples, sensitivity, as the scene asks
-  StageTimers timers{};                                   ///< named steps of this run
-  std::vector<std::pair<std::string, double>> timings{};  ///< wall seconds by step, then "other" and "total"
+  std::optional<Reference> reference{};                         ///< published results to compare with
+  std::vector<MeshResult> tables{};                             ///< in the order of GearSystem::run_meshes
+  std::vector<std::unique_ptr<const RunResponse>> responses{};  ///< by GearSystem::run_variants; empty without dynamics
+  StudyResults studies{};                                       ///< sweeps, samples, sensitivity, as the scene asks
+  StageTimers timers{};                                         ///< named steps of this run
+  std::vector<std::pair<std::string, double>> timings{};        ///< wall seconds by step, then "other" and "total"
   double peak_memory_MB = 0;
   PlanCost cost{};  ///< predicted and actual, of the steps that were not reused
   std::shared_ptr<const Reuse> reuse{};
 
-  virtual ~SystemRun() = default;
-
-  /// Stiffness tables of all planned meshes.
-  virtual void solve_meshes(const RunOptions& options) = 0;
+  /// Stiffness tables of all meshes.
+  void solve_meshes(const RunOptions& options);
   /// The lumped models on these tables. Called where the scene has [dynamics] and the options ask for it.
-  virtual void respond(const RunOptions& options) = 0;
+  void respond(const RunOptions& options);
 
-  /// The meshes of this run, each once.
-  [[nodiscard]] virtual std::vector<const MeshResult*> meshes() const = 0;
+  /// The meshes that were solved or read back.
+  [[nodiscard]] std::vector<const MeshResult*> meshes() const;
+  /// Those on which a lumped model stands.
+  [[nodiscard]] std::vector<const MeshResult*> tables_of(std::size_t variant) const;
   /// All results by their keys.
-  [[nodiscard]] virtual std::vector<VariantFigures> variants() const = 0;
+  [[nodiscard]] std::vector<VariantFigures> variants() const;
   /// The cost of a planned step; nothing for one that was reused.
-  [[nodiscard]] virtual std::optional<CostRun> actual(const CostStep& step) const = 0;
-  /// The stiffness of the meshes of the lumped models, in the order of GearSystem::model_meshes: what studies begin
-  /// with.
-  [[nodiscard]] virtual std::vector<const MeshResult*> model_tables() const = 0;
+  [[nodiscard]] std::optional<CostRun> actual(const CostStep& step) const;
+};
 
-  /// Members of summary.json beyond those of every kind.
-  [[nodiscard]] virtual Json summary() const = 0;
-  /// The results in a few lines for the standard output.
-  [[nodiscard]] virtual std::string text() const = 0;
-  /// The page of report.html.
-  [[nodiscard]] virtual Page report() const = 0;
+/// A run as the summary and the report of its kind read it. Keeps a run alive that others share.
+struct RunView {
+  explicit RunView(const SystemRun& of)
+      : owner(of.weak_from_this().lock()),
+        run(of),
+        scene(of.scene),
+        plan(of.plan),
+        reference(of.reference),
+        studies(of.studies),
+        timings(of.timings),
+        cost(of.cost),
+        reuse(of.reuse) {}
+  operator const SystemRun&() const { return run; }  // NOLINT(google-explicit-constructor): it is that run
 
- protected:
-  SystemRun() = default;
-  SystemRun(const SystemRun&) = default;
-  SystemRun(SystemRun&&) = default;
-  SystemRun& operator=(const SystemRun&) = default;
-  SystemRun& operator=(SystemRun&&) = default;
+  [[nodiscard]] std::vector<VariantFigures> variants() const { return run.variants(); }
+
+  std::shared_ptr<const SystemRun> owner;
+  const SystemRun& run;
+  const Scene& scene;
+  const Plan& plan;
+  const std::optional<Reference>& reference;
+  const StudyResults& studies;
+  const std::vector<std::pair<std::string, double>>& timings;
+  const PlanCost& cost;
+  const std::shared_ptr<const Reuse>& reuse;
 };
 
 }  // namespace annulus::app

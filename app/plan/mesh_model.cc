@@ -101,11 +101,6 @@ std::string MeshModel::label() const {
   return ring.empty() ? "sun-planet mesh" : fmt::format("ring-planet mesh of '{}'", ring);
 }
 
-const char* MeshModel::body_name(bool planet) const {
-  if (mesh == pinion_wheel) return planet ? "pinion" : "wheel";
-  return planet ? "planet" : mesh == sun_planet ? "sun" : "ring";
-}
-
 fem::FaceFeatures face_features(const Scene& scene, const GearInput& planet, const std::string& planet_name,
                                 const GearInput& wheel, const std::string& wheel_name, double misalignment) {
   return {scene.stage.helix_angle, planet_name, wheel_name, lead_modified(planet), lead_modified(wheel), misalignment};
@@ -120,6 +115,8 @@ MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
   MeshModel model;
   model.mesh = mesh.mesh;
   model.ring = mesh.ring;
+  model.planet_body = mesh.planet_name;
+  model.wheel_body = mesh.wheel_name;
   if (mesh.input.stiffness != StiffnessShape::computed) {
     set_given(model, mesh.input.stiffness);
     return model;

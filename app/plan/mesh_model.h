@@ -29,20 +29,20 @@ struct MeshModel;
 
 /// How the stiffness of one mesh is found, and why so: the decision of the planner, carried out by the pipeline.
 struct MeshModel : fem::MeshChoice {
-  std::string mesh{};                               ///< "sun_planet", "ring_planet", "pinion_wheel" or "arc_pins"
-  std::string ring{};                               ///< empty for the sun mesh, which all rings share
-  std::string fidelity{};                           ///< fem::fidelity_name(), or "given" by the scene
-  std::optional<fem::LoadedMeshProblem> problem{};  ///< absent when the stiffness is given
+  std::string mesh{};                                     ///< "sun_planet", "ring_planet", "pinion_wheel" or "arc_pins"
+  std::string ring{};                                     ///< empty for the sun mesh, which all rings share
+  std::string planet_body{"planet"}, wheel_body{"ring"};  ///< names of its bodies: "pinion"; "sun", "wheel"
+  std::string fidelity{};                                 ///< fem::fidelity_name(), or "given" by the scene
+  std::optional<fem::LoadedMeshProblem> problem{};        ///< absent when the stiffness is given
 
   [[nodiscard]] bool computed() const { return problem.has_value(); }
   /// Index of the nominal load among those of a computed mesh: the middle one, at which the accuracy is met.
   [[nodiscard]] std::size_t nominal_load() const { return problem->loads.size() / 2; }
   /// Identity of all inputs this mesh's results depend on.
   [[nodiscard]] std::string id() const;
+  [[nodiscard]] const std::string& body_name(bool planet) const { return planet ? planet_body : wheel_body; }
   /// For messages: "sun-planet mesh", "planet mesh of ring 'pinned'".
   [[nodiscard]] std::string label() const;
-  /// "planet" or "pinion"; its counterpart "sun", "ring" or "wheel".
-  [[nodiscard]] const char* body_name(bool planet) const;
 };
 
 /// A mesh of two gears of a scene.

@@ -4,8 +4,8 @@
 
 namespace annulus::app {
 
-/// Of the program as it was built: its version and the build identities of the program and of annulus's libraries.
-/// Results of another build are computed again.
+/// Identity of the program as it was built: its version and the build identities of the program and of annulus's
+/// libraries. Results of another build are computed again.
 [[nodiscard]] const std::string& program_identity();
 
 }  // namespace annulus::app

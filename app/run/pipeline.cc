@@ -9,7 +9,6 @@
 #include "app/report/page.h"
 #include "app/results/content_id.h"
 #include "app/results/figure_table.h"
-#include "app/run/model_run.h"
 #include "app/scene/inputs_json.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/scene_schema.h"
@@ -26,7 +25,7 @@ namespace {
 std::vector<std::pair<std::string, double>> timings_of(const SystemRun& run) {
   double mesh = 0, condense = 0, contact = 0, total = 0;
   for (const auto* result : run.meshes()) {
-    if (result->reused || !result->model.computed()) continue;
+    if (result->reused) continue;
     mesh += result->fact("mesh_seconds");
     condense += result->fact("condense_seconds");
     contact += result->fact("contact_seconds");
@@ -44,22 +43,23 @@ std::vector<std::pair<std::string, double>> timings_of(const SystemRun& run) {
   return list;
 }
 
-/// Of the inputs and of what is solved.
+/// Identity of the inputs and of what is solved.
 std::string inputs_id(const SystemRun& run) {
   ContentId id;
   for (const auto& input : run.scene.inputs) id.add(input.ring + "." + input.key, to_text(input.value));
-  for (const auto* mesh : run.meshes()) id.add("mesh", mesh->model.id());
+  for (const auto& mesh : run.tables) id.add("mesh", mesh.model.id());
   return id.id();
 }
 
 }  // namespace
 
-void run_system(SystemRun& run, const RunOptions& given) {
+std::shared_ptr<const SystemRun> run_system(const Scene& scene, const RunOptions& given) {
   const RunOptions options = with_reuse(given);
-  const Scene& scene = run.scene;
+  const auto result = std::make_shared<SystemRun>(scene);
+  auto& run = *result;
   if (scene.reference) run.reference = read_reference(file_of_scene(scene, "reference", *scene.reference));
   if (options.with_dynamics) check_studies(scene);  // before anything expensive
-  run.plan = make_system(scene)->plan(options.threads);
+  run.plan = run.system->plan(options.threads);
   auto& meshes = run.plan.meshes;
   if (options.remodel) std::transform(meshes.begin(), meshes.end(), meshes.begin(), options.remodel);
   std::filesystem::create_directories(options.out);
@@ -77,18 +77,8 @@ void run_system(SystemRun& run, const RunOptions& given) {
   const auto& specs = system_kind(scene.stage.kind).figures();
   write_file(options.out / "figures.csv", figures_csv(specs, run.variants()));
   write_file(options.out / "summary.json", summary_json(run));
-  write_report(options.out / "report.html", run.report());
-}
-
-std::unique_ptr<SystemRun> new_run(const Scene& scene) {
-  auto run = make_system(scene)->run();
-  return run ? std::move(run) : std::make_unique<ModelRun>(scene);
-}
-
-std::unique_ptr<SystemRun> run_system(const Scene& scene, const RunOptions& options) {
-  auto run = new_run(scene);
-  run_system(*run, options);
-  return run;
+  write_report(options.out / "report.html", run.system->report(run));
+  return result;
 }
 
 std::string summary_json(const SystemRun& run) {
@@ -97,7 +87,7 @@ std::string summary_json(const SystemRun& run) {
                {"annulus_version", version()},
                {"kind", scene.stage.kind},
                {"accuracy_wanted", scene.accuracy}};
-  json.update(run.summary());
+  json.update(run.system->summary(run));
   json["variants"] = Json::array();
   for (const auto& variant : run.variants())
     json["variants"].push_back({{"name", variant.name}, {"figures", to_json(variant.figures)}});
@@ -112,7 +102,7 @@ std::string summary_json(const SystemRun& run) {
 }
 
 std::string run_text(const SystemRun& run) {
-  std::string text = run.text() + "\ntime   ";
+  std::string text = run.system->text(run) + "\ntime   ";
   for (const auto& [step, seconds] : run.timings) text += fmt::format(" {} {:.2f} s ", step, seconds);
   text += fmt::format("\nmemory  {:.0f} MB at the peak\n", run.peak_memory_MB);
   if (const std::string cost = cost_sentence(run); !cost.empty()) text += "cost    " + cost + "\n";

@@ -12,8 +12,8 @@
 ///
 ///     Scene ─► GearSystem ─► contact ─► StiffnessTable ─► lumped model ─► report
 ///
-/// and `run_system` calls them, for any kind of gear system. Every step leaves files from which the next one can start
-/// again: a result whose inputs have not changed is read back instead of computed.
+/// and `run_system` calls them, for any kind of gear system. Every step caches its result: one whose inputs have not
+/// changed is read back instead of computed.
 namespace annulus::app {
 
 // 1. Scene: what the user wants, checked, SI (scene/scene_files.h):
@@ -25,18 +25,13 @@ namespace annulus::app {
 // 4. stiffness table with pictures, shares and invariants (model/mesh_solve.h):
 //      MeshResult computed_stiffness(const MeshModel& model, const std::string& folder, const RunOptions& options);
 
-// 5. Lumped model on the tables: SystemRun::respond (model/system_run.h). Where the scene asks for [[sweep]],
+// 5. Lumped model on the tables: GearSystem::respond (model/gear_system.h). Where the scene asks for [[sweep]],
 //    [monte_carlo] or [sensitivity], steps 2 to 5 again for changed scenes (study/studies.h).
 
 // 6. Report: OUT/report.html, OUT/summary.json and OUT/figures.csv.
 
-/// A run that has not begun: the kind's own, else by its lumped models alone (model_run.h).
-[[nodiscard]] std::unique_ptr<SystemRun> new_run(const Scene& scene);
-
 /// All steps of a run. Throws what the steps throw; what is finished by then stays on disk and is reused.
-[[nodiscard]] std::unique_ptr<SystemRun> run_system(const Scene& scene, const RunOptions& options);
-/// The same with a run that has not begun.
-void run_system(SystemRun& run, const RunOptions& options);
+[[nodiscard]] std::shared_ptr<const SystemRun> run_system(const Scene& scene, const RunOptions& options);
 
 /// The summary of a finished run for the standard output.
 [[nodiscard]] std::string run_text(const SystemRun& run);

@@ -14,7 +14,7 @@ StudySubject::StudySubject(const SystemRun& nominal, const RunOptions& options)
       options_(options),
       variants_(make_system(nominal.scene)->variants()),
       figures_(system_kind(nominal.scene.stage.kind).model_figures()),
-      tables_(nominal.model_tables()) {}
+      tables_(nominal.tables) {}
 
 const Scene& StudySubject::scene() const { return nominal_.scene; }
 
@@ -38,7 +38,7 @@ bool StudySubject::prepare(const StudyCase& changed) const {
   const auto meshes = system->model_meshes();
   bool any = false;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    if (table_serves(tables_.at(i)->model, meshes[i], system->mean_mesh_force())) continue;
+    if (table_serves(tables_.at(i).model, meshes[i], system->mean_mesh_force())) continue;
     any = true;
     {
       const std::lock_guard guard(lock_);
@@ -63,8 +63,8 @@ std::unique_ptr<LumpedModel> StudySubject::model(const StudyCase& changed, std::
     const double force = system->mean_mesh_force();
     std::vector<const MeshResult*> tables;
     for (const std::size_t i : system->meshes_of(variant)) {
-      if (table_serves(tables_.at(i)->model, meshes.at(i), force)) {
-        tables.push_back(tables_[i]);
+      if (table_serves(tables_.at(i).model, meshes.at(i), force)) {
+        tables.push_back(&tables_[i]);
         continue;
       }
       const std::lock_guard guard(lock_);

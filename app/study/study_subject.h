@@ -47,7 +47,7 @@ class StudySubject {
   const RunOptions& options_;
   std::vector<std::string> variants_;
   const std::vector<FigureSpec>& figures_;
-  std::vector<const MeshResult*> tables_;
+  const std::vector<MeshResult>& tables_;
   mutable std::mutex lock_;
   mutable std::map<Place, MeshResult> prepared_;
 };

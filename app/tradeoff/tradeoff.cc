@@ -6,9 +6,8 @@
 #include <cmath>
 
 #include "app/model/gear_system.h"
-#include "app/results/cached_files.h"
-#include "app/results/content_id.h"
-#include "app/run/model_run.h"
+#include "app/model/table_errors.h"
+#include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
 #include "app/scene/overrides.h"
 #include "core/errors.h"
@@ -17,34 +16,24 @@
 #include "core/log.h"
 #include "core/result_store.h"
 
+namespace annulus {
+
+ANNULUS_MEMBERS(app::Cost, wall, processor, peak_memory_MB);
+ANNULUS_MEMBERS(app::MeasuredWork, cost, answer, failure);
+
+}  // namespace annulus
+
 namespace annulus::app {
 
 namespace {
 
-constexpr const char *measured_meshes = "measured_meshes", *measured_responses = "measured_responses",
-                     *cost_file = "cost.json";
-
-std::string work_text(const MeasuredWork& done) {
-  return Json{{"wall_s", done.cost.wall},
-              {"processor_s", done.cost.processor},
-              {"peak_MB", done.cost.peak_memory_MB},
-              {"answer", done.answer},
-              {"failure", done.failure}}
-             .dump(1) +
-         "\n";
-}
-
-MeasuredWork work_of(const std::string& text) {
-  const Json json = Json::parse(text);
-  return {{json.at("wall_s"), json.at("processor_s"), json.at("peak_MB")}, json.at("answer"), json.at("failure")};
-}
+constexpr const char *measured_meshes = "measured_meshes", *measured_responses = "measured_responses";
 
 /// Results and what they cost: from the cache, else measured.
 MeasuredWork measured_figures(const ModelWay& way, const ResultStore* store) {
-  if (const auto cached = store ? store->find(measured_responses, way.id) : std::nullopt) return work_of(*cached);
-  const auto done = measured([&] { return to_json(way.figures()).dump(); });
-  if (store) store->keep(measured_responses, way.id, work_text(done));
-  return done;
+  return cached_value(store, measured_responses, way.id,
+                      [&] { return measured([&] { return to_json(way.figures()).dump(); }); })
+      .value;
 }
 
 /// Made in a process of its own, so that this one starts no threads, then read back from the cache.
@@ -176,21 +165,12 @@ class Measurement {
   /// Solved in a process of its own without anything cached, or with its cost from the cache; read back here.
   std::optional<MeshResult> table(const MeshModel& model, const std::filesystem::path& folder,
                                   TradePoint& point) const {
-    const auto id = ContentId().add("inputs", model.id()).add("mesh", model.mesh).add("ring", model.ring).id();
-    if (!restore_files(options_.store.get(), measured_meshes, id, folder)) {
-      auto afresh = options_in(folder);
-      afresh.store = nullptr;
-      const auto done = measured([&] {
-        (void)computed_stiffness(model, "", afresh);
-        return std::string("solved");
-      });
-      std::filesystem::create_directories(folder);
-      write_file(folder / cost_file, work_text(done));
-      auto files = mesh_files(model);
-      files.emplace_back(cost_file);
-      cache_files(options_.store.get(), measured_meshes, id, folder, files);
-    }
-    const auto done = work_of(read_file(folder / cost_file));
+    const auto [done, reused] =
+        cached_value(options_.store.get(), measured_meshes, identity_of(model.id(), model.mesh, model.ring), [&] {
+          auto afresh = options_;
+          afresh.store = nullptr;
+          return measured([&] { return to_bytes(solved_stiffness(model, folder, afresh)); });
+        });
     point.cost.wall += done.cost.wall;
     point.cost.processor += done.cost.processor;
     point.cost.peak_memory_MB = std::max(point.cost.peak_memory_MB, done.cost.peak_memory_MB);
@@ -198,7 +178,11 @@ class Measurement {
       point.failure = model.label() + ": " + done.failure;
       return std::nullopt;
     }
-    return load(model, folder);
+    auto result = from_bytes<MeshResult>(done.answer);
+    if (reused) save(result, folder);
+    result.model = model;
+    result.bodies.clear();
+    return result;
   }
 
   TradePoint mesh_point(const MeshSetting& setting, const std::vector<bool>& need_solid) {

@@ -27,15 +27,11 @@ app::RunResult run_of(double stiff, double soft, double error) {
     return app::MeshResult{
         .model = app::ring_mesh_model(scene, geometry, ring), .contact_ratio = 1.5, .table = std::move(table)};
   };
-  auto sun = mesh(0, 2e9);
-  auto stiff_mesh = mesh(0, stiff), soft_mesh = mesh(1, soft);
-  app::RunResult result(scene);
-  result.plan = app::make_plan(scene);
-  result.sun_mesh = std::move(sun);
-  result.sun_mesh.model.mesh = app::sun_planet;
-  result.rings.push_back({"stiff", std::move(stiff_mesh)});
-  result.rings.push_back({"soft", std::move(soft_mesh)});
-  return result;
+  const auto run = std::make_shared<app::SystemRun>(scene);
+  run->plan = app::make_plan(scene);
+  run->tables = {mesh(0, 2e9), mesh(0, stiff), mesh(1, soft)};
+  run->tables.front().model.mesh = app::sun_planet;
+  return app::RunResult(*run);
 }
 
 app::Reference published(double margin = 0) {

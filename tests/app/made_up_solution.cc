@@ -124,17 +124,15 @@ fem::LoadedMeshResult made_up_solution(const app::MeshModel& model) {
   return result;
 }
 
-app::RunResult made_up_run(const app::Scene& scene, int phases) {
-  app::RunResult result(scene);
-  result.plan = app::make_plan(scene);
-  auto& meshes = result.plan.meshes;
-  for (auto& model : meshes) model.problem->phases = phases;
-  result.sun_mesh = app::pack(meshes.front(), made_up_solution(meshes.front()));
-  for (std::size_t i = 0; i < scene.rings.size(); ++i) {
-    const auto& model = meshes[i + 1];
-    result.rings.push_back({scene.rings[i].name, app::pack(model, made_up_solution(model))});
+app::RunResult made_up_run(const app::Scene& scene, int phases, const std::function<void(app::MeshResult&)>& change) {
+  const auto run = std::make_shared<app::SystemRun>(scene);
+  run->plan = app::make_plan(scene);
+  for (auto& model : run->plan.meshes) {
+    model.problem->phases = phases;
+    auto& table = run->tables.emplace_back(app::pack(model, made_up_solution(model)));
+    if (change) change(table);
   }
-  return result;
+  return app::RunResult(*run);
 }
 
 }  // namespace annulus::test

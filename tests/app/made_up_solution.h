@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "app/systems/planetary/planetary_run.h"
 
 namespace annulus::test {
@@ -10,6 +12,8 @@ namespace annulus::test {
 [[nodiscard]] fem::LoadedMeshResult made_up_solution(const app::MeshModel& model);
 
 /// A run of a scene with a made-up solution of every computed mesh, `phases` positions per mesh cycle, no dynamics.
-[[nodiscard]] app::RunResult made_up_run(const app::Scene& scene, int phases);
+/// `change`: what is changed in every mesh result.
+[[nodiscard]] app::RunResult made_up_run(const app::Scene& scene, int phases,
+                                         const std::function<void(app::MeshResult&)>& change = {});
 
 }  // namespace annulus::test

@@ -17,8 +17,9 @@ namespace annulus {
 
 namespace {
 
-app::RunResult run_of(const char* scene) {
-  return test::made_up_run(app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/" + scene + ".toml"), 4);
+app::RunResult run_of(const char* scene, const std::function<void(app::MeshResult&)>& change = {}) {
+  return test::made_up_run(app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/data/scenes/" + scene + ".toml"), 4,
+                           change);
 }
 
 std::size_t count(const std::string& text, const std::string& what) {
@@ -158,7 +159,7 @@ BOOST_AUTO_TEST_CASE(supports_show_who_touches) {
   BOOST_TEST(section.size() < 1500000U);
   // Without pins there is no section.
   auto held = result;
-  held.rings.erase(held.rings.begin() + 1, held.rings.end());
+  while (held.rings.size() > 1) held.rings.pop_back();
   BOOST_TEST(app::supports_section(held).blocks.empty());
 }
 
@@ -177,7 +178,7 @@ BOOST_AUTO_TEST_CASE(contact_shows_face_width_pressure_and_stress) {
 
 BOOST_AUTO_TEST_CASE(plane_meshes_show_their_pressure_as_lines) {
   auto result = run_of("ring_structures");
-  result.rings.erase(result.rings.begin() + 1, result.rings.end());
+  while (result.rings.size() > 1) result.rings.pop_back();
   const auto section = app::html(app::contact_section(app::named_meshes(result)));
   check_svg(section);
   BOOST_TEST(!contains(section, "Load over the face width"));
@@ -185,12 +186,9 @@ BOOST_AUTO_TEST_CASE(plane_meshes_show_their_pressure_as_lines) {
 }
 
 BOOST_AUTO_TEST_CASE(nothing_is_shown_of_what_is_not_known) {
-  auto result = run_of("ring_structures");
-  const auto strip = [](app::MeshResult& mesh) {
+  const auto result = run_of("ring_structures", [](app::MeshResult& mesh) {
     for (const auto& [name, table] : app::side_tables) (mesh.*table).rows.clear();
-  };
-  strip(result.sun_mesh);
-  for (auto& ring : result.rings) strip(ring.mesh);
+  });
   BOOST_TEST(app::contact_section(app::named_meshes(result)).blocks.empty());
   BOOST_TEST(app::supports_section(result).blocks.empty());
   const auto page = app::page_html(app::stage_report(result));

@@ -45,7 +45,7 @@ double frequency(double stiffness) {
   return std::sqrt(stiffness * (1 / pinion + 1 / wheel)) / (2 * std::numbers::pi);
 }
 
-std::unique_ptr<app::SystemRun> run(const std::string& text, const std::filesystem::path& out) {
+std::shared_ptr<const app::SystemRun> run(const std::string& text, const std::filesystem::path& out) {
   const auto scene = app::parse_scene(text, "scene.toml");
   app::check_stage(scene);
   return app::run_system(scene, {.out = out, .threads = 2});

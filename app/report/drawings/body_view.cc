@@ -177,10 +177,4 @@ nlohmann::json view_data(const BodyView& view) {
   return data;
 }
 
-std::string packed(const std::vector<BodyView>& views) {
-  const auto bytes = nlohmann::json::to_cbor(views);
-  return {bytes.begin(), bytes.end()};
-}
-std::vector<BodyView> unpacked(const std::string& bytes) { return nlohmann::json::from_cbor(bytes); }
-
 }  // namespace annulus::app

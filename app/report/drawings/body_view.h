@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/bytes.h"
 #include "fem/loaded_mesh.h"
 
 namespace annulus::app {
@@ -33,8 +34,12 @@ struct BodyView {
 
 /// As JSON for view3d.js, with the colours of its stress.
 [[nodiscard]] nlohmann::json view_data(const BodyView& view);
-/// Views as bytes, and back.
-[[nodiscard]] std::string packed(const std::vector<BodyView>& views);
-[[nodiscard]] std::vector<BodyView> unpacked(const std::string& bytes);
 
 }  // namespace annulus::app
+
+namespace annulus {
+
+ANNULUS_MEMBERS(app::BodyView, name, place_mm, displacement_mm, stress_MPa, faces, solid, largest_displacement_mm,
+                largest_stress_MPa, exaggeration, top_MPa, mesh_phase, ring_tooth);
+
+}  // namespace annulus

@@ -7,29 +7,27 @@
 #include <utility>
 
 #include "app/results/content_id.h"
+#include "core/bytes.h"
 #include "core/csv.h"
 #include "core/files.h"
+
+namespace annulus {
+
+ANNULUS_MEMBERS(dynamics::CompositeDeviations, teeth, total, tooth_to_tooth);
+ANNULUS_MEMBERS(dynamics::ErrorProblem, gears, divisor, samples, seed, probability, confidence, bins);
+
+}  // namespace annulus
 
 namespace annulus::app {
 
 namespace {
 
-bool same_law(const dynamics::ErrorProblem& a, const dynamics::ErrorProblem& b) {
-  for (const std::size_t g : {std::size_t{0}, std::size_t{1}}) {
-    const auto &x = a.gears[g], &y = b.gears[g];
-    if (x.teeth != y.teeth || x.total != y.total || x.tooth_to_tooth != y.tooth_to_tooth) return false;
-  }
-  return a.divisor == b.divisor && a.samples == b.samples && a.seed == b.seed && a.probability == b.probability &&
-         a.confidence == b.confidence;
-}
-
-/// The last law is kept: studies ask for the same one again and again.
 dynamics::ErrorResult law_of(const dynamics::ErrorProblem& problem) {
   static std::mutex lock;
-  static std::optional<std::pair<dynamics::ErrorProblem, dynamics::ErrorResult>> last;
+  static std::pair<std::string, dynamics::ErrorResult> last;
   const std::lock_guard guard(lock);
-  if (!last || !same_law(last->first, problem)) last.emplace(problem, dynamics::manufacturing_error(problem));
-  return last->second;
+  if (auto id = to_bytes(problem); last.first != id) last = {std::move(id), dynamics::manufacturing_error(problem)};
+  return last.second;
 }
 
 using Lines = std::vector<std::pair<std::string, std::string>>;
@@ -63,13 +61,12 @@ const dynamics::ErrorReading* PairErrors::taken(const Scene& scene) const {
   return &law->at(scene.manufacturing_error->reading);
 }
 
-PairErrors pair_errors(const Scene& scene, const PairErrors* known) {
+PairErrors pair_errors(const Scene& scene) {
   PairErrors errors;
   errors.amplitude = scene.errors.mesh_error.value_or(0);
   if (!scene.manufacturing_error) return errors;
   errors.problem = error_problem(scene);
-  errors.law =
-      known && known->problem && same_law(*known->problem, *errors.problem) ? *known->law : law_of(*errors.problem);
+  errors.law = law_of(*errors.problem);
   if (const auto* reading = errors.taken(scene))
     errors.amplitude =
         scene.manufacturing_error->amount == ErrorAmount::sample ? reading->sample.value : reading->exact;

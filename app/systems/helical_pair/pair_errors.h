@@ -11,7 +11,7 @@ namespace annulus::app {
 /// The random law a scene with [manufacturing_error] asks for.
 [[nodiscard]] dynamics::ErrorProblem error_problem(const Scene& scene);
 
-/// What [manufacturing_error] tells, and the error at mesh frequency that follows.
+/// What [manufacturing_error] states, and the error at mesh frequency that follows.
 struct PairErrors {
   std::optional<dynamics::ErrorProblem> problem{};  ///< absent: the scene has no such table
   std::optional<dynamics::ErrorResult> law{};
@@ -19,8 +19,8 @@ struct PairErrors {
   /// nullptr when the scene gives the amplitude itself, or there is none.
   [[nodiscard]] const dynamics::ErrorReading* taken(const Scene& scene) const;
 };
-/// Draws the errors unless `known` has the same law already.
-[[nodiscard]] PairErrors pair_errors(const Scene& scene, const PairErrors* known = nullptr);
+/// Draws the errors; the last law is remembered, because studies ask for the same one again and again.
+[[nodiscard]] PairErrors pair_errors(const Scene& scene);
 
 /// Draws kept in samples.csv at most; the figures are those of all of them.
 inline constexpr int kept_samples = 100'000;

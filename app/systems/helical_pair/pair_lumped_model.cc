@@ -2,9 +2,19 @@
 
 #include <utility>
 
-#include "app/results/content_id.h"
-#include "app/systems/helical_pair/pair_errors.h"
-#include "dynamics/systems/helical_pair/pair_figures.h"
+#include "app/model/dynamics_members.h"
+#include "app/model/excitation.h"
+#include "app/model/table_errors.h"
+#include "app/results/cached_value.h"
+
+namespace annulus {
+
+ANNULUS_MEMBERS(dynamics::ErrorWave, amount, phase);
+ANNULUS_MEMBERS(dynamics::PairGear, teeth, mass, inertia, radius, bearing_transverse, bearing_axial, error);
+ANNULUS_MEMBERS(dynamics::HelicalPair, pinion, wheel, base_helix_angle, mesh, mesh_error, half_backlash, mesh_damping,
+                bearing_damping, damping_without_contact, pinion_speed, pinion_torque);
+
+}  // namespace annulus
 
 namespace annulus::app {
 
@@ -13,39 +23,68 @@ namespace {
 /// How responses of studies are found; enters the identity of cached results.
 constexpr const char* pair_point_method = "harmonic balance, time integration where contact is lost; 1";
 
-class PairLumpedModel final : public LumpedModel {
- public:
-  PairLumpedModel(dynamics::HelicalPair pair, dynamics::SimulationOptions simulation,
-                  std::optional<StiffnessTable> table)
-      : pair_(std::move(pair)), simulation_(std::move(simulation)), table_(std::move(table)) {}
+dynamics::Evaluation evaluation_of(const dynamics::HelicalPair& pair, const dynamics::PairResponse& response) {
+  dynamics::Evaluation evaluation{.figures = dynamics::figures(response), .outcome = response};
+  evaluation.figures.add(dynamics::frequency_figures(pair));
+  return evaluation;
+}
 
-  [[nodiscard]] std::string id() const override {
-    return ContentId()
-        .add("response", pair_id(pair_, simulation_, table_ ? &*table_ : nullptr))
-        .add("method", pair_point_method)
-        .id();
-  }
-
-  [[nodiscard]] StudyPoint answer(Answer wanted) const override {
-    auto figures = dynamics::figures(dynamics::evaluate_pair(pair_, simulation_));
-    if (wanted == Answer::all) figures.add(dynamics::frequency_figures(pair_));
-    return {.figures = {dynamics::pair_figures(), figures}};
-  }
-
- private:
-  dynamics::HelicalPair pair_;
-  dynamics::SimulationOptions simulation_;
-  std::optional<StiffnessTable> table_;
-};
+/// The totals back into the response that the results were read from.
+void set_errors(const FigureSet& figures, dynamics::PairResponse& r) {
+  auto &te = r.dynamic.transmission_error, &relative = r.dynamic.relative, &still = r.quasi_static.transmission_error;
+  const bool forward = r.static_force >= 0;
+  for (const auto& [key, figure] : {std::pair{"acceleration_max_m_per_s2", &r.acceleration.tooth},
+                                    {"acceleration_line_of_action_m_per_s2", &r.acceleration.line_of_action},
+                                    {"acceleration_axial_m_per_s2", &r.acceleration.axial},
+                                    {"acceleration_rotation_m_per_s2", &r.acceleration.rotation},
+                                    {"mesh_force_max_N", forward ? &r.force_max : &r.force_min},
+                                    {"mesh_force_min_N", forward ? &r.force_min : &r.force_max},
+                                    {"dynamic_factor", &r.dynamic_factor},
+                                    {"transmission_error_max_m", &te.largest},
+                                    {"transmission_error_peak_to_peak_m", &te.peak_to_peak},
+                                    {"transmission_error_static_max_m", &still.largest},
+                                    {"transmission_error_static_peak_to_peak_m", &still.peak_to_peak},
+                                    {"relative_motion_max_m", &relative.largest},
+                                    {"relative_motion_peak_to_peak_m", &relative.peak_to_peak}})
+    figure->error = figures.figure(key).error;
+}
 
 }  // namespace
 
-std::unique_ptr<LumpedModel> pair_lumped_model(const Scene& scene, const PairGeometry& geometry, const PairMesh& mesh) {
-  auto pair = make_pair(scene, geometry, pair_excitation(scene, geometry, mesh), pair_errors(scene).amplitude);
-  auto simulation = pair_simulation(scene);
+std::string LumpedPair::id(const dynamics::SimulationOptions& options) const {
+  return identity_of(pair, options, table_behind(pair.mesh, mesh.table));
+}
+
+LumpedPair lumped_pair(const Scene& scene, const PairGeometry& geometry, const MeshResult& mesh, double mesh_error) {
+  return {scene, geometry, stiffness_alone(mesh), mesh_error,
+          make_pair(scene, geometry, pair_excitation(scene, geometry, mesh.table), mesh_error)};
+}
+
+std::unique_ptr<LumpedModel> pair_lumped_model(const LumpedPair& lumped) {
+  auto simulation = pair_simulation(lumped.scene);
   simulation.confirm = false;
   simulation.keep_series = false;
-  return std::make_unique<PairLumpedModel>(std::move(pair), std::move(simulation), mesh.table);
+  return std::make_unique<LumpedModel>(identity_of(lumped.id(simulation), std::string(pair_point_method)),
+                                       [pair = lumped.pair, simulation](Answer wanted) -> StudyPoint {
+                                         auto figures = dynamics::figures(dynamics::evaluate_pair(pair, simulation));
+                                         if (wanted == Answer::all) figures.add(dynamics::frequency_figures(pair));
+                                         return {.figures = {dynamics::pair_figures(), figures}};
+                                       });
+}
+
+FigureSet carried_pair_errors(const LumpedPair& lumped, const dynamics::SimulationOptions& options,
+                              dynamics::PairResponse& response) {
+  const auto way = dynamics::comparison_options(response, options);
+  auto figures = with_table_errors(
+      evaluation_of(lumped.pair, response), {&lumped.mesh},
+      [&](const std::vector<const MeshResult*>& changed) {
+        auto pair = lumped.pair;
+        pair.mesh = pair_excitation(lumped.scene, lumped.geometry, changed.front()->table);
+        return evaluation_of(pair, dynamics::evaluate_pair(pair, way.simulation));
+      },
+      way);
+  set_errors(figures, response);
+  return figures;
 }
 
 }  // namespace annulus::app

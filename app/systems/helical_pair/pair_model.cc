@@ -6,7 +6,6 @@
 #include "app/model/excitation.h"
 #include "app/model/stiff_supports.h"
 #include "app/plan/gear_geometry.h"
-#include "app/results/content_id.h"
 #include "core/errors.h"
 
 namespace annulus::app {
@@ -28,12 +27,6 @@ dynamics::PairGear lumped_gear(const Scene& scene, const PairGearInput& input, c
   result.bearing_axial = input.bearing_axial;
   result.error = {error, phase};
   return result;
-}
-
-void add_pair_gear(ContentId& id, const std::string& name, const dynamics::PairGear& gear) {
-  id.add(name + ".teeth", gear.teeth).add(name + ".mass", gear.mass).add(name + ".inertia", gear.inertia);
-  id.add(name + ".radius", gear.radius).add(name + ".y", gear.bearing_transverse).add(name + ".z", gear.bearing_axial);
-  id.add(name + ".error", gear.error.amount).add(name + ".phase", gear.error.phase);
 }
 
 }  // namespace
@@ -99,21 +92,6 @@ dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry
 dynamics::SimulationOptions pair_simulation(const Scene& scene) {
   const double mesh_frequency = scene.pinion.teeth * scene.stage.pinion_speed / (2 * std::numbers::pi);
   return given_simulation(*scene.dynamics, mesh_frequency);
-}
-
-std::string pair_id(const dynamics::HelicalPair& pair, const dynamics::SimulationOptions& options,
-                    const StiffnessTable* table) {
-  ContentId id;
-  add_pair_gear(id, "pinion", pair.pinion);
-  add_pair_gear(id, "wheel", pair.wheel);
-  add_excitation(id, "mesh", pair.mesh, table ? *table : StiffnessTable());
-  id.add("base_helix_angle", pair.base_helix_angle).add("half_backlash", pair.half_backlash.value_or(-1));
-  id.add("mesh_error", pair.mesh_error.amount).add("phase", pair.mesh_error.phase);
-  id.add("mesh_damping", pair.mesh_damping_ratio).add("bearing_damping", pair.bearing_damping_ratio);
-  id.add("always", pair.damping_without_contact ? 1 : 0);
-  id.add("speed", pair.pinion_speed).add("torque", pair.pinion_torque);
-  add_simulation(id, options);
-  return id.id();
 }
 
 }  // namespace annulus::app

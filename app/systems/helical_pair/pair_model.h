@@ -4,7 +4,6 @@
 #include <string>
 
 #include "app/scene/scene.h"
-#include "core/stiffness_table.h"
 #include "dynamics/steady_state/steady_response.h"
 #include "dynamics/systems/helical_pair/helical_pair.h"
 #include "geometry/gear_pair.h"
@@ -37,9 +36,5 @@ struct PairGeometry {
 [[nodiscard]] dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry,
                                               const dynamics::MeshExcitation& mesh, double mesh_error);
 [[nodiscard]] dynamics::SimulationOptions pair_simulation(const Scene& scene);
-
-/// Identity of everything a response depends on. `table`: behind the stiffness of the mesh, if there is one.
-[[nodiscard]] std::string pair_id(const dynamics::HelicalPair& pair, const dynamics::SimulationOptions& options,
-                                  const StiffnessTable* table);
 
 }  // namespace annulus::app

@@ -2,16 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
-#include "app/model/cost_actual.h"
-#include "app/model/mesh_figures.h"
 #include "app/results/content_id.h"
 #include "app/run/pipeline.h"
-#include "app/systems/helical_pair/pair_table_errors.h"
+#include "app/systems/helical_pair/pair_lumped_model.h"
 #include "core/errors.h"
-#include "core/files.h"
 #include "core/log.h"
 #include "core/parallel.h"
 #include "core/units.h"
@@ -70,61 +66,45 @@ void write_table(Csv csv, const std::string& id, const std::filesystem::path& fi
   csv.write(file);
 }
 
-PairResponseResult respond(const PairRunResult& result, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
-  const auto& pair = *result.pair;
-  const auto simulation = pair_simulation(result.scene);
-  PairResponseResult response{.figures = dynamics::evaluate_pair(pair, simulation),
-                              .modes = dynamics::modes(pair),
-                              .series = {},
-                              .spectrum = {}};
-  response.series = series_table(pair, response.figures);
-  response.spectrum = spectrum_table(response.figures);
-  response.figures.series = {};
-  response.results = carried_pair_errors(result, simulation, response.figures);
-  const auto id = pair_id(pair, simulation, result.mesh.table ? &*result.mesh.table : nullptr);
-  write_table(response.series, id, folder / "time_series.csv");
-  write_table(response.spectrum, id, folder / "spectrum.csv");
-  write_table(modes_table_of(response.modes), id, folder / "modes.csv");
-  const auto& f = response.figures;
-  log::info(fmt::format("dynamics: {} mesh cycles integrated, {}", f.total_cycles,
-                        f.steady ? "periodic steady state" : "no periodic steady state"));
-  return response;
+/// As each of many responses is found.
+dynamics::SimulationOptions without_confirmation(const Scene& scene) {
+  auto simulation = pair_simulation(scene);
+  simulation.confirm = false;
+  simulation.keep_series = false;
+  return simulation;
 }
 
-ShareRow share_row(const PairRunResult& result, double torque) {
+ShareRow share_row(const LumpedPair& nominal, double torque) {
   ShareRow row{.pinion_torque = torque};
   try {
     // The scene at another torque: a tabulated stiffness belongs to its load.
-    auto scene = result.scene;
+    auto scene = nominal.scene;
     scene.stage.pinion_torque = torque;
-    auto geometry = result.geometry;
+    auto geometry = nominal.geometry;
     geometry.transverse_force = torque / geometry.pinion().base_radius();
-    PairMesh mesh = result.mesh;
-    if (scene.pinion_wheel.stiffness == StiffnessShape::closed_form)
-      mesh.table = closed_form_pair_table(scene, geometry, geometry.transverse_force);
-    auto pair = make_pair(scene, geometry, pair_excitation(scene, geometry, mesh), result.errors.amplitude);
-    auto simulation = pair_simulation(scene);
-    simulation.confirm = false;
-    simulation.keep_series = false;
+    const bool closed_form = scene.pinion_wheel.stiffness == StiffnessShape::closed_form;
+    const auto pair = lumped_pair(scene, geometry,
+                                  closed_form ? pair_stiffness(scene, geometry, nominal.mesh.model, {}) : nominal.mesh,
+                                  nominal.mesh_error)
+                          .pair;
+    const auto simulation = without_confirmation(scene);
     row.shares = dynamics::transmission_error_shares(pair, simulation);
     const auto whole = dynamics::evaluate_pair(pair, simulation);
     row.largest_dynamic = whole.dynamic.transmission_error.largest.value;
     row.largest_static = whole.quasi_static.transmission_error.largest.value;
   } catch (const Error& error) {
     row.failure = error.what();
+    log::warn(fmt::format("transmission error at {} N m: {}", to_text(torque), row.failure));
   }
   return row;
 }
 
-SpeedRow speed_row(const PairRunResult& result, double speed) {
+SpeedRow speed_row(const LumpedPair& nominal, double speed) {
   SpeedRow row{.pinion_speed = speed};
-  auto scene = result.scene;
+  auto scene = nominal.scene;
   scene.stage.pinion_speed = speed;
-  auto simulation = pair_simulation(scene);
-  simulation.confirm = false;
-  simulation.keep_series = false;
-  auto pair = *result.pair;
+  const auto simulation = without_confirmation(scene);
+  auto pair = nominal.pair;
   pair.pinion_speed = speed;
   auto constant = pair, flawless = pair;
   constant.mesh = dynamics::ConstantStiffness{dynamics::mean_stiffness(pair.mesh)};
@@ -140,6 +120,7 @@ SpeedRow speed_row(const PairRunResult& result, double speed) {
     row.stiffness_alone = motion(flawless);
   } catch (const Error& error) {
     row.failure = error.what();
+    log::warn(fmt::format("causes at {} r/min: {}", to_text(speed / units::rpm, 6), row.failure));
   }
   return row;
 }
@@ -177,102 +158,55 @@ void save_shares(const std::vector<ShareRow>& rows, const std::filesystem::path&
 
 }  // namespace
 
-PairRunResult::PairRunResult(const Scene& of) : geometry(make_pair_geometry(of)) { scene = of; }
-
-void PairRunResult::solve_meshes(const RunOptions& options) {
-  {
-    const auto& model = plan.meshes.front();
-    mesh = pair_mesh(scene, geometry, pair_stiffness(model, options));
-    not_solved.model = model;
-    stiffnesses = mean_stiffnesses(scene, geometry, mesh);
-    if (mesh.table && !mesh.computed) {
-      auto table = *mesh.table;
-      table.provenance = {{"annulus_version", version()}, {"source", model.reason}};
-      table.write_csv(options.out / "stiffness_pinion_wheel.csv");
-    }
-  }
-  const auto timer = timers.measure("errors");
-  errors = pair_errors(scene);
-  save_pair_errors(errors, options.out / "errors");
-}
-
-void PairRunResult::respond(const RunOptions& options) {
+std::unique_ptr<PairRunResponse> pair_response(const Scene& scene, const MeshResult& mesh, const RunOptions& options) {
   const auto folder = options.out / "dynamics";
-  pair = make_pair(scene, geometry, pair_excitation(scene, geometry, mesh), errors.amplitude);
-  {
-    const auto timer = timers.measure("dynamics");
-    response = app::respond(*this, folder);
-  }
-  if (!scene.transmission_error) return;
-  const auto timer = timers.measure("shares");
-  const auto& torques = scene.transmission_error->pinion_torques;
-  shares.resize(torques.size());
-  for_each_task(torques.size(), options.threads, [&](std::size_t i) { shares[i] = share_row(*this, torques[i]); });
-  for (const auto& row : shares) {
-    if (!row.failure.empty())
-      log::warn(fmt::format("transmission error at {} N m: {}", to_text(row.pinion_torque), row.failure));
-  }
-  save_shares(shares, folder);
-  const auto& wanted = scene.transmission_error->pinion_speeds;
-  speeds.resize(wanted.size());
-  for_each_task(wanted.size(), options.threads, [&](std::size_t i) { speeds[i] = speed_row(*this, wanted[i]); });
-  for (const auto& row : speeds) {
-    if (!row.failure.empty())
-      log::warn(fmt::format("causes at {} r/min: {}", to_text(row.pinion_speed / units::rpm, 6), row.failure));
-  }
-  if (!speeds.empty()) save_speeds(speeds, folder);
-}
-
-std::vector<const MeshResult*> PairRunResult::meshes() const {
-  if (!mesh.computed) return {};
-  return {&*mesh.computed};
-}
-
-std::vector<const MeshResult*> PairRunResult::model_tables() const {
-  return {mesh.computed ? &*mesh.computed : &not_solved};
-}
-
-std::vector<VariantFigures> PairRunResult::variants() const {
-  FigureSet set;
-  for (const auto& s : stiffnesses)
-    if (s.taken) set.set("mean_stiffness_N_per_m", {s.value, std::abs(s.value) * s.error_relative});
-  if (mesh.computed) set.add(mesh_figures(*mesh.computed));
-  if (response) set.add(response->results);
-  return {{"", std::move(set)}};
-}
-
-std::optional<CostRun> PairRunResult::actual(const CostStep& step) const {
-  if (step.kind == CostKind::mesh) return mesh.computed ? actual_mesh(step.size, *mesh.computed) : std::nullopt;
-  if (!response) return std::nullopt;
-  return actual_time(step.size, timers.seconds("dynamics") + timers.seconds("shares"));
-}
-
-PairRunResult run_pair(const Scene& scene, const RunOptions& options) {
-  PairRunResult result(scene);
-  run_system(result, options);
+  std::filesystem::create_directories(folder);
+  const auto lumped = lumped_pair(scene, make_pair_geometry(scene), mesh, pair_errors(scene).amplitude);
+  const auto& pair = lumped.pair;
+  const auto simulation = pair_simulation(scene);
+  auto result = std::make_unique<PairRunResponse>();
+  result->pair = pair;
+  auto& response = result->response;
+  auto& f = response.figures = dynamics::evaluate_pair(pair, simulation);
+  response.modes = dynamics::modes(pair);
+  response.series = series_table(pair, f);
+  response.spectrum = spectrum_table(f);
+  f.series = {};
+  result->figures = carried_pair_errors(lumped, simulation, f);
+  const auto id = lumped.id(simulation);
+  write_table(response.series, id, folder / "time_series.csv");
+  write_table(response.spectrum, id, folder / "spectrum.csv");
+  write_table(modes_table_of(response.modes), id, folder / "modes.csv");
+  log::info(fmt::format("dynamics: {} mesh cycles integrated, {}", f.total_cycles,
+                        f.steady ? "periodic steady state" : "no periodic steady state"));
+  if (!scene.transmission_error) return result;
+  const auto fill = [&](auto& rows, const std::vector<double>& values, auto row_of) {
+    rows.resize(values.size());
+    for_each_task(values.size(), options.threads, [&](std::size_t i) { rows[i] = row_of(lumped, values[i]); });
+  };
+  fill(result->shares, scene.transmission_error->pinion_torques, share_row);
+  save_shares(result->shares, folder);
+  fill(result->speeds, scene.transmission_error->pinion_speeds, speed_row);
+  if (!result->speeds.empty()) save_speeds(result->speeds, folder);
   return result;
 }
 
-const std::vector<FigureSpec>& pair_run_figures() {
-  static const auto list = [] {
-    std::vector<FigureSpec> specs = {{.key = "mean_stiffness_N_per_m",
-                                      .title = "Mean stiffness along the normal, as applied",
-                                      .unit = "N/µm",
-                                      .scale = 1e-6,
-                                      .definition =
-                                          "mean mesh stiffness along the normal of the flanks that the lumped "
-                                          "model has",
-                                      .effort = FigureEffort::tables,
-                                      .guarantee = Guarantee::always,
-                                      .quantity = "mean_stiffness",
-                                      .compared = true}};
-    const auto mesh = mesh_figure_specs(pinion_wheel, "mesh", "pinion_wheel_stiffness", {"pinion", "wheel"});
-    specs.insert(specs.end(), mesh.begin(), mesh.end());
-    const auto& model = dynamics::pair_figures();
-    specs.insert(specs.end(), model.begin(), model.end());
-    return specs;
-  }();
-  return list;
+PairRunResult::PairRunResult(const SystemRun& of)
+    : RunView(of),
+      geometry(make_pair_geometry(of.scene)),
+      mesh(of.tables.front()),
+      stiffnesses(mean_stiffnesses(of.scene, geometry, mesh)),
+      errors(pair_errors(of.scene)) {
+  if (of.responses.empty()) return;
+  const auto& found = static_cast<const PairRunResponse&>(*of.responses.front());
+  pair = &found.pair;
+  response = &found.response;
+  shares = found.shares;
+  speeds = found.speeds;
+}
+
+PairRunResult run_pair(const Scene& scene, const RunOptions& options) {
+  return PairRunResult(*run_system(scene, options));
 }
 
 }  // namespace annulus::app

@@ -1,14 +1,16 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/model/system_run.h"
+#include "app/report/section.h"
 #include "app/systems/helical_pair/pair_errors.h"
 #include "app/systems/helical_pair/pair_stiffness.h"
 #include "core/csv.h"
+#include "core/json.h"
 #include "dynamics/modes/modes.h"
 #include "dynamics/systems/helical_pair/pair_figures.h"
 
@@ -40,41 +42,44 @@ struct SpeedRow {
 
 struct PairResponseResult {
   dynamics::PairResponse figures;  ///< without the series; errors with all their parts
-  FigureSet results{};             ///< by key, with the parts of their errors; frequencies too
   dynamics::Modes modes;
   Csv series;    ///< one row per sample: time, DOFs, force, transmission error
   Csv spectrum;  ///< of the mesh force
 };
 
-struct PairRunResult final : SystemRun {
-  explicit PairRunResult(const Scene& of);
-
-  PairGeometry geometry;
-  MeshResult not_solved{};  ///< the model alone, of a mesh that is not computed
-  PairMesh mesh{};
-  std::vector<MeanStiffness> stiffnesses{};
-  PairErrors errors{};
-  std::optional<dynamics::HelicalPair> pair{};  ///< absent without [dynamics]
-  std::optional<PairResponseResult> response{};
+/// The answer of a pair.
+struct PairRunResponse final : RunResponse {
+  dynamics::HelicalPair pair;
+  PairResponseResult response{};
   std::vector<ShareRow> shares{};
   std::vector<SpeedRow> speeds{};
-
-  void solve_meshes(const RunOptions& options) override;
-  void respond(const RunOptions& options) override;
-  [[nodiscard]] std::vector<const MeshResult*> meshes() const override;
-  [[nodiscard]] std::vector<VariantFigures> variants() const override;
-  [[nodiscard]] std::optional<CostRun> actual(const CostStep& step) const override;
-  [[nodiscard]] std::vector<const MeshResult*> model_tables() const override;
-  [[nodiscard]] Json summary() const override;      // pair_summary.cc
-  [[nodiscard]] std::string text() const override;  // pair_summary.cc
-  [[nodiscard]] Page report() const override;
 };
+
+struct PairRunResult : RunView {
+  explicit PairRunResult(const SystemRun& run);
+
+  PairGeometry geometry;
+  PairMesh mesh;
+  std::vector<MeanStiffness> stiffnesses;
+  PairErrors errors;
+  // Null or empty without [dynamics]:
+  const dynamics::HelicalPair* pair = nullptr;
+  const PairResponseResult* response = nullptr;
+  std::vector<ShareRow> shares{};
+  std::vector<SpeedRow> speeds{};
+};
+
+/// The response of the scene on the stiffness of its mesh, and those that divide the transmission error by its causes;
+/// files in OUT/dynamics.
+[[nodiscard]] std::unique_ptr<PairRunResponse> pair_response(const Scene& scene, const MeshResult& mesh,
+                                                             const RunOptions& options);
+
+[[nodiscard]] Json pair_summary(const PairRunResult& result);      ///< members of summary.json (pair_summary.cc)
+[[nodiscard]] std::string pair_text(const PairRunResult& result);  ///< for the standard output (pair_summary.cc)
+[[nodiscard]] Page pair_report(const PairRunResult& result);       ///< report.html (report/pair_report.cc)
 
 /// All steps of a run of a scene of this kind.
 [[nodiscard]] PairRunResult run_pair(const Scene& scene, const RunOptions& options);
-
-/// The results of a pair: those of its mesh, then those of its lumped model.
-[[nodiscard]] const std::vector<FigureSpec>& pair_run_figures();
 
 /// What a plan reports of a pair (pair_plan.cc).
 void describe_pair(const Scene& scene, const PairGeometry& geometry, Plan& plan);

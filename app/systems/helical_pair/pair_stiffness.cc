@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/run/pipeline.h"
+#include "app/model/excitation.h"
+#include "app/model/mesh_solve.h"
 #include "core/errors.h"
 #include "core/not_known.h"
 #include "fem/closed_form/helical_table.h"
@@ -79,62 +80,35 @@ StiffnessTable closed_form_pair_table(const Scene& scene, const PairGeometry& ge
   return fem::helical_closed_form(problem);
 }
 
-MeshResult pair_stiffness(const MeshModel& model, const RunOptions& options) {
-  return model.computed() ? computed_stiffness(model, "", options) : MeshResult{.model = model, .table = {}};
-}
-
-PairMesh pair_mesh(const Scene& scene, const PairGeometry& geometry, MeshResult solved) {
-  PairMesh mesh{.model = solved.model};
-  const auto& model = mesh.model;
-  if (model.computed()) mesh.computed = std::move(solved);
-  switch (scene.pinion_wheel.stiffness) {
-    case StiffnessShape::computed:
-      require(mesh.computed.has_value(), "a computed mesh has been solved");
-      mesh.table = mesh.computed->table;
-      break;
-    case StiffnessShape::closed_form:
-      mesh.table = closed_form_pair_table(scene, geometry, geometry.transverse_force);
-      break;
-    case StiffnessShape::table:
-      mesh.table =
-          given_stiffness(model, scene.pinion_wheel, scene, geometry.gears.contact_ratio(), geometry.transverse_force)
-              .table;
-      break;
-    case StiffnessShape::constant:
-    case StiffnessShape::harmonic:
-    case StiffnessShape::rectangular:
-    case StiffnessShape::iso_6336:
-      break;
-  }
-  return mesh;
-}
-
-dynamics::MeshExcitation pair_excitation(const Scene& scene, const PairGeometry& geometry, const PairMesh& mesh) {
+MeshResult pair_stiffness(const Scene& scene, const PairGeometry& geometry, const MeshModel& model,
+                          const RunOptions& options) {
   const auto& input = scene.pinion_wheel;
-  const double phase = input.phase.value_or(0);
-  switch (input.stiffness) {
-    case StiffnessShape::constant:
-      return dynamics::ConstantStiffness{*input.mean};
-    case StiffnessShape::harmonic:
-      return dynamics::HarmonicStiffness{*input.mean, *input.ripple, phase};
-    case StiffnessShape::rectangular:
-      return dynamics::RectangularStiffness{*input.mean, *input.ripple, *input.duty, phase};
-    case StiffnessShape::iso_6336: {
-      const double mean = iso_pair_stiffness(scene, geometry);
-      if (input.ripple.value_or(0) == 0) return dynamics::ConstantStiffness{mean};
-      return dynamics::HarmonicStiffness{mean, *input.ripple, phase};
-    }
-    case StiffnessShape::computed:
-    case StiffnessShape::closed_form:
-    case StiffnessShape::table:
-      break;
+  if (model.computed()) return computed_stiffness(model, "", options);
+  if (input.stiffness == StiffnessShape::closed_form)
+    return {.model = model,
+            .table = closed_form_pair_table(scene, geometry, geometry.transverse_force),
+            .nominal = nominal_load_index};
+  if (input.stiffness == StiffnessShape::table)
+    return given_stiffness(model, input, scene, geometry.gears.contact_ratio(), geometry.transverse_force);
+  return {.model = model, .table = {}, .tabulated = false};
+}
+
+PairMesh::PairMesh(const MeshResult& mesh) : model(mesh.model) {
+  if (model.computed()) computed = mesh;
+  if (mesh.tabulated) table = mesh.table;
+}
+
+dynamics::MeshExcitation pair_excitation(const Scene& scene, const PairGeometry& geometry,
+                                         const StiffnessTable& table) {
+  auto input = scene.pinion_wheel;
+  if (input.stiffness == StiffnessShape::iso_6336) {
+    input.mean = iso_pair_stiffness(scene, geometry);
+    input.stiffness = input.ripple.value_or(0) == 0 ? StiffnessShape::constant : StiffnessShape::harmonic;
   }
-  const auto table = fem::along_normal(*mesh.table, geometry.base_helix_angle);
-  auto dependence = scene.dynamics->load_dependence;
-  // A single load tells nothing about others.
-  if (table.loads().size() == 1) dependence = dynamics::LoadDependence::nominal;
-  return dynamics::table_stiffness(table, geometry.transverse_force / std::cos(geometry.base_helix_angle), 0,
-                                   dependence);
+  MeshResult mesh;
+  if (table.phases() > 0) mesh.table = fem::along_normal(table, geometry.base_helix_angle);
+  return excitation_of(input, mesh, geometry.transverse_force / std::cos(geometry.base_helix_angle),
+                       scene.dynamics->load_dependence);
 }
 
 std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeometry& geometry, const PairMesh& mesh) {

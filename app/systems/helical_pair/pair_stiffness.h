@@ -30,18 +30,23 @@ namespace annulus::app {
 [[nodiscard]] StiffnessTable closed_form_pair_table(const Scene& scene, const PairGeometry& geometry,
                                                     double transverse_force);
 
-/// The stiffness the lumped model takes.
+/// The stiffness that the scene asks for: finite elements solved into OUT or read back, the closed form, or a table
+/// from its file; without a table where a wave or ISO 6336 is prescribed. Throws InputError for a table that cannot be
+/// read.
+[[nodiscard]] MeshResult pair_stiffness(const Scene& scene, const PairGeometry& geometry, const MeshModel& model,
+                                        const RunOptions& options);
+/// As the lumped model takes it. Needs [dynamics].
+[[nodiscard]] dynamics::MeshExcitation pair_excitation(const Scene& scene, const PairGeometry& geometry,
+                                                       const StiffnessTable& table);
+
+/// The same for summary and report.
 struct PairMesh {
-  MeshModel model{};
+  explicit PairMesh(const MeshResult& mesh);
+
+  MeshModel model;
   std::optional<MeshResult> computed{};   ///< by finite elements
   std::optional<StiffnessTable> table{};  ///< transverse; of computed, closed_form and table
 };
-/// By finite elements; the model alone, without a table, where something else is asked for.
-[[nodiscard]] MeshResult pair_stiffness(const MeshModel& model, const RunOptions& options);
-/// What the scene asks for; finite elements from `solved`. Throws InputError for a table that cannot be read.
-[[nodiscard]] PairMesh pair_mesh(const Scene& scene, const PairGeometry& geometry, MeshResult solved);
-[[nodiscard]] dynamics::MeshExcitation pair_excitation(const Scene& scene, const PairGeometry& geometry,
-                                                       const PairMesh& mesh);
 
 /// A mean stiffness at the operating point, N/m along the normal.
 struct MeanStiffness {

@@ -2,10 +2,6 @@
 
 #include <cmath>
 
-#include "app/model/cost_actual.h"
-#include "app/results/content_id.h"
-#include "app/scene/inputs_json.h"
-#include "app/scene/scene_schema.h"
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/helical_pair/pair_run.h"
@@ -82,8 +78,7 @@ Json response_json_of(const PairResponseResult& response) {
 
 }  // namespace
 
-Json PairRunResult::summary() const {
-  const auto& result = *this;
+Json pair_summary(const PairRunResult& result) {
   Json json = Json::object();
   for (const auto& q : result.plan.quantities) json["derived"][q.key] = json_number(q.value);
   for (const auto& s : result.stiffnesses)
@@ -122,12 +117,11 @@ Json PairRunResult::summary() const {
                                          {"errors_alone", motion(row.errors_alone)},
                                          {"stiffness_alone", motion(row.stiffness_alone)}});
   }
-  if (!studies.variants.empty()) json.update(variant_studies_json(studies, 0));
+  if (!result.studies.variants.empty()) json.update(variant_studies_json(result.studies, 0));
   return json;
 }
 
-std::string PairRunResult::text() const {
-  const auto& result = *this;
+std::string pair_text(const PairRunResult& result) {
   std::string text;
   for (const auto& s : result.stiffnesses) {
     if (!std::isfinite(s.value)) continue;
@@ -139,7 +133,7 @@ std::string PairRunResult::text() const {
                         1e6 * result.errors.amplitude, taken->name, to_text(result.errors.problem->probability),
                         result.errors.problem->samples, 1e6 * taken->sample.low, 1e6 * taken->sample.high,
                         1e6 * taken->exact);
-  return text + key_results_text(*this);
+  return text + key_results_text(result);
 }
 
 }  // namespace annulus::app

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "app/model/mesh_figures.h"
 #include "app/plan/plan.h"
+#include "app/results/content_id.h"
 #include "app/systems/helical_pair/pair_lumped_model.h"
 #include "app/systems/helical_pair/pair_run.h"
 #include "app/systems/helical_pair/pair_scene.h"
@@ -29,39 +33,92 @@ class PairSystem final : public GearSystem {
   [[nodiscard]] double mean_mesh_force() const override { return make_pair_geometry(scene()).transverse_force; }
 
   [[nodiscard]] MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const override {
-    return pair_stiffness(mesh, options);
+    return pair_stiffness(scene(), make_pair_geometry(scene()), mesh, options);
   }
 
   [[nodiscard]] std::unique_ptr<LumpedModel> model(std::size_t /*variant*/,
                                                    const std::vector<const MeshResult*>& tables) const override {
-    const auto geometry = make_pair_geometry(scene());
-    // Of this scene: its stiffness may be prescribed otherwise.
-    auto mesh = stiffness_alone(*tables.front());
-    mesh.model = pair_mesh_model(scene(), geometry);
-    return pair_lumped_model(scene(), geometry, pair_mesh(scene(), geometry, std::move(mesh)));
+    return pair_lumped_model(lumped(tables));
   }
 
   [[nodiscard]] std::vector<PlannedResponse> responses() const override { return pair_responses(scene()); }
 
-  [[nodiscard]] std::unique_ptr<SystemRun> run() const override { return std::make_unique<PairRunResult>(scene()); }
+  void save_inputs(const SystemRun& run, const RunOptions& options) const override {
+    const auto& mesh = run.tables.front();
+    if (mesh.tabulated && !mesh.model.computed()) {
+      auto table = mesh.table;
+      table.provenance = {{"annulus_version", version()}, {"source", mesh.model.reason}};
+      table.write_csv(options.out / "stiffness_pinion_wheel.csv");
+    }
+    save_pair_errors(pair_errors(scene()), options.out / "errors");
+  }
+
+  [[nodiscard]] FigureSet table_figures(const std::vector<const MeshResult*>& tables) const override {
+    const PairMesh mesh(*tables.front());
+    FigureSet figures;
+    for (const auto& s : mean_stiffnesses(scene(), make_pair_geometry(scene()), mesh))
+      if (s.taken) figures.set("mean_stiffness_N_per_m", {s.value, std::abs(s.value) * s.error_relative});
+    if (mesh.computed) figures.add(mesh_figures(*mesh.computed));
+    return figures;
+  }
+
+  [[nodiscard]] std::unique_ptr<RunResponse> respond(const SystemRun& run, std::size_t /*variant*/,
+                                                     const RunOptions& options) const override {
+    return pair_response(scene(), run.tables.front(), options);
+  }
+
+  [[nodiscard]] Json summary(const SystemRun& run) const override { return pair_summary(PairRunResult(run)); }
+  [[nodiscard]] std::string text(const SystemRun& run) const override { return pair_text(PairRunResult(run)); }
+  [[nodiscard]] Page report(const SystemRun& run) const override { return pair_report(PairRunResult(run)); }
 
   [[nodiscard]] std::string title(std::size_t /*variant*/) const override { return "pinion and wheel"; }
 
   [[nodiscard]] ModelWays ways(std::size_t /*variant*/, const std::vector<const MeshResult*>& tables) const override {
-    const auto geometry = make_pair_geometry(scene());
-    return pair_ways(scene(), geometry, pair_mesh(scene(), geometry, *tables.front()));
+    return pair_ways(lumped(tables));
   }
 
  protected:
   void describe(Plan& plan) const override { describe_pair(scene(), make_pair_geometry(scene()), plan); }
+
+ private:
+  [[nodiscard]] LumpedPair lumped(const std::vector<const MeshResult*>& tables) const {
+    const auto geometry = make_pair_geometry(scene());
+    const auto model = pair_mesh_model(scene(), geometry);
+    // What is not computed is that of this scene.
+    return lumped_pair(scene(), geometry,
+                       model.computed() ? *tables.front() : pair_stiffness(scene(), geometry, model, {}),
+                       pair_errors(scene()).amplitude);
+  }
 };
+
+const std::vector<FigureSpec>& all_pair_figures() {
+  static const auto list = [] {
+    std::vector<FigureSpec> specs = {{.key = "mean_stiffness_N_per_m",
+                                      .title = "Mean stiffness along the normal, as applied",
+                                      .unit = "N/µm",
+                                      .scale = 1e-6,
+                                      .definition =
+                                          "mean mesh stiffness along the normal of the flanks that the lumped "
+                                          "model has",
+                                      .effort = FigureEffort::tables,
+                                      .guarantee = Guarantee::always,
+                                      .quantity = "mean_stiffness",
+                                      .compared = true}};
+    const auto mesh = mesh_figure_specs(pinion_wheel, "mesh", "pinion_wheel_stiffness", {"pinion", "wheel"});
+    specs.insert(specs.end(), mesh.begin(), mesh.end());
+    const auto& model = dynamics::pair_figures();
+    specs.insert(specs.end(), model.begin(), model.end());
+    return specs;
+  }();
+  return list;
+}
 
 }  // namespace
 
 SystemKind helical_pair_kind() {
   return {{"helical_pair", pair_tables, check_pair_scene, [] { return figure_keys(dynamics::pair_figures()); },
            helical_pair_example},
-          pair_run_figures,
+          all_pair_figures,
           dynamics::pair_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<PairSystem>(scene); }};
 }

@@ -1,8 +1,6 @@
 #include <utility>
 
 #include "app/systems/helical_pair/pair_lumped_model.h"
-#include "app/systems/helical_pair/pair_run.h"
-#include "app/systems/helical_pair/pair_table_errors.h"
 #include "app/tradeoff/model_changes.h"
 #include "core/errors.h"
 
@@ -34,24 +32,23 @@ FigureSet steady_pair_figures(const HelicalPair& pair, const dynamics::Simulatio
 
 }  // namespace
 
-ModelWays pair_ways(const Scene& scene, const PairGeometry& geometry, const PairMesh& mesh) {
-  PairRunResult result(scene);
-  result.mesh = mesh;
-  result.pair = make_pair(scene, geometry, pair_excitation(scene, geometry, mesh), pair_errors(scene).amplitude);
-  const auto id = [&](const HelicalPair& pair, const dynamics::SimulationOptions& options) {
-    return pair_id(pair, options, mesh.table ? &*mesh.table : nullptr);
+ModelWays pair_ways(const LumpedPair& lumped) {
+  const auto id = [lumped](const HelicalPair& pair, const dynamics::SimulationOptions& options) {
+    auto other = lumped;
+    other.pair = pair;
+    return other.id(options);
   };
-  auto simulation = pair_simulation(scene);
+  auto simulation = pair_simulation(lumped.scene);
   simulation.keep_series = false;
   auto unconfirmed = simulation;
   unconfirmed.confirm = false;
-  WaysOf<HelicalPair> of(*result.pair, simulation, id, steady_pair_figures);
-  of.add(motion_settings(result.pair->mesh_frequency(), result.pair->error_period()));
+  WaysOf<HelicalPair> of(lumped.pair, simulation, id, steady_pair_figures);
+  of.add(motion_settings(lumped.pair.mesh_frequency(), lumped.pair.error_period()));
   of.add(rigid_changes_of_pair());
-  ModelWays ways{.as_run = {.id = id(*result.pair, unconfirmed)}, .others = of.list()};
-  ways.as_run.figures = [result, unconfirmed] {
-    auto response = dynamics::evaluate_pair(*result.pair, unconfirmed);
-    return carried_pair_errors(result, unconfirmed, response);
+  ModelWays ways{.as_run = {.id = lumped.id(unconfirmed)}, .others = of.list()};
+  ways.as_run.figures = [lumped, unconfirmed] {
+    auto response = dynamics::evaluate_pair(lumped.pair, unconfirmed);
+    return carried_pair_errors(lumped, unconfirmed, response);
   };
   return ways;
 }

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "dynamics/error_propagation/error_propagation.h"
+#include "app/model/table_errors.h"
 
 namespace annulus::app {
 
@@ -39,30 +39,17 @@ dynamics::Evaluation evaluation_of(const DynamicResponse& response) {
   return evaluation;
 }
 
-bool from_table(const dynamics::MeshExcitation& excitation) {
-  return std::holds_alternative<dynamics::TableStiffness>(excitation);
-}
-
 }  // namespace
 
 ResponseErrors carried_errors(const DynamicResponse& nominal, const dynamics::SimulationOptions& options,
                               const StageTables& tables) {
-  const auto stage = tables.make(tables.sun_mesh, tables.ring_mesh);
-  const bool sun = from_table(stage.sun_mesh), ring = from_table(stage.ring_mesh);
-  const auto comparison = dynamics::comparison_options(nominal, options);
-  dynamics::TabulatedModel model{.meshes = {},
-                                 .evaluate = {},
-                                 .seeks_steady_state = comparison.seeks_steady_state,
-                                 .nominal_alike = comparison.nominal_alike};
-  if (sun) model.meshes.push_back({"sun mesh", tables.sun_mesh.table, tables.sun_mesh.mean_stiffness().parts});
-  if (ring) model.meshes.push_back({"ring mesh", tables.ring_mesh.table, tables.ring_mesh.mean_stiffness().parts});
-  model.evaluate = [&](const std::vector<StiffnessTable>& changed) {
-    MeshResult sun_mesh = tables.sun_mesh, ring_mesh = tables.ring_mesh;
-    if (sun) sun_mesh.table = changed.front();
-    if (ring) ring_mesh.table = changed.back();
-    return evaluation_of(dynamics::simulate(tables.make(sun_mesh, ring_mesh), comparison.simulation));
-  };
-  const auto found = propagate_errors(evaluation_of(nominal), model);
+  const auto way = dynamics::comparison_options(nominal, options);
+  const auto found = with_table_errors(
+      evaluation_of(nominal), {&tables.sun_mesh, &tables.ring_mesh},
+      [&](const std::vector<const MeshResult*>& changed) {
+        return evaluation_of(dynamics::simulate(tables.make(*changed.front(), *changed.back()), way.simulation));
+      },
+      way);
   ResponseErrors errors;
   for_each_figure(nominal, errors,
                   [&](const std::string& key, const Figure&, ErrorParts& parts) { parts = found.find(key)->parts; });

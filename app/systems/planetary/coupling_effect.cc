@@ -69,18 +69,4 @@ void save(const CouplingEffect& effect, const std::string& id, const std::filesy
   csv.write(folder / effect_file);
 }
 
-CouplingEffect load_effect(const std::filesystem::path& folder) {
-  const Csv csv = Csv::read(folder / effect_file);
-  CouplingEffect effect;
-  effect.cycles = std::stoi(csv.header.at(3).second);
-  for (const auto& row : csv.rows) {
-    auto& read = effect.rows.emplace_back(Row{.model = row[0] == 0   ? RimCoupling::none
-                                                       : row[0] == 1 ? RimCoupling::statical
-                                                                     : RimCoupling::elastic});
-    std::size_t column = 0;
-    for (const auto& [key, value] : row_values) read.*value = row[++column];
-  }
-  return effect;
-}
-
 }  // namespace annulus::app

@@ -29,7 +29,5 @@ struct CouplingEffect {
 inline constexpr const char* effect_file = "rim_coupling.csv";
 
 void save(const CouplingEffect& effect, const std::string& id, const std::filesystem::path& folder);
-/// What `save` wrote.
-[[nodiscard]] CouplingEffect load_effect(const std::filesystem::path& folder);
 
 }  // namespace annulus::app

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/results/content_id.h"
+#include "app/results/cached_value.h"
 #include "app/systems/planetary/ring_structures.h"
 #include "app/systems/planetary/stage_response.h"
 #include "dynamics/systems/planetary/initial_spread.h"
@@ -59,48 +59,31 @@ std::vector<MeshModel> mesh_models(const Scene& scene, const GearGeometry& geome
 
 namespace {
 
-class PlanetaryModel final : public LumpedModel {
- public:
-  PlanetaryModel(dynamics::PlanetaryStage stage, dynamics::SimulationOptions simulation, const MeshResult& sun_mesh,
-                 const MeshResult& ring_mesh)
-      : stage_(std::move(stage)), simulation_(std::move(simulation)), sun_mesh_(sun_mesh), ring_mesh_(ring_mesh) {}
-
-  [[nodiscard]] std::string id() const override {
-    return ContentId()
-        .add("response", response_id(stage_, simulation_, sun_mesh_, ring_mesh_))
-        .add("method", dynamics::point_method())
-        .id();
-  }
-
-  [[nodiscard]] StudyPoint answer(Answer wanted) const override {
-    auto point = dynamics::evaluate_point(stage_, {.simulation = simulation_, .motion = wanted == Answer::all});
-    return {.figures = {dynamics::planetary_figures(), point.figures}, .poincare = std::move(point.poincare)};
-  }
-
-  [[nodiscard]] std::optional<StartSpread> starts(int count, int seed) const override {
-    const auto spread = dynamics::initial_spread(
-        stage_, {.random_starts = count - 1, .seed = static_cast<std::uint64_t>(seed), .simulation = simulation_});
-    const auto& specs = dynamics::planetary_figures();
-    return StartSpread{.starts = count,
-                       .motions = spread.attractors,
-                       .low = {specs, spread.low},
-                       .high = {specs, spread.high},
-                       .not_steady = spread.unsteady};
-  }
-
- private:
-  dynamics::PlanetaryStage stage_;
-  dynamics::SimulationOptions simulation_;
-  const MeshResult &sun_mesh_, &ring_mesh_;
-};
+StartSpread spread_of(const dynamics::PlanetaryStage& stage, const dynamics::SimulationOptions& simulation, int count,
+                      int seed) {
+  const auto spread = dynamics::initial_spread(
+      stage, {.random_starts = count - 1, .seed = static_cast<std::uint64_t>(seed), .simulation = simulation});
+  const auto& specs = dynamics::planetary_figures();
+  return {.starts = count,
+          .motions = spread.attractors,
+          .low = {specs, spread.low},
+          .high = {specs, spread.high},
+          .not_steady = spread.unsteady};
+}
 
 }  // namespace
 
 std::unique_ptr<LumpedModel> planetary_model(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
                                              const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
-  auto stage = make_stage(scene, geometry, ring, sun_mesh, ring_mesh);
-  auto simulation = simulation_options(scene, stage);
-  return std::make_unique<PlanetaryModel>(std::move(stage), std::move(simulation), sun_mesh, ring_mesh);
+  const auto stage = make_stage(scene, geometry, ring, sun_mesh, ring_mesh);
+  const auto simulation = simulation_options(scene, stage);
+  return std::make_unique<LumpedModel>(
+      identity_of(response_id(stage, simulation, sun_mesh, ring_mesh), std::string(dynamics::point_method())),
+      [stage, simulation](Answer wanted) -> StudyPoint {
+        auto point = dynamics::evaluate_point(stage, {.simulation = simulation, .motion = wanted == Answer::all});
+        return {.figures = {dynamics::planetary_figures(), point.figures}, .poincare = std::move(point.poincare)};
+      },
+      [stage, simulation](int count, int seed) { return spread_of(stage, simulation, count, seed); });
 }
 
 }  // namespace annulus::app

@@ -8,36 +8,33 @@
 #include "app/model/mesh_result.h"
 #include "app/model/system_run.h"
 #include "app/plan/gear_geometry.h"
+#include "app/report/section.h"
 #include "app/systems/planetary/coupling_effect.h"
 #include "app/systems/planetary/stage_response.h"
+#include "core/json.h"
 
-/// A planetary stage from its meshes to its report: one variant per ring.
+/// A run of a planetary stage: one variant per ring.
 namespace annulus::app {
+
+/// The answer of the stage with one of its rings.
+struct RingResponse final : RunResponse {
+  StageResponse stage;
+  std::optional<CouplingEffect> coupling_effect{};  ///< absent where the coupling of the planets was not looked at
+};
 
 struct RingResult {
   std::string name;
-  MeshResult mesh;                                  ///< ring-planet mesh
-  std::optional<StageResponse> response{};          ///< absent without dynamics
-  std::optional<CouplingEffect> coupling_effect{};  ///< absent where the coupling of the planets was not looked at
-  double response_seconds = 0;                      ///< wall, of both; little when they were read back
+  const MeshResult& mesh;                           ///< ring-planet mesh
+  const StageResponse* response = nullptr;          ///< null without dynamics
+  const CouplingEffect* coupling_effect = nullptr;  ///< null where the coupling of the planets was not looked at
 };
 
-struct RunResult final : SystemRun {
-  explicit RunResult(const Scene& of);
+struct RunResult : RunView {
+  explicit RunResult(const SystemRun& run);
 
   GearGeometry geometry;
-  MeshResult sun_mesh{};  ///< solved once, the same for all rings
+  const MeshResult& sun_mesh;  ///< solved once, the same for all rings
   std::vector<RingResult> rings{};
-
-  void solve_meshes(const RunOptions& options) override;
-  void respond(const RunOptions& options) override;
-  [[nodiscard]] std::vector<const MeshResult*> meshes() const override;
-  [[nodiscard]] std::vector<VariantFigures> variants() const override;
-  [[nodiscard]] std::optional<CostRun> actual(const CostStep& step) const override;
-  [[nodiscard]] std::vector<const MeshResult*> model_tables() const override { return meshes(); }
-  [[nodiscard]] Json summary() const override;      // summary.cc
-  [[nodiscard]] std::string text() const override;  // summary.cc
-  [[nodiscard]] Page report() const override;
 };
 
 /// Stiffness table of the sun mesh (in OUT) or of a ring mesh with its coupling (in OUT/<ring>): from the cache if
@@ -46,9 +43,13 @@ struct RunResult final : SystemRun {
                                         const RunOptions& options);
 
 /// Dynamics of one ring on its tables: read back if unchanged, else simulated and saved.
-[[nodiscard]] StageResponse dynamic_response(const Scene& scene, const GearGeometry& geometry, std::size_t ring,
-                                             const MeshResult& sun_mesh, const MeshResult& ring_mesh,
-                                             const RunOptions& options);
+[[nodiscard]] std::unique_ptr<RingResponse> ring_response(const Scene& scene, const GearGeometry& geometry,
+                                                          std::size_t ring, const MeshResult& sun_mesh,
+                                                          const MeshResult& ring_mesh, const RunOptions& options);
+
+[[nodiscard]] Json stage_summary(const RunResult& result);      ///< members of summary.json (summary.cc)
+[[nodiscard]] std::string stage_text(const RunResult& result);  ///< for the standard output (summary.cc)
+[[nodiscard]] Page stage_report(const RunResult& result);       ///< report.html (report/stage_report.cc)
 
 /// All steps of a run of a planetary scene.
 [[nodiscard]] RunResult run(const Scene& scene, const RunOptions& options);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/model/cost_actual.h"
 #include "app/model/mesh_figures.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "app/systems/planetary/planetary_plan.h"
@@ -54,7 +55,19 @@ class PlanetarySystem final : public GearSystem {
 
   [[nodiscard]] bool coupled(const MeshModel& mesh) const override { return may_be_coupled(scene(), mesh); }
 
-  [[nodiscard]] std::unique_ptr<SystemRun> run() const override { return std::make_unique<RunResult>(scene()); }
+  [[nodiscard]] std::optional<CostRun> actual_coupling(CostRun size, const MeshResult& mesh) const override {
+    if (!mesh.coupling || mesh.coupling->reused) return std::nullopt;
+    return actual_time(size, mesh.coupling->seconds);
+  }
+
+  [[nodiscard]] std::unique_ptr<RunResponse> respond(const SystemRun& run, std::size_t ring,
+                                                     const RunOptions& options) const override {
+    return ring_response(scene(), geometry(), ring, run.tables.front(), run.tables.at(ring + 1), options);
+  }
+
+  [[nodiscard]] Json summary(const SystemRun& run) const override { return stage_summary(RunResult(run)); }
+  [[nodiscard]] std::string text(const SystemRun& run) const override { return stage_text(RunResult(run)); }
+  [[nodiscard]] Page report(const SystemRun& run) const override { return stage_report(RunResult(run)); }
 
   [[nodiscard]] std::shared_ptr<const SolvedCoupling> coupling(const MeshResult& mesh, const RunOptions& options,
                                                                const std::filesystem::path& folder) const override {

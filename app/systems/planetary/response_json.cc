@@ -1,9 +1,5 @@
-#include "app/systems/planetary/response_json.h"
-
-#include <cmath>
-#include <limits>
-
 #include "app/results/content_id.h"
+#include "app/systems/planetary/stage_response.h"
 #include "core/json.h"
 
 namespace annulus::app {
@@ -13,7 +9,6 @@ namespace {
 Json to_json_value(const Figure& f, const ErrorParts& parts) {
   return {{"value", json_number(f.value)}, {"error", json_number(f.error)}, {"error_parts", to_json(parts)}};
 }
-Figure figure(const Json& json) { return {number_of(json.at("value")), number_of(json.at("error"))}; }
 
 Json kind_json(const dynamics::MeshKindResult& kind, const MeshKindErrors& errors) {
   Json json;
@@ -31,30 +26,6 @@ Json kind_json(const dynamics::MeshKindResult& kind, const MeshKindErrors& error
   return json;
 }
 
-dynamics::MeshKindResult kind_result(const Json& json) {
-  dynamics::MeshKindResult kind;
-  const auto& sharing = json.at("load_sharing");
-  kind.load_sharing = {figure(sharing.at("instantaneous")), figure(sharing.at("averaged")),
-                       figure(sharing.at("quasi_static"))};
-  for (const auto& b : json.at("branches")) {
-    kind.branches.push_back({figure(b.at("dynamic_factor_max")), number_of(b.at("dynamic_factor_min")),
-                             number_of(b.at("mean_force_N")), number_of(b.at("contact_loss"))});
-  }
-  return kind;
-}
-
-ErrorParts errors_of(const Json& figure) { return error_parts_of(figure.at("error_parts")); }
-
-MeshKindErrors kind_errors(const Json& json) {
-  const auto& sharing = json.at("load_sharing");
-  MeshKindErrors errors{errors_of(sharing.at("instantaneous")),
-                        errors_of(sharing.at("averaged")),
-                        errors_of(sharing.at("quasi_static")),
-                        {}};
-  for (const auto& b : json.at("branches")) errors.dynamic_factor_max.push_back(errors_of(b.at("dynamic_factor_max")));
-  return errors;
-}
-
 Json modes_json(const StageModes& modes) {
   Json json = {{"groups", modes.groups}, {"bodies", modes.bodies}, {"list", Json::array()}};
   for (const auto& m : modes.list) {
@@ -68,19 +39,6 @@ Json modes_json(const StageModes& modes) {
                             {"kinetic_energy", m.kinetic}});
   }
   return json;
-}
-
-StageModes modes_of(const Json& json) {
-  StageModes modes;
-  modes.groups = json.at("groups").get<std::vector<std::string>>();
-  modes.bodies = json.at("bodies").get<std::vector<std::string>>();
-  for (const auto& m : json.at("list")) {
-    modes.list.push_back({number_of(m.at("frequency_Hz")), number_of(m.at("frequency_error_Hz")),
-                          error_parts_of(m.at("error_parts_Hz")), m.at("kind"), number_of(m.at("damped_frequency_Hz")),
-                          number_of(m.at("damping_ratio")), m.at("strain_energy").get<std::vector<double>>(),
-                          m.at("kinetic_energy").get<std::vector<double>>()});
-  }
-  return modes;
 }
 
 Json motion_json(const StageMotion& m) {
@@ -97,22 +55,6 @@ Json motion_json(const StageMotion& m) {
           {"section_clusters", m.section_clusters}};
 }
 
-StageMotion motion_of(const Json& json) {
-  StageMotion m;
-  m.pin_force_max = json.at("pin_force_max_N").get<std::vector<double>>();
-  m.pin_force_mean_tangential = json.at("pin_force_mean_tangential_N").get<std::vector<double>>();
-  m.sun_support_max = number_of(json.at("sun_support_max_N"));
-  m.ring_support_max = number_of(json.at("ring_support_max_N"));
-  m.carrier_support_max = number_of(json.at("carrier_support_max_N"));
-  m.ring_torque_mean = number_of(json.at("ring_torque_mean_N_m"));
-  m.sun_orbit_extent = number_of(json.at("sun_orbit_extent_m"));
-  m.sun_orbit_largest = number_of(json.at("sun_orbit_largest_m"));
-  m.section = json.at("section");
-  if (const auto& period = json.at("section_period_cycles"); !period.is_null()) m.section_period = period.get<int>();
-  m.section_clusters = json.at("section_clusters");
-  return m;
-}
-
 Json direct_json(const std::optional<dynamics::PeriodicSolution>& direct) {
   if (!direct) return nullptr;
   const bool piecewise = direct->method == dynamics::PeriodicMethod::piecewise;
@@ -124,21 +66,6 @@ Json direct_json(const std::optional<dynamics::PeriodicSolution>& direct) {
           {"residual", json_number(direct->residual)},
           {"sampling_difference", json_number(direct->sampling_difference)},
           {"largest_multiplier", json_number(direct->largest_multiplier)}};
-}
-
-std::optional<dynamics::PeriodicSolution> direct_of(const Json& json) {
-  if (json.is_null()) return std::nullopt;
-  dynamics::PeriodicSolution direct;
-  direct.method = json.at("method") == "piecewise" ? dynamics::PeriodicMethod::piecewise
-                                                   : dynamics::PeriodicMethod::harmonic_balance;
-  direct.converged = json.at("converged");
-  direct.trouble = json.at("trouble");
-  direct.newton_iterations = json.at("newton_iterations");
-  direct.linear_iterations = json.at("linear_iterations");
-  direct.residual = number_of(json.at("residual"));
-  direct.sampling_difference = number_of(json.at("sampling_difference"));
-  if (!json.at("largest_multiplier").is_null()) direct.largest_multiplier = json.at("largest_multiplier").get<double>();
-  return direct;
 }
 
 }  // namespace
@@ -166,32 +93,6 @@ std::string response_json(const StageResponse& response, const std::string& id) 
   json["modes"] = modes_json(response.modes);
   json["motion"] = motion_json(response.motion);
   return json.dump(2) + "\n";
-}
-
-StageResponse parse_response_json(const std::string& text) {
-  const auto json = Json::parse(text);
-  StageResponse response;
-  auto& f = response.figures;
-  f.mesh_frequency = number_of(json.at("mesh_frequency_Hz"));
-  f.mean_mesh_force = number_of(json.at("mean_mesh_force_N"));
-  f.window_cycles = json.at("window_cycles");
-  f.whole_period = json.at("whole_error_period");
-  f.total_cycles = json.at("total_cycles");
-  f.steady = json.at("steady");
-  if (const auto& d = json.at("steady_difference"); !d.is_null()) f.steady_difference = d.get<double>();
-  f.confirmed = json.at("confirmed");
-  f.periodic = direct_of(json.at("direct"));
-  if (const auto& reason = json.at("integrator_reason"); !reason.is_null()) f.integrator.emplace().reason = reason;
-  f.sun_planet = kind_result(json.at("sun_planet"));
-  f.ring_planet = kind_result(json.at("ring_planet"));
-  response.errors = {kind_errors(json.at("sun_planet")), kind_errors(json.at("ring_planet"))};
-  f.energy.relative = number_of(json.at("energy_balance_relative"));
-  f.force_balance_relative = number_of(json.at("force_balance_relative"));
-  f.statistics.steps = json.at("steps");
-  f.statistics.contact_events = json.at("contact_events");
-  response.modes = modes_of(json.at("modes"));
-  response.motion = motion_of(json.at("motion"));
-  return response;
 }
 
 }  // namespace annulus::app

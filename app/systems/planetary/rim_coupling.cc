@@ -6,13 +6,20 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/results/cached_files.h"
-#include "app/results/content_id.h"
+#include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/log.h"
+#include "core/stopwatch.h"
 #include "fem/ring/ring_coupling.h"
+
+namespace annulus {
+
+ANNULUS_MEMBERS(app::SolvedCoupling, coupling, mesh_compliance, path_compliance, compliance_error, frequency_error,
+                highest_frequency, seconds, reused, reused_teeth, teeth);
+
+}  // namespace annulus
 
 namespace annulus::app {
 
@@ -46,41 +53,25 @@ std::vector<double> places_on_ring(const GearGeometry& geometry, const RingInput
 
 std::string coupling_id(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
                         const RingInput& ring) {
-  ContentId id;
-  id.add("mesh", model.id()).add("level", coupling_level).add("degree", model.coupling_degree);
-  for (const double teeth : places_on_ring(geometry, ring)) id.add("planet", teeth);
-  id.add("load", geometry.operating_point.mean_mesh_force).add("highest", highest_frequency(geometry, ring));
-  id.add("density", scene.material.density);
-  return id.id();
+  return identity_of(model.id(), coupling_level, model.coupling_degree, places_on_ring(geometry, ring),
+                     geometry.operating_point.mean_mesh_force, highest_frequency(geometry, ring),
+                     scene.material.density);
 }
 
 const RingInput& ring_of(const Scene& scene, const MeshModel& model) {
   return *std::find_if(scene.rings.begin(), scene.rings.end(), [&](const auto& r) { return r.name == model.ring; });
 }
 
-double provenance(const RingCoupling& coupling, const std::string& key) {
-  const auto& lines = coupling.provenance;
-  const auto found = std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.first == key; });
-  if (found == lines.end()) throw InputError("coupling through a ring: no line '# " + key + "'");
-  return std::stod(found->second);
-}
-
 /// A ring on a single pin leans on its housing, now here, now there: no fixed supports hold it.
 bool rests_in_bore(const fem::RingStructure& structure) { return structure.single_supports() == 1; }
 
-constexpr const char *id_key = "inputs_id", *error_key = "coupling_error_m_per_N", *seconds_key = "coupling_seconds",
-                     *frequency_error_key = "mode_frequency_error_relative", *coupling_file = "ring_coupling.csv",
-                     *ring_modes_file = "ring_modes.csv", *compliance_file = "ring_compliance.csv",
-                     *cached_couplings = "couplings";
+constexpr const char* cached_couplings = "couplings";
 
 /// The ring reduced to its teeth, a row and a column each.
-void write_teeth_compliance(const fem::SolvedRingCoupling& solved, const std::string& id,
-                            const std::filesystem::path& file) {
+Csv teeth_table(const fem::SolvedRingCoupling& solved) {
   const auto& compliance = solved.teeth_compliance;
   Csv csv;
-  csv.header = {{"annulus_version", version()},
-                {id_key, id},
-                {"what",
+  csv.header = {{"what",
                  "closing lost at a tooth's flank along the line of action per newton on another's, ring held "
                  "by its supports, both ways; its inverse is the stiffness matrix"},
                 {"error_m_per_N", fmt::format("{:.3g}", solved.teeth_compliance_error)}};
@@ -92,7 +83,24 @@ void write_teeth_compliance(const fem::SolvedRingCoupling& solved, const std::st
     row.push_back(static_cast<double>(i));
     for (Eigen::Index j = 0; j < compliance.cols(); ++j) row.push_back(compliance(i, j));
   }
-  csv.write(file);
+  return csv;
+}
+
+/// ring_coupling.csv, ring_modes.csv and ring_compliance.csv.
+void save(const SolvedCoupling& solved, const std::string& id, const std::filesystem::path& folder) {
+  const std::vector<std::pair<std::string, std::string>> stamp = {{"annulus_version", version()}, {"inputs_id", id}};
+  std::filesystem::create_directories(folder);
+  auto teeth = solved.teeth;
+  teeth.header.insert(teeth.header.begin(), stamp.begin(), stamp.end());
+  teeth.write(folder / "ring_compliance.csv");
+  auto coupling = solved.coupling;
+  coupling.provenance = stamp;
+  coupling.provenance.insert(
+      coupling.provenance.end(),
+      {{"coupling_error_m_per_N", fmt::format("{:.17g}", solved.compliance_error)},
+       {"mode_frequency_error_relative", fmt::format("{:.17g}", solved.frequency_error_relative)},
+       {"coupling_seconds", fmt::format("{:.3f}", solved.seconds)}});
+  coupling.write_csv(folder / "ring_coupling.csv", folder / "ring_modes.csv");
 }
 
 }  // namespace
@@ -148,51 +156,38 @@ bool may_be_coupled(const Scene& scene, const MeshModel& model) {
 SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
                               double mesh_compliance, const RunOptions& options, const std::filesystem::path& folder) {
   const auto& ring = ring_of(scene, model);
-  const auto id = coupling_id(scene, geometry, model, ring);
-  SolvedCoupling result{.coupling = {},
-                        .mesh_compliance = mesh_compliance,
-                        .path_compliance = path_compliance(scene, geometry, mesh_compliance),
-                        .highest_frequency = highest_frequency(geometry, ring)};
-  if (restore_files(options.store.get(), cached_couplings, id, folder)) {
-    result.coupling = RingCoupling::read_csv(folder / coupling_file, folder / ring_modes_file);
-    result.compliance_error = provenance(result.coupling, error_key);
-    result.frequency_error_relative = provenance(result.coupling, frequency_error_key);
-    result.seconds = provenance(result.coupling, seconds_key);
-    result.reused = true;
+  const auto solve = [&] {
+    const Stopwatch watch;
+    fem::RingCouplingSettings settings;
+    settings.level = coupling_level;
+    settings.degree = model.coupling_degree;
+    settings.threads = options.threads;
+    settings.store = options.store;
+    settings.modes.highest_frequency = highest_frequency(geometry, ring);
+    auto solved = fem::solve_ring_coupling(*model.problem, places_on_ring(geometry, ring),
+                                           geometry.operating_point.mean_mesh_force, settings);
+    SolvedCoupling result{.teeth = teeth_table(solved)};
+    result.coupling = std::move(solved.coupling);
+    result.compliance_error = solved.compliance_error;
+    result.frequency_error_relative = solved.frequency_error_relative;
+    result.highest_frequency = settings.modes.highest_frequency;
+    result.seconds = watch.seconds();
+    result.reused_teeth = solved.reused_teeth;
+    count_reuse(options, condensed_teeth, solved.reused_teeth, solved.condensed_teeth);
     return result;
-  }
-  fem::RingCouplingSettings settings;
-  settings.level = coupling_level;
-  settings.degree = model.coupling_degree;
-  settings.threads = options.threads;
-  settings.store = options.store;
-  settings.modes.highest_frequency = result.highest_frequency;
-  StageTimers timers;
-  fem::SolvedRingCoupling solved;
-  {
-    const auto timer = timers.measure("coupling");
-    solved = fem::solve_ring_coupling(*model.problem, places_on_ring(geometry, ring),
-                                      geometry.operating_point.mean_mesh_force, settings);
-  }
-  result.coupling = std::move(solved.coupling);
-  result.compliance_error = solved.compliance_error;
-  result.frequency_error_relative = solved.frequency_error_relative;
-  result.seconds = timers.seconds("coupling");
-  result.reused_teeth = solved.reused_teeth;
-  count_reuse(options, condensed_teeth, solved.reused_teeth, solved.condensed_teeth);
-  result.coupling.provenance = {{"annulus_version", version()},
-                                {id_key, id},
-                                {error_key, fmt::format("{:.17g}", result.compliance_error)},
-                                {frequency_error_key, fmt::format("{:.17g}", result.frequency_error_relative)},
-                                {seconds_key, fmt::format("{:.3f}", result.seconds)}};
-  std::filesystem::create_directories(folder);
-  write_teeth_compliance(solved, id, folder / compliance_file);
-  result.coupling.write_csv(folder / coupling_file, folder / ring_modes_file);
-  cache_files(options.store.get(), cached_couplings, id, folder, {coupling_file, ring_modes_file, compliance_file});
-  log::info(fmt::format(
-      "coupling of the meshes through ring '{}': {} ring positions, {} modes below {:.0f} Hz; {:.2f} s", ring.name,
-      result.coupling.compliance.size(), result.coupling.modes.size(), result.highest_frequency, result.seconds));
-  return result;
+  };
+  const auto id = coupling_id(scene, geometry, model, ring);
+  auto [result, reused] = cached_value(options.store.get(), cached_couplings, id, solve);
+  save(result, id, folder);
+  result.teeth = {};
+  result.mesh_compliance = mesh_compliance;
+  result.path_compliance = path_compliance(scene, geometry, mesh_compliance);
+  result.reused = reused;
+  if (!reused)
+    log::info(fmt::format(
+        "coupling of the meshes through ring '{}': {} ring positions, {} modes below {:.0f} Hz; {:.2f} s", ring.name,
+        result.coupling.compliance.size(), result.coupling.modes.size(), result.highest_frequency, result.seconds));
+  return std::move(result);
 }
 
 }  // namespace annulus::app

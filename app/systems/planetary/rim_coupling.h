@@ -7,6 +7,7 @@
 #include "app/plan/gear_geometry.h"
 #include "app/plan/mesh_model.h"
 #include "app/scene/scene.h"
+#include "core/csv.h"
 #include "core/ring_coupling.h"
 
 namespace annulus::app {
@@ -25,6 +26,7 @@ struct SolvedCoupling {
   double seconds = 0;
   bool reused = false;
   int reused_teeth = 0;  ///< condensed sectors that were read back
+  Csv teeth{};           ///< ring_compliance.csv; empty once it is written
 
   [[nodiscard]] double largest() const;  ///< m/N, largest entry of the coupling by magnitude
 };
@@ -45,8 +47,9 @@ struct CouplingChoice {
 /// out. It takes elements: with formulas it is solved where the planner chose these for a ring on single supports, and
 /// the accuracy is not very rough.
 [[nodiscard]] bool may_be_coupled(const Scene& scene, const MeshModel& model);
-/// From the cache if unchanged, else solved; in `folder` (OUT/<ring>) as ring_coupling.csv and ring_modes.csv.
-/// `mesh_compliance` (m/N) is that of the mesh by its table. Throws InputError where cached files are damaged.
+/// From the cache if unchanged, else solved; in `folder` (OUT/<ring>) as ring_coupling.csv, ring_modes.csv and
+/// ring_compliance.csv.
+/// `mesh_compliance` (m/N) is that of the mesh by its table.
 [[nodiscard]] SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, const MeshModel& model,
                                             double mesh_compliance, const RunOptions& options,
                                             const std::filesystem::path& folder);

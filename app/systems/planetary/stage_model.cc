@@ -1,39 +1,16 @@
-
 #include <algorithm>
 
 #include "app/model/excitation.h"
 #include "app/model/stiff_supports.h"
 #include "app/plan/accuracy_choice.h"
-#include "app/results/content_id.h"
+#include "app/results/cached_value.h"
 #include "app/systems/planetary/rim_coupling.h"
-#include "app/systems/planetary/stage_response.h"
+#include "app/systems/planetary/stage_members.h"
 #include "core/errors.h"
 
 namespace annulus::app {
 
 namespace {
-
-void add_coupling(ContentId& id, const RingCoupling& coupling) {
-  id.add("coupling.per_cycle", coupling.per_cycle).add("mass", coupling.mass).add("turn", coupling.rotational_mass);
-  for (const auto& matrix : coupling.compliance) {
-    for (Eigen::Index i = 0; i < matrix.size(); ++i) id.add("D", matrix.data()[i]);
-  }
-  for (const auto& mode : coupling.modes) {
-    id.add("mode", mode.frequency).add("x", mode.translation_x).add("y", mode.translation_y).add("u", mode.rotation);
-    for (const double closing : mode.closing) id.add("closing", closing);
-  }
-}
-
-void add_deviation(ContentId& id, const std::string& name, const dynamics::BodyErrors& e) {
-  id.add(name + ".E", e.eccentricity.amount).add(name + ".E_phase", e.eccentricity.phase);
-  id.add(name + ".A", e.position.amount).add(name + ".A_phase", e.position.phase);
-}
-
-void add_body(ContentId& id, const std::string& name, const dynamics::CentralBody& body) {
-  id.add(name + ".mass", body.mass).add(name + ".inertia", body.inertia).add(name + ".radius", body.radius);
-  id.add(name + ".support", body.support).add(name + ".torsional", body.torsional_support);
-  add_deviation(id, name, body.errors);
-}
 
 dynamics::BodyErrors deviations_of(const BodyErrorInput& e) {
   return {{e.eccentricity, e.eccentricity_phase}, {e.position, e.position_phase}};
@@ -107,31 +84,8 @@ dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamic
 
 std::string response_id(const dynamics::PlanetaryStage& stage, const dynamics::SimulationOptions& options,
                         const MeshResult& sun_mesh, const MeshResult& ring_mesh) {
-  ContentId id;
-  add_body(id, "sun", stage.sun);
-  add_body(id, "ring", stage.ring);
-  add_body(id, "carrier", stage.carrier);
-  id.add("planet.mass", stage.planet.mass)
-      .add("planet.inertia", stage.planet.inertia)
-      .add("planet.radius", stage.planet.radius);
-  id.add("planet.radial", stage.planet.bearing_radial).add("planet.tangential", stage.planet.bearing_tangential);
-  for (const auto& errors : stage.planet_errors) add_deviation(id, "planet", errors);
-  for (const auto* list :
-       {&stage.planet_angles, &stage.sun_phase_lag, &stage.ring_phase_lag, &stage.ring_tooth_offset}) {
-    for (const double value : *list) id.add("kinematics", value);
-  }
-  id.add("sun_angle", stage.sun_working_angle).add("ring_angle", stage.ring_working_angle);
-  id.add("teeth", stage.sun_teeth).add("teeth", stage.planet_teeth).add("teeth", stage.ring_teeth);
-  add_excitation(id, "sun_mesh", stage.sun_mesh, sun_mesh.table);
-  add_excitation(id, "ring_mesh", stage.ring_mesh, ring_mesh.table);
-  if (stage.ring_coupling) add_coupling(id, *stage.ring_coupling);
-  id.add("sun_half_backlash", stage.sun_half_backlash.value_or(-1));
-  id.add("ring_half_backlash", stage.ring_half_backlash.value_or(-1)).add("mesh_damping", stage.mesh_damping_ratio);
-  id.add("support_damping", stage.support_damping_ratio).add("always", stage.damping_without_contact ? 1 : 0);
-  id.add("carrier_speed", stage.carrier_speed).add("sun_torque", stage.sun_torque);
-  id.add("rotating_frame", stage.rotating_frame ? 1 : 0);
-  add_simulation(id, options);
-  return id.id();
+  return identity_of(stage, options, table_behind(stage.sun_mesh, sun_mesh.table),
+                     table_behind(stage.ring_mesh, ring_mesh.table));
 }
 
 }  // namespace annulus::app

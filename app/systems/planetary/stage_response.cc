@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "app/results/content_id.h"
-#include "app/systems/planetary/response_json.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "dynamics/figures/spectrum.h"
@@ -15,8 +14,6 @@ namespace annulus::app {
 
 namespace {
 
-using Header = std::vector<std::pair<std::string, std::string>>;
-constexpr const char *response_file = "figures.json", *modes_file = "modes.csv", *stage_series_file = "time_series.csv";
 constexpr int waveform_cycles = 6;
 constexpr double highest_order = 8;  // multiples of the mesh frequency kept in the spectrum
 
@@ -101,33 +98,20 @@ void tabulate(StageResponse& result, const dynamics::DynamicResponse& response, 
   }
 }
 
-void write(Csv csv, const Header& header, const std::filesystem::path& file) {
-  csv.header = header;
-  csv.write(file);
-}
-
-/// The tables kept for reports, each in a file of its own.
-std::vector<std::pair<const char*, Csv*>> tables_of(StageResponse& r) {
-  return {{"load_sharing.csv", &r.load_sharing},
-          {"dynamic_factor.csv", &r.dynamic_factor},
-          {"waveform.csv", &r.waveform},
-          {"load_sharing_waveform.csv", &r.sharing_waveform},
-          {"spectrum.csv", &r.spectrum},
-          {"bearing_forces.csv", &r.motion.bearing_forces},
-          {"sun_orbit.csv", &r.motion.sun_orbit},
-          {"poincare.csv", &r.motion.poincare},
-          {"mode_shapes.csv", &r.modes.shapes},
-          {"campbell.csv", &r.modes.campbell},
-          {"critical_speeds.csv", &r.modes.critical_speeds}};
-}
-
-void save(StageResponse& result, const std::string& id, const std::filesystem::path& folder) {
-  const Header header = {{"annulus_version", version()}, {"inputs_id", id}};
-  for (const auto& [name, table] : tables_of(result)) write(*table, header, folder / name);
-  std::string modes;
-  for (const auto& [key, value] : header) modes.append("# ").append(key).append(": ").append(value).append("\n");
-  write_file(folder / modes_file, modes + modes_csv(result.modes));
-  write_file(folder / response_file, response_json(result, id));
+/// The tables, each in a file of its own.
+template <class Response, class Visit>
+void for_each_stage_table(Response& r, Visit visit) {
+  visit("load_sharing.csv", r.load_sharing);
+  visit("dynamic_factor.csv", r.dynamic_factor);
+  visit("waveform.csv", r.waveform);
+  visit("load_sharing_waveform.csv", r.sharing_waveform);
+  visit("spectrum.csv", r.spectrum);
+  visit("bearing_forces.csv", r.motion.bearing_forces);
+  visit("sun_orbit.csv", r.motion.sun_orbit);
+  visit("poincare.csv", r.motion.poincare);
+  visit("mode_shapes.csv", r.modes.shapes);
+  visit("campbell.csv", r.modes.campbell);
+  visit("critical_speeds.csv", r.modes.critical_speeds);
 }
 
 /// What repeats has to carry the torque; teeth that errors hold apart for longer than was looked at carry nothing, and
@@ -147,38 +131,35 @@ void check_power(const dynamics::PlanetaryStage& stage, const dynamics::DynamicR
 
 }  // namespace
 
-StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage, const dynamics::SimulationOptions& options,
-                                const StageTables& tables, const std::string& id, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
+StageResponse simulate_stage(const dynamics::PlanetaryStage& stage, const dynamics::SimulationOptions& options,
+                             const StageTables& tables) {
   StageResponse result;
   result.modes = stage_modes(stage, stiffness_errors(tables.sun_mesh, tables.ring_mesh));
   auto response = dynamics::simulate(stage, options);
   check_power(stage, response, options.steady_tolerance);
   tabulate(result, response, stage.planets());
   result.motion = tabulated_motion(stage, response);
-  for (const auto& [name, table] : tables_of(result)) table->round();
-  write(time_series_table(response.series, response.window_cycles), {{"annulus_version", version()}, {"inputs_id", id}},
-        folder / stage_series_file);
+  for_each_stage_table(result, [](const char*, Csv& table) { table.round(); });
+  result.time_series = time_series_table(response.series, response.window_cycles).text();
   response.series = {};
   result.errors = carried_errors(response, options, tables);
   set_errors(result.errors, response);
   result.figures = std::move(response);
-  save(result, id, folder);
   return result;
 }
 
-std::vector<std::string> response_files() {
-  std::vector<std::string> names = {response_file, modes_file, stage_series_file};
-  StageResponse any;
-  for (const auto& [name, table] : tables_of(any)) names.emplace_back(name);
-  return names;
-}
-
-StageResponse load_response(const std::filesystem::path& folder) {
-  auto result = parse_response_json(read_file(folder / response_file));
-  for (const auto& [name, table] : tables_of(result)) *table = Csv::read(folder / name);
-  result.reused = true;
-  return result;
+void save(const StageResponse& response, const std::string& id, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  const std::vector<std::pair<std::string, std::string>> header = {{"annulus_version", version()}, {"inputs_id", id}};
+  for_each_stage_table(response, [&](const char* name, Csv table) {
+    table.header = header;
+    table.write(folder / name);
+  });
+  std::string lines;
+  for (const auto& [key, value] : header) lines += fmt::format("# {}: {}\n", key, value);
+  write_file(folder / "modes.csv", lines + modes_csv(response.modes));
+  write_file(folder / "time_series.csv", lines + response.time_series);
+  write_file(folder / "figures.json", response_json(response, id));
 }
 
 }  // namespace annulus::app

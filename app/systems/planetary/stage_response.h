@@ -17,17 +17,18 @@
 
 namespace annulus::app {
 
-/// The lumped model's answer for one ring, and what is kept of it in OUT/<ring>/dynamics.
+/// The lumped model's answer for one ring.
 struct StageResponse {
   dynamics::DynamicResponse figures;  ///< all but the time series; errors with all their parts
   ResponseErrors errors;              ///< the parts of the errors
   StageModes modes;
   StageMotion motion;
-  Csv load_sharing;      ///< per mesh cycle: N F / sum F of every branch, forces averaged over the cycle
-  Csv dynamic_factor;    ///< per mesh cycle: smallest and largest F / mean mesh force of every branch
-  Csv waveform;          ///< F / mean mesh force of every branch over the first mesh cycles of the window
-  Csv sharing_waveform;  ///< N F / sum F of every branch over the same time
-  Csv spectrum;          ///< force amplitude of every branch over frequency and mesh order
+  Csv load_sharing;         ///< per mesh cycle: N F / sum F of every branch, forces averaged over the cycle
+  Csv dynamic_factor;       ///< per mesh cycle: smallest and largest F / mean mesh force of every branch
+  Csv waveform;             ///< F / mean mesh force of every branch over the first mesh cycles of the window
+  Csv sharing_waveform;     ///< N F / sum F of every branch over the same time
+  Csv spectrum;             ///< force amplitude of every branch over frequency and mesh order
+  std::string time_series;  ///< the file of all motions and forces; empty once it is written
   bool reused = false;
 };
 
@@ -40,14 +41,12 @@ struct StageResponse {
 [[nodiscard]] std::string response_id(const dynamics::PlanetaryStage& stage, const dynamics::SimulationOptions& options,
                                       const MeshResult& sun_mesh, const MeshResult& ring_mesh);
 
-/// Simulates, carries the errors of the tables into the figures, writes all files of `folder` (OUT/<ring>/dynamics)
-/// including the time series, and returns what is kept.
-[[nodiscard]] StageResponse simulate_and_save(const dynamics::PlanetaryStage& stage,
-                                              const dynamics::SimulationOptions& options, const StageTables& tables,
-                                              const std::string& id, const std::filesystem::path& folder);
-/// All files of a response in its folder.
-[[nodiscard]] std::vector<std::string> response_files();
-/// What `simulate_and_save` wrote. Throws InputError where files are missing or damaged.
-[[nodiscard]] StageResponse load_response(const std::filesystem::path& folder);
+/// Simulates, and propagates the errors of the tables into the results.
+[[nodiscard]] StageResponse simulate_stage(const dynamics::PlanetaryStage& stage,
+                                           const dynamics::SimulationOptions& options, const StageTables& tables);
+/// figures.json: results and modes of one response, with the identity of its inputs (response_json.cc).
+[[nodiscard]] std::string response_json(const StageResponse& response, const std::string& id);
+/// Writes all files of a response into `folder` (OUT/<ring>/dynamics).
+void save(const StageResponse& response, const std::string& id, const std::filesystem::path& folder);
 
 }  // namespace annulus::app

@@ -5,10 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/model/cost_actual.h"
-#include "app/results/content_id.h"
-#include "app/scene/inputs_json.h"
-#include "app/scene/scene_schema.h"
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
 #include "core/json.h"
@@ -124,19 +120,19 @@ Json ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
 
 }  // namespace
 
-Json RunResult::summary() const {
-  const auto& point = geometry.operating_point;
+Json stage_summary(const RunResult& result) {
+  const auto& point = result.geometry.operating_point;
   Json json = {{"operating_point",
                 {{"sun_torque_N_m", point.sun_torque},
                  {"mesh_frequency_Hz", point.mesh_frequency},
                  {"mean_mesh_force_N", point.mean_mesh_force}}}};
-  for (std::size_t i = 0; i < rings.size(); ++i) {
-    auto& entry = json["rings"][rings[i].name] = ring_json(rings[i], sun_mesh);
-    entry.update(variant_studies_json(studies, i));
+  for (std::size_t i = 0; i < result.rings.size(); ++i) {
+    auto& entry = json["rings"][result.rings[i].name] = ring_json(result.rings[i], result.sun_mesh);
+    entry.update(variant_studies_json(result.studies, i));
   }
   return json;
 }
 
-std::string RunResult::text() const { return key_results_text(*this); }
+std::string stage_text(const RunResult& result) { return key_results_text(result); }
 
 }  // namespace annulus::app

@@ -8,7 +8,7 @@
 #include "app/model/mesh_figures.h"
 #include "app/plan/gear_geometry.h"
 #include "app/plan/plan.h"
-#include "app/results/content_id.h"
+#include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
 #include "app/scene/gear_tables.h"
 #include "app/scene/key_checks.h"
@@ -124,33 +124,14 @@ const std::vector<FigureSpec>& all_figures() {
 
 // 3. Lumped model: the equations, from the scene and the stiffness of its mesh.
 
-class TorsionalModel final : public LumpedModel {
- public:
-  TorsionalModel(double stiffness, double force, double pinion_mass, double wheel_mass)
-      : stiffness_(stiffness), force_(force), pinion_mass_(pinion_mass), wheel_mass_(wheel_mass) {}
-
-  [[nodiscard]] std::string id() const override {
-    return ContentId()
-        .add("k", stiffness_)
-        .add("force", force_)
-        .add("pinion", pinion_mass_)
-        .add("wheel", wheel_mass_)
-        .id();
-  }
-
-  [[nodiscard]] StudyPoint answer(Answer /*wanted*/) const override {
-    FigureRow row(model_figures());
-    row.set("natural_frequency_Hz",
-            std::sqrt(stiffness_ * (1 / pinion_mass_ + 1 / wheel_mass_)) / (2 * std::numbers::pi));
-    row.set("static_deflection_m", force_ / stiffness_);
-    row.set("steady", 1);
-    return {.figures = row};
-  }
-
- private:
-  double stiffness_, force_;         // N/m, N
-  double pinion_mass_, wheel_mass_;  // kg, at the base circles
-};
+/// Stiffness N/m, force N, masses at the base circles kg.
+StudyPoint torsional_answer(double stiffness, double force, double pinion_mass, double wheel_mass) {
+  FigureRow row(model_figures());
+  row.set("natural_frequency_Hz", std::sqrt(stiffness * (1 / pinion_mass + 1 / wheel_mass)) / (2 * std::numbers::pi));
+  row.set("static_deflection_m", force / stiffness);
+  row.set("steady", 1);
+  return {.figures = row};
+}
 
 // 4. System: geometry, meshes and the plan. Run, studies and report are those of every kind.
 
@@ -189,14 +170,17 @@ class TorsionalPair final : public GearSystem {
   [[nodiscard]] std::unique_ptr<LumpedModel> model(std::size_t /*variant*/,
                                                    const std::vector<const MeshResult*>& tables) const override {
     const auto pair = gears();
-    const double pinion = scene().pinion.inertia.value() + scene().own<DriveInput>().inertia,
-                 wheel = scene().wheel.inertia.value();
+    const auto mass = [](double inertia, const geometry::Gear& gear) {
+      return inertia / std::pow(gear.base_radius(), 2);
+    };
+    const double pinion = mass(scene().pinion.inertia.value() + scene().own<DriveInput>().inertia, pair.planet()),
+                 wheel = mass(scene().wheel.inertia.value(), pair.wheel()), force = mean_mesh_force();
     // What is prescribed is read from the scene.
     const auto& input = scene().pinion_wheel;
     const double stiffness = input.mean ? *input.mean : tables.front()->mean_stiffness().value;
-    return std::make_unique<TorsionalModel>(stiffness, mean_mesh_force(),
-                                            pinion / std::pow(pair.planet().base_radius(), 2),
-                                            wheel / std::pow(pair.wheel().base_radius(), 2));
+    return std::make_unique<LumpedModel>(identity_of(stiffness, force, pinion, wheel), [=](Answer /*wanted*/) {
+      return torsional_answer(stiffness, force, pinion, wheel);
+    });
   }
 
  protected:

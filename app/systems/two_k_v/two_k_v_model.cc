@@ -7,7 +7,8 @@
 
 #include "app/model/excitation.h"
 #include "app/model/stiff_supports.h"
-#include "app/results/content_id.h"
+#include "app/results/cached_value.h"
+#include "app/systems/two_k_v/two_k_v_members.h"
 #include "core/errors.h"
 #include "core/units.h"
 
@@ -136,12 +137,8 @@ MeshResult arc_pins_result(const Scene& scene) {
   double loaded = 0;
   for (int i = 0; i < fem::table_phases; ++i)
     loaded += dynamics::arc_position(*mesh, stage.arc_torque(), static_cast<double>(i) / fem::table_phases).loaded;
-  ContentId id;
-  for (const double x : {double(mesh->pins), mesh->eccentricity, mesh->pin_circle_radius, mesh->pin_radius,
-                         mesh->arc_radius, mesh->width, mesh->youngs_modulus, mesh->poisson_ratio, mesh->clearance,
-                         double(mesh->approach), stage.arc_torque()})
-    id.add("arc", x);
-  table.provenance = {{"annulus_version", version()}, {"inputs_id", id.id()}, {"model", model.fidelity}};
+  table.provenance = {
+      {"annulus_version", version()}, {"inputs_id", identity_of(*mesh, stage.arc_torque())}, {"model", model.fidelity}};
   return {.model = model,
           .contact_ratio = loaded / fem::table_phases,
           .table = std::move(table),
@@ -191,27 +188,8 @@ TwoKVModels two_k_v_models(const Scene& scene, const TwoKVTables& tables) {
 
 std::string two_k_v_id(const TwoKVModels& models, const dynamics::SimulationOptions& options,
                        const TwoKVTables& tables) {
-  const auto& stage = models.moving;
-  ContentId id;
-  id.add("arc_clearance", models.arc_clearance);
-  for (const int teeth : {stage.sun_teeth, stage.planet_teeth, stage.pins, stage.cranks, stage.arc_gears})
-    id.add("count", teeth);
-  id.add("module", stage.module).add("pressure_angle", stage.pressure_angle).add("eccentricity", stage.eccentricity);
-  for (const double inertia : {stage.input_inertia, stage.sun_inertia, stage.planet_inertia, stage.planet_mass,
-                               stage.crank_inertia, stage.arc_inertia, stage.arc_mass, stage.output_inertia})
-    id.add("inertia", inertia);
-  for (const double stiffness : {stage.input_shaft, stage.crank_shaft, stage.crank_bearing, stage.arc_bearing,
-                                 stage.input_support, stage.output_support})
-    id.add("stiffness", stiffness);
-  add_excitation(id, "sun_mesh", stage.sun_mesh, tables.sun.table);
-  add_excitation(id, "arc_mesh", stage.arc_mesh, tables.arc.table);
-  id.add("sun_half_backlash", stage.sun_half_backlash.value_or(-1));
-  id.add("arc_half_backlash", stage.arc_half_backlash.value_or(-1));
-  id.add("mesh_damping", stage.mesh_damping_ratio).add("support_damping", stage.support_damping_ratio);
-  id.add("always", stage.damping_without_contact ? 1 : 0).add("crank_angle", stage.crank_angle);
-  id.add("speed", stage.output_speed).add("torque", stage.output_torque);
-  add_simulation(id, options);
-  return id.id();
+  return identity_of(models, options, table_behind(models.moving.sun_mesh, tables.sun.table),
+                     table_behind(models.moving.arc_mesh, tables.arc.table));
 }
 
 }  // namespace annulus::app

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/model/table_errors.h"
 #include "app/results/content_id.h"
-#include "core/errors.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "dynamics/systems/two_k_v/two_k_v_figures.h"
@@ -15,13 +15,7 @@ namespace annulus::app {
 
 namespace {
 
-constexpr const char *figures_file = "figures.json", *series_file = "time_series.csv";
 constexpr double highest_crank_order = 200;  // several multiples of both mesh orders
-
-std::optional<double> optional_number(const Json& json) {
-  if (json.is_null()) return std::nullopt;
-  return json.get<double>();
-}
 
 Json meshes_json(const std::vector<dynamics::BranchResult>& meshes) {
   auto json = Json::array();
@@ -32,16 +26,6 @@ Json meshes_json(const std::vector<dynamics::BranchResult>& meshes) {
                     {"mean_force_N", m.mean_force},
                     {"contact_loss", m.contact_loss}});
   return json;
-}
-
-std::vector<dynamics::BranchResult> meshes_of(const Json& json) {
-  std::vector<dynamics::BranchResult> meshes;
-  for (const auto& m : json)
-    meshes.push_back({{m.at("dynamic_factor_max"), number_of(m.at("dynamic_factor_max_error"))},
-                      m.at("dynamic_factor_min"),
-                      m.at("mean_force_N"),
-                      m.at("contact_loss")});
-  return meshes;
 }
 
 std::string motion_json(const TwoKVMotion& m, const std::string& id) {
@@ -73,37 +57,13 @@ std::string motion_json(const TwoKVMotion& m, const std::string& id) {
   return json.dump(1) + "\n";
 }
 
-TwoKVMotion parse_motion(const Json& json) {
-  TwoKVMotion m;
-  m.crank_frequency = json.at("crank_frequency_Hz");
-  m.sun_mesh_frequency = json.at("sun_mesh_frequency_Hz");
-  m.arc_mesh_frequency = json.at("arc_mesh_frequency_Hz");
-  m.mean_sun_force = json.at("mean_sun_force_N");
-  m.mean_arc_force = json.at("mean_arc_force_N");
-  m.crank_turns = json.at("crank_turns");
-  m.total_cycles = json.at("total_cycles");
-  m.steady = json.at("steady");
-  m.steady_difference = optional_number(json.at("steady_difference"));
-  m.torque_balance_relative = optional_number(json.at("torque_balance_relative"));
-  m.largest_multiplier = optional_number(json.at("largest_multiplier"));
-  m.energy_relative = optional_number(json.at("energy_relative")).value_or(std::nan(""));
-  m.error_peak_to_peak = {json.at("error_peak_to_peak_rad"), json.at("error_peak_to_peak_error_rad")};
-  m.error_mean = json.at("error_mean_rad");
-  m.static_error_mean = json.at("static_error_mean_rad");
-  m.static_error_peak_to_peak = json.at("static_error_peak_to_peak_rad");
-  m.sun_planet = meshes_of(json.at("sun_planet"));
-  m.arc_pins = meshes_of(json.at("arc_pins"));
-  m.results = figure_set_of(json.at("results"));
-  for (const auto& b : json.at("arc_bearings"))
-    m.arc_bearings.push_back({b.at("crank"), b.at("arc_gear"), b.at("largest_N"), b.at("mean_N")});
-  return m;
-}
-
-std::vector<std::pair<const char*, Csv*>> motion_tables(TwoKVMotion& m) {
-  return {{"output_error.csv", &m.output_error},
-          {"output_error_static.csv", &m.static_error},
-          {"spectrum.csv", &m.spectrum},
-          {"forces.csv", &m.forces}};
+/// The tables, each in a file of its own.
+template <class Motion, class Visit>
+void for_each_motion_table(Motion& m, Visit visit) {
+  visit("output_error.csv", m.output_error);
+  visit("output_error_static.csv", m.static_error);
+  visit("spectrum.csv", m.spectrum);
+  visit("forces.csv", m.forces);
 }
 
 Csv motion_series(const dynamics::TimeSeries& series) {
@@ -118,24 +78,6 @@ Csv motion_series(const dynamics::TimeSeries& series) {
   }
   csv.round();
   return csv;
-}
-
-}  // namespace
-
-bool TwoKVMotion::output_moves() const {
-  return dynamics::output_moves(error_peak_to_peak.value, static_error_peak_to_peak, error_mean);
-}
-
-double TwoKVMotion::dynamic_factor(bool arc) const {
-  return dynamics::largest_dynamic_factor(arc ? arc_pins : sun_planet).value;
-}
-
-double TwoKVMotion::contact_loss(bool arc) const { return dynamics::largest_contact_loss(arc ? arc_pins : sun_planet); }
-
-double TwoKVMotion::largest_bearing_force() const {
-  double largest = 0;
-  for (const auto& bearing : arc_bearings) largest = std::max(largest, bearing.largest);
-  return largest;
 }
 
 TwoKVMotion motion_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVResponse& r) {
@@ -183,11 +125,25 @@ TwoKVMotion motion_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVRe
   return m;
 }
 
-namespace {
-
 std::string factor_key(const char* mesh, std::size_t n) { return fmt::format("{}{}_dynamic_factor", mesh, n + 1); }
 
 }  // namespace
+
+bool TwoKVMotion::output_moves() const {
+  return dynamics::output_moves(error_peak_to_peak.value, static_error_peak_to_peak, error_mean);
+}
+
+double TwoKVMotion::dynamic_factor(bool arc) const {
+  return dynamics::largest_dynamic_factor(arc ? arc_pins : sun_planet).value;
+}
+
+double TwoKVMotion::contact_loss(bool arc) const { return dynamics::largest_contact_loss(arc ? arc_pins : sun_planet); }
+
+double TwoKVMotion::largest_bearing_force() const {
+  double largest = 0;
+  for (const auto& bearing : arc_bearings) largest = std::max(largest, bearing.largest);
+  return largest;
+}
 
 dynamics::Evaluation evaluation_of(const TwoKVModels& models, const dynamics::TwoKVResponse& response) {
   dynamics::Evaluation evaluation{.figures = dynamics::static_figures(models.at_nominal, models.arc_clearance),
@@ -202,43 +158,42 @@ dynamics::Evaluation evaluation_of(const TwoKVModels& models, const dynamics::Tw
   return evaluation;
 }
 
-TwoKVMotion simulate_two_k_v(const TwoKVModels& models, const dynamics::SimulationOptions& options,
-                             const dynamics::TabulatedModel& tables, const std::string& id,
-                             const std::filesystem::path& folder) {
+TwoKVMotion simulate_two_k_v(const Scene& scene, const TwoKVTables& tables,
+                             const dynamics::SimulationOptions& options) {
+  const auto models = two_k_v_models(scene, tables);
   const auto response = dynamics::simulate(models.moving, options);
+  auto changed_options = options;
+  changed_options.keep_series = false;
+  changed_options.estimate_error = false;
   auto motion = motion_of(models.moving, response);
-  motion.results = propagate_errors(evaluation_of(models, response), tables);
+  // Every evaluation shoots for the periodic motion as the nominal one does.
+  motion.results =
+      with_table_errors(evaluation_of(models, response), {&tables.sun, &tables.arc},
+                        [&](const std::vector<const MeshResult*>& changed) {
+                          const auto other = two_k_v_models(scene, {*changed.front(), *changed.back()});
+                          return evaluation_of(other, dynamics::simulate(other.moving, changed_options));
+                        },
+                        {.simulation = {}, .seeks_steady_state = !options.mesh_cycles, .nominal_alike = true});
   motion.error_peak_to_peak.error = motion.results.figure("output_error_peak_to_peak_rad").error;
-  for (std::size_t n = 0; n < motion.sun_planet.size(); ++n)
-    motion.sun_planet[n].dynamic_factor_max.error = motion.results.figure(factor_key("sun_planet", n)).error;
-  for (std::size_t n = 0; n < motion.arc_pins.size(); ++n)
-    motion.arc_pins[n].dynamic_factor_max.error = motion.results.figure(factor_key("arc_pins", n)).error;
+  for (const auto& [mesh, list] : {std::pair{"sun_planet", &motion.sun_planet}, {"arc_pins", &motion.arc_pins}})
+    for (std::size_t n = 0; n < list->size(); ++n)
+      (*list)[n].dynamic_factor_max.error = motion.results.figure(factor_key(mesh, n)).error;
+  for_each_motion_table(motion, [](const char*, Csv& table) { table.round(); });
+  motion.time_series = motion_series(response.series).text();
+  return motion;
+}
+
+void save(const TwoKVMotion& motion, const std::string& id, const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   const std::vector<std::pair<std::string, std::string>> header = {{"annulus_version", version()}, {"inputs_id", id}};
-  for (const auto& [name, table] : motion_tables(motion)) {
-    table->header = header;
-    table->round();
-    table->write(folder / name);
-  }
-  Csv series = motion_series(response.series);
-  series.header = header;
-  series.write(folder / series_file);
-  write_file(folder / figures_file, motion_json(motion, id));
-  return motion;
-}
-
-std::vector<std::string> two_k_v_files() {
-  std::vector<std::string> names = {figures_file, series_file};
-  TwoKVMotion any;
-  for (const auto& [name, table] : motion_tables(any)) names.emplace_back(name);
-  return names;
-}
-
-TwoKVMotion load_two_k_v(const std::filesystem::path& folder) {
-  auto motion = parse_motion(Json::parse(read_file(folder / figures_file)));
-  for (const auto& [name, table] : motion_tables(motion)) *table = Csv::read(folder / name);
-  motion.reused = true;
-  return motion;
+  for_each_motion_table(motion, [&](const char* name, Csv table) {
+    table.header = header;
+    table.write(folder / name);
+  });
+  std::string lines;
+  for (const auto& [key, value] : header) lines += fmt::format("# {}: {}\n", key, value);
+  write_file(folder / "time_series.csv", lines + motion.time_series);
+  write_file(folder / "figures.json", motion_json(motion, id));
 }
 
 }  // namespace annulus::app

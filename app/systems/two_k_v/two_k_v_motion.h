@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/model/lumped_model.h"
 #include "app/systems/two_k_v/two_k_v_model.h"
 #include "core/csv.h"
 #include "core/figure.h"
@@ -13,7 +14,7 @@
 
 namespace annulus::app {
 
-/// The periodic motion of a 2K-V stage, as it is kept in OUT/dynamics. Angles in rad, forces in N.
+/// The periodic motion of a 2K-V stage. Angles in rad, forces in N.
 struct TwoKVMotion {
   double crank_frequency = 0, sun_mesh_frequency = 0, arc_mesh_frequency = 0;  ///< Hz, in the frame of the carrier
   double mean_sun_force = 0, mean_arc_force = 0;
@@ -28,10 +29,11 @@ struct TwoKVMotion {
 
   FigureSet results;  ///< by key, with the parts of their errors; of the lumped model and of every mesh
 
-  Csv output_error;  ///< crank_turn, time_s, error_rad
-  Csv static_error;  ///< crank_turn, error_rad: K(t) q = f
-  Csv spectrum;      ///< frequency_Hz, crank_order, amplitude_rad; empty where the window holds no whole turns
-  Csv forces;        ///< crank_turn, F / mean mesh force of every mesh
+  Csv output_error;         ///< crank_turn, time_s, error_rad
+  Csv static_error;         ///< crank_turn, error_rad: K(t) q = f
+  Csv spectrum;             ///< frequency_Hz, crank_order, amplitude_rad; empty where the window holds no whole turns
+  Csv forces;               ///< crank_turn, F / mean mesh force of every mesh
+  std::string time_series;  ///< the file of all motions and forces; empty once it is written
   bool reused = false;
 
   /// Whether the output moves against the input beyond rounding. Constant mesh stiffness moves nothing: the whole load
@@ -42,19 +44,17 @@ struct TwoKVMotion {
   [[nodiscard]] double largest_bearing_force() const;
 };
 
-[[nodiscard]] TwoKVMotion motion_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVResponse& response);
-
 /// Its results, those of every mesh by itself besides: sun_planet1_dynamic_factor, arc_pins2_dynamic_factor, ...
 [[nodiscard]] dynamics::Evaluation evaluation_of(const TwoKVModels& models, const dynamics::TwoKVResponse& response);
 
-/// Simulates, carries the errors of `tables` into the results and writes figures.json, output_error.csv,
-/// output_error_static.csv, spectrum.csv, forces.csv and time_series.csv into `folder`.
-[[nodiscard]] TwoKVMotion simulate_two_k_v(const TwoKVModels& models, const dynamics::SimulationOptions& options,
-                                           const dynamics::TabulatedModel& tables, const std::string& id,
-                                           const std::filesystem::path& folder);
-/// All files of a motion in its folder.
-[[nodiscard]] std::vector<std::string> two_k_v_files();
-/// What `simulate_two_k_v` wrote. Throws InputError where files are missing or damaged.
-[[nodiscard]] TwoKVMotion load_two_k_v(const std::filesystem::path& folder);
+/// The ways of the cost study to the motion on these stiffnesses.
+[[nodiscard]] ModelWays two_k_v_ways(const Scene& scene, const TwoKVTables& tables);
+
+/// Simulates the stage of a scene and propagates the errors of its tables into the results.
+[[nodiscard]] TwoKVMotion simulate_two_k_v(const Scene& scene, const TwoKVTables& tables,
+                                           const dynamics::SimulationOptions& options);
+/// Writes figures.json, output_error.csv, output_error_static.csv, spectrum.csv, forces.csv and time_series.csv into
+/// `folder`.
+void save(const TwoKVMotion& motion, const std::string& id, const std::filesystem::path& folder);
 
 }  // namespace annulus::app

@@ -1,17 +1,24 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "app/model/gear_system.h"
 #include "app/model/system_run.h"
 #include "app/systems/two_k_v/two_k_v_model.h"
 #include "app/systems/two_k_v/two_k_v_motion.h"
 #include "app/systems/two_k_v/two_k_v_vibration.h"
 
-/// From a 2K-V scene to its report.
+/// A run of a 2K-V stage: the scene as it is, and with computed stiffness where it asks for a comparison.
 namespace annulus::app {
+
+struct TwoKVResponse final : RunResponse {
+  TwoKVVibration vibration;
+  TwoKVMotion motion;
+};
 
 /// The stage on one pair of mesh stiffnesses.
 struct TwoKVCase {
@@ -19,41 +26,35 @@ struct TwoKVCase {
   TwoKVTables tables;
   // Absent without [dynamics]:
   std::optional<dynamics::TwoKVStage> stage{};  ///< tables at the nominal load
-  std::optional<TwoKVVibration> vibration{};
-  std::optional<TwoKVMotion> motion{};
-  double response_seconds = 0;  ///< wall, vibration and motion
+  const TwoKVVibration* vibration = nullptr;
+  const TwoKVMotion* motion = nullptr;
 };
 
-struct TwoKVResult final : SystemRun {
-  explicit TwoKVResult(const Scene& of);
+struct TwoKVResult : RunView {
+  explicit TwoKVResult(const SystemRun& run);
 
   std::optional<dynamics::ArcToothMesh> arc;  ///< absent when its dimensions are not given
   TwoKVCase own;                              ///< the scene as it is
   std::optional<TwoKVCase> computed{};        ///< with computed stiffness where the scene asks for a comparison
-
-  /// The sun meshes; writes stiffness tables of both meshes to options.out, of the compared case to
-  /// options.out/computed.
-  void solve_meshes(const RunOptions& options) override;
-  /// Vibration and motion of both cases.
-  void respond(const RunOptions& options) override;
-  [[nodiscard]] std::vector<const MeshResult*> meshes() const override;
-  [[nodiscard]] std::vector<VariantFigures> variants() const override;
-  [[nodiscard]] std::optional<CostRun> actual(const CostStep& step) const override;
-  [[nodiscard]] std::vector<const MeshResult*> model_tables() const override { return {&own.tables.sun}; }
-  [[nodiscard]] Json summary() const override;      // two_k_v_summary.cc
-  [[nodiscard]] std::string text() const override;  // two_k_v_summary.cc
-  [[nodiscard]] Page report() const override;
 };
 
-/// Stiffness of the sun mesh: solved into OUT/`folder` or cached, or prescribed.
-[[nodiscard]] MeshResult two_k_v_stiffness(const Scene& scene, const MeshModel& sun, const std::string& folder,
-                                           const RunOptions& options);
+/// The sun mesh and the arc mesh of the scene, then those of compared_scene that differ.
+[[nodiscard]] std::vector<MeshModel> two_k_v_run_meshes(const Scene& scene);
+[[nodiscard]] std::vector<RunVariant> two_k_v_run_variants(const Scene& scene);
+/// Stiffness of one of them; a sun mesh that is solved for the comparison alone has its files in OUT/computed.
+[[nodiscard]] MeshResult two_k_v_stiffness(const Scene& scene, const MeshModel& mesh, const RunOptions& options);
+/// Vibration and motion of a variant; `tables`: its sun mesh and arc mesh. `published`: first frequencies, Hz.
+[[nodiscard]] std::unique_ptr<TwoKVResponse> two_k_v_response(const Scene& scene, const RunVariant& variant,
+                                                              const std::vector<const MeshResult*>& tables,
+                                                              const std::vector<double>& published,
+                                                              const RunOptions& options);
+
+[[nodiscard]] Json two_k_v_summary(const TwoKVResult& result);      ///< members of summary.json (two_k_v_summary.cc)
+[[nodiscard]] std::string two_k_v_text(const TwoKVResult& result);  ///< for the standard output (two_k_v_summary.cc)
+[[nodiscard]] Page reducer_report(const TwoKVResult& result);       ///< report.html (report/reducer_report.cc)
 
 /// All steps of a run of a scene of this kind.
 [[nodiscard]] TwoKVResult run_two_k_v(const Scene& scene, const RunOptions& options);
-
-/// The results of a reducer: those of its meshes, then those of its lumped model.
-[[nodiscard]] const std::vector<FigureSpec>& two_k_v_run_figures();
 
 /// What a plan reports of a reducer (two_k_v_plan.cc).
 void describe_two_k_v(const Scene& scene, Plan& plan);

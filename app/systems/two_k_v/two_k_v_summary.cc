@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/model/cost_actual.h"
-#include "app/results/content_id.h"
-#include "app/scene/inputs_json.h"
-#include "app/scene/scene_schema.h"
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
@@ -91,15 +87,15 @@ Json case_json(const TwoKVCase& c) {
 
 }  // namespace
 
-Json TwoKVResult::summary() const {
+Json two_k_v_summary(const TwoKVResult& result) {
   Json json = Json::object();
-  for (const auto& q : plan.quantities) json["operating_point"][q.key] = q.value;
-  json.update(case_json(own));
-  if (computed) json["computed"] = case_json(*computed);
-  json.update(variant_studies_json(studies, 0));
+  for (const auto& q : result.plan.quantities) json["operating_point"][q.key] = q.value;
+  json.update(case_json(result.own));
+  if (result.computed) json["computed"] = case_json(*result.computed);
+  json.update(variant_studies_json(result.studies, 0));
   return json;
 }
 
-std::string TwoKVResult::text() const { return key_results_text(*this); }
+std::string two_k_v_text(const TwoKVResult& result) { return key_results_text(result); }
 
 }  // namespace annulus::app

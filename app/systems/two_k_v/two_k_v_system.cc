@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "app/model/mesh_figures.h"
 #include "app/plan/plan.h"
-#include "app/systems/two_k_v/two_k_v_lumped_model.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "app/systems/two_k_v/two_k_v_scene.h"
 #include "dynamics/systems/two_k_v/two_k_v_figures.h"
@@ -33,19 +33,57 @@ class TwoKVSystem final : public GearSystem {
 
   /// The sun mesh; the arc mesh is a matter of formulas.
   [[nodiscard]] std::vector<MeshModel> model_meshes() const override { return {two_k_v_sun_model(scene())}; }
+  [[nodiscard]] std::vector<MeshModel> run_meshes() const override { return two_k_v_run_meshes(scene()); }
+  [[nodiscard]] std::vector<RunVariant> run_variants() const override { return two_k_v_run_variants(scene()); }
 
   [[nodiscard]] MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const override {
-    return two_k_v_stiffness(scene(), mesh, "", options);
+    return two_k_v_stiffness(scene(), mesh, options);
   }
 
   [[nodiscard]] std::unique_ptr<LumpedModel> model(std::size_t /*variant*/,
                                                    const std::vector<const MeshResult*>& tables) const override {
-    return two_k_v_lumped_model(scene(), {stiffness_alone(*tables.front()), arc_pins_result(scene())});
+    const TwoKVTables both{stiffness_alone(*tables.front()), arc_pins_result(scene())};
+    const auto models = two_k_v_models(scene(), both);
+    models.moving.check();
+    auto simulation = two_k_v_simulation(scene(), models.moving);
+    simulation.keep_series = false;
+    return std::make_unique<LumpedModel>(
+        two_k_v_id(models, simulation, both), [models, simulation](Answer wanted) -> StudyPoint {
+          auto figures = dynamics::static_figures(models.at_nominal, models.arc_clearance);
+          if (wanted == Answer::without_motion)
+            figures.set("steady", 1);  // nothing was integrated
+          else
+            figures.add(dynamics::figures(models.moving, dynamics::simulate(models.moving, simulation)));
+          return {.figures = {dynamics::two_k_v_figures(), figures}};
+        });
   }
 
   [[nodiscard]] std::vector<PlannedResponse> responses() const override { return two_k_v_responses(scene()); }
 
-  [[nodiscard]] std::unique_ptr<SystemRun> run() const override { return std::make_unique<TwoKVResult>(scene()); }
+  /// Tables of the arc meshes that formulas give.
+  void save_inputs(const SystemRun& run, const RunOptions& options) const override {
+    const auto all = run_variants();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const auto& arc = *run.tables_of(i).back();
+      if (!arc.tabulated || arc.model.fidelity == "given") continue;
+      std::filesystem::create_directories(options.out / all[i].folder);
+      arc.table.write_csv(options.out / all[i].folder / "stiffness_arc_pins.csv");
+    }
+  }
+
+  [[nodiscard]] std::unique_ptr<RunResponse> respond(const SystemRun& run, std::size_t variant,
+                                                     const RunOptions& options) const override {
+    std::vector<double> published;
+    if (run.reference)
+      for (const auto& value : run.reference->values)
+        if (value.quantity == "frequency_1_Hz") published.push_back(value.value);
+    return two_k_v_response(variant == 0 ? scene() : *compared_scene(scene()), run_variants()[variant],
+                            run.tables_of(variant), published, options);
+  }
+
+  [[nodiscard]] Json summary(const SystemRun& run) const override { return two_k_v_summary(TwoKVResult(run)); }
+  [[nodiscard]] std::string text(const SystemRun& run) const override { return two_k_v_text(TwoKVResult(run)); }
+  [[nodiscard]] Page report(const SystemRun& run) const override { return reducer_report(TwoKVResult(run)); }
 
   [[nodiscard]] std::string title(std::size_t /*variant*/) const override { return "reducer"; }
 
@@ -57,12 +95,24 @@ class TwoKVSystem final : public GearSystem {
   void describe(Plan& plan) const override { describe_two_k_v(scene(), plan); }
 };
 
+const std::vector<FigureSpec>& all_two_k_v_figures() {
+  static const auto list = [] {
+    auto specs = mesh_figure_specs(sun_planet, "sun mesh", "sun_stiffness", {"planet", "sun"});
+    const auto arc = mesh_figure_specs(arc_pins, "arc mesh", "arc_stiffness");
+    specs.insert(specs.end(), arc.begin(), arc.end());
+    const auto& model = dynamics::two_k_v_figures();
+    specs.insert(specs.end(), model.begin(), model.end());
+    return specs;
+  }();
+  return list;
+}
+
 }  // namespace
 
 SystemKind two_k_v_kind() {
   return {{"two_k_v", two_k_v_tables, check_two_k_v_scene, [] { return figure_keys(dynamics::two_k_v_figures()); },
            two_k_v_example},
-          two_k_v_run_figures,
+          all_two_k_v_figures,
           dynamics::two_k_v_figures,
           [](const Scene& scene) -> std::unique_ptr<GearSystem> { return std::make_unique<TwoKVSystem>(scene); }};
 }

@@ -1,4 +1,3 @@
-#include "app/systems/two_k_v/two_k_v_lumped_model.h"
 #include "app/systems/two_k_v/two_k_v_motion.h"
 #include "app/tradeoff/model_changes.h"
 #include "core/errors.h"
@@ -10,7 +9,7 @@ namespace {
 
 FigureSet steady_reducer_figures(const TwoKVModels& models, const dynamics::SimulationOptions& options) {
   const auto response = dynamics::simulate(models.moving, options);
-  if (!response.steady.steady) throw SolverError("the motion does not become periodic");
+  if (!response.steady) throw SolverError("the motion does not become periodic");
   return evaluation_of(models, response).figures;
 }
 

@@ -78,6 +78,4 @@ Page pair_report(const PairRunResult& result) {
                    .checks = result.response ? solution_checks({{"pair", &result.response->figures}}) : Blocks()});
 }
 
-Page PairRunResult::report() const { return pair_report(*this); }
-
 }  // namespace annulus::app

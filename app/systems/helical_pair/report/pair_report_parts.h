@@ -9,9 +9,6 @@
 /// The sections of a helical pair's report, made from the results alone.
 namespace annulus::app {
 
-/// report.html of a helical pair.
-[[nodiscard]] Page pair_report(const PairRunResult& result);
-
 // conclusions.cc
 [[nodiscard]] Blocks pair_verdict(const PairRunResult& result);  ///< what came out, in plain words
 /// The paper's conclusions compared with the numbers.

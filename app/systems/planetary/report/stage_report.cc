@@ -86,6 +86,4 @@ Page stage_report(const RunResult& result) {
        .checks = response_checks(result)});
 }
 
-Page RunResult::report() const { return stage_report(*this); }
-
 }  // namespace annulus::app

@@ -14,9 +14,6 @@
 /// The sections of a planetary stage's report.
 namespace annulus::app {
 
-/// report.html of a planetary stage.
-[[nodiscard]] Page stage_report(const RunResult& result);
-
 /// The meshes of the rings, then that of the sun.
 [[nodiscard]] NamedMeshes named_meshes(const RunResult& result);
 /// The responses of the rings whose dynamics were asked for.

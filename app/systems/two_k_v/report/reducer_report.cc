@@ -57,6 +57,4 @@ Page reducer_report(const TwoKVResult& result) {
        .checks = motion_checks(result)});
 }
 
-Page TwoKVResult::report() const { return reducer_report(*this); }
-
 }  // namespace annulus::app

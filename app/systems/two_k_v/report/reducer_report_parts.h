@@ -9,9 +9,6 @@
 /// The sections of the report of a 2K-V stage, made from the results alone.
 namespace annulus::app {
 
-/// report.html of a 2K-V stage.
-[[nodiscard]] Page reducer_report(const TwoKVResult& result);
-
 /// The scene's own stiffness, and the computed one where it is compared.
 using NamedCases = std::vector<std::pair<std::string, const TwoKVCase*>>;
 [[nodiscard]] NamedCases shown_cases(const TwoKVResult& result);

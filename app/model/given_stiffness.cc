@@ -2,25 +2,11 @@
 #include <numbers>
 
 #include "app/model/mesh_result.h"
-#include "app/results/content_id.h"
 #include "app/scene/scene_files.h"
-#include "core/errors.h"
-#include "core/files.h"
 
 namespace annulus::app {
 
 namespace {
-
-/// The header without the lines that every file carries.
-std::vector<std::pair<std::string, std::string>> without_stamp(
-    const std::vector<std::pair<std::string, std::string>>& header) {
-  std::vector<std::pair<std::string, std::string>> own;
-  for (const auto& line : header) {
-    if (line.first != "annulus_version" && line.first != "inputs_id" && line.first != "mesh" && line.first != "model")
-      own.push_back(line);
-  }
-  return own;
-}
 
 std::size_t nearest_load(const StiffnessTable& table, double load) {
   std::size_t best = 0;
@@ -71,42 +57,10 @@ MeshResult given_stiffness(const MeshModel& model, const MeshInput& input, const
     const auto nominal = nearest_load(table, nominal_load);
     return {.model = model, .contact_ratio = contact_ratio, .table = std::move(table), .nominal = nominal};
   }
-  return {.model = model, .contact_ratio = contact_ratio, .table = sampled(model.mesh, input, nominal_load)};
-}
-
-std::vector<std::string> mesh_files(const MeshModel& model) {
-  std::vector<std::string> names = {"stiffness_" + model.mesh + ".csv", "lte_" + model.mesh + ".csv",
-                                    "mesh/" + model.mesh + ".svg"};
-  for (const auto& [name, member] : side_tables) names.push_back(std::string(name) + "_" + model.mesh + ".csv");
-  for (const bool planet : {true, false}) {
-    const auto body = "mesh/" + model.mesh + "_" + model.body_name(planet);
-    for (const auto* ending : {".msh", ".vtu", "_field.vtu"}) names.push_back(body + ending);
-  }
-  return names;
-}
-
-MeshResult load(const MeshModel& model, const std::filesystem::path& folder) {
-  const auto picture = folder / "mesh" / (model.mesh + ".svg");
-  const auto positions = Csv::read(folder / ("lte_" + model.mesh + ".csv"));
-  MeshResult result{.model = model,
-                    .table = StiffnessTable::read_csv(folder / ("stiffness_" + model.mesh + ".csv")),
-                    .nominal = model.nominal_load(),
-                    .reused = true};
-  for (const auto& [key, value] : without_stamp(positions.header)) {
-    if (key == "contact_ratio")
-      result.contact_ratio = std::stod(value);
-    else
-      result.facts[key] = std::stod(value);
-  }
-  result.positions = {.header = {}, .columns = positions.columns, .rows = positions.rows};
-  for (const auto& [name, member] : side_tables) {
-    const auto file = folder / (std::string(name) + "_" + model.mesh + ".csv");
-    if (!std::filesystem::exists(file)) continue;
-    auto& csv = result.*member = Csv::read(file);
-    csv.header = without_stamp(csv.header);
-  }
-  if (std::filesystem::exists(picture)) result.picture = read_file(picture);
-  return result;
+  return {.model = model,
+          .contact_ratio = contact_ratio,
+          .table = sampled(model.mesh, input, nominal_load),
+          .tabulated = false};
 }
 
 }  // namespace annulus::app

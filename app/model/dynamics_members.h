@@ -1,0 +1,42 @@
+#pragma once
+
+#include "core/bytes.h"
+#include "dynamics/steady_state/steady_response.h"
+#include "dynamics/system/mesh_excitation.h"
+
+/// Inputs and results that lumped models of all kinds share, for identities and cached values (core/bytes.h).
+namespace annulus {
+
+ANNULUS_MEMBERS(dynamics::ConstantStiffness, mean);
+ANNULUS_MEMBERS(dynamics::HarmonicStiffness, mean, ripple, phase_shift);
+ANNULUS_MEMBERS(dynamics::RectangularStiffness, mean, ripple, duty, phase_shift);
+
+/// The curves follow from a table, which is an input of its own (table_behind).
+template <>
+struct Members<dynamics::TableStiffness> {
+  template <class Archive>
+  static void pass(Archive& archive, dynamics::TableStiffness& stiffness) {
+    bool all_loads = stiffness.surface != nullptr;
+    annulus::pass(archive, all_loads);
+    annulus::pass(archive, stiffness.phase_shift);
+  }
+};
+
+ANNULUS_MEMBERS(dynamics::IntegratorOptions, method, relative_tolerance, absolute_tolerance, fixed_step, max_steps);
+ANNULUS_MEMBERS(dynamics::PeriodicOptions, samples, sampling_tolerance, max_samples, tolerance, max_iterations);
+ANNULUS_MEMBERS(dynamics::SystemState, time, q, v, supplied, dissipated);
+ANNULUS_MEMBERS(dynamics::SimulationOptions, steady_state, confirm, confirm_on_contact_loss, keep_series, periodic,
+                integrator, start, mesh_cycles, steady_tolerance, max_windows, samples, min_window, max_window,
+                estimate_error);
+
+ANNULUS_MEMBERS(dynamics::PeriodicSolution, method, converged, trouble, residual, newton_iterations, linear_iterations,
+                sampling_difference, largest_multiplier);
+ANNULUS_MEMBERS(dynamics::IntegratorChoice, method, reason, stability_step, implicit_step, explicit_steps,
+                least_damping);
+ANNULUS_MEMBERS(dynamics::EnergyBalance, supplied, dissipated, change, relative);
+ANNULUS_MEMBERS(dynamics::IntegratorStatistics, steps, rhs_evaluations, jacobian_evaluations, contact_events,
+                stiffness_restarts);
+ANNULUS_MEMBERS(dynamics::SteadyOutcome, window_cycles, whole_period, total_cycles, steady, confirmed,
+                steady_difference, periodic, integrator, energy, statistics, begin, end);
+
+}  // namespace annulus

@@ -1,0 +1,90 @@
+#include "app/model/system_run.h"
+
+#include <algorithm>
+
+#include "app/model/cost_actual.h"
+#include "app/model/gear_system.h"
+#include "app/model/mesh_figures.h"
+#include "core/parallel.h"
+#include "core/stopwatch.h"
+
+namespace annulus::app {
+
+SystemRun::SystemRun(const Scene& of) : scene(of), system(make_system(scene)) {}
+
+SystemRun::~SystemRun() = default;
+
+void SystemRun::solve_meshes(const RunOptions& options) {
+  for (const auto& mesh : system->run_meshes())
+    tables.push_back(system->stiffness(options.remodel ? options.remodel(mesh) : mesh, options));
+  system->save_inputs(*this, options);
+}
+
+void SystemRun::respond(const RunOptions& options) {
+  const auto timer = timers.measure("dynamics");
+  responses.resize(system->run_variants().size());
+  for_each_task(responses.size(), options.threads, [&](std::size_t variant) {
+    const Stopwatch watch;
+    auto response = system->respond(*this, variant, options);
+    response->seconds = watch.seconds();
+    responses[variant] = std::move(response);
+  });
+}
+
+std::vector<const MeshResult*> SystemRun::meshes() const {
+  std::vector<const MeshResult*> list;
+  for (const auto& table : tables)
+    if (table.model.computed()) list.push_back(&table);
+  return list;
+}
+
+std::vector<const MeshResult*> SystemRun::tables_of(std::size_t variant) const {
+  std::vector<const MeshResult*> list;
+  for (const std::size_t i : system->run_variants().at(variant).tables) list.push_back(&tables.at(i));
+  return list;
+}
+
+std::vector<VariantFigures> SystemRun::variants() const {
+  const auto names = system->run_variants();
+  std::vector<VariantFigures> list;
+  for (std::size_t variant = 0; variant < names.size(); ++variant) {
+    const auto found = system->table_figures(tables_of(variant));
+    FigureSet figures;
+    for (const auto& spec : system_kind(scene.stage.kind).figures())
+      if (const auto* entry = found.find(spec.key)) figures.set(entry->key, entry->figure, entry->parts);
+    if (!responses.empty()) figures.add(responses[variant]->figures);
+    list.push_back({names[variant].name, std::move(figures)});
+  }
+  return list;
+}
+
+std::optional<CostRun> SystemRun::actual(const CostStep& step) const {
+  if (step.kind == CostKind::response) {
+    const auto variants = system->run_variants();
+    for (std::size_t i = 0; i < responses.size(); ++i)
+      if (variants[i].folder == step.ring && !responses[i]->reused)
+        return actual_time(step.size, responses[i]->seconds);
+    return std::nullopt;
+  }
+  for (const auto* mesh : meshes()) {
+    if (step.kind == CostKind::mesh && mesh->model.label() == step.label) return actual_mesh(step.size, *mesh);
+    if (step.kind == CostKind::coupling && mesh->model.ring == step.ring)
+      if (auto cost = system->actual_coupling(step.size, *mesh)) return cost;
+  }
+  return std::nullopt;
+}
+
+FigureSet GearSystem::table_figures(const std::vector<const MeshResult*>& tables) const {
+  FigureSet figures;
+  for (const auto* mesh : tables)
+    if (mesh->table.phases() > 0) figures.add(mesh_figures(*mesh));
+  return figures;
+}
+
+std::vector<RunVariant> GearSystem::run_variants() const {
+  std::vector<RunVariant> list;
+  for (const auto& name : variants()) list.push_back({name, name, meshes_of(list.size())});
+  return list;
+}
+
+}  // namespace annulus::app

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "app/model/dynamics_members.h"
+#include "app/systems/planetary/coupling_effect.h"
+#include "app/systems/planetary/stage_response.h"
+
+/// A planetary stage and what is cached of its responses (core/bytes.h).
+namespace annulus {
+
+ANNULUS_MEMBERS(dynamics::Deviation, amount, phase);
+ANNULUS_MEMBERS(dynamics::BodyErrors, eccentricity, position);
+ANNULUS_MEMBERS(dynamics::CentralBody, mass, inertia, radius, support, torsional_support, errors);
+ANNULUS_MEMBERS(dynamics::PlanetBody, mass, inertia, radius, bearing_radial, bearing_tangential);
+ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_angles, planet_errors, sun_working_angle,
+                ring_working_angle, sun_teeth, planet_teeth, ring_teeth, sun_mesh, ring_mesh, sun_phase_lag,
+                ring_phase_lag, ring_tooth_offset, ring_coupling, sun_half_backlash, ring_half_backlash,
+                mesh_damping_ratio, support_damping_ratio, damping_without_contact, carrier_speed, sun_torque,
+                rotating_frame);
+
+ANNULUS_MEMBERS(dynamics::LoadSharing, instantaneous, averaged, quasi_static);
+ANNULUS_MEMBERS(dynamics::BranchResult, factor_max, factor_min, mean_force, contact_loss);
+ANNULUS_MEMBERS(dynamics::MeshKindResult, load_sharing, branches);
+/// Without its time series.
+template <>
+struct Members<dynamics::DynamicResponse> {
+  template <class Response>
+  static auto of(Response& r) {
+    return std::tie(static_cast<dynamics::SteadyOutcome&>(r), r.mesh_frequency, r.mean_mesh_force, r.sun_planet,
+                    r.ring_planet, r.cycle_force, r.force_balance_relative);
+  }
+};
+
+ANNULUS_MEMBERS(app::MeshKindErrors, instantaneous, averaged, quasi_static, dynamic_factor_max);
+ANNULUS_MEMBERS(app::ResponseErrors, sun_planet, ring_planet);
+ANNULUS_MEMBERS(app::StageModes::Mode, frequency, frequency_error, error_parts, kind, damped_frequency, damping_ratio,
+                strain, kinetic);
+ANNULUS_MEMBERS(app::StageModes, groups, bodies, list, shapes, campbell, critical_speeds);
+ANNULUS_MEMBERS(app::StageMotion, pin_force_max, pin_force_mean, sun_support, ring_support, carrier_support,
+                ring_torque, orbit_extent, orbit_largest, section, section_period, section_clusters, bearing_forces,
+                sun_orbit, poincare);
+ANNULUS_MEMBERS(app::StageResponse, figures, errors, modes, motion, load_sharing, dynamic_factor, waveform,
+                sharing_waveform, spectrum, time_series, reused);
+ANNULUS_MEMBERS(app::CouplingEffect::Row, model, averaged, instantaneous, quasi_static, sun_factor, ring_factor);
+ANNULUS_MEMBERS(app::CouplingEffect, rows, cycles);
+
+}  // namespace annulus
