@@ -53,8 +53,6 @@ FigureSet model_results(const GearSystem& system, std::size_t variant, const std
   return dynamics::propagate_errors(evaluation_of(*system.model(variant, tables), specs), model);
 }
 
-}  // namespace
-
 void ModelRun::solve_meshes(const RunOptions& options) {
   const auto system = make_system(scene);
   for (const auto& mesh : system->model_meshes()) tables_.push_back(system->stiffness(mesh, options));
