@@ -129,7 +129,7 @@ template <class T>
   return value;
 }
 
-ANNULUS_MEMBERS(Csv, header, columns, rows);
+ANNULUS_MEMBERS(Csv, header, columns, rows, file);
 ANNULUS_MEMBERS(ErrorParts, discretisation, contact, condensation, interpolation, integration, model);
 ANNULUS_MEMBERS(Figure, value, error);
 ANNULUS_MEMBERS(FigureSet::Entry, key, figure, parts);

@@ -69,7 +69,7 @@ std::optional<CostRun> SystemRun::actual(const CostStep& step) const {
   for (const auto* mesh : meshes()) {
     if (step.kind == CostKind::mesh && mesh->model.label() == step.label) return actual_mesh(step.size, *mesh);
     if (step.kind == CostKind::coupling && mesh->model.ring == step.ring)
-      if (auto cost = system->actual_coupling(step.size, *mesh)) return cost;
+      if (auto found = system->actual_coupling(step.size, *mesh)) return found;
   }
   return std::nullopt;
 }

@@ -87,7 +87,7 @@ MeshResult pair_stiffness(const Scene& scene, const PairGeometry& geometry, cons
   if (input.stiffness == StiffnessShape::closed_form)
     return {.model = model,
             .table = closed_form_pair_table(scene, geometry, geometry.transverse_force),
-            .nominal = nominal_load_index};
+            .nominal = fem::nominal_load_index};
   if (input.stiffness == StiffnessShape::table)
     return given_stiffness(model, input, scene, geometry.gears.contact_ratio(), geometry.transverse_force);
   return {.model = model, .table = {}, .tabulated = false};

@@ -10,7 +10,7 @@ namespace annulus::app {
 
 namespace {
 
-constexpr const char* asked = "the scene asks for it";
+constexpr const char* asked_for = "the scene asks for it";
 
 /// In the order of dynamics::Integrator.
 constexpr const char* integrator_names[] = {
@@ -21,7 +21,7 @@ Decision coupling_decision(const Scene& scene, const std::vector<MeshModel>& mes
   if (std::any_of(meshes.begin(), meshes.end(), [&](const MeshModel& m) { return may_be_coupled(scene, m); }))
     return {what, "solved", "through the ring; applied where it changes more than the wanted accuracy"};
   return {what, "left out",
-          scene.dynamics->rim_coupling == RimCoupling::none ? asked : "no ring's elasticity is solved by elements"};
+          scene.dynamics->rim_coupling == RimCoupling::none ? asked_for : "no ring's elasticity is solved by elements"};
 }
 
 Decision stiffness_decision(const DynamicsInput& input, const std::vector<MeshModel>& meshes) {
@@ -30,7 +30,7 @@ Decision stiffness_decision(const DynamicsInput& input, const std::vector<MeshMo
     return {what, "as prescribed", "no stiffness is computed"};
   if (input.load_dependence == dynamics::LoadDependence::table)
     return {what, "follows the load", "the tables hold several loads"};
-  return {what, "of the nominal load", asked};
+  return {what, "of the nominal load", asked_for};
 }
 
 }  // namespace
@@ -43,7 +43,7 @@ std::vector<Decision> motion_decisions(const Scene& scene, const std::vector<Mes
     list.push_back({what, std::move(decided), std::move(reason)});
   };
   if (input.mesh_cycles) {
-    add("solution", fmt::format("{} mesh cycles in time", *input.mesh_cycles), asked);
+    add("solution", fmt::format("{} mesh cycles in time", *input.mesh_cycles), asked_for);
   } else {
     add("solution", "harmonic balance", "one error period, without integrating its transient in time");
     add("confirmation", choice.confirm ? "by time integration" : "where contact is lost", choice.confirm_reason);
@@ -51,12 +51,12 @@ std::vector<Decision> motion_decisions(const Scene& scene, const std::vector<Mes
   add("samples per mesh cycle", std::to_string(choice.samples_per_cycle), choice.samples_reason);
   const bool automatic = input.integrator == dynamics::Integrator::automatic;
   add("integrator", integrator_names[static_cast<int>(input.integrator)],
-      automatic ? "where time is integrated, the cheaper one for the stiffness ratio and damping found" : asked);
+      automatic ? "where time is integrated, the cheaper one for the stiffness ratio and damping found" : asked_for);
   if (input.steps_per_cycle)
-    add("steps per mesh cycle", std::to_string(*input.steps_per_cycle), asked);
+    add("steps per mesh cycle", std::to_string(*input.steps_per_cycle), asked_for);
   else
     add("tolerance", fmt::format("{:.0e}", input.relative_tolerance.value_or(choice.relative_tolerance)),
-        input.relative_tolerance ? asked : choice.tolerance_reason);
+        input.relative_tolerance ? asked_for : choice.tolerance_reason);
   list.push_back(stiffness_decision(input, meshes));
   list.push_back(coupling_decision(scene, meshes));
   return list;

@@ -166,7 +166,8 @@ SolvedCoupling solve_coupling(const Scene& scene, const GearGeometry& geometry, 
     settings.modes.highest_frequency = highest_frequency(geometry, ring);
     auto solved = fem::solve_ring_coupling(*model.problem, places_on_ring(geometry, ring),
                                            geometry.operating_point.mean_mesh_force, settings);
-    SolvedCoupling result{.teeth = teeth_table(solved)};
+    SolvedCoupling result;
+    result.teeth = teeth_table(solved);
     result.coupling = std::move(solved.coupling);
     result.compliance_error = solved.compliance_error;
     result.frequency_error_relative = solved.frequency_error_relative;
