@@ -10,7 +10,7 @@ namespace {
 
 FigureSet steady_reducer_figures(const TwoKVModels& models, const dynamics::SimulationOptions& options) {
   const auto response = dynamics::simulate(models.moving, options);
-  if (!response.steady.steady) throw SolverError("the motion does not become periodic");
+  if (!response.steady) throw SolverError("the motion does not become periodic");
   return evaluation_of(models, response).figures;
 }
 
