@@ -82,7 +82,7 @@ MeshChoice choose_mesh(LoadedMeshProblem& problem, const std::string& why_solid,
   MeshChoice choice;
   std::tie(choice.settings.fidelity, choice.reason) = chosen_model(wish.model, why_solid, plane_reason(problem));
   choice.settings.accuracy = wish.accuracy;
-  choice.settings.largest_deflection = 0.25;  // small displacements; what is known beforehand: small_displacements.h
+  choice.settings.largest_deflection = 0.25;  // small displacements; the bound of small displacements
   choice.positions = problem.structure.repeating_teeth(pair.wheel().teeth());
   choice.repeats = repeats_text(problem, choice.positions);
   const double uptake = load_uptake(wish.mean_force, problem.face_width, pair.planet().parameters().module,
