@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "app/model/mesh_figures.h"
 #include "app/run/pipeline.h"
 #include "app/systems/planetary/planetary_model.h"
 #include "core/files.h"
@@ -153,6 +154,16 @@ BOOST_AUTO_TEST_CASE(everything_known_is_kept) {
   }
   BOOST_TEST((kept.stress.header == result.stress.header));
   BOOST_TEST(kept.stress.header.at(1).second == "ring root");
+  // Tables and figures have the names of the bodies in common.
+  auto named = model;
+  named.planet_body = "pinion";
+  named.wheel_body = "wheel";
+  const auto pair = app::pack(named, test::made_up_solution(named));
+  BOOST_TEST_REQUIRE(pair.peak("pinion_root_tension_MPa").has_value());
+  BOOST_TEST(app::mesh_figures(pair).value("ring_planet_pinion_root_tension_Pa") == 150e6,
+             boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(pair.stress.header.at(0).second == "pinion root");
+  BOOST_TEST(pair.stress.header.at(1).second == "wheel root");
   // A later result without these tables leaves none behind.
   for (const auto& [name, table] : app::side_tables) (result.*table).rows.clear();
   app::save(result, folder.path());

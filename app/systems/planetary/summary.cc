@@ -1,7 +1,5 @@
 #include "app/systems/planetary/planetary_run.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 

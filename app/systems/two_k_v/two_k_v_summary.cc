@@ -1,13 +1,7 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "core/json.h"
-#include "core/units.h"
 
 namespace annulus::app {
 
