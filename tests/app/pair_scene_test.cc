@@ -176,9 +176,9 @@ BOOST_AUTO_TEST_CASE(closed_form_and_iso_formula_agree) {
   BOOST_TEST(std::isnan(list[2].value));
   const auto modified =
       parsed_pair(test::replaced(test::quick_pair(), "teeth = 21\n", "teeth = 21\ntip_relief_um = 20\n"));
+  const auto own = app::make_pair_geometry(modified);
   const auto without = app::mean_stiffnesses(
-      modified, geometry,
-      app::pair_mesh(modified, geometry, {.model = app::pair_mesh_model(modified, geometry), .table = {}}));
+      modified, own, app::pair_mesh(modified, own, {.model = app::pair_mesh_model(modified, own), .table = {}}));
   BOOST_TEST(std::isnan(without[1].value));
   BOOST_TEST(without[1].note.find("modifications") != std::string::npos);
 }
