@@ -13,10 +13,12 @@ Quantity quantity(std::string key, double value, std::string meaning) {
   static constexpr struct {
     const char *ending, *unit;
     double si;
-  } units_of_keys[] = {{"_mm", "mm", units::mm},         {"_um", "µm", units::um}, {"_deg", "°", units::deg},
-                       {"_rpm", "r/min", units::rpm},    {"_Hz", "Hz", 1},         {"_N", "N", 1},
-                       {"_kN", "kN", 1e3},               {"_Nm", "N m", 1},        {"_N_m", "N m", 1},
-                       {"_cycles", "mesh cycles", 1},    {"_N_per_m", "N/m", 1}};
+  } units_of_keys[] = {{"_mm", "mm", units::mm},  {"_um", "µm", units::um},
+                       {"_deg", "°", units::deg}, {"_rpm", "r/min", units::rpm},
+                       {"_Hz", "Hz", 1},          {"_N", "N", 1},
+                       {"_kN", "kN", 1e3},        {"_Nm", "N m", 1},
+                       {"_N_m", "N m", 1},        {"_cycles", "mesh cycles", 1},
+                       {"_N_per_m", "N/m", 1}};
   for (const auto& [ending, unit, si] : units_of_keys)
     if (key.ends_with(ending)) return {std::move(key), value / si, unit, std::move(meaning)};
   return {std::move(key), value, "", std::move(meaning)};
@@ -58,9 +60,8 @@ std::vector<Input> resolved_inputs(const Scene& scene, const std::vector<Derived
       list.push_back(input);
       continue;
     }
-    const auto found = std::find_if(derived.begin(), derived.end(), [&](const DerivedInput& d) {
-      return d.key == input.key && d.ring == input.ring;
-    });
+    const auto found = std::find_if(derived.begin(), derived.end(),
+                                    [&](const DerivedInput& d) { return d.key == input.key && d.ring == input.ring; });
     if (found == derived.end()) continue;
     list.push_back(input);
     list.back().value = found->value;
@@ -74,9 +75,9 @@ void remark_backlash(std::vector<std::string>& remarks, double half_backlash, co
                      const std::string& where) {
   const double half = pair.normal_backlash() / 2;
   if (half_backlash > half + 1 * units::um)
-    remarks.push_back(fmt::format("The dynamics uses the prescribed half backlash of {} µm; the geometry leaves {} µm{}.",
-                                  to_text(half_backlash / units::um, 4),
-                                  to_text(std::round(1e3 * half / units::um) / 1e3, 3), where));
+    remarks.push_back(fmt::format(
+        "The dynamics uses the prescribed half backlash of {} µm; the geometry leaves {} µm{}.",
+        to_text(half_backlash / units::um, 4), to_text(std::round(1e3 * half / units::um) / 1e3, 3), where));
 }
 
 }  // namespace annulus::app

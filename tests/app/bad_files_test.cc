@@ -230,7 +230,7 @@ BOOST_AUTO_TEST_CASE(tables_that_are_none) {
     }
   refused(good + good.substr(good.find("\n0,") + 1), "rows");
   refused(good + "\n1,2\n", "data after an empty line");
-  refused(good.substr(0, good.rfind("0.75,0,90000")), "11 rows where 12");
+  refused(good.substr(0, good.rfind("0.75,0,90000")), "11 rows where the header has 12");
   // Without its number of rows a table tells by its axes.
   auto bare = good;
   bare.erase(bare.find("# rows"), bare.find("mesh_phase") - bare.find("# rows"));

@@ -171,8 +171,8 @@ BOOST_AUTO_TEST_CASE(closed_form_and_iso_formula_agree) {
   // computed ones it is known to some 10 %.
   BOOST_TEST(std::abs(list[1].value / list[0].value - 1) < 0.1);
   BOOST_TEST(std::isnan(list[2].value));
-  const auto modified =
-      parsed_pair(test::replaced(test::quick_pair(), "teeth = 21\n", "teeth = 21\ntip_relief_um = 20\n"));
+  const auto modified = parsed_pair(
+      test::replaced(test::quick_pair(), "teeth = 21\n", "teeth = 21\ntip_relief_um = 20\ntip_relief_length_mm = 1\n"));
   const auto without = stiffnesses(modified);
   BOOST_TEST(std::isnan(without[1].value));
   BOOST_TEST(without[1].note.find("modifications") != std::string::npos);

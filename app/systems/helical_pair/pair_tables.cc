@@ -25,7 +25,10 @@ Table pair_gear_table(const char* path, const char* meaning, PairGearInput Scene
   declare_flanks(gear, Flanks::external);
   declare_bore(gear, is("mesh.pinion_wheel.stiffness", {"computed", "closed_form"}));
   const auto bearing = [&](const char* name, double PairGearInput::*stiffness, const char* what) {
-    gear.key(name, stiffness, what).fallback(rigid, "rigid: the degree of freedom is dropped").above(0, 1e15).infinite();
+    gear.key(name, stiffness, what)
+        .fallback(rigid, "rigid: the degree of freedom is dropped")
+        .above(0, 1e15)
+        .infinite();
   };
   bearing("bearing_transverse_N_per_m", &PairGearInput::bearing_transverse,
           "Bearings and shaft along the transverse line of action.");

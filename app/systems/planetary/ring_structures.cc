@@ -7,8 +7,8 @@
 #include <numbers>
 #include <optional>
 
-#include "app/scene/model_limits.h"
 #include "app/scene/key_checks.h"
+#include "app/scene/model_limits.h"
 #include "app/systems/planetary/ring_pins.h"
 #include "core/errors.h"
 #include "core/units.h"
