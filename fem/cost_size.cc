@@ -58,14 +58,14 @@ int last_level(Fidelity fidelity) {
   return is_solid(fidelity) ? last_solid_level : last_plane_level;
 }
 
-int last_linear_level(const LoadedMeshProblem& problem) { return problem.pair.planet().helix_angle() != 0 ? 2 : 1; }
+int last_linear_level(const LoadedMeshProblem& problem) { return problem.pair.pinion().helix_angle() != 0 ? 2 : 1; }
 
 double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
   if (settings.fidelity == Fidelity::closed_form) return 0;
   const int degree = settings.degree;
   double unknowns = 0;
   for (const bool wheel : {false, true}) {
-    const auto& gear = wheel ? problem.pair.wheel() : problem.pair.planet();
+    const auto& gear = wheel ? problem.pair.wheel() : problem.pair.pinion();
     if (!is_solid(settings.fidelity)) {
       unknowns += 2 * nodes_of_section(plane_resolution(gear, level, degree).section, degree);
       continue;

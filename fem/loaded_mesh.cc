@@ -21,13 +21,13 @@ namespace {
 
 /// The ring mesh is solved in a mirror image of the real one, which turns the hands of helical gears.
 geometry::GearPair solved_pair(const geometry::GearPair& pair) {
-  if (!pair.internal() || pair.planet().helix_angle() == 0) return pair;
+  if (!pair.internal() || pair.pinion().helix_angle() == 0) return pair;
   const auto mirrored = [](const geometry::Gear& gear) {
     auto parameters = gear.parameters();
     parameters.helix_angle = -parameters.helix_angle;
     return geometry::Gear(parameters);
   };
-  return {mirrored(pair.planet()), mirrored(pair.wheel()), pair.centre_distance()};
+  return {mirrored(pair.pinion()), mirrored(pair.wheel()), pair.centre_distance()};
 }
 
 /// Finished fraction of the whole work from that of one level. The work grows with the number of cells, and at least

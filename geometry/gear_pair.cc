@@ -60,25 +60,25 @@ double checked_working_angle(const Gear& planet, const Gear& wheel, double centr
 }  // namespace
 
 GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance)
-    : planet_(planet),
+    : pinion_(planet),
       wheel_(wheel),
       centre_distance_(centre_distance),
       working_pressure_angle_(checked_working_angle(planet, wheel, centre_distance)),
       normal_backlash_(0) {
   // On the working pitch circles the circular pitch has to hold both teeth; the rest is circumferential backlash.
   const double cosine = std::cos(working_pressure_angle_);
-  const double planet_pitch_radius = planet_.base_radius() / cosine;
+  const double planet_pitch_radius = pinion_.base_radius() / cosine;
   const double wheel_pitch_radius = wheel_.base_radius() / cosine;
-  const double along_action = planet_.base_pitch() - cosine * (planet_.tooth_thickness(planet_pitch_radius) +
+  const double along_action = pinion_.base_pitch() - cosine * (pinion_.tooth_thickness(planet_pitch_radius) +
                                                                wheel_.tooth_thickness(wheel_pitch_radius));
-  normal_backlash_ = along_action * std::cos(planet_.base_helix_angle());
-  const double module = planet_.parameters().module;
+  normal_backlash_ = along_action * std::cos(pinion_.base_helix_angle());
+  const double module = pinion_.parameters().module;
   if (normal_backlash_ < -backlash_tolerance * module) {
-    const double shift = -normal_backlash_ / (2 * module * std::sin(planet_.parameters().pressure_angle));
+    const double shift = -normal_backlash_ / (2 * module * std::sin(pinion_.parameters().pressure_angle));
     throw GeometryError(fmt::format(
         "{} has no room: its normal backlash is {:.4f} um at the centre distance {:.4f} mm; {} by {:.5f} or {} the "
         "centre distance",
-        pair_name(planet_, wheel_), normal_backlash_ / units::um, centre_distance_ / units::mm,
+        pair_name(pinion_, wheel_), normal_backlash_ / units::um, centre_distance_ / units::mm,
         internal() ? "raise the difference of the profile shifts (ring - planet)"
                    : "lower the sum of the profile shifts",
         shift, internal() ? "reduce" : "raise"));
@@ -86,25 +86,25 @@ GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance
 
   const double length = centre_distance_ * std::sin(working_pressure_angle_);
   const double wheel_tip = roll_at(wheel_, wheel_.tip_radius());
-  roll_pitch_ = planet_.base_radius() * std::tan(working_pressure_angle_);
+  roll_pitch_ = pinion_.base_radius() * std::tan(working_pressure_angle_);
   roll_low_ = internal() ? wheel_tip - length : length - wheel_tip;
-  roll_high_ = roll_at(planet_, planet_.tip_radius());
+  roll_high_ = roll_at(pinion_, pinion_.tip_radius());
   check_tips();
   if (internal()) check_internal_tips();
   if (total_contact_ratio() < 1) {
     throw GeometryError(
         fmt::format("{} has a contact ratio of {:.4f}; at least 1 is needed: {} or reduce the working pressure angle "
                     "({:.4f} deg)",
-                    pair_name(planet_, wheel_), total_contact_ratio(),
+                    pair_name(pinion_, wheel_), total_contact_ratio(),
                     internal() ? "enlarge the planet's tip diameter, reduce the ring's" : "enlarge the tip diameters",
                     working_pressure_angle_ / units::deg));
   }
 }
 
-double GearPair::contact_ratio() const { return (roll_high_ - roll_low_) / planet_.base_pitch(); }
+double GearPair::contact_ratio() const { return (roll_high_ - roll_low_) / pinion_.base_pitch(); }
 
 double GearPair::overlap_ratio() const {
-  const auto& p = planet_.parameters();
+  const auto& p = pinion_.parameters();
   const double width = std::min(p.face_width, wheel_.parameters().face_width);
   return width * std::sin(std::abs(p.helix_angle)) / (std::numbers::pi * p.module);
 }
@@ -115,7 +115,7 @@ double GearPair::wheel_roll_length(double planet_roll) const {
 }
 
 void GearPair::check_tips() const {
-  const auto name = pair_name(planet_, wheel_);
+  const auto name = pair_name(pinion_, wheel_);
   const char* wheel_word = internal() ? "ring" : "sun";
   if (roll_low_ < 0) {
     throw GeometryError(fmt::format(
@@ -124,7 +124,7 @@ void GearPair::check_tips() const {
         name, internal() ? "involute" : "tip", wheel_word, 2 * wheel_.tip_radius() / units::mm, -roll_low_ / units::mm,
         internal() ? "enlarge" : "reduce"));
   }
-  const double planet_form = roll_at(planet_, planet_.form_radius());
+  const double planet_form = roll_at(pinion_, pinion_.form_radius());
   if (roll_low_ < planet_form) {
     throw GeometryError(
         fmt::format("{}: tip interference: the tip of the {} (diameter {:.4f} mm) touches the planet at the diameter "
@@ -133,7 +133,7 @@ void GearPair::check_tips() const {
                     "the planet's "
                     "root diameter or its root fillet factor",
                     name, wheel_word, 2 * wheel_.tip_radius() / units::mm,
-                    2 * std::hypot(planet_.base_radius(), roll_low_) / units::mm, 2 * planet_.form_radius() / units::mm,
+                    2 * std::hypot(pinion_.base_radius(), roll_low_) / units::mm, 2 * pinion_.form_radius() / units::mm,
                     internal() ? "enlarge" : "reduce",
                     2 * std::hypot(wheel_.base_radius(), wheel_roll_length(planet_form)) / units::mm));
   }
@@ -145,13 +145,13 @@ void GearPair::check_tips() const {
         "{:.4f} mm (form diameter {:.4f} mm); reduce the planet's tip diameter (now {:.4f} mm) or the root fillet "
         "factor of the {}",
         name, wheel_word, wheel_roll / units::mm, wheel_form / units::mm, 2 * wheel_.form_radius() / units::mm,
-        2 * planet_.tip_radius() / units::mm, wheel_word));
+        2 * pinion_.tip_radius() / units::mm, wheel_word));
   }
   const double a = centre_distance_;
   const double at_wheel_root =
-      internal() ? wheel_.root_radius() - a - planet_.tip_radius() : a - wheel_.root_radius() - planet_.tip_radius();
+      internal() ? wheel_.root_radius() - a - pinion_.tip_radius() : a - wheel_.root_radius() - pinion_.tip_radius();
   const double at_planet_root =
-      internal() ? wheel_.tip_radius() - a - planet_.root_radius() : a - wheel_.tip_radius() - planet_.root_radius();
+      internal() ? wheel_.tip_radius() - a - pinion_.root_radius() : a - wheel_.tip_radius() - pinion_.root_radius();
   if (std::min(at_wheel_root, at_planet_root) <= 0) {
     throw GeometryError(
         fmt::format("{}: a tip runs into a root: clearance {:.4f} mm at the root of the {}, {:.4f} mm at the root of "
@@ -164,15 +164,15 @@ void GearPair::check_tips() const {
 // circle the ring's tip corner has to be ahead (no interference), and inside the ring's space it has to stay clear of
 // the fillet.
 void GearPair::check_internal_tips() const {
-  const auto name = pair_name(planet_, wheel_);
+  const auto name = pair_name(pinion_, wheel_);
   const double a = centre_distance_;
-  const double ratio = static_cast<double>(planet_.teeth()) / wheel_.teeth();
+  const double ratio = static_cast<double>(pinion_.teeth()) / wheel_.teeth();
   // Angles behind / ahead of the line of centres at the pitch contact; the planet's leading flank drives the trailing
   // flank of the ring tooth ahead of it.
   const double working = involute(working_pressure_angle_);
-  const double planet_corner = involute(std::acos(planet_.base_radius() / planet_.tip_radius())) - working;
+  const double planet_corner = involute(std::acos(pinion_.base_radius() / pinion_.tip_radius())) - working;
   const double ring_corner = working - involute(std::acos(wheel_.base_radius() / wheel_.tip_radius()));
-  const double tip = planet_.tip_radius();
+  const double tip = pinion_.tip_radius();
   const double crossing = (wheel_.tip_radius() * wheel_.tip_radius() - a * a - tip * tip) / (2 * a * tip);
   if (crossing > -1 && crossing < 1) {
     const double planet_angle = std::acos(crossing);
@@ -192,7 +192,7 @@ void GearPair::check_internal_tips() const {
   const double half_tooth = wheel_.tooth_half_angle(wheel_pitch_radius);
   constexpr int samples = 200;  // over the planet's turn inside the ring; the fillet spans some ten of them
   for (int i = 0; i <= samples; ++i) {
-    const double planet_angle = planet_.pitch_angle() * 2 * (2.0 * i / samples - 1);
+    const double planet_angle = pinion_.pitch_angle() * 2 * (2.0 * i / samples - 1);
     const double radius = std::hypot(a + tip * std::cos(planet_angle), tip * std::sin(planet_angle));
     if (radius <= wheel_.form_radius()) continue;
     const double turned = (planet_angle + planet_corner) * ratio;
@@ -204,7 +204,7 @@ void GearPair::check_internal_tips() const {
     const Eigen::Vector2d tangent = fillet.tangent(t);
     // Material lies on the right of the fillet walked from tip to root of an internal tooth.
     const double depth = (corner - fillet.point(t)).dot(Eigen::Vector2d(tangent.y(), -tangent.x()));
-    if (t > 0 && t < 1 && depth > 1e-9 * planet_.parameters().module) {
+    if (t > 0 && t < 1 && depth > 1e-9 * pinion_.parameters().module) {
       throw GeometryError(
           fmt::format("{}: the planet's tip corner cuts {:.4f} um into the root fillet of the ring; reduce the "
                       "planet's tip diameter or the ring's root fillet factor",

@@ -6,7 +6,7 @@ namespace annulus::geometry {
 
 /// Two gears in mesh at a working centre distance: sun and planet (external), or planet and ring (internal).
 ///
-/// Lengths along the line of action are measured on the *planet* by its roll length rho = r_b tan(alpha_y), the
+/// Lengths along the line of action are measured on the *pinion* by its roll length rho = r_b tan(alpha_y), the
 /// distance from the tangent point on its base circle; rho grows from root to tip. Of helical gears they are those of a
 /// transverse section. Construction throws GeometryError with the reason: different base pitches or helix angles, hands
 /// that do not fit (opposite ones for an external pair, equal ones for an internal pair), no working angle, negative
@@ -15,14 +15,14 @@ namespace annulus::geometry {
 class GearPair {
  public:
   /// `wheel` is the sun (external) or the ring (internal). Centre distance in m.
-  GearPair(const Gear& planet, const Gear& wheel, double centre_distance);
+  GearPair(const Gear& pinion, const Gear& wheel, double centre_distance);
 
   /// Negative backlash up to this many modules is accepted and reported as it is: profile shifts printed with four
   /// digits and centre distances printed to a hundredth of a millimetre leave that much rounding in a backlash-free
   /// pair.
   static constexpr double backlash_tolerance = 5e-4;
 
-  [[nodiscard]] const Gear& planet() const { return planet_; }
+  [[nodiscard]] const Gear& pinion() const { return pinion_; }
   [[nodiscard]] const Gear& wheel() const { return wheel_; }
   [[nodiscard]] bool internal() const { return wheel_.kind() == GearKind::internal; }
   [[nodiscard]] double centre_distance() const { return centre_distance_; }
@@ -32,20 +32,20 @@ class GearPair {
   /// epsilon_beta = b sin|beta| / (pi m_n) with the smaller face width; 0 for spur gears.
   [[nodiscard]] double overlap_ratio() const;
   [[nodiscard]] double total_contact_ratio() const { return contact_ratio() + overlap_ratio(); }  ///< epsilon_gamma
-  /// Theoretical path of contact on the planet: roll lengths at its two ends and at the pitch point.
-  /// Internal mesh: rho_low is set by the ring's tip, rho_high by the planet's tip; external likewise by the sun's tip.
+  /// Theoretical path of contact on the pinion: roll lengths at its two ends and at the pitch point.
+  /// Internal mesh: rho_low is set by the tip of the wheel, rho_high by that of the pinion.
   [[nodiscard]] double roll_length_low() const { return roll_low_; }
   [[nodiscard]] double roll_length_high() const { return roll_high_; }
   [[nodiscard]] double roll_length_pitch() const { return roll_pitch_; }
-  /// Roll length on the wheel of the point that touches the planet at `planet_roll`.
+  /// Roll length on the wheel of the point that touches the pinion at `pinion_roll`.
   /// external: a sin(alpha_w) - rho; internal: a sin(alpha_w) + rho.
-  [[nodiscard]] double wheel_roll_length(double planet_roll) const;
+  [[nodiscard]] double wheel_roll_length(double pinion_roll) const;
 
  private:
   void check_tips() const;
   void check_internal_tips() const;
 
-  Gear planet_, wheel_;
+  Gear pinion_, wheel_;
   double centre_distance_, working_pressure_angle_, normal_backlash_;
   double roll_low_ = 0, roll_high_ = 0, roll_pitch_ = 0;
 };

@@ -15,13 +15,13 @@ double half_tooth_at_pitch(const GearPair& pair, const Gear& gear) {
 }  // namespace
 
 PairPlaces pair_places(const GearPair& pair) {
-  const double planet = half_tooth_at_pitch(pair, pair.planet());
+  const double planet = half_tooth_at_pitch(pair, pair.pinion());
   // A sun sees the planet's pitch point at the angle pi of the planet, a ring at the angle 0.
   return {pair.internal() ? planet : std::numbers::pi - planet, -half_tooth_at_pitch(pair, pair.wheel())};
 }
 
 double planet_place(const GearPair& sun_mesh, double phi, double lag) {
-  return phi + pair_places(sun_mesh).planet + lag * sun_mesh.planet().pitch_angle();
+  return phi + pair_places(sun_mesh).planet + lag * sun_mesh.pinion().pitch_angle();
 }
 
 StagePlaces stage_places(const PlanetarySet& set) {
@@ -36,7 +36,7 @@ StagePlaces stage_places(const PlanetarySet& set) {
 }
 
 ActionLine action_line(const GearPair& pair) {
-  const double angle = pair.working_pressure_angle(), base = pair.planet().base_radius();
+  const double angle = pair.working_pressure_angle(), base = pair.pinion().base_radius();
   // The string that makes a leading flank leaves the base circle counter-clockwise and so far behind the contact; of a
   // trailing flank it is the mirror image. They meet the pitch point at the planet's angle pi (sun) and 0 (ring).
   const double tangent = pair.internal() ? angle : std::numbers::pi - angle;

@@ -23,7 +23,7 @@ class PlanetarySet {
   [[nodiscard]] const GearPair& sun_mesh() const { return sun_mesh_; }
   [[nodiscard]] const GearPair& ring_mesh() const { return ring_mesh_; }
   [[nodiscard]] const Gear& sun() const { return sun_mesh_.wheel(); }
-  [[nodiscard]] const Gear& planet() const { return sun_mesh_.planet(); }
+  [[nodiscard]] const Gear& planet() const { return sun_mesh_.pinion(); }
   [[nodiscard]] const Gear& ring() const { return ring_mesh_.wheel(); }
   [[nodiscard]] double centre_distance() const { return sun_mesh_.centre_distance(); }
   [[nodiscard]] double planet_angle(int n) const;  ///< phi_n, rad, counter-clockwise of planet 0; n = 0 ... N-1

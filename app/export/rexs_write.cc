@@ -213,7 +213,7 @@ std::string rexs_text(const Scene& scene, const std::string& ring) {
   auto annulus = gear(rexs, scene, "ring " + found->name, *found, set.ring_mesh().wheel(), material);
   custom_attributes(annulus, scene, {"ring"}, found->name);
   for (int n = 1; n <= scene.stage.planets; ++n) {
-    auto planet = gear(rexs, scene, fmt::format("planet {}", n), scene.planet, set.sun_mesh().planet(), material);
+    auto planet = gear(rexs, scene, fmt::format("planet {}", n), scene.planet, set.sun_mesh().pinion(), material);
     custom_attributes(planet, scene, {"planet"});
     const double distance = scene.stage.centre_distance;
     stage(rexs, fmt::format("sun - planet {}", n), distance, unit, &planetary, sun, planet);

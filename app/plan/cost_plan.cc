@@ -100,7 +100,7 @@ Work work_of(const MeshModel& model) {
   if (fidelity != fem::Fidelity::solid) return works[static_cast<int>(fidelity)];
   // Every slice of helical teeth has elements of its own. Half of a face has fewer slices with the same section: the
   // contact falls with them faster than with a coarser section.
-  if (model.problem->pair.planet().helix_angle() != 0) return Work::solid_helical;
+  if (model.problem->pair.pinion().helix_angle() != 0) return Work::solid_helical;
   return fem::solved_face(*model.problem, model.settings).half ? Work::solid_half : Work::solid;
 }
 

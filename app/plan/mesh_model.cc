@@ -64,7 +64,7 @@ std::vector<Decision> decisions(const MeshModel& model) {
                        "cells 1.5 times smaller from level to level until two levels agree at every position"});
     list.push_back(
         {"sectors",
-         fmt::format("1 of {} and 1 of {} teeth", problem.pair.planet().teeth(), problem.pair.wheel().teeth()),
+         fmt::format("1 of {} and 1 of {} teeth", problem.pair.pinion().teeth(), problem.pair.wheel().teeth()),
          "equal teeth are condensed once and the gears composed of them"});
   }
   list.push_back({"ring positions", std::to_string(model.positions), model.repeats});
@@ -81,7 +81,7 @@ std::string MeshModel::id() const {
   ContentId id;
   id.add("mesh", mesh).add("model", fidelity);
   if (problem) {
-    add_gear(id, "planet", problem->pair.planet());
+    add_gear(id, "planet", problem->pair.pinion());
     add_gear(id, "wheel", problem->pair.wheel());
     id.add("centre_distance", problem->pair.centre_distance());
     id.add("E", problem->material.youngs_modulus).add("nu", problem->material.poisson_ratio);

@@ -39,7 +39,7 @@ void add_sun_and_planets(TransverseSection& section, const Scene& scene, const g
       {{.gear = sun_mesh.wheel(), .id = id + "-sun", .fill = sun_fill, .inner_radius = bore_radius(scene.sun)},
        {{Eigen::Vector2d::Zero(), sun_angle}}});
   TransverseSection::Gears list{
-      {.gear = sun_mesh.planet(), .id = id + "-planet", .fill = planet_fill, .inner_radius = bore_radius(scene.planet)},
+      {.gear = sun_mesh.pinion(), .id = id + "-planet", .fill = planet_fill, .inner_radius = bore_radius(scene.planet)},
       {}};
   for (const auto& [phi, angle] : planets) list.places.push_back({polar(sun_mesh.centre_distance(), phi), angle});
   section.gears.push_back(std::move(list));

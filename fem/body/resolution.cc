@@ -175,12 +175,12 @@ int slices_per_cell(const LoadedMeshProblem& problem, int degree) {
   };
   // A slice carries a constant load on a line along the axis: what that leaves of an uneven load, or of the slanted
   // contact of helical teeth, falls with the square of their number.
-  const bool more = uneven(problem.pair.planet()) || uneven(problem.pair.wheel()) || problem.misalignment != 0;
+  const bool more = uneven(problem.pair.pinion()) || uneven(problem.pair.wheel()) || problem.misalignment != 0;
   return degree > 1 && more ? 3 : 2;
 }
 
 int pressure_elements(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level) {
-  const bool solid = settings.fidelity == Fidelity::solid, helical = problem.pair.planet().helix_angle() != 0;
+  const bool solid = settings.fidelity == Fidelity::solid, helical = problem.pair.pinion().helix_angle() != 0;
   const double first = !solid ? 10 : settings.degree == 1 && helical ? 3 : 6;
   return static_cast<int>(std::lround(first * std::pow(1.25, level - 1)));
 }

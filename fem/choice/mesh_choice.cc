@@ -85,7 +85,7 @@ MeshChoice choose_mesh(LoadedMeshProblem& problem, const std::string& why_solid,
   choice.settings.largest_deflection = 0.25;  // small displacements; the bound of small displacements
   choice.positions = problem.structure.repeating_teeth(pair.wheel().teeth());
   choice.repeats = repeats_text(problem, choice.positions);
-  const double uptake = load_uptake(wish.mean_force, problem.face_width, pair.planet().parameters().module,
+  const double uptake = load_uptake(wish.mean_force, problem.face_width, pair.pinion().parameters().module,
                                     problem.material.youngs_modulus);
   auto table = table_resolution(wish.accuracy, uptake, pair.overlap_ratio());
   problem.phases = table.phases;

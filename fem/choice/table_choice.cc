@@ -37,7 +37,7 @@ std::string unfit_for_linear(const LoadedMeshProblem& problem) {
 /// Edges of single supports, sleeves and flanges that bend, and contacts slanted over the cells leave linear elements
 /// more than 1 % at their first level.
 bool hard_for_linear(const LoadedMeshProblem& problem) {
-  if (problem.pair.planet().helix_angle() != 0) return true;
+  if (problem.pair.pinion().helix_angle() != 0) return true;
   return problem.pair.internal() && !held_outside(problem.structure);
 }
 

@@ -39,7 +39,7 @@ class ClosedFormRun {
         flanks_(problem.pair),
         supports_(ring_supports(problem.structure, problem.wheel_support_radius, problem.face_width,
                                 problem.pair.wheel().teeth(), problem.material)),
-        planet_(flanks_.planet(), problem.planet_bore_radius, problem.face_width, problem.material, {}, rim,
+        planet_(flanks_.pinion(), problem.planet_bore_radius, problem.face_width, problem.material, {}, rim,
                 neighbours),
         wheel_(flanks_.wheel(), problem.wheel_support_radius, problem.face_width, problem.material, supports_, rim,
                neighbours) {}
@@ -123,7 +123,7 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
   position.entry.stiffness_secant = load / (position.entry.lte - unloaded);
   position.entry.stiffness_tangent = 1 / solution.tangent(0, 0);
 
-  const double torque = load * problem_.pair.planet().base_radius();
+  const double torque = load * problem_.pair.pinion().base_radius();
   position.force_balance_relative = std::abs(std::abs(moment) - torque) / torque;
   const Eigen::VectorXd deflection = exact.compliance * solution.force;
   const Eigen::VectorXd gap = deflection + exact.gap - exact.rigid * solution.rigid;
@@ -137,7 +137,7 @@ LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int 
       const double force = solution.force[i];
       if (force <= 0) continue;
       const auto& line = forces.lines[i];
-      const double half = line.half_width, roll_by_arc = problem_.pair.planet().base_radius() / pair.nearest_roll;
+      const double half = line.half_width, roll_by_arc = problem_.pair.pinion().base_radius() / pair.nearest_roll;
       position.pressure.push_back(
           {static_cast<int>(i), 0, problem_.face_width, pair.nearest_roll + (line.middle - half) * roll_by_arc,
            pair.nearest_roll + (line.middle + half) * roll_by_arc, force / (2 * half * problem_.face_width)});

@@ -38,10 +38,10 @@ std::string no_helical_closed_form(const geometry::GearParameters& planet, const
 
 StiffnessTable helical_closed_form(const LoadedMeshProblem& problem) {
   const auto& pair = problem.pair;
-  const auto why = no_helical_closed_form(pair.planet().parameters(), pair.wheel().parameters(), problem.misalignment);
+  const auto why = no_helical_closed_form(pair.pinion().parameters(), pair.wheel().parameters(), problem.misalignment);
   if (!why.empty()) throw InputError("no closed form: " + why);
   LoadedMeshProblem section = problem;
-  section.pair = {transverse_section(pair.planet()), transverse_section(pair.wheel()), pair.centre_distance()};
+  section.pair = {transverse_section(pair.pinion()), transverse_section(pair.wheel()), pair.centre_distance()};
   LoadedMeshSettings settings;
   settings.fidelity = Fidelity::closed_form;
   const auto spur = solve_closed_form(section, settings).table;

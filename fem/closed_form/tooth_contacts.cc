@@ -51,7 +51,7 @@ Modification modification(const geometry::ToothProfile& profile, double roll) {
 /// The gap round a pair of opposite points: its slope is the difference of the normals of two involutes.
 FlankGap gap_around(const FlankContact& flanks, double planet_roll, double wheel_roll, double roll,
                     const FlankContact::Interval& domain) {
-  const auto &planet = flanks.planet(), &wheel = flanks.wheel();
+  const auto &planet = flanks.pinion(), &wheel = flanks.wheel();
   const double sense = flanks.pair().internal() ? 1 : -1;  // of the wheel's roll length along the planet's flank
   const auto on_planet = modification(planet, planet_roll), on_wheel = modification(wheel, wheel_roll);
   FlankGap gap;
@@ -85,9 +85,9 @@ void add_contact(const FlankContact& flanks, const ClosedFormBody& planet, const
     contacts.tips_apart = std::min(contacts.tips_apart, match.gap);
     return;
   }
-  const double planet_edge = distance_to_tip(flanks.planet(), nearest);
+  const double planet_edge = distance_to_tip(flanks.pinion(), nearest);
   // The patch and the edge have to agree where the wheel's tip cuts the gap.
-  const bool wheel_tip_cuts = domain.low > flanks.planet().roll_length_form();
+  const bool wheel_tip_cuts = domain.low > flanks.pinion().roll_length_form();
   const double wheel_edge =
       wheel_tip_cuts ? -gap.low : std::max(-gap.low, distance_to_tip(flanks.wheel(), match.wheel_roll));
 
@@ -95,19 +95,19 @@ void add_contact(const FlankContact& flanks, const ClosedFormBody& planet, const
   // turn all its flanks equally and are no part of it.
   const double nu = material.poisson_ratio, local = 2 * (1 - nu * nu) / (M_PI * material.youngs_modulus * width);
   const auto compliance = [&](double x) {
-    const double at = std::sqrt(2 * flanks.planet().gear().base_radius() * (arc(flanks.planet(), nearest) + x));
+    const double at = std::sqrt(2 * flanks.pinion().gear().base_radius() * (arc(flanks.pinion(), nearest) + x));
     const auto p = planet.tooth().load(at), w = wheel.tooth().load(flanks.match(at, roll).wheel_roll);
     return p.root.dot(planet.foundation_compliance() * p.root) + w.root.dot(wheel.foundation_compliance() * w.root) +
            (p.compliance + w.compliance) / width + local * std::log(p.depth * w.depth);
   };
-  const double step = 0.02 * pair.planet().parameters().module;
+  const double step = 0.02 * pair.pinion().parameters().module;
   const double from = std::max(gap.low, -step), to = std::min(gap.high, step);
   // Flanks that hardly overlap have no room to tilt.
   const double tilt = to - from > step / 2 ? (compliance(to) - compliance(from)) / (to - from) / 2 * width : 0;
   contacts.pairs.push_back(
       {index, roll, nearest, match.gap, on_planet.root, pair.internal() ? mirrored_root(on_wheel.root) : on_wheel.root,
        (on_planet.compliance + on_wheel.compliance) / width,
-       LineContact(gap, {on_planet.depth, planet_edge, tip_corner(flanks.planet())},
+       LineContact(gap, {on_planet.depth, planet_edge, tip_corner(flanks.pinion())},
                    {on_wheel.depth, wheel_edge, tip_corner(flanks.wheel())}, tilt, material, width)});
 }
 
@@ -119,7 +119,7 @@ ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& pl
   contacts.phase = phase;
   for (const auto& [index, roll] : possible_pairs(flanks, phase)) {
     const auto domain = flanks.domain(roll);
-    if (domain.high - domain.low < shortest_overlap * flanks.pair().planet().base_pitch()) continue;
+    if (domain.high - domain.low < shortest_overlap * flanks.pair().pinion().base_pitch()) continue;
     add_contact(flanks, planet, wheel, material, width, index, roll, contacts);
   }
   require(!contacts.pairs.empty(), "no tooth pair faces another");

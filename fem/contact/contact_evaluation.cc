@@ -71,7 +71,7 @@ LoadedPosition evaluate(const ContactBodies& bodies, const ToothPairs& setup, co
   }
   result.face_load_factor =
       *std::max_element(result.line_load.begin(), result.line_load.end()) / (load / bodies.face.width());
-  const double torque = load * bodies.face.flanks().pair().planet().base_radius();
+  const double torque = load * bodies.face.flanks().pair().pinion().base_radius();
   result.force_balance_relative = std::abs(moment - torque) / torque;
   const double stored = solution.force.dot(problem.compliance * solution.force);
   const double against_gaps = solution.force.dot(problem.gap), work = load * result.entry.lte;

@@ -10,12 +10,12 @@ namespace annulus::fem {
 ContactFace::ContactFace(const FlankContact& flanks, std::vector<double> slice_edges, double misalignment)
     : flanks_(flanks),
       slice_edges_(std::move(slice_edges)),
-      normal_factor_(std::cos(flanks.pair().planet().base_helix_angle())),
+      normal_factor_(std::cos(flanks.pair().pinion().base_helix_angle())),
       roll_per_z_(fem::roll_per_z(flanks)) {
   const double width = this->width();
   for (std::size_t s = 0; s + 1 < slice_edges_.size(); ++s) {
     const auto gap = [&](double z) {
-      return flanks_.planet().lead_modification(z) + flanks_.wheel().lead_modification(z) +
+      return flanks_.pinion().lead_modification(z) + flanks_.wheel().lead_modification(z) +
              misalignment * (z / width - 0.5);
     };
     // Without load the flanks touch where the gap is smallest, not where its mean is: a convex curve has one such
@@ -36,6 +36,6 @@ double ContactFace::slice_roll(int slice) const {
   return roll_per_z_ * ((slice_edges_[slice] + slice_edges_[slice + 1]) / 2 - middle);
 }
 
-double roll_per_z(const FlankContact& flanks) { return flanks.planet().twist() * flanks.pair().planet().base_radius(); }
+double roll_per_z(const FlankContact& flanks) { return flanks.pinion().twist() * flanks.pair().pinion().base_radius(); }
 
 }  // namespace annulus::fem

@@ -125,7 +125,7 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
     cache = prepare(phase, load, window_, same_load ? cache->reach : load / width / soft_mesh);
   }
   // Pairs whose flanks all but touch without load: the first guess of what carries, no more.
-  const double touching = 2.5e-7 * face_.flanks().pair().planet().parameters().module;
+  const double touching = 2.5e-7 * face_.flanks().pair().pinion().parameters().module;
   constexpr double largest_window = 12;  // in Hertz half-widths: longer than any flank at a sensible load
   for (;;) {
     const ToothPairs& setup = *cache;

@@ -27,13 +27,13 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() 
 
 FlankContact::FlankContact(const geometry::GearPair& pair)
     : pair_(pair),
-      planet_(pair.planet()),
+      pinion_(pair.pinion()),
       wheel_(pair.wheel()),
-      planet_base_half_angle_(base_half_angle(pair.planet())),
+      planet_base_half_angle_(base_half_angle(pair.pinion())),
       wheel_base_half_angle_(base_half_angle(pair.wheel())) {}
 
 double FlankContact::planet_tooth_angle(double contact_roll) const {
-  const double alpha = pair_.working_pressure_angle(), turned = contact_roll / pair_.planet().base_radius();
+  const double alpha = pair_.working_pressure_angle(), turned = contact_roll / pair_.pinion().base_radius();
   return (pair_.internal() ? 0.0 : M_PI) + turned - planet_base_half_angle_ - alpha;
 }
 
@@ -47,7 +47,7 @@ double FlankContact::guessed_opposite(double planet_roll, double contact_roll) c
   // As far from the contact along the flank as on the planet; arcs of involutes are roll^2 / (2 base radius).
   const double wheel_contact = pair_.wheel_roll_length(contact_roll), sense = pair_.internal() ? 1 : -1;
   const double squared = wheel_contact * wheel_contact + sense * pair_.wheel().base_radius() /
-                                                             pair_.planet().base_radius() *
+                                                             pair_.pinion().base_radius() *
                                                              (planet_roll * planet_roll - contact_roll * contact_roll);
   if (contact_roll <= 0 || wheel_contact <= 0 || squared <= 0) return pair_.wheel_roll_length(planet_roll);
   return std::sqrt(squared);
@@ -59,7 +59,7 @@ std::pair<double, double> FlankContact::opposite(double planet_roll, double cont
   const Eigen::Vector2d wheel_axis = -(Eigen::Rotation2Dd(-planet_angle) * Eigen::Vector2d(pair_.centre_distance(), 0));
   const double side = pair_.internal() ? -1 : 1;  // trailing flank: the mirror image of the leading one
   const double base = pair_.wheel().base_radius();
-  const auto [point, normal] = planet_.flank_place(planet_roll);
+  const auto [point, normal] = pinion_.flank_place(planet_roll);
 
   /// A point of the wheel's flank, seen from the planet's: distance, and the slope of its part across the normal.
   struct Seen {
@@ -82,7 +82,7 @@ std::pair<double, double> FlankContact::opposite(double planet_roll, double cont
   // from the planet's normal grows (or falls) with the wheel's roll: that brackets the opposite point, and there is
   // one.
   const double opposed =
-      pair_.wheel_roll_length(contact_roll) + (planet_roll - contact_roll) * base / pair_.planet().base_radius();
+      pair_.wheel_roll_length(contact_roll) + (planet_roll - contact_roll) * base / pair_.pinion().base_radius();
   double low = std::max(0.0, opposed - 1.5 * base), high = opposed + 1.5 * base;
   if (high <= low) return {0, 0};
   double roll = std::clamp(guessed_opposite(planet_roll, contact_roll), low, high);
@@ -116,11 +116,11 @@ FlankContact::Match FlankContact::match(double planet_roll, double contact_roll)
         fmt::format("no point of the wheel flank lies opposite to the planet flank at the roll length "
                     "{:.6g} mm, the theoretical contact at {:.6g} mm",
                     1e3 * planet_roll, 1e3 * contact_roll));
-  return {roll, gap + planet_.modification(planet_roll) + wheel_.modification(roll)};
+  return {roll, gap + pinion_.modification(planet_roll) + wheel_.modification(roll)};
 }
 
 FlankContact::Interval FlankContact::domain(double contact_roll) const {
-  const double low = planet_.roll_length_form(), high = planet_.roll_length_tip();
+  const double low = pinion_.roll_length_form(), high = pinion_.roll_length_tip();
   const double wheel_low = std::min(wheel_.roll_length_form(), wheel_.roll_length_tip());
   const double wheel_high = std::max(wheel_.roll_length_form(), wheel_.roll_length_tip());
   // The opposite point moves monotonously along the wheel flank.
@@ -151,7 +151,7 @@ FlankContact::Interval FlankContact::domain(double contact_roll) const {
 double FlankContact::nearest_roll(double contact_roll, const Interval& domain) const {
   require(!domain.empty(), "flanks that do not face each other have no smallest gap");
   // Two involutes open to both sides of their contact as long as both have one.
-  if (!planet_.modified() && !wheel_.modified() && contact_roll > 0 && pair_.wheel_roll_length(contact_roll) > 0)
+  if (!pinion_.modified() && !wheel_.modified() && contact_roll > 0 && pair_.wheel_roll_length(contact_roll) > 0)
     return std::clamp(contact_roll, domain.low, domain.high);
   const auto gap = [&](double roll) { return match(roll, contact_roll).gap; };
   // Modifications can make several dents; look at a raster first.

@@ -41,7 +41,7 @@ class FlankContact {
   [[nodiscard]] double relative_curvature(double contact_roll) const;
 
   [[nodiscard]] const geometry::GearPair& pair() const { return pair_; }
-  [[nodiscard]] const geometry::ToothProfile& planet() const { return planet_; }
+  [[nodiscard]] const geometry::ToothProfile& pinion() const { return pinion_; }
   [[nodiscard]] const geometry::ToothProfile& wheel() const { return wheel_; }
   /// The working flank of the wheel.
   [[nodiscard]] geometry::Boundary wheel_flank() const {
@@ -58,7 +58,7 @@ class FlankContact {
   [[nodiscard]] double guessed_opposite(double planet_roll, double contact_roll) const;
 
   geometry::GearPair pair_;
-  geometry::ToothProfile planet_, wheel_;
+  geometry::ToothProfile pinion_, wheel_;
   double planet_base_half_angle_, wheel_base_half_angle_;
 };
 

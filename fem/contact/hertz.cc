@@ -12,7 +12,7 @@ double hertz_half_width(double line_load, double relative_curvature, const Mater
 
 double hertz_half_width(const FlankContact& flanks, double roll, double line_load, const Material& material) {
   const double within = std::clamp(roll, flanks.pair().roll_length_low(), flanks.pair().roll_length_high());
-  const double normal_factor = std::cos(flanks.pair().planet().base_helix_angle());
+  const double normal_factor = std::cos(flanks.pair().pinion().base_helix_angle());
   return hertz_half_width(line_load, normal_factor * flanks.relative_curvature(within), material);
 }
 

@@ -13,14 +13,14 @@ namespace {
 /// Number and planet roll length of the pairs within the path of contact and a base pitch beyond.
 std::vector<std::pair<int, double>> candidate_pairs(const FlankContact& flanks, double phase) {
   const auto& pair = flanks.pair();
-  const double pitch = pair.planet().base_pitch();
+  const double pitch = pair.pinion().base_pitch();
   // Along the path the contact of a tooth moves from the planet's root to its tip in the ring mesh (planet drives) and
   // from tip to root in the sun mesh (sun drives).
   const double direction = pair.internal() ? 1 : -1;
   const double reference = pair.roll_length_pitch() + direction * phase * pitch;
   // Under load teeth meet before and after the theoretical path: look one base pitch beyond both its ends. The ends of
   // helical teeth are ahead of their middle, and behind it.
-  const double ahead = std::abs(roll_per_z(flanks)) * pair.planet().parameters().face_width / 2;
+  const double ahead = std::abs(roll_per_z(flanks)) * pair.pinion().parameters().face_width / 2;
   const int first = static_cast<int>(std::ceil((pair.roll_length_low() - ahead - reference) / pitch - 1));
   const int last = static_cast<int>(std::floor((pair.roll_length_high() + ahead - reference) / pitch + 1));
   std::vector<std::pair<int, double>> pairs;

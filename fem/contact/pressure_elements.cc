@@ -12,7 +12,7 @@ double PressureElements::shortest(const ToothPair& pair, double arc) const {
   const auto& flanks = bodies_.face.flanks();
   const double planet = bodies_.planet.shortest_element(pair.index, arc);
   if (planet == 0) return 0;
-  const double roll = std::sqrt(2 * flanks.pair().planet().base_radius() * std::max(arc, 0.0));
+  const double roll = std::sqrt(2 * flanks.pair().pinion().base_radius() * std::max(arc, 0.0));
   const double opposite = flanks.match(roll, pair.roll).wheel_roll;
   const double wheel_arc = opposite * opposite / (2 * flanks.pair().wheel().base_radius());
   return std::max(planet, bodies_.wheel.shortest_element(wheel_tooth(flanks, pair.index, 0), wheel_arc));
@@ -48,7 +48,7 @@ void PressureElements::add(ToothPair& pair, const FacingFlanks& facing, double l
   const auto& z = bodies_.face.slice_edges();
   const auto& domain = facing.domain;
   const double roll = facing.roll, centre_roll = facing.centre_roll;
-  const double base = flanks.pair().planet().base_radius(), wheel_base = flanks.pair().wheel().base_radius();
+  const double base = flanks.pair().pinion().base_radius(), wheel_base = flanks.pair().wheel().base_radius();
   const double half_width = hertz_half_width(flanks, roll, load / bodies_.face.width(), material_);
   const auto arc_of = [&](double planet_roll) { return planet_roll * planet_roll / (2 * base); };
   const auto roll_of = [&](double arc) {

@@ -117,7 +117,7 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   const auto& pair = problem.pair;
   const bool solid = settings.fidelity == Fidelity::solid;
   const SolvedFace face = solved_face(problem, settings);
-  const BodyPlan planet_plan(problem, flanks.planet(), false, geometry::Boundary::leading_flank, settings.degree, solid,
+  const BodyPlan planet_plan(problem, flanks.pinion(), false, geometry::Boundary::leading_flank, settings.degree, solid,
                              face);
   const BodyPlan wheel_plan(problem, flanks.wheel(), true, flanks.wheel_flank(), settings.degree, solid, face);
   const TaskMaker maker(problem, settings, level);
@@ -143,13 +143,13 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   bodies.wheel_source = source_of(wheel.body);
   bodies.planet_sector = face.half ? planet_plan.whole_sector(counts) : std::move(planet.body.mesh);
   bodies.wheel_sector = face.half ? wheel_plan.whole_sector(counts) : std::move(wheel.body.mesh);
-  const double slant = 1 / std::cos(pair.planet().base_helix_angle());
+  const double slant = 1 / std::cos(pair.pinion().base_helix_angle());
   const auto condensed = [&](GearTasks& gear, double base_radius) {
     auto near = near_field(gear);
     return std::make_unique<CondensedBody>(std::move(gear.body.body), base_radius, problem.material, bodies.slice_edges,
                                            std::move(near), slant);
   };
-  bodies.planet = condensed(planet, pair.planet().base_radius());
+  bodies.planet = condensed(planet, pair.pinion().base_radius());
   bodies.wheel = condensed(wheel, pair.wheel().base_radius());
   if (supports) bodies.supports = std::make_unique<SupportRow>(std::move(*supports), bodies.wheel->body());
   const double nu = problem.material.poisson_ratio;

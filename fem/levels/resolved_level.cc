@@ -108,11 +108,11 @@ void refuse_what_is_not_resolved(const LoadedMeshProblem& problem) {
         fmt::format("the resolved model does not cover rings on pins or splines, and the ring has {}: use "
                     "the plane or solid model",
                     problem.structure.words().description));
-  if (problem.pair.planet().helix_angle() != 0)
+  if (problem.pair.pinion().helix_angle() != 0)
     throw InputError(
         fmt::format("the resolved model does not cover helical gears, here of {:.4g} degrees: use the solid "
                     "model",
-                    problem.pair.planet().helix_angle() * 180 / M_PI));
+                    problem.pair.pinion().helix_angle() * 180 / M_PI));
 }
 
 /// The gears of a resolved mesh.
@@ -129,7 +129,7 @@ struct ResolvedMesh {
         flanks(f),
         solid(settings.fidelity == Fidelity::resolved_solid),
         face(solved_face(p, settings)),
-        planet({p, f.planet(), false, geometry::Boundary::leading_flank, settings.degree, solid, face}, p.material,
+        planet({p, f.pinion(), false, geometry::Boundary::leading_flank, settings.degree, solid, face}, p.material,
                solid, level, settings.threads),
         wheel({p, f.wheel(), true, f.wheel_flank(), settings.degree, solid, face}, p.material, solid, level,
               settings.threads),
@@ -147,7 +147,7 @@ struct ResolvedMesh {
 };
 
 ResolvedMesh::Places ResolvedMesh::places(const std::vector<std::pair<int, double>>& pairs, double load) const {
-  const auto planet_arc = [&](double roll) { return roll * roll / (2 * problem.pair.planet().base_radius()); };
+  const auto planet_arc = [&](double roll) { return roll * roll / (2 * problem.pair.pinion().base_radius()); };
   const auto wheel_arc = [&](double roll) { return roll * roll / (2 * problem.pair.wheel().base_radius()); };
   Places result;
   for (const auto& [index, roll] : pairs) {

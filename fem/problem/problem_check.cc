@@ -22,7 +22,7 @@ void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
     throw InputError(fmt::format("a ring structure ({}) belongs to the ring mesh, and the pair is external",
                                  problem.structure.words().description));
   if (is_solid(fidelity)) return;
-  for (const auto* gear : {&problem.pair.planet(), &problem.pair.wheel()}) {
+  for (const auto* gear : {&problem.pair.pinion(), &problem.pair.wheel()}) {
     if (gear->parameters().lead_crowning != 0 || gear->parameters().lead_slope != 0)
       throw InputError(
           fmt::format("lead modifications (crowning {:.4g} um, slope {:.4g} um) need a load distribution "
@@ -41,14 +41,14 @@ void check_problem(const LoadedMeshProblem& problem, Fidelity fidelity) {
 
 double plane_strain_error(const LoadedMeshProblem& problem) {
   const double nu = problem.material.poisson_ratio;
-  const double width = problem.face_width / problem.pair.planet().parameters().module;
+  const double width = problem.face_width / problem.pair.pinion().parameters().module;
   return 0.65 * nu * nu / (1 - nu * nu) / (1 + width / 10);
 }
 
 void check_deflection(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
                       const LoadedPosition& position) {
   const double deflection = position.entry.lte - position.entry.unloaded_te;
-  const double modules = deflection / problem.pair.planet().parameters().module;
+  const double modules = deflection / problem.pair.pinion().parameters().module;
   if (modules <= settings.largest_deflection) return;
   throw InputError(
       fmt::format("the {} mesh gives way by {:.4g} mm = {:.3g} modules under {:.4g} N; small displacements and strains "

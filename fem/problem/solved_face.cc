@@ -27,9 +27,9 @@ bool symmetric_lead(const geometry::Gear& gear, double width) {
 
 std::string asymmetry_of_face(const LoadedMeshProblem& problem) {
   const auto& pair = problem.pair;
-  if (pair.planet().helix_angle() != 0) return "helical teeth";
+  if (pair.pinion().helix_angle() != 0) return "helical teeth";
   if (problem.misalignment != 0) return "misaligned flanks";
-  if (!symmetric_lead(pair.planet(), problem.face_width) || !symmetric_lead(pair.wheel(), problem.face_width))
+  if (!symmetric_lead(pair.pinion(), problem.face_width) || !symmetric_lead(pair.wheel(), problem.face_width))
     return "a lead modification that differs on both sides of the middle";
   return problem.structure.words().asymmetry;
 }

@@ -281,7 +281,7 @@ BOOST_AUTO_TEST_CASE(misalignment_and_lead_need_solids) {
     BOOST_TEST(mesh->fidelity == "solid");
     BOOST_TEST(mesh->reason.find("lead of the planet is modified") != std::string::npos, mesh->reason);
     BOOST_TEST(mesh->reason.find("misaligned") != std::string::npos, mesh->reason);
-    BOOST_TEST(mesh->problem->pair.planet().parameters().lead_crowning == 8e-6, boost::test_tools::tolerance(1e-15));
+    BOOST_TEST(mesh->problem->pair.pinion().parameters().lead_crowning == 8e-6, boost::test_tools::tolerance(1e-15));
   }
   BOOST_TEST(sun.problem->misalignment == 10e-6, boost::test_tools::tolerance(1e-15));
   BOOST_TEST(ring.problem->misalignment == 20e-6, boost::test_tools::tolerance(1e-15));
@@ -298,7 +298,7 @@ BOOST_AUTO_TEST_CASE(helical_sets_are_solid) {
   for (const auto& mesh : {app::sun_mesh_model(scene, geometry), app::ring_mesh_model(scene, geometry, 0)}) {
     BOOST_TEST(mesh.fidelity == "solid");
     BOOST_TEST(mesh.reason.find("helical") != std::string::npos, mesh.reason);
-    const auto &planet = mesh.problem->pair.planet(), &wheel = mesh.problem->pair.wheel();
+    const auto &planet = mesh.problem->pair.pinion(), &wheel = mesh.problem->pair.wheel();
     BOOST_TEST(planet.helix_angle() == beta, boost::test_tools::tolerance(1e-15));
     BOOST_TEST(wheel.helix_angle() == (mesh.problem->pair.internal() ? beta : -beta),
                boost::test_tools::tolerance(1e-15));

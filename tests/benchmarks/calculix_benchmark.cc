@@ -48,14 +48,14 @@ Peer solve_with_calculix(const fem::LoadedMeshProblem& problem, const fem::Loade
   const fem::FlankContact flanks(problem.pair);
   // Teeth more than a third of a base pitch from the path of contact stay apart: the gap there is some hundred
   // micrometres.
-  const double reach = problem.pair.planet().base_pitch() / 3;
+  const double reach = problem.pair.pinion().base_pitch() / 3;
   std::vector<double> rolls;
   for (const double roll : position.pair_roll)
     if (roll > problem.pair.roll_length_low() - reach && roll < problem.pair.roll_length_high() + reach)
       rolls.push_back(roll);
   const int touching = static_cast<int>(rolls.size());
   const benchmarks::Segment segment{-options.neighbours, touching - 1 + options.neighbours, 0, touching - 1};
-  auto planet = make_segment(flanks.planet(), ours.planet_sector, bore, segment);
+  auto planet = make_segment(flanks.pinion(), ours.planet_sector, bore, segment);
   auto wheel = make_segment(flanks.wheel(), ours.wheel_sector, outside, segment);
   ContactJob job;
   job.planet_axis = {problem.pair.centre_distance(), 0};
@@ -67,7 +67,7 @@ Peer solve_with_calculix(const fem::LoadedMeshProblem& problem, const fem::Loade
   job.material = problem.material;
   job.contact_stiffness = options.contact_stiffness;
   constexpr double more = 0.01;
-  const double base = problem.pair.planet().base_radius(), guess = position.entry.lte;
+  const double base = problem.pair.pinion().base_radius(), guess = position.entry.lte;
   job.hub_rotations = {guess / base, (1 + more) * guess / base};
   job.threads = options.threads;
 

@@ -66,7 +66,7 @@ fem::LoadedMeshProblem drawn_mesh(Draw& draw, bool internal) {
   fem::LoadedMeshProblem problem{pair,
                                  {},
                                  planet.face_width,
-                                 bore * pair.planet().root_radius(),
+                                 bore * pair.pinion().root_radius(),
                                  internal ? root + rim * module : sun_bore * root};
   const double usual = 30e6 * planet.face_width * module;
   problem.loads = {0.1 * usual, usual, 3 * usual};
@@ -114,7 +114,7 @@ int main(int argc, char** argv) {
         fem::LoadedMeshSettings settings;
         settings.level = 1;
         settings.threads = 1;
-        differences[internal][problem.pair.planet().parameters().tip_relief > 0].add(
+        differences[internal][problem.pair.pinion().parameters().tip_relief > 0].add(
             fem::solve_closed_form(problem, {}), fem::solve_loaded_mesh(problem, settings));
       } catch (const InputError&) {
         ++impossible;  // undercut, interference

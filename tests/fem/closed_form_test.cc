@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(tip_relief_takes_load_from_entering_pairs) {
                                      "the mesh without relief: less material is softer, and less of it touches");
   auto problem = ring_mesh(OutsideHeld{}, 16);
   const auto plain = solve_closed_form(problem, {});
-  auto planet = problem.pair.planet().parameters();
+  auto planet = problem.pair.pinion().parameters();
   planet.tip_relief = 20e-6;
   planet.tip_relief_length = 2e-3;
   problem.pair = {annulus::geometry::Gear(planet), problem.pair.wheel(), 0.201};
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(tip_edges_of_other_gears_and_with_tip_relief) {
   check_estimate(record, "held ring, a tenth to three times", ring_mesh(OutsideHeld{}, 16, loads(nominal_load)), 1);
   check_estimate(record, "sun, a tenth to three times", sun_mesh(16, loads(nominal_load)), 1);
   auto relieved = ring_mesh(OutsideHeld{}, 16, loads(nominal_load));
-  auto planet = relieved.pair.planet().parameters();
+  auto planet = relieved.pair.pinion().parameters();
   planet.tip_relief = 20e-6;
   planet.tip_relief_length = 3e-3;
   relieved.pair = {Gear(planet), relieved.pair.wheel(), 0.201};
@@ -276,7 +276,7 @@ LoadedMeshProblem random_ring_on_supports(std::mt19937& random) {
     if (const int common = std::gcd(count, ring_teeth); ring_teeth / common <= 8 || common >= 3)
       counts.push_back(count);
   const int count = counts[static_cast<std::size_t>(between(0, static_cast<double>(counts.size())))];
-  LoadedMeshProblem problem{pair, {}, 12 * module, pair.planet().root_radius() * between(0.3, 0.65), outside};
+  LoadedMeshProblem problem{pair, {}, 12 * module, pair.pinion().root_radius() * between(0.3, 0.65), outside};
   problem.phases = 8;
   problem.loads = {12 * module * module * between(6e6, 75e6)};  // 0.2 to 2.5 times a usual load
   if (count > 12 && chance(0.3)) {

@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(loads_positions_and_modifications_condense_nothing) {
     parameters.tip_relief_length = 3e-3;
     return annulus::geometry::Gear(parameters);
   };
-  problem.pair = {relieved(problem.pair.planet()), problem.pair.wheel(), problem.pair.centre_distance()};
+  problem.pair = {relieved(problem.pair.pinion()), problem.pair.wheel(), problem.pair.centre_distance()};
   const auto reused = solve(problem, store);
   count_teeth(record, "teeth condensed for a tip relief", reused.condensed_teeth, 0);
   check_the_same(record, solve(problem, nullptr), reused);

@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(stresses_of_the_field_are_those_of_the_surface) {
     for (const auto& field : result.fields) {
       const bool planet = field.body == "planet";
       const auto& position = result.positions[field.position];
-      const auto& gear = planet ? problem.pair.planet() : problem.pair.wheel();
+      const auto& gear = planet ? problem.pair.pinion() : problem.pair.wheel();
       BOOST_TEST(field.mesh.worst_scaled_jacobian() > 0.3);  // not turned inside out by the mirror
       // The largest stress lies where the teeth touch: of the ring at the angle of the contact in its own frame.
       const auto at = largest_at(field);

@@ -31,7 +31,7 @@ void along_the_paths(const F& f) {
 
 /// Arc length on the planet flank from roll a to roll b.
 double arc(const FlankContact& flanks, double a, double b) {
-  return (b * b - a * a) / (2 * flanks.pair().planet().base_radius());
+  return (b * b - a * a) / (2 * flanks.pair().pinion().base_radius());
 }
 
 BOOST_AUTO_TEST_CASE(the_two_gears_turn_in_the_ratio_of_their_teeth) {
@@ -41,8 +41,8 @@ BOOST_AUTO_TEST_CASE(the_two_gears_turn_in_the_ratio_of_their_teeth) {
     const double from = pair.roll_length_low(), to = pair.roll_length_high();
     const double planet = flanks.planet_tooth_angle(to) - flanks.planet_tooth_angle(from);
     const double wheel = flanks.wheel_tooth_angle(to) - flanks.wheel_tooth_angle(from);
-    BOOST_TEST(planet == (to - from) / pair.planet().base_radius(), boost::test_tools::tolerance(1e-12));
-    const double ratio = static_cast<double>(pair.planet().teeth()) / pair.wheel().teeth() * (internal ? 1 : -1);
+    BOOST_TEST(planet == (to - from) / pair.pinion().base_radius(), boost::test_tools::tolerance(1e-12));
+    const double ratio = static_cast<double>(pair.pinion().teeth()) / pair.wheel().teeth() * (internal ? 1 : -1);
     BOOST_TEST(wheel == ratio * planet, boost::test_tools::tolerance(1e-12));
   }
 }
@@ -51,8 +51,8 @@ BOOST_AUTO_TEST_CASE(neighbouring_teeth_touch_one_base_pitch_apart) {
   for (const bool internal : {true, false}) {
     const FlankContact flanks(ring_paper_pair(internal));
     const auto& pair = flanks.pair();
-    const double roll = pair.roll_length_pitch(), next = roll + pair.planet().base_pitch();
-    BOOST_TEST(flanks.planet_tooth_angle(next) - flanks.planet_tooth_angle(roll) == pair.planet().pitch_angle(),
+    const double roll = pair.roll_length_pitch(), next = roll + pair.pinion().base_pitch();
+    BOOST_TEST(flanks.planet_tooth_angle(next) - flanks.planet_tooth_angle(roll) == pair.pinion().pitch_angle(),
                boost::test_tools::tolerance(1e-12));
   }
 }
@@ -66,9 +66,9 @@ BOOST_AUTO_TEST_CASE(the_matched_point_lies_on_the_wheel_flank_at_the_stated_gap
       const auto match = flanks.match(roll, contact);
       // In the frame of the solve: planet at (a, 0), wheel at the origin.
       const Eigen::Rotation2Dd planet(flanks.planet_tooth_angle(contact));
-      const Eigen::Vector2d point = planet * flanks.planet().flank_point(roll) +
+      const Eigen::Vector2d point = planet * flanks.pinion().flank_point(roll) +
                                     Eigen::Vector2d(flanks.pair().centre_distance(), 0) +
-                                    match.gap * (planet * flanks.planet().flank_normal(roll));
+                                    match.gap * (planet * flanks.pinion().flank_normal(roll));
       Eigen::Vector2d own = Eigen::Rotation2Dd(-flanks.wheel_tooth_angle(contact)) * point;
       if (flanks.pair().internal()) own.y() = -own.y();  // the ring's trailing flank
       BOOST_TEST((own - flanks.wheel().flank_point(match.wheel_roll)).norm() < exact);
@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(beyond_the_path_the_flanks_do_not_touch) {
     const double low = flanks.pair().roll_length_low(), high = flanks.pair().roll_length_high();
     double before = 0, after = 0;
     for (const double share : {0.02, 0.1, 0.3}) {
-      const double distance = share * flanks.pair().planet().base_pitch();
+      const double distance = share * flanks.pair().pinion().base_pitch();
       const double gap_low = flanks.smallest_gap(low - distance), gap_high = flanks.smallest_gap(high + distance);
       BOOST_TEST(gap_low > before);
       BOOST_TEST(gap_high > after);
@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(nothing_is_nearer_than_the_nearest_point_within_and_beyond_
   for (const bool internal : {true, false}) {
     const FlankContact flanks(ring_paper_pair(internal));
     const double low = flanks.pair().roll_length_low(), high = flanks.pair().roll_length_high();
-    const double beyond = flanks.pair().planet().base_pitch();
+    const double beyond = flanks.pair().pinion().base_pitch();
     int clipped = 0;
     for (int i = 0; i <= 60; ++i) {
       const double contact = low - beyond + (high - low + 2 * beyond) * i / 60;
@@ -157,15 +157,15 @@ BOOST_AUTO_TEST_CASE(nothing_is_nearer_than_the_nearest_point_within_and_beyond_
 BOOST_AUTO_TEST_CASE(the_domain_ends_at_the_tip_edges) {
   along_the_paths([](const FlankContact& flanks, double contact) {
     const auto domain = flanks.domain(contact);
-    const double wheel_tip = flanks.wheel().roll_length_tip(), planet_tip = flanks.planet().roll_length_tip();
+    const double wheel_tip = flanks.wheel().roll_length_tip(), planet_tip = flanks.pinion().roll_length_tip();
     BOOST_TEST(domain.low <= contact + exact);
     BOOST_TEST(domain.high >= contact - exact);
-    BOOST_TEST(domain.low >= flanks.planet().roll_length_form());
+    BOOST_TEST(domain.low >= flanks.pinion().roll_length_form());
     BOOST_TEST(domain.high <= planet_tip);
     // At either end one of the two gears has its tip or form circle.
     const auto ends_properly = [&](double end) {
       const double wheel = flanks.match(end, contact).wheel_roll;
-      const double off = std::min({std::abs(end - planet_tip), std::abs(end - flanks.planet().roll_length_form()),
+      const double off = std::min({std::abs(end - planet_tip), std::abs(end - flanks.pinion().roll_length_form()),
                                    std::abs(wheel - wheel_tip), std::abs(wheel - flanks.wheel().roll_length_form())});
       return off < 1e-11;  // the bracketing root finder stops at 2^-50 of the roll length, the map stretches it little
     };
@@ -184,7 +184,7 @@ BOOST_AUTO_TEST_CASE(the_domain_ends_at_the_tip_edges) {
 
 BOOST_AUTO_TEST_CASE(flanks_that_do_not_face_each_other_have_no_domain) {
   const FlankContact flanks(ring_paper_pair(false));
-  BOOST_TEST(flanks.domain(flanks.pair().roll_length_high() + 3 * flanks.pair().planet().base_pitch()).empty());
+  BOOST_TEST(flanks.domain(flanks.pair().roll_length_high() + 3 * flanks.pair().pinion().base_pitch()).empty());
 }
 
 BOOST_AUTO_TEST_CASE(small_gears_are_matched_at_every_position_that_a_solve_looks_at) {
@@ -213,7 +213,7 @@ BOOST_AUTO_TEST_CASE(small_gears_are_matched_at_every_position_that_a_solve_look
             continue;  // gears or pairs that cannot exist
           }
           ++pairs;
-          const double pitch = flanks->pair().planet().base_pitch();
+          const double pitch = flanks->pair().pinion().base_pitch();
           const double low = flanks->pair().roll_length_low() - pitch;
           const double high = flanks->pair().roll_length_high() + pitch;
           for (int i = 0; i <= 12; ++i) {

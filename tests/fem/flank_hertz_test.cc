@@ -20,7 +20,7 @@ struct Difference {
 };
 
 Difference from_hertz(const ContactBench& bench, const LoadedPosition& position, int pair) {
-  const double base = bench.flanks().pair().planet().base_radius(), roll = position.pair_roll[pair];
+  const double base = bench.flanks().pair().pinion().base_radius(), roll = position.pair_roll[pair];
   const auto arc = [&](double r) { return r * r / (2 * base); };
   const double line_load = position.pair_share[pair] * position.load / bench.face_width();
   const double b = annulus::fem::hertz_half_width(line_load, bench.flanks().relative_curvature(roll), {});
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(every_pair_that_stays_away_from_tip_edges_does) {
     const auto problem = internal ? ring_mesh(annulus::fem::OutsideHeld{}, 2) : sun_mesh(2);
     ContactBench bench(problem, 1);
     const auto& pair = problem.pair;
-    const double base = pair.planet().base_radius();
+    const double base = pair.pinion().base_radius();
     int compared = 0;
     Difference worst;
     for (const auto& position : bench.sweep(16, nominal_load))

@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(every_slice_presses_as_hertz_says_along_the_oblique_line_of
     ContactBench bench(helical_sun_mesh(angle), 0, annulus::fem::Fidelity::solid);
     bench.set_elements(12);
     const auto& pair = bench.flanks().pair();
-    const double slant = std::cos(pair.planet().base_helix_angle()), base = pair.planet().base_radius();
+    const double slant = std::cos(pair.pinion().base_helix_angle()), base = pair.pinion().base_radius();
     const double load = 1e-2 * nominal_load, mean = load / bench.face_width();
     const auto arc = [&](double roll) { return roll * roll / (2 * base); };
     struct Slice {
@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(every_slice_presses_as_hertz_says_along_the_oblique_line_of
         slice.peak = std::max(slice.peak, patch.pressure);
       }
       for (const auto& [key, slice] : slices) {
-        const double ahead = bench.flanks().planet().twist() * base * (key.second - bench.face_width() / 2);
+        const double ahead = bench.flanks().pinion().twist() * base * (key.second - bench.face_width() / 2);
         const double roll = position.pair_roll[key.first] + ahead, at = arc(roll);
         const double b =
             annulus::fem::hertz_half_width(slice.force, slant * bench.flanks().relative_curvature(roll), {});

@@ -460,7 +460,7 @@ BOOST_AUTO_TEST_CASE(a_linear_ring_couples_alike_at_every_position) {
 /// The ring mesh of the paper with helical teeth, without backlash, on a sleeve.
 SolvedRingCoupling helical_sleeve(double helix_angle) {
   auto problem = ring_mesh(EndFaceHeld{18e-3, 10.6e-3, {}}, 2);
-  auto planet = problem.pair.planet().parameters(), wheel = problem.pair.wheel().parameters();
+  auto planet = problem.pair.pinion().parameters(), wheel = problem.pair.wheel().parameters();
   planet.helix_angle = wheel.helix_angle = helix_angle;
   const annulus::geometry::Gear p(planet), r(wheel);
   const double alpha = p.transverse_pressure_angle();

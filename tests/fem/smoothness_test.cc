@@ -52,7 +52,7 @@ class Cycle {
     half_width_ =
         annulus::fem::hertz_half_width(load / bench.face_width(), bench.flanks().relative_curvature(middle), {});
     // The contact moves along the flank by roll / r_b of its way along the line of action.
-    travel_ = half_width_ * pair.planet().base_radius() / middle / pair.planet().base_pitch();
+    travel_ = half_width_ * pair.pinion().base_radius() / middle / pair.pinion().base_pitch();
   }
 
   [[nodiscard]] double lte(int i) const { return positions_[i].entry.lte; }
@@ -80,7 +80,7 @@ class Cycle {
   [[nodiscard]] bool far_from_tip_edges(int i, int step) const {
     if (i < 2 * step || i + 2 * step > steps_) return false;
     const auto& pair = bench_.flanks().pair();
-    const double base = pair.planet().base_radius(), low = pair.roll_length_low(), high = pair.roll_length_high();
+    const double base = pair.pinion().base_radius(), low = pair.roll_length_low(), high = pair.roll_length_high();
     std::size_t touching = 0;
     for (int k = -2; k <= 2; ++k) {
       const auto& position = positions_[i + k * step];
@@ -193,7 +193,7 @@ BOOST_AUTO_TEST_CASE(where_a_contact_reaches_its_tip_edge_the_transmission_error
   for (const bool internal : {true, false}) {
     ContactBench bench(internal ? ring_mesh(annulus::fem::OutsideHeld{}, 2) : sun_mesh(2), 1);
     const auto& pair = bench.flanks().pair();
-    const double base = pair.planet().base_radius(), pitch = pair.planet().base_pitch();
+    const double base = pair.pinion().base_radius(), pitch = pair.pinion().base_pitch();
     for (const double roll : {pair.roll_length_low(), pair.roll_length_high()})
       for (const double load : {1e-3, 0.1, 1.0}) {
         const double b = annulus::fem::hertz_half_width(load * nominal_load / bench.face_width(),

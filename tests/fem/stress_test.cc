@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(the_tension_of_a_single_pair_has_the_size_of_iso_6336) {
   const auto most = std::max_element(p.pair_share.begin(), p.pair_share.end()) - p.pair_share.begin();
   const double line_load = p.pair_share[most] * p.load / problem.face_width, roll = p.pair_roll[most];
   BOOST_TEST(p.pair_share[most] > 0.9);
-  const double planet = iso_root_stress(ToothProfile(problem.pair.planet()), roll, line_load);
+  const double planet = iso_root_stress(ToothProfile(problem.pair.pinion()), roll, line_load);
   const double sun =
       iso_root_stress(ToothProfile(problem.pair.wheel()), problem.pair.wheel_roll_length(roll), line_load);
   BOOST_TEST_MESSAGE("planet " << p.planet_stress->root_tension << " Pa, ISO " << planet << "; sun "

@@ -258,7 +258,7 @@ BOOST_AUTO_TEST_CASE(what_differs_along_the_face_is_solved_whole) {
   BOOST_TEST(!half(misaligned));
   BOOST_TEST(!half(ring_mesh(annulus::fem::EndFaceHeld{18e-3, 10.6e-3}, 2)));
   BOOST_TEST(!half(ring_mesh(annulus::fem::FlangeHeld{88e-3, ring_outside + 15e-3}, 2)));
-  auto turned = ring_paper_planet(), sun = annulus::geometry::GearParameters(plain.pair.planet().parameters());
+  auto turned = ring_paper_planet(), sun = annulus::geometry::GearParameters(plain.pair.pinion().parameters());
   turned.helix_angle = 0.1;
   sun.helix_angle = -0.1;
   sun.tip_diameter.reset();

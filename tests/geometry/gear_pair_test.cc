@@ -67,12 +67,12 @@ BOOST_AUTO_TEST_CASE(published_helical_pair) {
   };
   const GearPair tight = pair(0.651877131252);
   const char* digits = "printed digits";
-  record.near("transverse pressure angle", "deg", tight.planet().transverse_pressure_angle() / units::deg,
+  record.near("transverse pressure angle", "deg", tight.pinion().transverse_pressure_angle() / units::deg,
               21.2990642859, 1e-10, digits);
   record.near("working pressure angle", "deg", tight.working_pressure_angle() / units::deg, 23.8707609654, 1e-10,
               digits);
   record.near("reference centre distance", "mm",
-              (tight.planet().reference_radius() + tight.wheel().reference_radius()) / units::mm, 114.3447280708, 1e-10,
+              (tight.pinion().reference_radius() + tight.wheel().reference_radius()) / units::mm, 114.3447280708, 1e-10,
               digits);
   record.near("normal backlash with the printed profile shift sum", "mm", tight.normal_backlash() / units::mm, 0, 1e-11,
               digits);
@@ -91,12 +91,12 @@ BOOST_AUTO_TEST_CASE(helical_pairs) {
   const GearPair internal(Gear(planet), Gear(ring), 54.5 * units::mm);
   for (const auto& pair : {external, internal}) {
     // Face width over axial pitch, the height in which a tooth trace advances by a pitch.
-    const double axial_pitch = pair.planet().pitch_angle() / ToothProfile(pair.planet()).twist();
+    const double axial_pitch = pair.pinion().pitch_angle() / ToothProfile(pair.pinion()).twist();
     record.close("overlap ratio", "", pair.overlap_ratio(), 20 * units::mm / axial_pitch, 1e-13, "rounding");
     BOOST_TEST(pair.total_contact_ratio() == pair.contact_ratio() + pair.overlap_ratio());
     // The line of contact in the plane of action: both sections advance by the same length per metre of z.
     const double side = pair.internal() ? 1 : -1;
-    BOOST_TEST(ToothProfile(pair.planet()).twist() * pair.planet().base_radius() ==
+    BOOST_TEST(ToothProfile(pair.pinion()).twist() * pair.pinion().base_radius() ==
                    side * ToothProfile(pair.wheel()).twist() * pair.wheel().base_radius(),
                boost::test_tools::tolerance(1e-13));
   }
@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(path_of_contact) {
     const double aw = mesh.working_pressure_angle();
     const double sign = mesh.internal() ? -1 : 1;
     // Seen from the planet's centre: tangent point at the angle aw from the line of centres, contact along the line.
-    const double rp = mesh.planet().base_radius();
+    const double rp = mesh.pinion().base_radius();
     const Eigen::Vector2d contact(rp * std::cos(aw) + rho * std::sin(aw), rp * std::sin(aw) - rho * std::cos(aw));
     const Eigen::Vector2d wheel_centre(sign * mesh.centre_distance(), 0);
     const double wheel_radius = std::hypot(mesh.wheel().base_radius(), mesh.wheel_roll_length(rho));

@@ -146,22 +146,22 @@ BOOST_AUTO_TEST_CASE(contact_points_lie_on_both_flanks) {
     const auto line = action_line(pair);
     const auto stand = pair_places(pair);
     const Eigen::Vector2d centre(pair.centre_distance(), 0);
-    const double rb = pair.planet().base_radius(), rw = pair.wheel().base_radius();
+    const double rb = pair.pinion().base_radius(), rw = pair.wheel().base_radius();
     record.at_most("distance of the line of action from the planet's base circle", "m",
                    std::abs((line.tangent - centre).norm() - rb), 1e-15, "rounding");
     BOOST_TEST(std::abs((line.tangent - centre).dot(line.along)) < 1e-15);
     record.at_most("distance of the line of action from the wheel's base circle", "m",
                    std::abs(std::abs(annulus::test::cross(line.tangent, line.along)) - rw), 1e-12, "rounding");
     // Pitch point: centre distance parted as the numbers of teeth.
-    const double ratio = static_cast<double>(pair.wheel().teeth()) / pair.planet().teeth();
+    const double ratio = static_cast<double>(pair.wheel().teeth()) / pair.pinion().teeth();
     const double pitch = pair.centre_distance() * ratio / (pair.internal() ? ratio - 1 : ratio + 1);
     const Eigen::Vector2d c = line.tangent + pair.roll_length_pitch() * line.along;
     record.at_most("distance from the pitch point", "m", (c - Eigen::Vector2d(pitch, 0)).norm(), 1e-12, "rounding");
-    const auto planet = whole(pair.planet(), centre, stand.planet, fine);
+    const auto planet = whole(pair.pinion(), centre, stand.planet, fine);
     const auto wheel = whole(pair.wheel(), {0, 0}, stand.wheel, fine);
     // One base pitch further the next pair touches.
     for (const int k : {-1, 0, 1}) {
-      const double roll = pair.roll_length_pitch() + k * pair.planet().base_pitch();
+      const double roll = pair.roll_length_pitch() + k * pair.pinion().base_pitch();
       if (roll < pair.roll_length_low() || roll > pair.roll_length_high()) continue;
       const Eigen::Vector2d p = line.tangent + roll * line.along;
       record.at_most("distance of contacts from the planet's outline", "m", annulus::test::distance(planet, p),

@@ -53,7 +53,7 @@ std::string teeth(const Mesh& sector, const TeethCopies& copies, int each_side, 
 std::string plane_picture(const fem::LoadedMeshProblem& problem, const fem::LoadedMeshResult& solved,
                           const std::string& name) {
   const auto& pair = problem.pair;
-  const auto &planet = pair.planet(), &wheel = pair.wheel();
+  const auto &planet = pair.pinion(), &wheel = pair.wheel();
   const double centre = pair.centre_distance(), support = problem.wheel_support_radius;
   const auto [planet_first, wheel_first] = geometry::pair_places(pair);  // pitch-point contact
   const double wheel_pitch = wheel.base_radius() / std::cos(pair.working_pressure_angle());

@@ -29,8 +29,8 @@ Window window_of(const geometry::GearPair& pair) {
   constexpr double pitches = 2.6, modules = 3.4, air = 0.6;
   const double cosine = std::cos(pair.working_pressure_angle());
   const double wheel_base = pair.wheel().base_radius(), pitch = wheel_base / cosine;
-  const double module = pair.planet().parameters().module;
-  const double planet_base = pair.planet().base_radius();
+  const double module = pair.pinion().parameters().module;
+  const double planet_base = pair.pinion().base_radius();
   const double other = pair.internal() ? pair.centre_distance() + planet_base : pair.centre_distance() - planet_base;
   const double half = pitches * pair.wheel().pitch_angle() * pitch;
   return {std::max(std::min({pitch - modules * module, wheel_base - air * module, other - air * module}), pitch - half),
@@ -40,7 +40,7 @@ Window window_of(const geometry::GearPair& pair) {
 
 /// Roll lengths of the planet at which teeth touch while one pair touches in the pitch point.
 std::vector<double> contacts(const geometry::GearPair& pair) {
-  const double pitch = pair.planet().base_pitch();
+  const double pitch = pair.pinion().base_pitch();
   std::vector<double> rolls;
   for (double roll =
            pair.roll_length_pitch() - pitch * std::floor((pair.roll_length_pitch() - pair.roll_length_low()) / pitch);
@@ -71,7 +71,7 @@ std::string action(const DrawingPage& page, const geometry::GearPair& pair, cons
 /// In rows from `y` on; what is drawn has a sample in front.
 std::string teeth_legend(const TeethInMesh& drawing, const geometry::GearPair& pair, double y, double scale) {
   const auto diameters = [&](double factor) {
-    return fmt::format("⌀ {} ({}), ⌀ {} ({})", mm_text(2 * factor * pair.planet().base_radius()), drawing.planet_name,
+    return fmt::format("⌀ {} ({}), ⌀ {} ({})", mm_text(2 * factor * pair.pinion().base_radius()), drawing.planet_name,
                        mm_text(2 * factor * pair.wheel().base_radius()), drawing.wheel_name);
   };
   std::string text;
@@ -98,14 +98,14 @@ std::string to_svg(const TeethInMesh& drawing, const geometry::GearPair& pair) {
   const DrawingPage page{scale, {0.5 * teeth_width, scale * window.high}};
   const Eigen::Vector2d axis(0, 0), centre(pair.centre_distance(), 0);
   const auto [planet_angle, wheel_angle] = geometry::pair_places(pair);
-  const DrawnGear planet{.gear = pair.planet(), .id = drawing.id + "-planet", .fill = planet_fill};
+  const DrawnGear planet{.gear = pair.pinion(), .id = drawing.id + "-planet", .fill = planet_fill};
   const DrawnGear wheel{.gear = pair.wheel(),
                         .id = drawing.id + "-wheel",
                         .fill = pair.internal() ? wheel_fill : sun_fill,
                         .outside_radius = drawing.wheel_outside_radius};
   std::string shown = gear_defs(page, wheel) + placed_gear(page, wheel, axis, wheel_angle);
   shown += gear_defs(page, planet) + placed_gear(page, planet, centre, planet_angle);
-  for (const auto& [where, gear] : {std::pair{centre, pair.planet()}, {axis, pair.wheel()}}) {
+  for (const auto& [where, gear] : {std::pair{centre, pair.pinion()}, {axis, pair.wheel()}}) {
     shown += page.circle(where, gear.base_radius(), base_circle_style);
     shown += page.circle(where, gear.base_radius() / std::cos(pair.working_pressure_angle()), pitch_circle_style);
   }

@@ -13,11 +13,11 @@ namespace annulus::app {
 
 /// What follows from the scene without computing an elastic body.
 struct PairGeometry {
-  geometry::GearPair gears;     ///< `planet()` is the pinion
+  geometry::GearPair gears;
   double base_helix_angle = 0;  ///< rad, without its sign
   double transverse_force = 0;  ///< N, magnitude, along the transverse line of action: torque / base radius
 
-  [[nodiscard]] const geometry::Gear& pinion() const { return gears.planet(); }
+  [[nodiscard]] const geometry::Gear& pinion() const { return gears.pinion(); }
   [[nodiscard]] const geometry::Gear& wheel() const { return gears.wheel(); }
   /// N/m along the normal of the flanks = this x N/m along the transverse line of action: the normal force is larger by
   /// 1/cos b, the normal deflection smaller by cos b.

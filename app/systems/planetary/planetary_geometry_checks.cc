@@ -73,7 +73,7 @@ void check_planetary_geometry(const Scene& scene, const GearGeometry& geometry) 
   const bool sun = scene.sun_planet.stiffness == StiffnessShape::computed;
   const bool ring = scene.ring_planet.stiffness == StiffnessShape::computed;
   if (sun) check_bore(scene, "sun", scene.sun, geometry.sun_mesh().wheel());
-  if (sun || ring) check_bore(scene, "planet", scene.planet, geometry.sun_mesh().planet());
+  if (sun || ring) check_bore(scene, "planet", scene.planet, geometry.sun_mesh().pinion());
   for (std::size_t i = 0; ring && i < scene.rings.size(); ++i)
     check_ring_rim(scene, scene.rings[i], geometry.rings.at(i));
 

@@ -159,7 +159,7 @@ class TorsionalPair final : public GearSystem {
   }
 
   [[nodiscard]] double mean_mesh_force() const override {
-    return scene().stage.pinion_torque / gears().planet().base_radius();
+    return scene().stage.pinion_torque / gears().pinion().base_radius();
   }
 
   [[nodiscard]] MeshResult stiffness(const MeshModel& mesh, const RunOptions& options) const override {
@@ -173,7 +173,7 @@ class TorsionalPair final : public GearSystem {
     const auto mass = [](double inertia, const geometry::Gear& gear) {
       return inertia / std::pow(gear.base_radius(), 2);
     };
-    const double pinion = mass(scene().pinion.inertia.value() + scene().own<DriveInput>().inertia, pair.planet()),
+    const double pinion = mass(scene().pinion.inertia.value() + scene().own<DriveInput>().inertia, pair.pinion()),
                  wheel = mass(scene().wheel.inertia.value(), pair.wheel()), force = mean_mesh_force();
     // What is prescribed is read from the scene.
     const auto& input = scene().pinion_wheel;

@@ -97,7 +97,7 @@ void check_two_k_v_geometry(const Scene& scene, const geometry::GearPair& pair) 
   const bool elastic = needs_bodies(scene.sun_planet);
   if (elastic) {
     check_bore(scene, "sun", scene.sun, pair.wheel());
-    check_bore(scene, "planet", scene.planet, pair.planet());
+    check_bore(scene, "planet", scene.planet, pair.pinion());
   }
   constexpr const char* load = "output.torque_Nm";
   const auto stage = two_k_v_kinematics(scene);

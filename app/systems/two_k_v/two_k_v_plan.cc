@@ -33,7 +33,7 @@ std::vector<Quantity> two_k_v_quantities(const Scene& scene, const geometry::Gea
       // Of unshifted gears only rounding is left.
       {"sun_mesh_normal_backlash_um", std::round(pair.normal_backlash() / units::um * 1e6) / 1e6, "µm",
        "backlash of the sun mesh along the line of action, from the profile shifts"},
-      quantity("planet_tip_diameter_mm", 2 * pair.planet().tip_radius(), "planet tip diameter"),
+      quantity("planet_tip_diameter_mm", 2 * pair.pinion().tip_radius(), "planet tip diameter"),
       quantity("sun_tip_diameter_mm", 2 * pair.wheel().tip_radius(), "sun tip diameter"),
   };
   if (const auto arc = arc_tooth_mesh(scene))

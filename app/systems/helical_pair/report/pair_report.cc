@@ -19,12 +19,12 @@ Section pair_drawings(const PairRunResult& result) {
   TransverseSection section{
       .title = "Pinion and wheel: transverse section",
       .label = fmt::format("Pinion and wheel: transverse section to scale, {} and {} teeth, centre distance {} mm",
-                           gears.planet().teeth(), gears.wheel().teeth(), mm_text(gears.centre_distance()))};
+                           gears.pinion().teeth(), gears.wheel().teeth(), mm_text(gears.centre_distance()))};
   section.gears.push_back(
       {{.gear = gears.wheel(), .id = "pair-wheel", .fill = sun_fill, .inner_radius = bore_radius(scene.wheel)},
        {{axis, stand.wheel}}});
   section.gears.push_back(
-      {{.gear = gears.planet(), .id = "pair-pinion", .fill = planet_fill, .inner_radius = bore_radius(scene.pinion)},
+      {{.gear = gears.pinion(), .id = "pair-pinion", .fill = planet_fill, .inner_radius = bore_radius(scene.pinion)},
        {{centre, stand.planet}}});
   section.lengths.push_back({axis, centre, 0, "a = "});
   return geometry_section(Pictures{{drawn(section), drawn(TeethInMesh{.title = "Pinion and wheel in mesh",
@@ -35,7 +35,7 @@ Section pair_drawings(const PairRunResult& result) {
                                    {},
                                    "All lengths in millimetres. Left: the pair. Right: its " +
                                        teeth_words("pinion", "wheel") + helical_note(scene.stage.helix_angle)} +
-                          diameter_table({{"pinion", gears.planet(), bore_radius(scene.pinion)},
+                          diameter_table({{"pinion", gears.pinion(), bore_radius(scene.pinion)},
                                           {"wheel", gears.wheel(), bore_radius(scene.wheel)}}));
 }
 

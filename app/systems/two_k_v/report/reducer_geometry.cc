@@ -58,7 +58,7 @@ Section drawings_section(const TwoKVResult& result) {
       .title = "Sun and planets: transverse section",
       .label = fmt::format("Sun and planets: transverse section to scale, sun of {} teeth, {} planets of {}; centre "
                            "distance {} mm",
-                           pair.wheel().teeth(), scene.stage.planets, pair.planet().teeth(),
+                           pair.wheel().teeth(), scene.stage.planets, pair.pinion().teeth(),
                            mm_text(pair.centre_distance()))};
   std::vector<std::pair<double, double>> planets;
   for (int n = 0; n < scene.stage.planets; ++n) {
@@ -77,7 +77,7 @@ Section drawings_section(const TwoKVResult& result) {
   }
   return geometry_section(Pictures{pictures, {}, words} +
                           diameter_table({{"sun", pair.wheel(), bore_radius(scene.sun)},
-                                          {"planet", pair.planet(), bore_radius(scene.planet)}}));
+                                          {"planet", pair.pinion(), bore_radius(scene.planet)}}));
 }
 
 }  // namespace annulus::app
