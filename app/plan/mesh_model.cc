@@ -95,11 +95,7 @@ std::string MeshModel::id() const {
   return id.id();
 }
 
-std::string MeshModel::label() const {
-  if (mesh == pinion_wheel) return "mesh of pinion and wheel";
-  if (mesh == arc_pins) return "mesh of arc teeth and pins";
-  return ring.empty() ? "sun-planet mesh" : fmt::format("ring-planet mesh of '{}'", ring);
-}
+std::string MeshModel::label() const { return ring.empty() ? title : fmt::format("{} of '{}'", title, ring); }
 
 fem::FaceFeatures face_features(const Scene& scene, const GearInput& planet, const std::string& planet_name,
                                 const GearInput& wheel, const std::string& wheel_name, double misalignment) {
@@ -114,6 +110,7 @@ std::string solid_reason(const Scene& scene, const GearMesh& mesh) {
 MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
   MeshModel model;
   model.mesh = mesh.mesh;
+  model.title = mesh.title;
   model.ring = mesh.ring;
   model.planet_body = mesh.planet_name;
   model.wheel_body = mesh.wheel_name;

@@ -12,11 +12,6 @@
 
 namespace annulus::app {
 
-inline constexpr const char* sun_planet = "sun_planet";
-inline constexpr const char* ring_planet = "ring_planet";
-inline constexpr const char* pinion_wheel = "pinion_wheel";
-inline constexpr const char* arc_pins = "arc_pins";
-
 /// Something decided before computing, and why.
 struct Decision {
   std::string what;    ///< "elements"
@@ -29,7 +24,8 @@ struct MeshModel;
 
 /// How the stiffness of one mesh is found, and why so: the decision of the planner, carried out by the pipeline.
 struct MeshModel : fem::MeshChoice {
-  std::string mesh{};                                     ///< "sun_planet", "ring_planet", "pinion_wheel" or "arc_pins"
+  std::string mesh{};                                     ///< its name in files, keys and tables: "sun_planet"
+  std::string title{};                                    ///< for people: "sun-planet mesh"
   std::string ring{};                                     ///< empty for the sun mesh, which all rings share
   std::string planet_body{"planet"}, wheel_body{"ring"};  ///< names of its bodies: "pinion"; "sun", "wheel"
   std::string fidelity{};                                 ///< fem::fidelity_name(), or "given" by the scene
@@ -48,6 +44,7 @@ struct MeshModel : fem::MeshChoice {
 /// A mesh of two gears of a scene.
 struct GearMesh {
   std::string mesh;    ///< name of files and tables
+  std::string title;   ///< for people
   std::string ring{};  ///< name of the ring, where the wheel is one of several
   const geometry::GearPair& pair;
   const MeshInput& input;

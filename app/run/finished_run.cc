@@ -49,12 +49,10 @@ std::string run_id(const Scene& scene, const RunOptions& options) {
   for (const auto& input : scene.inputs)
     id.add(input.ring + input.key,
            fmt::format("{} {} {} {}", to_text(input.value), to_text(input.origin), input.note, input.assumed));
-  const auto add_file = [&](const std::optional<std::string>& name) {
-    if (name) id.add(*name, stamp(scene.file.parent_path() / *name));
-  };
-  add_file(scene.reference);
-  for (const auto* mesh : {&scene.sun_planet, &scene.ring_planet, &scene.pinion_wheel, &scene.arc_pins})
-    add_file(mesh->file);
+  for (const auto& input : scene.inputs)
+    if (const auto* name = std::get_if<std::string>(&input.value);
+        name && (input.key == "reference" || input.key.ends_with(".file")))
+      id.add(*name, stamp(scene.file.parent_path() / *name));
   return id.id();
 }
 

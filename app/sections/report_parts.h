@@ -86,13 +86,6 @@ template <class Subject>
   return table;
 }
 
-// modes.cc
-/// Groups of elements for readers: "crank bearings" for crank_bearing.
-[[nodiscard]] std::string element_group(const std::string& name);
-/// "sun meshes 61 %, crank bearings 30 %": the groups with most strain energy, at most so many and from 5 % on.
-[[nodiscard]] std::string strain_words(const std::vector<std::string>& groups,
-                                       const Eigen::Ref<const Eigen::VectorXd>& shares, std::size_t most);
-
 // answers.cc
 /// What the stiffness of the ring mesh, load sharing and dynamic factors of several rings say, and the last two in one
 /// picture: by how much the most loaded planet and the largest dynamic load exceed the ideal. `names`: of the rings, in

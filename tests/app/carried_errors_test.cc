@@ -17,6 +17,7 @@
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 #include "app/systems/planetary/stage_modes.h"
+#include "app/systems/shared/mesh_names.h"
 #include "core/files.h"
 #include "core/log.h"
 #include "tests/app/scenes.h"

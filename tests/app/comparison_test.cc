@@ -6,6 +6,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "app/systems/shared/mesh_names.h"
 #include "core/files.h"
 #include "tests/app/scenes.h"
 

@@ -7,6 +7,7 @@
 
 #include "app/model/excitation.h"
 #include "app/model/mesh_solve.h"
+#include "app/systems/shared/mesh_names.h"
 #include "core/errors.h"
 #include "core/not_known.h"
 #include "fem/closed_form/helical_table.h"
@@ -19,6 +20,7 @@ constexpr double steel_single_stiffness = 14e9;  // c' of ISO 6336-1, Pa
 
 GearMesh external_pair(const Scene& scene, const PairGeometry& geometry) {
   return {.mesh = pinion_wheel,
+          .title = "mesh of pinion and wheel",
           .pair = geometry.gears,
           .input = scene.pinion_wheel,
           .planet = scene.pinion,

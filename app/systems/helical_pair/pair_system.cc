@@ -10,6 +10,7 @@
 #include "app/systems/helical_pair/pair_lumped_model.h"
 #include "app/systems/helical_pair/pair_run.h"
 #include "app/systems/helical_pair/pair_scene.h"
+#include "app/systems/shared/mesh_names.h"
 #include "example_scenes.h"
 
 namespace annulus::app {

@@ -5,6 +5,7 @@
 #include "app/results/cached_value.h"
 #include "app/systems/planetary/ring_structures.h"
 #include "app/systems/planetary/stage_response.h"
+#include "app/systems/shared/mesh_names.h"
 #include "dynamics/systems/planetary/initial_spread.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 #include "dynamics/systems/planetary/study_point.h"
@@ -23,6 +24,7 @@ std::string solid_reason(const Scene& scene) {
 
 MeshModel sun_mesh_model(const Scene& scene, const GearGeometry& geometry) {
   return mesh_model(scene, {.mesh = sun_planet,
+                            .title = "sun-planet mesh",
                             .pair = geometry.sun_mesh(),
                             .input = scene.sun_planet,
                             .planet = scene.planet,
@@ -38,6 +40,7 @@ MeshModel ring_mesh_model(const Scene& scene, const GearGeometry& geometry, std:
   const auto& input = scene.rings.at(ring);
   const auto& made = geometry.rings.at(ring);
   return mesh_model(scene, {.mesh = ring_planet,
+                            .title = "ring-planet mesh",
                             .ring = input.name,
                             .pair = made.set.ring_mesh(),
                             .input = scene.ring_planet,

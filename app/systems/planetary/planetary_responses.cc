@@ -7,6 +7,7 @@
 #include "app/systems/planetary/planetary_plan.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_response.h"
+#include "app/systems/shared/mesh_names.h"
 #include "dynamics/steady_state/integration_cost.h"
 
 namespace annulus::app {

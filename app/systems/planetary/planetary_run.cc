@@ -7,6 +7,7 @@
 #include "app/scene/input_place.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_members.h"
+#include "app/systems/shared/mesh_names.h"
 #include "core/errors.h"
 #include "core/log.h"
 #include "core/parallel.h"

@@ -9,6 +9,7 @@
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/rim_coupling.h"
+#include "app/systems/shared/mesh_names.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 #include "example_scenes.h"
 

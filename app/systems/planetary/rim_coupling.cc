@@ -8,6 +8,7 @@
 
 #include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
+#include "app/systems/shared/mesh_names.h"
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/log.h"

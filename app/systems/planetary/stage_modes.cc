@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/systems/planetary/rim_coupling.h"
+#include "app/systems/shared/mesh_names.h"
 #include "core/units.h"
 #include "dynamics/figures/common_figures.h"
 #include "dynamics/systems/planetary/campbell.h"

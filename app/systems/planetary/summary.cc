@@ -5,6 +5,7 @@
 
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
+#include "app/systems/shared/mesh_names.h"
 #include "core/json.h"
 
 namespace annulus::app {

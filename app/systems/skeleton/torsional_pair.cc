@@ -148,6 +148,7 @@ class TorsionalPair final : public GearSystem {
   [[nodiscard]] std::vector<MeshModel> meshes() const override {
     const auto pair = gears();
     return {mesh_model(scene(), {.mesh = mesh_name,
+                                 .title = "mesh of pinion and wheel",
                                  .pair = pair,
                                  .input = scene().pinion_wheel,
                                  .planet = scene().pinion,

@@ -8,6 +8,7 @@
 #include "app/model/excitation.h"
 #include "app/model/stiff_supports.h"
 #include "app/results/cached_value.h"
+#include "app/systems/shared/mesh_names.h"
 #include "app/systems/two_k_v/two_k_v_members.h"
 #include "core/errors.h"
 #include "core/units.h"
@@ -94,6 +95,7 @@ std::optional<Scene> compared_scene(const Scene& scene) {
 MeshModel two_k_v_sun_model(const Scene& scene) {
   const auto pair = sun_planet_pair(scene);
   return mesh_model(scene, {.mesh = sun_planet,
+                            .title = "sun-planet mesh",
                             .pair = pair,
                             .input = scene.sun_planet,
                             .planet = scene.planet,
@@ -107,6 +109,7 @@ MeshModel two_k_v_sun_model(const Scene& scene) {
 MeshModel arc_pins_model(const Scene& scene) {
   MeshModel model;
   model.mesh = arc_pins;
+  model.title = "mesh of arc teeth and pins";
   if (is_computed(scene.arc_pins)) {
     model.fidelity = "line_contact";
     model.reason = "line contact of pins and concave arcs, shared by all pins on the loaded side";

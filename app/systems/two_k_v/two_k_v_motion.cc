@@ -6,6 +6,7 @@
 
 #include "app/model/table_errors.h"
 #include "app/results/content_id.h"
+#include "app/systems/shared/mesh_names.h"
 #include "core/files.h"
 #include "core/json.h"
 #include "dynamics/systems/two_k_v/two_k_v_figures.h"

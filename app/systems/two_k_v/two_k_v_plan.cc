@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "app/model/stiff_supports.h"
+#include "app/systems/shared/mesh_names.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "core/units.h"
 #include "dynamics/steady_state/integration_cost.h"

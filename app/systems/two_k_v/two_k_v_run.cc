@@ -4,6 +4,7 @@
 
 #include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
+#include "app/systems/shared/mesh_names.h"
 #include "app/systems/two_k_v/two_k_v_members.h"
 #include "core/log.h"
 

@@ -4,6 +4,7 @@
 
 #include "app/model/mesh_figures.h"
 #include "app/plan/plan.h"
+#include "app/systems/shared/mesh_names.h"
 #include "app/systems/two_k_v/two_k_v_run.h"
 #include "app/systems/two_k_v/two_k_v_scene.h"
 #include "dynamics/systems/two_k_v/two_k_v_figures.h"

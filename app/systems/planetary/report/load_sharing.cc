@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/systems/planetary/report/stage_report_parts.h"
+#include "app/systems/shared/mesh_names.h"
 #include "dynamics/figures/spectrum.h"
 
 namespace annulus::app {

@@ -5,6 +5,7 @@
 
 #include "app/report/drawings/mode.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
+#include "app/systems/shared/element_words.h"
 #include "core/units.h"
 
 namespace annulus::app {

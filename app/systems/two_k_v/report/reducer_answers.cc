@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/systems/shared/element_words.h"
 #include "core/units.h"
 
 namespace annulus::app {

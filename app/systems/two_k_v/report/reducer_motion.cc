@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/systems/shared/mesh_names.h"
 #include "app/systems/two_k_v/report/reducer_report_parts.h"
 #include "core/units.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <regex>
 
+#include "app/systems/shared/element_words.h"
 #include "app/systems/two_k_v/report/reducer_report_parts.h"
 #include "core/units.h"
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <numeric>
 
-#include "app/sections/report_parts.h"
+#include "app/systems/shared/element_words.h"
 
 namespace annulus::app {
 
