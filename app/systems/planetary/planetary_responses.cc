@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "app/model/stiff_supports.h"
+#include "app/plan/accuracy_choice.h"
 #include "app/systems/planetary/planetary_plan.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_response.h"
