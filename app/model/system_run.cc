@@ -40,7 +40,8 @@ std::vector<const MeshResult*> SystemRun::meshes() const {
 
 std::vector<const MeshResult*> SystemRun::tables_of(std::size_t variant) const {
   std::vector<const MeshResult*> list;
-  for (const std::size_t i : system->run_variants().at(variant).tables) list.push_back(&tables.at(i));
+  const auto variants = system->run_variants();
+  for (const std::size_t i : variants.at(variant).tables) list.push_back(&tables.at(i));
   return list;
 }
 
