@@ -88,11 +88,11 @@ MeshResult computed_stiffness(const MeshModel& model, const std::string& folder,
                                        [&] { return solved_stiffness(model, out, options); });
   note_reuse(options, model.label(), reused);
   if (options.for_study) count_reuse(options, study_meshes, reused ? 1 : 0, reused ? 0 : 1);
+  result.model = model;
   if (reused) {
     log::info(fmt::format("{}: unchanged, reused", model.label()));
     save(result, out);
   }
-  result.model = model;
   result.reused = reused;
   result.bodies.clear();
   return std::move(result);

@@ -161,8 +161,9 @@ BOOST_AUTO_TEST_CASE(closed_form_and_iso_formula_agree) {
   const auto scene = parsed_pair(test::quick_pair());
   const auto geometry = app::make_pair_geometry(scene);
   const auto stiffnesses = [&](const app::Scene& of) {
-    const auto mesh = app::pair_stiffness(of, geometry, app::pair_mesh_model(of, geometry), {});
-    return app::mean_stiffnesses(of, geometry, app::PairMesh(mesh));
+    const auto own = app::make_pair_geometry(of);
+    const auto mesh = app::pair_stiffness(of, own, app::pair_mesh_model(of, own), {});
+    return app::mean_stiffnesses(of, own, app::PairMesh(mesh));
   };
   const auto list = stiffnesses(scene);
   BOOST_TEST_REQUIRE(list.size() == 3U);
