@@ -106,7 +106,8 @@ FigureSet mesh_figures(const MeshResult& mesh) {
   for (const bool planet : {true, false})
     for (const auto& [key, title] : stress_names) {
       const auto column = std::string(mesh.model.body_name(planet)) + "_" + key;
-      if (const auto stress = mesh.peak(column + "_MPa"); stress && std::isfinite(stress->value))
+      // A body without a free rim has none of its stresses.
+      if (const auto stress = mesh.peak(column + "_MPa"); stress && std::isfinite(stress->value) && stress->value != 0)
         figures.set(name + "_" + column + "_Pa", 1e6 * stress->value);
     }
   return figures;
