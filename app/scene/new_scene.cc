@@ -3,19 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/replace.hpp>
 #include <sstream>
 
 #include "app/scene/scene_kind.h"
-#include "app/scene/scene_limits.h"
 #include "core/json.h"
 
 namespace annulus::app {
 
 namespace {
 
-/// As in JSON, whose escapes TOML shares.
+/// As in JSON, whose escapes TOML shares; JSON leaves a delete character as it is, which TOML does not allow.
 std::string quoted(const std::string& text) {
-  return Json(without_controls(text)).dump(-1, ' ', false, Json::error_handler_t::replace);
+  return boost::replace_all_copy(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace), "\x7f", "\\u007f");
 }
 
 /// Lines of a comment, broken between words.
