@@ -1,0 +1,163 @@
+#include "tests/random/campaign.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <mutex>
+#include <regex>
+
+#include "core/parallel.h"
+
+namespace annulus::random {
+
+namespace {
+
+/// One line of the program about what is wrong.
+std::string first_line(const std::string& message) {
+  const auto end = message.find('\n');
+  return message.substr(0, std::min<std::size_t>(end, 300));
+}
+
+class Campaign {
+ public:
+  explicit Campaign(const CampaignSettings& settings) : settings_(settings) {
+    for (const auto& relation : relations())
+      if (settings.relations.empty() ||
+          std::find(settings.relations.begin(), settings.relations.end(), relation.name) != settings.relations.end())
+        relations_.push_back(&relation);
+  }
+
+  CampaignResult run() {
+    for_each_task(static_cast<std::size_t>(settings_.scenes), settings_.jobs, [&](std::size_t i) {
+      const auto scene = random_scene(settings_.first_seed + i);
+      for (const auto* relation : relations_)
+        if (const auto pair = relation->pair(scene)) run_pair(scene, *relation, *pair);
+    });
+    std::sort(result_.complaints.begin(), result_.complaints.end());
+    return std::move(result_);
+  }
+
+ private:
+  SceneRun run_one(const std::string& toml, const std::filesystem::path& folder, const std::string& arguments,
+                   bool fresh) {
+    return run_scene(toml, folder, {settings_.program, arguments, settings_.seconds, fresh, settings_.max_time});
+  }
+
+  void run_pair(const RandomScene& scene, const Relation& relation, const RunPair& pair) {
+    auto name = fmt::format("{}-{}", scene.seed, relation.name);
+    std::replace(name.begin(), name.end(), ' ', '_');
+    const auto folder = settings_.folder / name;
+    const auto first = run_one(pair.first, folder / "first", pair.first_arguments, true);
+    SceneRun second;
+    if (first.outcome == Outcome::right)
+      second = run_one(pair.second, pair.second_reuses ? folder / "first" : folder / "second", pair.second_arguments,
+                       !pair.second_reuses);
+    const bool keep = note(scene, relation, first, second);
+    if (!keep) std::filesystem::remove_all(folder);
+  }
+
+  /// Whether the pair is worth looking at.
+  bool note(const RandomScene& scene, const Relation& relation, const SceneRun& first, const SceneRun& second) {
+    const std::lock_guard lock(mutex_);
+    auto& tally = result_.relations[relation.name];
+    ++tally.tried;
+    for (const auto* run : {&first, &second}) {
+      if (run->outcome == Outcome::right) {
+        result_.costs.push_back(run->cost);
+        continue;
+      }
+      ++tally.outcomes[run->outcome];
+      if (run->outcome == Outcome::refused || run->outcome == Outcome::too_expensive) return false;
+      complain(scene, relation, fmt::format("{}: {}", outcome_text(run->outcome), first_line(run->message)));
+      return true;
+    }
+    std::string worst;
+    double largest = 1;
+    for (const auto& r : compared(relation, first, second)) {
+      static const std::regex order("_[0-9]+$");  // all natural frequencies are one result
+      result_.results[relation.name][std::regex_replace(r.key, order, "")].effectivities.push_back(r.effectivity());
+      if (r.effectivity() <= largest) continue;
+      largest = r.effectivity();
+      worst = fmt::format("{}: {} and {}, allowed difference {:.2g}, {:.3g} times that", r.key, r.first, r.second,
+                          r.allowed, largest);
+    }
+    if (worst.empty()) {
+      ++tally.agreed;
+      return false;
+    }
+    ++tally.disagreed;
+    complain(scene, relation, worst);
+    return true;
+  }
+
+  void complain(const RandomScene& scene, const Relation& relation, const std::string& what) {
+    result_.complaints.push_back(
+        fmt::format("seed {} ({}, {}), {}: {}", scene.seed, scene.kind, scene.model, relation.name, what));
+    std::cerr << result_.complaints.back() << std::endl;
+  }
+
+  const CampaignSettings& settings_;
+  std::vector<const Relation*> relations_;
+  std::mutex mutex_;
+  CampaignResult result_;
+};
+
+double quantile_of(std::vector<double> list, double share) {
+  if (list.empty()) return not_known;
+  std::sort(list.begin(), list.end());
+  return list[static_cast<std::size_t>(share * static_cast<double>(list.size() - 1) + 0.5)];
+}
+
+std::string cost_text(const std::vector<Cost>& costs, const char* name, double Cost::*predicted, double Cost::*actual,
+                      double smallest) {
+  std::vector<double> ratios;
+  for (const auto& cost : costs)
+    if (cost.*predicted > 0 && std::max(cost.*actual, cost.*predicted) > smallest)
+      ratios.push_back(cost.*actual / cost.*predicted);
+  if (ratios.empty()) return "";
+  return fmt::format("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", name, ratios.size(),
+                     quantile_of(ratios, 0), quantile_of(ratios, 0.05), quantile_of(ratios, 0.5),
+                     quantile_of(ratios, 0.95), quantile_of(ratios, 1));
+}
+
+}  // namespace
+
+double ResultTally::coverage() const {
+  const auto within = std::count_if(effectivities.begin(), effectivities.end(), [](double e) { return e <= 1; });
+  return static_cast<double>(within) / static_cast<double>(effectivities.size());
+}
+double ResultTally::quantile(double share) const { return quantile_of(effectivities, share); }
+
+CampaignResult run_campaign(const CampaignSettings& settings) { return Campaign(settings).run(); }
+
+std::string campaign_text(const CampaignResult& result) {
+  std::string text =
+      "| relation | tried | agree | differ | refused | too expensive | failed | crashed | timed out |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
+  for (const auto& [name, tally] : result.relations) {
+    text += fmt::format("| {} | {} | {} | {} |", name, tally.tried, tally.agreed, tally.disagreed);
+    for (const auto outcome :
+         {Outcome::refused, Outcome::too_expensive, Outcome::failed, Outcome::crashed, Outcome::timed_out}) {
+      const auto found = tally.outcomes.find(outcome);
+      text += fmt::format(" {} |", found == tally.outcomes.end() ? 0 : found->second);
+    }
+    text += "\n";
+  }
+  for (const auto& [relation, results] : result.results) {
+    text += fmt::format(
+        "\n{}: difference over what is allowed\n\n| result | values | within | median | 95 % | largest |\n"
+        "|---|---|---|---|---|---|\n",
+        relation);
+    for (const auto& [key, tally] : results)
+      text += fmt::format("| {} | {} | {:.1f} % | {:.2g} | {:.2g} | {:.3g} |\n", key, tally.effectivities.size(),
+                          100 * tally.coverage(), tally.quantile(0.5), tally.quantile(0.95), tally.quantile(1));
+  }
+  text += "\n| actual over predicted | runs | least | 5 % | median | 95 % | largest |\n|---|---|---|---|---|---|---|\n";
+  text += cost_text(result.costs, "time, of runs above 1 s", &Cost::predicted_seconds, &Cost::actual_seconds, 1);
+  text += cost_text(result.costs, "memory", &Cost::predicted_MB, &Cost::actual_MB, 0);
+  return text;
+}
+
+}  // namespace annulus::random

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/random/relations.h"
+
+namespace annulus::random {
+
+struct CampaignSettings {
+  std::string program;           ///< annulus
+  std::filesystem::path folder;  ///< of scenes and results; those of pairs that agree are removed
+  std::uint64_t first_seed = 1;
+  int scenes = 20;
+  int jobs = 1;                          ///< pairs at once
+  int seconds = 300;                     ///< of each run
+  std::string max_time = "1h";           ///< predicted; more expensive scenes are left out
+  std::vector<std::string> relations{};  ///< names; empty: all
+};
+
+/// What came of the pairs of one relation.
+struct RelationTally {
+  int tried = 0, agreed = 0, disagreed = 0;
+  std::map<Outcome, int> outcomes;  ///< of runs that were not right
+};
+
+/// How one result fares against its stated errors.
+struct ResultTally {
+  std::vector<double> effectivities;  ///< difference over the sum of the errors, of every pair
+  [[nodiscard]] double coverage() const;
+  [[nodiscard]] double quantile(double share) const;  ///< of the effectivities
+};
+
+struct CampaignResult {
+  std::map<std::string, RelationTally> relations;
+  std::map<std::string, std::map<std::string, ResultTally>> results;  ///< by relation and key
+  std::vector<std::string> complaints;                                ///< what is wrong, with its seed
+  std::vector<Cost> costs;
+};
+
+/// Runs the pairs of all relations on random scenes. A pair is complained about when its runs crash, run out of time,
+/// or break a relation that holds always; coverage of errors is a matter of statistics.
+[[nodiscard]] CampaignResult run_campaign(const CampaignSettings& settings);
+
+/// The tables, as Markdown.
+[[nodiscard]] std::string campaign_text(const CampaignResult& result);
+
+}  // namespace annulus::random

@@ -1,0 +1,237 @@
+#include "tests/random/random_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "tests/random/gear_sets.h"
+
+namespace annulus::random {
+
+namespace {
+
+using app::Parameter;
+using app::Table;
+
+constexpr double usual_chance = 0.25;
+
+bool ends_with(const Parameter& p, const char* ending) { return p.name.ends_with(ending); }
+
+/// A usual size of a number, by its unit and its default.
+double usual_number(Draw& draw, const Parameter& p, const Scales& scales) {
+  if (ends_with(p, "_um")) {
+    const double sign = p.low < 0 && draw.chance(0.3) ? -1 : 1;
+    return sign * scales.deflection_um * draw.log_uniform(0.05, 2);
+  }
+  if (ends_with(p, "_phase_deg") || ends_with(p, "angle_deg")) return draw.uniform(0, 360);
+  if (ends_with(p, "_N_per_m")) return scales.stiffness_N_per_m * draw.log_uniform(0.03, 30);
+  if (ends_with(p, "_Nm_per_rad")) return scales.torsional_Nm_per_rad * draw.log_uniform(0.3, 300);
+  if (ends_with(p, "length_mm")) return scales.module_mm * draw.uniform(0.1, 0.6);
+  if (ends_with(p, "damping_ratio")) return draw.log_uniform(0.01, 0.15);
+  if (p.name == "ripple") return draw.log_uniform(0.01, 0.3);
+  if (p.name == "phase") return draw.uniform(-0.5, 0.5);
+  if (p.name == "relative_tolerance") return draw.log_uniform(1e-9, 1e-6);
+  if (p.name == "single_stiffness_GPa") return draw.uniform(10, 18);
+  if (const auto* usual = std::get_if<double>(&p.default_value); usual && *usual > 0 && std::isfinite(*usual))
+    return *usual * draw.log_uniform(0.9, 1.1);
+  return draw.uniform(std::max(p.low, 0.0), std::min(p.high, 1.0));
+}
+
+double in_range(const Parameter& p, double value) {
+  value = std::clamp(value, p.low, p.high);
+  return rounded(value);
+}
+
+/// Walks the tables of a kind; a key is written when its conditions let it be and chance or a rule wants it.
+class Walk {
+ public:
+  Walk(Draw& draw, GearSet& set, const std::vector<Table>& tables) : draw_(draw), set_(set), tables_(tables) {}
+
+  void run() {
+    for (const auto& t : tables_) {
+      if (t.path.empty() || t.role == Table::Role::study) continue;
+      const auto found = set_.chances.find(t.path);
+      if (t.required || draw_.chance(found != set_.chances.end() ? found->second : t.path == "dynamics" ? 0.95 : 0.15))
+        set_.draft.open_table(t.path);
+    }
+    drop_tables_out_of_place();
+    // Conditions name keys of later tables too; a second pass sees them all, a third what follows from those.
+    for (int pass = 0; pass < 3; ++pass) {
+      for (const auto& t : tables_) {
+        if (!t.path.empty() && !set_.draft.has_table(t.path)) continue;
+        for (const auto& p : t.parameters) draw_key(p);
+      }
+    }
+    alternatives();
+  }
+
+ private:
+  [[nodiscard]] std::optional<bool> all_hold(const std::vector<app::KeyRule>& rules, const Parameter& p) const {
+    const auto inputs = set_.draft.inputs(tables_);
+    const app::KeyValues keys(inputs, tables_);
+    std::optional<bool> result = true;
+    for (const auto& rule : rules) {
+      if (!rule.kinds.empty() &&
+          std::find(rule.kinds.begin(), rule.kinds.end(), set_.draft.text_of("stage.kind")) == rule.kinds.end())
+        continue;
+      const auto holds = rule.when.holds(keys, p.table, 0);
+      if (holds == false) return false;
+      if (!holds) result = std::nullopt;
+    }
+    return result;
+  }
+  [[nodiscard]] bool any_holds(const std::vector<app::KeyRule>& rules, const Parameter& p) const {
+    return std::any_of(rules.begin(), rules.end(), [&](const app::KeyRule& rule) {
+      if (!rule.kinds.empty() &&
+          std::find(rule.kinds.begin(), rule.kinds.end(), set_.draft.text_of("stage.kind")) == rule.kinds.end())
+        return false;
+      const auto inputs = set_.draft.inputs(tables_);
+      return rule.when.holds(app::KeyValues(inputs, tables_), p.table, 0) == true;
+    });
+  }
+
+  void drop_tables_out_of_place() {
+    const auto inputs = set_.draft.inputs(tables_);
+    for (const auto& t : tables_)
+      for (const auto& rule : t.only_if)
+        if (rule.when.kind == app::Condition::Kind::table && !set_.draft.has_table(rule.when.key))
+          set_.draft.remove_table(t.path);
+  }
+
+  void draw_key(const Parameter& p) {
+    const std::string key = p.key();
+    if (set_.draft.find(key) != nullptr || all_hold(p.only_if, p) != true || any_holds(p.refused_if, p)) return;
+    const bool needed = p.presence == Parameter::Presence::required || p.required(set_.draft.text_of("stage.kind")) ||
+                        any_holds(p.required_if, p);
+    if (!needed) {
+      if (!decided_.insert(key).second) return;  // by an earlier pass
+      const auto own = set_.chances.find(key);
+      if (!draw_.chance(own != set_.chances.end() ? own->second : usual_chance)) return;
+    }
+    write(p);
+    for (const auto& partner : partners(p))
+      if (set_.draft.find(partner) == nullptr) write(*app::find_parameter(partner, tables_));
+  }
+
+  [[nodiscard]] std::vector<std::string> partners(const Parameter& p) const {
+    std::vector<std::string> keys;
+    for (const auto& other : p.together_with) keys.push_back(p.table + "." + other);
+    for (const auto& other : app::find_table(p.table, tables_)->parameters)
+      if (std::find(other.together_with.begin(), other.together_with.end(), p.name) != other.together_with.end())
+        keys.push_back(other.key());
+    for (const auto& [first, second] : set_.together)
+      if (p.key() == first || p.key() == second) keys.push_back(p.key() == first ? second : first);
+    return keys;
+  }
+
+  /// Either a key or all of its alternatives: where none is written, the key is.
+  void alternatives() {
+    for (const auto& t : tables_) {
+      if (!set_.draft.has_table(t.path)) continue;
+      for (const auto& p : t.parameters) {
+        if (p.instead_of.empty() || all_hold(p.only_if, p) != true) continue;
+        const bool others = std::all_of(p.instead_of.begin(), p.instead_of.end(), [&](const std::string& name) {
+          return set_.draft.find(p.table + "." + name) != nullptr;
+        });
+        if (others)
+          set_.draft.remove(p.key());
+        else if (set_.draft.find(p.key()) == nullptr)
+          write(p);
+      }
+    }
+  }
+
+  void write(const Parameter& p) {
+    for (const auto& [key, why] : undrawn_keys())
+      if (key == p.key() || (key.starts_with("*.") && p.key().ends_with(key.substr(1)))) return;
+    if (const auto own = set_.values.find(p.key()); own != set_.values.end()) {
+      set_.draft.set(p.key(), own->second);
+      return;
+    }
+    switch (p.kind) {
+      case Parameter::Kind::choice: {
+        auto choices = p.choices;
+        std::erase(choices, "table");  // the file of another program
+        set_.draft.set(p.key(), draw_.one_of(choices));
+        return;
+      }
+      case Parameter::Kind::integer: {
+        const auto* usual = std::get_if<long>(&p.default_value);
+        const double low = std::max(p.low, usual ? 0.5 * static_cast<double>(*usual) : p.low);
+        const double high = std::min(p.high, usual && *usual > 0 ? 2 * static_cast<double>(*usual) : 200);
+        set_.draft.set(p.key(), draw_.integer(std::lround(low), std::lround(std::max(low, high))));
+        return;
+      }
+      case Parameter::Kind::real:
+        set_.draft.set(p.key(), in_range(p, usual_number(draw_, p, set_.scales)));
+        return;
+      case Parameter::Kind::reals: {
+        std::vector<double> list;
+        const auto count = p.at_least_one.empty() ? set_.planets : 2;
+        for (int i = 0; i < count; ++i) list.push_back(in_range(p, usual_number(draw_, p, set_.scales)));
+        set_.draft.set(p.key(), list);
+        return;
+      }
+      case Parameter::Kind::text:
+      case Parameter::Kind::texts:
+        return;
+    }
+  }
+
+  Draw& draw_;
+  GearSet& set_;
+  const std::vector<Table>& tables_;
+  std::set<std::string> decided_;
+};
+
+}  // namespace
+
+const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
+  static const std::vector<std::pair<std::string, std::string>> keys = {
+      {"title", "a text"},
+      {"reference", "a file"},
+      {"*.file", "a file"},
+      {"accuracy", "what two runs of a scene differ in"},
+      {"stage.centre_distance_mm", "follows from the profile shifts"},
+      {"dynamics.mesh_cycles", "a length of motion, without a steady state"},
+  };
+  return keys;
+}
+
+RandomScene random_scene(std::uint64_t seed) {
+  Draw draw(seed);
+  RandomScene scene;
+  scene.seed = seed;
+  const auto section = draw.chance(0.85) ? Section::plane : Section::solid;
+  const double kind = draw.uniform(0, 1);
+  GearSet set = kind < 0.6   ? planetary_set(draw, section)
+                : kind < 0.8 ? helical_pair_set(draw, section)
+                             : two_k_v_set(draw, section);
+  const auto model = draw.uniform(0, 1);
+  std::string name = model < 0.35 ? "automatic" : model < 0.75 ? "plane" : model < 0.95 ? "closed_form" : "resolved";
+  if (section == Section::solid) name = model < 0.6 ? "automatic" : model < 0.95 ? "solid" : "resolved";
+  set.draft.set("model", name);
+  set.draft.set("title", std::string("Random scene ") + std::to_string(seed));
+  if (section == Section::plane)
+    for (const auto* body : {"sun", "planet", "ring", "pinion", "wheel"})
+      for (const auto* key : {".lead_crowning_um", ".lead_slope_um"}) set.chances[body + std::string(key)] = 0;
+  if (section == Section::plane)
+    for (const auto* mesh : {"sun_planet", "ring_planet", "pinion_wheel"})
+      set.chances["errors." + std::string(mesh) + "_misalignment_um"] = 0;
+  set.chances["stage.helix_angle_deg"] = 0;  // of the rack
+  set.chances["supports.ring_torsional_N_per_m"] = 0.2;
+  if (name == "resolved" && set.draft.find("ring.structure") != nullptr) {
+    set.draft.set("ring.structure", std::string("traditional"));
+    set.draft.remove("stage.helix_angle_deg");
+  }
+  scene.kind = set.draft.text_of("stage.kind");
+  scene.model = name;
+  Walk(draw, set, app::schema(scene.kind)).run();
+  scene.draft = std::move(set.draft);
+  return scene;
+}
+
+std::string RandomScene::toml() const { return draft.toml(app::schema(kind)); }
+
+}  // namespace annulus::random

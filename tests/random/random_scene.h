@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "tests/random/scene_draft.h"
+
+namespace annulus::random {
+
+struct RandomScene {
+  std::uint64_t seed = 0;
+  std::string kind, model;
+  SceneDraft draft;
+
+  [[nodiscard]] std::string toml() const;
+};
+
+/// The scene of a seed: gears that mesh, and every other key drawn from the declarations of the schema, with their
+/// conditions. Some are refused by the checks of the program, as a user's are.
+[[nodiscard]] RandomScene random_scene(std::uint64_t seed);
+
+/// Keys that no scene draws: `{"title", "a text"}`, with the reason.
+[[nodiscard]] const std::vector<std::pair<std::string, std::string>>& undrawn_keys();
+
+}  // namespace annulus::random

@@ -1,0 +1,250 @@
+#include "tests/random/relations.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace annulus::random {
+
+namespace {
+
+std::string with_accuracy(SceneDraft draft, const RandomScene& scene, double accuracy) {
+  draft.set("accuracy", accuracy);
+  RandomScene changed = scene;
+  changed.draft = std::move(draft);
+  return changed.toml();
+}
+std::string cheap(const SceneDraft& draft, const RandomScene& scene) { return with_accuracy(draft, scene, 0.1); }
+
+std::optional<double> same(const std::string&) { return 1.0; }
+
+/// Multiplies every written number by the factor of the ending of its key; the longest ending decides.
+void scale_keys(SceneDraft& draft, const std::vector<app::Table>& tables,
+                const std::vector<std::pair<const char*, double>>& factors) {
+  for (const auto& t : tables)
+    for (const auto& p : t.parameters)
+      for (const auto& [ending, factor] : factors)
+        if (p.name.ends_with(ending)) {
+          draft.scale(p.key(), factor);
+          break;
+        }
+}
+
+/// Factor of a result by the unit at the end of its key; dimensionless results are those without one.
+std::optional<double> by_unit(const std::string& key, const std::vector<std::pair<const char*, double>>& factors) {
+  for (const auto& [ending, factor] : factors)
+    if (key.ends_with(ending)) return factor;
+  return 1.0;
+}
+
+/// Inputs whose number is no similar one in a set of another size or material: tabulated laws and draws.
+bool has_fixed_sizes(const SceneDraft& draft) {
+  return draft.text_of("mesh.pinion_wheel.stiffness") == "iso_6336" || draft.text_of("stage.kind") == "two_k_v" ||
+         (draft.text_of("stage.kind") == "helical_pair" && !draft.has_table("mesh.pinion_wheel")) ||
+         draft.find("material.density_kg_per_m3") != nullptr || draft.find("dynamics.relative_tolerance") != nullptr;
+}
+
+/// A set of twice the size under four times the forces: stresses stay, lengths double, speeds halve.
+Relation size() {
+  static const std::vector<std::pair<const char*, double>> inputs = {
+      {"_Nm_per_rad", 8}, {"_kg_m2", 32}, {"_N_per_m", 2}, {"_kg", 8}, {"_mm", 2},
+      {"_um", 2},         {"_rpm", 0.5},  {"_kW", 4},      {"_Nm", 8}};
+  static const std::vector<std::pair<const char*, double>> results = {
+      {"_N_per_m", 2}, {"_Nm", 8}, {"_Hz", 0.5}, {"_m", 2}, {"_N", 4}, {"_kg", 8}, {"frequency", 0.5}};
+  return {"twice the size", Agreement::rounding,
+          [](const RandomScene& scene) -> std::optional<RunPair> {
+            if (has_fixed_sizes(scene.draft)) return std::nullopt;
+            auto larger = scene.draft;
+            scale_keys(larger, app::schema(scene.kind), inputs);
+            return RunPair{cheap(scene.draft, scene), cheap(larger, scene)};
+          },
+          [](const std::string& key) -> std::optional<double> {
+            if (key.starts_with("natural_frequency")) return 0.5;
+            return by_unit(key, results);
+          }};
+}
+
+/// Four times as stiff and heavy under four times the load: the same motion.
+Relation material() {
+  static const std::vector<std::pair<const char*, double>> inputs = {
+      {"_Nm_per_rad", 4}, {"_kg_m2", 4}, {"_N_per_m", 4}, {"_kg", 4}, {"_GPa", 4}, {"_kW", 4}, {"_Nm", 4}};
+  static const std::vector<std::pair<const char*, double>> results = {
+      {"_N_per_m", 4}, {"_Nm", 4}, {"_N", 4}, {"_Pa", 4}, {"_MPa", 4}};
+  return {"material four times as stiff", Agreement::rounding,
+          [](const RandomScene& scene) -> std::optional<RunPair> {
+            if (has_fixed_sizes(scene.draft) || scene.draft.number("material.youngs_modulus_GPa") * 4 > 1e3)
+              return std::nullopt;
+            auto stiffer = scene.draft;
+            scale_keys(stiffer, app::schema(scene.kind), inputs);
+            return RunPair{cheap(scene.draft, scene), cheap(stiffer, scene)};
+          },
+          [](const std::string& key) { return by_unit(key, results); }};
+}
+
+/// Whether a result follows from a stiffness table alone, whatever moves on it.
+std::optional<double> of_tables(const std::string& key) {
+  for (const auto* what : {"mean_stiffness", "stiffness_ripple", "lte_mean", "lte_peak_to_peak"})
+    if (key.find(what) != std::string::npos) return 1.0;
+  return std::nullopt;
+}
+
+bool on_equal_pins(const SceneDraft& draft) {
+  return draft.find("ring.pins") != nullptr && !draft.has_table("mesh.ring_planet");
+}
+
+std::optional<RunPair> turned_pins(const RandomScene& scene, double turn_deg) {
+  auto turned = scene.draft;
+  const double first =
+      turned.find("ring.first_pin_angle_deg") != nullptr ? turned.number("ring.first_pin_angle_deg") : 0;
+  turned.set("ring.first_pin_angle_deg", first + turn_deg > 360 ? first + turn_deg - 360 : first + turn_deg);
+  return RunPair{cheap(scene.draft, scene), cheap(turned, scene)};
+}
+
+Relation pins_by_a_gap() {
+  return {"pins turned by a gap", Agreement::rounding,
+          [](const RandomScene& scene) -> std::optional<RunPair> {
+            if (!on_equal_pins(scene.draft)) return std::nullopt;
+            return turned_pins(scene, 360 / scene.draft.number("ring.pins"));
+          },
+          same};
+}
+
+Relation pins_by_teeth() {
+  return {"pins turned by three teeth", Agreement::rounding,
+          [](const RandomScene& scene) -> std::optional<RunPair> {
+            if (!on_equal_pins(scene.draft)) return std::nullopt;
+            return turned_pins(scene, 3 * 360 / scene.draft.number("ring.teeth"));
+          },
+          of_tables};
+}
+
+Relation listed_pins() {
+  return {"pins listed", Agreement::rounding,
+          [](const RandomScene& scene) -> std::optional<RunPair> {
+            if (!on_equal_pins(scene.draft)) return std::nullopt;
+            auto listed = scene.draft;
+            const double first =
+                listed.find("ring.first_pin_angle_deg") != nullptr ? listed.number("ring.first_pin_angle_deg") : 0;
+            const auto pins = static_cast<int>(listed.number("ring.pins"));
+            std::vector<double> angles;
+            for (int n = 0; n < pins; ++n) {
+              const double angle = first + 360.0 * n / pins;
+              angles.push_back(angle > 360 ? angle - 360 : angle);
+            }
+            listed.remove("ring.pins");
+            listed.remove("ring.first_pin_angle_deg");
+            listed.set("ring.pin_angles_deg", angles);
+            return RunPair{cheap(scene.draft, scene), cheap(listed, scene)};
+          },
+          same};
+}
+
+/// The other hand, with what changes along the face width turned round as well. Rings that are held at one end are not
+/// symmetric.
+Relation mirror() {
+  return {"mirrored along the axis", Agreement::rounding,
+          [](const RandomScene& scene) -> std::optional<RunPair> {
+            const auto& draft = scene.draft;
+            if (draft.text_of("ring.structure") == "thin_walled" || draft.find("ring.flange_width_mm") != nullptr)
+              return std::nullopt;
+            auto mirrored = draft;
+            bool changed = false;
+            for (const auto& t : app::schema(scene.kind))
+              for (const auto& p : t.parameters)
+                if (p.name == "helix_angle_deg" || p.name == "lead_slope_um" || p.name.ends_with("misalignment_um")) {
+                  changed = changed || draft.find(p.key()) != nullptr;
+                  mirrored.scale(p.key(), -1);
+                }
+            if (!changed) return std::nullopt;
+            return RunPair{cheap(draft, scene), cheap(mirrored, scene)};
+          },
+          same};
+}
+
+Relation reuse() {
+  return {"reused", Agreement::identical,
+          [](const RandomScene& scene) -> std::optional<RunPair> {
+            const auto text = cheap(scene.draft, scene);
+            return RunPair{text, text, "", "", true};
+          },
+          same};
+}
+
+Relation threads() {
+  return {"two threads", Agreement::identical,
+          [](const RandomScene& scene) -> std::optional<RunPair> {
+            const auto text = cheap(scene.draft, scene);
+            return RunPair{text, text, "", "--threads 2"};
+          },
+          same};
+}
+
+/// The coverage of the stated errors at one model.
+Relation accuracy() {
+  return {"two accuracies", Agreement::numerical_errors,
+          [](const RandomScene& scene) -> std::optional<RunPair> {
+            const double wanted = scene.seed % 2 == 0 ? 0.1 : 0.03;
+            return RunPair{with_accuracy(scene.draft, scene, wanted), with_accuracy(scene.draft, scene, 0.01)};
+          },
+          same};
+}
+
+/// Two models of the same bodies.
+Relation models() {
+  return {"two models", Agreement::errors,
+          [](const RandomScene& scene) -> std::optional<RunPair> {
+            if (scene.model != "closed_form" && scene.model != "solid") return std::nullopt;
+            auto other = scene.draft;
+            other.set("model", std::string(scene.model == "solid" ? "resolved" : "plane"));
+            return RunPair{cheap(scene.draft, scene), cheap(other, scene)};
+          },
+          same};
+}
+
+double allowed_difference(Agreement agreement, const StatedResult& first, const StatedResult& second, double factor) {
+  const double size = std::max(std::abs(first.value * factor), std::abs(second.value));
+  // Of numbers written with ten digits and more, and of zeros beside other results of the same quantity.
+  constexpr double rounding = 1e-9, nothing = 1e-12;
+  switch (agreement) {
+    case Agreement::identical:
+      return 0;
+    case Agreement::rounding:
+      return relation_rounding * size + nothing;
+    case Agreement::errors:
+      return first.error * std::abs(factor) + second.error + rounding * size + nothing;
+    case Agreement::numerical_errors:
+      return first.numerical_error() * std::abs(factor) + second.numerical_error() + rounding * size + nothing;
+  }
+  return 0;
+}
+
+}  // namespace
+
+double ComparedResult::effectivity() const {
+  const double difference = std::abs(second - first);
+  if (!(difference > 0)) return std::isnan(difference) ? std::numeric_limits<double>::infinity() : 0;
+  return difference / allowed;
+}
+
+const std::vector<Relation>& relations() {
+  static const std::vector<Relation> list = {accuracy(),      models(),      size(),   material(), pins_by_a_gap(),
+                                             pins_by_teeth(), listed_pins(), mirror(), reuse(),    threads()};
+  return list;
+}
+
+std::vector<ComparedResult> compared(const Relation& relation, const SceneRun& first, const SceneRun& second) {
+  std::vector<ComparedResult> list;
+  for (const auto& result : first.results) {
+    const auto* other = second.find(result);
+    const auto factor = relation.factor(result.key);
+    if (other == nullptr || !factor) continue;
+    if (std::isnan(result.value) && std::isnan(other->value)) continue;
+    const double allowed = allowed_difference(relation.agreement, result, *other, *factor);
+    if (std::isnan(allowed)) continue;  // no error is stated
+    list.push_back({result.key, result.value * *factor, other->value, allowed});
+  }
+  return list;
+}
+
+}  // namespace annulus::random

@@ -1,0 +1,132 @@
+#include "tests/random/scene_run.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "core/files.h"
+
+namespace annulus::random {
+
+namespace {
+
+using Json = nlohmann::json;
+
+/// Of the program (app/cli.h), of a shell whose child was ended by a signal, and of timeout(1).
+Outcome outcome_of(int raw) {
+  if (!WIFEXITED(raw)) return Outcome::crashed;
+  switch (WEXITSTATUS(raw)) {
+    case 0:
+      return Outcome::right;
+    case 2:
+      return Outcome::refused;
+    case 3:
+      return Outcome::failed;
+    case 124:
+      return Outcome::timed_out;
+    default:
+      return Outcome::crashed;
+  }
+}
+
+double number(const Json& json, const char* key) {
+  return json.contains(key) && json[key].is_number() ? json[key].get<double>() : not_known;
+}
+
+StatedResult stated(const std::string& variant, const std::string& key, const Json& json) {
+  StatedResult result{variant, key, number(json, "value"), number(json, "error"), 0};
+  if (json.contains("error_parts")) result.model_error = number(json["error_parts"], "model_choice");
+  return result;
+}
+
+/// Lists of natural frequencies, wherever they stand: those of a variant below an object with its name.
+void frequencies(const Json& json, const std::string& variant, std::vector<StatedResult>& results) {
+  if (json.is_array()) {
+    for (const auto& item : json) frequencies(item, variant, results);
+    return;
+  }
+  if (!json.is_object()) return;
+  const std::string name =
+      json.contains("name") && json["name"].is_string() ? json["name"].get<std::string>() : variant;
+  for (const auto& [key, value] : json.items()) {
+    if (key != "natural_frequencies_Hz" || !value.is_array()) {
+      frequencies(value, name, results);
+      continue;
+    }
+    int order = 0;
+    for (const auto& frequency : value)
+      if (frequency.is_object())
+        results.push_back(stated(name, fmt::format("natural_frequency_{}", ++order), frequency));
+  }
+}
+
+void read_summary(const std::filesystem::path& file, SceneRun& run) {
+  const auto json = Json::parse(read_file(file));
+  for (const auto& variant : json.at("variants"))
+    for (const auto& [key, figure] : variant.at("figures").items())
+      run.results.push_back(stated(variant.at("name").get<std::string>(), key, figure));
+  frequencies(json, "", run.results);
+  run.cost.actual_MB = number(json, "peak_memory_MB");
+  if (!json.contains("cost")) return;
+  run.cost.predicted_seconds = number(json["cost"], "predicted_s");
+  run.cost.actual_seconds = number(json["cost"], "actual_s");
+  run.cost.predicted_MB = number(json["cost"], "predicted_peak_MB");
+}
+
+}  // namespace
+
+const char* outcome_text(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::right:
+      return "right";
+    case Outcome::refused:
+      return "refused";
+    case Outcome::too_expensive:
+      return "too expensive";
+    case Outcome::failed:
+      return "failed";
+    case Outcome::crashed:
+      return "crashed";
+    case Outcome::timed_out:
+      return "timed out";
+  }
+  return "";
+}
+
+const StatedResult* SceneRun::find(const StatedResult& other) const {
+  const auto found = std::find_if(results.begin(), results.end(), [&](const StatedResult& r) {
+    return r.key == other.key && r.variant == other.variant;
+  });
+  return found == results.end() ? nullptr : &*found;
+}
+
+SceneRun run_scene(const std::string& toml, const std::filesystem::path& folder, const RunSettings& settings) {
+  if (settings.fresh) std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  write_file(folder / "scene.toml", toml);
+  const std::string command = fmt::format(
+      "cd '{}' && timeout --signal=KILL --foreground {} '{}' {} run scene.toml -o out --cache cache --max-time {} "
+      ">stdout.txt 2>stderr.txt",
+      folder.string(), settings.seconds, settings.program,
+      settings.arguments.find("--threads") == std::string::npos ? "--threads 1 " + settings.arguments
+                                                                : settings.arguments,
+      settings.max_time);
+  SceneRun run;
+  const int raw = std::system(command.c_str());
+  run.outcome = outcome_of(raw);
+  // timeout(1) that kills says so as the shell does.
+  if (WIFEXITED(raw) && WEXITSTATUS(raw) == 137) run.outcome = Outcome::timed_out;
+  if (run.outcome == Outcome::right) {
+    read_summary(folder / "out" / "summary.json", run);
+    return run;
+  }
+  run.message = read_file(folder / "stderr.txt");
+  if (run.outcome == Outcome::failed && (run.message.find("predicted") != std::string::npos))
+    run.outcome = Outcome::too_expensive;
+  return run;
+}
+
+}  // namespace annulus::random
