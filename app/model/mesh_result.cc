@@ -55,6 +55,39 @@ void at_load(const StiffnessTable& table, std::size_t load, Visit visit) {
 
 }  // namespace
 
+namespace {
+
+/// What the mean of equidistant samples of a periodic curve may miss between them: the largest difference to the mean
+/// of every second one, or half of that of every fourth one, which a chance agreement hides less. The mean of a curve
+/// that jumps converges with the first order, so the halved distance leaves as much as it changed.
+double between_samples(const std::vector<double>& values) {
+  const auto mean_of = [&](std::size_t first, std::size_t step) {
+    double sum = 0;
+    for (std::size_t i = first; i < values.size(); i += step) sum += values[i];
+    return sum * static_cast<double>(step) / static_cast<double>(values.size());
+  };
+  const double mean = mean_of(0, 1);
+  double missed = 0;
+  for (const std::size_t step : {2, 4}) {
+    if (values.size() % step != 0) break;
+    for (std::size_t first = 0; first < step; ++first)
+      missed = std::max(missed, std::abs(mean_of(first, step) - mean) * 2 / static_cast<double>(step));
+  }
+  return missed;
+}
+
+/// Adds what lies between the positions of a table to the errors of a mean; a prescribed wave has none.
+Estimate with_interpolation(Estimate mean, const MeshResult& mesh, double (*quantity)(const StiffnessEntry&)) {
+  if (!mesh.tabulated || mean.value == 0) return mean;
+  std::vector<double> values;
+  at_load(mesh.table, mesh.nominal, [&](const StiffnessEntry& e) { values.push_back(quantity(e)); });
+  mean.parts.interpolation = between_samples(values) / std::abs(mean.value);
+  mean.error_relative += mean.parts.interpolation;
+  return mean;
+}
+
+}  // namespace
+
 Estimate MeshResult::mean_stiffness() const {
   double sum = 0, error = 0;
   ErrorParts parts;
@@ -63,7 +96,8 @@ Estimate MeshResult::mean_stiffness() const {
     error += e.error_relative * e.stiffness_secant;
     parts += e.stiffness_secant * e.error_parts;
   });
-  return {sum / (table.positions() * table.phases()), error / sum, (1 / sum) * parts};
+  return with_interpolation({sum / (table.positions() * table.phases()), error / sum, (1 / sum) * parts}, *this,
+                            [](const StiffnessEntry& e) { return e.stiffness_secant; });
 }
 
 double MeshResult::worst_stiffness_error() const {
@@ -81,7 +115,9 @@ Estimate MeshResult::lte_mean() const {
     error += e.error_relative * deflection;
     parts += deflection * e.error_parts;
   });
-  return {sum / (table.positions() * table.phases()), error / std::abs(sum), (1 / std::abs(sum)) * parts};
+  return with_interpolation(
+      {sum / (table.positions() * table.phases()), error / std::abs(sum), (1 / std::abs(sum)) * parts}, *this,
+      [](const StiffnessEntry& e) { return e.lte; });
 }
 
 namespace {
@@ -125,9 +161,10 @@ Estimate MeshResult::lte_peak_to_peak() const {
   });
   const double missed = beyond_the_highest(up) + beyond_the_highest(down);
   const auto mean = lte_mean();
-  const double of_stiffness = std::max(difference / range, mean.error_relative);
+  const double of_mean = mean.error_relative - mean.parts.interpolation;
+  const double of_stiffness = std::max(difference / range, of_mean);
   ErrorParts parts;
-  if (mean.error_relative > 0) parts = (of_stiffness / mean.error_relative) * mean.parts;
+  if (of_mean > 0) parts = (of_stiffness / of_mean) * mean.parts;
   parts.interpolation = missed / range;
   return {range, of_stiffness + missed / range, parts};
 }

@@ -112,14 +112,22 @@ void add_stiffness_error(double error, const ErrorParts& of_stiffness, ErrorPart
     if (of_stiffness.*part > 0) parts.*part += error * (of_stiffness.*part / whole);
 }
 
+StiffnessTable much_coarser(const StiffnessTable& table) { return coarser(coarser(table)); }
+
 Differences interpolation_differences(Comparison& comparison, const TabulatedModel& model) {
-  const bool odd = std::any_of(model.meshes.begin(), model.meshes.end(),
-                               [](const TabulatedMesh& mesh) { return mesh.table.phases() % 2 != 0; });
-  if (odd || model.meshes.empty()) return {};
+  const auto divisible = [&](int by) {
+    return std::all_of(model.meshes.begin(), model.meshes.end(),
+                       [&](const TabulatedMesh& mesh) { return mesh.table.phases() % by == 0; });
+  };
+  if (!divisible(2) || model.meshes.empty()) return {};
+  // Jumping slopes converge with the first order: what is left is as large as what twice the distance changed. Which of
+  // the phases that leaves out is chance; four times the distance says whether it was luck.
   auto part = comparison.differences(coarser, all_meshes, "half the phases");
-  // Between the first order of jumping slopes and the second of smooth curves: halving the spacing leaves a third to a
-  // half of what halving the number did.
-  for (auto& [key, difference] : part) difference /= 2;
+  if (!divisible(4)) return part;
+  for (const auto& [key, difference] : comparison.differences(much_coarser, all_meshes, "a quarter of the phases")) {
+    double& larger = part.at(key);
+    if (difference / 4 > larger) larger = difference / 4;
+  }
   return part;
 }
 

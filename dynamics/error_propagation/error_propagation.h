@@ -41,9 +41,9 @@ struct TabulatedModel {
 /// The nominal results with the parts of their errors and the sum of these as error:
 /// - discretisation, contact, condensation, model: the largest |difference| with the stiffness or its ripple raised by
 ///   its error estimate (core/table_variants.h), mesh by mesh, divided in the proportions of that stiffness' own parts;
-/// - interpolation: half of the |difference| with every second phase only, all meshes at once; curves between the
-/// phases
-///   converge with an order between one (where slopes jump) and two. Not known for an odd number of phases;
+/// - interpolation: the |difference| with every second phase only, all meshes at once, or a quarter of that with every
+///   fourth one where that is larger: curves between the phases converge with an order between one (where slopes jump)
+///   and two. Not known for an odd number of phases;
 /// - integration: the nominal error.
 /// A part is not known (NaN) where the model cannot be solved on a changed table.
 [[nodiscard]] FigureSet propagate_errors(const Evaluation& nominal, const TabulatedModel& model);

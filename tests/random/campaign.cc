@@ -14,10 +14,10 @@ namespace annulus::random {
 
 namespace {
 
-/// One line of the program about what is wrong.
-std::string first_line(const std::string& message) {
-  const auto end = message.find('\n');
-  return message.substr(0, std::min<std::size_t>(end, 300));
+/// What the program says last.
+std::string last_line(std::string message) {
+  while (!message.empty() && message.back() == '\n') message.pop_back();
+  return message.substr(message.rfind('\n') + 1).substr(0, 300);
 }
 
 class Campaign {
@@ -66,11 +66,12 @@ class Campaign {
     for (const auto* run : {&first, &second}) {
       if (run->outcome == Outcome::right) {
         result_.costs.push_back(run->cost);
+        result_.costs.back().seed = scene.seed;
         continue;
       }
       ++tally.outcomes[run->outcome];
       if (run->outcome == Outcome::refused || run->outcome == Outcome::too_expensive) return false;
-      complain(scene, relation, fmt::format("{}: {}", outcome_text(run->outcome), first_line(run->message)));
+      complain(scene, relation, fmt::format("{}: {}", outcome_text(run->outcome), last_line(run->message)));
       return true;
     }
     std::string worst;
@@ -113,13 +114,17 @@ double quantile_of(std::vector<double> list, double share) {
 std::string cost_text(const std::vector<Cost>& costs, const char* name, double Cost::*predicted, double Cost::*actual,
                       double smallest) {
   std::vector<double> ratios;
-  for (const auto& cost : costs)
-    if (cost.*predicted > 0 && std::max(cost.*actual, cost.*predicted) > smallest)
-      ratios.push_back(cost.*actual / cost.*predicted);
+  std::uint64_t worst = 0;
+  for (const auto& cost : costs) {
+    if (!(cost.*predicted > 0 && std::max(cost.*actual, cost.*predicted) > smallest)) continue;
+    const double ratio = cost.*actual / cost.*predicted;
+    if (ratios.empty() || ratio > *std::max_element(ratios.begin(), ratios.end())) worst = cost.seed;
+    ratios.push_back(ratio);
+  }
   if (ratios.empty()) return "";
-  return fmt::format("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", name, ratios.size(),
+  return fmt::format("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} |\n", name, ratios.size(),
                      quantile_of(ratios, 0), quantile_of(ratios, 0.05), quantile_of(ratios, 0.5),
-                     quantile_of(ratios, 0.95), quantile_of(ratios, 1));
+                     quantile_of(ratios, 0.95), quantile_of(ratios, 1), worst);
 }
 
 }  // namespace
@@ -154,7 +159,9 @@ std::string campaign_text(const CampaignResult& result) {
       text += fmt::format("| {} | {} | {:.1f} % | {:.2g} | {:.2g} | {:.3g} |\n", key, tally.effectivities.size(),
                           100 * tally.coverage(), tally.quantile(0.5), tally.quantile(0.95), tally.quantile(1));
   }
-  text += "\n| actual over predicted | runs | least | 5 % | median | 95 % | largest |\n|---|---|---|---|---|---|---|\n";
+  text +=
+      "\n| actual over predicted | runs | least | 5 % | median | 95 % | largest | its seed "
+      "|\n|---|---|---|---|---|---|---|---|\n";
   text += cost_text(result.costs, "time, of runs above 1 s", &Cost::predicted_seconds, &Cost::actual_seconds, 1);
   text += cost_text(result.costs, "memory", &Cost::predicted_MB, &Cost::actual_MB, 0);
   return text;

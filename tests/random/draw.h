@@ -36,8 +36,10 @@ class Draw {
 /// As people write numbers into scenes: four significant digits.
 [[nodiscard]] inline double rounded(double value, int digits = 4) {
   if (value == 0) return 0;
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) + 1 - digits);
-  return std::round(value / unit) * unit;
+  // Dividing by a whole power of ten gives the nearest number to the decimal one; multiplying by a fraction does not.
+  const int places = digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
+  const double power = std::pow(10.0, std::abs(places));
+  return places >= 0 ? std::round(value * power) / power : std::round(value / power) * power;
 }
 
 }  // namespace annulus::random

@@ -21,7 +21,7 @@ struct RunPair {
 enum class Agreement {
   errors,            ///< the sum of their errors
   numerical_errors,  ///< that without the parts of the model
-  rounding,          ///< what rounding makes of steps that depend on it, `relation_rounding`
+  rounding,          ///< what rounding makes of steps that depend on it, `relation_rounding`, and the error of a motion
   identical,
 };
 inline constexpr double relation_rounding = 2e-5;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/files.h"
 
@@ -37,8 +38,10 @@ double number(const Json& json, const char* key) {
 }
 
 StatedResult stated(const std::string& variant, const std::string& key, const Json& json) {
-  StatedResult result{variant, key, number(json, "value"), number(json, "error"), 0};
-  if (json.contains("error_parts")) result.model_error = number(json["error_parts"], "model_choice");
+  StatedResult result{.variant = variant, .key = key, .value = number(json, "value"), .error = number(json, "error")};
+  if (!json.contains("error_parts")) return result;
+  result.model_error = number(json["error_parts"], "model_choice");
+  result.motion_error = number(json["error_parts"], "time_integration");
   return result;
 }
 
@@ -63,6 +66,14 @@ void frequencies(const Json& json, const std::string& variant, std::vector<State
   }
 }
 
+/// What bash writes about a command: user and system time.
+double processor_seconds(const std::filesystem::path& file) {
+  std::istringstream times(read_file(file));
+  double user = 0, system = 0;
+  times >> user >> system;
+  return times ? user + system : not_known;
+}
+
 void read_summary(const std::filesystem::path& file, SceneRun& run) {
   const auto json = Json::parse(read_file(file));
   for (const auto& variant : json.at("variants"))
@@ -72,7 +83,6 @@ void read_summary(const std::filesystem::path& file, SceneRun& run) {
   run.cost.actual_MB = number(json, "peak_memory_MB");
   if (!json.contains("cost")) return;
   run.cost.predicted_seconds = number(json["cost"], "predicted_s");
-  run.cost.actual_seconds = number(json["cost"], "actual_s");
   run.cost.predicted_MB = number(json["cost"], "predicted_peak_MB");
 }
 
@@ -108,19 +118,21 @@ SceneRun run_scene(const std::string& toml, const std::filesystem::path& folder,
   std::filesystem::create_directories(folder);
   write_file(folder / "scene.toml", toml);
   const std::string command = fmt::format(
-      "cd '{}' && timeout --signal=KILL --foreground {} '{}' {} run scene.toml -o out --cache cache --max-time {} "
-      ">stdout.txt 2>stderr.txt",
+      "cd '{}' && TIMEFORMAT='%U %S' && {{ time timeout --signal=KILL --foreground {} '{}' {} run scene.toml -o out "
+      "--cache cache --max-time {} "
+      ">stdout.txt 2>stderr.txt; }} 2>time.txt",
       folder.string(), settings.seconds, settings.program,
       settings.arguments.find("--threads") == std::string::npos ? "--threads 1 " + settings.arguments
                                                                 : settings.arguments,
       settings.max_time);
   SceneRun run;
-  const int raw = std::system(command.c_str());
+  const int raw = std::system(fmt::format("bash -c \"{}\"", command).c_str());
   run.outcome = outcome_of(raw);
   // timeout(1) that kills says so as the shell does.
   if (WIFEXITED(raw) && WEXITSTATUS(raw) == 137) run.outcome = Outcome::timed_out;
   if (run.outcome == Outcome::right) {
     read_summary(folder / "out" / "summary.json", run);
+    run.cost.actual_seconds = processor_seconds(folder / "time.txt");
     return run;
   }
   run.message = read_file(folder / "stderr.txt");

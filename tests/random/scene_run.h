@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,13 +17,14 @@ enum class Outcome { right, refused, too_expensive, failed, crashed, timed_out }
 struct StatedResult {
   std::string variant, key;
   double value = not_known, error = not_known;
-  double model_error = 0;  ///< the part of the error that the choice of the model has
+  double model_error = 0, motion_error = 0;  ///< parts of the error: choice of the model, time integration
 
   [[nodiscard]] double numerical_error() const { return error - model_error; }
 };
 
 struct Cost {
-  double predicted_seconds = not_known, actual_seconds = not_known;
+  std::uint64_t seed = 0;
+  double predicted_seconds = not_known, actual_seconds = not_known;  ///< of processor, with one thread
   double predicted_MB = not_known, actual_MB = not_known;
 };
 
