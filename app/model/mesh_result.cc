@@ -123,7 +123,8 @@ Estimate MeshResult::lte_mean() const {
 namespace {
 
 /// How far a curve sampled at equal steps and closed on itself may reach beyond its highest sample. A kink between two
-/// samples lies below where the lines through the neighbours on either side meet; a smooth top, below the half of it.
+/// samples lies below where the lines through the neighbours on either side meet; a smooth top, below the half of it; a
+/// branch that ends in a jump goes on up to there.
 double beyond_the_highest(const std::vector<double>& values) {
   const auto n = static_cast<std::ptrdiff_t>(values.size());
   if (n < 4) return 0;
@@ -132,10 +133,13 @@ double beyond_the_highest(const std::vector<double>& values) {
   double reach = 0;
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     // Between samples i and i + 1: rising with the slope before, falling with the slope after.
-    const double rise = at(i) - at(i - 1), fall = at(i + 1) - at(i + 2);
-    if (rise <= 0 || fall <= 0) continue;
-    const double place = (at(i + 1) - at(i) + fall) / (rise + fall);  // in steps from i
-    reach = std::max(reach, at(i) + rise * std::clamp(place, 0.0, 1.0) - highest);
+    const double rise = at(i) - at(i - 1), fall = at(i + 1) - at(i + 2), step = at(i + 1) - at(i);
+    if (std::abs(step) > std::abs(rise) + std::abs(fall)) {
+      reach = std::max(reach, std::max(at(i) + std::max(rise, 0.0), at(i + 1) + std::max(fall, 0.0)) - highest);
+    } else if (rise > 0 && fall > 0) {
+      const double place = (step + fall) / (rise + fall);  // in steps from i
+      reach = std::max(reach, at(i) + rise * std::clamp(place, 0.0, 1.0) - highest);
+    }
   }
   return reach;
 }

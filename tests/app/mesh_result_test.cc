@@ -53,6 +53,34 @@ app::MeshResult some_result() {
 
 BOOST_AUTO_TEST_SUITE(mesh_result)
 
+BOOST_AUTO_TEST_CASE(a_mean_knows_what_lies_between_its_positions) {
+  // A stiffness that jumps twice, as that of tooth formulas does: its mean is known, wherever the jumps fall.
+  const auto model = some_model();
+  const auto& loads = model.problem->loads;
+  constexpr double low = 1e9, high = 1.6e9;
+  int covered = 0, tried = 0;
+  for (const int phases : {8, 12, 16, 32})
+    for (double duty = 0.11; duty < 0.9; duty += 0.0317, ++tried) {
+      std::vector<StiffnessEntry> entries;
+      for (int phase = 0; phase < phases; ++phase)
+        for (const double load : loads) {
+          const double k = static_cast<double>(phase) / phases < duty ? high : low;
+          entries.push_back({0, load / k, k, k, 0});
+        }
+      app::MeshResult result{.model = model, .table = StiffnessTable("ring_planet", phases, {0.0}, loads, entries)};
+      result.nominal = fem::nominal_load_index;
+      const auto mean = result.mean_stiffness();
+      const double exact = low + duty * (high - low);
+      BOOST_TEST(mean.error_relative == mean.parts.interpolation);
+      covered += std::abs(mean.value - exact) <= mean.error_relative * mean.value;
+      // No more than a jump at one position may change.
+      BOOST_TEST(mean.error_relative * mean.value <= 2 * (high - low) / phases);
+      result.tabulated = false;
+      BOOST_TEST(result.mean_stiffness().error_relative == 0.0);
+    }
+  BOOST_TEST(covered >= 0.95 * tried);
+}
+
 BOOST_AUTO_TEST_CASE(a_range_knows_what_lies_between_its_positions) {
   // A saw with its kinks between the positions: from 0 at phase 0.05 up to 1 at 0.55, down again. The sampled range is
   // too small by what its error says, to the last bit for straight flanks.

@@ -137,6 +137,26 @@ double ResultTally::quantile(double share) const { return quantile_of(effectivit
 
 CampaignResult run_campaign(const CampaignSettings& settings) { return Campaign(settings).run(); }
 
+bool passes(const CampaignResult& result) {
+  std::size_t values = 0, within = 0;
+  for (const auto& relation : relations()) {
+    const bool statistical =
+        relation.agreement == Agreement::errors || relation.agreement == Agreement::numerical_errors;
+    const auto tally = result.relations.find(relation.name);
+    if (tally == result.relations.end()) continue;
+    for (const auto outcome : {Outcome::crashed, Outcome::timed_out, Outcome::failed})
+      if (tally->second.outcomes.contains(outcome)) return false;
+    if (!statistical && tally->second.disagreed > 0) return false;
+    if (!statistical) continue;
+    for (const auto& [key, results] : result.results.at(relation.name)) {
+      values += results.effectivities.size();
+      within += static_cast<std::size_t>(
+          std::count_if(results.effectivities.begin(), results.effectivities.end(), [](double e) { return e <= 1; }));
+    }
+  }
+  return static_cast<double>(within) >= 0.9 * static_cast<double>(values);
+}
+
 std::string campaign_text(const CampaignResult& result) {
   std::string text =
       "| relation | tried | agree | differ | refused | too expensive | failed | crashed | timed out |\n"

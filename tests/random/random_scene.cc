@@ -194,6 +194,12 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
       {"*.file", "a file"},
       {"accuracy", "what two runs of a scene differ in"},
       {"stage.centre_distance_mm", "follows from the profile shifts"},
+      {"*.root_diameter_mm", "those of the basic rack"},
+      {"sun.tip_diameter_mm", "that of the basic rack"},
+      {"planet.tip_diameter_mm", "that of the basic rack"},
+      {"pinion.tip_diameter_mm", "that of the basic rack"},
+      {"wheel.tip_diameter_mm", "that of the basic rack"},
+      {"stage.helix_angle_deg", "of the rack, and none of a 2K-V stage"},
       {"dynamics.mesh_cycles", "a length of motion, without a steady state"},
   };
   return keys;
