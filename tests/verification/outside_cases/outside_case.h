@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+/// The cases in data/cases: published results with their scenes.
+namespace annulus::test {
+
+/// A number as a source prints it.
+struct PrintedValue {
+  std::string unit;
+  double value = 0;
+  double half_unit = 0;  ///< half a unit of the last printed digit
+};
+
+class OutsideCase {
+ public:
+  /// Reads data/cases/NAME/printed.csv.
+  explicit OutsideCase(std::string name);
+
+  [[nodiscard]] const PrintedValue& printed(const std::string& quantity) const { return printed_.at(quantity); }
+  [[nodiscard]] std::filesystem::path scene(const std::string& file) const;
+  /// `annulus check`, then `annulus run` without cache into a new folder, which is returned; a failed check of the test
+  /// when either fails.
+  [[nodiscard]] std::filesystem::path run(const std::string& file) const;
+
+ private:
+  std::string name_;
+  std::map<std::string, PrintedValue> printed_;
+};
+
+}  // namespace annulus::test
