@@ -58,8 +58,9 @@ void at_load(const StiffnessTable& table, std::size_t load, Visit visit) {
 namespace {
 
 /// What the mean of equidistant samples of a periodic curve may miss between them: the largest difference to the mean
-/// of every second one, or half of that of every fourth one, which a chance agreement hides less. The mean of a curve
-/// that jumps converges with the first order, so the halved distance leaves as much as it changed.
+/// of every second one, or half of that of every fourth one, which a chance agreement hides less, or what jumps of the
+/// curve leave open. The mean of a curve that jumps converges with the first order, so the halved distance leaves as
+/// much as it changed.
 double between_samples(const std::vector<double>& values) {
   const auto mean_of = [&](std::size_t first, std::size_t step) {
     double sum = 0;
@@ -73,7 +74,15 @@ double between_samples(const std::vector<double>& values) {
     for (std::size_t first = 0; first < step; ++first)
       missed = std::max(missed, std::abs(mean_of(first, step) - mean) * 2 / static_cast<double>(step));
   }
-  return missed;
+  // Where in its interval a jump lies is not known: half of it times the interval, and several add up.
+  const std::size_t n = values.size();
+  double jumps = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double before = values[i] - values[(i + n - 1) % n], step = values[(i + 1) % n] - values[i],
+                 after = values[(i + 2) % n] - values[(i + 1) % n];
+    if (std::abs(step) > std::abs(before) + std::abs(after)) jumps += std::abs(step);
+  }
+  return std::max(missed, jumps / 2 / static_cast<double>(n));
 }
 
 /// Adds what lies between the positions of a table to the errors of a mean; a prescribed wave has none.
