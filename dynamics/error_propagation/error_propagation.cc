@@ -126,7 +126,7 @@ Differences interpolation_differences(Comparison& comparison, const TabulatedMod
   if (!divisible(4)) return part;
   for (const auto& [key, difference] : comparison.differences(much_coarser, all_meshes, "a quarter of the phases")) {
     double& larger = part.at(key);
-    if (difference / 4 > larger) larger = difference / 4;
+    if (!std::isnan(larger + difference)) larger = std::max(larger, difference / 4);
   }
   return part;
 }
