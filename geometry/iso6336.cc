@@ -73,7 +73,7 @@ Iso6336Stiffness iso_6336_stiffness(const GearPair& pair, const Iso6336Bodies& b
   Iso6336Stiffness stiffness;
   stiffness.theoretical = basic_rack / q * 1e9 * bodies.youngs_modulus / 206e9;
   stiffness.single = stiffness.theoretical * bodies.correction * bodies.gear_blank;
-  stiffness.mesh = stiffness.single * (0.75 * pair.contact_ratio() + 0.25);
+  stiffness.mesh = stiffness.single * mesh_over_single_stiffness(pair.contact_ratio());
   stiffness.mesh_beta = 0.85 * stiffness.mesh;
   return stiffness;
 }

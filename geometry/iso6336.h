@@ -20,11 +20,16 @@ struct Iso6336Bodies {
 /// least 1.
 [[nodiscard]] double gear_blank_factor(double web_thickness, double face_width, double rim_thickness_in_modules);
 
+/// c_gamma_alpha / c' = 0.75 epsilon_alpha + 0.25 [ISO6336-1], for epsilon_alpha >= 1.2.
+[[nodiscard]] constexpr double mesh_over_single_stiffness(double transverse_contact_ratio) {
+  return 0.75 * transverse_contact_ratio + 0.25;
+}
+
 /// Stiffness per face width, Pa (1 N/(mm um) = 1e9 Pa).
 struct Iso6336Stiffness {
   double theoretical = 0;  ///< c'_th C_B E / E_st: tooth pair with solid bodies, as calculated
   double single = 0;       ///< c' = c'_th C_B C_M C_R E / E_st
-  double mesh = 0;         ///< c_gamma_alpha = c' (0.75 epsilon_alpha + 0.25), for epsilon_alpha >= 1.2
+  double mesh = 0;         ///< c_gamma_alpha
   double mesh_beta = 0;    ///< c_gamma_beta = 0.85 c_gamma_alpha
 };
 

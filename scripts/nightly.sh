@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the checks that take hours: sanitizers, a second build with another compiler, clang-tidy, fuzzing, valgrind and the
-# full benchmarks; ends with CTest's summary. Options are passed to ctest: scripts/nightly.sh -R sanitizers
+# Runs the checks that take hours: sanitizers, a second build with another compiler, clang-tidy, fuzzing, valgrind, the
+# full benchmarks and random scenes; ends with CTest's summary. Options are passed to ctest: scripts/nightly.sh -R sanitizers
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

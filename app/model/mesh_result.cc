@@ -53,9 +53,8 @@ void at_load(const StiffnessTable& table, std::size_t load, Visit visit) {
   }
 }
 
-}  // namespace
-
-namespace {
+/// Whether a curve jumps between two samples, from its steps before, between and after them.
+bool jumps(double before, double step, double after) { return std::abs(step) > std::abs(before) + std::abs(after); }
 
 /// What the mean of equidistant samples of a periodic curve may miss between them: the largest difference to the mean
 /// of every second one, or half of that of every fourth one, which a chance agreement hides less, or what jumps of the
@@ -76,13 +75,13 @@ double between_samples(const std::vector<double>& values) {
   }
   // Where in its interval a jump lies is not known: half of it times the interval, and several add up.
   const std::size_t n = values.size();
-  double jumps = 0;
+  double jumped = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const double before = values[i] - values[(i + n - 1) % n], step = values[(i + 1) % n] - values[i],
                  after = values[(i + 2) % n] - values[(i + 1) % n];
-    if (std::abs(step) > std::abs(before) + std::abs(after)) jumps += std::abs(step);
+    if (jumps(before, step, after)) jumped += std::abs(step);
   }
-  return std::max(missed, jumps / 2 / static_cast<double>(n));
+  return std::max(missed, jumped / 2 / static_cast<double>(n));
 }
 
 /// Adds what lies between the positions of a table to the errors of a mean; a prescribed wave has none.
@@ -143,7 +142,7 @@ double beyond_the_highest(const std::vector<double>& values) {
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     // Between samples i and i + 1: rising with the slope before, falling with the slope after.
     const double rise = at(i) - at(i - 1), fall = at(i + 1) - at(i + 2), step = at(i + 1) - at(i);
-    if (std::abs(step) > std::abs(rise) + std::abs(fall)) {
+    if (jumps(rise, step, fall)) {
       reach = std::max(reach, std::max(at(i) + std::max(rise, 0.0), at(i + 1) + std::max(fall, 0.0)) - highest);
     } else if (rise > 0 && fall > 0) {
       const double place = (step + fall) / (rise + fall);  // in steps from i

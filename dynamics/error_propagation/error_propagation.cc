@@ -120,8 +120,8 @@ Differences interpolation_differences(Comparison& comparison, const TabulatedMod
                        [&](const TabulatedMesh& mesh) { return mesh.table.phases() % by == 0; });
   };
   if (!divisible(2) || model.meshes.empty()) return {};
-  // Jumping slopes converge with the first order: what is left is as large as what twice the distance changed. Which of
-  // the phases that leaves out is chance; four times the distance says whether it was luck.
+  // Where slopes jump, the error is as large as the change by twice the distance between phases. That change may be
+  // small by chance; the one by four times the distance then is not.
   auto part = comparison.differences(coarser, all_meshes, "half the phases");
   if (!divisible(4)) return part;
   for (const auto& [key, difference] : comparison.differences(much_coarser, all_meshes, "a quarter of the phases")) {

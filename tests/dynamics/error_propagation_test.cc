@@ -85,6 +85,11 @@ BOOST_AUTO_TEST_CASE(half_the_phases_state_the_interpolation) {
   const double f = nominal.figures.value("frequency_1_Hz");
   BOOST_TEST(found.find("frequency_1_Hz")->parts.interpolation == f * (std::sqrt(1 + ripple) - 1),
              boost::test_tools::tolerance(1e-9));
+  // Two of four phases have the mean of all again; a quarter of them, the first, has not.
+  const auto four = model_of({{"mesh", table_of(4, 0, ripple), {}}});
+  BOOST_TEST(propagate_errors(frequency_of(tables_of(four)), four).find("frequency_1_Hz")->parts.interpolation ==
+                 f * (std::sqrt(1 + ripple) - 1) / 4,
+             boost::test_tools::tolerance(1e-9));
   const auto odd = model_of({{"mesh", table_of(5, 0, ripple), {}}});
   const auto unknown = propagate_errors(frequency_of(tables_of(odd)), odd);
   BOOST_TEST(std::isnan(unknown.find("frequency_1_Hz")->parts.interpolation));

@@ -18,9 +18,13 @@ double Rack::least_profile_shift(long teeth) const {
          static_cast<double>(teeth) / std::cos(helix_angle_deg * units::deg) * section * section / 2 + 0.02;
 }
 
-void flank_keys(GearSet& set, const std::string& gear) {
+void flank_keys(GearSet& set, const std::string& gear, Section section) {
   set.together.emplace_back(gear + ".tip_relief_um", gear + ".tip_relief_length_mm");
-  set.chances[gear + ".tip_diameter_mm"] = set.chances[gear + ".root_diameter_mm"] = 0;
+  if (section != Section::solid) set.chances[gear + ".lead_crowning_um"] = set.chances[gear + ".lead_slope_um"] = 0;
+}
+
+void mesh_keys(GearSet& set, const std::string& mesh, Section section) {
+  if (section != Section::solid) set.chances["errors." + mesh + "_misalignment_um"] = 0;
 }
 
 Rack draw_rack(Draw& draw, Section section, SceneDraft& draft) {
@@ -28,7 +32,7 @@ Rack draw_rack(Draw& draw, Section section, SceneDraft& draft) {
   rack.module_mm = rounded(draw.log_uniform(0.4, 20), 3);
   rack.pressure_angle_deg = draw.one_of<double>({17.5, 20, 20, 20, 22.5, 25});
   rack.face_width_mm = rounded(rack.module_mm * draw.uniform(6, 18));
-  if (section != Section::plane && draw.chance(0.5)) rack.helix_angle_deg = rounded(draw.uniform(-18, 18), 3);
+  if (section == Section::solid && draw.chance(0.5)) rack.helix_angle_deg = rounded(draw.uniform(-18, 18), 3);
   rack.youngs_modulus_GPa = draw.one_of<double>({206, 206, 206, 110, 70, 2.8});
   draft.set("stage.module_mm", rack.module_mm);
   draft.set("stage.pressure_angle_deg", rack.pressure_angle_deg);

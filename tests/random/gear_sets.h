@@ -28,15 +28,14 @@ struct GearSet {
   int planets = 1;                                              ///< values of the lists
 };
 
-/// Whether something may change along the face width, so that a plane model is none.
-enum class Section { plane, solid };
+/// What a set may have: the same along the face width, anything, or what the resolved model covers.
+enum class Section { plane, solid, resolved };
 
 [[nodiscard]] GearSet planetary_set(Draw& draw, Section section);
 [[nodiscard]] GearSet helical_pair_set(Draw& draw, Section section);
 [[nodiscard]] GearSet two_k_v_set(Draw& draw, Section section);
 
-/// What the three share: material, basic rack, face width. `shifts`: of the two gears of the first mesh, and the number
-/// of teeth.
+/// What the three share: material, basic rack, face width.
 struct Rack {
   double module_mm = 1, pressure_angle_deg = 20, helix_angle_deg = 0, face_width_mm = 10, youngs_modulus_GPa = 206;
 
@@ -53,8 +52,10 @@ struct Rack {
 };
 [[nodiscard]] Rack draw_rack(Draw& draw, Section section, SceneDraft& draft);
 
-/// Keys of the flanks of a gear that go together.
-void flank_keys(GearSet& set, const std::string& gear);
+/// What holds for the keys of the flanks of a gear.
+void flank_keys(GearSet& set, const std::string& gear, Section section);
+/// No misalignment of a mesh that is the same along the face width.
+void mesh_keys(GearSet& set, const std::string& mesh, Section section);
 
 /// kg and kg m² of a disc of this diameter, 0.7 to 1.5 times that of a solid one of steel.
 struct Disc {

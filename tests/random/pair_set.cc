@@ -21,7 +21,6 @@ GearSet helical_pair_set(Draw& draw, Section section) {
   const double force = rack.mesh_force(draw), base = module * static_cast<double>(pinion) / 2 * std::cos(angle) * 1e-3;
   draft.set("stage.pinion_torque_Nm", rounded(force * base * (draw.chance(0.03) ? -1 : 1)));
   draft.set("stage.pinion_speed_rpm", rounded(draw.log_uniform(10, 6000), 3));
-  set.chances["stage.centre_distance_mm"] = 0;
   set.scales = {rack.module_mm, force / rack.mesh_stiffness() * 1e6, rack.mesh_stiffness(),
                 rack.mesh_stiffness() * base * base};
   auto& v = set.values;
@@ -32,12 +31,13 @@ GearSet helical_pair_set(Draw& draw, Section section) {
     const Disc disc = draw_disc(draw, diameter, rack.face_width_mm);
     v[key + ".mass_kg"] = disc.mass;
     v[key + ".inertia_kg_m2"] = disc.inertia;
-    flank_keys(set, key);
+    flank_keys(set, key, section);
     set.chances[key + ".bearing_transverse_N_per_m"] = set.chances[key + ".bearing_axial_N_per_m"] = 0.7;
     for (const auto* what : {"_total_um", "_tooth_to_tooth_um"})
       v["manufacturing_error." + key + what] =
           rounded(set.scales.deflection_um * (std::string(what) == "_total_um" ? 2 : 0.5) * draw.uniform(0.5, 1));
   }
+  mesh_keys(set, "pinion_wheel", section);
   set.chances["errors"] = 0.8;
   set.chances["mesh.pinion_wheel"] = 0.4;
   return set;

@@ -50,8 +50,8 @@ void ring_values(Draw& draw, const Rack& rack, double root_mm, Section section, 
   draft.set("ring.name", std::string("ring"));
   std::vector<std::string> structures = {"traditional", "traditional", "pinned", "bolted", "splined"};
   if (section == Section::solid) structures = {"traditional", "thin_walled", "clamped"};
-  const auto structure = draw.one_of(structures);
-  draft.set("ring.structure", structure);
+  if (section == Section::resolved) structures = {"traditional"};
+  draft.set("ring.structure", draw.one_of(structures));
   if (draw.chance(0.5))
     draft.set("ring.rim_thickness_mm", rim);
   else
@@ -64,7 +64,7 @@ void ring_values(Draw& draw, const Rack& rack, double root_mm, Section section, 
   v["ring.sleeve_thickness_mm"] = rounded(rim * draw.uniform(0.3, 1));
   v["ring.hoop_width_mm"] = rounded(rack.face_width_mm * draw.uniform(0.1, 0.3));
   v["ring.hoop_thickness_mm"] = rounded(rim * draw.uniform(0.3, 1));
-  if (section == Section::plane) set.chances["ring.flange_width_mm"] = set.chances["ring.flange_diameter_mm"] = 0;
+  if (section != Section::solid) set.chances["ring.flange_width_mm"] = set.chances["ring.flange_diameter_mm"] = 0;
   // A number that divides the teeth often keeps sectors equal, and with that costs.
   const auto equal = [&](long low, long high) {
     return draw.chance(0.4) ? static_cast<long>(teeth.ring) : draw.integer(low, high);
@@ -165,7 +165,8 @@ GearSet planetary_set(Draw& draw, Section section) {
     v[std::string(body) + ".mass_kg"] = disc.mass;
     v[std::string(body) + ".inertia_kg_m2"] = disc.inertia;
   }
-  for (const auto* body : {"sun", "planet", "ring"}) flank_keys(set, body);
+  for (const auto* body : {"sun", "planet", "ring"}) flank_keys(set, body, section);
+  for (const auto* mesh : {"sun_planet", "ring_planet"}) mesh_keys(set, mesh, section);
   set.chances["carrier"] = 1;
   set.chances["errors"] = set.chances["supports"] = 0.8;
   set.chances["mesh.sun_planet"] = set.chances["mesh.ring_planet"] = 0.15;

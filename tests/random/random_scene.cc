@@ -38,10 +38,7 @@ double usual_number(Draw& draw, const Parameter& p, const Scales& scales) {
   return draw.uniform(std::max(p.low, 0.0), std::min(p.high, 1.0));
 }
 
-double in_range(const Parameter& p, double value) {
-  value = std::clamp(value, p.low, p.high);
-  return rounded(value);
-}
+double in_range(const Parameter& p, double value) { return rounded(std::clamp(value, p.low, p.high)); }
 
 /// Walks the tables of a kind; a key is written when its conditions let it be and chance or a rule wants it.
 class Walk {
@@ -67,32 +64,26 @@ class Walk {
   }
 
  private:
-  [[nodiscard]] std::optional<bool> all_hold(const std::vector<app::KeyRule>& rules, const Parameter& p) const {
+  /// Of the keys as they stand; nothing where a value that a condition needs is still to be drawn.
+  [[nodiscard]] std::vector<std::optional<bool>> hold(const std::vector<app::KeyRule>& rules,
+                                                      const std::string& table) const {
+    if (rules.empty()) return {};
     const auto inputs = set_.draft.inputs(tables_);
     const app::KeyValues keys(inputs, tables_);
-    std::optional<bool> result = true;
-    for (const auto& rule : rules) {
-      if (!rule.kinds.empty() &&
-          std::find(rule.kinds.begin(), rule.kinds.end(), set_.draft.text_of("stage.kind")) == rule.kinds.end())
-        continue;
-      const auto holds = rule.when.holds(keys, p.table, 0);
-      if (holds == false) return false;
-      if (!holds) result = std::nullopt;
-    }
-    return result;
+    std::vector<std::optional<bool>> answers;
+    for (const auto& rule : rules) answers.push_back(rule.when.holds(keys, table, 0));
+    return answers;
+  }
+  [[nodiscard]] bool all_hold(const std::vector<app::KeyRule>& rules, const Parameter& p) const {
+    const auto answers = hold(rules, p.table);
+    return std::all_of(answers.begin(), answers.end(), [](const auto& answer) { return answer == true; });
   }
   [[nodiscard]] bool any_holds(const std::vector<app::KeyRule>& rules, const Parameter& p) const {
-    return std::any_of(rules.begin(), rules.end(), [&](const app::KeyRule& rule) {
-      if (!rule.kinds.empty() &&
-          std::find(rule.kinds.begin(), rule.kinds.end(), set_.draft.text_of("stage.kind")) == rule.kinds.end())
-        return false;
-      const auto inputs = set_.draft.inputs(tables_);
-      return rule.when.holds(app::KeyValues(inputs, tables_), p.table, 0) == true;
-    });
+    const auto answers = hold(rules, p.table);
+    return std::any_of(answers.begin(), answers.end(), [](const auto& answer) { return answer == true; });
   }
 
   void drop_tables_out_of_place() {
-    const auto inputs = set_.draft.inputs(tables_);
     for (const auto& t : tables_)
       for (const auto& rule : t.only_if)
         if (rule.when.kind == app::Condition::Kind::table && !set_.draft.has_table(rule.when.key))
@@ -101,9 +92,8 @@ class Walk {
 
   void draw_key(const Parameter& p) {
     const std::string key = p.key();
-    if (set_.draft.find(key) != nullptr || all_hold(p.only_if, p) != true || any_holds(p.refused_if, p)) return;
-    const bool needed = p.presence == Parameter::Presence::required || p.required(set_.draft.text_of("stage.kind")) ||
-                        any_holds(p.required_if, p);
+    if (set_.draft.find(key) != nullptr || !all_hold(p.only_if, p) || any_holds(p.refused_if, p)) return;
+    const bool needed = p.required(set_.draft.text_of("stage.kind")) || any_holds(p.required_if, p);
     if (!needed) {
       if (!decided_.insert(key).second) return;  // by an earlier pass
       const auto own = set_.chances.find(key);
@@ -130,7 +120,7 @@ class Walk {
     for (const auto& t : tables_) {
       if (!set_.draft.has_table(t.path)) continue;
       for (const auto& p : t.parameters) {
-        if (p.instead_of.empty() || all_hold(p.only_if, p) != true) continue;
+        if (p.instead_of.empty() || !all_hold(p.only_if, p)) continue;
         const bool others = std::all_of(p.instead_of.begin(), p.instead_of.end(), [&](const std::string& name) {
           return set_.draft.find(p.table + "." + name) != nullptr;
         });
@@ -207,32 +197,15 @@ const std::vector<std::pair<std::string, std::string>>& undrawn_keys() {
 
 RandomScene random_scene(std::uint64_t seed) {
   Draw draw(seed);
-  RandomScene scene;
-  scene.seed = seed;
-  const auto section = draw.chance(0.85) ? Section::plane : Section::solid;
-  const double kind = draw.uniform(0, 1);
-  GearSet set = kind < 0.6   ? planetary_set(draw, section)
-                : kind < 0.8 ? helical_pair_set(draw, section)
-                             : two_k_v_set(draw, section);
-  const auto model = draw.uniform(0, 1);
-  std::string name = model < 0.35 ? "automatic" : model < 0.75 ? "plane" : model < 0.95 ? "closed_form" : "resolved";
-  if (section == Section::solid) name = model < 0.6 ? "automatic" : model < 0.95 ? "solid" : "resolved";
-  set.draft.set("model", name);
-  set.draft.set("title", std::string("Random scene ") + std::to_string(seed));
-  if (section == Section::plane)
-    for (const auto* body : {"sun", "planet", "ring", "pinion", "wheel"})
-      for (const auto* key : {".lead_crowning_um", ".lead_slope_um"}) set.chances[body + std::string(key)] = 0;
-  if (section == Section::plane)
-    for (const auto* mesh : {"sun_planet", "ring_planet", "pinion_wheel"})
-      set.chances["errors." + std::string(mesh) + "_misalignment_um"] = 0;
-  set.chances["stage.helix_angle_deg"] = 0;  // of the rack
-  set.chances["supports.ring_torsional_N_per_m"] = 0.2;
-  if (name == "resolved" && set.draft.find("ring.structure") != nullptr) {
-    set.draft.set("ring.structure", std::string("traditional"));
-    set.draft.remove("stage.helix_angle_deg");
-  }
-  scene.kind = set.draft.text_of("stage.kind");
-  scene.model = name;
+  const double share = draw.uniform(0, 1);
+  const auto section = share < 0.82 ? Section::plane : share < 0.96 ? Section::solid : Section::resolved;
+  const auto make = draw.one_of<GearSet (*)(Draw&, Section)>(
+      {planetary_set, planetary_set, planetary_set, helical_pair_set, two_k_v_set});
+  GearSet set = make(draw, section);
+  RandomScene scene{.seed = seed, .kind = set.draft.text_of("stage.kind"), .model = "resolved", .draft = {}};
+  if (section == Section::plane) scene.model = draw.one_of<std::string>({"automatic", "plane", "plane", "closed_form"});
+  if (section == Section::solid) scene.model = draw.one_of<std::string>({"automatic", "solid"});
+  set.draft.set("model", scene.model);
   Walk(draw, set, app::schema(scene.kind)).run();
   scene.draft = std::move(set.draft);
   return scene;

@@ -93,21 +93,21 @@ void SceneDraft::scale(const std::string& key, double factor) {
 }
 
 std::vector<app::Input> SceneDraft::inputs(const std::vector<app::Table>& tables) const {
+  const auto kind = text_of("stage.kind");
   std::vector<app::Input> list;
   for (const auto& t : tables) {
-    // As the reader: optional tables are there when they are written, or when all their keys have defaults.
-    const bool defaults = !t.on_request && !t.repeated &&
-                          std::all_of(t.parameters.begin(), t.parameters.end(), [](const app::Parameter& p) {
-                            return p.presence != app::Parameter::Presence::required && p.required_for.empty();
-                          });
-    if (!t.path.empty() && !has_table(t.path) && !(defaults && !t.required)) continue;
+    // As the reader: an optional table whose keys are all optional has its defaults without being written.
+    const bool needs_presence = t.required || t.repeated || t.on_request ||
+                                std::any_of(t.parameters.begin(), t.parameters.end(),
+                                            [&](const app::Parameter& p) { return p.required(kind); });
+    if (!t.path.empty() && needs_presence && !has_table(t.path)) continue;
     for (const auto& p : t.parameters) {
       app::Input input;
       input.key = p.key();
       if (const auto* written = find(p.key())) {
         input.value = *written;
       } else {
-        if (p.presence == app::Parameter::Presence::required) continue;
+        if (p.required(kind)) continue;
         input.value = p.default_value;
         input.origin = app::Origin::default_value;
       }

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -16,7 +17,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Of the program (app/cli.h), of a shell whose child was ended by a signal, and of timeout(1).
+/// Of the program (app/cli.h), and of timeout(1) and a shell when the program was ended by a signal.
 Outcome outcome_of(int raw) {
   if (!WIFEXITED(raw)) return Outcome::crashed;
   switch (WEXITSTATUS(raw)) {
@@ -26,7 +27,7 @@ Outcome outcome_of(int raw) {
       return Outcome::refused;
     case 3:
       return Outcome::failed;
-    case 124:
+    case 128 + SIGKILL:
       return Outcome::timed_out;
     default:
       return Outcome::crashed;
@@ -126,17 +127,15 @@ SceneRun run_scene(const std::string& toml, const std::filesystem::path& folder,
                                                                 : settings.arguments,
       settings.max_time);
   SceneRun run;
-  const int raw = std::system(fmt::format("bash -c \"{}\"", command).c_str());
-  run.outcome = outcome_of(raw);
-  // timeout(1) that kills says so as the shell does.
-  if (WIFEXITED(raw) && WEXITSTATUS(raw) == 137) run.outcome = Outcome::timed_out;
+  run.outcome = outcome_of(std::system(fmt::format("bash -c \"{}\"", command).c_str()));
   if (run.outcome == Outcome::right) {
     read_summary(folder / "out" / "summary.json", run);
     run.cost.actual_seconds = processor_seconds(folder / "time.txt");
     return run;
   }
   run.message = read_file(folder / "stderr.txt");
-  if (run.outcome == Outcome::failed && (run.message.find("predicted") != std::string::npos))
+  // The refusal of app/model/run_limits.cc, before anything is computed.
+  if (run.outcome == Outcome::failed && run.message.find(": refused: predicted to ") != std::string::npos)
     run.outcome = Outcome::too_expensive;
   return run;
 }

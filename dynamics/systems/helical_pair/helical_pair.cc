@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "dynamics/system/input_checks.h"
+#include "geometry/iso6336.h"
 
 namespace annulus::dynamics {
 
@@ -112,7 +113,8 @@ double iso_6336_mesh_stiffness(const Iso6336Mesh& mesh) {
     throw InputError(fmt::format("transverse contact ratio {} must be at least 1", transverse_contact_ratio));
   if (!(std::abs(helix_angle) < std::numbers::pi / 2))
     throw InputError(fmt::format("helix angle {} rad must lie below 90 degrees", helix_angle));
-  return single_stiffness * std::cos(helix_angle) * (0.75 * transverse_contact_ratio + 0.25) * face_width;
+  return single_stiffness * std::cos(helix_angle) * geometry::mesh_over_single_stiffness(transverse_contact_ratio) *
+         face_width;
 }
 
 LumpedSystem assemble(const HelicalPair& pair) {

@@ -2,16 +2,15 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
-#include <utility>
+#include "tests/app/run_program.h"
 
 namespace annulus::test {
 
 namespace fs = std::filesystem;
 
-OutsideCase::OutsideCase(std::string name) : name_(std::move(name)) {
+OutsideCase::OutsideCase(const std::string& name) : name_(name), folder_(name) {
   std::ifstream file(scene("printed.csv"));
   BOOST_TEST_REQUIRE(file.good());
   std::string line;
@@ -33,13 +32,12 @@ fs::path OutsideCase::scene(const std::string& file) const {
 }
 
 fs::path OutsideCase::run(const std::string& file) const {
-  const fs::path out = fs::temp_directory_path() / ("annulus_" + name_ + "_" + file);
-  fs::remove_all(out);
-  const std::string program = std::string("ANNULUS_CACHE= ") + ANNULUS_PROGRAM, scene_file = scene(file).string();
-  BOOST_TEST_REQUIRE(std::system((program + " check " + scene_file + " > /dev/null").c_str()) == 0);
-  BOOST_TEST_REQUIRE(
-      std::system((program + " run " + scene_file + " --quiet -o " + out.string() + " > /dev/null").c_str()) == 0);
-  return out;
+  const auto quoted = "'" + scene(file).string() + "'";
+  for (const auto& command : {"check " + quoted, "run --quiet -o '" + file + "' " + quoted}) {
+    const auto outcome = run_program(folder_.path(), command);
+    BOOST_TEST_REQUIRE(outcome.status == 0, command << ": " << outcome.err);
+  }
+  return folder_.path() / file;
 }
 
 }  // namespace annulus::test

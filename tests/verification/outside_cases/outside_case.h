@@ -4,6 +4,8 @@
 #include <map>
 #include <string>
 
+#include "tests/temporary_folder.h"
+
 /// The cases in data/cases: published results with their scenes.
 namespace annulus::test {
 
@@ -17,17 +19,18 @@ struct PrintedValue {
 class OutsideCase {
  public:
   /// Reads data/cases/NAME/printed.csv.
-  explicit OutsideCase(std::string name);
+  explicit OutsideCase(const std::string& name);
 
   [[nodiscard]] const PrintedValue& printed(const std::string& quantity) const { return printed_.at(quantity); }
   [[nodiscard]] std::filesystem::path scene(const std::string& file) const;
-  /// `annulus check`, then `annulus run` without cache into a new folder, which is returned; a failed check of the test
-  /// when either fails.
+  /// `annulus check`, then `annulus run`; the folder of its results, which lives as long as this. A failed check of the
+  /// test when either fails.
   [[nodiscard]] std::filesystem::path run(const std::string& file) const;
 
  private:
   std::string name_;
   std::map<std::string, PrintedValue> printed_;
+  TemporaryFolder folder_;
 };
 
 }  // namespace annulus::test

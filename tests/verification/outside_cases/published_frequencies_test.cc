@@ -30,8 +30,8 @@ constexpr PublishedStage lin_parker{
     {0.4, 2.35, 5.43, 0.66},   {0.39, 3.00, 6.29, 0.61}, {1e8, 1e8, 1e8}, {0, 1e9, 0}, 1e8, 5e8,
     24.6 * annulus::units::deg};
 
-/// Rising natural frequencies, Hz, of the equations of Lin and Parker, written out here once more: three degrees of
-/// freedom x, y, u = r theta of each body, planets radial and tangential.
+/// Rising natural frequencies, Hz, of the equations of Lin and Parker, written out here once more: DOFs x, y,
+/// u = r theta of each body, those of planets radial and tangential.
 std::vector<double> frequencies_of_the_equations(const PublishedStage& s, int planets) {
   const int n = 9 + 3 * planets;
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(n, n);
