@@ -4,10 +4,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <map>
 #include <new>
+#include <system_error>
 #include <thread>
 
 #include "app/commands.h"
@@ -15,9 +18,11 @@
 #include "app/export/export.h"
 #include "app/process/interruption.h"
 #include "app/process/progress.h"
+#include "app/process/system_limits.h"
 #include "app/results/content_id.h"
 #include "app/scene/scene_value.h"
 #include "core/errors.h"
+#include "core/files.h"
 #include "core/log.h"
 
 namespace annulus::app {
@@ -169,16 +174,60 @@ void declare(CLI::App& app, Arguments& arguments) {
   examples(completion, "  annulus completion bash > ~/.local/share/bash-completion/completions/annulus");
 }
 
-}  // namespace
+constexpr const char* no_output = "cannot write to the standard output: check that it is open and its disk is not full";
 
-int run_command_line(int argc, char** argv) {
-  watch_for_interruption(interrupted);
+/// The link on the way to this path that leads nowhere; empty when there is none.
+std::filesystem::path dangling_link(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::path at;
+  for (const auto& part : path) {
+    at /= part;
+    if (fs::is_symlink(fs::symlink_status(at, error)) && !fs::exists(at, error)) return at;
+  }
+  return {};
+}
 
+/// A folder that cannot be made or read.
+std::string folder_message(const std::filesystem::filesystem_error& error) {
+  const auto link = dangling_link(error.path1());
+  if (!link.empty())
+    return fmt::format("{}: is a link to {}, which does not exist; make that folder or remove the link", link.string(),
+                       std::filesystem::read_symlink(link).string());
+  return fmt::format("{}: {}; check that its folder exists, is writable and not full", error.path1().string(),
+                     error.code().message());
+}
+
+/// A thread that could not be started, for example.
+std::string system_message(const std::system_error& error) {
+  return fmt::format("refused by the system: {}; raise its limits (ulimit -a) or use fewer --threads", error.what());
+}
+
+/// Refuses what the limits of the system do not let end.
+void check_system_limits(const std::string& command, const Arguments& arguments) {
+  for (const char* computes : {"run", "solve", "dynamics", "tradeoff"})
+    if (command == computes) {
+      ensure_stack();
+      return reserve_blas_memory(arguments.threads);
+    }
+  if (command == "plan" || command == "check") reserve_blas_memory(1);
+}
+
+int parse_and_run(int argc, char** argv) {
   Arguments arguments;
   arguments.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   CLI::App app("What the structure of a ring gear does to load sharing and vibration of a planetary gear set.",
                "annulus");
   declare(app, arguments);
+  const auto fail = [](const std::string& message, ExitStatus status) {
+    log::error(message);
+    return status;
+  };
+  try {
+    watch_for_interruption(interrupted);
+  } catch (const std::system_error& error) {
+    return fail(system_message(error), refused);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -187,6 +236,7 @@ int run_command_line(int argc, char** argv) {
       return wrong_input;
     }
     const int status = app.exit(error);
+    if (!std::cout.flush()) return fail(no_output, wrong_input);
     return status == 0 ? done : wrong_input;
   }
   log::set_level(arguments.quiet ? log::Level::quiet : arguments.verbose ? log::Level::verbose : log::Level::normal);
@@ -205,25 +255,40 @@ int run_command_line(int argc, char** argv) {
       {"new", [&] { new_command(arguments); }},
       {"explain", [&] { explain_command(arguments); }},
       {"completion", [&] { fmt::print("{}", completion_script(app, arguments.shell)); }}};
-  const auto fail = [](const std::string& message, ExitStatus status) {
-    log::error(message);
-    return status;
-  };
   try {
-    commands.at(app.get_subcommands().front()->get_name())();
-    return done;
+    const auto command = app.get_subcommands().front()->get_name();
+    check_system_limits(command, arguments);
+    commands.at(command)();
+    // What stands in the buffer is written only now.
+    return std::fflush(stdout) == 0 ? done : fail(no_output, wrong_input);
   } catch (const InputError& error) {
+    return fail(error.what(), wrong_input);
+  } catch (const FileError& error) {
     return fail(error.what(), wrong_input);
   } catch (const Error& error) {
     return fail(error.what(), refused);
   } catch (const std::filesystem::filesystem_error& error) {
-    return fail(error.what(), wrong_input);
+    return fail(folder_message(error), wrong_input);
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) != 0) return fail(no_output, wrong_input);
+    return fail(system_message(error), refused);
   } catch (const std::bad_alloc&) {
-    return fail(
-        "out of memory: ask for less accuracy or fewer threads; finished results are stored and reused by the next run",
-        refused);
+    throw;
   } catch (const std::exception& error) {
     return fail(std::string("defect in annulus, please report it: ") + error.what(), defect);
+  }
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    log::error(
+        "out of memory: ask for less accuracy or fewer threads; finished results are stored and reused by the next "
+        "run");
+    return refused;
   }
 }
 

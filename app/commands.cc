@@ -16,6 +16,7 @@
 #include "app/plan/plan.h"
 #include "app/report/page.h"
 #include "app/results/figure_table.h"
+#include "app/results/result_folder.h"
 #include "app/results/user_cache.h"
 #include "app/run/finished_run.h"
 #include "app/run/pipeline.h"
@@ -45,6 +46,10 @@ RunOptions run_options(const Arguments& arguments, const Scene& scene) {
   return options;
 }
 
+ResultFolder folder_of(const RunOptions& options, const Scene& scene) {
+  return {options.out, {scene.file, scene.title}, {options.cache, user_cache()}};
+}
+
 RunLimits limits_of(const Arguments& arguments) {
   auto limits = RunLimits::of_this_machine();
   if (arguments.max_memory) limits.memory_MB = parse_memory(*arguments.max_memory);
@@ -57,7 +62,10 @@ void check_out(const std::filesystem::path& out) {
   namespace fs = std::filesystem;
   fs::path there = fs::absolute(out).lexically_normal();
   std::error_code error;
-  while (!fs::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+  while (!fs::exists(fs::symlink_status(there, error)) && there.has_relative_path()) there = there.parent_path();
+  if (fs::is_symlink(fs::symlink_status(there, error)) && !fs::exists(there, error))
+    throw InputError(fmt::format("--out {}: {} is a link to {}, which does not exist", out.string(), there.string(),
+                                 fs::read_symlink(there, error).string()));
   if (!fs::is_directory(there, error))
     throw InputError(fmt::format("--out {}: {} is not a folder", out.string(), there.string()));
   if (::access(there.c_str(), W_OK | X_OK) != 0)
@@ -89,16 +97,20 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
   auto options = run_options(arguments, scene);
   options.with_dynamics = with_dynamics;
   check_out(options.out);
+  auto folder = folder_of(options, scene);
+  options.folder = &folder;
   const auto id = run_id(scene, options);
   if (const auto earlier = finished_run(options.out, id)) {
     fmt::print("{}reused   everything: nothing has changed since the run above\n", *earlier);
   } else {
+    folder.check();
     check_scene(scene, arguments, with_dynamics);
     remove_unfinished_files(options.out);
     remove_unfinished_files(options.cache);
     const auto text = run_text(*run_system(scene, options));
+    folder.remove_earlier(is_of_run);
+    keep_finished_run(options.out, id, text, folder.written(is_of_run));
     fmt::print("{}", text);
-    keep_finished_run(options.out, id, text);
   }
   if (!budget.empty()) fmt::print("{}\n", budget);
   fmt::print("report  {}\n", (options.out / "report.html").string());
@@ -163,11 +175,15 @@ void tradeoff_command(const Arguments& arguments) {
   const Scene scene = read_scene(arguments.scene);
   const auto options = run_options(arguments, scene);
   check_out(options.out);
+  auto folder = folder_of(options, scene);
+  folder.check();
   check_scene(scene, arguments, false);
   remove_unfinished_files(options.out);
   remove_unfinished_files(options.cache);
+  folder.begin();
   const auto trade = measure_tradeoff(scene, options);
   write_tradeoff(trade, options.out);
+  folder.remove_earlier(is_of_tradeoff);
   fmt::print("{}\ntable   {}\nreport  {}\n", trade_text(trade), (options.out / "tradeoff.csv").string(),
              (options.out / "tradeoff.html").string());
 }
@@ -183,7 +199,10 @@ void compare_command(const Arguments& arguments) {
   const auto runs = read_finished_runs(arguments.folders);
   if (page.has_parent_path()) std::filesystem::create_directories(page.parent_path());
   const auto pictures = page.stem().string() + "_pictures";
+  ResultFolder folder(page.parent_path() / pictures, {page, "a comparison"});
+  folder.begin();
   write_report(page, comparison_page(runs), pictures);
+  folder.remove_earlier([](const std::string&) { return true; });
   write_file(table, comparison_csv(runs));
   fmt::print("{}table   {}\npage    {}\npictures {}\n", comparison_text(runs), table.string(), page.string(),
              (page.parent_path() / pictures).string());

@@ -180,12 +180,18 @@ std::string Csv::column_names() const {
   return names;
 }
 
+std::string csv_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  return text;
+}
+
 std::string csv_cell(const std::string& text) {
-  std::string cell;
-  for (const char c : text) {
-    if (c == '"') cell += '"';
-    cell += c == '\n' || c == '\r' ? ' ' : c;
-  }
+  std::string cell = csv_line(text);
+  const auto first = cell.find_first_not_of(' ');
+  if (first != std::string::npos && std::string_view("=+-@").find(cell[first]) != std::string_view::npos)
+    cell.insert(cell.begin(), '\'');
+  for (auto at = cell.find('"'); at != std::string::npos; at = cell.find('"', at + 2)) cell.insert(at, 1, '"');
   return text.find_first_of(",\"") == std::string::npos ? cell : '"' + cell + '"';
 }
 

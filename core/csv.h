@@ -39,8 +39,12 @@ struct Csv {
   [[nodiscard]] std::string column_names() const;
 };
 
-/// A cell of a table with text in it, quoted where it has to be (RFC 4180); line ends become blanks.
+/// A cell of a table with text in it, quoted where it has to be (RFC 4180). Line ends and other control characters
+/// become blanks. A text that spreadsheets would take for a formula (=, +, - or @ in front) gets an apostrophe in
+/// front.
 [[nodiscard]] std::string csv_cell(const std::string& text);
+/// A text for a `# key: value` line: control characters become blanks.
+[[nodiscard]] std::string csv_line(std::string text);
 /// 17 significant digits; nothing for what is not finite.
 [[nodiscard]] std::string csv_cell(double number);
 

@@ -2,6 +2,7 @@
 
 #include <system_error>
 
+#include "core/file_guard.h"
 #include "core/files.h"
 
 namespace annulus {
@@ -11,7 +12,7 @@ namespace {
 bool holds(const std::filesystem::path& file, const std::string& content) {
   std::error_code none;
   const auto size = std::filesystem::file_size(file, none);
-  return !none && size == content.size() && read_file(file) == content;
+  return !none && size == content.size() && !std::filesystem::is_symlink(file, none) && read_file(file) == content;
 }
 
 }  // namespace
@@ -28,10 +29,12 @@ FileSet read_files(const std::filesystem::path& folder, const std::vector<std::s
 void write_files(const FileSet& files, const std::filesystem::path& folder) {
   for (const auto& [name, content] : files) {
     const auto file = folder / name;
-    std::error_code ignored;
     if (!content) {
-      std::filesystem::remove(file, ignored);
-    } else if (!holds(file, *content)) {
+      remove_file(file);
+    } else if (holds(file, *content)) {
+      ask_to_write(file);  // it is there as if it had been written
+    } else {
+      std::error_code ignored;
       std::filesystem::create_directories(file.parent_path(), ignored);
       write_file(file, *content);
     }

@@ -1,7 +1,9 @@
 #include "core/files.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -11,10 +13,11 @@
 #include <chrono>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
-#include "core/errors.h"
+#include "core/file_guard.h"
 
 namespace annulus {
 
@@ -33,14 +36,39 @@ int writer_of(const std::filesystem::path& path) {
   return id;
 }
 
+/// Devices, pipes and folders are not to be replaced by a file, nor are links to them.
+void check_replaceable(const std::filesystem::path& file) {
+  struct stat there {};
+  if (::stat(file.c_str(), &there) != 0 || S_ISREG(there.st_mode)) return;
+  throw FileError(fmt::format("cannot write {}: it is {}; give the name of a file", file.string(),
+                              S_ISDIR(there.st_mode) ? "a folder" : "a device or a pipe"));
+}
+
 bool runs(int process) { return ::kill(process, 0) == 0 || errno != ESRCH; }
 
 }  // namespace
 
-UnfinishedFile::UnfinishedFile(std::filesystem::path file, const std::string& ending)
-    : file_(std::move(file)), temporary_(file_) {
+FileError cannot_write(const std::filesystem::path& file, int error) {
+  std::string reason = error == 0 ? "" : std::generic_category().message(error) + "; ";
+  if (error == EFBIG) reason += "raise the limit of the file size (ulimit -f), and ";
+  return FileError(
+      fmt::format("cannot write {}: {}check that its folder exists, is writable and not full", file.string(), reason));
+}
+
+UnfinishedFile::UnfinishedFile(std::filesystem::path file, const std::string& ending) : file_(std::move(file)) {
   static std::atomic<unsigned> counter{0};
-  temporary_ += fmt::format(".{}.{}{}{}", ::getpid(), counter++, mark, ending);
+  check_replaceable(file_);
+  ask_to_write(file_);
+  for (int opened = -1; opened < 0;) {
+    temporary_ = file_;
+    temporary_ += fmt::format(".{}.{}{}{}", ::getpid(), counter++, mark, ending);
+    // Exclusively: whatever lies there under this name, a link to another file too, stays.
+    opened = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (opened >= 0)
+      ::close(opened);
+    else if (errno != EEXIST)
+      throw cannot_write(file_, errno);
+  }
 }
 
 UnfinishedFile::~UnfinishedFile() {
@@ -51,7 +79,7 @@ UnfinishedFile::~UnfinishedFile() {
 void UnfinishedFile::finish() {
   std::error_code error;
   std::filesystem::rename(temporary_, file_, error);
-  if (error) throw InputError(fmt::format("cannot write {}: {}", file_.string(), error.message()));
+  if (error) throw cannot_write(file_, error.value());
 }
 
 bool is_unfinished(const std::filesystem::path& file) { return writer_of(file) != 0; }
@@ -68,12 +96,18 @@ std::string read_file(const std::filesystem::path& file) {
 
 void write_file(const std::filesystem::path& file, const std::string& text) {
   UnfinishedFile unfinished(file);
-  std::ofstream stream(unfinished.temporary(), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream)
-    throw InputError(
-        fmt::format("cannot write {}: check that its folder exists, is writable and not full", file.string()));
+  const int out = ::open(unfinished.temporary().c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
+  if (out < 0) throw cannot_write(file, errno);
+  int error = 0;
+  for (std::string_view rest = text; error == 0 && !rest.empty();) {
+    const auto count = ::write(out, rest.data(), rest.size());
+    if (count >= 0)
+      rest.remove_prefix(static_cast<std::size_t>(count));
+    else if (errno != EINTR)
+      error = errno;
+  }
+  if (::close(out) != 0 && error == 0) error = errno;
+  if (error != 0) throw cannot_write(file, error);
   unfinished.finish();
 }
 

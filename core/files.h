@@ -4,21 +4,33 @@
 #include <optional>
 #include <string>
 
+#include "core/errors.h"
+
 namespace annulus {
 
+/// A file or folder that cannot be written. Exit status 2. Not an InputError: no key of a scene is to blame.
+class FileError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// "cannot write FILE: REASON; REMEDY"; `error`: errno, or 0 where it is not known.
+[[nodiscard]] FileError cannot_write(const std::filesystem::path& file, int error);
+
 /// A file that appears when it is complete, and not at all otherwise: written under another name in the same folder
-/// and renamed. Any number of threads and processes may write the same file; the last one wins.
+/// and renamed. Any number of threads and processes may write the same file; the last one wins. A symbolic link under
+/// either name is never followed. Guards (core/file_guard.h) are asked first.
 class UnfinishedFile {
  public:
-  /// `ending`: of the temporary name, for writers that choose a format by it.
+  /// Makes the temporary file, empty. `ending`: of its name, for writers that choose a format by it. Throws FileError.
   explicit UnfinishedFile(std::filesystem::path file, const std::string& ending = {});
   ~UnfinishedFile();  ///< leaves nothing behind
   UnfinishedFile(const UnfinishedFile&) = delete;
   UnfinishedFile& operator=(const UnfinishedFile&) = delete;
 
-  /// Where to write.
+  /// Where to write: a file that is there.
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
-  /// Call when everything is written. Throws InputError naming the file.
+  /// Call when everything is written. Throws FileError.
   void finish();
 
  private:
@@ -28,7 +40,7 @@ class UnfinishedFile {
 /// Whether this is the temporary name of such a file.
 [[nodiscard]] bool is_unfinished(const std::filesystem::path& file);
 
-/// Writes `text` as a whole or not at all. Throws InputError naming the file when that is not possible.
+/// Writes `text` as a whole or not at all. Throws FileError when that is not possible.
 void write_file(const std::filesystem::path& file, const std::string& text);
 
 /// The whole file, byte by byte. Throws InputError naming the file when it cannot be read.

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -26,7 +27,10 @@ void for_each_task(std::size_t tasks, int threads, Task task) {
     }
   };
   std::vector<std::thread> pool;
-  for (int i = 1; i < threads && static_cast<std::size_t>(i) < tasks; ++i) pool.emplace_back(work);
+  try {
+    for (int i = 1; i < threads && static_cast<std::size_t>(i) < tasks; ++i) pool.emplace_back(work);
+  } catch (const std::system_error&) {  // the system refuses another thread (ulimit -u, -v): fewer do as well
+  }
   work();
   for (auto& thread : pool) thread.join();
   for (const auto& failure : failures)

@@ -130,7 +130,7 @@ void ResultStore::keep(const std::string& kind, std::string_view inputs, std::st
   fs::create_directories(path.parent_path(), ignored);
   try {
     write_file(path, file);
-  } catch (const InputError& error) {
+  } catch (const FileError& error) {
     log::warn(fmt::format("{}: this result is not cached", error.what()));
     return;
   }

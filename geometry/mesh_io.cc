@@ -96,13 +96,11 @@ void write_msh(const Mesh& mesh, const std::filesystem::path& file) {
     gmsh::model::mesh::reclassifyNodes();
     gmsh::write(unfinished.temporary().string());
   } catch (const std::exception& e) {
-    throw InputError(fmt::format("cannot write the mesh {}: {}", file.string(), e.what()));
+    throw FileError(fmt::format("cannot write the mesh {}: {}", file.string(), e.what()));
   } catch (...) {  // gmsh throws plain strings and integers
-    throw InputError(fmt::format("cannot write the mesh {}: gmsh refused; is the folder writable?", file.string()));
+    throw FileError(fmt::format("cannot write the mesh {}: gmsh refused; is the folder writable?", file.string()));
   }
-  if (!ends_as_mesh(unfinished.temporary()))
-    throw InputError(
-        fmt::format("cannot write {}: check that its folder exists, is writable and not full", file.string()));
+  if (!ends_as_mesh(unfinished.temporary())) throw cannot_write(file, 0);
   unfinished.finish();
 }
 

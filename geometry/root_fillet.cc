@@ -58,8 +58,9 @@ void RootFillet::generate(const Gear& gear) {
   if (radius_ < min_radius * m) {
     throw GeometryError(fmt::format(
         "the root of the external gear with {} teeth cannot be generated: the rack tooth that cuts the root diameter "
-        "{:.4f} mm is {:.4f} mm wide at its tip; use a larger root diameter, a smaller pressure angle or a root "
-        "fillet factor of at least {}",
+        "{:.4f} mm is {:.4f} mm wide at its tip, too narrow even for the smallest root fillet, {} modules; use a "
+        "larger "
+        "root diameter or a smaller pressure angle",
         p.teeth, 2 * root_radius_ / units::mm, 2 * half_tip / units::mm, min_radius));
   }
   corner_x_ = (half_tip - radius_ * setback) * widening;
@@ -113,11 +114,17 @@ void RootFillet::inscribe(const Gear& gear) {
   };
   radius_ = std::min(p.root_fillet_factor * m, root_radius_ - base_radius_);
   const double smallest = min_radius * m;
-  if (radius_ < smallest || excess(smallest) > 0) {
+  if (radius_ < smallest) {
     throw GeometryError(fmt::format(
-        "the space of the internal gear with {} teeth has no room for a root fillet of {} modules at the root "
-        "diameter {:.4f} mm; use a smaller root diameter or a fillet factor of at least {}",
-        p.teeth, min_radius, 2 * root_radius_ / units::mm, min_radius));
+        "the root circle of the internal gear with {} teeth (diameter {:.4f} mm) lies less than the smallest root "
+        "fillet, {} modules, outside its base circle ({:.4f} mm); use a larger root diameter",
+        p.teeth, 2 * root_radius_ / units::mm, min_radius, 2 * base_radius_ / units::mm));
+  }
+  if (excess(smallest) > 0) {
+    throw GeometryError(fmt::format(
+        "the space of the internal gear with {} teeth is too narrow at the root diameter {:.4f} mm even for the "
+        "smallest root fillet, {} modules (the root fillet factor is {}); use a smaller root diameter",
+        p.teeth, 2 * root_radius_ / units::mm, min_radius, p.root_fillet_factor));
   }
   if (excess(radius_) > 0) radius_ = bracketed_root(excess, smallest, radius_, excess(smallest), excess(radius_));
   form_roll_ = roll(radius_);

@@ -131,7 +131,7 @@ std::string comparison_text(const std::vector<ComparedRun>& runs) {
 
 std::string comparison_csv(const std::vector<ComparedRun>& runs) {
   std::string text = fmt::format("# annulus_version: {}\n# kind: {}\n", version(), runs.front().kind);
-  for (const auto& run : runs) text += "# run: " + run.name + " = " + run.folder.string() + "\n";
+  for (const auto& run : runs) text += "# run: " + csv_line(run.name + " = " + run.folder.string()) + "\n";
   text += "figure,unit,variant,value,error,difference_to_first,errors_together,against_first\n";
   for (const auto& [spec, si, shown, cells, differences] : Comparison(runs).quantities) {
     const auto& first = shown.rings.front();

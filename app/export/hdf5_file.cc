@@ -66,8 +66,8 @@ void write_hdf5(const std::filesystem::path& file, const NamedArrays& arrays) {
   try {
     write_arrays(unfinished.temporary(), arrays);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("cannot write {}: {}; check that its folder exists, is writable and not full",
-                                 file.string(), error.what()));
+    throw FileError(fmt::format("cannot write {}: {}; check that its folder exists, is writable and not full",
+                                file.string(), error.what()));
   }
   unfinished.finish();
 }

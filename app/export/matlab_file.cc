@@ -77,7 +77,7 @@ void write_matlab(const std::filesystem::path& file, const NamedArrays& arrays) 
       write(out.get(), all);
     }
   } catch (const InputError& error) {
-    throw InputError(fmt::format("cannot write {}: {}", file.string(), error.what()));
+    throw FileError(fmt::format("cannot write {}: {}", file.string(), error.what()));
   }
   unfinished.finish();
 }

@@ -42,8 +42,7 @@ void write_png(const std::filesystem::path& svg, const std::filesystem::path& pn
     throw InputError(fmt::format("{}: cannot be drawn", svg.string()));
   UnfinishedFile unfinished(png, ".png");
   if (cairo_surface_write_to_png(surface.get(), unfinished.temporary().c_str()) != CAIRO_STATUS_SUCCESS)
-    throw InputError(
-        fmt::format("cannot write {}: check that its folder exists, is writable and not full", png.string()));
+    throw cannot_write(png, 0);
   unfinished.finish();
 }
 

@@ -8,6 +8,7 @@
 #include "app/model/mesh_tables.h"
 #include "app/report/drawings/mesh.h"
 #include "app/results/content_id.h"
+#include "core/file_guard.h"
 #include "core/files.h"
 
 namespace annulus::app {
@@ -242,7 +243,7 @@ void save(const MeshResult& result, const std::filesystem::path& folder) {
   // An empty table leaves no file behind, not even one of an earlier run.
   const auto keep = [&](const std::string& name, Csv csv) {
     const auto file = folder / (name + "_" + mesh + ".csv");
-    if (csv.rows.empty()) return std::filesystem::remove(file), void();
+    if (csv.rows.empty()) return remove_file(file);
     csv.header.insert(
         csv.header.begin(),
         {{"annulus_version", version()}, {"inputs_id", id}, {"mesh", mesh}, {"model", result.model.fidelity}});

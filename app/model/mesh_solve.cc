@@ -5,6 +5,7 @@
 #include "app/plan/cost_plan.h"
 #include "app/process/progress.h"
 #include "app/results/cached_value.h"
+#include "core/file_guard.h"
 #include "core/log.h"
 
 namespace annulus::app {
@@ -35,7 +36,7 @@ FileSet body_files(const MeshModel& model, const fem::LoadedMeshResult& solved, 
   std::vector<std::string> names;
   const auto file = [&](const std::string& body, const char* ending) {
     names.push_back(model.mesh + "_" + body + ending);
-    std::filesystem::remove(folder / names.back());
+    remove_file(folder / names.back());
     return folder / names.back();
   };
   for (const auto& [mesh, body] :

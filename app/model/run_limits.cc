@@ -1,7 +1,6 @@
 #include "app/model/run_limits.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "app/model/gear_system.h"
+#include "app/process/system_limits.h"
 #include "app/scene/overrides.h"
 #include "core/errors.h"
 #include "fem/cost_size.h"
@@ -46,16 +46,6 @@ double group_memory_MB() {
     if (std::ifstream(file) >> bytes && bytes > 0) least = std::min(least, bytes / bytes_per_MB);
   }
   return least;
-}
-
-/// What a limit of the address space (ulimit -v) leaves; MB. Libraries and the buffers of OpenBLAS, which waits for
-/// ever where it does not get them, are mapped but hardly used.
-double address_space_MB() {
-  constexpr double mapped = 800;
-  rlimit limit{};
-  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
-    return std::numeric_limits<double>::infinity();
-  return std::max(0.0, static_cast<double>(limit.rlim_cur) / bytes_per_MB - mapped);
 }
 
 /// MB. All points of a study are stored until its report is written; a search stores its best ones only.
@@ -103,7 +93,7 @@ double parse_memory(const std::string& text) {
 RunLimits RunLimits::of_this_machine() {
   const double physical =
       static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / bytes_per_MB;
-  return {std::min({physical, group_memory_MB(), address_space_MB()}), week};
+  return {std::min({physical, group_memory_MB(), free_address_space_MB()}), week};
 }
 
 void check_limits(const Scene& scene, const RunLimits& limits, int threads, bool with_dynamics) {

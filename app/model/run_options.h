@@ -14,9 +14,12 @@ class ResultStore;
 
 namespace annulus::app {
 
+class ResultFolder;
+
 struct RunOptions {
-  std::filesystem::path out{};    ///< folder of all results
-  std::filesystem::path cache{};  ///< folder of cached results; empty: OUT/cache
+  std::filesystem::path out{};     ///< folder of all results
+  std::filesystem::path cache{};   ///< folder of cached results; empty: OUT/cache
+  ResultFolder* folder = nullptr;  ///< `out`, begun before the run writes; null: nobody watches over it
   int threads = 1;
   bool with_dynamics = true;  ///< false: meshes, transmission error and stiffness only
   // Set by the run itself (with_reuse); without them nothing is noted and everything is computed.

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <mutex>
+
 #include "app/results/content_id.h"
 #include "fem/loaded_mesh.h"
 #include "fem/problem/solved_face.h"
@@ -40,6 +43,36 @@ Decision symmetry_decision(const fem::LoadedMeshProblem& problem, const fem::Loa
   if (fem::solved_face(problem, settings).half)
     return {"symmetry", "half of the face", "the mesh is its own mirror image about the middle of the face"};
   return {"symmetry", "whole face", settings.symmetry ? fem::asymmetry_of_face(problem) : "asked for"};
+}
+
+/// fem::choose_mesh() for the problem of a model. A choice may solve the mesh by formulas, and the checks and the plan
+/// of a study ask for the same one again for each of its cases: those of this process are remembered.
+fem::MeshChoice remembered_choice(MeshModel& model, const std::string& why_solid, const fem::MeshWish& wish) {
+  struct Chosen {
+    int phases;
+    std::vector<double> loads;
+    fem::MeshChoice choice;
+  };
+  constexpr std::size_t most = 4096;
+  static std::mutex lock;
+  static std::map<std::string, Chosen> all;
+  auto& problem = *model.problem;
+  ContentId id;
+  id.add("problem", model.id()).add("why_solid", why_solid).add("model", static_cast<double>(wish.model));
+  id.add("accuracy", wish.accuracy).add("mean_force", wish.mean_force).add("modes", wish.ring_modes_count ? 1 : 0);
+  {
+    const std::lock_guard guard(lock);
+    if (const auto found = all.find(id.text()); found != all.end()) {
+      problem.phases = found->second.phases;
+      problem.loads = found->second.loads;
+      return found->second.choice;
+    }
+  }
+  auto choice = fem::choose_mesh(problem, why_solid, wish);
+  const std::lock_guard guard(lock);
+  if (all.size() >= most) all.clear();
+  all.emplace(id.text(), Chosen{problem.phases, problem.loads, choice});
+  return choice;
 }
 
 }  // namespace
@@ -130,7 +163,7 @@ MeshModel mesh_model(const Scene& scene, const GearMesh& mesh) {
                            .accuracy = scene.accuracy,
                            .mean_force = mesh.mean_force,
                            .ring_modes_count = scene.dynamics && scene.dynamics->rim_coupling == RimCoupling::elastic};
-  static_cast<fem::MeshChoice&>(model) = fem::choose_mesh(*model.problem, solid_reason(scene, mesh), wish);
+  static_cast<fem::MeshChoice&>(model) = remembered_choice(model, solid_reason(scene, mesh), wish);
   model.fidelity = fidelity_name(model.settings.fidelity);
   return model;
 }

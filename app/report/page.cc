@@ -5,7 +5,6 @@
 #include <boost/algorithm/string/replace.hpp>
 #include <cctype>
 #include <cstdlib>
-#include <set>
 
 #include "app/report/plot/chart.h"
 #include "app/report/plot/colour_scale.h"
@@ -239,21 +238,13 @@ void write_report(const std::filesystem::path& file, const Page& page, const std
   const auto made = rendered(page);
   write_file(file, made.html);
   const auto folder = file.parent_path() / pictures;
-  std::set<std::filesystem::path> names;
+  int number = 0;
   for (const auto& p : made.pictures) {
     const auto title = slug(p.label);
-    const auto name =
-        fmt::format("{:02}_{}{}.svg", names.size() + 1, slug(p.section), title.empty() ? "" : "_" + title);
+    const auto name = fmt::format("{:02}_{}{}.svg", ++number, slug(p.section), title.empty() ? "" : "_" + title);
     std::filesystem::create_directories(folder);
     write_file(folder / name, p.svg);
-    names.insert(name);
   }
-  // Those of an earlier page. Another run may be at work here: what it makes or removes meanwhile is its own.
-  std::error_code ignored;
-  std::vector<std::filesystem::path> old;
-  for (std::filesystem::directory_iterator at(folder, ignored), end; at != end; at.increment(ignored))
-    if (at->path().extension() == ".svg" && names.count(at->path().filename()) == 0) old.push_back(at->path());
-  for (const auto& picture : old) std::filesystem::remove(picture, ignored);
 }
 
 }  // namespace annulus::app

@@ -30,7 +30,7 @@ struct RenderedPage {
 [[nodiscard]] std::string html(const Section& section);
 
 /// A page, and every picture of it as a file of its own, `<pictures>/<number>_<section>_<title>.svg` beside it.
-/// Pictures of an earlier page are removed. Throws InputError when a file cannot be written.
+/// Throws FileError when a file cannot be written.
 void write_report(const std::filesystem::path& file, const Page& page, const std::string& pictures = "pictures");
 
 }  // namespace annulus::app

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <fstream>
-#include <vector>
 
 #include "app/model/run_options.h"
 #include "app/results/content_id.h"
@@ -24,22 +22,6 @@ constexpr const char* missing = "missing";
 /// "missing" where there is no such file.
 std::string stamp(const std::filesystem::path& file) { return file_checksum(file).value_or(missing); }
 
-/// Cached results are dropped when they become too many, and temporary files belong to whoever writes them.
-bool belongs_to_run(const std::filesystem::path& relative) {
-  return *relative.begin() != "cache" && relative != note_name && !is_unfinished(relative);
-}
-
-std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& out) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(out)) {
-    if (!entry.is_regular_file()) continue;
-    const auto relative = entry.path().lexically_relative(out);
-    if (belongs_to_run(relative)) files.push_back(relative);
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 }  // namespace
 
 std::string run_id(const Scene& scene, const RunOptions& options) {
@@ -56,9 +38,11 @@ std::string run_id(const Scene& scene, const RunOptions& options) {
   return id.id();
 }
 
-void keep_finished_run(const std::filesystem::path& out, const std::string& id, const std::string& text) {
+void keep_finished_run(const std::filesystem::path& out, const std::string& id, const std::string& text,
+                       const std::vector<std::string>& files) {
   Json note = {{"annulus_version", version()}, {"inputs_id", id}, {"text", text}};
-  for (const auto& file : files_of_run(out)) note["files"][file.generic_string()] = stamp(out / file);
+  note["files"] = Json::object();
+  for (const auto& file : files) note["files"][file] = stamp(out / file);
   write_file(out / note_name, note.dump(1) + "\n");
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace annulus::app {
 
@@ -13,8 +14,10 @@ struct Scene;
 /// the files it names, and the program itself.
 [[nodiscard]] std::string run_id(const Scene& scene, const RunOptions& options);
 
-/// Notes in OUT/run.json that the run of this identity ended with `text`, and size and checksum of every file it left.
-void keep_finished_run(const std::filesystem::path& out, const std::string& id, const std::string& text);
+/// Notes in OUT/run.json that the run of this identity ended with `text`, and size and checksum of the files it left,
+/// named relative to OUT.
+void keep_finished_run(const std::filesystem::path& out, const std::string& id, const std::string& text,
+                       const std::vector<std::string>& files);
 
 /// The text of the run of this identity if every file it left is as it was; then nothing is to be done again. Nothing
 /// else is read: a run that only looks takes a fraction of a second whatever the size of its results.

@@ -9,6 +9,7 @@
 #include "app/report/page.h"
 #include "app/results/content_id.h"
 #include "app/results/figure_table.h"
+#include "app/results/result_folder.h"
 #include "app/scene/inputs_json.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/scene_schema.h"
@@ -62,7 +63,10 @@ std::shared_ptr<const SystemRun> run_system(const Scene& scene, const RunOptions
   run.plan = run.system->plan(options.threads);
   auto& meshes = run.plan.meshes;
   if (options.remodel) std::transform(meshes.begin(), meshes.end(), meshes.begin(), options.remodel);
-  std::filesystem::create_directories(options.out);
+  if (options.folder)
+    options.folder->begin();
+  else
+    std::filesystem::create_directories(options.out);
   run.solve_meshes(options);
   if (options.with_dynamics && scene.dynamics) run.respond(options);
   if (options.with_dynamics) {

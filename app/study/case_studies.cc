@@ -7,6 +7,7 @@
 #include "app/results/content_id.h"
 #include "app/study/studies.h"
 #include "app/study/study_points.h"
+#include "core/csv.h"
 #include "core/files.h"
 
 namespace annulus::app {
@@ -73,7 +74,7 @@ std::string sensitivity_csv(const StudySubject& subject, const SensitivityResult
   text += ",order_of_rings_stays\n";
   for (const auto& row : result.rows) {
     for (std::size_t variant = 0; variant < names.size(); ++variant) {
-      text += fmt::format("{},{},{:.17g}", row.input, names[variant], row.values[variant]);
+      text += fmt::format("{},{},{:.17g}", row.input, csv_cell(names[variant]), row.values[variant]);
       for (const auto* point : {&row.divided[variant], &result.nominal[variant], &row.multiplied[variant]}) {
         for (const auto& figure : figures) text += fmt::format(",{:.17g}", point->value(figure.key));
       }

@@ -106,27 +106,45 @@ void ClosedFormBody::let_yield(const PlainRing& rim, double width, RimTheory the
   support_compliance_ = Eigen::MatrixXd::Zero(count, count);
   support_resultants_ = Eigen::MatrixXd::Zero(count, 3);
   from_supports_.assign(teeth_, Eigen::MatrixXd::Zero(3, count));
-  for (std::size_t source_arc = 0; source_arc < arcs.size(); ++source_arc)
-    for (const int b : {0, 1}) {
-      const RingHarmonics& source_load = loads[source_arc][b];
-      std::vector<std::array<HarmonicCoupling, 2>> to_support;
-      to_support.reserve(loads.size());
-      for (const Pair& load : loads)
-        to_support.push_back({ring.coupling(load[0], source_load), ring.coupling(load[1], source_load)});
-      std::array<HarmonicCoupling, 3> to_root;
-      for (int i = 0; i < 3; ++i) to_root[i] = ring.coupling(roots[i], source_load);
-      for (Eigen::Index j = 0; j < count; ++j) {
-        const double f = component(supports[j], b) / width;
-        if (arc_of[j] != source_arc || f == 0) continue;
-        for (Eigen::Index i = 0; i <= j; ++i)
-          for (const int a : {0, 1})
-            if (const double g = component(supports[i], a); g != 0)
-              support_compliance_(i, j) += f * g * to_support[arc_of[i]][a](supports[i].angle - supports[j].angle);
-        for (int tooth = 0; tooth < teeth_; ++tooth)
-          for (int i = 0; i < 3; ++i)
-            from_supports_[tooth](i, j) += f * to_root[i](tooth * pitch_angle_ - supports[j].angle);
+  // Those of one arc that act in one direction.
+  struct Group {
+    std::size_t arc;
+    int direction;
+    std::vector<Eigen::Index> members;
+    std::vector<double> angles;
+  };
+  std::vector<Group> groups;
+  for (std::size_t arc = 0; arc < arcs.size(); ++arc)
+    for (const int direction : {0, 1}) {
+      Group group{arc, direction, {}, {}};
+      for (Eigen::Index i = 0; i < count; ++i) {
+        if (arc_of[i] != arc || component(supports[i], direction) == 0) continue;
+        group.members.push_back(i);
+        group.angles.push_back(supports[i].angle);
       }
+      if (!group.members.empty()) groups.push_back(std::move(group));
     }
+  std::vector<double> tooth_angles;
+  for (int tooth = 0; tooth < teeth_; ++tooth) tooth_angles.push_back(tooth * pitch_angle_);
+  for (const Group& source : groups) {
+    const RingHarmonics& source_load = loads[source.arc][source.direction];
+    const auto force = [&](std::size_t j) { return component(supports[source.members[j]], source.direction) / width; };
+    for (const Group& target : groups) {
+      const auto coupled =
+          ring.coupling(loads[target.arc][target.direction], source_load)(target.angles, source.angles);
+      for (std::size_t j = 0; j < source.members.size(); ++j)
+        for (std::size_t i = 0; i < target.members.size(); ++i)
+          if (target.members[i] <= source.members[j])
+            support_compliance_(target.members[i], source.members[j]) +=
+                force(j) * component(supports[target.members[i]], target.direction) * coupled(i, j);
+    }
+    for (int i = 0; i < 3; ++i) {
+      const auto to_root = ring.coupling(roots[i], source_load)(tooth_angles, source.angles);
+      for (std::size_t j = 0; j < source.members.size(); ++j)
+        for (int tooth = 0; tooth < teeth_; ++tooth)
+          from_supports_[tooth](i, source.members[j]) += force(j) * to_root(tooth, j);
+    }
+  }
   support_compliance_.triangularView<Eigen::StrictlyLower>() = support_compliance_.transpose();
   for (Eigen::Index j = 0; j < count; ++j) {
     const RingSupport& support = supports[j];

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fem/condensation/lapack.h"
+
 namespace annulus::fem {
 namespace {
 
@@ -20,6 +22,30 @@ RingHarmonics on_circle(Circle circle, bool odd, int harmonics, const std::funct
   load.terms.reserve(harmonics + 1);
   for (int n = 0; n <= harmonics; ++n) load.terms.emplace_back(pair(n) / (n == 0 ? 2 * M_PI : M_PI));
   return load;
+}
+
+/// Sines and cosines of multiples are found by recurrence, restarted so that round-off does not grow.
+constexpr std::size_t restart = 64;
+
+/// Cosines of the multiples first, first + 1, ... of every angle (a column each), and below them the sines.
+Eigen::MatrixXd multiples(const std::vector<double>& angles, std::size_t first, std::size_t count) {
+  Eigen::MatrixXd table(2 * count, angles.size());
+  for (std::size_t j = 0; j < angles.size(); ++j) {
+    const double step_c = std::cos(angles[j]), step_s = std::sin(angles[j]);
+    double c = 0, s = 0;
+    for (std::size_t n = 0; n < count; ++n) {
+      if (n % restart == 0) {
+        c = std::cos(static_cast<double>(first + n) * angles[j]);
+        s = std::sin(static_cast<double>(first + n) * angles[j]);
+      }
+      table(n, j) = c;
+      table(count + n, j) = s;
+      const double next = c * step_c - s * step_s;
+      s = s * step_c + c * step_s;
+      c = next;
+    }
+  }
+  return table;
 }
 
 }  // namespace
@@ -75,8 +101,6 @@ HarmonicCoupling RingSeries::coupling(const RingHarmonics& load, const RingHarmo
 }
 
 double HarmonicCoupling::operator()(double angle) const {
-  // Sines and cosines by recurrence, restarted so that round-off does not grow.
-  constexpr std::size_t restart = 64;
   const double step_c = std::cos(angle), step_s = std::sin(angle);
   double sum = 0;
   for (std::size_t first = 0; first < terms_.size(); first += restart) {
@@ -87,6 +111,27 @@ double HarmonicCoupling::operator()(double angle) const {
       s = s * step_c + c * step_s;
       c = next;
     }
+  }
+  return sum;
+}
+
+Eigen::MatrixXd HarmonicCoupling::operator()(const std::vector<double>& angles,
+                                             const std::vector<double>& sources) const {
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(angles.size(), sources.size());
+  constexpr std::size_t block = 8 * restart;  // keeps the tables small
+  for (std::size_t first = 0; first < terms_.size(); first += block) {
+    const std::size_t count = std::min(block, terms_.size() - first);
+    const Eigen::Map<const Eigen::VectorXd> terms(terms_.data() + first, count);
+    const Eigen::MatrixXd left = multiples(angles, first, count);
+    Eigen::MatrixXd right = multiples(sources, first, count);
+    // cos n(a - b) = cos na cos nb + sin na sin nb, sin n(a - b) = sin na cos nb - cos na sin nb
+    if (sine_) {
+      right.topRows(count).swap(right.bottomRows(count));
+      right.topRows(count) *= -1;
+    }
+    right.topRows(count).array().colwise() *= terms.array();
+    right.bottomRows(count).array().colwise() *= terms.array();
+    sum += lapack::transpose_product(left, right);
   }
   return sum;
 }

@@ -37,6 +37,9 @@ class HarmonicCoupling {
  public:
   /// Displacement in the sense of the first load, placed at `angle` (rad), under the second one at angle zero, m/(N/m).
   [[nodiscard]] double operator()(double angle) const;
+  /// The same at all differences between some angles and those of some sources: a row per angle, a column per source.
+  /// As a matrix product, some ten times faster.
+  [[nodiscard]] Eigen::MatrixXd operator()(const std::vector<double>& angles, const std::vector<double>& sources) const;
 
  private:
   friend class RingSeries;

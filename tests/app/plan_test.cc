@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <ctime>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "app/plan/cost_plan.h"
 #include "app/scene/overrides.h"
+#include "app/study/studies.h"
 #include "app/systems/planetary/planetary_model.h"
+#include "core/errors.h"
 #include "core/files.h"
 #include "core/units.h"
 #include "fem/loaded_mesh.h"
@@ -364,6 +367,29 @@ BOOST_AUTO_TEST_CASE(rigid_supports_drop_their_dofs) {
   BOOST_TEST(!kept("carrier x, y"));
   BOOST_TEST(plan.contact_problems() == 0L);
   BOOST_TEST(plan.meshes.front().fidelity == "given");
+}
+
+// 82 splines: each choice of a model solves the ring by formulas. Once per load that the sweep gives, and not some
+// three times for each of its cases.
+BOOST_AUTO_TEST_CASE(planning_costs_a_fraction_of_what_it_plans) {
+  const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/tests/app/fault_scenes/many_splines.toml");
+  const auto start = std::clock();
+  app::check_studies(scene);
+  const auto plan = app::make_plan(scene);
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  BOOST_TEST_MESSAGE("planned in " << seconds << " s of processor time, predicted " << plan.cost.seconds() << " s");
+  BOOST_TEST(seconds < std::max(1.0, 0.1 * plan.cost.seconds()));
+}
+
+BOOST_AUTO_TEST_CASE(a_ring_without_room_for_its_fillet_is_refused_with_the_remedy) {
+  const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/tests/app/fault_scenes/narrow_ring_root.toml");
+  BOOST_CHECK_EXCEPTION(app::check_stage(scene), GeometryError, [](const auto& error) {
+    const std::string what = error.what();
+    BOOST_TEST(what.find("too narrow at the root diameter") != std::string::npos, what);
+    BOOST_TEST(what.find("the root fillet factor is 0.38") != std::string::npos, what);
+    BOOST_TEST(what.find("a fillet factor of at least") == std::string::npos, what);
+    return true;
+  });
 }
 
 BOOST_AUTO_TEST_CASE(impossible_geometry_names_the_body) {

@@ -82,6 +82,13 @@ BOOST_AUTO_TEST_CASE(cells_with_text_are_quoted_where_they_have_to_be) {
   BOOST_TEST(csv_cell("5\" ring") == "\"5\"\" ring\"");
   BOOST_TEST(csv_cell("two\r\nlines") == "two  lines");
   BOOST_TEST(csv_cell("").empty());
+  // Spreadsheets would compute these.
+  for (const std::string formula : {"=1+1", "+1", "-1", "@sum(a)", "  =1"})
+    BOOST_TEST(csv_cell(formula) == "'" + formula);
+  BOOST_TEST(csv_cell("\t=1") == "' =1");
+  BOOST_TEST(csv_cell("=\"a\",b") == "\"'=\"\"a\"\",b\"");
+  BOOST_TEST(csv_cell("1=1") == "1=1");
+  BOOST_TEST(annulus::csv_line("a\n=b\r\x7f") == "a =b  ");
   BOOST_TEST(std::stod(csv_cell(0.1 + 0.2)) == 0.1 + 0.2);
   BOOST_TEST(csv_cell(std::numeric_limits<double>::quiet_NaN()).empty());
   BOOST_TEST(csv_cell(-std::numeric_limits<double>::infinity()).empty());

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/file_guard.h"
 #include "tests/temporary_folder.h"
 
 BOOST_AUTO_TEST_SUITE(files)
@@ -87,12 +88,78 @@ BOOST_AUTO_TEST_CASE(many_writers_of_one_file_leave_one_of_theirs_whole) {
   BOOST_TEST(count(folder.path()) == 1);
 }
 
-BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_an_input_error) {
+BOOST_AUTO_TEST_CASE(links_and_devices_are_not_written_through) {
+  const TemporaryFolder folder("links");
+  const auto file = folder.path() / "f", target = folder.path() / "target";
+  write_file(target, "of another");
+  // Under the temporary names that come next, and the final one.
+  std::string name = UnfinishedFile(file).temporary().filename();
+  const auto middle = "." + std::to_string(::getpid()) + ".";
+  const auto at = name.find(middle) + middle.size();
+  const int counter = std::stoi(name.substr(at));
+  for (int i = 1; i < 4; ++i)
+    std::filesystem::create_symlink(target,
+                                    folder.path() / ("f" + middle + std::to_string(counter + i) + ".unfinished"));
+  std::filesystem::create_symlink(target, file);
+  write_file(file, "new");
+  BOOST_TEST(read_file(target) == "of another");
+  BOOST_TEST(read_file(file) == "new");
+  BOOST_TEST(!std::filesystem::is_symlink(file));
+  BOOST_TEST(count(folder.path()) == 5);
+  for (const char* device : {"/dev/full", "/dev/null"}) {
+    BOOST_CHECK_THROW(write_file(device, "x"), annulus::FileError);
+    std::filesystem::create_symlink(device, folder.path() / "device");
+    BOOST_CHECK_THROW(write_file(folder.path() / "device", "x"), annulus::FileError);
+    std::filesystem::remove(folder.path() / "device");
+    BOOST_TEST(std::filesystem::is_character_file(device));
+  }
+}
+
+namespace {
+
+/// Refuses one file.
+class Refusal : annulus::FileGuard {
+ public:
+  explicit Refusal(std::filesystem::path file) : file_(std::move(file)) {}
+
+ protected:
+  void before_write(const std::filesystem::path& file) override { refuse(file); }
+  void before_removal(const std::filesystem::path& file) override { refuse(file); }
+
+ private:
+  void refuse(const std::filesystem::path& file) const {
+    if (file == file_) throw annulus::FileError("refused");
+  }
+  std::filesystem::path file_;
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(guards_are_asked_before_files_are_written_and_removed) {
+  const TemporaryFolder folder("guards");
+  const auto file = folder.path() / "f", other = folder.path() / "g";
+  write_file(file, "old");
+  {
+    const Refusal guard(file);
+    BOOST_CHECK_THROW(write_file(file, "new"), annulus::FileError);
+    BOOST_CHECK_THROW(annulus::remove_file(file), annulus::FileError);
+    BOOST_TEST(read_file(file) == "old");
+    write_file(other, "new");
+    annulus::remove_file(other);
+    BOOST_TEST(count(folder.path()) == 1);
+  }
+  write_file(file, "new");
+  annulus::remove_file(file);
+  annulus::remove_file(file);  // nothing to do
+  BOOST_TEST(count(folder.path()) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_named_with_the_reason) {
   const TemporaryFolder folder("unwritable");
-  BOOST_CHECK_THROW(write_file(folder.path() / "missing" / "f", "x"), annulus::InputError);
+  BOOST_CHECK_THROW(write_file(folder.path() / "missing" / "f", "x"), annulus::FileError);
   std::filesystem::create_directory(folder.path() / "taken");
   write_file(folder.path() / "taken" / "inside", "x");
-  BOOST_CHECK_THROW(write_file(folder.path() / "taken", "x"), annulus::InputError);
+  BOOST_CHECK_THROW(write_file(folder.path() / "taken", "x"), annulus::FileError);
   BOOST_TEST(count(folder.path()) == 1);
 }
 

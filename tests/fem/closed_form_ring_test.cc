@@ -33,6 +33,25 @@ double deflection_under_equal_loads(const RingSeries& series, int loads, int har
 // term of order one is left out; bending falls with n^-4.
 constexpr int most = 20000;
 
+BOOST_AUTO_TEST_CASE(couplings_of_many_loads_at_once) {
+  const auto ring = ring_of(0.2);
+  const RingSeries series([&](int n) { return elastic_ring(ring, n, HeldCircle::none); }, 1500);
+  const auto radial = radial_force(Circle::outer, 0.05, Spread::uniform, 1500),
+             tangential = tangential_force(Circle::inner, 0.04, Spread::parabolic, 1300);
+  const std::vector<double> angles = {0, 0.1, 1.3, 3.1, 6.2}, sources = {-0.4, 0, 2.2};
+  for (const auto* load : {&radial, &tangential})
+    for (const auto* source : {&radial, &tangential}) {
+      const auto coupling = series.coupling(*load, *source);
+      const auto all = coupling(angles, sources);
+      BOOST_TEST_REQUIRE(all.rows() == 5);
+      BOOST_TEST_REQUIRE(all.cols() == 3);
+      const double largest = all.cwiseAbs().maxCoeff();
+      for (std::size_t i = 0; i < angles.size(); ++i)
+        for (std::size_t j = 0; j < sources.size(); ++j)
+          BOOST_TEST(std::abs(all(i, j) - coupling(angles[i] - sources[j])) < round_off * largest);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(equal_radial_loads_on_a_curved_beam) {
   annulus::test::Verification record(
       "Ring as a curved beam under 2 to 8 equal radial loads",

@@ -135,7 +135,7 @@ BOOST_AUTO_TEST_CASE(impossible_gears_are_refused_with_the_reason) {
   refuse(p, "rack");
   p = plain_gear(GearKind::internal, 80);
   p.root_diameter = 176 * units::mm;
-  refuse(p, "no room");
+  refuse(p, "too narrow at the root diameter");
   p = plain_gear(GearKind::external, 30);
   p.tip_diameter = 57 * units::mm;
   refuse(p, "usable flank");

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "app/plan/gear_geometry.h"
+#include "app/results/result_folder.h"
 #include "app/scene/key_checks.h"
 #include "app/scene/scene_limits.h"
 #include "app/scene/scene_schema.h"
@@ -109,14 +110,6 @@ class PlanetaryChecker : KeyChecks {
       refuse(fmt::format("ring-planet mesh of '{}'", ring.name), solid_reason(scene_, ring));
   }
 
-  /// Names that a run gives to files and folders in OUT, beside the folders of the rings.
-  static bool is_of_the_run(const std::string& name) {
-    static const std::set<std::string> folders = {"cache",    "dynamics", "grid",        "mesh",     "optimise",
-                                                  "pictures", "sweep",    "sensitivity", "tradeoff", "studies"};
-    const auto ending = std::filesystem::path(name).extension();
-    return folders.contains(name) || ending == ".csv" || ending == ".html" || ending == ".json";
-  }
-
   void ring_names() {
     constexpr const char* allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+.";
     std::set<std::string> seen;
@@ -128,7 +121,7 @@ class PlanetaryChecker : KeyChecks {
       if (!allowed_name) {
         problem("ring.name", ring.name,
                 "names a folder: letters, digits, '-', '_', '+' and '.' only, not starting with '.', at most 64");
-      } else if (is_of_the_run(ring.name)) {
+      } else if (is_name_of_run(ring.name)) {
         problem("ring.name", ring.name, "is the name of a file or folder that a run writes itself; choose another one");
       }
     }
