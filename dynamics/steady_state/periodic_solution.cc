@@ -51,10 +51,11 @@ PeriodicSearch solve_piecewise(const LumpedSystem& system, const SteadyProblem& 
   return search;
 }
 
-/// Limit of the samples of a harmonic balance: higher where the period is short.
+/// Limit of the samples of a harmonic balance: higher where the period is short. Long periods have as many as any run
+/// begins with, which costs far less than to integrate them in time.
 int most_samples_per_cycle(int period, int most_of_a_period) {
-  constexpr int most = 512;
-  return std::min(most, most_of_a_period / period);
+  constexpr int least = 32, most = 512;
+  return std::clamp(most_of_a_period / period, least, most);
 }
 
 /// The error of a sampling is about a third of the change when the samples are halved. A loose tolerance leaves no room

@@ -31,7 +31,7 @@ DynamicResponse response_of_point(const PlanetaryStage& stage, const PointOption
   simulation.confirmation = Confirmation::where_needed;
   // Integrating windows of thousands of mesh cycles costs a hundred harmonic balances. Their error is about a third of
   // the difference to half the samples, and the difference is stated.
-  if (stage.error_period() > long_window) simulation.confirm_beyond *= 3;
+  if (stage.error_period() > long_window) simulation.confirm_beyond *= 5;
   simulation.keep_series = options.motion;
   if (!options.motion && !simulation.mesh_cycles)
     simulation.samples_per_cycle = samples_of_point(stage, simulation.samples_per_cycle);
