@@ -23,11 +23,12 @@ struct Members<dynamics::TableStiffness> {
 };
 
 ANNULUS_MEMBERS(dynamics::IntegratorOptions, method, relative_tolerance, absolute_tolerance, fixed_step, max_steps);
-ANNULUS_MEMBERS(dynamics::PeriodicOptions, samples, sampling_tolerance, max_samples, tolerance, max_iterations);
+ANNULUS_MEMBERS(dynamics::PeriodicOptions, samples, sampling_tolerance, max_samples, max_ahead, tolerance,
+                max_iterations);
 ANNULUS_MEMBERS(dynamics::SystemState, time, q, v, supplied, dissipated);
-ANNULUS_MEMBERS(dynamics::SimulationOptions, steady_state, confirm, confirm_on_contact_loss, keep_series, periodic,
-                integrator, start, mesh_cycles, steady_tolerance, max_windows, samples, min_window, max_window,
-                estimate_error);
+ANNULUS_MEMBERS(dynamics::SimulationOptions, steady_state, confirmation, sampling, beyond, tolerance_rule, keep_series,
+                periodic, integrator, start, mesh_cycles, steady_tolerance, max_windows, samples, min_window,
+                max_window, estimate_error);
 
 ANNULUS_MEMBERS(dynamics::PeriodicSolution, method, converged, trouble, residual, newton_iterations, linear_iterations,
                 sampling_difference, largest_multiplier);

@@ -31,6 +31,8 @@ std::optional<StiffnessTable> table_behind(const dynamics::MeshExcitation& excit
 
 dynamics::SimulationOptions given_simulation(const DynamicsInput& input, double mesh_frequency) {
   dynamics::SimulationOptions options;
+  options.tolerance_rule =
+      input.relative_tolerance ? dynamics::ToleranceRule::prescribed : dynamics::ToleranceRule::tightened_if_loose;
   if (input.relative_tolerance) options.integrate_within(*input.relative_tolerance);
   options.integrator.method = input.integrator;
   if (input.steps_per_cycle) options.integrator.fixed_step = 1 / (mesh_frequency * *input.steps_per_cycle);

@@ -10,9 +10,9 @@ MotionChoice motion_choice(double accuracy) {
   MotionChoice choice;
   if (accuracy >= fem::rough_accuracy) {
     choice.samples_per_cycle = 32;
-    choice.samples_reason = "32 samples per mesh cycle, their peaks refined, are within 1 % of any number";
-    choice.confirm = false;
-    choice.confirm_reason = "the harmonic balance is not confirmed unless contact is lost";
+    choice.samples_reason = "32 samples per mesh cycle at least; more where they change the forces";
+    choice.confirmation = dynamics::Confirmation::where_needed;
+    choice.confirm_reason = "time integration confirms where contact is lost or more samples still change the forces";
   } else {
     choice.samples_per_cycle = 64;
     choice.samples_reason = "64 samples per mesh cycle are within 0.1 % of any number";

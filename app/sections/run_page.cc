@@ -24,7 +24,7 @@ std::string solution_text(const dynamics::SteadyOutcome& found) {
     else if (!found.confirmed && found.total_cycles > 0)
       text += ": the " + method + " was not confirmed";
     else
-      text = fmt::format("{} ({} Newton iterations; half the samples change a force by {:.1e} of the mean){}", method,
+      text = fmt::format("{} ({} Newton iterations; other samplings change a force by {:.1e} of the mean){}", method,
                          direct.newton_iterations, direct.sampling_difference,
                          found.confirmed ? ", confirmed by time integration over one window" : "");
   }

@@ -54,7 +54,8 @@ class WaysOf {
   void add_changed(const std::string& fidelity, const std::string& settings, const Model& changed,
                    int samples = finest_samples) {
     auto options = options_;
-    options.confirm = false;
+    options.confirmation = dynamics::Confirmation::never;
+    options.sampling = dynamics::Sampling::prescribed;
     options.samples_per_cycle = samples;
     add(fidelity, settings, changed, options).changes_model = true;
   }

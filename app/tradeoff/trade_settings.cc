@@ -98,7 +98,8 @@ std::vector<MotionSetting> motion_settings(double mesh_frequency, int period) {
   const auto directly = [&](int samples, bool finest = false) {
     list.push_back({"harmonic balance", fmt::format("{} samples per mesh cycle", samples),
                     [samples](Options& o) {
-                      o.confirm = false;
+                      o.confirmation = dynamics::Confirmation::never;
+                      o.sampling = dynamics::Sampling::prescribed;
                       o.samples_per_cycle = samples;
                     },
                     finest});

@@ -148,9 +148,10 @@ ComparisonOptions comparison_options(const SteadyOutcome& nominal, const Simulat
     result.seeks_steady_state = false;
     return result;
   }
-  o.confirm = !taken_directly(nominal);
+  const bool directly = taken_directly(nominal);
+  o.confirmation = directly ? Confirmation::never : Confirmation::always;
   // A small change leads from the nominal motion to the one beside it within a few windows, and to no other.
-  if (o.confirm && !o.mesh_cycles) {
+  if (!directly && !o.mesh_cycles) {
     constexpr int few = 8;
     o.steady_state = SteadyState::time_integration;
     o.start = nominal.begin;

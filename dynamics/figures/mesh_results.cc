@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/errors.h"
 #include "dynamics/figures/peaks.h"
@@ -13,18 +12,23 @@ namespace annulus::dynamics {
 
 namespace {
 
-Peak sharing_peak(const Eigen::Ref<const Eigen::MatrixXd>& force) {
+/// N |F_n| / sum |F| over time; 0 where no branch carries any.
+Eigen::MatrixXd absolute_shares(const Eigen::Ref<const Eigen::MatrixXd>& force) {
+  const Eigen::MatrixXd share = load_sharing_over_time(force);
+  return share.array().isNaN().select(0.0, share.cwiseAbs());
+}
+
+Peak sharing_peak(const Eigen::Ref<const Eigen::MatrixXd>& force, const std::vector<Eigen::Index>& breaks = {}) {
   const double sampled = load_sharing_instantaneous(force);
-  if (!std::isfinite(sampled)) return {sampled, sampled};
-  Peak peak = peak_of_rows(load_sharing_over_time(force));
+  if (std::isnan(sampled)) return {sampled, sampled};
+  Peak peak = peak_of_rows(absolute_shares(force), breaks);
   // Where one branch after the other carries the whole load, parabolas overshoot the largest possible share.
-  if (force.minCoeff() >= 0)
-    peak.refined = std::max(peak.sampled, std::min(peak.refined, static_cast<double>(force.rows())));
+  peak.refined = std::max(peak.sampled, std::min(peak.refined, static_cast<double>(force.rows())));
   return peak;
 }
 
 /// Forces averaged over the mesh cycle that begins at each sample.
-Peak averaged_peak(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_per_cycle) {
+Eigen::MatrixXd sliding_means(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_per_cycle) {
   Eigen::MatrixXd mean(force.rows(), force.cols() - samples_per_cycle + 1);
   // Sliding accumulates rounding of about columns x eps, far below any use.
   Eigen::VectorXd sum = force.leftCols(samples_per_cycle).rowwise().sum();
@@ -33,23 +37,24 @@ Peak averaged_peak(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_p
     sum += force.col(i + samples_per_cycle - 1) - force.col(i - 1);
     mean.col(i) = sum;
   }
-  return sharing_peak(mean);
+  return mean;
+}
+
+Peak averaged_peak(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_per_cycle) {
+  return sharing_peak(sliding_means(force, samples_per_cycle));
 }
 
 /// Some meshes of a window, with both sides of jumps.
 struct MeshWindow {
   const ResponseWindow& window;
   Eigen::Index first, count;
+  bool closer = window.dense_force.size() > 0;  ///< peaks from the forces at closer times
 
   [[nodiscard]] auto force() const { return window.force.middleRows(first, count); }
   [[nodiscard]] bool jumps() const { return window.jumps(); }
   /// Curves for the search of peaks, and their jumps.
-  [[nodiscard]] auto curves() const {
-    return (window.dense_force.size() > 0 ? window.dense_force : window.force).middleRows(first, count);
-  }
-  [[nodiscard]] const auto& breaks() const {
-    return window.dense_force.size() > 0 ? window.dense_after_jump : window.after_jump;
-  }
+  [[nodiscard]] auto curves() const { return (closer ? window.dense_force : window.force).middleRows(first, count); }
+  [[nodiscard]] const auto& breaks() const { return closer ? window.dense_after_jump : window.after_jump; }
   /// Both sides of all jumps.
   [[nodiscard]] Eigen::MatrixXd at_jumps() const {
     Eigen::MatrixXd forces(count, 2 * window.jump_time.size());
@@ -78,15 +83,17 @@ struct MeshWindow {
   }
 
   [[nodiscard]] Peak sharing() const {
-    if (!jumps()) return sharing_peak(curves());
-    const double sampled = std::max(load_sharing_instantaneous(curves()), load_sharing_instantaneous(at_jumps()));
-    if (!std::isfinite(sampled)) return {sampled, sampled};
-    return higher({sampled, sampled}, peak_of_rows(load_sharing_over_time(curves()), breaks()));
-  }
-  [[nodiscard]] Peak largest_force(Eigen::Index branch) const {
-    const Peak smooth = peak_of(curves().row(branch), breaks());
+    const Peak smooth = sharing_peak(curves(), breaks());
     if (!jumps()) return smooth;
-    const double jump = at_jumps().row(branch).maxCoeff();
+    const double jump = load_sharing_instantaneous(at_jumps());
+    if (std::isnan(jump)) return smooth;
+    return std::isnan(smooth.sampled) ? Peak{jump, jump} : higher({jump, jump}, smooth);
+  }
+  /// On whichever flanks it acts.
+  [[nodiscard]] Peak largest_force(Eigen::Index branch) const {
+    const Peak smooth = peak_of(curves().row(branch).cwiseAbs(), breaks());
+    if (!jumps()) return smooth;
+    const double jump = at_jumps().row(branch).cwiseAbs().maxCoeff();
     return higher({jump, jump}, smooth);
   }
   [[nodiscard]] double least_force(Eigen::Index branch) const {
@@ -110,8 +117,52 @@ struct MeshEvidence {
   MeshEvidence(const SteadyResponse& found, Eigen::Index first, Eigen::Index count)
       : best{found.best, first, count},
         before{found.before ? *found.before : found.best, first, count},
-        loose{found.loose ? *found.loose : found.best, first, count} {}
+        loose{found.loose ? *found.loose : found.best, first, count},
+        alone(found.total_cycles == 0 && found.before),
+        beside(best) {
+    // Peaks are compared as they are sampled in both; both sides of jumps are in any window.
+    if (best.closer != before.closer && !best.jumps()) beside.closer = before.closer = false;
+  }
+
+  /// A harmonic balance without time integration. Its peaks at two samplings may agree by chance, so what counts is the
+  /// largest difference at any instant.
+  bool alone;
+  MeshWindow beside;  ///< `best`, to compare with `before`
+
+  /// |difference| at the instants of `before`, largest over rows and instants, of matrices of as many columns as there
+  /// are samples, or fewer.
+  [[nodiscard]] double apart(const Eigen::MatrixXd& of_best, const Eigen::MatrixXd& of_before) const {
+    const Eigen::Index step = best.window.samples_per_cycle / before.window.samples_per_cycle;
+    return (of_best(Eigen::all, Eigen::seqN(0, of_before.cols(), step)) - of_before).cwiseAbs().maxCoeff();
+  }
+  [[nodiscard]] double forces_apart(Eigen::Index branch) const {
+    return apart(best.force().row(branch), before.force().row(branch));
+  }
+  [[nodiscard]] double shares_apart() const {
+    return apart(absolute_shares(best.force()), absolute_shares(before.force()));
+  }
+  [[nodiscard]] double averages_apart() const {
+    const auto means = [](const MeshWindow& w) { return sliding_means(w.force(), w.window.samples_per_cycle); };
+    return apart(absolute_shares(means(best)), absolute_shares(means(before)));
+  }
+  /// By another motion, and by the samples at which contact is seen to begin and end.
+  [[nodiscard]] Figure contact_loss(Eigen::Index branch) const {
+    const auto open = [&](const MeshWindow& w) {
+      return w.window.open.size() > 0 ? w.window.open[w.first + branch] : 0.0;
+    };
+    const double lost = open(best);
+    Figure loss{lost, std::abs(lost - open(loose))};
+    if (before.window.open.size() > 0) loss.error += std::abs(lost - open(before));
+    const auto closer = std::max<Eigen::Index>(1, best.window.dense_force.cols() / best.window.force.cols());
+    if (lost > 0) loss.error += 0.5 / static_cast<double>(closer * best.window.samples_per_cycle);
+    return loss;
+  }
 };
+
+Figure with_error(Figure figure, double error) {
+  figure.error += error;
+  return figure;
+}
 
 }  // namespace
 
@@ -119,10 +170,15 @@ std::vector<BranchResult> branch_results(const SteadyResponse& found, Eigen::Ind
                                          double mean_force) {
   const MeshEvidence meshes(found, first, count);
   std::vector<BranchResult> results;
-  for (Eigen::Index p = 0; p < count; ++p)
-    results.push_back({figure(meshes.best.largest_force(p) / mean_force, {meshes.before.largest_force(p) / mean_force,
-                                                                          meshes.loose.largest_force(p) / mean_force}),
-                       meshes.best.least_force(p) / mean_force, meshes.best.mean_force(p), found.best.open[first + p]});
+  for (Eigen::Index p = 0; p < count; ++p) {
+    const Peak largest = meshes.best.largest_force(p) / mean_force;
+    const double apart =
+        meshes.alone ? meshes.forces_apart(p)
+                     : std::abs(meshes.beside.largest_force(p).refined - meshes.before.largest_force(p).refined);
+    const auto factor = with_error(figure(largest, {meshes.loose.largest_force(p) / mean_force}), apart / mean_force);
+    results.push_back({factor, meshes.best.least_force(p) / mean_force, meshes.best.mean_force(p),
+                       meshes.contact_loss(p), found.best.back.size() > 0 ? found.best.back[first + p] : 0});
+  }
   return results;
 }
 
@@ -130,9 +186,14 @@ LoadSharing load_sharing(const SteadyResponse& found, Eigen::Index first, Eigen:
                          const Eigen::MatrixXd& quasi_static_force) {
   const MeshEvidence meshes(found, first, count);
   const auto &best = meshes.best, &before = meshes.before, &loose = meshes.loose;
-  return {figure(best.sharing(), {before.sharing(), loose.sharing()}),
-          figure(best.averaged(), {before.averaged(), loose.averaged(), best.averaged_coarsely()}),
-          figure(quasi_static_peak(quasi_static_force, best.jumps() ? CurveKind::with_jumps : CurveKind::smooth), {})};
+  const auto quasi_static =
+      figure(quasi_static_peak(quasi_static_force, best.jumps() ? CurveKind::with_jumps : CurveKind::smooth), {});
+  if (meshes.alone)
+    return {with_error(figure(best.sharing(), {}), meshes.shares_apart()),
+            with_error(figure(best.averaged(), {}), meshes.averages_apart()), quasi_static};
+  return {with_error(figure(best.sharing(), {loose.sharing()}),
+                     std::abs(meshes.beside.sharing().refined - before.sharing().refined)),
+          figure(best.averaged(), {before.averaged(), loose.averaged(), best.averaged_coarsely()}), quasi_static};
 }
 
 Figure largest_dynamic_factor(const std::vector<BranchResult>& branches) {
@@ -142,26 +203,31 @@ Figure largest_dynamic_factor(const std::vector<BranchResult>& branches) {
   return largest;
 }
 
-double largest_contact_loss(const std::vector<BranchResult>& branches) {
-  double largest = 0;
-  for (const auto& b : branches) largest = std::max(largest, b.contact_loss);
+Figure largest_contact_loss(const std::vector<BranchResult>& branches) {
+  Figure largest;
+  for (const auto& b : branches)
+    if (b.contact_loss.value >= largest.value) largest = b.contact_loss;
   return largest;
 }
 
 double load_sharing_instantaneous(const Eigen::Ref<const Eigen::MatrixXd>& force) {
   require(force.size() > 0, fmt::format("load sharing of {} branches at {} times", force.rows(), force.cols()));
   double largest = 0;
-  for (const auto column : force.colwise()) {
-    const double sum = column.sum();
-    largest = std::max(largest, sum > 0 ? static_cast<double>(force.rows()) * column.maxCoeff() / sum
-                                        : std::numeric_limits<double>::infinity());
-  }
-  return largest;
+  for (const auto column : force.colwise())
+    if (const double sum = column.cwiseAbs().sum(); sum > 0)
+      largest = std::max(largest, static_cast<double>(force.rows()) * column.cwiseAbs().maxCoeff() / sum);
+  return largest > 0 ? largest : not_known;
 }
 
 Eigen::MatrixXd load_sharing_over_time(const Eigen::Ref<const Eigen::MatrixXd>& force) {
   Eigen::MatrixXd share = force * static_cast<double>(force.rows());
-  for (Eigen::Index i = 0; i < force.cols(); ++i) share.col(i) /= force.col(i).sum();
+  for (Eigen::Index i = 0; i < force.cols(); ++i) {
+    const double sum = force.col(i).cwiseAbs().sum();
+    if (sum > 0)
+      share.col(i) /= sum;
+    else
+      share.col(i).setConstant(not_known);
+  }
   return share;
 }
 

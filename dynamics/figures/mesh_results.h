@@ -9,19 +9,22 @@
 /// What the forces of meshes are judged by, the same for every kind of gear system.
 namespace annulus::dynamics {
 
-/// N F_n / sum F, its maximum over the branches n (planets) and over ...
+/// N |F_n| / sum |F|, its maximum over the branches n (planets) and over ... . Forces on back flanks count like those
+/// on driving flanks. Not known where no branch ever carries any load.
 struct LoadSharing {
-  Figure instantaneous;  ///< ... every instant
+  Figure instantaneous;  ///< ... every instant at which any branch carries load
   Figure averaged;       ///< ... every mesh cycle, the forces averaged over it first
   Figure quasi_static;   ///< ... every position, without inertia and damping
 };
 
 /// Results of one mesh, such as that of one planet with sun or ring.
 struct BranchResult {
-  Figure dynamic_factor_max;      ///< max F / mean mesh force over the window (peaks refined between the samples)
-  double dynamic_factor_min = 0;  ///< min F / mean mesh force
-  double mean_force = 0;          ///< N
-  double contact_loss = 0;        ///< fraction of the time without contact
+  /// Max |F| / mean mesh force over the window (peaks refined between the samples), on whichever flanks it acts.
+  Figure dynamic_factor_max;
+  double dynamic_factor_min = 0;  ///< min F / mean mesh force, negative on back flanks
+  double mean_force = 0;          ///< N, negative on back flanks
+  Figure contact_loss;            ///< fraction of the time without contact
+  double back_flanks = 0;         ///< fraction of the time in which back flanks carry the load
 };
 
 /// Results of the meshes first ... first + count - 1 of a steady state. `mean_force`: N, reference of the factors.
@@ -33,12 +36,12 @@ struct BranchResult {
 
 /// Largest dynamic factor of the branches, and their largest contact loss.
 [[nodiscard]] Figure largest_dynamic_factor(const std::vector<BranchResult>& branches);
-[[nodiscard]] double largest_contact_loss(const std::vector<BranchResult>& branches);
+[[nodiscard]] Figure largest_contact_loss(const std::vector<BranchResult>& branches);
 
-/// Largest N F_n / sum F over all columns; `force` (N) has one row per branch. Infinite when a sum is not positive: the
-/// meshes then carry no load at that instant.
+/// Largest N |F_n| / sum |F| over all columns in which a branch carries load; `force` (N) has one row per branch. Not
+/// known where none does.
 [[nodiscard]] double load_sharing_instantaneous(const Eigen::Ref<const Eigen::MatrixXd>& force);
-/// N F_n / sum F over time, one row per branch.
+/// N F_n / sum |F| over time, one row per branch; not known where no branch carries load.
 [[nodiscard]] Eigen::MatrixXd load_sharing_over_time(const Eigen::Ref<const Eigen::MatrixXd>& force);
 
 }  // namespace annulus::dynamics

@@ -35,6 +35,7 @@ FrequencyResponse::FrequencyResponse(const LumpedSystem& system, const Eigen::Ve
   Eigen::MatrixXd fixed = stiffness_;
   Eigen::VectorXd squares(n);
   for (Eigen::Index i = 0; i < n; ++i) squares[i] = std::pow(2 * std::numbers::pi * found.modes[i].frequency, 2);
+  highest_rate_ = std::sqrt(squares[n - 1]);
   for (Eigen::Index i = 0; i < n && squares[i] == 0; ++i) {
     const Eigen::VectorXd momentum = mass_ * shapes.col(i);
     fixed += mesh_stiffness.maxCoeff() / momentum.cwiseAbs2().maxCoeff() * momentum * momentum.transpose();
@@ -49,16 +50,15 @@ FrequencyResponse::FrequencyResponse(const LumpedSystem& system, const Eigen::Ve
                     "freedom has no support",
                     factor.rcond()));
   const UntrappedFloatingPoint untrapped;  // the inverse of a defective matrix is infinite, and not used
-  find_eigenvalues(shapes, squares, rigid_motions);
+  find_eigenvalues(shapes, rigid_motions);
   by_eigenvalues_ = eigenvalues_agree();
 }
 
-void FrequencyResponse::find_eigenvalues(const Eigen::MatrixXd& shapes, const Eigen::VectorXd& squares,
-                                         Eigen::Index rigid_motions) {
+void FrequencyResponse::find_eigenvalues(const Eigen::MatrixXd& shapes, Eigen::Index rigid_motions) {
   const Eigen::Index n = mass_.rows(), elastic = n - rigid_motions;
   // State: elastic displacements and all velocities / w in the undamped modes, in time units of 1/w: entries of order
   // one. Rigid displacements act on nothing; included, they would make the zero eigenvalue defective.
-  const double w = std::sqrt(squares[n - 1]);
+  const double w = highest_rate_;
   const auto bent = shapes.rightCols(elastic);
   Eigen::MatrixXd state = Eigen::MatrixXd::Zero(elastic + n, elastic + n);
   state.topRightCorner(elastic, elastic).setIdentity();

@@ -32,16 +32,19 @@ class FrequencyResponse {
   /// Mesh vectors b as columns.
   [[nodiscard]] const Eigen::MatrixXd& mesh_vectors() const { return b_; }
   [[nodiscard]] bool by_eigenvalues() const { return by_eigenvalues_; }
+  /// Highest undamped natural frequency, rad/s.
+  [[nodiscard]] double highest_rate() const { return highest_rate_; }
 
  private:
   [[nodiscard]] Eigen::MatrixXcd solve_directly(double rate) const;  // D^-1 B
   [[nodiscard]] Eigen::MatrixXd transfer_by_eigenvalues(double spacing, Eigen::Index lines) const;
-  void find_eigenvalues(const Eigen::MatrixXd& shapes, const Eigen::VectorXd& squares, Eigen::Index rigid_motions);
+  void find_eigenvalues(const Eigen::MatrixXd& shapes, Eigen::Index rigid_motions);
   [[nodiscard]] bool eigenvalues_agree() const;
 
   Eigen::MatrixXd mass_, damping_, stiffness_, b_;
   Eigen::MatrixXd static_inverse_;
   bool by_eigenvalues_ = false;
+  double highest_rate_ = 0;
   Eigen::VectorXcd eigenvalues_;  // 1/s
   Eigen::MatrixXcd inputs_;       // eigenvalues x meshes
   Eigen::MatrixXcd outputs_;      // DOFs x eigenvalues, rigid displacements left out

@@ -51,7 +51,7 @@ double integrated_cycles(const LumpedSystem& system, double mesh_frequency, int 
   const double seconds = window / mesh_frequency;
   const bool jumps = std::isfinite(system.next_jump(0)) && why_not_piecewise(system, seconds).empty();
   if (jumps && too_fast_for_piecewise(system, seconds, window)) return until_two_agree * window;
-  return options.confirm ? window : 0;
+  return options.confirmation == Confirmation::always ? window : 0;
 }
 
 }  // namespace annulus::dynamics

@@ -159,12 +159,16 @@ void fill(PeriodicResponse& response, HarmonicBalance& balance, const Eigen::Mat
   response.force = force.transpose();
   response.time.resize(samples);
   for (Eigen::Index i = 0; i < samples; ++i) response.time[i] = balance.meshes().time(i);
+  const auto share = [&](Eigen::Index m, LumpedSystem::Contact state) {
+    return static_cast<double>(std::count(contact.begin() + m * samples, contact.begin() + (m + 1) * samples, state)) /
+           static_cast<double>(samples);
+  };
   response.open.resize(meshes);
-  for (Eigen::Index m = 0; m < meshes; ++m)
-    response.open[m] =
-        static_cast<double>(std::count(contact.begin() + m * samples, contact.begin() + (m + 1) * samples,
-                                       LumpedSystem::Contact::open)) /
-        static_cast<double>(samples);
+  response.back.resize(meshes);
+  for (Eigen::Index m = 0; m < meshes; ++m) {
+    response.open[m] = share(m, LumpedSystem::Contact::open);
+    response.back[m] = share(m, LumpedSystem::Contact::back);
+  }
 }
 
 void set_coarse_difference(PeriodicResponse& response, int samples_per_cycle) {
@@ -175,8 +179,29 @@ void set_coarse_difference(PeriodicResponse& response, int samples_per_cycle) {
         response.coarse_difference, (response.force.col(2 * i) - response.coarse_force.col(i)).cwiseAbs().maxCoeff());
 }
 
+/// Samples per mesh cycle to look ahead to: four per period of the highest natural frequency.
+int samples_ahead(const FrequencyResponse& linear, double mesh_frequency, const PeriodicOptions& options) {
+  const double needed = 4 * linear.highest_rate() / (2 * std::numbers::pi * mesh_frequency);
+  int ahead = options.samples_per_cycle;
+  while (ahead < needed && 2 * ahead <= options.max_samples_ahead) ahead *= 2;
+  return ahead;
+}
+
+/// One iteration at the sampling of `finer`, with constant stiffness: harmonics beyond those of the solution come out
+/// with their own resonance.
+void look_ahead(HarmonicBalance& finer, const Eigen::MatrixXd& approach, PeriodicResponse& response) {
+  const Eigen::Index step = finer.samples() / approach.rows();
+  const Eigen::MatrixXd refined = HarmonicBalance::refined(approach, step);
+  Eigen::MatrixXd residual(refined.rows(), refined.cols()), change(refined.rows(), refined.cols());
+  finer.residual(refined, residual);
+  finer.meshes().apply_tangent(-residual, Eigen::VectorXd::Zero(refined.cols()), change);
+  response.finer_difference = change.cwiseAbs().maxCoeff();
+  response.finer_force = response.force + change(Eigen::seq(0, Eigen::last, step), Eigen::all).transpose();
+}
+
 bool wants_more_samples(const PeriodicResponse& response, const PeriodicOptions& options) {
-  return response.converged && options.sampling_tolerance && response.coarse_difference > *options.sampling_tolerance &&
+  return response.converged && options.sampling_tolerance &&
+         response.largest_difference() > *options.sampling_tolerance &&
          2 * response.samples_per_cycle <= options.max_samples_per_cycle;
 }
 
@@ -248,9 +273,25 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
     if (level == samples) balance.motion(response.displacement, response.velocity);
   }
   set_coarse_difference(response, options.samples_per_cycle);
+  if (!response.converged || !options.sampling_tolerance) return response;
+  const int ahead = samples_ahead(linear, cycles / period, options);
+  const Eigen::Index finest = static_cast<Eigen::Index>(cycles) * ahead;
+  const auto resolve = [&](Eigen::Index level) {
+    if (problem.transfer.cols() < 2 * mean.size() * (level / 2 - 1))
+      problem.transfer = linear.mesh_transfer(spacing, level / 2 - 1);
+  };
+  const auto look = [&](PeriodicResponse& found) {
+    found.finer_force.resize(0, 0);
+    found.finer_difference = 0;
+    if (approach.rows() >= finest) return;
+    resolve(finest);
+    HarmonicBalance finer(problem, period, finest);
+    look_ahead(finer, approach, found);
+  };
+  look(response);
   while (wants_more_samples(response, options)) {
     const Eigen::Index level = 2 * response.time.size();
-    problem.transfer = linear.mesh_transfer(spacing, level / 2 - 1);
+    resolve(level);
     HarmonicBalance balance(problem, period, level);
     approach = HarmonicBalance::refined(approach, 2);
     auto finer = response;
@@ -259,6 +300,7 @@ PeriodicResponse periodic_response(const LumpedSystem& system, double period, in
     fill(finer, balance, approach);
     balance.motion(finer.displacement, finer.velocity);
     set_coarse_difference(finer, 2 * response.samples_per_cycle);
+    look(finer);
     response = std::move(finer);
   }
   return response;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -12,10 +13,11 @@ namespace annulus::dynamics {
 struct PeriodicOptions {
   /// Samples per mesh cycle, a multiple of 8. Harmonics of the mesh frequency up to half of it are solved.
   int samples_per_cycle = 32;
-  /// Samples are doubled, up to `max_samples_per_cycle`, until that changes no force by more than this (N). Absent: no
-  /// doubling.
+  /// Samples are doubled, up to `max_samples_per_cycle`, until neither that nor a look at more samples changes any
+  /// force by more than this (N). Absent: no doubling, and no look.
   std::optional<double> sampling_tolerance{};
   int max_samples_per_cycle = 256;
+  int max_samples_ahead = 256;  ///< per mesh cycle, for the look; from there on more harmonics are not looked for
   /// Largest residual of an approach at any sample / largest quasi-static mesh deflection at time 0.
   double tolerance = 1e-5;
   int max_iterations = 20;  ///< Newton iterations, per level of sampling
@@ -33,7 +35,8 @@ struct PeriodicSolution {
   std::string trouble;  ///< the cause where it did not converge
   double residual = 0;  ///< see PeriodicOptions::tolerance
   int newton_iterations = 0, linear_iterations = 0;
-  /// Largest force difference to half the samples / mean mesh force; at least the residual.
+  /// Largest force difference to half the samples, or to more of them as far as known, / mean mesh force; at least the
+  /// residual.
   double sampling_difference = 0;
   /// Largest modulus of a Floquet multiplier: over the period of a piecewise solution, over a mesh cycle of a harmonic
   /// balance whose stability was examined.
@@ -46,6 +49,11 @@ struct PeriodicResponse : PeriodicSolution, ResponseWindow {
   /// Largest difference of a force between both samplings (N). It bounds the error of the finer one where the spectrum
   /// decays. With jumps that error is about a third of it (second order).
   double coarse_difference = 0;
+  /// N, at the same times: after one iteration from this solution with the samples that the highest natural frequency
+  /// needs. Half the samples and these agree where both lack the harmonics that resonate. Empty: not looked at.
+  Eigen::MatrixXd finer_force;
+  double finer_difference = 0;  ///< N, largest difference to `finer_force`
+  [[nodiscard]] double largest_difference() const { return std::max(coarse_difference, finer_difference); }
 };
 
 /// Periodic response by harmonic balance with the nonlinear forces evaluated in time (alternating frequency-time)

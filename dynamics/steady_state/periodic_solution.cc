@@ -51,19 +51,28 @@ PeriodicSearch solve_piecewise(const LumpedSystem& system, const SteadyProblem& 
   return search;
 }
 
-/// Limit of the samples of a harmonic balance: higher where the period is short.
-int most_samples_per_cycle(int period) {
-  constexpr int most = 512, most_of_a_period = 1 << 13;
-  return std::min(most, most_of_a_period / period);
+/// Limit of the samples of a harmonic balance: higher where the period is short. Long periods have as many as any run
+/// begins with, which costs far less than to integrate them in time.
+int most_samples_per_cycle(int period, int most_of_a_period) {
+  constexpr int least = 32, most = 512;
+  return std::clamp(most_of_a_period / period, least, most);
+}
+
+/// The error of a sampling is about a third of the change when the samples are halved. A loose tolerance leaves no room
+/// for that third: vibrations that a sampling lacks are seen late.
+double sampling_tolerance(double steady_tolerance) {
+  constexpr double tight = 3e-3;
+  return std::min(3 * steady_tolerance, std::max(steady_tolerance, tight));
 }
 
 PeriodicOptions balance_options(const SteadyProblem& problem, const SimulationOptions& options) {
   PeriodicOptions balance = options.periodic;
   balance.samples_per_cycle = options.samples_per_cycle;
-  if (options.confirm) {
-    // The error of a sampling is about a third of the change when the samples are halved.
-    balance.sampling_tolerance = 3 * options.steady_tolerance * problem.force_scale;
-    balance.max_samples_per_cycle = most_samples_per_cycle(problem.period_in_cycles);
+  if (options.sampling == Sampling::as_needed) {
+    balance.sampling_tolerance = sampling_tolerance(options.steady_tolerance) * problem.force_scale;
+    // Newton's method stores dozens of vectors of unknowns, a look stores a few.
+    balance.max_samples_per_cycle = most_samples_per_cycle(problem.period_in_cycles, 1 << 13);
+    balance.max_samples_ahead = most_samples_per_cycle(problem.period_in_cycles, 1 << 15);
   }
   return balance;
 }
@@ -74,7 +83,7 @@ PeriodicSearch solve_harmonic_balance(const LumpedSystem& system, const SteadyPr
   auto periodic = periodic_response(system, period / problem.mesh_frequency, period, balance_options(problem, options));
   // Where the solution with half the samples already satisfies the finer ones, no step is taken and only the residual
   // is known of the error.
-  periodic.sampling_difference = std::max(periodic.coarse_difference / problem.force_scale, periodic.residual);
+  periodic.sampling_difference = std::max(periodic.largest_difference() / problem.force_scale, periodic.residual);
   PeriodicSearch search(periodic);
   if (!periodic.converged) return search;
   // The requested samples only, over all periods of the window.
@@ -90,9 +99,12 @@ PeriodicSearch solve_harmonic_balance(const LumpedSystem& system, const SteadyPr
   windows.fine.displacement = in_window(periodic.displacement);
   windows.fine.velocity = in_window(periodic.velocity);
   windows.fine.open = std::move(periodic.open);
-  windows.coarse.emplace();
-  windows.coarse->samples_per_cycle = options.samples_per_cycle / 2;
-  windows.coarse->force = in_window(periodic.coarse_force);
+  windows.fine.back = std::move(periodic.back);
+  const bool ahead = periodic.finer_difference > periodic.coarse_difference;
+  windows.compared.emplace();
+  windows.compared->samples_per_cycle = ahead ? options.samples_per_cycle : options.samples_per_cycle / 2;
+  windows.compared->force = in_window(ahead ? periodic.finer_force : periodic.coarse_force);
+  if (step > 1) windows.fine.dense_force = std::move(periodic.force);
   return search;
 }
 
@@ -171,7 +183,8 @@ PeriodicSearch find_periodic_solution(const LumpedSystem& system, const SteadyPr
       std::isfinite(system.next_jump(0)) && why_not_piecewise(system, cycles / problem.mesh_frequency).empty();
   auto search = piecewise ? solve_piecewise(system, problem, cycles, options)
                           : solve_harmonic_balance(system, problem, cycles, options);
-  if (search.status == PeriodicStatus::found && options.confirm) examine_stability(system, problem, search);
+  if (search.status == PeriodicStatus::found && options.confirmation == Confirmation::always)
+    examine_stability(system, problem, search);
   return search;
 }
 

@@ -11,7 +11,9 @@ namespace annulus::dynamics {
 /// A periodic solution over one evaluated window from time 0.
 struct PeriodicWindows {
   ResponseWindow fine;
-  std::optional<ResponseWindow> coarse;  ///< harmonic balance alone: the forces found with half the samples
+  /// Harmonic balance alone: the forces found with half the samples, or one iteration with more of them, whichever
+  /// differ more.
+  std::optional<ResponseWindow> compared;
 };
 
 enum class PeriodicStatus {
@@ -36,8 +38,8 @@ struct PeriodicSearch {
 };
 
 /// Searches for the periodic solution over `cycles` mesh cycles, whole periods of the problem. Systems with jumps of
-/// constant stiffnesses are solved exactly, all others by harmonic balance. With `options.confirm` the harmonic balance
-/// takes as many samples as the time integration needs to confirm it, and its stability is examined.
+/// constant stiffnesses are solved exactly, all others by harmonic balance. Its stability is examined where it is
+/// always confirmed.
 [[nodiscard]] PeriodicSearch find_periodic_solution(const LumpedSystem& system, const SteadyProblem& problem,
                                                     int cycles, const SimulationOptions& options);
 

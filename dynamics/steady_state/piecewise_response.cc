@@ -294,7 +294,7 @@ PiecewiseResponse piecewise_response(const LumpedSystem& system, double period, 
   walk.set_motion();
   response.solved = true;
   judge(system, response);
-  response.open = Eigen::VectorXd::Zero(response.force.rows());
+  response.open = response.back = Eigen::VectorXd::Zero(response.force.rows());
   if (response.solved_cycles < cycles) repeat_period(response, solved, cycles);
   return response;
 }

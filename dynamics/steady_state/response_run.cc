@@ -66,7 +66,7 @@ void ResponseRun::start_from(const Eigen::VectorXd& displacement, const Eigen::V
 
 void ResponseRun::advance(int cycles, ResponseWindow* window, EnergyTracking energy) {
   const double end = (cycles_ + cycles) / mesh_frequency_;
-  const int samples = window ? cycles * samples_per_cycle_ : 0;
+  const int samples = window ? cycles * samples_per_cycle_ : 0, instants = samples * closer_;
   if (window) {
     window->samples_per_cycle = samples_per_cycle_;
     const auto meshes = static_cast<Eigen::Index>(system_.meshes().size());
@@ -74,17 +74,23 @@ void ResponseRun::advance(int cycles, ResponseWindow* window, EnergyTracking ene
     window->force.resize(meshes, samples);
     window->displacement.resize(system_.dofs(), samples);
     window->velocity.resize(system_.dofs(), samples);
-    window->open = Eigen::VectorXd::Zero(meshes);
+    window->open = window->back = Eigen::VectorXd::Zero(meshes);
+    window->dense_force.resize(closer_ > 1 ? meshes : 0, closer_ > 1 ? instants : 0);
   }
-  IntegrationObserver observer{.samples = samples, .sample = {}, .at_jump = {}, .energy = energy};
-  observer.sample = [&](int i, const SystemState& state) {
+  IntegrationObserver observer{.samples = instants, .sample = {}, .at_jump = {}, .energy = energy};
+  observer.sample = [&](int instant, const SystemState& state) {
+    const Eigen::Map<const Eigen::VectorXd> force(workspace_.force.data(), window->force.rows());
+    for (Eigen::Index m = 0; m < window->force.rows(); ++m) {
+      if (workspace_.contact[m] == LumpedSystem::Contact::open) window->open[m] += 1.0 / instants;
+      if (workspace_.elastic[m] < 0) window->back[m] += 1.0 / instants;
+    }
+    if (closer_ > 1) window->dense_force.col(instant) = force;
+    if (instant % closer_ != 0) return;
+    const int i = instant / closer_;
     window->time[i] = state.time;
     window->displacement.col(i) = state.q;
     window->velocity.col(i) = state.v;
-    for (Eigen::Index m = 0; m < window->force.rows(); ++m) {
-      window->force(m, i) = workspace_.force[m];
-      if (workspace_.contact[m] == LumpedSystem::Contact::open) window->open[m] += 1.0 / samples;
-    }
+    window->force.col(i) = force;
   };
   std::vector<double> jump_time, jump_force;
   const double start = state_.time, spacing = (end - start) / std::max(samples, 1);

@@ -17,6 +17,8 @@ class ResponseRun {
 
   /// Starts at time 0 with this state instead: displacement (m) and velocity (m/s), one entry per DOF.
   void start_from(const Eigen::VectorXd& displacement, const Eigen::VectorXd& velocity);
+  /// Windows also have forces at `times` as many instants, for their peaks. For systems without jumps.
+  void sample_forces_closer(int times) { closer_ = times; }
   /// Integrates over whole mesh cycles; `window` (may be null) receives the samples.
   void advance(int cycles, ResponseWindow* window, EnergyTracking energy = EnergyTracking::off);
   [[nodiscard]] const LumpedSystem& system() const { return system_; }
@@ -36,7 +38,7 @@ class ResponseRun {
 
   const LumpedSystem& system_;
   double mesh_frequency_ = 0;
-  int samples_per_cycle_ = 0;
+  int samples_per_cycle_ = 0, closer_ = 1;
   LumpedSystem::Workspace workspace_;
   IntegratorOptions integrator_;
   SystemState state_;

@@ -11,6 +11,7 @@ struct ResponseWindow {
   Eigen::VectorXd time;
   Eigen::MatrixXd force, displacement, velocity;
   Eigen::VectorXd open;  ///< fraction of the samples without contact, per mesh
+  Eigen::VectorXd back;  ///< fraction of the samples at which back flanks press, per mesh
 
   /// Jumps of stiffnesses from the beginning of the window to before its end; empty without jumps. Times (s), forces on
   /// both sides (N, meshes x jumps) and the samples at or right after a jump. Extremes occur at jumps, and curves are
@@ -19,8 +20,8 @@ struct ResponseWindow {
   Eigen::MatrixXd force_before{}, force_after{};
   std::vector<Eigen::Index> after_jump{};
 
-  /// Forces at closer times over one period of the window, for peaks, and their samples right after a jump. May be
-  /// empty.
+  /// Forces at closer times over the window or one period of it, for peaks, and their samples right after a jump. May
+  /// be empty.
   Eigen::MatrixXd dense_force{};
   std::vector<Eigen::Index> dense_after_jump{};
 

@@ -170,7 +170,8 @@ void SampledMeshes::evaluate_at_instants(const Eigen::MatrixXd& approach, const 
     system_.evaluate_forces(time(i), approach_.data(), rate_.data(), workspace_);
     for (Eigen::Index m = 0; m < force.cols(); ++m) {
       force(i, m) = workspace_.force[m];
-      contact[m * samples_ + i] = workspace_.contact[m];
+      // A mesh without backlash is always held closed, and its flanks follow from its force.
+      contact[m * samples_ + i] = workspace_.elastic[m] < 0 ? Contact::back : workspace_.contact[m];
     }
   }
 }

@@ -34,7 +34,7 @@ class SampledMeshes {
   void apply_tangent(const Eigen::Ref<const Eigen::MatrixXd>& change, const Eigen::VectorXd& mean,
                      Eigen::Ref<Eigen::MatrixXd> force) const;
 
-  /// Forces (N) at the instants themselves (just after a jump), and the contact states.
+  /// Forces (N) at the instants themselves (just after a jump), and the flanks that press, whatever the damping.
   void evaluate_at_instants(const Eigen::MatrixXd& approach, const Eigen::MatrixXd& rate, Eigen::MatrixXd& force,
                             std::vector<LumpedSystem::Contact>& contact);
 

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "core/errors.h"
+#include "core/log.h"
+#include "dynamics/modes/modes.h"
 #include "dynamics/steady_state/periodic_solution.h"
 #include "dynamics/steady_state/window_integration.h"
 
@@ -51,6 +54,7 @@ void check_steady(const SteadyProblem& problem, const SimulationOptions& options
 ///   search    -> evaluate
 ///   integrate -> evaluate
 ///   evaluate  -> done
+///             -> confirm, search, integrate   with tighter tolerances, where energy was lost
 class SteadyStateFinder {
  public:
   SteadyStateFinder(const LumpedSystem& system, const SteadyProblem& problem, const SimulationOptions& options)
@@ -74,6 +78,12 @@ class SteadyStateFinder {
   /// Can windows repeat, so that there is a steady state to search for?
   [[nodiscard]] bool searchable() const { return !options_.mesh_cycles && response_.whole_period; }
 
+  [[nodiscard]] bool wants_confirmation() const {
+    if (options_.confirmation != Confirmation::where_needed) return options_.confirmation == Confirmation::always;
+    return periodic_.loses_contact() || (periodic_.report->method == PeriodicMethod::harmonic_balance &&
+                                         periodic_.report->sampling_difference > options_.confirm_beyond);
+  }
+
   /// Periodic solution without time integration.
   Step solve() {
     if (options_.steady_state == SteadyState::harmonic_balance && searchable()) {
@@ -82,17 +92,16 @@ class SteadyStateFinder {
     }
     if (periodic_.status != PeriodicStatus::found)
       return {searchable() ? &SteadyStateFinder::search : &SteadyStateFinder::integrate_prescribed};
-    const bool confirmed_anyway = options_.confirm_on_contact_loss && periodic_.loses_contact();
-    return {options_.confirm || confirmed_anyway ? &SteadyStateFinder::confirm : &SteadyStateFinder::accept};
+    return {wants_confirmation() ? &SteadyStateFinder::confirm : &SteadyStateFinder::accept};
   }
 
   /// The periodic solution stands alone.
   Step accept() {
-    auto& [fine, coarse] = *periodic_.windows;
+    auto& [fine, compared] = *periodic_.windows;
     response_.steady = true;
     response_.begin = response_.end = {0, fine.displacement.col(0), fine.velocity.col(0)};
     response_.best = std::move(fine);
-    response_.before = std::move(coarse);
+    response_.before = std::move(compared);
     return {};
   }
 
@@ -110,7 +119,9 @@ class SteadyStateFinder {
   Step search() {
     auto& windows = integration_ ? *integration_ : start_integration();
     // All windows only for a response that stands alone and has, or may have, a periodic solution.
-    const bool patient = options_.confirm && periodic_.status != PeriodicStatus::not_found;
+    const bool patient = options_.confirmation == Confirmation::always
+                             ? periodic_.status != PeriodicStatus::not_found
+                             : options_.confirmation == Confirmation::where_needed && periodic_.windows;
     response_.steady = windows.reach_steady_state(options_, problem_.force_scale,
                                                   patient ? Effort::all_windows : Effort::until_out_of_reach);
     response_.steady_difference = windows.difference_to_before(problem_.force_scale);
@@ -133,16 +144,47 @@ class SteadyStateFinder {
 
   /// Energies and errors of the last window.
   Step evaluate() {
-    integration_->finish(problem_, options_, response_);
+    if (const auto lost = integration_->lost_energy(problem_, integrator_)) return tighten(*lost);
+    integration_->finish(options_, response_);
     if (response_.confirmed) response_.before = std::move(periodic_.windows->fine);
     // Without loss of contact there is nothing but an unstable motion: slow growth does not show yet.
     if (periodic_.status == PeriodicStatus::unstable && response_.best.open.maxCoeff() == 0) response_.steady = false;
     return {};
   }
 
+  /// The whole integration again with tighter tolerances, as long as that can help.
+  Step tighten(double lost) {
+    const bool fixed_steps = integrator_.method == Integrator::runge_kutta_4;
+    constexpr double tenfold = 0.1, tightest = 1e-10;
+    const bool may = options_.tolerance_rule == ToleranceRule::tightened_if_loose && !fixed_steps &&
+                     tightening_ * tenfold * options_.integrator.relative_tolerance >= tightest;
+    if (!may) throw SolverError(fmt::format("the time integration lost {:.2g} of the energy: {}", lost, remedy()));
+    tightening_ *= tenfold;
+    log::info(fmt::format("the time integration lost {:.2g} of the energy; again with a relative tolerance of {:.0e}",
+                          lost, tightening_ * options_.integrator.relative_tolerance));
+    integration_.reset();
+    response_.confirmed = false;
+    if (periodic_.windows) return {&SteadyStateFinder::confirm};
+    return {searchable() ? &SteadyStateFinder::search : &SteadyStateFinder::integrate_prescribed};
+  }
+
+  [[nodiscard]] std::string remedy() const {
+    if (integrator_.method == Integrator::runge_kutta_4)
+      return "its fixed steps are too long (dynamics.steps_per_cycle)";
+    if (options_.tolerance_rule == ToleranceRule::prescribed)
+      return fmt::format("its relative tolerance of {:.0e} is too loose (dynamics.relative_tolerance)",
+                         integrator_.relative_tolerance);
+    return fmt::format(
+        "tolerances down to {:.0e} did not help; more damping, more load or less backlash make the motion easier to "
+        "integrate",
+        integrator_.relative_tolerance);
+  }
+
   /// From the periodic solution, else from the start of the problem, else from quasi-static equilibrium.
   WindowIntegration& start_integration() {
-    ResponseRun run(system_, problem_.mesh_frequency, options_.samples_per_cycle, integrator_options());
+    integrator_ = integrator_options();
+    ResponseRun run(system_, problem_.mesh_frequency, options_.samples_per_cycle, integrator_);
+    run.sample_forces_closer(closer_samples());
     if (problem_.start) {
       const auto &q = problem_.start->q, &v = problem_.start->v;
       if (q.size() != system_.dofs() || v.size() != system_.dofs())
@@ -156,8 +198,24 @@ class SteadyStateFinder {
     return integration_.emplace(std::move(run), response_.window_cycles);
   }
 
+  /// Peaks of vibrations at the highest natural frequency need eight samples per period; long windows have many peaks.
+  [[nodiscard]] int closer_samples() const {
+    // The implicit method is chosen where vibrations die out at once, and ends a step at every instant.
+    if (std::isfinite(system_.next_jump(0)) || integrator_.method == Integrator::arkode_implicit) return 1;
+    constexpr int most_of_a_cycle = 512, most_of_a_window = 1 << 16;
+    const int samples = options_.samples_per_cycle;
+    const double highest = modes(system_, mean_stiffnesses(system_)).modes.back().frequency;
+    int closer = 1;
+    while (closer * samples < 8 * highest / problem_.mesh_frequency && 2 * closer * samples <= most_of_a_cycle &&
+           2 * closer * samples * response_.window_cycles <= most_of_a_window)
+      closer *= 2;
+    return closer;
+  }
+
   IntegratorOptions integrator_options() {
     IntegratorOptions integrator = options_.integrator;
+    integrator.relative_tolerance *= tightening_;
+    if (integrator.absolute_tolerance) *integrator.absolute_tolerance *= tightening_;
     if (integrator.method == Integrator::automatic) {
       response_.integrator = choose_integrator(system_, integrator.relative_tolerance);
       integrator.method = response_.integrator->method;
@@ -175,6 +233,8 @@ class SteadyStateFinder {
   SteadyResponse response_;
   PeriodicSearch periodic_;
   std::optional<WindowIntegration> integration_;
+  IntegratorOptions integrator_;  ///< of the integration
+  double tightening_ = 1;         ///< factor of its tolerances
 };
 
 }  // namespace

@@ -22,13 +22,36 @@ enum class SteadyState {
   time_integration,  ///< from quasi-static equilibrium until windows repeat
 };
 
+/// Which harmonic balances a time integration confirms. One that stands alone states its difference to other samplings
+/// as its error, and has no energy balance.
+enum class Confirmation {
+  never,
+  /// Where a mesh loses contact, because other motions may then exist, and where more samples still change forces by
+  /// more than `confirm_beyond`.
+  where_needed,
+  always
+};
+
+/// Samples of the harmonic balance.
+enum class Sampling {
+  prescribed,  ///< `samples_per_cycle`
+  as_needed  ///< doubled until that and a look at more samples change forces by no more than 1 to 3 `steady_tolerance`
+};
+
+/// What happens where the time integration loses energy.
+enum class ToleranceRule {
+  prescribed,         ///< it ends
+  tightened_if_loose  ///< it is repeated with a tighter relative tolerance
+};
+
 struct SimulationOptions {
   SteadyState steady_state = SteadyState::harmonic_balance;
-  /// `harmonic_balance` only. false: a solution that converges is taken without any time integration (sweeps, Monte
-  /// Carlo). Errors are then compared with half the samples, and there is no energy balance.
-  bool confirm = true;
-  /// Without `confirm`: confirms nevertheless where a mesh loses contact, because other motions may then exist.
-  bool confirm_on_contact_loss = false;
+  Confirmation confirmation = Confirmation::always;
+  Sampling sampling = Sampling::as_needed;
+  /// `where_needed` confirms where other samplings of the harmonic balance change a force by more than this, relative
+  /// to the force scale.
+  double confirm_beyond = 0.01;
+  ToleranceRule tolerance_rule = ToleranceRule::prescribed;
   bool keep_series = true;   ///< false: results without time series
   PeriodicOptions periodic;  ///< `samples_per_cycle` is overwritten by that of this struct
   IntegratorOptions integrator;
@@ -42,11 +65,11 @@ struct SimulationOptions {
   /// from the harmonic balance or from the evaluated window before. In the second case the differences, continued
   /// geometrically, must not add up to more either.
   double steady_tolerance = 1e-3;
-  /// Most windows of the time integration. Without `confirm`, or where no periodic solution was found, the search ends
+  /// Most windows of the time integration. With `Confirmation::never`, or where no periodic solution was found, it ends
   /// as soon as the decay of the differences shows that so many windows will not do. `steady` is then false.
   int max_windows = 40;
-  /// Samples per mesh cycle of the time series and the harmonic balance (a multiple of 8 there). The harmonic balance
-  /// takes more where the time integration would not confirm so few. The highest excited frequency needs four samples.
+  /// Samples per mesh cycle of the time series and, at least, of the harmonic balance (a multiple of 8 there). The
+  /// highest excited frequency needs four samples.
   int samples_per_cycle = 64;
   /// The window is one error period, or as many error periods as reach this many mesh cycles. Differences between short
   /// windows show little of slow transients.
@@ -128,8 +151,9 @@ struct SteadyOutcome {
 /// The steady state of a system, with the windows that show how well it is known.
 struct SteadyResponse : SteadyOutcome {
   ResponseWindow best;
-  /// Window that `best` should equal: the periodic solution where it was confirmed, the forces with half the samples
-  /// where the harmonic balance stands alone, or the window before. Absent when there is none.
+  /// Window that `best` should equal: the periodic solution where it was confirmed, the forces at another sampling
+  /// where the harmonic balance stands alone (see PeriodicWindows::compared), or the window before. Absent when there
+  /// is none.
   std::optional<ResponseWindow> before;
   std::optional<ResponseWindow> loose;  ///< `best` under a ten times looser integration
 };

@@ -28,14 +28,17 @@ class WindowIntegration {
   [[nodiscard]] const ResponseWindow& last() const { return last_; }
   /// Largest force difference of the last two windows / `force_scale` (N).
   [[nodiscard]] double difference_to_before(double force_scale) const;
-  /// Puts the last window, its energies and (with `estimate_error`) its looser integration into the response. Throws
-  /// SolverError when the time integration lost energy. The object is used up afterwards.
-  void finish(const SteadyProblem& problem, const SimulationOptions& options, SteadyResponse& response);
+  /// Relative energy that the last window lost; absent where that is no more than every integration loses.
+  [[nodiscard]] std::optional<double> lost_energy(const SteadyProblem& problem, const IntegratorOptions& integrator);
+  /// Puts the last window, its energies and (with `estimate_error`) its looser integration into the response. Call
+  /// `lost_energy` before. The object is used up afterwards.
+  void finish(const SimulationOptions& options, SteadyResponse& response);
 
  private:
   ResponseRun run_;
   std::optional<ResponseRun> at_begin_;  ///< of the last window
   SystemState begin_;
+  EnergyBalance energy_;  ///< of the last window
   ResponseWindow before_, last_;
   int cycles_ = 0, windows_ = 0;
 };

@@ -202,7 +202,7 @@ BOOST_AUTO_TEST_CASE(the_accuracy_decides_fidelity_elements_and_motion) {
   BOOST_TEST(less_rough.meshes[3].fidelity == "plane");
   BOOST_TEST(coupled(less_rough));
   BOOST_TEST(decided(app::decisions(less_rough.meshes[3]), "elements") == "linear");
-  BOOST_TEST(decided(rough.motion, "confirmation") == "where contact is lost");
+  BOOST_TEST(decided(rough.motion, "confirmation") == "where needed");
   BOOST_TEST(decided(rough.motion, "tolerance") == "1e-04");
   // No model but the one the scene asks for.
   BOOST_TEST(planned("accuracy = 0.1\nmodel = \"solid\"").meshes[0].fidelity == "solid");

@@ -47,7 +47,7 @@ PlanetaryStage tabulated_stage() {
 
 DynamicResponse directly(const PlanetaryStage& stage, int samples_per_cycle) {
   SimulationOptions options;
-  options.confirm = false;
+  options.confirmation = Confirmation::never;
   options.keep_series = false;
   options.samples_per_cycle = samples_per_cycle;
   return simulate(stage, options);

@@ -44,7 +44,8 @@ void errors(int samples) {
 /// Torques and speeds of the paper's figures; one of the points by time integration for comparison.
 void pair_grid(int points) {
   SimulationOptions direct;
-  direct.confirm = direct.keep_series = direct.estimate_error = false;
+  direct.confirmation = Confirmation::where_needed;
+  direct.keep_series = direct.estimate_error = false;
   SimulationOptions integrated = direct;
   integrated.steady_state = SteadyState::time_integration;
   for (const double half_backlash : {0.0, 100e-6}) {

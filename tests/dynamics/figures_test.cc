@@ -3,7 +3,6 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/errors.h"
@@ -22,8 +21,20 @@ BOOST_AUTO_TEST_CASE(load_sharing_of_given_forces) {
   BOOST_TEST(load_sharing_over_time(force)(1, 2) == 1.5);
   force(0, 3) = 7;
   BOOST_TEST(load_sharing_instantaneous(force) == 1.75);
-  force.col(1).setZero();
-  BOOST_TEST(load_sharing_instantaneous(force) == std::numeric_limits<double>::infinity());
+  force.col(1).setZero();  // no load: nothing to share at that instant
+  BOOST_TEST(load_sharing_instantaneous(force) == 1.75);
+  BOOST_TEST(std::isnan(load_sharing_over_time(force)(0, 1)));
+  BOOST_TEST(std::isnan(load_sharing_instantaneous(Eigen::MatrixXd::Zero(2, 3))));
+}
+
+// A branch that back flanks carry adds load to the others: K_gamma counts absolute loads.
+BOOST_AUTO_TEST_CASE(load_sharing_counts_absolute_loads) {
+  Eigen::MatrixXd force(3, 1);
+  force << 3, 1, -2;  // the sum is 2: 3 x 3/2 = 4.5 of three branches would be impossible
+  BOOST_TEST(load_sharing_instantaneous(force) == 1.5);
+  BOOST_TEST(load_sharing_over_time(force)(2, 0) == -1.0);
+  force << 2, -1, -1;  // balances itself
+  BOOST_TEST(load_sharing_instantaneous(force) == 1.5);
 }
 
 BOOST_AUTO_TEST_CASE(curves_are_reduced_to_each_cycle) {

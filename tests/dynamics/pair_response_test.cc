@@ -20,7 +20,7 @@ using Complex = std::complex<double>;
 /// 1e-8.
 SimulationOptions unconfirmed() {
   SimulationOptions options;
-  options.confirm = false;
+  options.confirmation = Confirmation::where_needed;
   options.samples_per_cycle = 256;
   return options;
 }

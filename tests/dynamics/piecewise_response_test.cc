@@ -255,7 +255,7 @@ BOOST_AUTO_TEST_CASE(simulation_takes_the_exact_solution_and_confirms_it) {
   BOOST_TEST(r.confirmed);
   BOOST_TEST(*r.steady_difference <= 1e-4);
   SimulationOptions alone;
-  alone.confirm = false;
+  alone.confirmation = Confirmation::never;
   const auto exact = simulate(stage, alone);
   const auto reference = load_sharing(piecewise_response(stage));
   // The extreme of the sun meshes stands at a jump: no sample sees it, both ways of solving do.

@@ -43,13 +43,20 @@ BOOST_AUTO_TEST_CASE(patterns_of_known_motions) {
   BOOST_TEST((found.kind == SectionKind::period_n));
   BOOST_TEST(*found.period == 20);
 
-  found = section_pattern(section_of(wave(3 + std::sqrt(2.0)), 60), 1, 1e-4);
+  found = section_pattern(section_of(wave(3 + std::sqrt(2.0)), 60), 1, {}, 1e-4);
   BOOST_TEST((found.kind == SectionKind::irregular));
   BOOST_TEST(!found.period.has_value());
   BOOST_TEST(found.clusters == 60);
   // The best of its shifts, 22 cycles, misses 5 periods by 0.073 cycles: 2 sin(pi 0.073/4.414) / swing at most.
   BOOST_TEST(found.spread > 1e-4);
   BOOST_TEST(found.spread < std::sin(std::numbers::pi * 0.073 / 4.414) + 1e-3);
+
+  // A start that decays within what is known of the points is no other point.
+  const auto decays = [](int i) { return i == 0 ? 0.6 : 0.0; };
+  BOOST_TEST((section_pattern(section_of(decays, 20), 1).kind == SectionKind::irregular));
+  found = section_pattern(section_of(decays, 20), 1, {.length = 0.7});
+  BOOST_TEST((found.kind == SectionKind::period_1));
+  BOOST_TEST(found.clusters == 1);
 
   found = section_pattern(section_of(wave(5), 55), 55);
   BOOST_TEST((found.kind == SectionKind::undecided));

@@ -36,7 +36,7 @@ BOOST_AUTO_TEST_CASE(base_scene_reaches_its_steady_state) {
     double mean = 0;
     for (const auto& branch : kind->branches) {
       mean += branch.mean_force / 5;
-      BOOST_TEST(branch.contact_loss == 0.0);
+      BOOST_TEST(branch.contact_loss.value == 0.0);
       BOOST_TEST(branch.dynamic_factor_max.value > branch.mean_force / r.mean_mesh_force);
       BOOST_TEST(branch.dynamic_factor_min < branch.mean_force / r.mean_mesh_force);
       BOOST_TEST(branch.dynamic_factor_max.error <= 5e-3);
@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(harmonic_balance_and_time_integration_agree) {
   BOOST_REQUIRE((confirmed.periodic && confirmed.periodic->converged));
   // The integrator's tolerance of 1e-6 times some, and what 16 harmonics leave out.
   BOOST_TEST(*confirmed.steady_difference <= 1e-5);
-  options.confirm = false;
+  options.confirmation = Confirmation::never;
   const auto direct = simulate(stage, options);
   BOOST_TEST(direct.steady);
   BOOST_TEST(direct.total_cycles == 0);
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(time_integration_takes_over_where_harmonic_balance_fails) {
   auto stage = stages::ring_paper();
   stage.sun_torque *= 0.1;
   auto options = quick();
-  options.confirm = false;
+  options.confirmation = Confirmation::never;
   options.periodic.max_iterations = 3;
   const auto r = simulate(stage, options);
   BOOST_REQUIRE(r.periodic.has_value());
@@ -221,7 +221,7 @@ BOOST_AUTO_TEST_CASE(contact_is_lost_and_counted_at_light_load) {
   record.at_least("times a mesh opens or closes", "", static_cast<double>(r.statistics.contact_events), 1,
                   "contact is lost");
   double loss = 0;
-  for (const auto& branch : r.sun_planet.branches) loss = std::max(loss, branch.contact_loss);
+  for (const auto& branch : r.sun_planet.branches) loss = std::max(loss, branch.contact_loss.value);
   BOOST_TEST(loss > 0.0);
   record.at_most("largest share of the time without contact", "", loss, 1, "the load is carried");
   BOOST_TEST(loss < 1.0);

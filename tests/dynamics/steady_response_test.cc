@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(windows_state_their_comparison) {
   test::Verification record("Windows of a harmonic balance and of a short time integration",
                             "counted by hand from what was asked for");
   SimulationOptions options;
-  options.confirm = false;
+  options.confirmation = Confirmation::never;
   const auto system = swinging(0, 1000);
   const auto direct = dynamics::steady_response(system, problem, options);
   record.near("mesh cycles integrated, harmonic balance", "", direct.total_cycles, 0, 0, "none");
@@ -135,8 +135,9 @@ BOOST_AUTO_TEST_CASE(harmonic_balance_is_sampled_as_finely_as_its_confirmation_n
   // One period was solved and stands in the window twenty times.
   BOOST_TEST((direct.force.rightCols(16).array() == direct.force.leftCols(16).array()).all());
   BOOST_TEST((direct.force - r.best.force).cwiseAbs().maxCoeff() <= options.steady_tolerance * lifted.force_scale);
-  // The samples asked for alone are far off.
-  options.confirm = false;
+  // The samples asked for alone are far off, and state it.
+  options.confirmation = Confirmation::never;
+  options.sampling = Sampling::prescribed;
   const auto rough = dynamics::steady_response(system, lifted, options);
   BOOST_TEST((rough.best.force - r.best.force).cwiseAbs().maxCoeff() >
              20 * options.steady_tolerance * lifted.force_scale);

@@ -21,7 +21,7 @@ namespace annulus::app {
 namespace {
 
 /// How responses of studies are found; enters the identity of cached results.
-constexpr const char* pair_point_method = "harmonic balance, time integration where contact is lost; 1";
+constexpr const char* pair_point_method = "harmonic balance, time integration where needed; 2";
 
 dynamics::Evaluation evaluation_of(const dynamics::HelicalPair& pair, const dynamics::PairResponse& response) {
   dynamics::Evaluation evaluation{.figures = dynamics::figures(response), .outcome = response};
@@ -62,7 +62,7 @@ LumpedPair lumped_pair(const Scene& scene, const PairGeometry& geometry, const M
 
 std::unique_ptr<LumpedModel> pair_lumped_model(const LumpedPair& lumped) {
   auto simulation = pair_simulation(lumped.scene);
-  simulation.confirm = false;
+  simulation.confirmation = dynamics::Confirmation::where_needed;
   simulation.keep_series = false;
   return std::make_unique<LumpedModel>(identity_of(lumped.id(simulation), std::string(pair_point_method)),
                                        [pair = lumped.pair, simulation](Answer wanted) -> StudyPoint {

@@ -69,7 +69,7 @@ void write_table(Csv csv, const std::string& id, const std::filesystem::path& fi
 /// As each of many responses is found.
 dynamics::SimulationOptions without_confirmation(const Scene& scene) {
   auto simulation = pair_simulation(scene);
-  simulation.confirm = false;
+  simulation.confirmation = dynamics::Confirmation::where_needed;
   simulation.keep_series = false;
   return simulation;
 }

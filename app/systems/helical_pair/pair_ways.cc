@@ -41,7 +41,7 @@ ModelWays pair_ways(const LumpedPair& lumped) {
   auto simulation = pair_simulation(lumped.scene);
   simulation.keep_series = false;
   auto unconfirmed = simulation;
-  unconfirmed.confirm = false;
+  unconfirmed.confirmation = dynamics::Confirmation::where_needed;
   WaysOf<HelicalPair> of(lumped.pair, simulation, id, steady_pair_figures);
   of.add(motion_settings(lumped.pair.mesh_frequency(), lumped.pair.error_period()));
   of.add(rigid_changes_of_pair());

@@ -46,7 +46,8 @@ std::vector<Decision> motion_decisions(const Scene& scene, const std::vector<Mes
     add("solution", fmt::format("{} mesh cycles in time", *input.mesh_cycles), asked_for);
   } else {
     add("solution", "harmonic balance", "one error period, without integrating its transient in time");
-    add("confirmation", choice.confirm ? "by time integration" : "where contact is lost", choice.confirm_reason);
+    const bool always = choice.confirmation == dynamics::Confirmation::always;
+    add("confirmation", always ? "by time integration" : "where needed", choice.confirm_reason);
   }
   add("samples per mesh cycle", std::to_string(choice.samples_per_cycle), choice.samples_reason);
   const bool automatic = input.integrator == dynamics::Integrator::automatic;

@@ -21,7 +21,8 @@ Work work_of_response(const Scene& scene, bool computed, const MeshModel& ring) 
       !fem::held_outside(ring.problem->structure))
     return fem::on_single_supports(ring.problem->structure) ? Work::response_pins : Work::response_elastic;
   if (!computed) return Work::response_prescribed;
-  const bool integrated = motion_choice(scene.accuracy).confirm || scene.dynamics->mesh_cycles;
+  const bool integrated =
+      motion_choice(scene.accuracy).confirmation == dynamics::Confirmation::always || scene.dynamics->mesh_cycles;
   return integrated ? Work::response : Work::response_balanced;
 }
 

@@ -5,6 +5,7 @@
 #include "app/results/cached_value.h"
 #include "app/run/pipeline.h"
 #include "app/scene/input_place.h"
+#include "app/systems/planetary/back_flanks.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_members.h"
 #include "app/systems/shared/mesh_names.h"
@@ -63,10 +64,9 @@ std::string course_of(const dynamics::DynamicResponse& f) {
                                   f.steady ? "periodic steady state" : "no periodic steady state");
   if (!f.periodic || f.confirmed) return course;
   return fmt::format("{}; found by time integration; {}", course,
-                     f.periodic->converged
-                         ? fmt::format("the harmonic balance differs (with half its samples by {:.1e})",
-                                       f.periodic->sampling_difference)
-                         : "the harmonic balance failed: " + f.periodic->trouble);
+                     f.periodic->converged ? fmt::format("the harmonic balance differs (at other samplings by {:.1e})",
+                                                         f.periodic->sampling_difference)
+                                           : "the harmonic balance failed: " + f.periodic->trouble);
 }
 
 }  // namespace
@@ -113,6 +113,7 @@ std::unique_ptr<RingResponse> ring_response(const Scene& scene, const GearGeomet
   response.time_series.clear();
   response.reused = reused;
   log::info(fmt::format("dynamics of '{}': {}", name, reused ? "unchanged, reused" : course_of(response.figures)));
+  for (const auto& warning : back_flank_warnings(response.figures)) log::warn(fmt::format("'{}': {}", name, warning));
   auto result = std::make_unique<RingResponse>();
   result->figures = response_figures(response);
   result->reused = reused;

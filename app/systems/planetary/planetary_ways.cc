@@ -45,7 +45,7 @@ ModelWays planetary_ways(const Scene& scene, const GearGeometry& geometry, std::
   auto simulation = simulation_options(scene, stage);
   simulation.keep_series = false;
   auto unconfirmed = simulation;
-  unconfirmed.confirm = false;
+  unconfirmed.confirmation = dynamics::Confirmation::where_needed;
   ModelWays ways;
   ways.as_run.id = response_id(stage, unconfirmed, sun, wheel);
   ways.as_run.figures = [&scene, &geometry, &sun, &wheel, ring, stage, unconfirmed] {

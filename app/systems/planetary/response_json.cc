@@ -21,7 +21,9 @@ Json kind_json(const dynamics::MeshKindResult& kind, const MeshKindErrors& error
         {{"dynamic_factor_max", to_json_value(b.dynamic_factor_max, errors.dynamic_factor_max[n])},
          {"dynamic_factor_min", json_number(b.dynamic_factor_min)},
          {"mean_force_N", json_number(b.mean_force)},
-         {"contact_loss", json_number(b.contact_loss)}});
+         {"contact_loss", json_number(b.contact_loss.value)},
+         {"contact_loss_error", json_number(b.contact_loss.error)},
+         {"back_flanks", json_number(b.back_flanks)}});
   }
   return json;
 }

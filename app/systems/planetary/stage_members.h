@@ -18,7 +18,7 @@ ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_ang
                 rotating_frame);
 
 ANNULUS_MEMBERS(dynamics::LoadSharing, instantaneous, averaged, quasi_static);
-ANNULUS_MEMBERS(dynamics::BranchResult, factor_max, factor_min, mean_force, contact_loss);
+ANNULUS_MEMBERS(dynamics::BranchResult, factor_max, factor_min, mean_force, contact_loss, back_flanks);
 ANNULUS_MEMBERS(dynamics::MeshKindResult, load_sharing, branches);
 /// Without its time series.
 template <>

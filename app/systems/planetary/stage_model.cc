@@ -70,8 +70,8 @@ dynamics::SimulationOptions simulation_options(const Scene& scene, const dynamic
   auto options = given_simulation(*scene.dynamics, stage.mesh_frequency());
   const auto choice = motion_choice(scene.accuracy);
   options.samples_per_cycle = choice.samples_per_cycle;
-  options.confirm = choice.confirm;
-  options.confirm_on_contact_loss = true;
+  options.confirmation = choice.confirmation;
+  options.confirm_beyond = scene.accuracy;
   options.steady_tolerance = std::max(options.steady_tolerance, choice.steady_tolerance);
   if (!scene.dynamics->relative_tolerance) options.integrator.relative_tolerance = choice.relative_tolerance;
   // A ring on p pins repeats only after z_r / gcd(z_r, p) teeth, and with the planets after hundreds of mesh cycles:

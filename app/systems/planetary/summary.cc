@@ -5,6 +5,7 @@
 
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
+#include "app/systems/planetary/back_flanks.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/json.h"
 
@@ -55,17 +56,21 @@ Json sharing_json(const dynamics::LoadSharing& s, const MeshKindErrors& e) {
 void add_branches(Json& ring, const std::string& mesh, const dynamics::MeshKindResult& kind,
                   const MeshKindErrors& errors) {
   // Filled before they are put in: a new key may move all others.
-  auto factor = Json::array(), error = factor, parts = factor, loss = factor;
+  auto factor = Json::array(), error = factor, parts = factor, loss = factor, loss_error = factor, back = factor;
   for (const auto& b : kind.branches) {
     factor.push_back(json_number(b.dynamic_factor_max.value));
     error.push_back(json_number(b.dynamic_factor_max.error));
-    loss.push_back(json_number(b.contact_loss));
+    loss.push_back(json_number(b.contact_loss.value));
+    loss_error.push_back(json_number(b.contact_loss.error));
+    back.push_back(json_number(b.back_flanks));
   }
   for (const auto& e : errors.dynamic_factor_max) parts.push_back(to_json(e));
   ring["dynamic_factor"][mesh] = std::move(factor);
   ring["dynamic_factor_error"][mesh] = std::move(error);
   ring["dynamic_factor_error_parts"][mesh] = std::move(parts);
   ring["contact_loss"][mesh] = std::move(loss);
+  ring["contact_loss_error"][mesh] = std::move(loss_error);
+  ring["back_flanks"][mesh] = std::move(back);
 }
 
 double worst(const MeshResult& a, const MeshResult& b, const std::string& fact) {
@@ -95,6 +100,7 @@ Json ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
                                               {"error", json_number(mode.frequency_error)},
                                               {"error_parts", to_json(mode.error_parts)},
                                               {"kind", mode.kind}});
+  json["warnings"] = back_flank_warnings(f);
   const auto& m = ring.response->motion;
   json["bearing_forces"] = {{"planet_max_N", m.pin_force_max},
                             {"planet_mean_tangential_N", m.pin_force_mean_tangential},

@@ -24,7 +24,7 @@ Json meshes_json(const std::vector<dynamics::BranchResult>& meshes) {
                     {"dynamic_factor_max_error", m.dynamic_factor_max.error},
                     {"dynamic_factor_min", m.dynamic_factor_min},
                     {"mean_force_N", m.mean_force},
-                    {"contact_loss", m.contact_loss}});
+                    {"contact_loss", m.contact_loss.value}});
   return json;
 }
 
@@ -137,7 +137,9 @@ double TwoKVMotion::dynamic_factor(bool arc) const {
   return dynamics::largest_dynamic_factor(arc ? arc_pins : sun_planet).value;
 }
 
-double TwoKVMotion::contact_loss(bool arc) const { return dynamics::largest_contact_loss(arc ? arc_pins : sun_planet); }
+double TwoKVMotion::contact_loss(bool arc) const {
+  return dynamics::largest_contact_loss(arc ? arc_pins : sun_planet).value;
+}
 
 double TwoKVMotion::largest_bearing_force() const {
   double largest = 0;

@@ -66,7 +66,7 @@ Json motion_summary(const TwoKVMotion& m) {
           {{"dynamic_factor",
             {{"value", mesh.dynamic_factor_max.value}, {"error", json_number(mesh.dynamic_factor_max.error)}}},
            {"dynamic_factor_min", mesh.dynamic_factor_min},
-           {"contact_loss", mesh.contact_loss}});
+           {"contact_loss", mesh.contact_loss.value}});
   json["largest_arc_bearing_force_N"] = m.largest_bearing_force();
   json["reused"] = m.reused;
   return json;

@@ -154,16 +154,18 @@ SteadyResponse pair_steady_state(const HelicalPair& pair, const LumpedSystem& sy
                                  const SimulationOptions& options) {
   const SteadyProblem problem{pair.mesh_frequency(), pair.error_period(),
                               std::max(std::abs(pair.static_force()), error_force(pair)), mean_stiffness(pair.mesh)};
-  if (!options.confirm) {
-    auto quick = options;
-    if (problem.period_in_cycles > long_window)
-      quick.samples_per_cycle = std::min(quick.samples_per_cycle, enough_samples(problem.period_in_cycles));
-    quick.min_window_cycles = std::min(options.min_window_cycles, 2 * problem.period_in_cycles);
-    auto found = steady_response(system, problem, quick);
-    if (found.best.open[0] == 0 || options.mesh_cycles) return found;
-  }
+  if (options.confirmation == Confirmation::always) return steady_response(system, problem, options);
+  auto quick = options;
+  if (problem.period_in_cycles > long_window)
+    quick.samples_per_cycle = std::min(quick.samples_per_cycle, enough_samples(problem.period_in_cycles));
+  quick.min_window_cycles = std::min(options.min_window_cycles, 2 * problem.period_in_cycles);
+  quick.confirmation = Confirmation::never;
+  auto found = steady_response(system, problem, quick);
+  const bool coarse = found.total_cycles == 0 && found.periodic->sampling_difference > options.confirm_beyond;
+  const bool confirmed_where_needed = options.confirmation == Confirmation::where_needed && !options.mesh_cycles;
+  if (!confirmed_where_needed || (found.best.open[0] == 0 && !coarse)) return found;
   auto thorough = options;
-  thorough.confirm = true;
+  thorough.confirmation = Confirmation::always;
   return steady_response(system, problem, thorough);
 }
 

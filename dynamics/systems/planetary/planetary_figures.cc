@@ -19,7 +19,7 @@ void declare_meshes(std::vector<FigureSpec>& list, const std::string& prefix, co
   const auto share = [&](const char* name, const std::string& title, const std::string& definition) {
     return FigureSpec{.key = prefix + "load_sharing_" + name,
                       .title = "Load sharing of the " + meshes + ", " + title,
-                      .axis = "N F / ΣF",
+                      .axis = "N |F| / Σ|F|",
                       .definition = "largest over the planets and " + definition,
                       .better = Better::smaller,
                       .quantity = "load_sharing",
@@ -28,11 +28,11 @@ void declare_meshes(std::vector<FigureSpec>& list, const std::string& prefix, co
                       .spread = true};
   };
   auto averaged = share("averaged", "averaged over a mesh cycle",
-                        "mesh cycles of N F_n / ΣF, the forces averaged over the mesh cycle first");
+                        "mesh cycles of N |F_n| / Σ|F|, the forces averaged over the mesh cycle first");
   averaged.symbol = "K_γ";
   averaged.plotted = averaged.ordering = true;
   averaged.beside = prefix + "load_sharing_quasi_static";
-  auto instantaneous = share("instantaneous", "instantaneous", "instants of N F_n / ΣF");
+  auto instantaneous = share("instantaneous", "instantaneous", "instants of N |F_n| / Σ|F|");
   averaged.cost_study = instantaneous.cost_study = sun;
   if (sun) {
     averaged.guarantee = Guarantee::always;
@@ -40,11 +40,11 @@ void declare_meshes(std::vector<FigureSpec>& list, const std::string& prefix, co
   }
   list.insert(list.end(),
               {averaged, instantaneous,
-               share("quasi_static", "quasi-static", "positions of N F_n / ΣF, without inertia and damping")});
-  auto factor =
-      dynamic_factor_figure(prefix + "dynamic_factor", "Dynamic factor of the " + meshes, "largest F / mean mesh force",
-                            "largest over the planets and instants of F_n over the nominal mesh force, T_s / (N r_bs); "
-                            "it contains the load sharing");
+               share("quasi_static", "quasi-static", "positions of N |F_n| / Σ|F|, without inertia and damping")});
+  auto factor = dynamic_factor_figure(
+      prefix + "dynamic_factor", "Dynamic factor of the " + meshes, "largest |F| / mean mesh force",
+      "largest over the planets and instants of |F_n| over the nominal mesh force, T_s / (N r_bs); "
+      "it contains the load sharing");
   factor.spread = true;
   factor.ordering = sun;
   list.push_back(factor);

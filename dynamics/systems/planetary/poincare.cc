@@ -51,7 +51,8 @@ std::string to_string(SectionKind kind) {
   return "undecided";
 }
 
-SectionPattern section_pattern(const PoincareSection& section, int error_period, double tolerance) {
+SectionPattern section_pattern(const PoincareSection& section, int error_period, const SectionAccuracy& accuracy,
+                               double tolerance) {
   require(error_period > 0 && tolerance > 0,
           fmt::format("a section needs a positive error period and tolerance, not {} and {}", error_period, tolerance));
   // Relative to the largest swing of its unit: a quantity that hardly moves in comparison is not significant.
@@ -67,7 +68,8 @@ SectionPattern section_pattern(const PoincareSection& section, int error_period,
         largest = std::max(largest, section.swing[other]);
         size = std::max(size, section.points.row(other).cwiseAbs().maxCoeff());
       }
-    scale[r] = largest > 1e-9 * size ? 1 / largest : 0.0;  // nothing moves but for rounding
+    const double known = (unit_of(r) == "N" ? accuracy.force : accuracy.length) / tolerance;
+    scale[r] = largest > 1e-9 * size ? 1 / std::max(largest, known) : 0.0;  // nothing moves but for rounding
   }
   const Eigen::MatrixXd points = scale.asDiagonal() * section.points;
   const Eigen::Index cycles = points.cols();

@@ -33,11 +33,17 @@ struct SectionPattern {
   SectionKind kind = SectionKind::undecided;
   std::optional<int> period;  ///< mesh cycles after which the points repeat
   int clusters = 0;           ///< points that differ by more than the tolerance
-  /// Largest difference, relative to that swing, between points one period apart. Where nothing repeats, the least over
-  /// the multiples of the error period.
+  /// Largest difference, relative to that swing (or to what `tolerance` of it would be the accuracy), between points
+  /// one period apart. Where nothing repeats, the least over the multiples of the error period.
   double spread = 0;
 };
+/// Accuracy of the points of a section: smaller differences do not tell two points apart.
+struct SectionAccuracy {
+  double force = 0;   ///< N
+  double length = 0;  ///< m
+};
 /// `error_period` in mesh cycles; `tolerance` relative to the largest swing among the quantities of one unit.
-[[nodiscard]] SectionPattern section_pattern(const PoincareSection& section, int error_period, double tolerance = 0.01);
+[[nodiscard]] SectionPattern section_pattern(const PoincareSection& section, int error_period,
+                                             const SectionAccuracy& accuracy = {}, double tolerance = 0.01);
 
 }  // namespace annulus::dynamics

@@ -26,6 +26,18 @@ Orbit orbit(const PlanetaryStage& stage, const TimeSeries& series, const std::st
   return result;
 }
 
+namespace {
+
+/// Points of a steady window differ from the periodic motion by as much as the window does from what confirmed it, in
+/// forces and in the deflections under them. A difference of two points contains that twice.
+SectionAccuracy section_accuracy(const PlanetaryStage& stage, const DynamicResponse& response) {
+  if (!response.steady || !response.steady_difference) return {};
+  const double force = 2 * *response.steady_difference * response.mean_mesh_force;
+  return {force, force / mean_stiffness(stage.sun_mesh)};
+}
+
+}  // namespace
+
 StageMotion stage_motion(const PlanetaryStage& stage, const DynamicResponse& response) {
   const auto& series = response.series;
   const auto samples_per_cycle = static_cast<int>(series.time.size() / response.window_cycles);
@@ -36,7 +48,7 @@ StageMotion stage_motion(const PlanetaryStage& stage, const DynamicResponse& res
                      orbit(stage, series),
                      poincare_section(stage, series, samples_per_cycle),
                      {}};
-  motion.pattern = section_pattern(motion.section, stage.error_period());
+  motion.pattern = section_pattern(motion.section, stage.error_period(), section_accuracy(stage, response));
   // One error period alone does not show whether it repeats; the comparison with the window before does.
   if (motion.pattern.kind == SectionKind::undecided && response.steady && response.whole_period) {
     motion.pattern.kind = SectionKind::period_1;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/systems/planetary/back_flanks.h"
 #include "app/systems/planetary/comparison.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
 
@@ -46,6 +47,10 @@ Blocks stage_verdict(const RunResult& result) {
     blocks += paragraph(
         phrase("No periodic steady state was reached with {}; the results hold for the evaluated window only.",
                enumerated(unsteady)));
+  for (const auto& ring : result.rings)
+    if (ring.response)
+      for (const auto& warning : back_flank_warnings(ring.response->figures))
+        blocks += paragraph(phrase("{}: {}.", bold(ring.name), warning));
   return verdict_box(blocks) + answer_picture(quantities, names);
 }
 

@@ -18,7 +18,7 @@ Blocks planets_over_time(const RunResult& result) {
   const std::string cut =
       fmt::format(" Windows longer than {:.0f} mesh cycles are cut here; the files hold them whole.", shown_cycles);
   const Text first_cycles = "The first six mesh cycles of the window, at full resolution.";
-  constexpr const char *share = "N F / ΣF", *factor = "F / mean mesh force";
+  constexpr const char *share = "N F / Σ|F|", *factor = "F / mean mesh force";
   Blocks blocks;
   for (const auto& [mesh, words] : {Shown{sun_planet, "sun meshes"}, {ring_planet, "ring meshes"}})
     blocks += heading(std::string("Load sharing of the ") + words) +
