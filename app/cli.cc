@@ -13,6 +13,7 @@
 #include "app/commands.h"
 #include "app/completion.h"
 #include "app/export/export.h"
+#include "app/process/held_limits.h"
 #include "app/process/interruption.h"
 #include "app/process/progress.h"
 #include "app/results/content_id.h"
@@ -24,7 +25,7 @@ namespace annulus::app {
 
 namespace {
 
-enum ExitStatus { done = 0, defect = 1, wrong_input = 2, refused = 3, interrupted = 130 };
+enum ExitStatus { done = 0, defect = 1, wrong_input = 2, refused = 3, limit_reached = 4, interrupted = 130 };
 
 void add_common(CLI::App& command, Arguments& arguments) {
   command.add_option("--threads", arguments.threads, "Threads to use")
@@ -81,9 +82,11 @@ void declare(CLI::App& app, Arguments& arguments) {
   };
   const auto limits = [&](CLI::App* command) {
     command->add_option("--max-memory", arguments.max_memory,
-                        "Refuse what is predicted to need more: 16GB, 800MB; default the memory of the machine");
+                        "Refuse what is predicted to need more, and end a run that does: 16GB, 800MB; default "
+                        "the memory of the machine, for the prediction alone");
     command->add_option("--max-time", arguments.max_time,
-                        "Refuse what is predicted to take longer: 2h, 3d; default a week");
+                        "Refuse what is predicted to take longer, and end a run that does: 2h, 3d; default a "
+                        "week, for the prediction alone");
     return command;
   };
   const auto cache = [&](CLI::App* command) {
@@ -172,7 +175,7 @@ void declare(CLI::App& app, Arguments& arguments) {
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
-  watch_for_interruption(interrupted);
+  watch_for_interruption(interrupted, limit_reached);
 
   Arguments arguments;
   arguments.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -214,6 +217,8 @@ int run_command_line(int argc, char** argv) {
     return done;
   } catch (const InputError& error) {
     return fail(error.what(), wrong_input);
+  } catch (const LimitError& error) {
+    return fail(error.what(), limit_reached);
   } catch (const Error& error) {
     return fail(error.what(), refused);
   } catch (const std::filesystem::filesystem_error& error) {

@@ -14,6 +14,7 @@
 #include "app/model/gear_system.h"
 #include "app/model/run_limits.h"
 #include "app/plan/plan.h"
+#include "app/process/held_limits.h"
 #include "app/report/page.h"
 #include "app/results/figure_table.h"
 #include "app/results/user_cache.h"
@@ -50,6 +51,14 @@ RunLimits limits_of(const Arguments& arguments) {
   if (arguments.max_memory) limits.memory_MB = parse_memory(*arguments.max_memory);
   if (arguments.max_time) limits.seconds = parse_duration(*arguments.max_time, "--max-time");
   return limits;
+}
+
+/// What the options ask for; the machine's own limits are held by the machine.
+void hold(const Arguments& arguments, const RunOptions& options) {
+  HeldLimits limits{.stored = options.cache.string()};
+  if (arguments.max_memory) limits.memory_MB = parse_memory(*arguments.max_memory);
+  if (arguments.max_time) limits.seconds = parse_duration(*arguments.max_time, "--max-time");
+  hold_limits(limits);
 }
 
 /// Whether results can be written there, before anything is computed; makes nothing.
@@ -89,6 +98,7 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
   auto options = run_options(arguments, scene);
   options.with_dynamics = with_dynamics;
   check_out(options.out);
+  hold(arguments, options);
   const auto id = run_id(scene, options);
   if (const auto earlier = finished_run(options.out, id)) {
     fmt::print("{}reused   everything: nothing has changed since the run above\n", *earlier);
@@ -164,6 +174,7 @@ void tradeoff_command(const Arguments& arguments) {
   const auto options = run_options(arguments, scene);
   check_out(options.out);
   check_scene(scene, arguments, false);
+  hold(arguments, options);
   remove_unfinished_files(options.out);
   remove_unfinished_files(options.cache);
   const auto trade = measure_tradeoff(scene, options);
