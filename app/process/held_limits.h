@@ -13,15 +13,16 @@ struct HeldLimits {
   std::string stored{};                                        ///< folder in which finished results are
 };
 
-/// A limit that a run would reach next. Exit status 4; finished results are stored. No Error: a study goes on after
-/// points that cannot be computed, and must not go on after this.
+/// A limit that a run has reached, or would reach next. Exit status 4; finished results are stored. No Error: a study
+/// goes on after points that cannot be computed, and must not go on after this.
 class LimitError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 /// From here on the thread that waits for interruptions ends the process, with a line on the standard error, as soon as
-/// it finds a limit exceeded: it looks fifty times a second, whatever the process is computing.
+/// it finds a limit exceeded: it looks fifty times a second, whatever the process is computing. Throws LimitError when
+/// one is exceeded already.
 void hold_limits(const HeldLimits& limits);
 
 /// Throws LimitError where what comes next is predicted to need more than the held memory (MB). `step` names it, and

@@ -368,7 +368,9 @@ BOOST_AUTO_TEST_CASE(the_supports_carry_what_the_planet_presses_on_the_ring) {
   for (const RingStructure& structure :
        {RingStructure(paper_pins(24, first_pin)), RingStructure(paper_pins(2, first_pin)), RingStructure(single),
         RingStructure(spline)}) {
-    const auto problem = ring_mesh(structure, 2);
+    // Two pins let the ring give way until flanks far beyond the path of contact touch.
+    const double load = structure.single_supports() == 2 ? nominal_load / 50 : nominal_load;
+    const auto problem = ring_mesh(structure, 2, {load});
     const auto result = solve_closed_form(problem, {});
     check_invariants(result);
     const bool bore = structure.single_supports() == 1;

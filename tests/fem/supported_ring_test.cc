@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(a_ring_on_soft_pins_moves_like_a_rigid_body_on_springs) {
   const double rb = ring_mesh(pins, 2).pair.wheel().base_radius(), half_arc = pin_diameter / 2 / ring_outside;
   const double lever = ring_outside * (1 - half_arc * half_arc / 10);
   const double load = nominal_load / 100;  // flanks that face each other beyond the path of contact stay apart
-  for (const auto& [radial, tangential] : {std::pair{1e4, 3e3}, {3e3, 1e4}}) {
+  for (const auto& [radial, tangential] : {std::pair{3e3, 1e3}, {1e3, 3e3}}) {
     pins.radial_stiffness = radial;
     pins.tangential_stiffness = tangential;
     const auto result = solve_plane(ring_mesh(pins, 2, {load}));
