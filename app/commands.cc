@@ -98,12 +98,12 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
   auto options = run_options(arguments, scene);
   options.with_dynamics = with_dynamics;
   check_out(options.out);
-  hold(arguments, options);
   const auto id = run_id(scene, options);
   if (const auto earlier = finished_run(options.out, id)) {
     fmt::print("{}reused   everything: nothing has changed since the run above\n", *earlier);
   } else {
     check_scene(scene, arguments, with_dynamics);
+    hold(arguments, options);
     remove_unfinished_files(options.out);
     remove_unfinished_files(options.cache);
     const auto text = run_text(*run_system(scene, options));
