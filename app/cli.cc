@@ -16,6 +16,7 @@
 #include "app/commands.h"
 #include "app/completion.h"
 #include "app/export/export.h"
+#include "app/process/held_limits.h"
 #include "app/process/interruption.h"
 #include "app/process/progress.h"
 #include "app/process/system_limits.h"
@@ -29,7 +30,7 @@ namespace annulus::app {
 
 namespace {
 
-enum ExitStatus { done = 0, defect = 1, wrong_input = 2, refused = 3, interrupted = 130 };
+enum ExitStatus { done = 0, defect = 1, wrong_input = 2, refused = 3, limit_reached = 4, interrupted = 130 };
 
 void add_common(CLI::App& command, Arguments& arguments) {
   command.add_option("--threads", arguments.threads, "Threads to use")
@@ -86,9 +87,11 @@ void declare(CLI::App& app, Arguments& arguments) {
   };
   const auto limits = [&](CLI::App* command) {
     command->add_option("--max-memory", arguments.max_memory,
-                        "Refuse what is predicted to need more: 16GB, 800MB; default the memory of the machine");
+                        "Refuse what is predicted to need more, and end a run that does: 16GB, 800MB; default "
+                        "the memory of the machine, for the prediction alone");
     command->add_option("--max-time", arguments.max_time,
-                        "Refuse what is predicted to take longer: 2h, 3d; default a week");
+                        "Refuse what is predicted to take longer, and end a run that does: 2h, 3d; default a "
+                        "week, for the prediction alone");
     return command;
   };
   const auto cache = [&](CLI::App* command) {
@@ -224,7 +227,7 @@ int parse_and_run(int argc, char** argv) {
     return status;
   };
   try {
-    watch_for_interruption(interrupted);
+    watch_for_interruption(interrupted, limit_reached);
   } catch (const std::system_error& error) {
     return fail(system_message(error), refused);
   }
@@ -265,6 +268,8 @@ int parse_and_run(int argc, char** argv) {
     return fail(error.what(), wrong_input);
   } catch (const FileError& error) {
     return fail(error.what(), wrong_input);
+  } catch (const LimitError& error) {
+    return fail(error.what(), limit_reached);
   } catch (const Error& error) {
     return fail(error.what(), refused);
   } catch (const std::filesystem::filesystem_error& error) {

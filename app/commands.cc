@@ -14,6 +14,7 @@
 #include "app/model/gear_system.h"
 #include "app/model/run_limits.h"
 #include "app/plan/plan.h"
+#include "app/process/held_limits.h"
 #include "app/report/page.h"
 #include "app/results/figure_table.h"
 #include "app/results/result_folder.h"
@@ -55,6 +56,14 @@ RunLimits limits_of(const Arguments& arguments) {
   if (arguments.max_memory) limits.memory_MB = parse_memory(*arguments.max_memory);
   if (arguments.max_time) limits.seconds = parse_duration(*arguments.max_time, "--max-time");
   return limits;
+}
+
+/// What the options ask for; the machine's own limits are held by the machine.
+void hold(const Arguments& arguments, const RunOptions& options) {
+  HeldLimits limits{.stored = options.cache.string()};
+  if (arguments.max_memory) limits.memory_MB = parse_memory(*arguments.max_memory);
+  if (arguments.max_time) limits.seconds = parse_duration(*arguments.max_time, "--max-time");
+  hold_limits(limits);
 }
 
 /// Whether results can be written there, before anything is computed; makes nothing.
@@ -105,6 +114,7 @@ void run_and_print(const Arguments& arguments, bool with_dynamics) {
   } else {
     folder.check();
     check_scene(scene, arguments, with_dynamics);
+    hold(arguments, options);
     remove_unfinished_files(options.out);
     remove_unfinished_files(options.cache);
     const auto text = run_text(*run_system(scene, options));
@@ -178,6 +188,7 @@ void tradeoff_command(const Arguments& arguments) {
   auto folder = folder_of(options, scene);
   folder.check();
   check_scene(scene, arguments, false);
+  hold(arguments, options);
   remove_unfinished_files(options.out);
   remove_unfinished_files(options.cache);
   folder.begin();

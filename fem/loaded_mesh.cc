@@ -74,6 +74,7 @@ class Refinement {
 
  private:
   [[nodiscard]] SolvedLevel solve(int level, const AcceptLevel& accept) {
+    if (settings_.before_level) settings_.before_level(settings_.degree, level);
     auto solved = (is_resolved(settings_.fidelity) ? solve_resolved_level : solve_condensed_level)(
         problem_, settings_, flanks_, level, accept, progress_of_level(settings_, first_level_, level));
     cost_ += solved;

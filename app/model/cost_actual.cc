@@ -13,6 +13,7 @@ std::optional<CostRun> actual_mesh(CostRun size, const MeshResult& mesh) {
   size.level = static_cast<int>(mesh.fact("level"));
   size.degree = static_cast<int>(mesh.fact("degree"));  // quadratic elements may have followed linear ones
   size.levels = mesh.model.settings.level ? 2 : size.level + 1;
+  if (const auto follow = quadratic_size(mesh.model); follow && size.degree == 2) size.before_s = follow->before_s;
   size.unknowns = mesh.fact("unknowns");
   size.supports = fem::support_forces(*mesh.model.problem, mesh.model.settings, size.level);
   size.wall_s = mesh.fact("mesh_seconds") + mesh.fact("condense_seconds") + mesh.fact("contact_seconds");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/plan/cost_plan.h"
+#include "app/process/held_limits.h"
 #include "app/process/progress.h"
 #include "app/results/cached_value.h"
 #include "core/file_guard.h"
@@ -62,6 +63,12 @@ fem::LoadedMeshResult solve_contact(const MeshModel& model, const RunOptions& op
   settings.store = options.store;
   settings.recovery = options.for_study ? fem::Recovery::stresses : fem::Recovery::fields;
   settings.progress = [&](double fraction) { progress.update(fraction); };
+  settings.before_level = [&](int degree, int level) {
+    check_held_memory(
+        peak_memory(level_size(model, degree, level), threads),
+        fmt::format("{} elements of level {} of the {}", degree == 1 ? "linear" : "quadratic", level, model.label()),
+        "ask for less accuracy (accuracy), fewer threads (--threads) or another model (model)");
+  };
   progress.update(0);
   auto solved = fem::solve_loaded_mesh(*model.problem, settings);
   std::string teeth;

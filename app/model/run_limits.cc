@@ -97,7 +97,7 @@ RunLimits RunLimits::of_this_machine() {
 }
 
 void check_limits(const Scene& scene, const RunLimits& limits, int threads, bool with_dynamics) {
-  const auto cost = make_system(scene)->cost(threads);
+  const auto cost = make_system(scene)->cost(threads).at_worst();
   double seconds = 0, longest_s = 0, largest_MB = 0;
   const CostStep *longest = nullptr, *largest = nullptr;
   for (const auto& step : cost.steps) {
@@ -108,16 +108,19 @@ void check_limits(const Scene& scene, const RunLimits& limits, int threads, bool
     if (std::isfinite(time) && time > longest_s) longest = &step, longest_s = time;
     if (memory > largest_MB) largest = &step, largest_MB = memory;
   }
+  constexpr const char* at_worst = " if quadratic elements have to follow linear ones";
+  const auto quadratic = [&](const CostStep& step) { return step.quadratic ? at_worst : ""; };
   if (largest_MB > limits.memory_MB)
-    throw SolverError(fmt::format(
-        "{}: refused: predicted to need {} of memory, the limit is {} (--max-memory); most goes "
-        "into the {}: {}",
-        scene.file.string(), memory_text(largest_MB), memory_text(limits.memory_MB), largest->label, largest->cause));
+    throw SolverError(
+        fmt::format("{}: refused: predicted to need {} of memory{}, the limit is {} (--max-memory); most goes "
+                    "into the {}: {}",
+                    scene.file.string(), memory_text(largest_MB), quadratic(*largest), memory_text(limits.memory_MB),
+                    largest->label, largest->cause));
   if (seconds > limits.seconds)
     throw SolverError(
-        fmt::format("{}: refused: predicted to take {}, the limit is {} (--max-time); {} of it go into the "
+        fmt::format("{}: refused: predicted to take {}{}, the limit is {} (--max-time); {} of it go into the "
                     "{}: {}",
-                    scene.file.string(), duration_text(seconds), duration_text(limits.seconds),
+                    scene.file.string(), duration_text(seconds), quadratic(*longest), duration_text(limits.seconds),
                     duration_text(longest_s), longest->label, longest->cause));
 }
 

@@ -24,7 +24,8 @@ struct RunLimits {
 };
 
 /// Throws SolverError, with the figures, the step behind them and the keys that would change it, when the scene is
-/// predicted to take more. Steps whose cost is not known count nothing.
+/// predicted to take more; with quadratic elements wherever they may have to follow linear ones. Steps whose cost is
+/// not known count nothing.
 void check_limits(const Scene& scene, const RunLimits& limits, int threads, bool with_dynamics = true);
 
 /// The best plan for a given time.

@@ -91,7 +91,7 @@ double processor_seconds(const CostRun& size) {
   const auto& law = cost_law(size.work);
   // Cells get 1.5 times smaller from level to level in the plane, and a little less than that in a solid.
   const double coarsening = is_solid(size.work) ? 3.0 : 2.05;
-  double unknowns = size.unknowns > 0 ? size.unknowns / 1e4 : 1, seconds = size.integration_s;
+  double unknowns = size.unknowns > 0 ? size.unknowns / 1e4 : 1, seconds = size.integration_s + size.before_s;
   for (int l = 0; l < size.levels; ++l) {
     seconds += law.body * std::pow(unknowns, law.body_exponent) +
                law.contact * std::pow(unknowns, law.contact_exponent) * size.contacts;

@@ -71,6 +71,13 @@ const char* to_text(CostKind kind) {
   return names[static_cast<int>(kind)];
 }
 
+PlanCost PlanCost::at_worst() const {
+  PlanCost result = *this;
+  for (auto& step : result.steps)
+    if (step.quadratic) step.predicted = *step.quadratic;
+  return result;
+}
+
 double PlanCost::seconds() const {
   return wall_time(steps, threads, [](const CostStep& s) { return s.predicted.seconds; });
 }
@@ -85,7 +92,10 @@ double PlanCost::expected_error() const {
 
 PlanCost PlanCost::at_pace(double machine) const {
   PlanCost result = *this;
-  for (auto& step : result.steps) step.predicted.seconds *= machine;
+  for (auto& step : result.steps) {
+    step.predicted.seconds *= machine;
+    if (step.quadratic) step.quadratic->seconds *= machine;
+  }
   result.pace *= machine;
   return result;
 }
@@ -104,30 +114,54 @@ Work work_of(const MeshModel& model) {
   return fem::solved_face(*model.problem, model.settings).half ? Work::solid_half : Work::solid;
 }
 
-CostRun mesh_size(const MeshModel& model) {
+CostRun level_size(const MeshModel& model, int degree, int level) {
   const auto& problem = *model.problem;
   auto settings = model.settings;
-  int last = fem::last_level(settings.fidelity);
-  CostRun size{.work = work_of(model)};
-  if (settings.degree == 1 && !settings.level) {
-    const int last_linear = fem::last_linear_level(problem);
-    if (expected_error(size.work, 1, last_linear) > settings.accuracy)
-      settings.degree = 2;  // they follow where linear ones do not do
-    else
-      last = last_linear;
-  }
-  size.degree = settings.degree;
-  const int needed = expected_level(size.work, size.degree, settings.accuracy, last);
-  size.level = std::clamp(settings.level.value_or(needed), 0, last);
-  // A level that is forced is solved with the one before it; refining starts at level 0 and passes them all.
-  size.levels = last == 0 ? 1 : settings.level ? 2 : size.level + 1;
-  size.unknowns = fem::estimated_unknowns(problem, settings, size.level);
-  size.supports = fem::support_forces(problem, settings, size.level);
+  settings.degree = degree;
+  CostRun size{.work = work_of(model), .degree = degree, .level = level};
+  size.unknowns = fem::estimated_unknowns(problem, settings, level);
+  size.supports = fem::support_forces(problem, settings, level);
   const double loads = static_cast<double>(problem.loads.size()), phases = problem.phases;
   size.contacts = loads * (phases + 1) + loads * (phases * model.positions + 1);
   // A plane table of one mesh cycle is solved load by load, others position by position or body by body.
   const bool many = fem::is_solid(settings.fidelity) || model.positions > 1;
   size.tasks = static_cast<int>(many ? size.contacts : loads);
+  return size;
+}
+
+namespace {
+
+/// Solved with elements of one degree up to the level that is expected to do.
+CostRun refined_size(const MeshModel& model, int degree, int last) {
+  const auto& settings = model.settings;
+  const int needed = expected_level(work_of(model), degree, settings.accuracy, last);
+  CostRun size = level_size(model, degree, std::clamp(settings.level.value_or(needed), 0, last));
+  // A level that is forced is solved with the one before it; refining starts at level 0 and passes them all.
+  size.levels = last == 0 ? 1 : settings.level ? 2 : size.level + 1;
+  return size;
+}
+
+bool linear_first(const MeshModel& model) { return model.settings.degree == 1 && !model.settings.level; }
+
+}  // namespace
+
+CostRun mesh_size(const MeshModel& model) {
+  const auto& settings = model.settings;
+  if (linear_first(model)) {
+    const int last_linear = fem::last_linear_level(*model.problem);
+    if (expected_error(work_of(model), 1, last_linear) > settings.accuracy) return *quadratic_size(model);
+    return refined_size(model, 1, last_linear);
+  }
+  return refined_size(model, settings.degree, fem::last_level(settings.fidelity));
+}
+
+std::optional<CostRun> quadratic_size(const MeshModel& model) {
+  if (!linear_first(model)) return std::nullopt;
+  CostRun size = refined_size(model, 2, fem::last_level(model.settings.fidelity));
+  CostRun linear = refined_size(model, 1, fem::last_linear_level(*model.problem));
+  linear.level = fem::last_linear_level(*model.problem);
+  linear.levels = linear.level + 1;
+  size.before_s = processor_seconds(linear);
   return size;
 }
 
@@ -154,6 +188,8 @@ PlanCost plan_cost(const std::vector<MeshModel>& meshes, const std::vector<Plann
                                 .size = size,
                                 .cause = std::move(cause),
                                 .expected_error = expected_error_of(model, size)});
+    if (const auto follow = quadratic_size(model); follow && size.degree == 1)
+      cost.steps.back().quadratic = predicted_cost(*follow, threads);
     longest_table = std::max(longest_table, seconds);
     if (coupled(model))
       add({.kind = CostKind::coupling,

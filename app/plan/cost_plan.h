@@ -17,13 +17,14 @@ enum class CostKind { mesh, coupling, response, studies };
 /// One step of a run: what it will cost and, after it, what it did.
 struct CostStep {
   CostKind kind = CostKind::mesh;
-  std::string label{};                ///< for people: "sun-planet mesh", "coupling through 'pinned'"
-  std::string ring{};                 ///< empty for the sun mesh and studies
-  CostRun size{};                     ///< as predicted; of no meaning for studies
-  std::string cause{};                ///< "it follows from dynamics.mesh_cycles": what would change its cost
-  PredictedCost predicted{};          ///< infinite where time integration needs endless steps
-  double expected_error = not_known;  ///< relative, of a mesh's stiffness; NaN: not known
-  std::optional<CostRun> actual{};    ///< absent before the run and for what was reused
+  std::string label{};                       ///< for people: "sun-planet mesh", "coupling through 'pinned'"
+  std::string ring{};                        ///< empty for the sun mesh and studies
+  CostRun size{};                            ///< as predicted; of no meaning for studies
+  std::string cause{};                       ///< "it follows from dynamics.mesh_cycles": what would change its cost
+  PredictedCost predicted{};                 ///< infinite where time integration needs endless steps
+  std::optional<PredictedCost> quadratic{};  ///< of a mesh, if linear elements turn out not to be accurate enough
+  double expected_error = not_known;         ///< relative, of a mesh's stiffness; NaN: not known
+  std::optional<CostRun> actual{};           ///< absent before the run and for what was reused
 };
 
 struct PlanCost {
@@ -32,6 +33,8 @@ struct PlanCost {
   double pace = 1;  ///< by which the predicted times are scaled (machine_pace)
 
   [[nodiscard]] bool empty() const { return steps.empty(); }
+  /// With quadratic elements wherever they may follow linear ones: what limits are compared with.
+  [[nodiscard]] PlanCost at_worst() const;
   /// s: meshes and couplings one after the other, responses side by side.
   [[nodiscard]] double seconds() const;
   [[nodiscard]] double peak_MB() const;
@@ -47,6 +50,10 @@ struct PlanCost {
 [[nodiscard]] Work work_of(const MeshModel& model);
 /// The size of solving one computed mesh, its level as the model expects it.
 [[nodiscard]] CostRun mesh_size(const MeshModel& model);
+/// The same of one level with elements of a degree.
+[[nodiscard]] CostRun level_size(const MeshModel& model, int degree, int level);
+/// The size with the quadratic elements that follow where linear ones, planned first, are not accurate enough.
+[[nodiscard]] std::optional<CostRun> quadratic_size(const MeshModel& model);
 
 /// A response of the lumped model, of the size `size`.
 struct PlannedResponse {

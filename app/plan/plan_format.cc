@@ -70,9 +70,18 @@ std::string cost_lines(const Plan& plan) {
     if (step.kind == CostKind::mesh && !settings.level && step.expected_error > settings.accuracy)
       text += fmt::format(", more than the {:g} % asked: the run may be refused at the end", 100 * settings.accuracy);
     text += "\n";
+    if (step.quadratic)
+      text +=
+          "    " + pad("if quadratic elements follow", 32) +
+          fmt::format("{:>10}{:>11}\n", duration_text(step.quadratic->seconds), memory_text(step.quadratic->peak_MB));
   }
   text += "  " + pad("in all", 34) +
           fmt::format("{:>10}{:>11}\n", duration_text(cost.seconds()), memory_text(cost.peak_MB()));
+  const bool linear = std::any_of(cost.steps.begin(), cost.steps.end(), [](const auto& s) { return s.quadratic; });
+  if (const auto worst = cost.at_worst(); linear)
+    text += "  " + pad("at worst", 34) +
+            fmt::format("{:>10}{:>11}   --max-time and --max-memory are compared with this\n",
+                        duration_text(worst.seconds()), memory_text(worst.peak_MB()));
   if (cost.pace != 1)
     text += fmt::format(
         "  Times are {:.2g} times those of the cost laws: the pace of this machine. --budget and --max-time use the "
@@ -152,6 +161,9 @@ std::string to_json(const Plan& plan) {
         if (step.kind != CostKind::mesh || step.label != mesh.label()) continue;
         item["predicted_s"] = json_number(step.predicted.seconds);
         item["predicted_peak_MB"] = json_number(step.predicted.peak_MB);
+        if (!step.quadratic) continue;
+        item["predicted_worst_s"] = json_number(step.quadratic->seconds);
+        item["predicted_worst_peak_MB"] = json_number(step.quadratic->peak_MB);
       }
     }
     json["meshes"].push_back(std::move(item));
@@ -177,6 +189,8 @@ std::string to_json(const Plan& plan) {
   }
   json["predicted_s"] = json_number(plan.cost.seconds());
   json["predicted_peak_MB"] = json_number(plan.cost.peak_MB());
+  json["predicted_worst_s"] = json_number(plan.cost.at_worst().seconds());
+  json["predicted_worst_peak_MB"] = json_number(plan.cost.at_worst().peak_MB());
   if (!plan.budget.empty()) json["budget"] = plan.budget;
   return json.dump(2) + "\n";
 }

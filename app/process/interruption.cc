@@ -6,7 +6,11 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <ctime>
+#include <string>
 #include <thread>
+
+#include "app/process/held_limits.h"
 
 namespace annulus::app {
 
@@ -14,20 +18,24 @@ namespace {
 std::atomic<int> watchers{0};
 }
 
-void watch_for_interruption(int exit_status) {
+void watch_for_interruption(int interrupted_status, int limit_status) {
   if (watchers++ > 0) return;
   sigset_t signals;
   ::sigemptyset(&signals);
   ::sigaddset(&signals, SIGINT);
   ::sigaddset(&signals, SIGTERM);
   ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  std::thread([signals, exit_status] {
-    int signal = 0;
-    while (::sigwait(&signals, &signal) != 0) {
-    }
+  std::thread([signals, interrupted_status, limit_status] {
+    constexpr timespec moment{0, 20'000'000};
+    while (::sigtimedwait(&signals, nullptr, &moment) < 0)
+      if (auto exceeded = exceeded_limit(); !exceeded.empty()) {
+        exceeded = "\n" + exceeded + "\n";
+        [[maybe_unused]] const auto written = ::write(STDERR_FILENO, exceeded.data(), exceeded.size());
+        std::_Exit(limit_status);
+      }
     constexpr char text[] = "\ninterrupted; finished results are stored and reused by the next run\n";
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, sizeof text - 1);
-    std::_Exit(exit_status);
+    std::_Exit(interrupted_status);
   }).detach();
 }
 

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "app/process/held_limits.h"
 #include "core/log.h"
 
 namespace annulus::app {
@@ -34,6 +35,7 @@ Progress::Progress(std::string label, double predicted)
       start_(std::chrono::steady_clock::now()),
       last_(start_ - std::chrono::seconds(1)),  // the first one is drawn
       terminal_(::isatty(STDERR_FILENO) != 0) {
+  set_running_step(label_);
   if (!terminal_) log::info(label_ + " ...");
 }
 

@@ -61,6 +61,7 @@ class ClosedFormRun {
       }
       if (settings.progress) settings.progress(static_cast<double>(phase + 1) / (phases + 1));
     }
+    check_rise(problem_, positions);
     return positions;
   }
 
@@ -80,7 +81,7 @@ class ClosedFormRun {
 LoadedPosition ClosedFormRun::solve_position(const ToothContacts& contacts, int cycle, int load_index,
                                              std::vector<bool>& start) const {
   const double load = problem_.loads[load_index];
-  const auto forces = solve_contacts(flanks_, contacts, wheel_, supports_, cycle, load, start);
+  const auto forces = solve_contacts(flanks_, contacts, planet_, wheel_, supports_, cycle, load, start);
   const auto& solution = forces.solution;
   start = solution.active;
 

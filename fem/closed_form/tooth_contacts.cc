@@ -71,6 +71,24 @@ double tip_corner(const geometry::ToothProfile& profile) {
   return M_PI / 2 + std::atan(profile.roll_length_tip() / profile.gear().base_radius());
 }
 
+/// The flanks of a pair where they are nearest, and what a unit force does to the roots there.
+FlanksApart nearest_flanks(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
+                           int index, double roll) {
+  const double nearest = flanks.nearest_roll(roll, flanks.domain(roll));
+  const auto match = flanks.match(nearest, roll);
+  const auto &on_planet = planet.tooth().load(nearest).root, &on_wheel = wheel.tooth().load(match.wheel_roll).root;
+  return {index, match.gap, on_planet, flanks.pair().internal() ? mirrored_root(on_wheel) : on_wheel};
+}
+
+/// The nearest flanks before and behind the pairs of the contacts that still face each other.
+void add_flanks_beyond(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
+                       const std::vector<std::pair<int, double>>& pairs, ToothContacts& contacts) {
+  const double pitch = flanks.pair().pinion().base_pitch();
+  for (const auto& [index, roll] : {std::pair(pairs.front().first - 1, pairs.front().second - pitch),
+                                    std::pair(pairs.back().first + 1, pairs.back().second + pitch)})
+    if (!flanks.domain(roll).empty()) contacts.apart.push_back(nearest_flanks(flanks, planet, wheel, index, roll));
+}
+
 /// Adds the pair to the contacts. Behind the path of contact the tip of a planet may pass that of a ring, against which
 /// it is the flatter one: the gap is not convex there, and only its distance is used.
 void add_contact(const FlankContact& flanks, const ClosedFormBody& planet, const ClosedFormBody& wheel,
@@ -82,7 +100,7 @@ void add_contact(const FlankContact& flanks, const ClosedFormBody& planet, const
   const auto on_planet = planet.tooth().load(nearest), on_wheel = wheel.tooth().load(match.wheel_roll);
   const FlankGap gap = gap_around(flanks, nearest, match.wheel_roll, roll, domain);
   if (!(gap.curvature > 0)) {
-    contacts.tips_apart = std::min(contacts.tips_apart, match.gap);
+    contacts.apart.push_back(nearest_flanks(flanks, planet, wheel, index, roll));
     return;
   }
   const double planet_edge = distance_to_tip(flanks.pinion(), nearest);
@@ -117,12 +135,14 @@ ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& pl
                             const Material& material, double width, double phase) {
   ToothContacts contacts;
   contacts.phase = phase;
-  for (const auto& [index, roll] : possible_pairs(flanks, phase)) {
+  const auto pairs = possible_pairs(flanks, phase);
+  for (const auto& [index, roll] : pairs) {
     const auto domain = flanks.domain(roll);
     if (domain.high - domain.low < shortest_overlap * flanks.pair().pinion().base_pitch()) continue;
     add_contact(flanks, planet, wheel, material, width, index, roll, contacts);
   }
   require(!contacts.pairs.empty(), "no tooth pair faces another");
+  add_flanks_beyond(flanks, planet, wheel, pairs, contacts);
 
   const auto n = static_cast<Eigen::Index>(contacts.pairs.size());
   Eigen::MatrixXd formed(n, n);
@@ -139,9 +159,36 @@ ToothContacts find_contacts(const FlankContact& flanks, const ClosedFormBody& pl
   return contacts;
 }
 
+namespace {
+
+/// m, gap that a position leaves between flanks outside the contacts; deflections of the roots alone, for nothing
+/// presses on these flanks.
+double gap_left(const FlankContact& flanks, const ToothContacts& contacts, const FlanksApart& apart,
+                const ClosedFormBody& planet, const ClosedFormBody& wheel, int cycle,
+                const ComplementaritySolution& solution) {
+  const auto pairs = static_cast<Eigen::Index>(contacts.pairs.size()), held = solution.force.size() - pairs;
+  double gap = apart.gap - solution.rigid[0];
+  for (Eigen::Index i = 0; i < pairs; ++i) {
+    const auto& pair = contacts.pairs[i];
+    const int offset = wheel_tooth(flanks, apart.index, 0) - wheel_tooth(flanks, pair.index, 0);
+    gap += solution.force[i] *
+           (apart.planet_root.dot(planet.root_compliance(apart.index - pair.index) * pair.planet_root) +
+            apart.wheel_root.dot(wheel.root_compliance(offset) * pair.wheel_root));
+  }
+  if (held == 0) return gap;
+  const int tooth = wheel_tooth(flanks, apart.index, cycle);
+  Eigen::Vector3d motion = solution.rigid.tail<3>();
+  motion[2] /= flanks.pair().wheel().reference_radius();
+  return gap + apart.wheel_root.dot(wheel.root_from_supports(tooth) * solution.force.tail(held)) +
+         apart.wheel_root.dot(wheel.root_resultants(tooth) * motion);
+}
+
+}  // namespace
+
 ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothContacts& contacts,
-                                    const ClosedFormBody& wheel, const std::vector<RingSupport>& supports, int cycle,
-                                    double load, const std::vector<bool>& start) {
+                                    const ClosedFormBody& planet, const ClosedFormBody& wheel,
+                                    const std::vector<RingSupport>& supports, int cycle, double load,
+                                    const std::vector<bool>& start) {
   const auto pairs = static_cast<Eigen::Index>(contacts.pairs.size());
   const auto held = static_cast<Eigen::Index>(supports.size());
   ToothContactSolution result;
@@ -192,11 +239,12 @@ ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothConta
     change = (next - force).cwiseAbs().maxCoeff();
     force = next;
     if (change > wanted) continue;
-    if (const double closing = result.solution.rigid[0]; closing > contacts.tips_apart)
-      throw SolverError(
-          fmt::format("mesh phase {:.4f}: {:.4g} N close the {:.3g} mm between two tips behind the path of "
-                      "contact, which formulas do not cover: use model = \"plane\"",
-                      contacts.phase, load, 1e3 * contacts.tips_apart));
+    for (const auto& apart : contacts.apart)
+      if (gap_left(flanks, contacts, apart, planet, wheel, cycle, result.solution) <= 0)
+        throw SolverError(
+            fmt::format("mesh phase {:.4f}: {:.4g} N close the {:.3g} mm between two tips, or flanks, beyond the "
+                        "path of contact, which formulas do not cover: use model = \"plane\"",
+                        contacts.phase, load, 1e3 * apart.gap));
     for (Eigen::Index i = 0; i < pairs; ++i)
       result.lines.push_back(force[i] > 0 ? contacts.pairs[i].line.at(force[i]) : LineContact::State{});
     return result;

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
-#include <optional>
 #include <vector>
 
 #include "fem/closed_form/closed_form_body.h"
@@ -22,6 +20,14 @@ struct ToothContact {
   LineContact line;
 };
 
+/// Flanks that formulas do not bring into contact: tips that pass each other behind the path of contact, and those that
+/// face each other more than a base pitch beyond it.
+struct FlanksApart {
+  int index = 0;
+  double gap = 0;                           ///< m
+  Eigen::Vector3d planet_root, wheel_root;  ///< as of a ToothContact
+};
+
 /// All tooth pairs of one phase and their compliance but for the line contacts; the same in every mesh cycle and at
 /// every load.
 struct ToothContacts {
@@ -29,8 +35,7 @@ struct ToothContacts {
   std::vector<ToothContact> pairs;
   Eigen::MatrixXd compliance;  ///< m/N
   double asymmetry = 0;        ///< of the compliance, formed in both directions
-  /// Least distance of tips that pass each other behind the path of contact, which formulas do not cover, m.
-  double tips_apart = std::numeric_limits<double>::infinity();
+  std::vector<FlanksApart> apart;
 };
 
 /// Pairs up to one base pitch before and after the theoretical path, as in the finite-element models.
@@ -46,9 +51,11 @@ struct ToothContactSolution {
 };
 
 /// Solves one position: complementarity of pairs and supports, Newton's method for the line contacts. `supports` belong
-/// to the wheel. Throws SolverError with phase, load and residual.
+/// to the wheel. Throws SolverError with phase, load and residual, and where the deflections close flanks that formulas
+/// do not bring into contact.
 [[nodiscard]] ToothContactSolution solve_contacts(const FlankContact& flanks, const ToothContacts& contacts,
-                                                  const ClosedFormBody& wheel, const std::vector<RingSupport>& supports,
-                                                  int cycle, double load, const std::vector<bool>& start);
+                                                  const ClosedFormBody& planet, const ClosedFormBody& wheel,
+                                                  const std::vector<RingSupport>& supports, int cycle, double load,
+                                                  const std::vector<bool>& start);
 
 }  // namespace annulus::fem

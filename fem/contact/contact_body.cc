@@ -93,7 +93,7 @@ double ContactBody::distance_to_end(const TraceBasis& flank, double arc) const {
 }
 
 void ContactBody::find_weights(FlankPatch& patch, int tooth) const {
-  patch.weights = weights_on(ports_of(tooth).first.flank, patch.loads);
+  patch.weights = weights_on(flank_of(tooth).body.flank, patch.loads);
 }
 
 Eigen::MatrixXd ContactBody::compliance(const FlankPatch& a, int tooth_a, const FlankPatch& b, int tooth_b) const {
@@ -108,17 +108,54 @@ Eigen::MatrixXd ContactBody::compliance(const FlankPatch& a, int tooth_a, const 
   return transposed ? both : Eigen::MatrixXd(both.transpose());
 }
 
-Eigen::MatrixXd ContactBody::resultants(const FlankPatch& patch, int tooth) const {
-  const auto [body, number] = ports_of(tooth);
+Eigen::VectorXd ContactBody::displacement(int at, const FlankPatch& patch, int tooth,
+                                          const Eigen::VectorXd& forces) const {
+  const auto [matrix, transposed] = block(at, tooth);
+  Eigen::VectorXd loads = Eigen::VectorXd::Zero(patch.weights.rows() * slices_);
+  for (std::size_t e = 0; e < patch.elements.size(); ++e) {
+    const auto [load, slice] = patch.elements[e];
+    if (const double force = forces[static_cast<Eigen::Index>(e)]; force != 0)
+      for (Eigen::Index u = 0; u < patch.weights.rows(); ++u)
+        loads[u * slices_ + slice] += force * patch.weights(u, load);
+  }
+  const auto range = loaded_stations(patch);
+  const Eigen::Index first = range.first * slices_, count = range.count * slices_;
+  if (transposed) return matrix.middleRows(first, count).transpose() * loads.segment(first, count);
+  return matrix.middleCols(first, count) * loads.segment(first, count);
+}
+
+Eigen::VectorXd ContactBody::slice_means(const Eigen::VectorXd& at_ports) const {
+  const Eigen::Index stations = axial_.rows(), profile = at_ports.size() / stations;
+  Eigen::VectorXd result(profile * slices_);
+  for (Eigen::Index u = 0; u < profile; ++u)
+    result.segment(u * slices_, slices_) = axial_.transpose() * at_ports.segment(u * stations, stations);
+  return result;
+}
+
+Eigen::MatrixXd ContactBody::own_motions(const GearBody& body) const {
   const int stations = body.axial_stations();
-  Eigen::MatrixXd of_station(3, body.flank.size() * slices_);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(body.flank.size() * slices_, 3);
   for (int u = 0; u < body.flank.size(); ++u)
-    for (int s = 0; s < slices_; ++s) {
-      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
-      for (int z = 0; z < stations; ++z) sum += axial_(z, s) * body.rigid_motion(u * stations + z, number);
-      of_station.col(u * slices_ + s) = sum.transpose();
+    for (int z = 0; z < stations; ++z) {
+      const Eigen::RowVector3d motion = body.rigid_motion(u * stations + z, 0);
+      for (int s = 0; s < slices_; ++s) result.row(u * slices_ + s) += axial_(z, s) * motion;
     }
-  return gather_columns(of_station, patch, {0, body.flank.size()}, slices_).transpose();
+  return result;
+}
+
+Eigen::MatrixXd ContactBody::motions(int tooth) const {
+  const auto flank = flank_of(tooth);
+  // The forces turn with the tooth; their moments stay.
+  const double angle = flank.number * flank.body.pitch_angle, c = std::cos(angle), s = std::sin(angle);
+  Eigen::MatrixXd result = flank.motions;
+  result.col(0) = c * flank.motions.col(0) - s * flank.motions.col(1);
+  result.col(1) = s * flank.motions.col(0) + c * flank.motions.col(1);
+  return result;
+}
+
+Eigen::MatrixXd ContactBody::resultants(const FlankPatch& patch, int tooth) const {
+  const Eigen::MatrixXd of_station = motions(tooth).transpose();
+  return gather_columns(of_station, patch, {0, patch.weights.rows()}, slices_).transpose();
 }
 
 Eigen::MatrixXd ContactBody::port_weights(const FlankPatch& patch) const {
@@ -159,6 +196,7 @@ CondensedBody::CondensedBody(GearBody body, double base_radius, const Material& 
       half_plane_(material),
       near_field_(std::move(near_field)),
       cells_(near_field_ ? near_field_->fine : body_.flank, base_radius) {
+  motions_ = own_motions(body_);
   for (int s = 0; s < slices(); ++s) slice_length_.push_back((slice_edges[s + 1] - slice_edges[s]) * contact_slant);
   for (int d = 0; d <= body_.compliance.max_offset(); ++d) compressed_.push_back(compress(body_.compliance.block(d)));
 }
@@ -218,6 +256,7 @@ ResolvedBody::ResolvedBody(std::vector<GearBody> teeth, int first_tooth, const E
   Eigen::Index row = 0;
   for (const auto& a : teeth_) {
     cells_.emplace_back(a.flank, base_radius);
+    motions_.push_back(own_motions(a));
     compressed_.emplace_back();
     Eigen::Index column = 0;
     for (const auto& b : teeth_) {
@@ -229,11 +268,11 @@ ResolvedBody::ResolvedBody(std::vector<GearBody> teeth, int first_tooth, const E
 }
 
 FlankLoad ResolvedBody::make_load(int tooth, double arc, double half_length) const {
-  return {arc, half_length, std::min(own_spread(half_length), distance_to_end(ports_of(tooth).first.flank, arc))};
+  return {arc, half_length, std::min(own_spread(half_length), distance_to_end(flank_of(tooth).body.flank, arc))};
 }
 
 double ResolvedBody::shortest_element(int tooth, double arc) const {
-  (void)ports_of(tooth);
+  (void)flank_of(tooth);
   return 1.1 * cells_[tooth - first_tooth_].length(arc);
 }
 
@@ -243,14 +282,14 @@ Eigen::MatrixXd ResolvedBody::near_field(const FlankPatch& patch) const {
 }
 
 ContactBody::Block ResolvedBody::block(int tooth_a, int tooth_b) const {
-  (void)ports_of(tooth_a);
-  (void)ports_of(tooth_b);
+  (void)flank_of(tooth_a);
+  (void)flank_of(tooth_b);
   return {compressed_[tooth_a - first_tooth_][tooth_b - first_tooth_], false};
 }
 
-std::pair<const GearBody&, int> ResolvedBody::ports_of(int tooth) const {
+ContactBody::Flank ResolvedBody::flank_of(int tooth) const {
   require(tooth >= first_tooth_ && tooth < first_tooth_ + static_cast<int>(teeth_.size()), "a tooth without a mesh");
-  return {teeth_[tooth - first_tooth_], tooth};
+  return {teeth_[tooth - first_tooth_], motions_[tooth - first_tooth_], tooth};
 }
 
 }  // namespace annulus::fem

@@ -32,6 +32,15 @@ class ContactBody {
   [[nodiscard]] Eigen::MatrixXd compliance(const FlankPatch& a, int tooth_a, const FlankPatch& b, int tooth_b) const;
   /// What is missing within one patch: the near field of loads that the mesh does not resolve.
   [[nodiscard]] virtual Eigen::MatrixXd near_field(const FlankPatch& patch) const = 0;
+  /// Displacement into the material along the flank of tooth `at` under forces (N) on the elements of a patch, m, as
+  /// the mesh gives it: [profile station * slices + slice].
+  [[nodiscard]] Eigen::VectorXd displacement(int at, const FlankPatch& patch, int tooth,
+                                             const Eigen::VectorXd& forces) const;
+  /// Means over the slices of values at the flank ports: [profile station * slices + slice].
+  [[nodiscard]] Eigen::VectorXd slice_means(const Eigen::VectorXd& at_ports) const;
+  /// Displacement into the material along the flank of a tooth by unit motions of the body (x, y, rotation about the
+  /// axis), m per (m, m, rad): [profile station * slices + slice] x 3.
+  [[nodiscard]] Eigen::MatrixXd motions(int tooth) const;
   /// Resultants (x, y, moment about the axis) of unit element forces on a tooth: elements x 3.
   [[nodiscard]] Eigen::MatrixXd resultants(const FlankPatch& patch, int tooth) const;
   /// Port forces of unit element forces: flank ports x elements.
@@ -55,8 +64,15 @@ class ContactBody {
     bool transposed = false;
   };
   [[nodiscard]] virtual Block block(int tooth_a, int tooth_b) const = 0;
-  /// A body that has the flank ports of a tooth, and what its number is there.
-  [[nodiscard]] virtual std::pair<const GearBody&, int> ports_of(int tooth) const = 0;
+  /// A body that has the flank ports of a tooth, what its number is there, and their motions in the frame of the tooth.
+  struct Flank {
+    const GearBody& body;
+    const Eigen::MatrixXd& motions;
+    int number;
+  };
+  [[nodiscard]] virtual Flank flank_of(int tooth) const = 0;
+  /// motions() of tooth 0.
+  [[nodiscard]] Eigen::MatrixXd own_motions(const GearBody& body) const;
 
  private:
   double base_radius_;
@@ -99,10 +115,11 @@ class CondensedBody : public ContactBody {
 
  protected:
   [[nodiscard]] Block block(int tooth_a, int tooth_b) const override;
-  [[nodiscard]] std::pair<const GearBody&, int> ports_of(int tooth) const override { return {body_, tooth}; }
+  [[nodiscard]] Flank flank_of(int tooth) const override { return {body_, motions_, tooth}; }
 
  private:
   GearBody body_;
+  Eigen::MatrixXd motions_;
   HalfPlane half_plane_;
   std::vector<double> slice_length_;         // of the contact line, m
   std::vector<Eigen::MatrixXd> compressed_;  // per offset: (station, slice) x (station, slice)
@@ -125,10 +142,11 @@ class ResolvedBody : public ContactBody {
 
  protected:
   [[nodiscard]] Block block(int tooth_a, int tooth_b) const override;
-  [[nodiscard]] std::pair<const GearBody&, int> ports_of(int tooth) const override;
+  [[nodiscard]] Flank flank_of(int tooth) const override;
 
  private:
   std::vector<GearBody> teeth_;
+  std::vector<Eigen::MatrixXd> motions_;
   std::vector<FlankCells> cells_;
   int first_tooth_;
   std::vector<std::vector<Eigen::MatrixXd>> compressed_;  // [tooth][tooth]

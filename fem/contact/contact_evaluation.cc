@@ -9,6 +9,12 @@
 
 namespace annulus::fem {
 
+Eigen::VectorXd support_motion(const ContactBodies& bodies, const ComplementaritySolution& solution) {
+  Eigen::VectorXd motion = solution.rigid.tail(bodies.supports->rigid_motions());
+  motion.tail(motion.size() - 2) /= bodies.face.flanks().pair().wheel().reference_radius();
+  return motion;
+}
+
 ContactForces port_forces(const ContactBodies& bodies, const ToothPairs& setup, int cycle,
                           const ComplementaritySolution& solution) {
   ContactForces result;
@@ -22,8 +28,7 @@ ContactForces port_forces(const ContactBodies& bodies, const ToothPairs& setup, 
   }
   if (bodies.supports != nullptr) {
     result.supports = solution.force.tail(bodies.supports->size());
-    result.rigid = solution.rigid.tail(bodies.supports->rigid_motions());
-    result.rigid.tail(result.rigid.size() - 2) /= bodies.face.flanks().pair().wheel().reference_radius();
+    result.rigid = support_motion(bodies, solution);
   }
   return result;
 }

@@ -13,6 +13,8 @@ namespace annulus::fem {
 /// transmission error does not exceed the unloaded one.
 [[nodiscard]] LoadedPosition evaluate(const ContactBodies& bodies, const ToothPairs& setup,
                                       const ComplementarityProblem& problem, const ComplementaritySolution& solution);
+/// Motions of a wheel on supports, as its resultants are ordered (m, rad).
+[[nodiscard]] Eigen::VectorXd support_motion(const ContactBodies& bodies, const ComplementaritySolution& solution);
 /// Final forces at the ports of both bodies and at the supports, during mesh cycle `cycle`.
 [[nodiscard]] ContactForces port_forces(const ContactBodies& bodies, const ToothPairs& setup, int cycle,
                                         const ComplementaritySolution& solution);

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/errors.h"
 #include "fem/contact/contact_evaluation.h"
-#include "fem/contact/pair_search.h"
+#include "fem/contact/omission_proof.h"
 #include "fem/problem/solved_face.h"
 
 namespace annulus::fem {
@@ -18,18 +17,24 @@ ContactSystem::ContactSystem(const FlankContact& flanks, const ContactBody& plan
                              const ContactOptions& options)
     : face_(flanks, std::move(slice_edges), options.misalignment),
       bodies_{face_, planet, wheel, supports},
+      range_(options.pairs ? *options.pairs : possible_contacts(flanks)),
       material_(material),
       window_(options.window),
       half_face_(options.half_face),
       elements_(bodies_, material_, options) {}
 
-ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, double window, double reach) const {
+std::shared_ptr<const ToothPairs> ContactSystem::prepare(double phase, double load, double window,
+                                                         const PairSlices& added) const {
+  // Softer than most meshes (steel: 4 N/(mm um), a third of what ISO 6336-1 gives teeth); where one gives way more
+  // still, pairs are added.
+  const double soft_mesh = 0.02 * material_.youngs_modulus;  // N/m per m of face width
   auto result = std::make_shared<ToothPairs>();
   result->phase = phase;
   result->load = load;
   result->window = window;
-  result->reach = reach;
-  find_pairs(bodies_, elements_, *result);
+  result->reach = load / face_.width() / soft_mesh;
+  result->added = added;
+  find_pairs(bodies_, elements_, range_, *result);
   const auto& pairs = result->pairs;
   auto& start = result->start;
   for (const auto& p : pairs) {
@@ -62,6 +67,18 @@ ContactSystem::PairsCache ContactSystem::prepare(double phase, double load, doub
         bodies_.planet.near_field(p.planet) + bodies_.wheel.near_field(p.wheel);
   }
   return result;
+}
+
+std::shared_ptr<const ToothPairs> ContactSystem::setup_for(double window, const PairSlices& added,
+                                                           PairsCache& cache) const {
+  auto& setups = cache.setups;
+  for (const auto& setup : setups)
+    if (setup->window == window && setup->added == added) return setup;
+  // The first one is that of all positions; of the others the latest serve the next cycles best.
+  constexpr std::size_t most = 4;
+  if (setups.size() == most) setups.erase(setups.begin() + 1);
+  setups.push_back(prepare(cache.phase, cache.load, window, added));
+  return setups.back();
 }
 
 ComplementarityProblem ContactSystem::assemble(const ToothPairs& setup, int cycle) const {
@@ -116,19 +133,17 @@ Eigen::MatrixXd ContactSystem::wheel_resultants(const ToothPair& pair, int tooth
 LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, PairsCache& cache, WarmStart& warm,
                                     ContactForces* forces) const {
   const double load = half_face_ ? whole_load / 2 : whole_load;
-  if (!cache || cache->phase != phase || cache->load != load) {
-    // Softer than most meshes (steel: 4 N/(mm um), a third of what ISO 6336-1 gives teeth); where one gives way more
-    // still, pairs are looked for again.
-    const double width = face_.width();
-    const double soft_mesh = 0.02 * material_.youngs_modulus;  // N/m per m of face width
-    const bool same_load = cache && cache->load == load;
-    cache = prepare(phase, load, window_, same_load ? cache->reach : load / width / soft_mesh);
-  }
+  if (cache.setups.empty() || cache.phase != phase || cache.load != load) cache = {phase, load};
   // Pairs whose flanks all but touch without load: the first guess of what carries, no more.
   const double touching = 2.5e-7 * face_.flanks().pair().pinion().parameters().module;
+  constexpr const char* remedy = "reduce the load, or make teeth, rim, supports or material stiffer";
   constexpr double largest_window = 12;  // in Hertz half-widths: longer than any flank at a sensible load
+  // From the same window and pairs at every position: what others needed does not count.
+  double window = window_;
+  PairSlices added;
   for (;;) {
-    const ToothPairs& setup = *cache;
+    const auto kept = setup_for(window, added, cache);
+    const ToothPairs& setup = *kept;
     const ComplementarityProblem problem = assemble(setup, cycle);
     std::vector<bool> guess(problem.gap.size(), true);
     for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
@@ -159,23 +174,29 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
       for (Eigen::Index e = 0; e < p.size(); ++e) window_too_small |= p.elements[e].outermost && first[e];
     }
     if (window_too_small) {
-      if (setup.window > largest_window)
+      if (window > largest_window)
         throw InputError(fmt::format(
             "mesh phase {:.4f}: under {:.4g} N the flanks touch over more than {} Hertz half-widths to either side: "
-            "they give way by more than small displacements; reduce the load, or make teeth, rim, supports or "
-            "material stiffer",
-            phase, whole_load, largest_window));
-      cache = prepare(phase, load, 1.5 * setup.window, setup.reach);
+            "they give way by more than small displacements; {}",
+            phase, whole_load, largest_window, remedy));
+      window *= 1.5;
       continue;
     }
-    // What is further apart than the nearest flanks give way stays so; the tenth is for forces that pull it nearer.
-    double least_gap = std::numeric_limits<double>::infinity();
-    for (const auto& p : setup.pairs) least_gap = std::min(least_gap, p.smallest_gap);
-    const double given_way = solution.rigid[0] - least_gap;
-    if (1.1 * given_way > setup.nearest_left_out) {
-      cache = prepare(phase, load, setup.window, 1.5 * given_way);
-      continue;
+    const auto proof = prove_omissions(bodies_, setup, cycle, solution);
+    if (!proof.not_apart.empty()) {
+      const auto before = added.size();
+      added.insert(proof.not_apart.begin(), proof.not_apart.end());
+      if (added.size() > before) continue;
+      throw InputError(fmt::format(
+          "mesh phase {:.4f}: under {:.4g} N two tips touch that overlap by less than a pressure element; {}", phase,
+          whole_load, remedy));
     }
+    if (proof.closest_approach >= range_.gap_beyond)
+      throw InputError(
+          fmt::format("mesh phase {:.4f}: under {:.4g} N flanks approach each other by {:.4g} mm; contacts are looked "
+                      "for where they "
+                      "are up to {:.4g} mm apart without load; {}",
+                      phase, whole_load, 1e3 * proof.closest_approach, 1e3 * range_.gap_beyond, remedy));
     LoadedPosition position = evaluate(bodies_, setup, problem, solution);
     if (forces != nullptr) *forces = port_forces(bodies_, setup, cycle, solution);
     position.mesh_phase = phase;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fem/contact/complementarity.h"
@@ -11,6 +12,7 @@
 #include "fem/contact/contact_face.h"
 #include "fem/contact/contact_forces.h"
 #include "fem/contact/flank_contact.h"
+#include "fem/contact/pair_search.h"
 #include "fem/contact/pressure_elements.h"
 #include "fem/contact/support_row.h"
 #include "fem/contact/tooth_pairs.h"
@@ -24,6 +26,8 @@ struct ContactOptions : PressureElementOptions {
   /// Bodies and slices are the lower half of a symmetric face (see SolvedFace); loads and results are those of the
   /// whole.
   bool half_face = false;
+  /// Where pairs are looked for: possible_contacts() unless set.
+  std::optional<PairRange> pairs{};
 };
 
 /// All tooth pairs (and supports) of one gear mesh as one complementarity problem per position.
@@ -41,22 +45,32 @@ class ContactSystem {
     std::map<int, std::vector<bool>> pairs;
     std::vector<bool> supports;
   };
-  /// The tooth pairs of one phase and load: the same in every mesh cycle, only the supports move on.
-  using PairsCache = std::shared_ptr<const ToothPairs>;
+  /// The tooth pairs of one phase and load, as positions needed them: the same in every mesh cycle, only the supports
+  /// move on.
+  struct PairsCache {
+    double phase = 0, load = 0;
+    std::vector<std::shared_ptr<const ToothPairs>> setups{};
+  };
 
   /// Position in mesh cycles from the pitch-point contact of teeth 0. `cache` and `warm` are used when they fit, and
-  /// replaced. `forces` may be null.
+  /// replaced; they save time and do not change the result. Flanks that take no part are shown to stay apart by the
+  /// solved deflections, or take part. `forces` may be null.
   [[nodiscard]] LoadedPosition solve(int cycle, double phase, double load, PairsCache& cache, WarmStart& warm,
                                      ContactForces* forces) const;
 
  private:
-  [[nodiscard]] PairsCache prepare(double phase, double load, double window, double reach) const;
+  [[nodiscard]] std::shared_ptr<const ToothPairs> prepare(double phase, double load, double window,
+                                                          const PairSlices& added) const;
+  /// From the cache, or prepared and put there.
+  [[nodiscard]] std::shared_ptr<const ToothPairs> setup_for(double window, const PairSlices& added,
+                                                            PairsCache& cache) const;
   [[nodiscard]] ComplementarityProblem assemble(const ToothPairs& setup, int cycle) const;
   /// Resultants on the wheel (x, y, moments about z, x, y) of unit (element, slice) forces of a pair.
   [[nodiscard]] Eigen::MatrixXd wheel_resultants(const ToothPair& pair, int tooth) const;
 
   ContactFace face_;
   ContactBodies bodies_;
+  PairRange range_;
   Material material_;
   double window_;
   bool half_face_;

@@ -119,6 +119,14 @@ FlankContact::Match FlankContact::match(double planet_roll, double contact_roll)
   return {roll, gap + pinion_.modification(planet_roll) + wheel_.modification(roll)};
 }
 
+bool FlankContact::face_each_other(double contact_roll) const {
+  const double wheel_low = std::min(wheel_.roll_length_form(), wheel_.roll_length_tip());
+  const double wheel_high = std::max(wheel_.roll_length_form(), wheel_.roll_length_tip());
+  const double at_low = opposite(pinion_.roll_length_form(), contact_roll).first;
+  const double at_high = opposite(pinion_.roll_length_tip(), contact_roll).first;
+  return std::max(at_low, at_high) > wheel_low && std::min(at_low, at_high) < wheel_high;
+}
+
 FlankContact::Interval FlankContact::domain(double contact_roll) const {
   const double low = pinion_.roll_length_form(), high = pinion_.roll_length_tip();
   const double wheel_low = std::min(wheel_.roll_length_form(), wheel_.roll_length_tip());

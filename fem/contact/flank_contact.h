@@ -33,6 +33,8 @@ class FlankContact {
   };
   /// Planet roll lengths where both flanks exist (from form circle to tip of both gears), cut at the tip edges.
   [[nodiscard]] Interval domain(double contact_roll) const;
+  /// Whether there is such an interval.
+  [[nodiscard]] bool face_each_other(double contact_roll) const;
   /// Smallest gap over the domain: zero for an unmodified pair within the theoretical line of action.
   [[nodiscard]] double smallest_gap(double contact_roll) const;
   /// Planet roll length in the domain (that of the contact) where the gap is smallest.

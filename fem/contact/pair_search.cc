@@ -4,30 +4,30 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "core/errors.h"
 
 namespace annulus::fem {
 namespace {
 
-/// Number and planet roll length of the pairs within the path of contact and a base pitch beyond.
-std::vector<std::pair<int, double>> candidate_pairs(const FlankContact& flanks, double phase) {
+/// m, by how much the ends of helical teeth are ahead of their middle, and behind it.
+double ahead_of_middle(const FlankContact& flanks) {
+  return std::abs(roll_per_z(flanks)) * flanks.pair().pinion().parameters().face_width / 2;
+}
+
+/// Number and planet roll length of the pairs within a range.
+std::vector<std::pair<int, double>> pairs_within(const FlankContact& flanks, const PairRange& range, double phase) {
   const auto& pair = flanks.pair();
-  const double pitch = pair.pinion().base_pitch();
+  const double pitch = pair.pinion().base_pitch(), ahead = ahead_of_middle(flanks);
   // Along the path the contact of a tooth moves from the planet's root to its tip in the ring mesh (planet drives) and
   // from tip to root in the sun mesh (sun drives).
   const double direction = pair.internal() ? 1 : -1;
   const double reference = pair.roll_length_pitch() + direction * phase * pitch;
-  // Under load teeth meet before and after the theoretical path: look one base pitch beyond both its ends. The ends of
-  // helical teeth are ahead of their middle, and behind it.
-  const double ahead = std::abs(roll_per_z(flanks)) * pair.pinion().parameters().face_width / 2;
-  const int first = static_cast<int>(std::ceil((pair.roll_length_low() - ahead - reference) / pitch - 1));
-  const int last = static_cast<int>(std::floor((pair.roll_length_high() + ahead - reference) / pitch + 1));
+  const int first = static_cast<int>(std::ceil((range.low - ahead - reference) / pitch));
+  const int last = static_cast<int>(std::floor((range.high + ahead - reference) / pitch));
   std::vector<std::pair<int, double>> pairs;
-  for (int k = first; k <= last; ++k) {
-    const double roll = reference + k * pitch;
-    if (ahead > 0 || roll > 0) pairs.emplace_back(k, roll);
-  }
+  for (int k = first; k <= last; ++k) pairs.emplace_back(k, reference + k * pitch);
   return pairs;
 }
 
@@ -36,10 +36,11 @@ double beyond_path(const geometry::GearPair& pair, double roll) {
   return roll < pair.roll_length_low() ? roll - pair.roll_length_low() : std::max(0.0, roll - pair.roll_length_high());
 }
 
-/// Wherever flanks may face each other at a phase; domains and gaps are not looked for.
-std::vector<FacingFlanks> facing_flanks(const ContactFace& face, int slices, double phase) {
+/// Wherever flanks may face each other; domains and gaps are not looked for.
+std::vector<FacingFlanks> facing_flanks(const ContactFace& face, int slices,
+                                        const std::vector<std::pair<int, double>>& pairs) {
   std::vector<FacingFlanks> result;
-  for (const auto& [index, roll] : candidate_pairs(face.flanks(), phase)) {
+  for (const auto& [index, roll] : pairs) {
     FacingFlanks facing;
     facing.pair = index;
     facing.pair_roll = facing.roll = roll;
@@ -59,9 +60,14 @@ std::vector<FacingFlanks> facing_flanks(const ContactFace& face, int slices, dou
   return result;
 }
 
-/// Domains and gaps of `all` as far as load may close them; returns the least gap without load, as transmission error,
-/// m.
-double find_gaps(const ContactFace& face, std::vector<FacingFlanks>& all, ToothPairs& setup) {
+bool is_added(const ToothPairs& setup, int pair, const std::vector<int>& slices) {
+  return std::any_of(slices.begin(), slices.end(), [&](int s) { return setup.added.count({pair, s}) > 0; });
+}
+
+/// Domains and gaps of `all`; returns the least gap without load, as transmission error, m. Beyond the first flanks out
+/// of reach the domain stays empty, and the gap is that of those nearer ones. Those that do not face each other are
+/// taken out.
+double find_gaps(const ContactFace& face, std::vector<FacingFlanks>& all, const ToothPairs& setup) {
   const auto& pair = face.flanks().pair();
   std::vector<std::size_t> outwards(all.size());
   std::iota(outwards.begin(), outwards.end(), std::size_t{0});
@@ -70,57 +76,106 @@ double find_gaps(const ContactFace& face, std::vector<FacingFlanks>& all, ToothP
   });
   const double least_lead_gap = face.smallest_lead_gap();
   double least = std::numeric_limits<double>::infinity();
-  bool apart_before = false, apart_behind = false;
+  std::optional<double> apart_before, apart_behind;
   for (const std::size_t i : outwards) {
     auto& f = all[i];
     // Beyond either end of the path flanks get further apart all the way.
     const double beyond = beyond_path(pair, f.roll);
-    if (beyond < 0 ? apart_before : beyond > 0 && apart_behind) continue;
+    auto& apart = beyond < 0 ? apart_before : apart_behind;
+    if (beyond != 0 && apart && !is_added(setup, f.pair, f.slices)) {
+      f.gap = *apart;
+      if (!face.flanks().face_each_other(f.roll)) f.slices.clear();
+      continue;
+    }
     f.domain = face.flanks().domain(f.roll);
-    if (f.domain.empty()) continue;
+    if (f.domain.empty()) {
+      f.slices.clear();
+      continue;
+    }
     f.centre_roll = face.flanks().nearest_roll(f.roll, f.domain);
     f.gap = face.normal_factor() * face.flanks().match(f.centre_roll, f.roll).gap;
     for (const int s : f.slices) least = std::min(least, gap_without_load(face, f, s));
-    const double further = (f.gap + least_lead_gap) / face.normal_factor() - least;
-    if (beyond == 0 || further <= setup.reach) continue;
-    (beyond < 0 ? apart_before : apart_behind) = true;
-    setup.nearest_left_out = std::min(setup.nearest_left_out, further);
+    if (beyond != 0 && !apart && (f.gap + least_lead_gap) / face.normal_factor() - least > setup.reach) apart = f.gap;
   }
   require(std::isfinite(least), "no tooth pair faces another");
+  all.erase(std::remove_if(all.begin(), all.end(), [](const auto& f) { return f.slices.empty(); }), all.end());
   return least;
 }
 
 }  // namespace
 
+PairRange pitch_beyond_path(const FlankContact& flanks) {
+  const auto& pair = flanks.pair();
+  const double pitch = pair.pinion().base_pitch(), ahead = ahead_of_middle(flanks);
+  PairRange range{pair.roll_length_low() - pitch, pair.roll_length_high() + pitch,
+                  std::numeric_limits<double>::infinity()};
+  // Unless the ends of helical teeth are ahead: they may have no contact of involutes there.
+  if (ahead == 0) range.low = std::max(range.low, std::numeric_limits<double>::min());
+  for (const double end : {range.low - ahead, range.high + ahead})
+    if (const auto domain = flanks.domain(end); !domain.empty())
+      range.gap_beyond = std::min(range.gap_beyond, flanks.match(flanks.nearest_roll(end, domain), end).gap);
+  return range;
+}
+
+PairRange within_gap(const FlankContact& flanks, double gap) {
+  const auto& pair = flanks.pair();
+  const double step = pair.pinion().base_pitch() / 4;
+  const auto faces = [&](double roll) {
+    const auto domain = flanks.domain(roll);
+    return !domain.empty() && flanks.match(flanks.nearest_roll(roll, domain), roll).gap <= gap;
+  };
+  PairRange range{pair.roll_length_low(), pair.roll_length_high(), gap};
+  const int most = 2 * pair.pinion().teeth();  // half a turn to either side
+  for (int i = 0; i < most && faces(range.low); ++i) range.low -= step;
+  for (int i = 0; i < most && faces(range.high); ++i) range.high += step;
+  return range;
+}
+
+PairRange possible_contacts(const FlankContact& flanks) {
+  constexpr double largest_approach = 0.5;  // modules
+  return within_gap(flanks, largest_approach * flanks.pair().pinion().parameters().module);
+}
+
+int most_pairs_in(const PairRange& range, const FlankContact& flanks) {
+  const double pitch = flanks.pair().pinion().base_pitch();
+  return static_cast<int>(std::floor((range.high - range.low + 2 * ahead_of_middle(flanks)) / pitch)) + 1;
+}
+
 std::vector<std::pair<int, double>> possible_pairs(const FlankContact& flanks, double phase) {
-  auto pairs = candidate_pairs(flanks, phase);
+  auto pairs = pairs_within(flanks, pitch_beyond_path(flanks), phase);
   const auto apart = [&](const auto& pair) { return roll_per_z(flanks) == 0 && flanks.domain(pair.second).empty(); };
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), apart), pairs.end());
   require(!pairs.empty(), "no tooth pair faces another");
   return pairs;
 }
 
-void find_pairs(const ContactBodies& bodies, const PressureElements& elements, ToothPairs& setup) {
-  auto all = facing_flanks(bodies.face, bodies.planet.slices(), setup.phase);
+void find_pairs(const ContactBodies& bodies, const PressureElements& elements, const PairRange& range,
+                ToothPairs& setup) {
+  auto all = facing_flanks(bodies.face, bodies.planet.slices(), pairs_within(bodies.face.flanks(), range, setup.phase));
   const double least = find_gaps(bodies.face, all, setup);
+  setup.first_pair = all.front().pair;
+  setup.last_pair = all.back().pair;
   for (auto& f : all) {
-    if (f.domain.empty()) continue;
+    OmittedFlanks omitted{f.pair, {}, f.gap};
     std::vector<int> near;
     for (const int s : f.slices) {
-      const double further = gap_without_load(bodies.face, f, s) - least;
-      if (further <= setup.reach)
-        near.push_back(s);
-      else
-        setup.nearest_left_out = std::min(setup.nearest_left_out, further);
+      const bool reached = gap_without_load(bodies.face, f, s) - least <= setup.reach;
+      (!f.domain.empty() && (reached || setup.added.count({f.pair, s}) > 0) ? near : omitted.slices).push_back(s);
     }
-    if (near.empty()) continue;
-    f.slices = std::move(near);
-    if (setup.pairs.empty() || setup.pairs.back().index != f.pair) {
-      setup.pairs.emplace_back();
-      setup.pairs.back().index = f.pair;
-      setup.pairs.back().roll = f.pair_roll;
+    if (!near.empty()) {
+      f.slices = near;
+      if (setup.pairs.empty() || setup.pairs.back().index != f.pair) {
+        setup.pairs.emplace_back();
+        setup.pairs.back().index = f.pair;
+        setup.pairs.back().roll = f.pair_roll;
+      }
+      auto& pair = setup.pairs.back();
+      const auto before = pair.size();
+      elements.add(pair, f, setup.load, setup.window);
+      // Two tips that barely reach each other have no room for elements.
+      if (pair.size() == before) omitted.slices.insert(omitted.slices.end(), near.begin(), near.end());
     }
-    elements.add(setup.pairs.back(), f, setup.load, setup.window);
+    if (!omitted.slices.empty()) setup.omitted.push_back(std::move(omitted));
   }
   const auto empty = [](const ToothPair& p) { return p.elements.empty(); };
   setup.pairs.erase(std::remove_if(setup.pairs.begin(), setup.pairs.end(), empty), setup.pairs.end());

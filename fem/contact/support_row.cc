@@ -171,6 +171,14 @@ Eigen::MatrixXd SupportRow::at_ports(int tooth, const Eigen::MatrixXd& port_weig
   return result;
 }
 
+Eigen::VectorXd SupportRow::at_flank(int tooth, const Eigen::VectorXd& forces) const {
+  const auto& c = ring_.compliance;
+  const int ports = ring_.flank_ports();
+  const Eigen::VectorXd low = at_interface(tooth) * forces, high = at_interface(tooth + 1) * forces;
+  return c.low().leftCols(ports).transpose() * low + c.high().leftCols(ports).transpose() * high +
+         within_sector(tooth, 0, ports, forces);
+}
+
 void SupportRow::fill_states(const Eigen::VectorXd& forces, LoadedPosition& position) const {
   const auto& sites = plan_.sites();
   std::vector<PinState> states(sites.sites.size());

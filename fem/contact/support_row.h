@@ -65,6 +65,8 @@ class SupportRow {
   /// Displacement of loads of a tooth under unit support forces, m/N: the work of `port_weights` (ports x k) is asked
   /// for; k x forces.
   [[nodiscard]] Eigen::MatrixXd at_ports(int tooth, const Eigen::MatrixXd& port_weights) const;
+  /// Displacement of the flank ports of a tooth under given support forces, m.
+  [[nodiscard]] Eigen::VectorXd at_flank(int tooth, const Eigen::VectorXd& forces) const;
   /// Displacements of interface `interface` under unit support forces, m/N: m x forces. Formed when first asked for.
   [[nodiscard]] const Eigen::MatrixXd& at_interface(int interface) const;
   /// Work of loads first ... first + count - 1 of a sector under unit support forces, per N: count x forces.

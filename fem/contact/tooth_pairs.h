@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include "fem/contact/flank_contact.h"
@@ -37,16 +39,28 @@ struct FacingFlanks {
   std::vector<int> slices;  ///< all of a spur gear, one of a helical one
 };
 
+/// Slices of a tooth pair: number of the pair, number of the slice.
+using PairSlices = std::set<std::pair<int, int>>;
+
+/// Facing flanks that take no part in a contact problem.
+struct OmittedFlanks {
+  int pair = 0;
+  std::vector<int> slices;
+  double gap = 0;  ///< m, FacingFlanks::gap or less
+};
+
 /// All pairs of one phase and load, and what they have in common in every mesh cycle.
 struct ToothPairs {
   double phase = 0, load = 0, window = 0;
   double reach = 0;  ///< m, transmission error: flanks further apart than the nearest ones by more are left out
-  double nearest_left_out = std::numeric_limits<double>::infinity();  ///< m, further apart than the nearest ones
+  PairSlices added;  ///< that take part however far apart they are
   std::vector<ToothPair> pairs;
-  std::vector<Eigen::Index> start;  ///< first unknown of every pair
-  Eigen::Index contacts = 0;        ///< number of unknown contact forces
-  Eigen::MatrixXd compliance;       ///< contacts x contacts
-  double asymmetry = 0;             ///< of the compliance, formed in both directions
+  std::vector<OmittedFlanks> omitted;  ///< within the range of pairs
+  int first_pair = 0, last_pair = 0;   ///< of those and these
+  std::vector<Eigen::Index> start;     ///< first unknown of every pair
+  Eigen::Index contacts = 0;           ///< number of unknown contact forces
+  Eigen::MatrixXd compliance;          ///< contacts x contacts
+  double asymmetry = 0;                ///< of the compliance, formed in both directions
 };
 
 }  // namespace annulus::fem

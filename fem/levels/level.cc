@@ -63,6 +63,7 @@ void solve_positions(const LoadedMeshProblem& problem, const LoadedMeshSettings&
     ++done;
     if (progress) progress(static_cast<double>(done) / tasks);
   });
+  check_rise(problem, positions);
 }
 
 }  // namespace annulus::fem

@@ -8,6 +8,7 @@
 #include "core/stopwatch.h"
 #include "fem/body/body_plan.h"
 #include "fem/condensation/lapack.h"
+#include "fem/contact/pair_search.h"
 
 namespace annulus::fem {
 namespace {
@@ -50,8 +51,10 @@ void condense_all(const std::vector<Task*>& tasks, const Material& material, int
 /// Meshes the bodies of a level.
 class TaskMaker {
  public:
-  TaskMaker(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level)
+  /// `neighbours`: farthest teeth of a gear that may be in contact at once.
+  TaskMaker(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level, int neighbours)
       : settings_(settings),
+        neighbours_(neighbours),
         level_(level),
         solid_(settings.fidelity == Fidelity::solid),
         solid_counts_(solid_ ? solid_resolution(level, settings.degree, problem.pair.overlap_ratio())
@@ -82,6 +85,7 @@ class TaskMaker {
     if (plan.floating()) task.options.arcs = supports->arcs();
     // In the plane the coupling all around costs little, and stresses are wanted there.
     task.options.extent.whole_ring = plan.floating() || !solid_;
+    task.options.extent.max_offset = neighbours_;
     return task;
   }
 
@@ -93,6 +97,7 @@ class TaskMaker {
   }
 
   const LoadedMeshSettings& settings_;
+  int neighbours_;
   int level_;
   bool solid_;
   BodyResolution solid_counts_;
@@ -120,7 +125,8 @@ MeshBodies build_bodies(const LoadedMeshProblem& problem, const FlankContact& fl
   const BodyPlan planet_plan(problem, flanks.pinion(), false, geometry::Boundary::leading_flank, settings.degree, solid,
                              face);
   const BodyPlan wheel_plan(problem, flanks.wheel(), true, flanks.wheel_flank(), settings.degree, solid, face);
-  const TaskMaker maker(problem, settings, level);
+  const int neighbours = most_pairs_in(possible_contacts(flanks), flanks) - 1;
+  const TaskMaker maker(problem, settings, level, std::max(1, neighbours));
   const BodyResolution& counts = maker.solid_counts();
   std::optional<SupportPlan> supports;
   if (wheel_plan.floating())

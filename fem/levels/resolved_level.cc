@@ -182,6 +182,7 @@ LoadedPosition ResolvedMesh::solve(double phase, double load) const {
   options.misalignment = problem.misalignment;
   options.half_face = face.half;
   options.window = patch_window;
+  options.pairs = pitch_beyond_path(flanks);  // further teeth have no meshes
   Places contacts = places(pairs, load);
   double least_gap = contacts.planet.front().gap;
   for (const auto& place : contacts.planet) least_gap = std::min(least_gap, place.gap);

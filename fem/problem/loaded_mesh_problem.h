@@ -76,6 +76,8 @@ struct LoadedMeshSettings {
   Recovery recovery = Recovery::stresses;
   int threads = 1;                                  ///< changes the time, never the result
   std::function<void(double fraction)> progress{};  ///< called now and then with the finished fraction
+  /// Called before a level is solved, with the degree of its elements; what it throws ends the solve.
+  std::function<void(int degree, int level)> before_level{};
   /// Where tooth superelements are cached; may be null. They depend neither on loads and phases nor on the
   /// places, the number and the stiffness of supports, nor on modifications of the flanks.
   std::shared_ptr<const ResultStore> store{};

@@ -58,6 +58,25 @@ void check_deflection(const LoadedMeshProblem& problem, const LoadedMeshSettings
                   settings.largest_deflection));
 }
 
+void check_rise(const LoadedMeshProblem& problem, const std::vector<LoadedPosition>& positions) {
+  constexpr double by_elements = 2e-3;  // of the deflection
+  const std::size_t loads = problem.loads.size();
+  for (std::size_t first = 0; first < positions.size(); first += loads) {
+    const LoadedPosition* lighter = nullptr;
+    for (std::size_t i = first; i < first + loads; ++i) {
+      const auto& position = positions[i];
+      if (position.entry.stiffness_secant == 0) continue;  // not solved
+      if (lighter != nullptr &&
+          position.entry.lte <= lighter->entry.lte - by_elements * (position.entry.lte - position.entry.unloaded_te))
+        require(false, fmt::format("the transmission error does not rise with the load: {:.6g} um under {:.6g} N, "
+                                   "{:.6g} um under {:.6g} N (mesh phase {:.4f}, mesh cycle {})",
+                                   1e6 * lighter->entry.lte, lighter->load, 1e6 * position.entry.lte, position.load,
+                                   position.mesh_phase, position.ring_tooth));
+      lighter = &position;
+    }
+  }
+}
+
 double turn_on_supports(const LoadedMeshProblem& problem, double force) {
   const double outside = problem.wheel_support_radius, lever = problem.pair.wheel().base_radius();
   const SupportSites supports = support_sites(problem);

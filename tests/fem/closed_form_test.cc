@@ -112,15 +112,17 @@ void check_estimate(annulus::test::Verification& record, const std::string& name
     least = std::min(least, error), most = std::max(most, error);
     effectivity =
         std::max(effectivity, std::abs(error) / (formula_error(problem, c) + e.error_relative - e.error_parts.model));
-    // The same pairs, but for those too far apart to touch, which finite elements leave out.
-    const auto &elements = exact.positions[i], &formulas = closed.positions[i];
-    std::size_t found = 0;
-    for (std::size_t p = 0; p < formulas.pair_roll.size(); ++p) {
-      const bool listed = found < elements.pair_roll.size() && elements.pair_roll[found] == formulas.pair_roll[p];
-      if (!listed) BOOST_TEST(formulas.pair_share[p] == 0);
-      found += listed;
-    }
-    BOOST_TEST(found == elements.pair_roll.size());
+    // The same pairs, but for those too far apart to touch: finite elements leave them out, formulas those more than a
+    // pitch beyond the path.
+    const auto unloaded_unless_in = [](const auto& position, const auto& other) {
+      for (std::size_t p = 0; p < position.pair_roll.size(); ++p) {
+        const auto& rolls = other.pair_roll;
+        if (std::find(rolls.begin(), rolls.end(), position.pair_roll[p]) == rolls.end())
+          BOOST_TEST(position.pair_share[p] == 0);
+      }
+    };
+    unloaded_unless_in(exact.positions[i], closed.positions[i]);
+    unloaded_unless_in(closed.positions[i], exact.positions[i]);
     BOOST_TEST(std::abs(exact.positions[i].ring_angle - closed.positions[i].ring_angle) < 1e-12);
   }
   BOOST_TEST_MESSAGE(name << ": mean stiffness " << mean_stiffness(closed) / mean_stiffness(exact) - 1 << ", positions "
@@ -366,7 +368,9 @@ BOOST_AUTO_TEST_CASE(the_supports_carry_what_the_planet_presses_on_the_ring) {
   for (const RingStructure& structure :
        {RingStructure(paper_pins(24, first_pin)), RingStructure(paper_pins(2, first_pin)), RingStructure(single),
         RingStructure(spline)}) {
-    const auto problem = ring_mesh(structure, 2);
+    // Two pins let the ring give way until flanks far beyond the path of contact touch.
+    const double load = structure.single_supports() == 2 ? nominal_load / 50 : nominal_load;
+    const auto problem = ring_mesh(structure, 2, {load});
     const auto result = solve_closed_form(problem, {});
     check_invariants(result);
     const bool bore = structure.single_supports() == 1;

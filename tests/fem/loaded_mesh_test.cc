@@ -154,6 +154,23 @@ BOOST_AUTO_TEST_CASE(quadratic_elements_follow_where_linear_ones_do_not_do) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(every_level_is_announced_before_it_is_solved) {
+  const auto problem = ring_mesh(OutsideHeld{}, 8);
+  annulus::fem::LoadedMeshSettings settings;
+  settings.degree = 1;
+  settings.accuracy = 0.004;
+  std::vector<std::pair<int, int>> announced;
+  settings.before_level = [&](int degree, int level) { announced.emplace_back(degree, level); };
+  (void)solve_loaded_mesh(problem, settings);
+  const std::vector<std::pair<int, int>> expected = {{1, 0}, {1, 1}, {2, 0}, {2, 1}};
+  BOOST_TEST((announced == expected));
+  struct Stopped {};
+  settings.before_level = [](int degree, int) {
+    if (degree == 2) throw Stopped();
+  };
+  BOOST_CHECK_THROW((void)solve_loaded_mesh(problem, settings), Stopped);
+}
+
 BOOST_AUTO_TEST_CASE(a_level_compared_at_some_positions_tells_what_all_would) {
   annulus::test::Verification record("Stated error of a level that was compared at some positions",
                                      "the difference of both levels at all positions");

@@ -64,14 +64,15 @@ BOOST_AUTO_TEST_CASE(a_ring_on_soft_pins_moves_like_a_rigid_body_on_springs) {
   pins.unilateral = false;
   const double rb = ring_mesh(pins, 2).pair.wheel().base_radius(), half_arc = pin_diameter / 2 / ring_outside;
   const double lever = ring_outside * (1 - half_arc * half_arc / 10);
-  for (const auto& [radial, tangential] : {std::pair{1e4, 3e3}, {3e3, 1e4}}) {
+  const double load = nominal_load / 100;  // flanks that face each other beyond the path of contact stay apart
+  for (const auto& [radial, tangential] : {std::pair{3e3, 1e3}, {1e3, 3e3}}) {
     pins.radial_stiffness = radial;
     pins.tangential_stiffness = tangential;
-    const auto result = solve_plane(ring_mesh(pins, 2));
+    const auto result = solve_plane(ring_mesh(pins, 2, {load}));
     check_invariants(result);
     BOOST_TEST(result.pin_stiffness == radial, boost::test_tools::tolerance(1e-14));
     const double translation = 24 / 2.0 * (radial + tangential), rotation = 24 * tangential * lever * lever;
-    const double rigid = nominal_load * (1 / translation + rb * rb / rotation);
+    const double rigid = load * (1 / translation + rb * rb / rotation);
     double worst = 0;
     for (const auto& p : result.positions) worst = std::max(worst, std::abs(p.entry.lte / rigid - 1));
     BOOST_TEST_MESSAGE("rigid motion of " << rigid << " m off by " << worst);

@@ -1,0 +1,106 @@
+#include "fem/contact/omission_proof.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "fem/contact/contact_evaluation.h"
+#include "fem/contact/support_row.h"
+
+namespace annulus::fem {
+namespace {
+
+/// Deflections of both bodies at any tooth pair, under the forces of a solved position.
+class FlankDeflections {
+ public:
+  FlankDeflections(const ContactBodies& bodies, const ToothPairs& setup, int cycle,
+                   const ComplementaritySolution& solution)
+      : bodies_(bodies), cycle_(cycle), approach_(bodies.face.normal_factor() * solution.rigid[0]) {
+    for (std::size_t i = 0; i < setup.pairs.size(); ++i) {
+      const auto& p = setup.pairs[i];
+      Eigen::VectorXd force = solution.force.segment(setup.start[i], p.size());
+      if ((force.array() != 0).any()) loaded_.push_back({&p, std::move(force)});
+    }
+    if (bodies.supports == nullptr) return;
+    support_force_ = solution.force.tail(bodies.supports->size());
+    motion_ = support_motion(bodies, solution);
+  }
+
+  /// Largest approach of the two flanks along their height, m, in every slice.
+  [[nodiscard]] Eigen::VectorXd approach(int pair) const {
+    return (approach_ - least(planet(pair)).array() - least(wheel(pair)).array()).matrix();
+  }
+
+ private:
+  [[nodiscard]] Eigen::VectorXd planet(int pair) const {
+    Eigen::VectorXd sum = bodies_.planet.displacement(pair, loaded_.front().pair->planet, loaded_.front().pair->index,
+                                                      loaded_.front().force);
+    for (std::size_t i = 1; i < loaded_.size(); ++i)
+      sum += bodies_.planet.displacement(pair, loaded_[i].pair->planet, loaded_[i].pair->index, loaded_[i].force);
+    return sum;
+  }
+
+  [[nodiscard]] Eigen::VectorXd wheel(int pair) const {
+    const auto& flanks = bodies_.face.flanks();
+    // Contact forces are those of cycle 0, which the supports have moved on from.
+    const int here = wheel_tooth(flanks, pair, 0);
+    Eigen::VectorXd sum;
+    for (const auto& [loaded, force] : loaded_) {
+      const Eigen::VectorXd part =
+          bodies_.wheel.displacement(here, loaded->wheel, wheel_tooth(flanks, loaded->index, 0), force);
+      if (sum.size() == 0)
+        sum = part;
+      else
+        sum += part;
+    }
+    if (bodies_.supports == nullptr) return sum;
+    const int tooth = wheel_tooth(flanks, pair, cycle_);
+    sum += bodies_.wheel.slice_means(bodies_.supports->at_flank(tooth, support_force_));
+    const Eigen::MatrixXd plane = bodies_.wheel.motions(tooth);
+    sum += plane * motion_.head<3>();
+    if (motion_.size() <= 3) return sum;
+    const auto& z = bodies_.face.slice_edges();
+    for (Eigen::Index i = 0; i < sum.size(); ++i) {
+      const auto slice = static_cast<std::size_t>(i) % (z.size() - 1);
+      const double middle = (z[slice] + z[slice + 1]) / 2;
+      sum[i] += middle * (plane(i, 0) * motion_[4] - plane(i, 1) * motion_[3]);
+    }
+    return sum;
+  }
+
+  /// Least over the height of a flank, slice by slice.
+  [[nodiscard]] Eigen::VectorXd least(const Eigen::VectorXd& displacement) const {
+    const Eigen::Index slices = bodies_.planet.slices();
+    return displacement.reshaped(slices, displacement.size() / slices).rowwise().minCoeff();
+  }
+
+  struct Loaded {
+    const ToothPair* pair;
+    Eigen::VectorXd force;
+  };
+  ContactBodies bodies_;
+  int cycle_;
+  double approach_;  // m, by the transmission error, along the normal
+  std::vector<Loaded> loaded_;
+  Eigen::VectorXd support_force_, motion_;
+};
+
+}  // namespace
+
+OmissionProof prove_omissions(const ContactBodies& bodies, const ToothPairs& setup, int cycle,
+                              const ComplementaritySolution& solution) {
+  const FlankDeflections deflections(bodies, setup, cycle, solution);
+  OmissionProof proof;
+  proof.closest_approach = -std::numeric_limits<double>::infinity();
+  for (const auto& omitted : setup.omitted) {
+    const Eigen::VectorXd approach = deflections.approach(omitted.pair);
+    proof.closest_approach = std::max(proof.closest_approach, approach.maxCoeff());
+    for (const int s : omitted.slices)
+      if (omitted.gap + bodies.face.smallest_lead_gap(s) <= approach[s]) proof.not_apart.emplace(omitted.pair, s);
+  }
+  for (const int outermost : {setup.first_pair, setup.last_pair})
+    if (std::none_of(setup.omitted.begin(), setup.omitted.end(), [&](const auto& o) { return o.pair == outermost; }))
+      proof.closest_approach = std::max(proof.closest_approach, deflections.approach(outermost).maxCoeff());
+  return proof;
+}
+
+}  // namespace annulus::fem
