@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
@@ -9,6 +8,7 @@
 
 #include "core/csv.h"
 #include "core/files.h"
+#include "tests/app/fault_scenes.h"
 #include "tests/app/run_program.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
@@ -17,20 +17,11 @@
 
 namespace annulus {
 
-namespace {
-
-std::filesystem::path put_fault(const std::filesystem::path& folder, const std::string& name) {
-  write_file(folder / "scene.toml", read_file(std::filesystem::path(ANNULUS_SOURCE_DIR) / "tests/app/fault_scenes" / name));
-  return folder / "scene.toml";
-}
-
-}  // namespace
-
 BOOST_AUTO_TEST_SUITE(contact_faults)
 
 BOOST_AUTO_TEST_CASE(a_thin_rim_on_bolts_gives_way_more_under_more_load) {
   const test::TemporaryFolder folder("omitted_pair");
-  put_fault(folder.path(), "omitted_pair.toml");
+  write_file(folder.path() / "scene.toml", test::fault_scene("omitted_pair"));
   const auto solved = test::run_program(folder.path(), "solve scene.toml -o out --quiet --threads 2");
   BOOST_TEST_REQUIRE(solved.status == 0, solved.err);
   const auto csv = Csv::read(folder.path() / "out/ring/lte_ring_planet.csv");
@@ -52,7 +43,7 @@ BOOST_AUTO_TEST_CASE(pins_turned_by_three_teeth_shift_the_table) {
   const test::TemporaryFolder folder("order_of_teeth");
   constexpr int turned_teeth = 3, cycles = 41;  // 82 teeth on 24 pins repeat after 41
   std::map<std::vector<double>, std::pair<double, double>> tables[2];
-  const auto scene = read_file(put_fault(folder.path(), "order_of_teeth.toml"));
+  const auto scene = test::fault_scene("order_of_teeth");
   for (const bool turned : {false, true}) {
     const std::string angle = turned ? "first_pin_angle_deg = 13.170731707317\n" : "";  // 3 x 360 / 82
     write_file(folder.path() / "scene.toml",

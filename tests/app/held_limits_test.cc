@@ -5,26 +5,18 @@
 #include <string>
 
 #include "core/files.h"
+#include "tests/app/fault_scenes.h"
 #include "tests/app/run_program.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 
 namespace annulus {
 
-namespace {
-
-std::filesystem::path put_fault(const std::filesystem::path& folder, const std::string& name) {
-  write_file(folder / "scene.toml", read_file(std::filesystem::path(ANNULUS_SOURCE_DIR) / "tests/app/fault_scenes" / name));
-  return folder / "scene.toml";
-}
-
-}  // namespace
-
 BOOST_AUTO_TEST_SUITE(held_limits)
 
 BOOST_AUTO_TEST_CASE(a_plan_states_what_quadratic_elements_would_cost) {
   const test::TemporaryFolder folder("worst_plan");
-  put_fault(folder.path(), "limits_not_held.toml");
+  write_file(folder.path() / "scene.toml", test::fault_scene("limits_not_held"));
   const auto planned = test::run_program(folder.path(), "plan scene.toml --json --threads 2");
   BOOST_TEST_REQUIRE(planned.status == 0, planned.err);
   const auto plan = nlohmann::json::parse(planned.out);
@@ -45,7 +37,7 @@ BOOST_AUTO_TEST_CASE(a_plan_states_what_quadratic_elements_would_cost) {
 
 BOOST_AUTO_TEST_CASE(a_run_ends_at_its_limits_whatever_was_predicted) {
   const test::TemporaryFolder folder("held");
-  put_fault(folder.path(), "omitted_pair.toml");
+  write_file(folder.path() / "scene.toml", test::fault_scene("omitted_pair"));
   // A cost study solves the meshes many times, which the plan of a run does not predict.
   const auto late = test::run_program(folder.path(), "tradeoff scene.toml -o out --threads 1 --max-time 4s");
   BOOST_TEST(late.status == 4, late.err);

@@ -2,11 +2,11 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "core/files.h"
+#include "tests/app/fault_scenes.h"
 #include "tests/app/run_program.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
@@ -22,8 +22,7 @@ using nlohmann::json;
 /// Runs scenes of tests/app/fault_scenes, which share their meshes.
 class FaultRuns {
  public:
-  explicit FaultRuns(const std::string& name)
-      : folder_("motion_" + name), scene_(read_file(ANNULUS_SOURCE_DIR "/tests/app/fault_scenes/" + name + ".toml")) {}
+  explicit FaultRuns(const std::string& name) : folder_("motion_" + name), scene_(test::fault_scene(name)) {}
 
   test::ProgramOutcome run(const std::string& out) {
     write_file(folder_.path() / "scene.toml", scene_);

@@ -159,7 +159,6 @@ BOOST_AUTO_TEST_CASE(staggered_slices_keep_the_mean_and_smooth_the_ripple) {
 
 BOOST_AUTO_TEST_CASE(closed_form_and_iso_formula_agree) {
   const auto scene = parsed_pair(test::quick_pair());
-  const auto geometry = app::make_pair_geometry(scene);
   const auto stiffnesses = [&](const app::Scene& of) {
     const auto own = app::make_pair_geometry(of);
     const auto mesh = app::pair_stiffness(of, own, app::pair_mesh_model(of, own), {});

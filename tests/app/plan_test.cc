@@ -19,6 +19,7 @@
 #include "core/files.h"
 #include "core/units.h"
 #include "fem/loaded_mesh.h"
+#include "tests/app/fault_scenes.h"
 #include "tests/app/scenes.h"
 
 namespace annulus {
@@ -372,7 +373,7 @@ BOOST_AUTO_TEST_CASE(rigid_supports_drop_their_dofs) {
 // 82 splines: each choice of a model solves the ring by formulas. Once per load that the sweep gives, and not some
 // three times for each of its cases.
 BOOST_AUTO_TEST_CASE(planning_costs_a_fraction_of_what_it_plans) {
-  const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/tests/app/fault_scenes/many_splines.toml");
+  const auto scene = app::read_scene(test::fault_scene_file("many_splines"));
   const auto start = std::clock();
   app::check_studies(scene);
   const auto plan = app::make_plan(scene);
@@ -382,7 +383,7 @@ BOOST_AUTO_TEST_CASE(planning_costs_a_fraction_of_what_it_plans) {
 }
 
 BOOST_AUTO_TEST_CASE(a_ring_without_room_for_its_fillet_is_refused_with_the_remedy) {
-  const auto scene = app::read_scene(std::string(ANNULUS_SOURCE_DIR) + "/tests/app/fault_scenes/narrow_ring_root.toml");
+  const auto scene = app::read_scene(test::fault_scene_file("narrow_ring_root"));
   BOOST_CHECK_EXCEPTION(app::check_stage(scene), GeometryError, [](const auto& error) {
     const std::string what = error.what();
     BOOST_TEST(what.find("too narrow at the root diameter") != std::string::npos, what);
