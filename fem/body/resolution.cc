@@ -19,6 +19,12 @@ double flank_length(const geometry::Gear& gear) {
   return std::abs(tip * tip - form * form) / (2 * gear.base_radius());  // s = rho^2 / (2 r_b)
 }
 
+/// m, on the reference circle, or at the end of the flank next to it: a large profile shift moves teeth beyond it.
+double tooth_thickness(const geometry::Gear& gear) {
+  const auto [low, high] = std::minmax({gear.form_radius(), gear.tip_radius()});
+  return gear.tooth_thickness(std::clamp(gear.reference_radius(), low, high));
+}
+
 /// Fractions of a length, from 0 to 1, in cells of `cell` that shrink towards both ends by `ratio` each, down to
 /// `first` at 0 and `last` at 1.
 std::vector<double> graded_fractions(double length, double cell, double ratio, double first, double last) {
@@ -74,7 +80,7 @@ BodyResolution plane_resolution(const geometry::Gear& gear, int level, int degre
   // now a little more: somewhat smaller ones are within it.
   const double smaller = degree == 1 ? 1.2 : 1;
   const double refine = smaller * std::pow(level_ratio, level - 1);
-  const double length = flank_length(gear), thickness = gear.tooth_thickness(gear.reference_radius());
+  const double length = flank_length(gear), thickness = tooth_thickness(gear);
   const double cell = length / (20 * refine), at_tip = cell / 30, at_form = cell / 6;
 
   BodyResolution r;
@@ -135,7 +141,7 @@ geometry::SectorResolution resolving_section(const geometry::Gear& gear, const g
       s.flank_fractions.push_back((low + (high - low) * fractions[k]) / length);
   }
   s.flank_fractions.back() = 1;
-  const double thickness = gear.tooth_thickness(gear.reference_radius()), per_layer = thickness / s.thickness_cells;
+  const double thickness = tooth_thickness(gear), per_layer = thickness / s.thickness_cells;
   // Not thinner than the layers of the regular section: see plane_resolution about the fillet.
   const double layer =
       contact.edges.empty() ? cell : std::max(contact.at_edge, std::min(cell, regular.flank_layer * per_layer));
