@@ -41,34 +41,51 @@ bool hard_for_linear(const LoadedMeshProblem& problem) {
   return problem.pair.internal() && !held_outside(problem.structure);
 }
 
-}  // namespace
+/// What a table of so many positions misses of a dynamic factor, largest of five stages against 512 (docs/tradeoff.md).
+struct MissedPeaks {
+  int phases;
+  double relative;
+};
+constexpr MissedPeaks missed_peaks[] = {
+    {2 * table_phases, 0.012}, {4 * table_phases, 0.004}, {8 * table_phases, 0.0016}};
 
-TableResolution table_resolution(double accuracy, double uptake, double overlap_ratio) {
-  TableResolution choice;
-  if (overlap_ratio >= 1 && accuracy >= linear_accuracy) {
-    choice.phases = table_phases;
-    choice.phases_reason = "helical teeth that overlap by a pitch pass their load on slowly: 64 positions add nothing";
-  } else if (accuracy >= very_rough_accuracy) {
-    choice.phases = table_phases;
-    choice.phases_reason = "between 32 positions dynamic factors are missed by 2 %, by 6 % under light loads";
-  } else {
-    choice.phases = 2 * table_phases;
-    choice.phases_reason =
-        "between 64 positions dynamic factors are missed by 0.1 %; between 32 by 2 %, 6 % under light loads";
-    constexpr int most = 8 * table_phases;
-    if (choice.phases * uptake < 1) {
-      const double within = accuracy < linear_accuracy ? 2 : 1;  // positions within which it is taken up
-      while (choice.phases < most && choice.phases * uptake < within) choice.phases *= 2;
-      choice.phases_reason =
-          fmt::format("the load is so light that a pair takes it up within {:.1g} of a mesh cycle", uptake);
-    }
-  }
+void choose_loads(double accuracy, TableResolution& choice) {
   if (accuracy >= rough_accuracy) {
     choice.load_factors = {0.5, 1, 1.5};
     choice.loads_reason = "three loads show how the stiffness follows the load; a single one would miss 1 to 2 %";
   } else {
     choice.load_factors = {std::begin(table_load_factors), std::end(table_load_factors)};
     choice.loads_reason = "five, down to a quarter and up to twice the nominal load: what dynamic loads reach";
+  }
+}
+
+}  // namespace
+
+TableResolution table_resolution(double accuracy, double uptake, double overlap_ratio) {
+  TableResolution choice;
+  choose_loads(accuracy, choice);
+  const bool slow = overlap_ratio >= 1;
+  if (slow && accuracy >= linear_accuracy) {
+    choice.phases_reason = "helical teeth that overlap by a pitch pass their load on slowly: 64 positions add nothing";
+    return choice;
+  }
+  if (accuracy >= very_rough_accuracy) {
+    choice.phases_reason = "between 32 positions dynamic factors are missed by 2 %, by 6 % under light loads";
+    return choice;
+  }
+  const auto* peaks = std::begin(missed_peaks);
+  const auto* finest = std::end(missed_peaks) - 1;
+  while (!slow && peaks != finest && peaks->relative > accuracy) ++peaks;
+  choice.phases = peaks->phases;
+  choice.phases_reason =
+      slow ? "helical teeth that overlap by a pitch pass their load on slowly: 128 positions add nothing"
+           : fmt::format("between {} positions dynamic factors are missed by up to {:.2g} %", choice.phases,
+                         100 * peaks->relative);
+  const double within = accuracy < linear_accuracy ? 2 : 1;  // positions within which a light load is taken up
+  if (choice.phases * uptake < 1) {
+    while (choice.phases < finest->phases && choice.phases * uptake < within) choice.phases *= 2;
+    choice.phases_reason =
+        fmt::format("the load is so light that a pair takes it up within {:.1g} of a mesh cycle", uptake);
   }
   return choice;
 }

@@ -30,7 +30,7 @@ using fem::Fidelity;
 constexpr double accuracies[] = {0.1, 0.03, 0.01, 0.003};
 
 /// The fixed settings among which the cheapest is looked for, and the truth.
-std::vector<MeshSetting> settings(const app::MeshModel& planned, bool needs_solid) {
+std::vector<MeshSetting> settings(bool needs_solid) {
   std::vector<MeshSetting> list;
   const auto add = [&](Fidelity fidelity, int degree, int level, int phases, std::vector<int> loads) {
     for (const int count : loads)
@@ -55,7 +55,7 @@ std::vector<MeshSetting> settings(const app::MeshModel& planned, bool needs_soli
   list.push_back({.fidelity = Fidelity::plane,
                   .degree = 3,
                   .level = 3,
-                  .phases = std::max(128, 2 * planned.problem->phases),
+                  .phases = 512,
                   .loads = 5,
                   .finest = true});
   return list;
@@ -172,8 +172,8 @@ int main(int argc, char** argv) {
     ::setenv("ANNULUS_CACHE", "", 1);  // predictions are not to depend on earlier runs, nor to learn from these
     app::TradeLists lists;
     lists.accuracies.assign(std::begin(benchmark::accuracies), std::end(benchmark::accuracies));
-    lists.mesh = [errors_only](const app::MeshModel& ring, bool needs_solid) {
-      auto list = benchmark::settings(ring, needs_solid);
+    lists.mesh = [errors_only](const app::MeshModel&, bool needs_solid) {
+      auto list = benchmark::settings(needs_solid);
       if (errors_only) list.erase(list.begin(), list.end() - 1);
       return list;
     };
