@@ -142,10 +142,10 @@ BOOST_AUTO_TEST_CASE(a_killed_run_leaves_nothing_unlisted) {
   // The scene goes on with another ring; what the killed run wrote of the first is removed.
   write_file(folder.path() / "scene.toml", scene_with_ring("third"));
   check_done(run_with_cache(folder.path(), "run scene.toml -o out"));
-  // Killed before its first file, an empty folder may be left.
+  // An empty folder may be left, and a file in the middle of being written, which goes when it is ten minutes old.
   std::error_code none;
   for (fs::recursive_directory_iterator at(out / "first", none), end; at != end; at.increment(none))
-    BOOST_TEST(at->is_directory(), at->path());
+    BOOST_TEST((at->is_directory() || is_unfinished(at->path())), at->path());
   BOOST_TEST(fs::exists(out / "third"));
 }
 

@@ -52,12 +52,7 @@ std::vector<MeshSetting> settings(bool needs_solid) {
     add(Fidelity::plane, 2, 1, phases, {3});
     if (phases > 32) add(Fidelity::plane, 2, 2, phases, {3});
   }
-  list.push_back({.fidelity = Fidelity::plane,
-                  .degree = 3,
-                  .level = 3,
-                  .phases = 512,
-                  .loads = 5,
-                  .finest = true});
+  list.push_back({.fidelity = Fidelity::plane, .degree = 3, .level = 3, .phases = 512, .loads = 5, .finest = true});
   return list;
 }
 

@@ -96,6 +96,11 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused) {
   stage = running(1);
   stage.input_support = rigid;
   BOOST_CHECK_THROW((void)simulate(stage), annulus::InputError);
+  // Shooting takes the fixed steps as well.
+  SimulationOptions options;
+  options.integrator.method = Integrator::runge_kutta_4;
+  options.integrator.fixed_step = 1 / running(1).sun_mesh_frequency();
+  BOOST_CHECK_THROW((void)simulate(running(1), options), annulus::InputError);
 }
 
 BOOST_AUTO_TEST_CASE(period) {

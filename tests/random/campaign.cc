@@ -71,7 +71,9 @@ class Campaign {
         continue;
       }
       ++tally.outcomes[run->outcome];
-      if (run->outcome == Outcome::refused || run->outcome == Outcome::too_expensive) return false;
+      if (run->outcome == Outcome::refused || run->outcome == Outcome::too_expensive ||
+          run->outcome == Outcome::over_limit)
+        return false;
       complain(scene, relation, fmt::format("{}: {}", outcome_text(run->outcome), last_line(run->message)));
       return true;
     }
@@ -162,12 +164,13 @@ bool passes(const CampaignResult& result) {
 
 std::string campaign_text(const CampaignResult& result) {
   std::string text =
-      "| relation | tried | agree | differ | refused | too expensive | failed | crashed | timed out |\n"
-      "|---|---|---|---|---|---|---|---|---|\n";
+      "| relation | tried | agree | differ | refused | too expensive | over the limit | failed | crashed | timed out "
+      "|\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n";
   for (const auto& [name, tally] : result.relations) {
     text += fmt::format("| {} | {} | {} | {} |", name, tally.tried, tally.agreed, tally.disagreed);
-    for (const auto outcome :
-         {Outcome::refused, Outcome::too_expensive, Outcome::failed, Outcome::crashed, Outcome::timed_out}) {
+    for (const auto outcome : {Outcome::refused, Outcome::too_expensive, Outcome::over_limit, Outcome::failed,
+                               Outcome::crashed, Outcome::timed_out}) {
       const auto found = tally.outcomes.find(outcome);
       text += fmt::format(" {} |", found == tally.outcomes.end() ? 0 : found->second);
     }

@@ -27,6 +27,8 @@ Outcome outcome_of(int raw) {
       return Outcome::refused;
     case 3:
       return Outcome::failed;
+    case 4:
+      return Outcome::over_limit;
     case 128 + SIGKILL:
       return Outcome::timed_out;
     default:
@@ -97,6 +99,8 @@ const char* outcome_text(Outcome outcome) {
       return "refused";
     case Outcome::too_expensive:
       return "too expensive";
+    case Outcome::over_limit:
+      return "over the limit";
     case Outcome::failed:
       return "failed";
     case Outcome::crashed:

@@ -10,7 +10,15 @@
 namespace annulus::random {
 
 /// What came of a run of the program on a scene.
-enum class Outcome { right, refused, too_expensive, failed, crashed, timed_out };
+enum class Outcome {
+  right,
+  refused,
+  too_expensive,  ///< predicted
+  over_limit,     ///< ended by the limit that the prediction had kept
+  failed,
+  crashed,
+  timed_out
+};
 [[nodiscard]] const char* outcome_text(Outcome outcome);
 
 /// A result as the summary states it; natural frequencies by their order. NaN: not stated.

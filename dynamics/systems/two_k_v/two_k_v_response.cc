@@ -11,6 +11,7 @@
 #include "dynamics/figures/peaks.h"
 #include "dynamics/statics/static_solver.h"
 #include "dynamics/steady_state/shooting.h"
+#include "dynamics/time_integration/integrator_choice.h"
 
 namespace annulus::dynamics {
 
@@ -83,6 +84,8 @@ std::optional<double> torque_balance(const TwoKVStage& stage, const LumpedSystem
 std::optional<double> shoot_for_start(const TwoKVStage& stage, const LumpedSystem& system,
                                       const SimulationOptions& options, SteadyProblem& problem) {
   if (options.mesh_cycles || problem.period_in_cycles > options.max_window_cycles) return std::nullopt;
+  if (options.integrator.method == Integrator::runge_kutta_4)
+    check_fixed_step(system, problem.mesh_frequency, options.integrator.fixed_step);
   ShootingOptions shooting;
   shooting.displacement = problem.force_scale / problem.stiffness;
   shooting.tolerance = 0.1 * options.steady_tolerance * shooting.displacement;
