@@ -220,8 +220,20 @@ double rounding_of(const std::string& key) {
   return key.ends_with("_Pa") || key.ends_with("_face_load_factor") ? six_digits : relation_rounding;
 }
 
-double allowed_difference(Agreement agreement, const StatedResult& first, const StatedResult& second, double factor) {
-  const double size = std::max(std::abs(first.value * factor), std::abs(second.value));
+/// What rounding of a result is relative to: a component of the accelerations that is zero (axial, of a spur pair) is
+/// known as well as the others.
+double scale(const StatedResult& result, const SceneRun& run) {
+  double largest = std::abs(result.value);
+  if (result.key.starts_with("acceleration_"))
+    for (const auto& other : run.results)
+      if (other.variant == result.variant && other.key.starts_with("acceleration_"))
+        largest = std::max(largest, std::abs(other.value));
+  return largest;
+}
+
+/// `size`: of both results.
+double allowed_difference(Agreement agreement, const StatedResult& first, const StatedResult& second, double factor,
+                          double size) {
   // Of sums of hundreds of forces; of gaps between flanks, which are differences of positions some metres off the axis.
   constexpr double rounding = 1e-9, nothing = 1e-15;
   switch (agreement) {
@@ -242,8 +254,8 @@ double allowed_difference(Agreement agreement, const StatedResult& first, const 
 
 double ComparedResult::effectivity() const {
   const double difference = std::abs(second - first);
-  if (!(difference > 0)) return std::isnan(difference) ? std::numeric_limits<double>::infinity() : 0;
-  return difference / allowed;
+  if (difference == 0) return 0;
+  return difference > 0 && allowed > 0 ? difference / allowed : std::numeric_limits<double>::infinity();
 }
 
 const std::vector<Relation>& relations() {
@@ -266,7 +278,8 @@ std::vector<ComparedResult> compared(const Relation& relation, const SceneRun& f
       if (equal) list.push_back({result.key, result.value * *factor, value, 0});
       continue;
     }
-    const double allowed = allowed_difference(relation.agreement, result, *other, *factor);
+    const double size = std::max(scale(result, first) * std::abs(*factor), scale(*other, second));
+    const double allowed = allowed_difference(relation.agreement, result, *other, *factor, size);
     if (std::isnan(allowed)) continue;  // no error is stated
     list.push_back({result.key, result.value * *factor, other->value, allowed});
   }

@@ -49,6 +49,18 @@ BOOST_AUTO_TEST_CASE(results_of_twice_the_size_scale_with_their_unit) {
   BOOST_TEST(!compared(size, first, second)[1].agrees());
 }
 
+BOOST_AUTO_TEST_CASE(a_component_of_no_size_rounds_as_the_others) {
+  const auto run = [](double axial, double rotation) {
+    return run_with({{.variant = "", .key = "acceleration_axial_m_per_s2", .value = axial, .error = 0},
+                     {.variant = "", .key = "acceleration_rotation_m_per_s2", .value = rotation, .error = 0}});
+  };
+  const auto& threads = relation("two threads");
+  const auto& stiffer = relation("material four times as stiff");
+  BOOST_TEST(compared(stiffer, run(1e-16, 100), run(3e-15, 100)).front().agrees());
+  BOOST_TEST(!compared(stiffer, run(1e-16, 100), run(1e-3, 100)).front().agrees());
+  BOOST_TEST(!compared(threads, run(1e-16, 100), run(3e-15, 100)).front().agrees());
+}
+
 BOOST_AUTO_TEST_CASE(missing_results_and_results_without_errors_are_no_evidence) {
   const auto first = run_with({{.variant = "", .key = "a", .value = 1, .error = not_known},
                                {.variant = "", .key = "b", .value = 1, .error = 0.1}});
