@@ -80,8 +80,7 @@ class SteadyStateFinder {
 
   [[nodiscard]] bool wants_confirmation() const {
     if (options_.confirmation != Confirmation::where_needed) return options_.confirmation == Confirmation::always;
-    return periodic_.loses_contact() || (periodic_.report->method == PeriodicMethod::harmonic_balance &&
-                                         periodic_.report->sampling_difference > options_.confirm_beyond);
+    return periodic_.loses_contact() || may_miss(system_, *periodic_.report, options_.confirm_beyond);
   }
 
   /// Periodic solution without time integration.
@@ -158,7 +157,11 @@ class SteadyStateFinder {
     constexpr double tenfold = 0.1, tightest = 1e-10;
     const bool may = options_.tolerance_rule == ToleranceRule::tightened_if_loose && !fixed_steps &&
                      tightening_ * tenfold * options_.integrator.relative_tolerance >= tightest;
-    if (!may) throw SolverError(fmt::format("the time integration lost {:.2g} of the energy: {}", lost, remedy()));
+    if (!may) {
+      const auto message = fmt::format("the time integration lost {:.2g} of the energy: {}", lost, remedy());
+      if (fixed_steps || options_.tolerance_rule == ToleranceRule::prescribed) throw InputError(message);
+      throw SolverError(message);
+    }
     tightening_ *= tenfold;
     log::info(fmt::format("the time integration lost {:.2g} of the energy; again with a relative tolerance of {:.0e}",
                           lost, tightening_ * options_.integrator.relative_tolerance));
@@ -258,6 +261,11 @@ TimeSeries series_of(const LumpedSystem& system, ResponseWindow window) {
 }
 
 int enough_samples(int window_cycles) { return window_cycles > long_window ? 16 : 32; }
+
+bool may_miss(const LumpedSystem& system, const PeriodicSolution& found, double beyond) {
+  return found.method == PeriodicMethod::harmonic_balance &&
+         (found.sampling_difference > beyond || std::isfinite(system.next_jump(0)));
+}
 
 SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& problem,
                                const SimulationOptions& options) {

@@ -26,8 +26,8 @@ enum class SteadyState {
 /// as its error, and has no energy balance.
 enum class Confirmation {
   never,
-  /// Where a mesh loses contact, because other motions may then exist, and where more samples still change forces by
-  /// more than `confirm_beyond`.
+  /// Where a mesh loses contact, because other motions may then exist, where more samples still change forces by more
+  /// than `confirm_beyond`, and where the stiffness jumps.
   where_needed,
   always
 };
@@ -170,6 +170,10 @@ struct SteadyResponse : SteadyOutcome {
 /// integrator fails.
 [[nodiscard]] SteadyResponse steady_response(const LumpedSystem& system, const SteadyProblem& problem,
                                              const SimulationOptions& options = {});
+
+/// Whether a harmonic balance that stands alone may miss more of a force than `beyond` (relative to the force scale):
+/// other samplings change it by more, or the stiffness jumps, and forces peak at jumps, between the samples.
+[[nodiscard]] bool may_miss(const LumpedSystem& system, const PeriodicSolution& found, double beyond);
 
 /// Mesh cycles from which on a window counts as long: few samples per cycle then already stand near every peak.
 inline constexpr int long_window = 200;

@@ -5,7 +5,7 @@
 
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
-#include "app/systems/planetary/back_flanks.h"
+#include "app/systems/planetary/stage_warnings.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/json.h"
 
@@ -79,7 +79,7 @@ double worst(const MeshResult& a, const MeshResult& b, const std::string& fact) 
   return std::isnan(y) ? x : std::max(x, y);
 }
 
-Json ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
+Json ring_json(const Scene& scene, const RingResult& ring, const MeshResult& sun_mesh) {
   Json json = {
       {"model", ring.mesh.model.fidelity}, {"ring_planet", mesh_json(ring.mesh)}, {"sun_planet", mesh_json(sun_mesh)}};
   json["invariants"] = {{"force_balance_relative", json_number(worst(ring.mesh, sun_mesh, "force_balance_relative"))},
@@ -100,7 +100,7 @@ Json ring_json(const RingResult& ring, const MeshResult& sun_mesh) {
                                               {"error", json_number(mode.frequency_error)},
                                               {"error_parts", to_json(mode.error_parts)},
                                               {"kind", mode.kind}});
-  json["warnings"] = back_flank_warnings(f);
+  json["warnings"] = stage_warnings(scene, f);
   const auto& m = ring.response->motion;
   json["bearing_forces"] = {{"planet_max_N", m.pin_force_max},
                             {"planet_mean_tangential_N", m.pin_force_mean_tangential},
@@ -132,7 +132,7 @@ Json stage_summary(const RunResult& result) {
                  {"mesh_frequency_Hz", point.mesh_frequency},
                  {"mean_mesh_force_N", point.mean_mesh_force}}}};
   for (std::size_t i = 0; i < result.rings.size(); ++i) {
-    auto& entry = json["rings"][result.rings[i].name] = ring_json(result.rings[i], result.sun_mesh);
+    auto& entry = json["rings"][result.rings[i].name] = ring_json(result.scene, result.rings[i], result.sun_mesh);
     entry.update(variant_studies_json(result.studies, i));
   }
   return json;

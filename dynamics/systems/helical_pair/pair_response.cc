@@ -161,9 +161,9 @@ SteadyResponse pair_steady_state(const HelicalPair& pair, const LumpedSystem& sy
   quick.min_window_cycles = std::min(options.min_window_cycles, 2 * problem.period_in_cycles);
   quick.confirmation = Confirmation::never;
   auto found = steady_response(system, problem, quick);
-  const bool coarse = found.total_cycles == 0 && found.periodic->sampling_difference > options.confirm_beyond;
+  const bool unsure = found.total_cycles == 0 && may_miss(system, *found.periodic, options.confirm_beyond);
   const bool confirmed_where_needed = options.confirmation == Confirmation::where_needed && !options.mesh_cycles;
-  if (!confirmed_where_needed || (found.best.open[0] == 0 && !coarse)) return found;
+  if (!confirmed_where_needed || (found.best.open[0] == 0 && !unsure)) return found;
   auto thorough = options;
   thorough.confirmation = Confirmation::always;
   return steady_response(system, problem, thorough);

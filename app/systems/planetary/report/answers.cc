@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/systems/planetary/back_flanks.h"
 #include "app/systems/planetary/comparison.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
+#include "app/systems/planetary/stage_warnings.h"
 
 namespace annulus::app {
 
@@ -49,7 +49,7 @@ Blocks stage_verdict(const RunResult& result) {
                enumerated(unsteady)));
   for (const auto& ring : result.rings)
     if (ring.response)
-      for (const auto& warning : back_flank_warnings(ring.response->figures))
+      for (const auto& warning : stage_warnings(result.scene, ring.response->figures))
         blocks += paragraph(phrase("{}: {}.", bold(ring.name), warning));
   return verdict_box(blocks) + answer_picture(quantities, names);
 }
