@@ -8,6 +8,7 @@
 #include <mutex>
 #include <regex>
 
+#include "core/files.h"
 #include "core/parallel.h"
 
 namespace annulus::random {
@@ -34,12 +35,19 @@ class Campaign {
       const auto scene = random_scene(settings_.first_seed + i);
       for (const auto* relation : relations_)
         if (const auto pair = relation->pair(scene)) run_pair(scene, *relation, *pair);
+      write_table();
     });
     std::sort(result_.complaints.begin(), result_.complaints.end());
+    write_table();
     return std::move(result_);
   }
 
  private:
+  void write_table() {
+    const std::lock_guard lock(mutex_);
+    if (!settings_.table.empty()) write_file(settings_.table, campaign_text(result_));
+  }
+
   SceneRun run_one(const std::string& toml, const std::filesystem::path& folder, const std::string& arguments,
                    bool fresh) {
     return run_scene(toml, folder, {settings_.program, arguments, settings_.seconds, fresh, settings_.max_time});
@@ -190,6 +198,8 @@ std::string campaign_text(const CampaignResult& result) {
       "|\n|---|---|---|---|---|---|---|---|\n";
   text += cost_text(result.costs, "time, of runs above 1 s", &Cost::predicted_seconds, &Cost::actual_seconds, 1);
   text += cost_text(result.costs, "memory", &Cost::predicted_MB, &Cost::actual_MB, 0);
+  if (!result.complaints.empty()) text += "\n";
+  for (const auto& complaint : result.complaints) text += "- " + complaint + "\n";
   return text;
 }
 

@@ -19,6 +19,7 @@ struct CampaignSettings {
   int seconds = 300;                     ///< of each run
   std::string max_time = "1h";           ///< predicted; more expensive scenes are left out
   std::vector<std::string> relations{};  ///< names; empty: all
+  std::filesystem::path table{};         ///< file for the tables, written anew after every scene; empty: none
 };
 
 /// What came of the pairs of one relation.
@@ -51,7 +52,7 @@ inline constexpr double wanted_coverage = 0.95;
 /// result at one model is the wanted one, as far as so many values can say.
 [[nodiscard]] bool passes(const CampaignResult& result);
 
-/// The tables, as Markdown.
+/// The tables and complaints, as Markdown.
 [[nodiscard]] std::string campaign_text(const CampaignResult& result);
 
 }  // namespace annulus::random
