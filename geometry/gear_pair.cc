@@ -33,7 +33,7 @@ double checked_working_angle(const Gear& planet, const Gear& wheel, double centr
   const auto& w = wheel.parameters();
   if (std::abs(p.module - w.module) > 1e-9 * p.module || std::abs(p.pressure_angle - w.pressure_angle) > 1e-9) {
     throw GeometryError(fmt::format(
-        "{}: modules {} and {} mm or pressure angles {} and {} deg differ; they have to be equal", name,
+        "{}: modules {:.6g} and {:.6g} mm or pressure angles {:.6g} and {:.6g} deg differ; they have to be equal", name,
         p.module / units::mm, w.module / units::mm, p.pressure_angle / units::deg, w.pressure_angle / units::deg));
   }
   const bool internal = wheel.kind() == GearKind::internal;

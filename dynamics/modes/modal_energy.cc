@@ -98,6 +98,33 @@ std::string mode_name(const GroupedEnergy& energy, Eigen::Index mode) {
   return energy.bodies[static_cast<std::size_t>(body)] + " on " + energy.groups[static_cast<std::size_t>(group)];
 }
 
+namespace {
+
+/// The n-th of frequencies in order is within the n-th of their lower and of their upper ends: where error bars of
+/// neighbours overlap, either may be the n-th.
+void widen_to_neighbours(std::vector<Frequency>& list) {
+  const auto own = list;
+  for (const double side : {-1.0, 1.0}) {
+    const auto end = [&](const Frequency& f) { return f.figure.value + side * f.figure.error; };
+    auto order = own;
+    std::stable_sort(order.begin(), order.end(), [&](const auto& a, const auto& b) { return end(a) < end(b); });
+    for (std::size_t n = 0; n < list.size(); ++n) {
+      auto& [figure, parts] = list[n];
+      const double reach = side * (end(order[n]) - figure.value);
+      if (reach <= figure.error * (1 + 1e-12)) continue;
+      // Those that may have changed places with it.
+      const auto at = order.begin() + static_cast<std::ptrdiff_t>(n);
+      const auto& widest =
+          *std::max_element(side < 0 ? order.begin() : at, side < 0 ? at + 1 : order.end(),
+                            [](const auto& a, const auto& b) { return a.figure.error < b.figure.error; });
+      figure.error = reach;
+      parts = (reach / widest.figure.error) * widest.parts;
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<Frequency> frequency_errors(const Modes& modes, const GroupedEnergy& energy,
                                         const std::vector<GroupError>& errors) {
   std::vector<Frequency> result;
@@ -113,6 +140,7 @@ std::vector<Frequency> frequency_errors(const Modes& modes, const GroupedEnergy&
       parts += weight * error.parts;
     }
   }
+  widen_to_neighbours(result);
   return result;
 }
 

@@ -56,7 +56,8 @@ struct GroupError {
   double sensitivity = 0.5;
 };
 /// The error of a frequency is the sum of the relative errors times sensitivity and share of the strain energy of the
-/// mode; all quantities are taken to err the same way.
+/// mode; all quantities are taken to err the same way. Frequencies are known by their order: an error reaches to what
+/// takes the place of a frequency within the errors of its neighbours.
 [[nodiscard]] std::vector<Frequency> frequency_errors(const Modes& modes, const GroupedEnergy& energy,
                                                       const std::vector<GroupError>& errors);
 
