@@ -42,6 +42,8 @@ double number(const Json& json, const char* key) {
 
 StatedResult stated(const std::string& variant, const std::string& key, const Json& json) {
   StatedResult result{.variant = variant, .key = key, .value = number(json, "value"), .error = number(json, "error")};
+  // The only result whose error is that of the motion alone, and has no parts.
+  if (key.ends_with("contact_loss")) result.motion_error = result.error;
   if (!json.contains("error_parts")) return result;
   result.model_error = number(json["error_parts"], "model_choice");
   result.motion_error = number(json["error_parts"], "time_integration");
