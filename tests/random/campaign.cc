@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <iostream>
 #include <mutex>
@@ -160,11 +161,11 @@ bool passes(const CampaignResult& result) {
     const auto results = result.results.find(relation.name);
     if (relation.agreement != Agreement::numerical_errors || results == result.results.end()) continue;
     for (const auto& [key, values] : results->second) {
-      // Two standard deviations of the number within that 95 % of so many values make by chance.
+      // So many outside would happen by chance in one of 44 cases (two standard deviations), or more often.
       const auto count = static_cast<double>(values.effectivities.size());
-      if (values.coverage() * count <
-          wanted_coverage * count - 2 * std::sqrt(count * wanted_coverage * (1 - wanted_coverage)))
-        return false;
+      const double outside = std::round((1 - values.coverage()) * count);
+      const boost::math::binomial_distribution<double> chance(count, 1 - wanted_coverage);
+      if (outside > 0 && boost::math::cdf(boost::math::complement(chance, outside - 1)) < 1.0 / 44) return false;
     }
   }
   return true;
