@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(back_flanks_that_carry_are_reported) {
 }
 
 // Load sharing of 4 planets was 4.00, without a word why.
-BOOST_AUTO_TEST_CASE(bearings_that_are_rigid_unasked_are_told) {
+BOOST_AUTO_TEST_CASE(bearings_that_are_rigid_unasked_are_reported) {
   FaultRuns runs("rigid_by_default");
   const auto outcome = runs.run("out");
   BOOST_TEST(outcome.status == 0, outcome.err);

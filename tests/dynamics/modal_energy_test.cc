@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(names_and_groups) {
   BOOST_TEST(by_group(energy).groups == groups, boost::test_tools::per_element());
 }
 
-// The fifth of 6459 ± 135 Hz may be below the fourth of 6421 Hz, which hangs on no mesh.
+// The fifth of 6459 ± 135 Hz may be below the fourth of 6421 Hz, whose mode strains no mesh.
 BOOST_AUTO_TEST_CASE(neighbours_within_their_errors_may_change_places) {
   Modes modes;
   for (const double frequency : {700.0, 6421.0, 6459.0, 9000.0}) modes.modes.push_back({frequency, {}});
