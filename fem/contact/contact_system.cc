@@ -194,8 +194,7 @@ LoadedPosition ContactSystem::solve(int cycle, double phase, double whole_load, 
     if (proof.closest_approach >= range_.gap_beyond)
       throw InputError(
           fmt::format("mesh phase {:.4f}: under {:.4g} N flanks approach each other by {:.4g} mm; contacts are looked "
-                      "for where they "
-                      "are up to {:.4g} mm apart without load; {}",
+                      "for where they are up to {:.4g} mm apart without load; {}",
                       phase, whole_load, 1e3 * proof.closest_approach, 1e3 * range_.gap_beyond, remedy));
     LoadedPosition position = evaluate(bodies_, setup, problem, solution);
     if (forces != nullptr) *forces = port_forces(bodies_, setup, cycle, solution);

@@ -14,8 +14,7 @@ std::string back_flanks(const char* mesh, std::size_t planet, const dynamics::Br
   return fmt::format(
       "the back flanks of planet {} carry load in its {} for {:.3g} % of the time (mean force {:.4g} kN). They are "
       "computed with the stiffness of the driving flanks at the same phase: its mean is right, its course over the "
-      "mesh "
-      "cycle is not. A larger dynamics.half_backlash_um or smaller errors avoid this",
+      "mesh cycle is not. A larger dynamics.half_backlash_um or smaller errors avoid this",
       planet + 1, mesh, 100 * branch.back_flanks, branch.mean_force / 1e3);
 }
 
