@@ -28,7 +28,8 @@ void require_gear(bool condition, const GearParameters& p, const std::string& me
 
 void check_inputs(const GearParameters& p) {
   require_gear(p.teeth >= 5, p, "has too few teeth; at least 5 are needed");
-  require_gear(std::isfinite(p.module) && p.module > 0, p,
+  require_gear(std::isfinite(p.module), p, "has a module that is not a finite number");
+  require_gear(p.module > 0, p,
                fmt::format("has a module of {:.6g} mm; it has to be positive", p.module / units::mm));
   require_gear(
       p.pressure_angle >= 10 * units::deg && p.pressure_angle <= 35 * units::deg, p,
@@ -36,16 +37,17 @@ void check_inputs(const GearParameters& p) {
   require_gear(std::abs(p.helix_angle) <= max_helix_angle, p,
                fmt::format("has a helix angle of {:.3f} deg; -45 (left hand) to 45 deg (right hand) are supported",
                            p.helix_angle / units::deg));
-  require_gear(std::isfinite(p.face_width) && p.face_width > 0, p,
+  require_gear(std::isfinite(p.face_width), p, "has a face width that is not a finite number");
+  require_gear(p.face_width > 0, p,
                fmt::format("has a face width of {:.6g} mm; it has to be positive", p.face_width / units::mm));
-  require_gear(std::isfinite(p.profile_shift), p, "has a profile shift that is not a number");
+  require_gear(std::isfinite(p.profile_shift), p, "has a profile shift that is not a finite number");
   require_gear(p.root_fillet_factor >= RootFillet::min_radius, p,
                fmt::format("has a root fillet factor of {}; at least {} is needed", p.root_fillet_factor,
                            RootFillet::min_radius));
   require_gear(p.tip_relief >= 0 && p.tip_relief_length >= 0 && p.profile_crowning >= 0 && p.lead_crowning >= 0, p,
                "has a negative tip relief, tip relief length, profile crowning or lead crowning; they are material "
                "removed, >= 0");
-  require_gear(std::isfinite(p.lead_slope), p, "has a lead slope that is not a number");
+  require_gear(std::isfinite(p.lead_slope), p, "has a lead slope that is not a finite number");
   require_gear(
       p.tip_relief == 0 || p.tip_relief_length > 0, p,
       fmt::format("has a tip relief of {:.6g} um but no tip relief length; give the length along the line of action",
