@@ -29,8 +29,7 @@ void require_gear(bool condition, const GearParameters& p, const std::string& me
 void check_inputs(const GearParameters& p) {
   require_gear(p.teeth >= 5, p, "has too few teeth; at least 5 are needed");
   require_gear(std::isfinite(p.module), p, "has a module that is not a finite number");
-  require_gear(p.module > 0, p,
-               fmt::format("has a module of {:.6g} mm; it has to be positive", p.module / units::mm));
+  require_gear(p.module > 0, p, fmt::format("has a module of {:.6g} mm; it has to be positive", p.module / units::mm));
   require_gear(
       p.pressure_angle >= 10 * units::deg && p.pressure_angle <= 35 * units::deg, p,
       fmt::format("has a pressure angle of {:.3f} deg; 10 to 35 deg are supported", p.pressure_angle / units::deg));
