@@ -112,6 +112,10 @@ void add_stiffness_error(double error, const ErrorParts& of_stiffness, ErrorPart
     if (of_stiffness.*part > 0) parts.*part += error * (of_stiffness.*part / whole);
 }
 
+constexpr double smallest_jump = 1e-3;  // relative to the mean stiffness
+
+StiffnessTable jumps_to_stiffer(const StiffnessTable& table) { return with_jumps(table, JumpSide::stiffer); }
+StiffnessTable jumps_to_softer(const StiffnessTable& table) { return with_jumps(table, JumpSide::softer); }
 StiffnessTable much_coarser(const StiffnessTable& table) { return coarser(coarser(table)); }
 
 Differences interpolation_differences(Comparison& comparison, const TabulatedModel& model) {
@@ -120,13 +124,21 @@ Differences interpolation_differences(Comparison& comparison, const TabulatedMod
                        [&](const TabulatedMesh& mesh) { return mesh.table.phases() % by == 0; });
   };
   if (!divisible(2) || model.meshes.empty()) return {};
+  auto part = comparison.differences(coarser, all_meshes, "half the phases");
+  const auto enlarge = [&part](const Differences& differences, double weight) {
+    for (const auto& [key, difference] : differences) {
+      double& larger = part.at(key);
+      if (!std::isnan(larger + difference)) larger = std::max(larger, weight * difference);
+    }
+  };
   // Where slopes jump, the error is as large as the change by twice the distance between phases. That change may be
   // small by chance; the one by four times the distance then is not.
-  auto part = comparison.differences(coarser, all_meshes, "half the phases");
-  if (!divisible(4)) return part;
-  for (const auto& [key, difference] : comparison.differences(much_coarser, all_meshes, "a quarter of the phases")) {
-    double& larger = part.at(key);
-    if (!std::isnan(larger + difference)) larger = std::max(larger, difference / 4);
+  if (divisible(4)) enlarge(comparison.differences(much_coarser, all_meshes, "a quarter of the phases"), 0.25);
+  // Vibrations that are faster than the phases follow each other show in none of these.
+  if (std::any_of(model.meshes.begin(), model.meshes.end(),
+                  [](const TabulatedMesh& mesh) { return largest_jump(mesh.table) > smallest_jump; })) {
+    enlarge(comparison.differences(jumps_to_stiffer, all_meshes, "early and long contact"), 1);
+    enlarge(comparison.differences(jumps_to_softer, all_meshes, "late and short contact"), 1);
   }
   return part;
 }

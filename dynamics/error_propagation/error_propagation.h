@@ -43,7 +43,8 @@ struct TabulatedModel {
 ///   its error estimate (core/table_variants.h), mesh by mesh, divided in the proportions of that stiffness' own parts;
 /// - interpolation: the |difference| with every second phase only, all meshes at once, or a quarter of that with every
 ///   fourth one where that is larger: curves between the phases converge with an order between one (where slopes jump)
-///   and two. Not known for an odd number of phases;
+///   and two; or the |difference| with what the stiffness jumps between two phases made at once, as early or as late as
+///   possible, where that is larger. Not known for an odd number of phases;
 /// - integration: the nominal error.
 /// A part is not known (NaN) where the model cannot be solved on a changed table.
 [[nodiscard]] FigureSet propagate_errors(const Evaluation& nominal, const TabulatedModel& model);

@@ -1,11 +1,14 @@
 #include "core/table_variants.h"
 
 #include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
 
 #include "core/errors.h"
 
 BOOST_AUTO_TEST_SUITE(table_variants)
 
+using annulus::JumpSide;
 using annulus::StiffnessEntry;
 using annulus::StiffnessTable;
 
@@ -56,6 +59,54 @@ BOOST_AUTO_TEST_CASE(coarser_keeps_every_second_phase) {
     BOOST_TEST(e.lte == table.at(position, 2 * phase, load).lte);
   });
   BOOST_CHECK_THROW((void)coarser(coarser(changed)), annulus::InputError);
+}
+
+/// One load, one value per phase.
+StiffnessTable curve_of(const std::vector<double>& stiffness) {
+  std::vector<StiffnessEntry> entries;
+  for (const double k : stiffness) entries.push_back({0, 1e3 / k, k, k, 0.01});
+  return {"mesh", static_cast<int>(stiffness.size()), {0.0}, {1e3}, entries};
+}
+
+std::vector<double> stiffnesses(const StiffnessTable& table) {
+  std::vector<double> values;
+  for (int phase = 0; phase < table.phases(); ++phase) values.push_back(table.at(0, phase, 0).stiffness_secant);
+  return values;
+}
+
+BOOST_AUTO_TEST_CASE(a_jump_is_made_at_either_end_of_its_interval) {
+  const double low = 1e9, high = 1.5e9;
+  const auto table = curve_of({low, low, low, high, high, high, high, low});
+  /// Beside both ends of the interval and amid it.
+  const auto expect = [&](JumpSide side, int phase, const std::vector<double>& expected) {
+    const auto all = stiffnesses(with_jumps(table, side));
+    const std::size_t parts = all.size() / 8, first = parts * static_cast<std::size_t>(phase);
+    const std::vector<double> found = {all[first], all[first + 1], all[first + parts / 2], all[first + parts - 1],
+                                       all[(first + parts) % all.size()]};
+    BOOST_TEST(found == expected, boost::test_tools::tolerance(1e-12) << boost::test_tools::per_element());
+  };
+  expect(JumpSide::stiffer, 2, {low, high, high, high, high});
+  expect(JumpSide::softer, 2, {low, low, low, low, high});
+  expect(JumpSide::stiffer, 6, {high, high, high, high, low});
+  expect(JumpSide::softer, 6, {high, low, low, low, low});
+  expect(JumpSide::softer, 4, {high, high, high, high, high});
+  BOOST_TEST(largest_jump(table) == (high - low) / (0.5 * (low + high)), boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(a_jump_in_two_intervals_is_as_large_as_in_one) {
+  // A phase amid the jump: half of it on either side.
+  const auto table = curve_of({1e9, 1e9, 1.25e9, 1.5e9, 1.5e9, 1.5e9, 1.5e9, 1.25e9});
+  BOOST_TEST(largest_jump(table) == 0.25e9 / 1.3125e9, boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(smooth_curves_have_no_jumps) {
+  const auto jump = [](int phases) {
+    std::vector<double> values;
+    for (int i = 0; i < phases; ++i) values.push_back(1e9 * (1 + 0.1 * std::cos(2 * std::numbers::pi * i / phases)));
+    return largest_jump(curve_of(values));
+  };
+  // Changes of neighbours differ by h^2 k'' at most.
+  for (const int phases : {32, 64, 128}) BOOST_TEST(jump(phases) <= 0.1 * std::pow(2 * std::numbers::pi / phases, 2));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
