@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "core/errors.h"
@@ -63,27 +62,42 @@ Values jumps_of(const Values& values) {
   return jumps;
 }
 
+/// How long a jump takes at a load, in distances between two phases; resolved from one on.
+double jump_length(const StiffnessTable& table, std::size_t load, double uptake) {
+  return uptake * std::sqrt(table.loads()[load]) * table.phases();
+}
+
 /// Parts of an interval: a jump is made within a 1024th of a mesh cycle, where that leaves a table of moderate size.
 int parts_of_interval(const StiffnessTable& table) {
   constexpr int least = 4, of_a_cycle = 1024, of_a_period = 1 << 15;
   return std::max(least, std::min(of_a_cycle, of_a_period / table.positions()) / table.phases());
 }
 
-/// The curve through the values at `parts` times as many places, with its jumps at the ends of their intervals that
-/// `side` names, if any.
-Values finer(const Values& values, int phases, int parts, std::optional<JumpSide> side) {
+/// The curve through the values at `parts` times as many places.
+Values finer(const Values& values, int phases, int parts) {
   const PeriodicCurve curve(values, phases);
-  const auto jumps = side ? jumps_of(values) : Values(values.size(), 0.0);
   Values result;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (int part = 0; part < parts; ++part)
+      result.push_back(curve((static_cast<double>(i) + static_cast<double>(part) / parts) / phases));
+  return result;
+}
+
+/// The same with the jumps of the values at one end of their intervals, `length` of an interval long.
+Values finer_with_jumps(const Values& values, int phases, int parts, JumpSide side, double length) {
+  Values result = finer(values, phases, parts);
+  if (length >= 1) return result;
+  const auto jumps = jumps_of(values);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double here = values[i], change = values[(i + 1) % values.size()] - here;
-    const double share = change == 0 ? 0 : jumps[i] / change;
-    const double taken = (jumps[i] > 0) == (side == JumpSide::stiffer) ? 1 : 0;  // of the jump, behind its first end
-    result.push_back(here);
+    const double change = values[(i + 1) % values.size()] - values[i];
+    if (jumps[i] == 0) continue;
+    const bool at_once = (jumps[i] > 0) == (side == JumpSide::stiffer);
     for (int part = 1; part < parts; ++part) {
       const double t = static_cast<double>(part) / parts;
-      const double smooth = curve((static_cast<double>(i) + t) / phases);
-      result.push_back(smooth + share * (here + change * t - smooth) + jumps[i] * (taken - t));
+      const double taken = at_once ? (t < length ? t / length : 1) : (1 - t < length ? 1 - (1 - t) / length : 0);
+      double& value = result[i * static_cast<std::size_t>(parts) + static_cast<std::size_t>(part)];
+      // What is no jump goes on along the curve.
+      value += jumps[i] / change * (values[i] + change * t - value) + jumps[i] * (taken - t);
     }
   }
   return result;
@@ -112,18 +126,17 @@ StiffnessTable coarser(const StiffnessTable& table) {
   return changed(table, 2, [](const StiffnessEntry& e, int) { return e; });
 }
 
-StiffnessTable with_jumps(const StiffnessTable& table, JumpSide side) {
+StiffnessTable with_jumps(const StiffnessTable& table, JumpSide side, double uptake) {
   const std::size_t loads = table.loads().size();
   const int parts = parts_of_interval(table), phases = parts * table.phases();
   std::vector<StiffnessEntry> entries(static_cast<std::size_t>(table.positions() * phases) * loads);
   for (std::size_t load = 0; load < loads; ++load) {
-    const auto values = [&](double StiffnessEntry::*value, bool jumps) {
-      return finer(over_phases(table, static_cast<int>(load), value), table.phases(), parts,
-                   jumps ? std::optional(side) : std::nullopt);
+    const auto given = [&](double StiffnessEntry::*value) { return over_phases(table, static_cast<int>(load), value); };
+    const auto with = [&](double StiffnessEntry::*value) {
+      return finer_with_jumps(given(value), table.phases(), parts, side, jump_length(table, load, uptake));
     };
-    const auto secant = values(&StiffnessEntry::stiffness_secant, true);
-    const auto tangent = values(&StiffnessEntry::stiffness_tangent, true);
-    const auto unloaded_te = values(&StiffnessEntry::unloaded_te, false);
+    const auto secant = with(&StiffnessEntry::stiffness_secant), tangent = with(&StiffnessEntry::stiffness_tangent);
+    const auto unloaded_te = finer(given(&StiffnessEntry::unloaded_te), table.phases(), parts);
     for (std::size_t i = 0; i < secant.size(); ++i)
       entries[i * loads + load] = {.unloaded_te = unloaded_te[i],
                                    .lte = unloaded_te[i] + table.loads()[load] / secant[i],
@@ -135,10 +148,11 @@ StiffnessTable with_jumps(const StiffnessTable& table, JumpSide side) {
   return result;
 }
 
-double largest_jump(const StiffnessTable& table) {
+double largest_jump(const StiffnessTable& table, double uptake) {
   double largest = 0;
-  for (int load = 0; load < static_cast<int>(table.loads().size()); ++load) {
-    const auto values = over_phases(table, load, &StiffnessEntry::stiffness_secant);
+  for (std::size_t load = 0; load < table.loads().size(); ++load) {
+    if (jump_length(table, load, uptake) >= 1) continue;
+    const auto values = over_phases(table, static_cast<int>(load), &StiffnessEntry::stiffness_secant);
     const double mean = mean_of(values);
     for (const double jump : jumps_of(values)) largest = std::max(largest, std::abs(jump) / mean);
   }

@@ -14,15 +14,15 @@ namespace annulus {
 /// Every second phase only: what the interpolation between the phases does. Throws InputError for an odd number.
 [[nodiscard]] StiffnessTable coarser(const StiffnessTable& table);
 
-/// Which of two neighbouring phases takes up what the curve jumps between them. Where a tooth takes up its load between
-/// two phases, the curve through them neither knows where nor how suddenly.
+/// Where between two phases a tooth pair takes up or gives up its load, which the curve through them does not know.
 enum class JumpSide { stiffer, softer };
 
-/// More phases, with jumps between two of the given ones made at once at that end of their interval which makes the
-/// stiffness larger (or smaller) between them; without error estimates. What the changes beside an interval have in
-/// common with it is no jump: smooth curves stay as they are.
-[[nodiscard]] StiffnessTable with_jumps(const StiffnessTable& table, JumpSide side);
+/// More phases, with jumps between two of the given ones made at that end of their interval which makes the stiffness
+/// larger (or smaller) between them; without error estimates. What the changes beside an interval have in common with
+/// it is no jump: smooth curves stay as they are. A jump takes the share `uptake` x root of the load in N of a mesh
+/// cycle; where that is more than the distance between two phases, these have resolved it.
+[[nodiscard]] StiffnessTable with_jumps(const StiffnessTable& table, JumpSide side, double uptake);
 /// The largest of these jumps, relative to the mean stiffness at its load.
-[[nodiscard]] double largest_jump(const StiffnessTable& table);
+[[nodiscard]] double largest_jump(const StiffnessTable& table, double uptake);
 
 }  // namespace annulus

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/model/gear_system.h"
+#include "fem/choice/table_choice.h"
 
 namespace annulus::app {
 
@@ -17,6 +18,14 @@ dynamics::Evaluation evaluation_of(const LumpedModel& model, const std::vector<F
   return evaluation;
 }
 
+/// See TabulatedMesh. Stiffness rises and falls by most of its jump within half of the way.
+double uptake_of(const MeshModel& model) {
+  if (!model.problem) return 0;
+  constexpr double most = 0.5, force = 1;  // N
+  return most * fem::load_uptake(force, model.problem->face_width, model.problem->pair.pinion().parameters().module,
+                          model.problem->material.youngs_modulus);
+}
+
 }  // namespace
 
 FigureSet with_table_errors(const dynamics::Evaluation& nominal, const std::vector<const MeshResult*>& tables,
@@ -27,7 +36,10 @@ FigureSet with_table_errors(const dynamics::Evaluation& nominal, const std::vect
   for (std::size_t i = 0; i < tables.size(); ++i) {
     if (!tables[i]->tabulated) continue;
     tabulated.push_back(i);
-    model.meshes.push_back({tables[i]->model.label(), tables[i]->table, tables[i]->mean_stiffness().parts});
+    model.meshes.push_back({.name = tables[i]->model.label(),
+                            .table = tables[i]->table,
+                            .mean_stiffness_parts = tables[i]->mean_stiffness().parts,
+                            .uptake = uptake_of(tables[i]->model)});
   }
   model.evaluate = [&](const std::vector<StiffnessTable>& changed) {
     std::vector<MeshResult> others;

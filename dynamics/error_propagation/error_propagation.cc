@@ -15,8 +15,13 @@ namespace annulus::dynamics {
 
 namespace {
 
-using TableChange = StiffnessTable (*)(const StiffnessTable&);
+using TableChange = std::function<StiffnessTable(const TabulatedMesh&)>;
 using Differences = std::map<std::string, double>;  // by the key of the result
+
+template <StiffnessTable (*change)(const StiffnessTable&)>
+StiffnessTable of_table(const TabulatedMesh& mesh) {
+  return change(mesh.table);
+}
 
 constexpr std::size_t all_meshes = static_cast<std::size_t>(-1);
 
@@ -41,7 +46,7 @@ class Comparison {
   }
 
   /// |difference| of every result to the unchanged tables, one mesh or all of them changed.
-  Differences differences(TableChange change, std::size_t mesh, const std::string& what) {
+  Differences differences(const TableChange& change, std::size_t mesh, const std::string& what) {
     Differences result;
     for (const auto& entry : nominal_.figures.entries()) result[entry.key] = not_known;
     const Evaluation* base = unchanged();
@@ -74,11 +79,11 @@ class Comparison {
     return base_ ? &*base_ : nullptr;
   }
 
-  [[nodiscard]] std::vector<StiffnessTable> tables(TableChange change, std::size_t mesh) const {
+  [[nodiscard]] std::vector<StiffnessTable> tables(const TableChange& change, std::size_t mesh) const {
     std::vector<StiffnessTable> list;
     for (std::size_t i = 0; i < model_.meshes.size(); ++i) {
-      const auto& table = model_.meshes[i].table;
-      list.push_back(change && (mesh == all_meshes || mesh == i) ? change(table) : table);
+      const auto& given = model_.meshes[i];
+      list.push_back(change && (mesh == all_meshes || mesh == i) ? change(given) : given.table);
     }
     return list;
   }
@@ -92,8 +97,8 @@ class Comparison {
 /// What the error estimate of one mesh's stiffness does to every result; NaN where one of the changes is not known.
 Differences stiffness_differences(Comparison& comparison, const TabulatedModel& model, std::size_t mesh) {
   const auto in_mesh = " in the " + model.meshes[mesh].name;
-  auto part = comparison.differences(stiffer, mesh, "more stiffness" + in_mesh);
-  for (const auto& [key, ripple] : comparison.differences(more_rippled, mesh, "more ripple" + in_mesh)) {
+  auto part = comparison.differences(of_table<stiffer>, mesh, "more stiffness" + in_mesh);
+  for (const auto& [key, ripple] : comparison.differences(of_table<more_rippled>, mesh, "more ripple" + in_mesh)) {
     double& larger = part.at(key);
     larger = std::isnan(larger + ripple) ? not_known : std::max(larger, ripple);
   }
@@ -114,8 +119,9 @@ void add_stiffness_error(double error, const ErrorParts& of_stiffness, ErrorPart
 
 constexpr double smallest_jump = 1e-3;  // relative to the mean stiffness
 
-StiffnessTable jumps_to_stiffer(const StiffnessTable& table) { return with_jumps(table, JumpSide::stiffer); }
-StiffnessTable jumps_to_softer(const StiffnessTable& table) { return with_jumps(table, JumpSide::softer); }
+TableChange jumps(JumpSide side) {
+  return [side](const TabulatedMesh& mesh) { return with_jumps(mesh.table, side, mesh.uptake); };
+}
 StiffnessTable much_coarser(const StiffnessTable& table) { return coarser(coarser(table)); }
 
 Differences interpolation_differences(Comparison& comparison, const TabulatedModel& model) {
@@ -124,7 +130,7 @@ Differences interpolation_differences(Comparison& comparison, const TabulatedMod
                        [&](const TabulatedMesh& mesh) { return mesh.table.phases() % by == 0; });
   };
   if (!divisible(2) || model.meshes.empty()) return {};
-  auto part = comparison.differences(coarser, all_meshes, "half the phases");
+  auto part = comparison.differences(of_table<coarser>, all_meshes, "half the phases");
   const auto enlarge = [&part](const Differences& differences, double weight) {
     for (const auto& [key, difference] : differences) {
       double& larger = part.at(key);
@@ -133,12 +139,13 @@ Differences interpolation_differences(Comparison& comparison, const TabulatedMod
   };
   // Where slopes jump, the error is as large as the change by twice the distance between phases. That change may be
   // small by chance; the one by four times the distance then is not.
-  if (divisible(4)) enlarge(comparison.differences(much_coarser, all_meshes, "a quarter of the phases"), 0.25);
+  if (divisible(4))
+    enlarge(comparison.differences(of_table<much_coarser>, all_meshes, "a quarter of the phases"), 0.25);
   // Vibrations that are faster than the phases follow each other show in none of these.
   if (std::any_of(model.meshes.begin(), model.meshes.end(),
-                  [](const TabulatedMesh& mesh) { return largest_jump(mesh.table) > smallest_jump; })) {
-    enlarge(comparison.differences(jumps_to_stiffer, all_meshes, "early and long contact"), 1);
-    enlarge(comparison.differences(jumps_to_softer, all_meshes, "late and short contact"), 1);
+                  [](const TabulatedMesh& mesh) { return largest_jump(mesh.table, mesh.uptake) > smallest_jump; })) {
+    enlarge(comparison.differences(jumps(JumpSide::stiffer), all_meshes, "early and long contact"), 1);
+    enlarge(comparison.differences(jumps(JumpSide::softer), all_meshes, "late and short contact"), 1);
   }
   return part;
 }

@@ -24,6 +24,9 @@ struct TabulatedMesh {
   /// Relative error of the mean stiffness by its causes: the proportions in which an error of a result is divided. All
   /// zero where they are not known: discretisation then has all of it.
   ErrorParts mean_stiffness_parts{};
+  /// Share of a mesh cycle within which a tooth pair takes up a load of 1 N; that of other loads goes with their root.
+  /// 0 where it is not known: at once.
+  double uptake = 0;
 };
 
 /// A lumped model as a function of its tables.
@@ -43,8 +46,8 @@ struct TabulatedModel {
 ///   its error estimate (core/table_variants.h), mesh by mesh, divided in the proportions of that stiffness' own parts;
 /// - interpolation: the |difference| with every second phase only, all meshes at once, or a quarter of that with every
 ///   fourth one where that is larger: curves between the phases converge with an order between one (where slopes jump)
-///   and two; or the |difference| with what the stiffness jumps between two phases made at once, as early or as late as
-///   possible, where that is larger. Not known for an odd number of phases;
+///   and two; or the |difference| with what the stiffness jumps between two phases made as suddenly as tooth pairs take
+///   up their load, and as early or as late as possible, where that is larger. Not known for an odd number of phases;
 /// - integration: the nominal error.
 /// A part is not known (NaN) where the model cannot be solved on a changed table.
 [[nodiscard]] FigureSet propagate_errors(const Evaluation& nominal, const TabulatedModel& model);

@@ -78,32 +78,39 @@ BOOST_AUTO_TEST_CASE(a_jump_is_made_at_either_end_of_its_interval) {
   const double low = 1e9, high = 1.5e9;
   const auto table = curve_of({low, low, low, high, high, high, high, low});
   /// Beside both ends of the interval and amid it.
-  const auto expect = [&](JumpSide side, int phase, const std::vector<double>& expected) {
-    const auto all = stiffnesses(with_jumps(table, side));
+  const auto expect = [&](JumpSide side, int phase, double uptake, const std::vector<double>& expected) {
+    const auto all = stiffnesses(with_jumps(table, side, uptake));
     const std::size_t parts = all.size() / 8, first = parts * static_cast<std::size_t>(phase);
     const std::vector<double> found = {all[first], all[first + 1], all[first + parts / 2], all[first + parts - 1],
                                        all[(first + parts) % all.size()]};
     BOOST_TEST(found == expected, boost::test_tools::tolerance(1e-12) << boost::test_tools::per_element());
   };
-  expect(JumpSide::stiffer, 2, {low, high, high, high, high});
-  expect(JumpSide::softer, 2, {low, low, low, low, high});
-  expect(JumpSide::stiffer, 6, {high, high, high, high, low});
-  expect(JumpSide::softer, 6, {high, low, low, low, low});
-  expect(JumpSide::softer, 4, {high, high, high, high, high});
-  BOOST_TEST(largest_jump(table) == (high - low) / (0.5 * (low + high)), boost::test_tools::tolerance(1e-12));
+  expect(JumpSide::stiffer, 2, 0, {low, high, high, high, high});
+  expect(JumpSide::softer, 2, 0, {low, low, low, low, high});
+  expect(JumpSide::stiffer, 6, 0, {high, high, high, high, low});
+  expect(JumpSide::softer, 6, 0, {high, low, low, low, low});
+  expect(JumpSide::softer, 4, 0, {high, high, high, high, high});
+  // At 1000 N a jump takes a quarter of the interval, or all of it.
+  const double quarter = 1.0 / 32 / std::sqrt(1e3);
+  const auto first = stiffnesses(with_jumps(table, JumpSide::stiffer, quarter));
+  BOOST_TEST(first[2 * 128 + 16] == 0.5 * (low + high), boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(first[2 * 128 + 32] == high, boost::test_tools::tolerance(1e-12));
+  expect(JumpSide::stiffer, 4, 5 * quarter, {high, high, high, high, high});
+  BOOST_TEST(largest_jump(table, 5 * quarter) == 0.0);
+  BOOST_TEST(largest_jump(table, 0) == (high - low) / (0.5 * (low + high)), boost::test_tools::tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(a_jump_in_two_intervals_is_as_large_as_in_one) {
   // A phase amid the jump: half of it on either side.
   const auto table = curve_of({1e9, 1e9, 1.25e9, 1.5e9, 1.5e9, 1.5e9, 1.5e9, 1.25e9});
-  BOOST_TEST(largest_jump(table) == 0.25e9 / 1.3125e9, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(largest_jump(table, 0) == 0.25e9 / 1.3125e9, boost::test_tools::tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(smooth_curves_have_no_jumps) {
   const auto jump = [](int phases) {
     std::vector<double> values;
     for (int i = 0; i < phases; ++i) values.push_back(1e9 * (1 + 0.1 * std::cos(2 * std::numbers::pi * i / phases)));
-    return largest_jump(curve_of(values));
+    return largest_jump(curve_of(values), 0);
   };
   // Changes of neighbours differ by h^2 k'' at most.
   for (const int phases : {32, 64, 128}) BOOST_TEST(jump(phases) <= 0.1 * std::pow(2 * std::numbers::pi / phases, 2));

@@ -291,7 +291,7 @@ BOOST_AUTO_TEST_CASE(jumps_that_a_table_does_not_resolve_are_within_its_error) {
     const auto nominal = evaluate({table});
     const auto found = propagate_errors(
         nominal,
-        {.meshes = {{"mesh", table, {}}}, .evaluate = evaluate, .seeks_steady_state = true, .nominal_alike = true});
+        {.meshes = {{"mesh", table}}, .evaluate = evaluate, .seeks_steady_state = true, .nominal_alike = true});
     auto exact = pair;
     exact.mesh = wave;
     options.samples_per_cycle = 1024;
