@@ -10,6 +10,7 @@
 #include "core/errors.h"
 #include "core/log.h"
 #include "core/table_variants.h"
+#include "dynamics/figures/common_figures.h"
 
 namespace annulus::dynamics {
 
@@ -199,6 +200,7 @@ FigureSet propagate_errors(const Evaluation& nominal, const TabulatedModel& mode
         add_stiffness_error(by_mesh[i].at(entry.key), model.meshes[i].mean_stiffness_parts, parts);
     result.set(entry.key, {entry.figure.value, parts.total()}, parts);
   }
+  widen_frequencies(result);
   return result;
 }
 

@@ -49,6 +49,7 @@ struct TabulatedModel {
 ///   and two; or the |difference| with what the stiffness jumps between two phases made as suddenly as tooth pairs take
 ///   up their load, and as early or as late as possible, where that is larger. Not known for an odd number of phases;
 /// - integration: the nominal error.
+/// Errors of frequencies are then widened to neighbours that may change places with them.
 /// A part is not known (NaN) where the model cannot be solved on a changed table.
 [[nodiscard]] FigureSet propagate_errors(const Evaluation& nominal, const TabulatedModel& model);
 

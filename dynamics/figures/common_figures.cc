@@ -4,6 +4,12 @@
 
 namespace annulus::dynamics {
 
+namespace {
+
+std::string frequency_key(int i) { return fmt::format("frequency_{}_Hz", i); }
+
+}  // namespace
+
 FigureSpec steady_figure() {
   return {.key = "steady",
           .title = "Periodic",
@@ -40,7 +46,7 @@ FigureSpec contact_loss_figure(const std::string& key, const std::string& title,
 std::vector<FigureSpec> frequency_specs(int count, const std::string& definition) {
   std::vector<FigureSpec> list;
   for (int i = 1; i <= count; ++i)
-    list.push_back({.key = fmt::format("frequency_{}_Hz", i),
+    list.push_back({.key = frequency_key(i),
                     .title = fmt::format("Natural frequency {}", i),
                     .unit = "Hz",
                     .definition = definition,
@@ -60,7 +66,7 @@ FigureSet frequency_figures(const std::vector<Frequency>& frequencies, int count
   int found = 0;
   for (const auto& [figure, parts] : frequencies) {
     if (found == count || !(figure.value > last * apart) || !(figure.value > 0)) continue;
-    set.set(fmt::format("frequency_{}_Hz", ++found), figure, parts);
+    set.set(frequency_key(++found), figure, parts);
     last = figure.value;
   }
   return set;
@@ -70,6 +76,15 @@ FigureSet frequency_figures(const Modes& modes, int count, Multiples multiples) 
   std::vector<Frequency> list;
   for (const auto& mode : modes.modes) list.push_back({{mode.frequency, 0}});
   return frequency_figures(list, count, multiples);
+}
+
+void widen_frequencies(FigureSet& figures) {
+  std::vector<Frequency> list;
+  const auto next = [&] { return figures.find(frequency_key(static_cast<int>(list.size()) + 1)); };
+  for (const auto* entry = next(); entry; entry = next()) list.push_back({entry->figure, entry->parts});
+  widen_to_neighbours(list);
+  for (std::size_t i = 0; i < list.size(); ++i)
+    figures.set(frequency_key(static_cast<int>(i) + 1), list[i].figure, list[i].parts);
 }
 
 }  // namespace annulus::dynamics

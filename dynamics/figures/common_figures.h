@@ -27,5 +27,7 @@ enum class Multiples {
 [[nodiscard]] FigureSet frequency_figures(const std::vector<Frequency>& frequencies, int count, Multiples multiples);
 /// The same for modes that are exact for the model they belong to.
 [[nodiscard]] FigureSet frequency_figures(const Modes& modes, int count, Multiples multiples);
+/// Errors of the frequencies among `figures`, widened to neighbours that may change places with them.
+void widen_frequencies(FigureSet& figures);
 
 }  // namespace annulus::dynamics

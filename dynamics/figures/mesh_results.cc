@@ -65,8 +65,8 @@ struct MeshWindow {
     if (!jumps()) return averaged_peak(force(), window.samples_per_cycle);
     return averaged_peak(averaging_force(window).middleRows(first, count), window.samples_per_cycle);
   }
-  /// From every second sample: behind jumps, and where forces vibrate faster than they are sampled, the trapezoidal rule
-  /// is no longer exact to rounding.
+  /// From every second sample: behind jumps, and where forces vibrate faster than they are sampled, the trapezoidal
+  /// rule is no longer exact to rounding.
   [[nodiscard]] Peak averaged_coarsely() const {
     if (window.samples_per_cycle % 2 != 0) return averaged();
     const Eigen::Index samples = window.force.cols() / 2;

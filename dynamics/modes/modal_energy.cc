@@ -98,18 +98,16 @@ std::string mode_name(const GroupedEnergy& energy, Eigen::Index mode) {
   return energy.bodies[static_cast<std::size_t>(body)] + " on " + energy.groups[static_cast<std::size_t>(group)];
 }
 
-namespace {
-
-/// The n-th of frequencies in order is within the n-th of their lower and of their upper ends: where error bars of
-/// neighbours overlap, either may be the n-th.
-void widen_to_neighbours(std::vector<Frequency>& list) {
-  const auto own = list;
+void widen_to_neighbours(std::vector<Frequency>& frequencies) {
+  if (std::any_of(frequencies.begin(), frequencies.end(), [](const auto& f) { return std::isnan(f.figure.error); }))
+    return;
+  const auto own = frequencies;
   for (const double side : {-1.0, 1.0}) {
     const auto end = [&](const Frequency& f) { return f.figure.value + side * f.figure.error; };
     auto order = own;
     std::stable_sort(order.begin(), order.end(), [&](const auto& a, const auto& b) { return end(a) < end(b); });
-    for (std::size_t n = 0; n < list.size(); ++n) {
-      auto& [figure, parts] = list[n];
+    for (std::size_t n = 0; n < frequencies.size(); ++n) {
+      auto& [figure, parts] = frequencies[n];
       const double reach = side * (end(order[n]) - figure.value);
       if (reach <= figure.error * (1 + 1e-12)) continue;
       // Those that may have changed places with it.
@@ -122,8 +120,6 @@ void widen_to_neighbours(std::vector<Frequency>& list) {
     }
   }
 }
-
-}  // namespace
 
 std::vector<Frequency> frequency_errors(const Modes& modes, const GroupedEnergy& energy,
                                         const std::vector<GroupError>& errors) {

@@ -46,6 +46,10 @@ struct Frequency {
   ErrorParts parts{};
 };
 
+/// The n-th of frequencies in order is within the n-th of their lower and of their upper ends: where error bars of
+/// neighbours overlap, either may be the n-th. Nothing changes where an error is not known.
+void widen_to_neighbours(std::vector<Frequency>& frequencies);
+
 /// The relative error of a quantity that some groups of elements are made of.
 struct GroupError {
   std::vector<std::string> groups;
@@ -56,8 +60,7 @@ struct GroupError {
   double sensitivity = 0.5;
 };
 /// The error of a frequency is the sum of the relative errors times sensitivity and share of the strain energy of the
-/// mode; all quantities are taken to err the same way. Frequencies are known by their order: an error reaches to what
-/// takes the place of a frequency within the errors of its neighbours.
+/// mode; all quantities are taken to err the same way; widened to neighbours.
 [[nodiscard]] std::vector<Frequency> frequency_errors(const Modes& modes, const GroupedEnergy& energy,
                                                       const std::vector<GroupError>& errors);
 
