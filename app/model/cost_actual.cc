@@ -61,18 +61,19 @@ Json cost_json(const PlanCost& done) {
                {"actual_s", json_number(done.actual_seconds())},
                {"predicted_peak_MB", json_number(done.peak_MB())}};
   for (const auto& step : done.steps) {
-    json["steps"].push_back({{"step", to_text(step.kind)},
-                             {"name", step.label},
-                             {"predicted_s", json_number(step.predicted.seconds)},
-                             {"actual_s", step.actual->seconds()},
-                             {"law", cost_law(step.actual->work).name},
-                             {"degree", step.actual->degree},
-                             {"level", step.actual->level},
-                             {"levels", step.actual->levels},
-                             {"unknowns", step.actual->unknowns},
-                             {"contacts", step.actual->contacts},
-                             {"supports", step.actual->supports},
-                             {"integration_s", json_number(step.actual->integration_s)}});
+    json["steps"].push_back(
+        {{"step", to_text(step.kind)},
+         {"name", step.label},
+         {"predicted_s", json_number(step.predicted.seconds)},
+         {"actual_s", step.actual->seconds()},
+         {"law", step.kind == CostKind::files ? to_text(step.kind) : cost_law(step.actual->work).name},
+         {"degree", step.actual->degree},
+         {"level", step.actual->level},
+         {"levels", step.actual->levels},
+         {"unknowns", step.actual->unknowns},
+         {"contacts", step.actual->contacts},
+         {"supports", step.actual->supports},
+         {"motion_s", json_number(step.actual->motion_s)}});
     if (step.actual->processor_s > 0) json["steps"].back()["processor_s"] = step.actual->processor_s;
   }
   return json;

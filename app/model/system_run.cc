@@ -67,6 +67,10 @@ std::optional<CostRun> SystemRun::actual(const CostStep& step) const {
         return actual_time(step.size, responses[i]->seconds);
     return std::nullopt;
   }
+  if (step.kind == CostKind::files) {
+    const auto other = std::find_if(timings.begin(), timings.end(), [](const auto& t) { return t.first == "other"; });
+    return other == timings.end() ? std::nullopt : std::optional(actual_time(step.size, other->second));
+  }
   for (const auto* mesh : meshes()) {
     if (step.kind == CostKind::mesh && mesh->model.label() == step.label) return actual_mesh(step.size, *mesh);
     if (step.kind == CostKind::coupling && mesh->model.ring == step.ring)

@@ -11,7 +11,7 @@
 
 namespace annulus::app {
 
-enum class CostKind { mesh, coupling, response, studies };
+enum class CostKind { mesh, coupling, response, files, studies };
 [[nodiscard]] const char* to_text(CostKind kind);
 
 /// One step of a run: what it will cost and, after it, what it did.
@@ -19,7 +19,7 @@ struct CostStep {
   CostKind kind = CostKind::mesh;
   std::string label{};                       ///< for people: "sun-planet mesh", "coupling through 'pinned'"
   std::string ring{};                        ///< empty for the sun mesh and studies
-  CostRun size{};                            ///< as predicted; of no meaning for studies
+  CostRun size{};                            ///< as predicted; of no meaning for files and studies
   std::string cause{};                       ///< "it follows from dynamics.mesh_cycles": what would change its cost
   PredictedCost predicted{};                 ///< infinite where time integration needs endless steps
   std::optional<PredictedCost> quadratic{};  ///< of a mesh, if linear elements turn out not to be accurate enough
@@ -61,6 +61,11 @@ struct PlannedResponse {
   CostRun size;
   double study_s = 0;  ///< processor time of the same response in a study
 };
+
+/// Responses on changed tables that carry the errors of `tables` tables (dynamics::propagate_errors): each of them
+/// stiffer and more rippled, all with fewer phases and with sudden jumps, and the unchanged ones solved in the same
+/// way.
+[[nodiscard]] int comparisons(int tables);
 
 /// What one study will take.
 struct StudyPlan {

@@ -88,7 +88,7 @@ Blocks cost_blocks(const SystemRun& run) {
                     .style = PageTable::Style::numbers};
     for (const auto& step : done.steps)
       steps.rows.push_back({step.label, duration_text(step.predicted.seconds), duration_text(step.actual->seconds()),
-                            step.kind == CostKind::coupling ? "–" : memory_text(step.predicted.peak_MB)});
+                            std::isnan(step.predicted.peak_MB) ? "–" : memory_text(step.predicted.peak_MB)});
     blocks += paragraph("Cost of the steps that were not reused, as predicted before the run and as measured: " +
                         cost_sentence(run) + ".") +
               steps;

@@ -6,16 +6,31 @@
 
 namespace annulus::dynamics {
 
-/// Rough time on one core (s) for the integration of `cycles` mesh cycles with the method and tolerance of the options.
-/// It follows from the steps that stability or accuracy need, so slow speeds and stiff supports cost in proportion.
-/// Loss of contact, which restarts the integrator, is not predicted and doubles it. `mesh_frequency` in Hz.
-[[nodiscard]] double integration_seconds(const LumpedSystem& system, double mesh_frequency, double cycles,
-                                         const IntegratorOptions& options);
+/// What the stiffness of a system will be once it is known.
+enum class StiffnessCourse {
+  smooth,
+  tabulated  ///< teeth come into contact and leave it: every time the fast motions are excited
+};
 
-/// Rough number of mesh cycles that are integrated in time for a response of this period (mesh cycles). It is the
-/// window that confirms a periodic solution or, where none is possible, the windows until two agree. Nearly undamped
-/// motions take more, up to `max_windows`.
-[[nodiscard]] double integrated_cycles(const LumpedSystem& system, double mesh_frequency, int period,
-                                       const SimulationOptions& options);
+/// Rough time on one core (s) for the integration of `cycles` mesh cycles with the method and tolerance of the options.
+/// It follows from the steps that stability or accuracy need, so slow speeds, stiff supports and tight tolerances cost
+/// in proportion. Loss of contact, which restarts the integrator, is not predicted and doubles it. `mesh_frequency` in
+/// Hz.
+[[nodiscard]] double integration_seconds(const LumpedSystem& system, double mesh_frequency, double cycles,
+                                         const IntegratorOptions& options,
+                                         StiffnessCourse course = StiffnessCourse::smooth);
+
+/// What steady_response will do.
+struct SteadyCourse {
+  double cycles = 0;           ///< mesh cycles integrated in time, those that estimate the integrator's error included
+  double compared_cycles = 0;  ///< the same for each comparison with changed tables (comparison_options)
+  double balance_s = 0;        ///< s, of each harmonic balance, which is the comparison where no cycles are
+};
+/// Rough prediction for a motion that repeats after `period` mesh cycles. A harmonic balance is confirmed by one window
+/// where its samples suffice, which long periods do not allow: then windows are integrated until two agree. Nearly
+/// undamped motions take more, up to `max_windows`.
+[[nodiscard]] SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, int period,
+                                         const SimulationOptions& options,
+                                         StiffnessCourse course = StiffnessCourse::smooth);
 
 }  // namespace annulus::dynamics

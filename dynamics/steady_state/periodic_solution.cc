@@ -51,9 +51,9 @@ PeriodicSearch solve_piecewise(const LumpedSystem& system, const SteadyProblem& 
   return search;
 }
 
-/// Limit of the samples of a harmonic balance: higher where the period is short. Long periods have as many as any run
-/// begins with, which costs far less than to integrate them in time.
-int most_samples_per_cycle(int period, int most_of_a_period) {
+/// Higher where the period is short. Long periods have as many as any run begins with, which costs far less than to
+/// integrate them in time.
+int samples_within(int period, int most_of_a_period) {
   constexpr int least = 32, most = 512;
   return std::clamp(most_of_a_period / period, least, most);
 }
@@ -71,8 +71,8 @@ PeriodicOptions balance_options(const SteadyProblem& problem, const SimulationOp
   if (options.sampling == Sampling::as_needed) {
     balance.sampling_tolerance = sampling_tolerance(options.steady_tolerance) * problem.force_scale;
     // Newton's method stores dozens of vectors of unknowns, a look stores a few.
-    balance.max_samples_per_cycle = most_samples_per_cycle(problem.period_in_cycles, 1 << 13);
-    balance.max_samples_ahead = most_samples_per_cycle(problem.period_in_cycles, 1 << 15);
+    balance.max_samples_per_cycle = most_samples_per_cycle(problem.period_in_cycles);
+    balance.max_samples_ahead = samples_within(problem.period_in_cycles, 1 << 15);
   }
   return balance;
 }
@@ -170,6 +170,8 @@ void examine_stability(const LumpedSystem& system, const SteadyProblem& problem,
 }
 
 }  // namespace
+
+int most_samples_per_cycle(int period) { return samples_within(period, 1 << 13); }
 
 bool PeriodicSearch::loses_contact() const {
   return windows && windows->fine.open.size() > 0 && windows->fine.open.maxCoeff() > 0;

@@ -43,4 +43,7 @@ struct PeriodicSearch {
 [[nodiscard]] PeriodicSearch find_periodic_solution(const LumpedSystem& system, const SteadyProblem& problem,
                                                     int cycles, const SimulationOptions& options);
 
+/// Limit of the samples of a harmonic balance over `period` mesh cycles.
+[[nodiscard]] int most_samples_per_cycle(int period);
+
 }  // namespace annulus::dynamics

@@ -82,8 +82,7 @@ BOOST_AUTO_TEST_CASE(predictions_grow_with_the_work) {
     BOOST_TEST(app::predicted_cost(size, 2).seconds < base.seconds);
     BOOST_TEST(app::predicted_cost(size, 2).seconds > base.seconds / 2.01);
     BOOST_TEST(app::predicted_cost(size, 2).peak_MB > base.peak_MB);
-    BOOST_TEST(more([](auto& s) { s.integration_s = 3; }).seconds == base.seconds + 3,
-               boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(more([](auto& s) { s.motion_s = 3; }).seconds == base.seconds + 3, boost::test_tools::tolerance(1e-12));
     size.tasks = 1;
     BOOST_TEST(app::predicted_cost(size, 2).seconds == base.seconds);
   }

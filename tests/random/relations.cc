@@ -139,6 +139,22 @@ Relation listed_pins() {
           same};
 }
 
+/// Twice the planets under twice the power: the same force on each.
+Relation more_planets() {
+  return {"twice the planets", Agreement::rounding,
+          [](const RandomScene& scene) -> std::optional<RunPair> {
+            auto tables = scene.draft;
+            if (tables.text_of("stage.kind") != "planetary" || tables.find("stage.planet_angles_deg") != nullptr)
+              return std::nullopt;
+            for (const auto* table : {"errors", "dynamics"}) tables.remove_table(table);
+            auto more = tables;
+            more.set("stage.planets", 2 * static_cast<long>(tables.number("stage.planets")));
+            more.scale("stage.power_kW", 2);
+            return RunPair{cheap(tables, scene), cheap(more, scene)};
+          },
+          of_tables};
+}
+
 /// The other hand, with what changes along the face width turned round as well. Rings that are held at one end are not
 /// symmetric.
 Relation mirror() {
@@ -261,7 +277,7 @@ double ComparedResult::effectivity() const {
 const std::vector<Relation>& relations() {
   static const std::vector<Relation> list = {accuracy(), chosen_model(),  models(),        size(),
                                              material(), pins_by_a_gap(), pins_by_teeth(), listed_pins(),
-                                             mirror(),   reuse(),         threads()};
+                                             mirror(),   more_planets(),  reuse(),         threads()};
   return list;
 }
 

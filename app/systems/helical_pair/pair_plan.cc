@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "app/model/stiff_supports.h"
 #include "app/systems/helical_pair/pair_run.h"
@@ -80,42 +79,47 @@ std::vector<std::string> pair_remarks(const Scene& scene, const PairGeometry& ge
   return list;
 }
 
-/// Time integration of one response: of `mesh_cycles`, else of the window that confirms it.
-double pair_integration_seconds(const Scene& scene) {
+/// The pair before its stiffness is computed.
+dynamics::HelicalPair rough_pair(const Scene& scene) {
   const auto& given = scene.pinion_wheel;
   dynamics::MeshExcitation mesh = dynamics::ConstantStiffness{rough_stiffness(scene, given)};
   if (given.stiffness == StiffnessShape::rectangular)
     mesh = dynamics::RectangularStiffness{*given.mean, *given.ripple, *given.duty, 0};
-  const auto pair = make_pair(scene, make_pair_geometry(scene), mesh, 0);
-  const auto options = pair_simulation(scene);
-  const int cycles = scene.dynamics->mesh_cycles.value_or(
-      std::min(std::max(pair.error_period(), options.min_window_cycles), options.max_window_cycles));
-  return dynamics::integration_seconds(assemble(pair), pair.mesh_frequency(), cycles, options.integrator);
+  return make_pair(scene, make_pair_geometry(scene), mesh, 0);
 }
 
 }  // namespace
 
 std::vector<PlannedResponse> pair_responses(const Scene& scene) {
   if (!scene.dynamics) return {};
-  // Four motions give the shares at one torque, three the causes at one speed.
-  double responses = 1;
+  // Four motions give the shares at one torque, three the causes at one speed, by harmonic balance.
+  double shares = 0;
   if (scene.transmission_error)
-    responses += 4.0 * static_cast<double>(scene.transmission_error->pinion_torques.size()) +
-                 3.0 * static_cast<double>(scene.transmission_error->pinion_speeds.size());
-  // An error of the pinion or the wheel passes once a turn.
-  const bool turns = scene.errors.pinion_error != 0 || scene.errors.wheel_error != 0;
-  const int period = turns ? std::lcm(scene.pinion.teeth, scene.wheel.teeth) : 1;
+    shares = 4.0 * static_cast<double>(scene.transmission_error->pinion_torques.size()) +
+             3.0 * static_cast<double>(scene.transmission_error->pinion_speeds.size());
+  const auto pair = rough_pair(scene);
+  const int period = pair.error_period();
+  const auto system = assemble(pair);
+  const auto options = pair_simulation(scene);
+  const bool computed = scene.pinion_wheel.stiffness == StiffnessShape::computed;
+  const auto stiffness = computed ? dynamics::StiffnessCourse::tabulated : dynamics::StiffnessCourse::smooth;
+  const auto course = dynamics::steady_course(system, pair.mesh_frequency(), period, options, stiffness);
+  const double per_cycle =
+      dynamics::integration_seconds(system, pair.mesh_frequency(), 1, options.integrator, stiffness);
+  const double runs = comparisons(computed ? 1 : 0);
   const auto& asked = scene.dynamics->mesh_cycles;
-  const double once = pair_integration_seconds(scene);
-  // Of all responses, only the first one is confirmed by time integration. Studies take 4 ms at the ends of a torque
-  // and speed grid, some tens where contact is lost; a wave once per turn makes the window longer.
+  const bool integrated = course.compared_cycles > 0;
+  const double cycles = course.cycles + runs * course.compared_cycles + (asked ? shares * *asked : 0);
+  const double balances = course.balance_s * ((integrated ? 0 : 1 + runs) + (asked ? 0 : shares));
+  // Studies take 4 ms at the ends of a torque and speed grid, some tens where contact is lost; a wave once per turn
+  // makes the window longer.
   return {{.label = "dynamics of the pair",
            .ring = "",
            .size = {.work = Work::response_pair,
-                    .unknowns = responses * std::min(period, asked.value_or(period)),
-                    .integration_s = (asked ? responses : 1) * once,
-                    .tasks = static_cast<int>(responses)},
-           .study_s = (turns ? 0.5 : 0.02) + (asked ? once : 0)}};
+                    .unknowns = (1 + shares) * std::min(period, asked.value_or(period)),
+                    .motion_s = balances + cycles * per_cycle,
+                    .tasks = static_cast<int>(1 + shares)},
+           .study_s = (period > 1 ? 0.5 : 0.02) + (asked ? *asked * per_cycle : 0)}};
 }
 
 void describe_pair(const Scene& scene, const PairGeometry& geometry, Plan& plan) {

@@ -8,6 +8,7 @@
 #include "core/csv.h"
 #include "core/errors.h"
 #include "core/log.h"
+#include "dynamics/steady_state/integration_cost.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 
 namespace annulus::app {
@@ -15,6 +16,7 @@ namespace annulus::app {
 namespace {
 
 constexpr int lead_cycles = 220, evaluated_cycles = 110;  // the start has decayed; two periods of 55-tooth planets
+constexpr double longest = 10;                            // s, of one model: the comparison is an extra
 
 using Row = CouplingEffect::Row;
 
@@ -36,16 +38,24 @@ CouplingEffect coupling_effect(const dynamics::PlanetaryStage& uncoupled, const 
   effect.cycles = evaluated_cycles;
   for (const auto model : {RimCoupling::none, RimCoupling::statical, RimCoupling::elastic}) {
     if (model == RimCoupling::elastic && solved.coupling.modes.empty()) continue;
+    const char* name = model == RimCoupling::elastic ? "elastic modes" : model == RimCoupling::none ? "none" : "static";
     dynamics::PlanetaryStage stage = uncoupled;
     stage.ring_coupling = taken_coupling(solved, model);
+    const double seconds =
+        dynamics::integration_seconds(assemble(stage), stage.mesh_frequency(), lead_cycles + evaluated_cycles,
+                                      integrated.integrator, dynamics::StiffnessCourse::tabulated);
+    if (!(seconds <= longest)) {
+      log::info(
+          fmt::format("coupling through the ring, {}: not compared, it would take about {:.0f} s", name, seconds));
+      continue;
+    }
     try {
       const auto figures = dynamics::figures(dynamics::simulate(stage, integrated));
       auto& row = effect.rows.emplace_back(Row{.model = model});
       for (const auto& [key, value] : row_values) row.*value = figures.value(key);
     } catch (const SolverError& error) {
       // The comparison is an extra: where a model of it fails, the others stand.
-      log::info(fmt::format("coupling through the ring, {}: {}",
-                            model == RimCoupling::elastic ? "elastic modes" : "static", error.what()));
+      log::info(fmt::format("coupling through the ring, {}: {}", name, error.what()));
     }
   }
   return effect;

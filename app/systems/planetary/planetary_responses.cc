@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "app/model/stiff_supports.h"
@@ -15,10 +16,14 @@ namespace annulus::app {
 
 namespace {
 
+/// A ring held all around its outside has no modes as low as the stage's.
+bool may_have_modes(const Scene& scene, const MeshModel& ring) {
+  return may_be_coupled(scene, ring) && scene.dynamics->rim_coupling != RimCoupling::statical &&
+         !fem::held_outside(ring.problem->structure);
+}
+
 Work work_of_response(const Scene& scene, bool computed, const MeshModel& ring) {
-  // A ring held all around its outside has no modes as low as the stage's.
-  if (may_be_coupled(scene, ring) && scene.dynamics->rim_coupling != RimCoupling::statical &&
-      !fem::held_outside(ring.problem->structure))
+  if (may_have_modes(scene, ring))
     return fem::on_single_supports(ring.problem->structure) ? Work::response_pins : Work::response_elastic;
   if (!computed) return Work::response_prescribed;
   const bool integrated =
@@ -26,8 +31,8 @@ Work work_of_response(const Scene& scene, bool computed, const MeshModel& ring) 
   return integrated ? Work::response : Work::response_balanced;
 }
 
-/// Of one ring, from its stage with rough stiffness.
-PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetaryStage& stage, bool computed,
+/// Of one ring, from its stage with rough stiffness. `tables`: computed meshes.
+PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetaryStage& stage, int tables,
                                  const MeshModel& ring, const std::string& name) {
   const auto& asked = scene.dynamics->mesh_cycles;
   const auto options = simulation_options(scene, stage);
@@ -35,21 +40,32 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
   const int period =
       std::min(std::lcm(stage.error_period(), ring.positions), std::max(options.max_window_cycles, 4000));
   const auto system = assemble(stage);
-  const double cycles = dynamics::integrated_cycles(system, stage.mesh_frequency(), period, options);
-  const double once = dynamics::integration_seconds(system, stage.mesh_frequency(), cycles, options.integrator);
-  // Their errors are propagated through tables: a base, both meshes stiffer and more rippled, half the phases.
-  const double runs = computed && asked ? 7 : 1;
-  // Measured with five planets and 55 mesh cycles: 50 ms by harmonic balance. Studies integrate in time only where a
-  // number of cycles is asked for.
-  constexpr double per_cycle_and_planet = 2e-4;
-  const double balance = per_cycle_and_planet * scene.stage.planets * std::max(20, period);
+  const bool sudden = tables > 0 || std::isfinite(system.next_jump(0));
+  const auto stiffness = sudden ? dynamics::StiffnessCourse::tabulated : dynamics::StiffnessCourse::smooth;
+  const auto course = dynamics::steady_course(system, stage.mesh_frequency(), period, options, stiffness);
+  const double per_cycle =
+      dynamics::integration_seconds(system, stage.mesh_frequency(), 1, options.integrator, stiffness);
+  const double runs = comparisons(tables) + (tables > 0 ? 1 : 0);  // and on the unchanged tables in the same way
+  // The effect of the coupling, where it is found to matter: up to three responses as long as this one, or none.
+  constexpr double effect_cycles = 330;
+  const double cycles =
+      course.cycles + runs * course.compared_cycles + (may_be_coupled(scene, ring) ? effect_cycles : 0);
+  const double balances = course.balance_s * (1 + (course.compared_cycles > 0 ? 0 : runs));
+  // Laws of force over deflection, of every changed table anew; those with jumps have at least four times the phases.
+  constexpr double per_position = 3.3e-5, of_jumps = 2 * 4;
+  const int phases = ring.computed() ? ring.problem->phases : 0;
+  const double surface_s = scene.dynamics->load_dependence == dynamics::LoadDependence::table
+                               ? per_position * ring.positions * phases * (runs + of_jumps)
+                               : 0;
+  const double once = asked ? *asked * per_cycle : 0;
   // A window is stored and evaluated, however many cycles lead to it.
   return {.label = fmt::format("dynamics of '{}'", name),
           .ring = name,
-          .size = {.work = work_of_response(scene, computed, ring),
+          .size = {.work = work_of_response(scene, tables > 0, ring),
                    .unknowns = static_cast<double>(scene.stage.planets) * std::min(period, asked.value_or(period)),
-                   .integration_s = runs * once},
-          .study_s = balance + (asked ? once : 0)};
+                   .motion_s = balances + cycles * per_cycle + surface_s},
+          // Studies integrate in time only where a number of cycles is asked for.
+          .study_s = course.balance_s + once};
 }
 
 }  // namespace
@@ -57,12 +73,12 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
 std::vector<PlannedResponse> planetary_responses(const Scene& scene, const GearGeometry& geometry,
                                                  const std::vector<MeshModel>& meshes) {
   if (!scene.dynamics) return {};
-  const bool computed = std::any_of(meshes.begin(), meshes.end(), [](const MeshModel& m) { return m.computed(); });
   const Scene rough = with_rough_stiffness(scene, {&Scene::sun_planet, &Scene::ring_planet});
   const auto none = unread_table(sun_planet);
   std::vector<PlannedResponse> responses;
   for (std::size_t i = 0; i < scene.rings.size(); ++i)
-    responses.push_back(planned_response(scene, make_stage(rough, geometry, i, none, none), computed, meshes.at(i + 1),
+    responses.push_back(planned_response(scene, make_stage(rough, geometry, i, none, none),
+                                         meshes.front().computed() + meshes.at(i + 1).computed(), meshes.at(i + 1),
                                          scene.rings[i].name));
   return responses;
 }
