@@ -32,6 +32,9 @@ PlanCost actual_costs(const SystemRun& run) {
   for (auto& step : cost.steps)
     if (step.kind != CostKind::studies) step.actual = run.actual(step);
   std::erase_if(cost.steps, [](const CostStep& step) { return !step.actual; });
+  // Where nothing was computed there is nothing to compare.
+  if (std::all_of(cost.steps.begin(), cost.steps.end(), [](const CostStep& s) { return s.kind == CostKind::files; }))
+    cost.steps.clear();
   return cost;
 }
 
