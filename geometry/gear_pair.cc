@@ -60,8 +60,12 @@ double checked_working_angle(const Gear& planet, const Gear& wheel, double centr
 }  // namespace
 
 GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance)
+    : GearPair(planet, wheel, centre_distance, wheel.kind() == GearKind::internal ? Driver::pinion : Driver::wheel) {}
+
+GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance, Driver driver)
     : pinion_(planet),
       wheel_(wheel),
+      driver_(driver),
       centre_distance_(centre_distance),
       working_pressure_angle_(checked_working_angle(planet, wheel, centre_distance)),
       normal_backlash_(0) {
@@ -99,6 +103,12 @@ GearPair::GearPair(const Gear& planet, const Gear& wheel, double centre_distance
                     internal() ? "enlarge the planet's tip diameter, reduce the ring's" : "enlarge the tip diameters",
                     working_pressure_angle_ / units::deg));
   }
+}
+
+double GearPair::back_flank_phase() const {
+  const Gear& driving = driver_ == Driver::pinion ? pinion_ : wheel_;
+  const double radius = driving.base_radius() / std::cos(working_pressure_angle_);
+  return driving.tooth_thickness(radius) / (radius * driving.pitch_angle());
 }
 
 double GearPair::contact_ratio() const { return (roll_high_ - roll_low_) / pinion_.base_pitch(); }

@@ -4,6 +4,9 @@
 
 namespace annulus::geometry {
 
+/// Which gear of a pair drives the other.
+enum class Driver { pinion, wheel };
+
 /// Two gears in mesh at a working centre distance: sun and planet (external), or planet and ring (internal).
 ///
 /// Lengths along the line of action are measured on the *pinion* by its roll length rho = r_b tan(alpha_y), the
@@ -14,8 +17,10 @@ namespace annulus::geometry {
 /// interference, interfering tips of internal gears with few teeth difference, total contact ratio below 1.
 class GearPair {
  public:
-  /// `wheel` is the sun (external) or the ring (internal). Centre distance in m.
+  /// `wheel` is the sun (external) or the ring (internal). Centre distance in m. In planetary sets the sun drives the
+  /// planet and the planet the ring.
   GearPair(const Gear& pinion, const Gear& wheel, double centre_distance);
+  GearPair(const Gear& pinion, const Gear& wheel, double centre_distance, Driver driver);
 
   /// Negative backlash up to this many modules is accepted and reported as it is: profile shifts printed with four
   /// digits and centre distances printed to a hundredth of a millimetre leave that much rounding in a backlash-free
@@ -25,6 +30,11 @@ class GearPair {
   [[nodiscard]] const Gear& pinion() const { return pinion_; }
   [[nodiscard]] const Gear& wheel() const { return wheel_; }
   [[nodiscard]] bool internal() const { return wheel_.kind() == GearKind::internal; }
+  [[nodiscard]] Driver driver() const { return driver_; }
+  /// Mesh cycles after the pitch-point contact of two driving flanks at which the back flanks touch there: the tooth
+  /// thickness of the driving gear over the pitch. Back flanks of symmetric teeth are the mirror image of the driving
+  /// ones and pass their contact the other way: what these have at a phase, those have at this less the phase.
+  [[nodiscard]] double back_flank_phase() const;
   [[nodiscard]] double centre_distance() const { return centre_distance_; }
   [[nodiscard]] double working_pressure_angle() const { return working_pressure_angle_; }  ///< alpha_wt, transverse
   [[nodiscard]] double normal_backlash() const { return normal_backlash_; }  ///< j_bn, m, normal to the flanks
@@ -46,6 +56,7 @@ class GearPair {
   void check_internal_tips() const;
 
   Gear pinion_, wheel_;
+  Driver driver_;
   double centre_distance_, working_pressure_angle_, normal_backlash_;
   double roll_low_ = 0, roll_high_ = 0, roll_pitch_ = 0;
 };

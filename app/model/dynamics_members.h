@@ -19,6 +19,7 @@ struct Members<dynamics::TableStiffness> {
     bool all_loads = stiffness.surface != nullptr;
     annulus::pass(archive, all_loads);
     annulus::pass(archive, stiffness.phase_shift);
+    annulus::pass(archive, stiffness.back_flank_phase);
   }
 };
 

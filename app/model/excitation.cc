@@ -3,7 +3,7 @@
 namespace annulus::app {
 
 dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult& mesh, double nominal_load,
-                                       dynamics::LoadDependence dependence) {
+                                       dynamics::LoadDependence dependence, std::optional<double> back_flank_phase) {
   switch (input.stiffness) {
     case StiffnessShape::constant:
       return dynamics::ConstantStiffness{*input.mean};
@@ -19,7 +19,9 @@ dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult&
   }
   // A single load does not determine the stiffness at others.
   if (mesh.table.loads().size() == 1) dependence = dynamics::LoadDependence::nominal;
-  return dynamics::table_stiffness(mesh.table, nominal_load, 0, dependence);
+  auto stiffness = dynamics::table_stiffness(mesh.table, nominal_load, 0, dependence);
+  if (mesh.table.positions() == 1) stiffness.back_flank_phase = back_flank_phase;
+  return stiffness;
 }
 
 std::optional<StiffnessTable> table_behind(const dynamics::MeshExcitation& excitation, const StiffnessTable& table) {

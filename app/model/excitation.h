@@ -11,9 +11,11 @@
 namespace annulus::app {
 
 /// How the lumped model sees a mesh: the wave the scene gives, or the curves of its table at the nominal load (N) or
-/// over all of them.
+/// over all of them. `back_flank_phase`: that of the pair; back flanks have no other table, so that they have the
+/// mirror image of this one where it repeats with every mesh cycle, and the same at the same phase where it does not.
 [[nodiscard]] dynamics::MeshExcitation excitation_of(const MeshInput& input, const MeshResult& mesh,
-                                                     double nominal_load, dynamics::LoadDependence dependence);
+                                                     double nominal_load, dynamics::LoadDependence dependence,
+                                                     std::optional<double> back_flank_phase = {});
 /// The table that an excitation was made from, as an input of identities: without its provenance. Nothing where the
 /// scene prescribes the stiffness.
 [[nodiscard]] std::optional<StiffnessTable> table_behind(const dynamics::MeshExcitation& excitation,

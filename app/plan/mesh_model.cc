@@ -117,6 +117,7 @@ std::string MeshModel::id() const {
     add_gear(id, "planet", problem->pair.pinion());
     add_gear(id, "wheel", problem->pair.wheel());
     id.add("centre_distance", problem->pair.centre_distance());
+    id.add("pinion_drives", problem->pair.driver() == geometry::Driver::pinion ? 1.0 : 0.0);
     id.add("E", problem->material.youngs_modulus).add("nu", problem->material.poisson_ratio);
     id.add("face_width", problem->face_width).add("planet_bore", problem->planet_bore_radius);
     id.add("wheel_support", problem->wheel_support_radius).add("phases", problem->phases);

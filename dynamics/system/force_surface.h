@@ -29,7 +29,7 @@ namespace annulus::dynamics {
 /// polynomial per cell with continuous first derivatives.
 ///
 /// The table describes the drive flanks. For g < 0 the law continues as an odd function. It then stands for the back
-/// flanks, whose own stiffness is not tabulated, and for meshes without backlash, which pull.
+/// flanks, read at the phase of TableStiffness::back_flank_phase, and for meshes without backlash, which pull.
 class ForceSurface {
  public:
   /// Throws InputError when the deflection does not rise with the load or the resulting force does not rise with it.

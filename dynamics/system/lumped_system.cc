@@ -11,18 +11,19 @@ namespace annulus::dynamics {
 namespace {
 
 /// dU/dt at constant deflection of a mesh.
-double energy_rate(const CompiledMesh& mesh, double t, double g, const std::vector<double>& rates,
-                   const LumpedSystem::Workspace& w) {
+double energy_rate(const CompiledMesh& mesh, LumpedSystem::Contact contact, double t, double g,
+                   const std::vector<double>& rates, const LumpedSystem::Workspace& w) {
   double stiffness_rate = 0;  // the jumps of a wave are booked where they happen
   if (mesh.kind == CompiledMesh::Kind::harmonic) {
     stiffness_rate = rates[mesh.ripple.slot] *
                      (mesh.ripple.sine * w.cosine[mesh.ripple.slot] - mesh.ripple.cosine * w.sine[mesh.ripple.slot]);
   } else if (mesh.kind == CompiledMesh::Kind::table) {
-    const double cycles = mesh.frequency * t + mesh.phase_offset;
-    if (mesh.surface) return mesh.frequency * mesh.surface->energy_rate(cycles, g);
+    const auto [cycles, direction] = table_place(mesh, contact, t);
+    const double rate = direction * mesh.frequency;
+    if (mesh.surface) return rate * mesh.surface->energy_rate(cycles, g);
     double values[2], derivatives[2];
     mesh.table->evaluate(cycles, values, derivatives);
-    stiffness_rate = mesh.frequency * derivatives[0];
+    stiffness_rate = rate * derivatives[0];
   }
   return 0.5 * stiffness_rate * g * g;
 }
@@ -172,7 +173,7 @@ double LumpedSystem::energy(double t, const double* y, Workspace& w) const {
     const CompiledMesh& mesh = compiled_->meshes[m];
     const double g = penetration(mesh, w.contact[m], w.delta[m]);
     energy +=
-        mesh.surface ? mesh.surface->energy(mesh.frequency * t + mesh.phase_offset, g) : 0.5 * w.stiffness[m] * g * g;
+        mesh.surface ? mesh.surface->energy(table_place(mesh, w.contact[m], t).cycles, g) : 0.5 * w.elastic[m] * g;
   }
   for (const auto& coupling : compiled_->couplings) {
     auto k = static_cast<std::size_t>(coupling.offset);
@@ -198,7 +199,7 @@ LumpedSystem::Power LumpedSystem::power(double t, const double* y, const Workspa
     const CompiledMesh& mesh = compiled_->meshes[m];
     const double g = penetration(mesh, w.contact[m], w.delta[m]);
     p.dissipated += acting_damping(mesh, w.contact[m]) * w.delta_rate[m] * w.delta_rate[m];
-    p.supplied += energy_rate(mesh, t, g, compiled_->rates, w) - w.error_rate[m] * w.force[m];
+    p.supplied += energy_rate(mesh, w.contact[m], t, g, compiled_->rates, w) - w.error_rate[m] * w.force[m];
     for (int i = mesh.first_moving; i < mesh.last_moving; ++i)
       p.supplied += w.factor_rate[i] * q[compiled_->moving[i].dof] * w.force[m];
   }

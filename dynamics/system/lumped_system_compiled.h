@@ -36,6 +36,8 @@ struct CompiledMesh {
   double low = 0, high = 0, duty = 0;
   const CurveBundle* table = nullptr;  ///< secant and unloaded transmission error; of Compiled::bundles
   const ForceSurface* surface = nullptr;
+  bool mirrored = false;  ///< back flanks read the table at `back_flank_phase` less the phase
+  double back_flank_phase = 0;
 };
 
 struct CompiledShare {
@@ -107,6 +109,25 @@ inline LumpedSystem::Contact contact_of(const CompiledMesh& mesh, double delta) 
   return delta < -mesh.half_backlash ? LumpedSystem::Contact::back : LumpedSystem::Contact::open;
 }
 
+/// Where a table is read, mesh cycles, and how fast that moves: 1 with time or, at back flanks, -1.
+struct TablePlace {
+  double cycles = 0, direction = 1;
+};
+inline TablePlace table_place(const CompiledMesh& mesh, LumpedSystem::Contact contact, double t) {
+  const double cycles = mesh.frequency * t + mesh.phase_offset;
+  if (!mesh.mirrored || contact != LumpedSystem::Contact::back) return {cycles, 1};
+  return {mesh.back_flank_phase - cycles, -1};
+}
+
+/// Force and tangent of mirrored back flanks, which are rarely in contact and not part of the excitation.
+inline ForceSurface::Value back_flank_law(const CompiledMesh& mesh, double t, double g) {
+  const auto [cycles, direction] = table_place(mesh, LumpedSystem::Contact::back, t);
+  if (mesh.surface) return (*mesh.surface)(cycles, g);
+  double values[2], derivatives[2];
+  mesh.table->evaluate(cycles, values, derivatives);
+  return {values[0] * g, values[0]};
+}
+
 /// Elastic force and tangent by the law of one mesh, from deflection and contact state in the workspace.
 inline void apply_law(const CompiledMesh& mesh, std::size_t m, LumpedSystem::Workspace& w) {
   const auto contact = w.contact[m];
@@ -115,8 +136,9 @@ inline void apply_law(const CompiledMesh& mesh, std::size_t m, LumpedSystem::Wor
     return;
   }
   const double g = penetration(mesh, contact, w.delta[m]);
-  const auto value =
-      mesh.surface ? mesh.surface->at(w.location[m], g) : ForceSurface::Value{w.stiffness[m] * g, w.stiffness[m]};
+  const auto value = mesh.mirrored && contact == LumpedSystem::Contact::back ? back_flank_law(mesh, w.time, g)
+                     : mesh.surface                                          ? mesh.surface->at(w.location[m], g)
+                                    : ForceSurface::Value{w.stiffness[m] * g, w.stiffness[m]};
   w.elastic[m] = value.force;
   w.tangent[m] = value.tangent;
 }

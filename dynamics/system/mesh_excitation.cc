@@ -11,8 +11,12 @@ namespace annulus::dynamics {
 TableStiffness table_stiffness(const StiffnessTable& table, double load, double phase_shift,
                                LoadDependence dependence) {
   auto curves = curves_at_load(table, load);
-  return {std::move(curves.stiffness_secant), std::move(curves.stiffness_tangent), std::move(curves.unloaded_te),
-          phase_shift, dependence == LoadDependence::table ? std::make_shared<const ForceSurface>(table) : nullptr};
+  return {std::move(curves.stiffness_secant),
+          std::move(curves.stiffness_tangent),
+          std::move(curves.unloaded_te),
+          phase_shift,
+          dependence == LoadDependence::table ? std::make_shared<const ForceSurface>(table) : nullptr,
+          std::nullopt};
 }
 
 double mean_stiffness(const MeshExcitation& excitation) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -41,6 +42,9 @@ struct TableStiffness {
   PeriodicCurve unloaded_te;                      ///< m; enters e(t)
   double phase_shift = 0;                         ///< mesh cycles
   std::shared_ptr<const ForceSurface> surface{};  ///< absent: linear
+  /// Mesh cycles: at phase p back flanks have what the table has at this less p (geometry::GearPair::back_flank_phase).
+  /// Absent: what it has at p. Their unloaded transmission error is that of the driving flanks in any case.
+  std::optional<double> back_flank_phase{};
 };
 
 /// Excitation of one kind of mesh. Several meshes share it, each shifted by its own phase.

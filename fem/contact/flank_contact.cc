@@ -193,7 +193,9 @@ double FlankContact::relative_curvature(double contact_roll) const {
 }
 
 int wheel_tooth(const FlankContact& flanks, int index, int cycle) {
-  return flanks.pair().internal() ? index - cycle : -(index + cycle);
+  const auto& pair = flanks.pair();
+  const int passed = pair.driver() == geometry::Driver::pinion ? index - cycle : index + cycle;
+  return pair.internal() ? passed : -passed;
 }
 
 double pitch_point_angle(const FlankContact& flanks, int index, double roll, int cycle) {

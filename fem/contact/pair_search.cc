@@ -20,9 +20,8 @@ double ahead_of_middle(const FlankContact& flanks) {
 std::vector<std::pair<int, double>> pairs_within(const FlankContact& flanks, const PairRange& range, double phase) {
   const auto& pair = flanks.pair();
   const double pitch = pair.pinion().base_pitch(), ahead = ahead_of_middle(flanks);
-  // Along the path the contact of a tooth moves from the planet's root to its tip in the ring mesh (planet drives) and
-  // from tip to root in the sun mesh (sun drives).
-  const double direction = pair.internal() ? 1 : -1;
+  // Along the path the contact of a tooth moves from the root of the driving gear to its tip.
+  const double direction = pair.driver() == geometry::Driver::pinion ? 1 : -1;
   const double reference = pair.roll_length_pitch() + direction * phase * pitch;
   const int first = static_cast<int>(std::ceil((range.low - ahead - reference) / pitch));
   const int last = static_cast<int>(std::floor((range.high + ahead - reference) / pitch));

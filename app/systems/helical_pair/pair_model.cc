@@ -58,10 +58,10 @@ PairGeometry make_pair_geometry(const Scene& scene) {
   const auto pinion = pair_gear(scene, scene.pinion, "pinion", 1);
   const auto wheel = pair_gear(scene, scene.wheel, "wheel", -1);
   const double distance = pair_centre_distance(scene);
-  return {
-      .gears = geometry_of("pinion (as planet) and wheel", [&] { return geometry::GearPair(pinion, wheel, distance); }),
-      .base_helix_angle = std::abs(pinion.base_helix_angle()),
-      .transverse_force = std::abs(scene.stage.pinion_torque) / pinion.base_radius()};
+  return {.gears = geometry_of("pinion (as planet) and wheel",
+                               [&] { return geometry::GearPair(pinion, wheel, distance, geometry::Driver::pinion); }),
+          .base_helix_angle = std::abs(pinion.base_helix_angle()),
+          .transverse_force = std::abs(scene.stage.pinion_torque) / pinion.base_radius()};
 }
 
 dynamics::HelicalPair make_pair(const Scene& scene, const PairGeometry& geometry, const dynamics::MeshExcitation& mesh,

@@ -110,7 +110,7 @@ dynamics::MeshExcitation pair_excitation(const Scene& scene, const PairGeometry&
   MeshResult mesh;
   if (table.phases() > 0) mesh.table = fem::along_normal(table, geometry.base_helix_angle);
   return excitation_of(input, mesh, geometry.transverse_force / std::cos(geometry.base_helix_angle),
-                       scene.dynamics->load_dependence);
+                       scene.dynamics->load_dependence, geometry.gears.back_flank_phase());
 }
 
 std::vector<MeanStiffness> mean_stiffnesses(const Scene& scene, const PairGeometry& geometry, const PairMesh& mesh) {

@@ -45,8 +45,11 @@ dynamics::PlanetaryStage make_stage(const Scene& scene, const GearGeometry& geom
     stage.planet_errors.push_back({{e.planet_eccentricity[n], e.planet_eccentricity_phase[n]},
                                    {e.planet_pin_position[n], e.planet_pin_position_phase[n]}});
   }
-  stage.sun_mesh = excitation_of(scene.sun_planet, sun_mesh, point.mean_mesh_force, scene.dynamics->load_dependence);
-  stage.ring_mesh = excitation_of(scene.ring_planet, ring_mesh, point.mean_mesh_force, scene.dynamics->load_dependence);
+  const auto dependence = scene.dynamics->load_dependence;
+  stage.sun_mesh =
+      excitation_of(scene.sun_planet, sun_mesh, point.mean_mesh_force, dependence, set.sun_mesh().back_flank_phase());
+  stage.ring_mesh = excitation_of(scene.ring_planet, ring_mesh, point.mean_mesh_force, dependence,
+                                  set.ring_mesh().back_flank_phase());
   const auto supports =
       effective_supports(scene, dynamics::mean_stiffness(stage.sun_mesh), dynamics::mean_stiffness(stage.ring_mesh));
   stage.sun.support = supports.sun;

@@ -9,12 +9,12 @@ namespace annulus::app {
 namespace {
 
 std::string back_flanks(const char* mesh, std::size_t planet, const dynamics::BranchResult& branch) {
-  // The stiffness of back flanks has the same mean; over the mesh cycle it is the mirror image of that of the driving
-  // flanks.
   return fmt::format(
-      "the back flanks of planet {} carry load in its {} for {:.3g} % of the time (mean force {:.4g} kN). They are "
-      "computed with the stiffness of the driving flanks at the same phase: its mean is right, its course over the "
-      "mesh cycle is not. A larger dynamics.half_backlash_um or smaller errors avoid this",
+      "the back flanks of planet {} carry load in its {} for {:.3g} % of the time (mean force {:.4g} kN). Their "
+      "stiffness is the mirror image over the mesh cycle of that of the driving flanks; if a scene prescribes it, or "
+      "on "
+      "single supports, it is that of the driving flanks at the same phase, of which only the mean is right. A larger "
+      "dynamics.half_backlash_um or smaller errors avoid this",
       planet + 1, mesh, 100 * branch.back_flanks, branch.mean_force / 1e3);
 }
 

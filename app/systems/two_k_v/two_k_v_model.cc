@@ -159,7 +159,8 @@ dynamics::TwoKVStage make_two_k_v(const Scene& scene, const TwoKVTables& tables,
   stage.arc_inertia = *scene.arc_gear.inertia;
   stage.arc_mass = *scene.arc_gear.mass;
   stage.output_inertia = *scene.output.inertia;
-  stage.sun_mesh = excitation_of(scene.sun_planet, tables.sun, stage.mean_sun_mesh_force(), dependence);
+  stage.sun_mesh = excitation_of(scene.sun_planet, tables.sun, stage.mean_sun_mesh_force(), dependence,
+                                 sun_planet_pair(scene).back_flank_phase());
   stage.arc_mesh = excitation_of(scene.arc_pins, tables.arc, stage.mean_arc_mesh_force(), dependence);
   const double sun = mean_stiffness(stage.sun_mesh), arcs = stage.arc_gears * mean_stiffness(stage.arc_mesh);
   const auto beside = [&](double neighbours, double stiffness) {
