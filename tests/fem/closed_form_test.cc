@@ -76,6 +76,31 @@ BOOST_AUTO_TEST_CASE(contact_begins_before_the_theoretical_path) {
   BOOST_TEST(most > problem.pair.roll_length_high());
 }
 
+BOOST_AUTO_TEST_CASE(contact_moves_from_the_root_of_the_driving_gear_to_its_tip) {
+  annulus::test::Verification record("When the second pair of teeth enters, by the gear that drives",
+                                     "theoretical path of contact: the tip of the driven gear begins it");
+  // A load so small that pairs touch on the path alone.
+  auto problem = sun_mesh(256, {nominal_load / 1e4});
+  const auto& pair = problem.pair;
+  const double pitch = pair.pinion().base_pitch();
+  const double by_pinion_tip = (pair.roll_length_high() - pair.roll_length_pitch()) / pitch,
+               by_wheel_tip = (pair.roll_length_pitch() - pair.roll_length_low()) / pitch;
+  for (const auto driver : {annulus::geometry::Driver::pinion, annulus::geometry::Driver::wheel}) {
+    problem.pair = {pair.pinion(), pair.wheel(), pair.centre_distance(), driver};
+    const auto positions = solve_closed_form(problem, {}).positions;
+    double enters = -1;
+    for (std::size_t i = 1; i < positions.size(); ++i) {
+      const auto touching = [](const auto& p) {
+        return std::count_if(p.pair_share.begin(), p.pair_share.end(), [](double share) { return share > 0; });
+      };
+      if (touching(positions[i]) == 2 && touching(positions[i - 1]) == 1) enters = positions[i].mesh_phase;
+    }
+    const double before_pitch_point = driver == annulus::geometry::Driver::pinion ? by_wheel_tip : by_pinion_tip;
+    record.near("phase at which the second pair enters", "mesh cycles", enters, 1 - before_pitch_point, 0.01,
+                "two of 256 positions, and the way over which a small load is taken up");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(tip_relief_takes_load_from_entering_pairs) {
   annulus::test::Verification record("Tip relief by formulas",
                                      "the mesh without relief: less material is softer, and less of it touches");
