@@ -297,7 +297,7 @@ BOOST_AUTO_TEST_CASE(back_flanks_have_the_mirror_image_of_the_stiffness) {
     const char* const origin = "integrator: relative tolerance 1e-8";
     record.close("largest mesh force", "N", -found.force_min.value, expected.force_max.value, 1e-5, origin);
     record.close("smallest mesh force", "N", -found.force_max.value, expected.force_min.value, 1e-5, origin);
-    record.at_most("energy balance, relative", "", found.energy.relative, 1e-5,
+    record.at_most("energy balance, relative", "", found.energy.relative, 1e-4,
                    "integrator: some hundred steps of 1e-8");
     // The course itself gives another motion.
     backwards.mesh = table_stiffness(table(course), load, 0, dependence);
