@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <complex>
@@ -10,6 +9,7 @@
 
 #include "core/errors.h"
 #include "core/floating_point.h"
+#include "dynamics/modes/dense_spectrum.h"
 #include "dynamics/modes/modes.h"
 
 namespace annulus::dynamics {
@@ -64,10 +64,10 @@ void FrequencyResponse::find_eigenvalues(const Eigen::MatrixXd& shapes, Eigen::I
   state.topRightCorner(elastic, elastic).setIdentity();
   state.bottomLeftCorner(n, elastic) = -shapes.transpose() * stiffness_ * bent / (w * w);
   state.bottomRightCorner(n, n) = -shapes.transpose() * damping_ * shapes / w;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(state);
-  if (solver.info() != Eigen::Success) return;
-  eigenvalues_ = w * solver.eigenvalues();
-  const Eigen::MatrixXcd vectors = solver.eigenvectors();
+  const auto found = eigenpairs(state);
+  if (!found) return;
+  eigenvalues_ = w * found->values;
+  const Eigen::MatrixXcd& vectors = found->vectors;
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(elastic + n, b_.cols());
   force.bottomRows(n) = shapes.transpose() * b_ / w;
   inputs_ = vectors.partialPivLu().solve(force.cast<Complex>());

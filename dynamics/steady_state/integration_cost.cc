@@ -17,11 +17,13 @@ namespace {
 
 constexpr double explicit_steps_of_a_period = 2.2;  // that keep the explicit method stable
 
-/// Steps of BDF per mesh cycle. It follows fast motions that are lightly damped, period by period, until they have died
-/// out to the tolerance.
+/// Are there lightly damped motions too fast for the steps of BDF?
+bool fast_and_light(const IntegratorChoice& choice) { return choice.least_damping > 0 && choice.least_damping < 1; }
+
+/// Steps of BDF per mesh cycle. It follows such motions period by period until they have died out to the tolerance.
 double bdf_steps(const IntegratorChoice& choice, double mesh_frequency, double periods_alive) {
   const double of_a_period = 1 / (mesh_frequency * choice.implicit_step);
-  return of_a_period * std::max(1.0, periods_alive);
+  return of_a_period * (fast_and_light(choice) ? std::max(1.0, periods_alive) : 1.0);
 }
 
 /// Periods of the fastest motion within a mesh cycle, or until it has died out to the tolerance each time that one of
@@ -29,7 +31,7 @@ double bdf_steps(const IntegratorChoice& choice, double mesh_frequency, double p
 double periods_alive(const IntegratorChoice& choice, double relative_tolerance) {
   constexpr double contacts = 4;
   const double periods = choice.explicit_steps / explicit_steps_of_a_period;
-  if (!(choice.least_damping > 0) || choice.least_damping >= 1) return periods;
+  if (!fast_and_light(choice)) return periods;
   return std::min(periods, contacts * std::log(1 / relative_tolerance) / (2 * std::numbers::pi * choice.least_damping));
 }
 

@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <unsupported/Eigen/MatrixFunctions>
 #include <utility>
 
 #include "core/errors.h"
+#include "dynamics/modes/dense_spectrum.h"
 #include "dynamics/modes/modes.h"
 #include "dynamics/steady_state/piecewise_response.h"
 
@@ -142,12 +141,9 @@ double growth_per_cycle(const LumpedSystem& system, double mesh_frequency, const
     system.evaluate_meshes(window.time[i], q.data(), v.data(), workspace);
     system.tangent_matrix(workspace, tangent);
     state.bottomLeftCorner(n, elastic) = -shapes.transpose() * (fixed + b * tangent * b.transpose()) * bent / (w * w);
-    map = (state * (w / (mesh_frequency * window.samples_per_cycle))).exp() * map;
+    map = exponential(state * (w / (mesh_frequency * window.samples_per_cycle))) * map;
   }
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(map, false);
-  if (solver.info() != Eigen::Success)
-    throw SolverError(fmt::format("the Floquet multipliers of {} state variables were not found", map.rows()));
-  const double growth = solver.eigenvalues().cwiseAbs().maxCoeff();
+  const double growth = eigenvalues(map, "the Floquet multipliers").cwiseAbs().maxCoeff();
   const double rounding = 100 * std::numeric_limits<double>::epsilon() * (1 + w / mesh_frequency);
   return growth <= 1 + rounding ? std::min(growth, 1.0) : growth;
 }

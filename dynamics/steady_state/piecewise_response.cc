@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "core/errors.h"
+#include "dynamics/modes/dense_spectrum.h"
 #include "dynamics/steady_state/piecewise_system.h"
 
 namespace annulus::dynamics {
@@ -88,10 +89,7 @@ class PiecewisePeriodMap {
       const Eigen::MatrixXd right = rows.transpose() * (rows * rows.transpose()).inverse();
       map -= right * rows;
     }
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(map, false);
-    if (solver.info() != Eigen::Success)
-      throw SolverError(fmt::format("the Floquet multipliers of {} state variables were not found", map.rows()));
-    return solver.eigenvalues().cwiseAbs().maxCoeff();
+    return eigenvalues(map, "the Floquet multipliers").cwiseAbs().maxCoeff();
   }
 
  private:

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "core/errors.h"
+#include "dynamics/modes/dense_spectrum.h"
 #include "dynamics/modes/modes.h"
 
 namespace annulus::dynamics {
@@ -157,7 +157,7 @@ const Eigen::MatrixXd& PiecewiseSystem::propagator(int combination, double durat
   const double x = w_ * duration;
   const auto [entry, made] =
       c.propagators.try_emplace(x < long_duration ? std::llround(x / same) : -std::llround(std::log(x) / same));
-  if (made) entry->second = (c.matrix * (w_ * duration)).exp();
+  if (made) entry->second = exponential(c.matrix * (w_ * duration));
   return entry->second;
 }
 

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "core/errors.h"
+#include "dynamics/modes/dense_spectrum.h"
 #include "dynamics/time_integration/integrator_choice.h"
 
 namespace annulus::dynamics {
@@ -49,8 +49,8 @@ class PeriodMap {
 };
 
 Eigen::VectorXcd sorted_multipliers(const Eigen::MatrixXd& derivative) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(derivative, false);
-  std::vector<std::complex<double>> values(solver.eigenvalues().begin(), solver.eigenvalues().end());
+  const Eigen::VectorXcd found = eigenvalues(derivative, "the Floquet multipliers");
+  std::vector<std::complex<double>> values(found.begin(), found.end());
   std::stable_sort(values.begin(), values.end(), [](auto a, auto b) { return std::abs(a) > std::abs(b); });
   return Eigen::Map<Eigen::VectorXcd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
 
 #include "core/errors.h"
+#include "dynamics/modes/dense_spectrum.h"
 
 namespace annulus::dynamics {
 
@@ -37,10 +37,7 @@ Eigen::VectorXcd state_eigenvalues(const LumpedSystem& system) {
         "a stiffness divided by a mass or an inertia is no finite number (largest finite rate {:.2g} rad/s): "
         "a body is too light or too stiff",
         w));
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(state, false);
-  if (solver.info() != Eigen::Success)
-    throw SolverError(fmt::format("the eigenvalues of {} degrees of freedom were not found", n));
-  return w * solver.eigenvalues();
+  return w * eigenvalues(state, "the eigenvalues");
 }
 
 /// Stability function of the fifth-order Cash-Karp method.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "dynamics/modes/dense_spectrum.h"
 
 namespace annulus::dynamics {
 
@@ -190,12 +191,12 @@ RotatingModes rotating_modes(const PlanetaryStage& stage, ModeDamping damping) {
   state.topRightCorner(n, n).setIdentity();
   state.bottomLeftCorner(n, n) = -basis.transpose() * matrices.stiffness * basis / (unit * unit);
   state.bottomRightCorner(n, n) = -basis.transpose() * matrices.rate * basis / unit;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(state);
-  if (solver.info() != Eigen::Success)
+  const auto found = eigenpairs(state);
+  if (!found)
     throw SolverError(fmt::format("the eigenvalue solver failed for the stage at {} rad/s", stage.carrier_speed));
 
   // One of each conjugate pair; eigenvalues without one (real, or zero) in pairs by size, given by the one nearer zero.
-  const Eigen::VectorXcd values = solver.eigenvalues() * unit;
+  const Eigen::VectorXcd values = found->values * unit;
   const double largest = values.cwiseAbs().maxCoeff();
   std::vector<Eigen::Index> oscillating, others;
   for (Eigen::Index i = 0; i < values.size(); ++i) {
@@ -211,7 +212,7 @@ RotatingModes rotating_modes(const PlanetaryStage& stage, ModeDamping damping) {
 
   for (const Eigen::Index i : oscillating) {
     RotatingMode mode = mode_of(values[i], largest);
-    mode.shape = basis * solver.eigenvectors().col(i).head(n);
+    mode.shape = basis * found->vectors.col(i).head(n);
     Eigen::Index top = 0;
     (void)mode.shape.cwiseAbs().maxCoeff(&top);
     const double size = std::sqrt(std::abs(mode.shape.dot(system.mass() * mode.shape)));
