@@ -69,7 +69,7 @@ double jump_length(const StiffnessTable& table, std::size_t load, double uptake)
 
 /// Parts of an interval: a jump is made within a 1024th of a mesh cycle, where that leaves a table of moderate size.
 int parts_of_interval(const StiffnessTable& table) {
-  constexpr int least = 4, of_a_cycle = 1024, of_a_period = 1 << 14;
+  constexpr int least = 2, of_a_cycle = 1024, of_a_period = 1 << 13;
   return std::max(least, std::min(of_a_cycle, of_a_period / table.positions()) / table.phases());
 }
 

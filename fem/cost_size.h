@@ -19,8 +19,8 @@ namespace annulus::fem {
 [[nodiscard]] double estimated_unknowns(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings,
                                         int level);
 
-/// Forces of pins or splines that take part in every contact problem of formulas, or of a solid ring at a level, every
-/// slice of the face counted; 0 for other models and structures, where they cost nothing to speak of.
+/// Pins, bolts or spline teeth that take part in every contact problem of formulas and of plane rings; of a solid ring
+/// at a level their forces, every slice of the face counted. 0 for other models and structures.
 [[nodiscard]] double support_forces(const LoadedMeshProblem& problem, const LoadedMeshSettings& settings, int level);
 
 }  // namespace annulus::fem

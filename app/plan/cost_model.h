@@ -37,7 +37,7 @@ struct CostRun {
   /// Contact problems of a level; those of the first mesh cycle twice, because they compute compliances between tooth
   /// pairs that later cycles read.
   double contacts = 0;
-  double supports = 0;  ///< forces of pins or splines in every contact problem of a solid ring or of formulas
+  double supports = 0;  ///< in every contact problem (fem::support_forces)
   double before_s = 0;  ///< processor time of linear elements that are solved first and not accurate enough
   double motion_s = 0;  ///< processor time of a response, predicted from its steps and samples and not by a law
   int tasks = 1;        ///< that threads can share

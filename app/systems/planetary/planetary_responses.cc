@@ -51,8 +51,8 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
   const double cycles =
       course.cycles + runs * course.compared_cycles + (may_be_coupled(scene, ring) ? effect_cycles : 0);
   const double balances = course.balance_s * (1 + (course.compared_cycles > 0 ? 0 : runs));
-  // Laws of force over deflection, of every changed table anew; those with jumps have at least four times the phases.
-  constexpr double per_position = 3.3e-5, of_jumps = 2 * 4;
+  // Laws of force over deflection, of every changed table anew; those with jumps have at least twice the phases.
+  constexpr double per_position = 3.3e-5, of_jumps = 2 * 2;
   const int phases = ring.computed() ? ring.problem->phases : 0;
   const double surface_s = scene.dynamics->load_dependence == dynamics::LoadDependence::table
                                ? per_position * ring.positions * phases * (runs + of_jumps)
