@@ -14,18 +14,6 @@ void set(FigureSet& figures, const std::string& key, const Estimate& e) {
   figures.set(key, {e.value, size * e.error_relative}, size * e.parts);
 }
 
-/// (largest - smallest) / mean of the secant stiffness at the nominal load.
-double ripple(const MeshResult& mesh) {
-  double low = INFINITY, high = 0;
-  for (int position = 0; position < mesh.table.positions(); ++position)
-    for (int phase = 0; phase < mesh.table.phases(); ++phase) {
-      const double k = mesh.table.at(position, phase, static_cast<int>(mesh.nominal)).stiffness_secant;
-      low = std::min(low, k);
-      high = std::max(high, k);
-    }
-  return (high - low) / mesh.mean_stiffness().value;
-}
-
 /// Stresses of a body: column of the positions behind its name, and title.
 constexpr std::pair<const char*, const char*> stress_names[] = {{"root_tension", "Root stress (tension)"},
                                                                 {"root_von_mises", "Root stress (von Mises)"},
@@ -95,9 +83,7 @@ FigureSet mesh_figures(const MeshResult& mesh) {
   const auto& name = mesh.model.mesh;
   FigureSet figures;
   set(figures, name + "_mean_stiffness_N_per_m", mesh.mean_stiffness());
-  // Both ends of the range carry the error of the stiffness; the larger part of it is common to both.
-  const double range = ripple(mesh), relative = mesh.lte_peak_to_peak().error_relative;
-  figures.set(name + "_stiffness_ripple", {range, range * relative});
+  set(figures, name + "_stiffness_ripple", mesh.stiffness_ripple());
   set(figures, name + "_lte_mean_m", mesh.lte_mean());
   set(figures, name + "_lte_peak_to_peak_m", mesh.lte_peak_to_peak());
   if (mesh.contact_ratio > 0) figures.set(name + "_contact_ratio", {mesh.contact_ratio, 0});

@@ -153,33 +153,46 @@ double beyond_the_highest(const std::vector<double>& values) {
   return reach;
 }
 
-}  // namespace
-
-Estimate MeshResult::lte_peak_to_peak() const {
+/// Largest less smallest value over the table at the nominal load, and its error. The discretisation shifts all
+/// positions alike; on the range acts the difference of the errors (`error_of`) at its two ends, and at least the same
+/// relative error as on the mean. An estimate, not a bound.
+template <class ValueOf, class ErrorOf>
+Estimate range_of(const MeshResult& mesh, const Estimate& mean, ValueOf value_of, ErrorOf error_of) {
   const StiffnessEntry *low = nullptr, *high = nullptr;
-  at_load(table, nominal, [&](const StiffnessEntry& e) {
-    if (!low || e.lte < low->lte) low = &e;
-    if (!high || e.lte > high->lte) high = &e;
-  });
-  const double range = high->lte - low->lte;
-  if (range <= 0) return {range, 0};
-  // The discretisation shifts all positions alike; on the range acts the difference of the errors at its two ends, and
-  // at least the same relative error as on the mean. An estimate, not a bound.
-  const double difference = std::abs(high->error_relative * (high->lte - high->unloaded_te) -
-                                     low->error_relative * (low->lte - low->unloaded_te));
   std::vector<double> up, down;
-  at_load(table, nominal, [&](const StiffnessEntry& e) {
-    up.push_back(e.lte);
-    down.push_back(-e.lte);
+  at_load(mesh.table, mesh.nominal, [&](const StiffnessEntry& e) {
+    if (!low || value_of(e) < value_of(*low)) low = &e;
+    if (!high || value_of(e) > value_of(*high)) high = &e;
+    up.push_back(value_of(e));
+    down.push_back(-value_of(e));
   });
+  const double range = value_of(*high) - value_of(*low);
+  if (range <= 0) return {range, 0};
+  const double difference = std::abs(error_of(*high) - error_of(*low));
   const double missed = beyond_the_highest(up) + beyond_the_highest(down);
-  const auto mean = lte_mean();
   const double of_mean = mean.error_relative - mean.parts.interpolation;
   const double of_stiffness = std::max(difference / range, of_mean);
   ErrorParts parts;
   if (of_mean > 0) parts = (of_stiffness / of_mean) * mean.parts;
   parts.interpolation = missed / range;
   return {range, of_stiffness + missed / range, parts};
+}
+
+}  // namespace
+
+Estimate MeshResult::lte_peak_to_peak() const {
+  return range_of(
+      *this, lte_mean(), [](const StiffnessEntry& e) { return e.lte; },
+      [](const StiffnessEntry& e) { return e.error_relative * (e.lte - e.unloaded_te); });
+}
+
+Estimate MeshResult::stiffness_ripple() const {
+  const auto mean = mean_stiffness();
+  auto range = range_of(
+      *this, mean, [](const StiffnessEntry& e) { return e.stiffness_secant; },
+      [](const StiffnessEntry& e) { return e.error_relative * e.stiffness_secant; });
+  range.value /= mean.value;
+  return range;
 }
 
 double MeshResult::fact(const std::string& name) const {

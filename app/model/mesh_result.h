@@ -67,6 +67,8 @@ struct MeshResult {
   [[nodiscard]] Estimate lte_mean() const;  ///< m, at the nominal load
   /// m, at the nominal load, over all ring positions; its error contains what lies between the positions.
   [[nodiscard]] Estimate lte_peak_to_peak() const;
+  /// Largest less smallest secant stiffness over the mean one, in the same way.
+  [[nodiscard]] Estimate stiffness_ripple() const;
   [[nodiscard]] double fact(const std::string& name) const;  ///< NaN when not known
   /// Of a column of `positions`; nothing when there is no such column.
   [[nodiscard]] std::optional<Peak> peak(const std::string& column) const;

@@ -107,6 +107,22 @@ BOOST_AUTO_TEST_CASE(a_range_knows_what_lies_between_its_positions) {
     BOOST_TEST(range.value < 1);
     BOOST_TEST(range.value * (1 + range.error_relative) == 1, boost::test_tools::tolerance(1e-10));
   }
+  // The same of the stiffness, whose mean is known to its own error.
+  for (const int phases : {8, 16, 32}) {
+    std::vector<StiffnessEntry> entries;
+    for (int i = 0; i < phases; ++i)
+      for (const double load : model.problem->loads) {
+        const double k = 1e9 * saw(static_cast<double>(i) / phases);
+        entries.push_back({0, load / k, k, k, 0});
+      }
+    app::MeshResult result{.model = model,
+                           .contact_ratio = 1.58,
+                           .table = StiffnessTable("ring_planet", phases, {0.0}, model.problem->loads, entries)};
+    result.nominal = model.nominal_load();
+    const auto ripple = result.stiffness_ripple(), mean = result.mean_stiffness();
+    BOOST_TEST(ripple.value * mean.value < 1e9);
+    BOOST_TEST(ripple.value * (1 + ripple.error_relative) * mean.value == 1e9, boost::test_tools::tolerance(1e-10));
+  }
   // A branch that rises up to a jump: the range is known as well as its slope, wherever the jump falls.
   for (const double jump : {0.3, 0.41, 0.77}) {
     const auto range = ranged(16, [jump](double phase) { return 1 + phase - jump - std::floor(phase - jump); });
