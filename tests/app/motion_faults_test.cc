@@ -100,7 +100,9 @@ BOOST_AUTO_TEST_CASE(back_flanks_that_carry_are_reported) {
   FaultRuns runs("negative_factor");
   const auto outcome = runs.run("out");
   BOOST_TEST(outcome.status == 0, outcome.err);
-  const std::string words = "the back flanks of planet 4 carry load in its sun mesh for 100 % of the time";
+  const std::string words =
+      "back flanks carry load in the sun meshes for up to 100 % of the time, of planets (with their "
+      "mean forces) 4 (";
   BOOST_TEST((outcome.out + outcome.err).find("warning: 'r0-pinned': " + words) != std::string::npos, outcome.err);
   BOOST_TEST(runs.report("out").find(words) != std::string::npos);
   const auto ring = runs.ring("out");
