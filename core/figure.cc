@@ -13,6 +13,7 @@ const FigureSpec* find_figure(const std::vector<FigureSpec>& specs, const std::s
 
 std::vector<std::string> figure_keys(const std::vector<FigureSpec>& specs) {
   std::vector<std::string> keys;
+  keys.reserve(specs.size());
   for (const auto& spec : specs) keys.push_back(spec.key);
   return keys;
 }

@@ -194,6 +194,7 @@ std::vector<ResultStore::Contents> ResultStore::contents(const fs::path& folder)
     contents.bytes += size;
   });
   std::vector<Contents> list;
+  list.reserve(by_kind.size());
   for (auto& [kind, contents] : by_kind) list.push_back(std::move(contents));
   return list;
 }

@@ -84,6 +84,7 @@ int header_count(const Csv& csv, const std::string& key) {
 
 std::vector<std::size_t> find_columns(const Csv& csv, const std::vector<std::string>& names) {
   std::vector<std::size_t> places;
+  places.reserve(names.size());
   for (const auto& name : names) places.push_back(csv.column(name));
   return places;
 }

@@ -79,6 +79,7 @@ GroupedEnergy by_group(const ModalEnergy& energy, std::vector<std::string> group
   const auto summed = [](const std::vector<std::string>& names, const Eigen::MatrixXd& shares,
                          std::vector<std::string>& sum_names) {
     std::vector<Eigen::Index> group;
+    group.reserve(names.size());
     for (const auto& name : names) group.push_back(index_of_name(sum_names, element_group(name)));
     Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(sum_names.size()), shares.cols());
     for (std::size_t i = 0; i < group.size(); ++i) sums.row(group[i]) += shares.row(static_cast<Eigen::Index>(i));

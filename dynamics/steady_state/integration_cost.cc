@@ -91,12 +91,13 @@ SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, in
   constexpr double unsteady_comparison = 170, few_windows = 3;
   const double looser =
       options.estimate_error ? std::pow(10, -1.0 / 5) : 0;  // of a window, with ten times the tolerance
-  const auto [window, whole] = window_length(period, options);
+  const WindowLength length = window_length(period, options);
+  const int window = length.cycles;
   if (options.mesh_cycles) {
     const auto given = static_cast<double>(*options.mesh_cycles);
     return {given + looser * window, given, 0};
   }
-  if (!whole) return {(2 + looser) * window, unsteady_comparison, 0};
+  if (!length.whole) return {(2 + looser) * window, unsteady_comparison, 0};
   SteadyCourse result;
   const int most = std::max(options.samples_per_cycle, most_samples_per_cycle(period));
   // Doubled until they follow the highest natural frequency.
@@ -116,14 +117,14 @@ SteadyCourse steady_course(const LumpedSystem& system, double mesh_frequency, in
   const double seconds = window / mesh_frequency;
   const bool jumps = std::isfinite(system.next_jump(0)) && why_not_piecewise(system, seconds).empty();
   constexpr int enough = 256;  // samples of a mesh cycle, for the forces of many meshes
-  if (options.steady_state == SteadyState::time_integration)
-    integrate(until_two_agree, few_windows);
-  else if (jumps && too_fast_for_piecewise(system, seconds, window))
+  const bool confirmed = options.confirmation == Confirmation::always;
+  const bool unresolved =
+      confirmed && course == StiffnessCourse::tabulated && most < enough && system.meshes().size() > 1;
+  if (jumps && too_fast_for_piecewise(system, seconds, window))
     integrate(until_two_agree + 1, 0);
-  else if (options.confirmation == Confirmation::always && course == StiffnessCourse::tabulated && most < enough &&
-           system.meshes().size() > 1)
+  else if (unresolved || options.steady_state == SteadyState::time_integration)
     integrate(until_two_agree, few_windows);
-  else if (options.confirmation == Confirmation::always)
+  else if (confirmed)
     integrate(1, 0);
   return result;
 }

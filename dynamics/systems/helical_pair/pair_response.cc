@@ -202,7 +202,7 @@ PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& opt
                       evidence.motion(rows.relative, &WindowPeaks::relative)};
   response.quasi_static = quasi_static_motions(pair, system, options);
 
-  static_cast<SteadyOutcome&>(response) = found;
+  static_cast<SteadyOutcome&>(response) = static_cast<const SteadyOutcome&>(found);
   if (options.keep_series) response.series = series_of(system, std::move(found.best));
   return response;
 }

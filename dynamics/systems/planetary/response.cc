@@ -67,7 +67,7 @@ DynamicResponse simulate(const PlanetaryStage& stage, const SimulationOptions& o
                               .stiffness = mean_stiffness(stage.sun_mesh),
                               .start = options.start};
   auto found = steady_response(system, problem, options);
-  static_cast<SteadyOutcome&>(response) = found;
+  static_cast<SteadyOutcome&>(response) = static_cast<const SteadyOutcome&>(found);
   response.cycle_force = cycle_means(averaging_force(found.best), found.window_cycles);
   response.force_balance_relative = force_balance(stage, system, found);
   set_figures(stage, options, found, response);

@@ -135,7 +135,7 @@ TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options
   TwoKVResponse response;
   response.largest_multiplier = shoot_for_start(stage, system, options, problem);
   auto steady = steady_response(system, problem, options);
-  static_cast<SteadyOutcome&>(response) = steady;
+  static_cast<SteadyOutcome&>(response) = static_cast<const SteadyOutcome&>(steady);
   response.crank_frequency = stage.crank_frequency();
   response.sun_mesh_frequency = stage.sun_mesh_frequency();
   response.arc_mesh_frequency = stage.arc_mesh_frequency();
