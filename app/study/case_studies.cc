@@ -67,7 +67,7 @@ std::string sensitivity_csv(const StudySubject& subject, const SensitivityResult
   std::string text =
       fmt::format("# annulus_version: {}\n# factor: {:.17g}\ninput,ring,value", version(), result.factor);
   const auto& figures = subject.figures();
-  const auto names = subject.variants();
+  const auto& names = subject.variants();
   for (const auto* which : {"divided_", "nominal_", "multiplied_"}) {
     for (const auto& figure : figures) text += std::string(",") + which + figure.key;
   }

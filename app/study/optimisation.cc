@@ -136,7 +136,7 @@ class DesignObjective {
   static std::size_t variant_of(const StudySubject& subject) {
     const auto& ring = subject.scene().optimise->ring;
     if (!ring) return 0;
-    const auto names = subject.variants();
+    const auto& names = subject.variants();
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), *ring) - names.begin());
   }
   const StudySubject& subject_;

@@ -61,7 +61,7 @@ double iso_pair_stiffness(const Scene& scene, const PairGeometry& geometry) {
 }
 
 std::string no_closed_form(const Scene& scene, const PairGeometry& geometry) {
-  const auto why = fem::no_helical_closed_form(geometry.pinion().parameters(), geometry.wheel().parameters(),
+  auto why = fem::no_helical_closed_form(geometry.pinion().parameters(), geometry.wheel().parameters(),
                                                scene.errors.pinion_wheel_misalignment);
   if (!why.empty()) return why;
   if (!scene.pinion.bore_diameter || !scene.wheel.bore_diameter) return "it needs bore_diameter_mm of both gears";

@@ -60,7 +60,7 @@ FigureSet response_figures(const StageResponse& response) {
 /// How the motion was found, for people.
 std::string course_of(const dynamics::DynamicResponse& f) {
   if (f.total_cycles == 0) return "periodic steady state, by harmonic balance";
-  const auto course = fmt::format("{} mesh cycles, {} steps, {}", f.total_cycles, f.statistics.steps,
+  auto course = fmt::format("{} mesh cycles, {} steps, {}", f.total_cycles, f.statistics.steps,
                                   f.steady ? "periodic steady state" : "no periodic steady state");
   if (!f.periodic || f.confirmed) return course;
   return fmt::format("{}; found by time integration; {}", course,

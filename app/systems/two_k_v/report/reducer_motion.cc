@@ -45,7 +45,8 @@ std::optional<Plot> spectrum_plot(const std::string& name, const TwoKVCase& show
   const auto kind = [&](double of) {
     return is_multiple(of, stage.planet_teeth) ? 0 : is_multiple(of, stage.arc_teeth) ? 2 : 1;
   };
-  for (const auto& [colour, label] : {std::pair{1, "others"}, {0, "sun mesh"}, {2, "arc mesh"}}) {
+  for (const auto& [number, label] : {std::pair{1, "others"}, {0, "sun mesh"}, {2, "arc mesh"}}) {
+    const int colour = number;
     Csv own = spectrum;  // without the wind-up, of order 0
     std::erase_if(own.rows, [&](const auto& row) { return row[order] == 0 || kind(row[order]) != colour; });
     if (!own.rows.empty())
