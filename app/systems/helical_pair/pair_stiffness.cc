@@ -62,7 +62,7 @@ double iso_pair_stiffness(const Scene& scene, const PairGeometry& geometry) {
 
 std::string no_closed_form(const Scene& scene, const PairGeometry& geometry) {
   auto why = fem::no_helical_closed_form(geometry.pinion().parameters(), geometry.wheel().parameters(),
-                                               scene.errors.pinion_wheel_misalignment);
+                                         scene.errors.pinion_wheel_misalignment);
   if (!why.empty()) return why;
   if (!scene.pinion.bore_diameter || !scene.wheel.bore_diameter) return "it needs bore_diameter_mm of both gears";
   return scene.stage.pinion_torque == 0 ? "it needs a torque" : "";

@@ -61,7 +61,7 @@ FigureSet response_figures(const StageResponse& response) {
 std::string course_of(const dynamics::DynamicResponse& f) {
   if (f.total_cycles == 0) return "periodic steady state, by harmonic balance";
   auto course = fmt::format("{} mesh cycles, {} steps, {}", f.total_cycles, f.statistics.steps,
-                                  f.steady ? "periodic steady state" : "no periodic steady state");
+                            f.steady ? "periodic steady state" : "no periodic steady state");
   if (!f.periodic || f.confirmed) return course;
   return fmt::format("{}; found by time integration; {}", course,
                      f.periodic->converged ? fmt::format("the harmonic balance differs (at other samplings by {:.1e})",
