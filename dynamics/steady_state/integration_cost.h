@@ -6,10 +6,10 @@
 
 namespace annulus::dynamics {
 
-/// What the stiffness of a system will be once it is known.
+/// How the stiffness of a system will change once it is known.
 enum class StiffnessCourse {
   smooth,
-  tabulated  ///< teeth come into contact and leave it: every time the fast motions are excited
+  sudden  ///< teeth come into contact and leave it, or it jumps: every time the fast motions are excited
 };
 
 /// Rough time on one core (s) for the integration of `cycles` mesh cycles with the method and tolerance of the options.

@@ -102,7 +102,7 @@ std::vector<PlannedResponse> pair_responses(const Scene& scene) {
   const auto system = assemble(pair);
   const auto options = pair_simulation(scene);
   const bool computed = scene.pinion_wheel.stiffness == StiffnessShape::computed;
-  const auto stiffness = computed ? dynamics::StiffnessCourse::tabulated : dynamics::StiffnessCourse::smooth;
+  const auto stiffness = computed ? dynamics::StiffnessCourse::sudden : dynamics::StiffnessCourse::smooth;
   const auto course = dynamics::steady_course(system, pair.mesh_frequency(), period, options, stiffness);
   const double per_cycle =
       dynamics::integration_seconds(system, pair.mesh_frequency(), 1, options.integrator, stiffness);

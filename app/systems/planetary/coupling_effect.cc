@@ -43,7 +43,7 @@ CouplingEffect coupling_effect(const dynamics::PlanetaryStage& uncoupled, const 
     stage.ring_coupling = taken_coupling(solved, model);
     const double seconds =
         dynamics::integration_seconds(assemble(stage), stage.mesh_frequency(), lead_cycles + evaluated_cycles,
-                                      integrated.integrator, dynamics::StiffnessCourse::tabulated);
+                                      integrated.integrator, dynamics::StiffnessCourse::sudden);
     if (!(seconds <= longest)) {
       log::info(
           fmt::format("coupling through the ring, {}: not compared, it would take about {:.0f} s", name, seconds));

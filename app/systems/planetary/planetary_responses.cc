@@ -41,7 +41,7 @@ PlannedResponse planned_response(const Scene& scene, const dynamics::PlanetarySt
       std::min(std::lcm(stage.error_period(), ring.positions), std::max(options.max_window_cycles, 4000));
   const auto system = assemble(stage);
   const bool sudden = tables > 0 || std::isfinite(system.next_jump(0));
-  const auto stiffness = sudden ? dynamics::StiffnessCourse::tabulated : dynamics::StiffnessCourse::smooth;
+  const auto stiffness = sudden ? dynamics::StiffnessCourse::sudden : dynamics::StiffnessCourse::smooth;
   const auto course = dynamics::steady_course(system, stage.mesh_frequency(), period, options, stiffness);
   const double per_cycle =
       dynamics::integration_seconds(system, stage.mesh_frequency(), 1, options.integrator, stiffness);

@@ -15,17 +15,16 @@ std::string back_flanks(const char* mesh, const std::vector<dynamics::BranchResu
   double longest = 0;
   for (std::size_t n = 0; n < branches.size(); ++n) {
     if (!(branches[n].back_flanks > 0)) continue;
-    planets.push_back(fmt::format("{} ({:.4g} N)", n + 1, branches[n].mean_force));
+    planets.push_back(fmt::format("{} (mean force {:.4g} N)", n + 1, branches[n].mean_force));
     longest = std::max(longest, branches[n].back_flanks);
   }
   if (planets.empty()) return "";
   return fmt::format(
-      "back flanks carry load in the {} for up to {:.3g} % of the time, of planets (with their mean forces) {}. Their "
-      "stiffness is the mirror image over the mesh cycle of that of the driving flanks; if a scene prescribes it, or "
-      "on "
-      "single supports, it is that of the driving flanks at the same phase, of which only the mean is right. A larger "
-      "dynamics.half_backlash_um or smaller errors avoid this",
-      mesh, 100 * longest, fmt::join(planets, ", "));
+      "back flanks carry load in the {} of planet {}, for up to {:.3g} % of the time. Where the stiffness comes from a "
+      "table that repeats with every mesh cycle, theirs is its mirror image. Otherwise it is that of the driving "
+      "flanks at the same phase, of which only the mean is right. A larger dynamics.half_backlash_um or smaller errors "
+      "avoid this",
+      mesh, fmt::join(planets, ", "), 100 * longest);
 }
 
 bool by_default(const Scene& scene, const std::string& key) {
@@ -49,8 +48,7 @@ std::vector<std::string> stage_warnings(const Scene& scene, const dynamics::Dyna
         "sun and planets are in rigid bearings, because [supports] does not mention them: nothing but the meshes evens "
         "out what the planets carry. Load sharing and dynamic factors are those of such a stage; give "
         "supports.sun_N_per_m (0: floating) and supports.planet_N_per_m");
-  for (const auto& [mesh, kind] :
-       {std::pair{"sun meshes", &response.sun_planet}, {"ring meshes", &response.ring_planet}})
+  for (const auto& [mesh, kind] : {std::pair{"sun mesh", &response.sun_planet}, {"ring mesh", &response.ring_planet}})
     if (auto warning = back_flanks(mesh, kind->branches); !warning.empty()) list.push_back(std::move(warning));
   return list;
 }
