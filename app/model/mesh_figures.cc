@@ -1,5 +1,7 @@
 #include "app/model/mesh_figures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -91,7 +93,7 @@ FigureSet mesh_figures(const MeshResult& mesh) {
   if (!mesh.model.computed()) return figures;
   for (const bool planet : {true, false})
     for (const auto& [key, title] : stress_names) {
-      const auto column = std::string(mesh.model.body_name(planet)) + "_" + key;
+      const auto column = fmt::format("{}_{}", mesh.model.body_name(planet), key);
       // A body without a free rim has none of its stresses.
       if (const auto stress = mesh.peak(column + "_MPa"); stress && std::isfinite(stress->value) && stress->value != 0)
         figures.set(name + "_" + column + "_Pa", 1e6 * stress->value);

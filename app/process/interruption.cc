@@ -1,5 +1,6 @@
 #include "app/process/interruption.h"
 
+#include <fmt/format.h>
 #include <pthread.h>
 #include <signal.h>
 #include <unistd.h>
@@ -29,7 +30,7 @@ void watch_for_interruption(int interrupted_status, int limit_status) {
     constexpr timespec moment{0, 20'000'000};
     while (::sigtimedwait(&signals, nullptr, &moment) < 0)
       if (auto exceeded = exceeded_limit(); !exceeded.empty()) {
-        exceeded = "\n" + exceeded + "\n";
+        exceeded = fmt::format("\n{}\n", exceeded);
         [[maybe_unused]] const auto written = ::write(STDERR_FILENO, exceeded.data(), exceeded.size());
         std::_Exit(limit_status);
       }

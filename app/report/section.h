@@ -79,7 +79,7 @@ struct Block;
 struct Box {
   enum class Kind { verdict, details };
   Kind kind = Kind::verdict;
-  std::vector<Block> blocks{};
+  std::vector<Block> blocks;
   Text summary{};  ///< of details
 };
 

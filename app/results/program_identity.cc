@@ -43,6 +43,7 @@ int add_build_id(dl_phdr_info* object, std::size_t /*size*/, void* identity) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const auto& segment = object->dlpi_phdr[i];
     if (segment.p_type != PT_NOTE) continue;
+    // The loader gives addresses as numbers. NOLINTNEXTLINE(performance-no-int-to-ptr)
     const auto* notes = reinterpret_cast<const char*>(object->dlpi_addr + segment.p_vaddr);
     if (const auto id = build_id_in(notes, segment.p_memsz); !id.empty())
       *static_cast<std::string*>(identity) += " " + id;

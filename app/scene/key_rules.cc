@@ -18,7 +18,7 @@ std::string table_of(const std::string& key) {
 }
 
 std::string quoted_list(std::vector<std::string> values) {
-  for (auto& value : values) value = '"' + value + '"';
+  for (auto& value : values) value = fmt::format("\"{}\"", value);
   return listed(values, " or ");
 }
 

@@ -33,6 +33,7 @@ std::string to_text(const Value& value) {
     std::string operator()(const std::string& v) const { return v; }
     std::string operator()(const std::vector<double>& v) const {
       std::vector<std::string> texts;
+      texts.reserve(v.size());
       for (const double x : v) texts.push_back(to_text(x));
       return fmt::format("[{}]", fmt::join(texts, ", "));
     }

@@ -64,7 +64,8 @@ Blocks answer_sentences(const std::vector<RingQuantity>& quantities) {
   Blocks blocks;
   if (const auto* q = quantity(quantities, "ring_stiffness")) blocks += paragraph(stiffness_sentence(*q));
   if (const auto* q = quantity(quantities, "load_sharing")) blocks += paragraph(sharing_sentence(*q));
-  if (const auto* q = quantity(quantities, "dynamic_factor")) blocks += paragraph(factor_sentence(*q));
+  for (const auto* key : {"dynamic_factor", "peak_factor"})
+    if (const auto* q = quantity(quantities, key)) blocks += paragraph(factor_sentence(*q));
   return blocks;
 }
 
@@ -78,7 +79,9 @@ Blocks answer_picture(const std::vector<RingQuantity>& quantities, const std::ve
                  .width = 420 + label_width,
                  .label_width = label_width,
                  .row_height = 22};
-  for (const auto& [key, name] : {std::pair{"load_sharing", "load sharing"}, {"dynamic_factor", "dynamic factor"}}) {
+  for (const auto& [key, name] : {std::pair{"load_sharing", "load sharing K_γ"},
+                                  {"dynamic_factor", "dynamic factor K_V"},
+                                  {"peak_factor", "peak factor K_γ K_V"}}) {
     const auto* q = quantity(quantities, key);
     if (q == nullptr) continue;
     for (const auto& m : q->rings) {
@@ -94,8 +97,8 @@ Blocks answer_picture(const std::vector<RingQuantity>& quantities, const std::ve
   if (chart.bars.empty()) return {};
   return Pictures{{chart},
                   {},
-                  "Excess of the most loaded planet over its share, and of the largest mesh force over its mean; "
-                  "whiskers: estimated numerical error."};
+                  "Excess of the most loaded planet over its share, of the largest force over the mean of its mesh "
+                  "cycle, and over the nominal force; whiskers: estimated numerical error."};
 }
 
 }  // namespace annulus::app

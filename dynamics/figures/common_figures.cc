@@ -17,18 +17,33 @@ FigureSpec steady_figure() {
           .better = Better::larger};
 }
 
-FigureSpec dynamic_factor_figure(const std::string& key, const std::string& title, const std::string& axis,
-                                 const std::string& definition) {
-  return {.key = key,
-          .title = title,
-          .axis = axis,
-          .definition = definition,
-          .better = Better::smaller,
-          .guarantee = Guarantee::while_in_contact,
-          .quantity = "dynamic_factor",
-          .compared = true,
-          .cost_study = true,
-          .plotted = true};
+std::vector<FigureSpec> force_factor_figures(const std::string& prefix, const std::string& meshes,
+                                             const std::string& nominal_force) {
+  const auto peak_key = prefix + "peak_factor";
+  return {{.key = prefix + "dynamic_factor",
+           .title = "Dynamic factor of " + meshes,
+           .symbol = "K_V",
+           .axis = "largest force / mean of its mesh cycle",
+           .definition = "largest over the meshes and instants of |F| over the mean of F in the mesh cycle around that "
+                         "instant; without load sharing, as ISO 6336-1 defines K_V",
+           .better = Better::smaller,
+           .quantity = "dynamic_factor",
+           .compared = true,
+           .plotted = true,
+           .spread = true,
+           .beside = peak_key},
+          {.key = peak_key,
+           .title = "Peak factor of " + meshes,
+           .symbol = "K_γ K_V",
+           .axis = "largest force / nominal force",
+           .definition = "largest over the meshes and instants of |F| over the nominal force, " + nominal_force +
+                         "; load sharing and dynamics together",
+           .better = Better::smaller,
+           .guarantee = Guarantee::while_in_contact,
+           .quantity = "peak_factor",
+           .compared = true,
+           .cost_study = true,
+           .spread = true}};
 }
 
 FigureSpec contact_loss_figure(const std::string& key, const std::string& title, const std::string& axis,

@@ -11,8 +11,10 @@ namespace annulus::dynamics {
 
 /// "steady": whether a periodic steady state was found.
 [[nodiscard]] FigureSpec steady_figure();
-[[nodiscard]] FigureSpec dynamic_factor_figure(const std::string& key, const std::string& title,
-                                               const std::string& axis, const std::string& definition);
+/// K_V and K_γ K_V of meshes such as "the sun meshes", with keys `prefix`dynamic_factor and `prefix`peak_factor.
+/// `nominal_force` names what the latter refers to.
+[[nodiscard]] std::vector<FigureSpec> force_factor_figures(const std::string& prefix, const std::string& meshes,
+                                                           const std::string& nominal_force);
 [[nodiscard]] FigureSpec contact_loss_figure(const std::string& key, const std::string& title, const std::string& axis,
                                              const std::string& definition);
 

@@ -44,10 +44,52 @@ Peak averaged_peak(const Eigen::Ref<const Eigen::MatrixXd>& force, int samples_p
   return sharing_peak(sliding_means(force, samples_per_cycle));
 }
 
+/// The mean force of a mesh over the mesh cycle around any instant. At the ends of a window that does not repeat, over
+/// its first and its last whole cycle.
+class CycleMean {
+ public:
+  /// From every `step`-th of the samples, `width` of them to a mesh cycle.
+  CycleMean(Eigen::RowVectorXd force, int width, bool repeats, int step)
+      : before_((width - 1) / 2.0), step_(step), repeats_(repeats) {
+    const Eigen::Index samples = force.size();
+    if (repeats) {
+      force.conservativeResize(samples + width - 1);
+      force.tail(width - 1) = force.head(width - 1).eval();
+    }
+    mean_ = (sliding_means(force, width) / width).cwiseAbs();
+  }
+  /// `force` over it, at so many samples behind the beginning of the window; 0 where the mesh carries nothing.
+  [[nodiscard]] double ratio(double force, double sample) const {
+    const auto count = static_cast<double>(mean_.size());
+    double at = sample / step_ - before_;
+    at = repeats_ ? at - count * std::floor(at / count) : std::clamp(at, 0.0, count - 1);
+    const auto i = std::min(static_cast<Eigen::Index>(at), mean_.size() - 1);
+    const double share = at - static_cast<double>(i);
+    const double mean = share > 0 ? (1 - share) * mean_(i) + share * mean_((i + 1) % mean_.size()) : mean_(i);
+    return mean > 0 ? force / mean : 0;
+  }
+
+ private:
+  Eigen::RowVectorXd mean_;
+  double before_;  // steps from the first sample of a mean to its middle
+  int step_;
+  bool repeats_;
+};
+
+/// |F| over the mean force of the mesh cycle around each of `per_sample` instants to a sample.
+Eigen::RowVectorXd cycle_factor(const CycleMean& mean, const Eigen::Ref<const Eigen::RowVectorXd>& force,
+                                double per_sample) {
+  Eigen::RowVectorXd factor = force.cwiseAbs();
+  for (Eigen::Index i = 0; i < factor.size(); ++i)
+    factor[i] = mean.ratio(factor[i], static_cast<double>(i) / per_sample);
+  return factor;
+}
+
 /// Some meshes of a window, with both sides of jumps.
 struct MeshWindow {
   const ResponseWindow& window;
   Eigen::Index first, count;
+  bool repeats = false;                         ///< its end is followed by its beginning
   bool closer = window.dense_force.size() > 0;  ///< peaks from the forces at closer times
 
   [[nodiscard]] auto force() const { return window.force.middleRows(first, count); }
@@ -69,15 +111,21 @@ struct MeshWindow {
   /// rule is no longer exact to rounding.
   [[nodiscard]] Peak averaged_coarsely() const {
     if (window.samples_per_cycle % 2 != 0) return averaged();
+    const ResponseWindow coarse = every_second_sample(first, count);
+    return MeshWindow{coarse, 0, count}.averaged();
+  }
+  [[nodiscard]] ResponseWindow every_second_sample(Eigen::Index mesh, Eigen::Index meshes) const {
     const Eigen::Index samples = window.force.cols() / 2;
     ResponseWindow coarse;
     coarse.samples_per_cycle = window.samples_per_cycle / 2;
-    coarse.time = window.time(Eigen::seqN(0, samples, 2));
-    coarse.force = window.force(Eigen::all, Eigen::seqN(0, samples, 2));
+    if (window.time.size() > 0) coarse.time = window.time(Eigen::seqN(0, samples, 2));
+    coarse.force = window.force(Eigen::seqN(mesh, meshes), Eigen::seqN(0, samples, 2));
     coarse.jump_time = window.jump_time;
-    coarse.force_before = window.force_before;
-    coarse.force_after = window.force_after;
-    return MeshWindow{coarse, first, count}.averaged();
+    if (jumps()) {
+      coarse.force_before = window.force_before.middleRows(mesh, meshes);
+      coarse.force_after = window.force_after.middleRows(mesh, meshes);
+    }
+    return coarse;
   }
   [[nodiscard]] double mean_force(Eigen::Index branch) const {
     return (jumps() ? averaging_force(window) : window.force).row(first + branch).mean();
@@ -97,6 +145,33 @@ struct MeshWindow {
     const double jump = at_jumps().row(branch).cwiseAbs().maxCoeff();
     return higher({jump, jump}, smooth);
   }
+  /// |F| over the mean force of the mesh cycle of `width` samples around each sample.
+  [[nodiscard]] Eigen::RowVectorXd cycle_factor(Eigen::Index branch, int width) const {
+    return dynamics::cycle_factor(cycle_mean(branch, width), force().row(branch), 1);
+  }
+  /// With means from every `step`-th sample.
+  [[nodiscard]] Peak largest_cycle_factor(Eigen::Index branch, int width, int step = 1) const {
+    const CycleMean mean = cycle_mean(branch, width, step);
+    const Peak smooth =
+        peak_of(dynamics::cycle_factor(mean, curves().row(branch), closer ? window.dense_per_sample : 1), breaks());
+    if (!jumps()) return smooth;
+    const double spacing =
+        (window.time[window.time.size() - 1] - window.time[0]) / static_cast<double>(window.time.size() - 1);
+    double jump = 0;
+    for (Eigen::Index j = 0; j < window.jump_time.size(); ++j) {
+      const double sample = (window.jump_time[j] - window.time[0]) / spacing;
+      for (const auto* side : {&window.force_before, &window.force_after})
+        jump = std::max(jump, mean.ratio(std::abs((*side)(first + branch, j)), sample));
+    }
+    return higher({jump, jump}, smooth);
+  }
+  [[nodiscard]] CycleMean cycle_mean(Eigen::Index branch, int width, int step = 1) const {
+    if (step > 1) {
+      const ResponseWindow coarse = every_second_sample(first + branch, 1);
+      return {averaging_force(coarse).row(0), width / step, repeats, step};
+    }
+    return {(jumps() ? averaging_force(window) : window.force).row(first + branch), width, repeats, step};
+  }
   [[nodiscard]] double least_force(Eigen::Index branch) const {
     const double sampled = curves().row(branch).minCoeff();
     return jumps() ? std::min(sampled, at_jumps().row(branch).minCoeff()) : sampled;
@@ -112,13 +187,18 @@ Peak quasi_static_peak(const Eigen::MatrixXd& force, CurveKind kind) {
   return {sampled, sampled};
 }
 
+Figure with_error(Figure figure, double error) {
+  figure.error += error;
+  return figure;
+}
+
 /// The same meshes in the best window, and in others whose results should be equal: their differences are errors.
 struct MeshEvidence {
   MeshWindow best, before, loose;
   MeshEvidence(const SteadyResponse& found, Eigen::Index first, Eigen::Index count)
-      : best{found.best, first, count},
-        before{found.before ? *found.before : found.best, first, count},
-        loose{found.loose ? *found.loose : found.best, first, count},
+      : best{found.best, first, count, found.steady && found.whole_period},
+        before{found.before ? *found.before : found.best, first, count, best.repeats},
+        loose{found.loose ? *found.loose : found.best, first, count, best.repeats},
         alone(found.total_cycles == 0 && found.before),
         beside(best) {
     // Peaks are compared as they are sampled in both; both sides of jumps are in any window.
@@ -146,6 +226,22 @@ struct MeshEvidence {
     const auto means = [](const MeshWindow& w) { return sliding_means(w.force(), w.window.samples_per_cycle); };
     return apart(absolute_shares(means(best)), absolute_shares(means(before)));
   }
+  [[nodiscard]] Figure dynamic_factor(Eigen::Index branch, double mesh_cycle) const {
+    const auto width = [&](const MeshWindow& w) {
+      return std::clamp(static_cast<int>(std::lround(mesh_cycle * w.window.samples_per_cycle)), 1,
+                        static_cast<int>(w.window.force.cols()));
+    };
+    const auto factor = [&](const MeshWindow& w) { return w.largest_cycle_factor(branch, width(w)); };
+    const Peak largest = factor(best);
+    if (!(largest.refined > 0)) return {not_known, not_known};
+    const double other = alone
+                             ? apart(best.cycle_factor(branch, width(best)), before.cycle_factor(branch, width(before)))
+                             : std::abs(factor(beside).refined - factor(before).refined);
+    // Loads that vary over more than a cycle are averaged by samples, too.
+    const bool even = width(best) % 2 == 0 && best.window.force.cols() % 2 == 0;
+    const Peak coarsely = even ? best.largest_cycle_factor(branch, width(best), 2) : largest;
+    return with_error(figure(largest, {factor(loose), coarsely}), other);
+  }
   /// By another motion, and by the samples at which contact is seen to begin and end.
   [[nodiscard]] Figure contact_loss(Eigen::Index branch) const {
     const auto open = [&](const MeshWindow& w) {
@@ -154,31 +250,27 @@ struct MeshEvidence {
     const double lost = open(best);
     Figure loss{lost, std::abs(lost - open(loose))};
     if (before.window.open.size() > 0) loss.error += std::abs(lost - open(before));
-    const auto closer = std::max<Eigen::Index>(1, best.window.dense_force.cols() / best.window.force.cols());
-    if (lost > 0) loss.error += 0.5 / static_cast<double>(closer * best.window.samples_per_cycle);
+    if (lost > 0) loss.error += 0.5 / (best.window.dense_per_sample * best.window.samples_per_cycle);
     return loss;
   }
 };
 
-Figure with_error(Figure figure, double error) {
-  figure.error += error;
-  return figure;
-}
-
 }  // namespace
 
 std::vector<BranchResult> branch_results(const SteadyResponse& found, Eigen::Index first, Eigen::Index count,
-                                         double mean_force) {
+                                         double nominal_force, double mesh_cycle) {
   const MeshEvidence meshes(found, first, count);
   std::vector<BranchResult> results;
   for (Eigen::Index p = 0; p < count; ++p) {
-    const Peak largest = meshes.best.largest_force(p) / mean_force;
+    const Peak largest = meshes.best.largest_force(p) / nominal_force;
     const double apart =
         meshes.alone ? meshes.forces_apart(p)
                      : std::abs(meshes.beside.largest_force(p).refined - meshes.before.largest_force(p).refined);
-    const auto factor = with_error(figure(largest, {meshes.loose.largest_force(p) / mean_force}), apart / mean_force);
-    results.push_back({factor, meshes.best.least_force(p) / mean_force, meshes.best.mean_force(p),
-                       meshes.contact_loss(p), found.best.back.size() > 0 ? found.best.back[first + p] : 0});
+    const auto factor =
+        with_error(figure(largest, {meshes.loose.largest_force(p) / nominal_force}), apart / nominal_force);
+    results.push_back({factor, meshes.dynamic_factor(p, mesh_cycle), meshes.best.least_force(p) / nominal_force,
+                       meshes.best.mean_force(p), meshes.contact_loss(p),
+                       found.best.back.size() > 0 ? found.best.back[first + p] : 0});
   }
   return results;
 }
@@ -197,18 +289,18 @@ LoadSharing load_sharing(const SteadyResponse& found, Eigen::Index first, Eigen:
           figure(best.averaged(), {before.averaged(), loose.averaged(), best.averaged_coarsely()}), quasi_static};
 }
 
-Figure largest_dynamic_factor(const std::vector<BranchResult>& branches) {
-  Figure largest{-1, not_known};
-  for (const auto& b : branches)
-    if (b.dynamic_factor_max.value > largest.value) largest = b.dynamic_factor_max;
-  return largest;
+std::size_t worst_branch(const std::vector<BranchResult>& branches, Figure BranchResult::*result) {
+  require(!branches.empty(), "the largest result of no branch");
+  std::size_t worst = 0;
+  for (std::size_t n = 1; n < branches.size(); ++n) {
+    const double value = (branches[n].*result).value, largest = (branches[worst].*result).value;
+    if (std::isnan(largest) || value > largest) worst = n;
+  }
+  return worst;
 }
 
-Figure largest_contact_loss(const std::vector<BranchResult>& branches) {
-  Figure largest;
-  for (const auto& b : branches)
-    if (b.contact_loss.value >= largest.value) largest = b.contact_loss;
-  return largest;
+Figure largest(const std::vector<BranchResult>& branches, Figure BranchResult::*result) {
+  return branches[worst_branch(branches, result)].*result;
 }
 
 double load_sharing_instantaneous(const Eigen::Ref<const Eigen::MatrixXd>& force) {

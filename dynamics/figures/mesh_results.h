@@ -19,24 +19,30 @@ struct LoadSharing {
 
 /// Results of one mesh, such as that of one planet with sun or ring.
 struct BranchResult {
-  /// Max |F| / mean mesh force over the window (peaks refined between the samples), on whichever flanks it acts.
-  Figure dynamic_factor_max;
-  double dynamic_factor_min = 0;  ///< min F / mean mesh force, negative on back flanks
-  double mean_force = 0;          ///< N, negative on back flanks
-  Figure contact_loss;            ///< fraction of the time without contact
-  double back_flanks = 0;         ///< fraction of the time in which back flanks carry the load
+  /// K_γ K_V: max |F| / nominal force over the window (peaks refined between the samples), on whichever flanks it acts.
+  Figure peak_factor;
+  /// K_V: max |F| / |mean of F over the mesh cycle around that instant|. It contains no load sharing: the base
+  /// load is that of ISO 6336-1 [ISO6336-1], F_t K_A K_γ. In a window that does not repeat, the cycles at its ends are
+  /// its first and its last whole one. Not known for a mesh that carries nothing.
+  Figure dynamic_factor;
+  double smallest_factor = 0;  ///< min F / nominal force, negative on back flanks
+  double mean_force = 0;       ///< N, negative on back flanks
+  Figure contact_loss;         ///< fraction of the time without contact
+  double back_flanks = 0;      ///< fraction of the time in which back flanks carry the load
 };
 
-/// Results of the meshes first ... first + count - 1 of a steady state. `mean_force`: N, reference of the factors.
+/// Results of the meshes first ... first + count - 1 of a steady state. `nominal_force`: N, reference of the peak
+/// factor. `mesh_cycle`: of these meshes, in the mesh cycles by which the window is sampled.
 [[nodiscard]] std::vector<BranchResult> branch_results(const SteadyResponse& found, Eigen::Index first,
-                                                       Eigen::Index count, double mean_force);
+                                                       Eigen::Index count, double nominal_force, double mesh_cycle = 1);
 /// Load sharing of the same meshes. `quasi_static_force`: N, meshes x positions.
 [[nodiscard]] LoadSharing load_sharing(const SteadyResponse& found, Eigen::Index first, Eigen::Index count,
                                        const Eigen::MatrixXd& quasi_static_force);
 
-/// Largest dynamic factor of the branches, and their largest contact loss.
-[[nodiscard]] Figure largest_dynamic_factor(const std::vector<BranchResult>& branches);
-[[nodiscard]] Figure largest_contact_loss(const std::vector<BranchResult>& branches);
+/// The branch in which a result is largest; those in which it is not known do not count. Throws InternalError without
+/// branches.
+[[nodiscard]] std::size_t worst_branch(const std::vector<BranchResult>& branches, Figure BranchResult::*result);
+[[nodiscard]] Figure largest(const std::vector<BranchResult>& branches, Figure BranchResult::*result);
 
 /// Largest N |F_n| / sum |F| over all columns in which a branch carries load; `force` (N) has one row per branch. Not
 /// known where none does.

@@ -104,6 +104,7 @@ PeriodicSearch solve_harmonic_balance(const LumpedSystem& system, const SteadyPr
   windows.compared->samples_per_cycle = ahead ? options.samples_per_cycle : options.samples_per_cycle / 2;
   windows.compared->force = in_window(ahead ? periodic.finer_force : periodic.coarse_force);
   if (step > 1) windows.fine.dense_force = std::move(periodic.force);
+  windows.fine.dense_per_sample = static_cast<int>(step);
   return search;
 }
 

@@ -114,6 +114,7 @@ class PeriodWalk {
     response.force.resize(meshes, samples);
     states_.resize(linear.size(), samples);
     response.dense_force.resize(meshes, samples * fine_);
+    response.dense_per_sample = fine_;
     response.least_penetration = std::numeric_limits<double>::infinity();
   }
 

@@ -76,6 +76,7 @@ void ResponseRun::advance(int cycles, ResponseWindow* window, EnergyTracking ene
     window->velocity.resize(system_.dofs(), samples);
     window->open = window->back = Eigen::VectorXd::Zero(meshes);
     window->dense_force.resize(closer_ > 1 ? meshes : 0, closer_ > 1 ? instants : 0);
+    window->dense_per_sample = closer_;
   }
   IntegrationObserver observer{.samples = instants, .sample = {}, .at_jump = {}, .energy = energy};
   observer.sample = [&](int instant, const SystemState& state) {

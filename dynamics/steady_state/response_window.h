@@ -21,8 +21,9 @@ struct ResponseWindow {
   std::vector<Eigen::Index> after_jump{};
 
   /// Forces at closer times over the window or one period of it, for peaks, and their samples right after a jump. May
-  /// be empty.
+  /// be empty. `dense_per_sample` of them for every sample, from time[0] on.
   Eigen::MatrixXd dense_force{};
+  int dense_per_sample = 1;
   std::vector<Eigen::Index> dense_after_jump{};
 
   [[nodiscard]] bool jumps() const { return jump_time.size() > 0; }

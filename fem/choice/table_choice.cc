@@ -41,7 +41,7 @@ bool hard_for_linear(const LoadedMeshProblem& problem) {
   return problem.pair.internal() && !held_outside(problem.structure);
 }
 
-/// What a table of so many positions misses of a dynamic factor, largest of five stages against 512 (docs/tradeoff.md).
+/// What a table of so many positions misses of a peak factor, largest of five stages against 512 (docs/tradeoff.md).
 struct MissedPeaks {
   int phases;
   double relative;
@@ -70,7 +70,7 @@ TableResolution table_resolution(double accuracy, double uptake, double overlap_
     return choice;
   }
   if (accuracy >= very_rough_accuracy) {
-    choice.phases_reason = "between 32 positions dynamic factors are missed by 2 %, by 6 % under light loads";
+    choice.phases_reason = "between 32 positions peak factors are missed by 2 %, by 6 % under light loads";
     return choice;
   }
   const auto* peaks = std::begin(missed_peaks);
@@ -79,7 +79,7 @@ TableResolution table_resolution(double accuracy, double uptake, double overlap_
   choice.phases = peaks->phases;
   choice.phases_reason =
       slow ? "helical teeth that overlap by a pitch pass their load on slowly: 128 positions add nothing"
-           : fmt::format("between {} positions dynamic factors are missed by up to {:.2g} %", choice.phases,
+           : fmt::format("between {} positions peak factors are missed by up to {:.2g} %", choice.phases,
                          100 * peaks->relative);
   const double within = accuracy < linear_accuracy ? 2 : 1;  // positions within which a light load is taken up
   if (choice.phases * uptake < 1) {

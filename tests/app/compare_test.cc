@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(inputs_that_differ_are_listed_and_no_others) {
   for (const char* name : {"a: held", "a: pinned", ">b<", "Set &lt;1&gt;"}) BOOST_TEST(has_text(page, name), name);
   BOOST_TEST(!has_text(page, "<1>"));
   BOOST_TEST(has_text(page, "Above the ideal"));
-  BOOST_TEST(has_text(page, "load sharing, a: pinned"));
+  BOOST_TEST(has_text(page, "load sharing K_γ, a: pinned"));
   // Nothing from outside.
   for (const char* outside : {"src=\"", "href=\"http", "url("}) BOOST_TEST(!has_text(page, outside), outside);
   // A run of an earlier version has no inputs: that is told, and nothing is made of it.

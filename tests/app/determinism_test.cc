@@ -29,7 +29,7 @@ values = [1000, 2500]
 samples = 8
 seed = 1
 [optimise]
-objective = ["sun_planet_dynamic_factor"]
+objective = ["sun_planet_peak_factor"]
 optimisers = ["genetic"]
 generations = 2
 population = 6

@@ -152,7 +152,7 @@ class Matrix {
       if (summary.contains("rings"))
         for (const auto& ring : summary["rings"]) {
           double largest = 0;
-          for (const auto& factors : ring["dynamic_factor"]) largest = std::max(largest, largest_number(factors));
+          for (const auto& factors : ring["peak_factor"]) largest = std::max(largest, largest_number(factors));
           check_balances(ring["dynamics"], largest, problems);
           for (const auto& mesh : ring["load_sharing"]) {
             const auto& still = mesh["quasi_static"]["value"];

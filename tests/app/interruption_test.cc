@@ -50,7 +50,7 @@ count = 6
 samples = 10
 seed = 1
 [optimise]
-objective = ["sun_planet_dynamic_factor"]
+objective = ["sun_planet_peak_factor"]
 optimisers = ["genetic"]
 generations = 3
 population = 6

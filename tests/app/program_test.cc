@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
              boost::test_tools::tolerance(1e-13));
   BOOST_TEST(std::abs(ring["ring_planet"]["contact_ratio"].get<double>() - 1.5826) < 5e-5);
   for (const auto* mesh : {"sun_planet", "ring_planet"}) {
-    BOOST_TEST(ring["dynamic_factor"][mesh].size() == 5U);
+    for (const auto* factor : {"dynamic_factor", "peak_factor"}) BOOST_TEST(ring[factor][mesh].size() == 5U);
     for (const auto* kind : {"instantaneous", "averaged", "quasi_static"}) {
       const auto& figure = ring["load_sharing"][mesh][kind];
       BOOST_TEST(figure["value"].get<double>() >= 1.0);  // the most loaded of N planets carries at least its share
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(run_writes_what_the_design_promises) {
   const auto modes = read_file(dynamics / "modes.csv");
   BOOST_TEST(modes.find("\nindex,frequency_Hz,kind,damped_frequency_Hz,damping_ratio,strain_sun_planet,") !=
              std::string::npos);
-  for (const auto* name : {"load_sharing.csv", "dynamic_factor.csv", "spectrum.csv"})
+  for (const auto* name : {"load_sharing.csv", "force_factors.csv", "spectrum.csv"})
     BOOST_TEST(std::filesystem::exists(dynamics / name), name);
 
   // Each table of the motion against another one, or against what is known of it.

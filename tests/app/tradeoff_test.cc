@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char *sun_stiffness = "sun_planet_mean_stiffness_N_per_m",
                      *ring_stiffness = "ring_planet_mean_stiffness_N_per_m", *sun_lte = "sun_planet_lte_peak_to_peak_m",
-                     *sun_factor = "sun_planet_dynamic_factor";
+                     *sun_factor = "sun_planet_peak_factor";
 
 app::TradePoint made_up(const std::string& settings, double wall, double error) {
   app::TradePoint p{.fidelity = "plane", .settings = settings};
@@ -36,7 +36,7 @@ app::VariantTrade made_up_ring() {
   ring.figures = {{sun_stiffness, "mean stiffness of the sun mesh", Guarantee::always},
                   {ring_stiffness, "mean stiffness of the ring mesh", Guarantee::always},
                   {sun_lte, "transmission error of the sun mesh, peak to peak", Guarantee::none},
-                  {sun_factor, "dynamic factor of the sun meshes", Guarantee::while_in_contact}};
+                  {sun_factor, "peak factor of the sun meshes", Guarantee::while_in_contact}};
   ring.points = {made_up("a", 1, 0.05), made_up("b", 2, 0.2), made_up("c", 4, 0.008), made_up("d", 3, 0.009),
                  made_up("finest", 50, 0)};
   ring.points.back().finest = true;
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(the_front_and_the_cheapest) {
       text);
   BOOST_TEST(ring.guaranteed_error(*ring.planned(0.01)) == 0.007);
   BOOST_TEST(!ring.planned(0.02));
-  // Where contact is lost, dynamic factors are not covered either.
+  // Where contact is lost, peak factors are not covered either.
   auto losing_contact = *ring.planned(0.01);
   losing_contact.values.push_back({sun_factor, 1.2, 0.3, 0.4});
   BOOST_TEST(ring.guaranteed_error(losing_contact) == 0.3);
@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(a_ring_on_which_everything_fails_is_reported) {
   ring.figures = {{sun_stiffness, "mean stiffness of the sun mesh", Guarantee::always},
                   {ring_stiffness, "mean stiffness of the ring mesh", Guarantee::always},
                   {sun_lte, "transmission error of the sun mesh, peak to peak", Guarantee::none},
-                  {sun_factor, "dynamic factor of the sun meshes", Guarantee::while_in_contact}};
+                  {sun_factor, "peak factor of the sun meshes", Guarantee::while_in_contact}};
   for (const char* name : {"a", "finest"}) {
     app::TradePoint p{.fidelity = "solid", .settings = name, .finest = std::string(name) == "finest"};
     p.failure = "the rim is too thin";

@@ -177,7 +177,7 @@ int main(int argc, char** argv) {
     int cases = 0, kept = 0, refused = 0, priced = 0, cheap = 0, known = 0, known_cheap = 0;
     fmt::print(
         "wanted and true error (largest of stiffness entries, mean stiffness, load sharing, natural frequencies and,\n"
-        "while all teeth stay in contact, dynamic factors), processor time, and the cheapest fixed setting that meets\n"
+        "while all teeth stay in contact, peak factors), processor time, and the cheapest fixed setting that meets\n"
         "the accuracy\n");
     if (!errors_only) fmt::print("runs: of it {:.2f} s for the start of the program\n", start);
     for (const auto& s : benchmark::promise_scenes()) {

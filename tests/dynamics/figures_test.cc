@@ -37,6 +37,42 @@ BOOST_AUTO_TEST_CASE(load_sharing_counts_absolute_loads) {
   BOOST_TEST(load_sharing_instantaneous(force) == 1.5);
 }
 
+/// Loads that change slowly under a vibration of a tenth, (1 + slope t)(1 - cos(2 pi t)/10) of the mesh cycle t, beside
+/// a mesh that carries twice as much and vibrates half as much, and one that carries nothing.
+SteadyResponse drifting_loads(double slope, int cycles, int samples_per_cycle) {
+  SteadyResponse found;
+  found.total_cycles = cycles;
+  found.best.samples_per_cycle = samples_per_cycle;
+  found.best.force = Eigen::MatrixXd::Zero(3, static_cast<Eigen::Index>(cycles) * samples_per_cycle);
+  for (Eigen::Index i = 0; i < found.best.force.cols(); ++i) {
+    const double t = static_cast<double>(i) / samples_per_cycle, wave = std::cos(2 * std::numbers::pi * t);
+    found.best.force(0, i) = (1 + slope * t) * (1 - 0.1 * wave);
+    found.best.force(1, i) = 2 - 0.1 * wave;
+  }
+  return found;
+}
+
+// K_V refers to the mean of each mesh cycle, the peak factor to the nominal force. About the middle of a cycle, where
+// the force is largest, a linear drift of the load changes no mean.
+BOOST_AUTO_TEST_CASE(dynamic_factor_contains_no_load_sharing) {
+  constexpr double slope = 0.05, nominal = 1.6;
+  constexpr int cycles = 6;
+  const auto branches = branch_results(drifting_loads(slope, cycles, 256), 0, 3, nominal);
+  // The parabola through samples is exact to (2 pi / 256)^4; the drift moves the peak by slope / (0.1 (2 pi)^2) and
+  // raises it by slope^2 / (0.2 (2 pi)^2) at most.
+  BOOST_TEST(branches[0].dynamic_factor.value == 1.1, boost::test_tools::tolerance(4e-4));
+  BOOST_TEST(branches[1].dynamic_factor.value == 1.05, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(branches[0].peak_factor.value == 1.1 * (1 + slope * (cycles - 0.5)) / nominal,
+             boost::test_tools::tolerance(1e-3));
+  BOOST_TEST(branches[1].peak_factor.value == 2.1 / nominal, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST((std::isnan(branches[2].dynamic_factor.value) && branches[2].peak_factor.value == 0));
+  BOOST_TEST(worst_branch(branches, &BranchResult::dynamic_factor) == 0U);
+  BOOST_TEST(worst_branch(branches, &BranchResult::peak_factor) == 1U);
+  // Seen by meshes that run twice as slowly, a mesh cycle spans two of those.
+  const auto slow = branch_results(drifting_loads(0, cycles, 256), 0, 1, nominal, 2);
+  BOOST_TEST(slow[0].dynamic_factor.value == 1.1, boost::test_tools::tolerance(1e-6));
+}
+
 BOOST_AUTO_TEST_CASE(curves_are_reduced_to_each_cycle) {
   Eigen::VectorXd values(6);
   values << 1, 2, 6, 5, 3, 4;

@@ -52,7 +52,9 @@ BOOST_AUTO_TEST_CASE(held_centres_share_after_the_closed_form) {
                  "centripetal terms: 1e-4 of the bearing stiffness");
     record.close("averaged against quasi-static coefficient", "", averaged, quasi_static, 1e-4,
                  "centripetal terms: 1e-4 of the bearing stiffness");
-    BOOST_TEST(value("dynamic_factor") == averaged, boost::test_tools::tolerance(1e-4));
+    BOOST_TEST(value("peak_factor") == averaged, boost::test_tools::tolerance(1e-4));
+    // Whatever the planets carry, nothing vibrates.
+    BOOST_TEST(value("dynamic_factor") == 1.0, boost::test_tools::tolerance(1e-4));
     BOOST_TEST(value("contact_loss") == 0.0);
   }
   BOOST_TEST(point.figures.value("steady") == 1.0);

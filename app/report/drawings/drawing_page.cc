@@ -21,6 +21,7 @@ svg::Point DrawingPage::at(const Eigen::Vector2d& point) const {
 
 std::string DrawingPage::through(const std::vector<Eigen::Vector2d>& points) const {
   std::vector<svg::Point> list;
+  list.reserve(points.size());
   for (const auto& point : points) list.push_back(at(point));
   return svg::through(list);
 }

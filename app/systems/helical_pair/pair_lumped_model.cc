@@ -24,7 +24,8 @@ namespace {
 constexpr const char* pair_point_method = "harmonic balance, time integration where needed; 2";
 
 dynamics::Evaluation evaluation_of(const dynamics::HelicalPair& pair, const dynamics::PairResponse& response) {
-  dynamics::Evaluation evaluation{.figures = dynamics::figures(response), .outcome = response};
+  dynamics::Evaluation evaluation{.figures = dynamics::figures(response),
+                                  .outcome = static_cast<const dynamics::SteadyOutcome&>(response)};
   evaluation.figures.add(dynamics::frequency_figures(pair));
   return evaluation;
 }
@@ -40,6 +41,7 @@ void set_errors(const FigureSet& figures, dynamics::PairResponse& r) {
                                     {"mesh_force_max_N", forward ? &r.force_max : &r.force_min},
                                     {"mesh_force_min_N", forward ? &r.force_min : &r.force_max},
                                     {"dynamic_factor", &r.dynamic_factor},
+                                    {"peak_factor", &r.peak_factor},
                                     {"transmission_error_max_m", &te.largest},
                                     {"transmission_error_peak_to_peak_m", &te.peak_to_peak},
                                     {"transmission_error_static_max_m", &still.largest},

@@ -56,6 +56,7 @@ Json response_json_of(const PairResponseResult& response) {
                {"mesh_force_max_N", pair_figure(dynamics::loaded_force(f).largest)},
                {"mesh_force_min_N", pair_figure(dynamics::loaded_force(f).smallest)},
                {"dynamic_factor", pair_figure(f.dynamic_factor)},
+               {"peak_factor", pair_figure(f.peak_factor)},
                {"contact_loss", f.contact_loss},
                {"acceleration_m_per_s2",
                 {{"tooth", pair_figure(f.acceleration.tooth)},

@@ -17,10 +17,13 @@ void for_each_figure(const std::string& mesh, Kind& kind, Errors& errors, Visit 
   visit(mesh + "_instantaneous", kind.load_sharing.instantaneous, errors.instantaneous);
   visit(mesh + "_averaged", kind.load_sharing.averaged, errors.averaged);
   visit(mesh + "_quasi_static", kind.load_sharing.quasi_static, errors.quasi_static);
-  errors.dynamic_factor_max.resize(kind.branches.size());
-  for (std::size_t n = 0; n < kind.branches.size(); ++n)
-    visit(fmt::format("{}{}_dynamic_factor", mesh, n + 1), kind.branches[n].dynamic_factor_max,
-          errors.dynamic_factor_max[n]);
+  errors.peak_factor.resize(kind.branches.size());
+  errors.dynamic_factor.resize(kind.branches.size());
+  for (std::size_t n = 0; n < kind.branches.size(); ++n) {
+    auto& branch = kind.branches[n];
+    visit(fmt::format("{}{}_peak_factor", mesh, n + 1), branch.peak_factor, errors.peak_factor[n]);
+    visit(fmt::format("{}{}_dynamic_factor", mesh, n + 1), branch.dynamic_factor, errors.dynamic_factor[n]);
+  }
 }
 
 template <class Response, class Errors, class Visit>
@@ -31,7 +34,7 @@ void for_each_figure(Response& response, Errors& errors, Visit visit) {
 
 /// The figures that carry errors, every planet's by itself.
 dynamics::Evaluation evaluation_of(const DynamicResponse& response) {
-  dynamics::Evaluation evaluation{.figures = {}, .outcome = response};
+  dynamics::Evaluation evaluation{.figures = {}, .outcome = static_cast<const dynamics::SteadyOutcome&>(response)};
   ResponseErrors unused;
   for_each_figure(response, unused, [&](const std::string& key, const Figure& figure, const ErrorParts&) {
     evaluation.figures.set(key, figure);

@@ -10,8 +10,8 @@ namespace annulus::app {
 
 /// Absolute errors of the figures of one kind of mesh, NaN where not known.
 struct MeshKindErrors {
-  ErrorParts instantaneous, averaged, quasi_static;  ///< load sharing
-  std::vector<ErrorParts> dynamic_factor_max;        ///< one per planet
+  ErrorParts instantaneous, averaged, quasi_static;     ///< load sharing
+  std::vector<ErrorParts> peak_factor, dynamic_factor;  ///< one per planet
 };
 
 struct ResponseErrors {

@@ -184,7 +184,9 @@ std::vector<RingQuantity> ring_quantities(const RunResult& result) {
                                   "sun_planet_load_sharing_instantaneous",
                                   "sun_planet_load_sharing_quasi_static",
                                   "sun_planet_dynamic_factor",
-                                  "ring_planet_dynamic_factor"};
+                                  "ring_planet_dynamic_factor",
+                                  "sun_planet_peak_factor",
+                                  "ring_planet_peak_factor"};
   const auto& specs = system_kind(result.scene.stage.kind).figures();
   const auto variants = result.variants();
   std::vector<RingQuantity> list;

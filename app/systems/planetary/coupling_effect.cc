@@ -25,8 +25,8 @@ constexpr std::pair<const char*, double Row::*> row_values[] = {
     {"sun_planet_load_sharing_averaged", &Row::averaged},
     {"sun_planet_load_sharing_instantaneous", &Row::instantaneous},
     {"sun_planet_load_sharing_quasi_static", &Row::quasi_static},
-    {"sun_planet_dynamic_factor", &Row::sun_factor},
-    {"ring_planet_dynamic_factor", &Row::ring_factor}};
+    {"sun_planet_peak_factor", &Row::sun_factor},
+    {"ring_planet_peak_factor", &Row::ring_factor}};
 
 }  // namespace
 

@@ -17,7 +17,7 @@ struct CouplingEffect {
   struct Row {
     RimCoupling model = RimCoupling::none;
     double averaged = 0, instantaneous = 0, quasi_static = 0;  ///< load sharing of the sun meshes
-    double sun_factor = 0, ring_factor = 0;                    ///< largest dynamic factors
+    double sun_factor = 0, ring_factor = 0;                    ///< largest peak factors
   };
   std::vector<Row> rows;  ///< none, static, and elastic when there are modes; without those that failed
   int cycles = 0;         ///< mesh cycles evaluated

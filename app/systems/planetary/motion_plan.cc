@@ -19,7 +19,7 @@ constexpr const char* integrator_names[] = {
 Decision coupling_decision(const Scene& scene, const std::vector<MeshModel>& meshes) {
   constexpr const char* what = "coupling of the meshes";
   if (std::any_of(meshes.begin(), meshes.end(), [&](const MeshModel& m) { return may_be_coupled(scene, m); }))
-    return {what, "solved", "through the ring; applied where it changes more than the wanted accuracy"};
+    return {what, "solved", "through the ring; applied beyond a tenth of the wanted accuracy"};
   return {what, "left out",
           scene.dynamics->rim_coupling == RimCoupling::none ? asked_for : "no ring's elasticity is solved by elements"};
 }

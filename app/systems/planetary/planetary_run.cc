@@ -44,12 +44,13 @@ FigureSet response_figures(const StageResponse& response) {
     set.set(mesh + "_load_sharing_averaged", kind.load_sharing.averaged, e.averaged);
     set.set(mesh + "_load_sharing_instantaneous", kind.load_sharing.instantaneous, e.instantaneous);
     set.set(mesh + "_load_sharing_quasi_static", kind.load_sharing.quasi_static, e.quasi_static);
-    const auto factor = set.figure(mesh + "_dynamic_factor");
-    for (std::size_t n = 0; n < kind.branches.size() && n < e.dynamic_factor_max.size(); ++n)
-      if (kind.branches[n].dynamic_factor_max.value == factor.value) {
-        set.set(mesh + "_dynamic_factor", factor, e.dynamic_factor_max[n]);
-        break;
-      }
+    const auto worst = [&](const char* name, Figure dynamics::BranchResult::*factor,
+                           const std::vector<ErrorParts>& parts) {
+      const auto n = dynamics::worst_branch(kind.branches, factor);
+      set.set(mesh + name, kind.branches[n].*factor, parts.at(n));
+    };
+    worst("_peak_factor", &dynamics::BranchResult::peak_factor, e.peak_factor);
+    worst("_dynamic_factor", &dynamics::BranchResult::dynamic_factor, e.dynamic_factor);
   };
   add_parts("sun_planet", f.sun_planet, response.errors.sun_planet);
   add_parts("ring_planet", f.ring_planet, response.errors.ring_planet);

@@ -139,7 +139,7 @@ Table rim_coupling_key() {
                {"elastic", RimCoupling::elastic}},
               "How the meshes of one ring act on each other through it. none: not at all; static: by its compliance at "
               "every ring position; elastic: with the inertia of its elastic modes besides, by time integration; "
-              "automatic: static where the coupling exceeds the wanted accuracy, else none.")
+              "automatic: static where the coupling exceeds a tenth of the wanted accuracy, else none.")
       .fallback("automatic", "only what changes the answer is modelled");
   return lumped.done();
 }

@@ -17,13 +17,13 @@ Json kind_json(const dynamics::MeshKindResult& kind, const MeshKindErrors& error
                           {"quasi_static", to_json_value(kind.load_sharing.quasi_static, errors.quasi_static)}};
   for (std::size_t n = 0; n < kind.branches.size(); ++n) {
     const auto& b = kind.branches[n];
-    json["branches"].push_back(
-        {{"dynamic_factor_max", to_json_value(b.dynamic_factor_max, errors.dynamic_factor_max[n])},
-         {"dynamic_factor_min", json_number(b.dynamic_factor_min)},
-         {"mean_force_N", json_number(b.mean_force)},
-         {"contact_loss", json_number(b.contact_loss.value)},
-         {"contact_loss_error", json_number(b.contact_loss.error)},
-         {"back_flanks", json_number(b.back_flanks)}});
+    json["branches"].push_back({{"peak_factor", to_json_value(b.peak_factor, errors.peak_factor[n])},
+                                {"dynamic_factor", to_json_value(b.dynamic_factor, errors.dynamic_factor[n])},
+                                {"smallest_factor", json_number(b.smallest_factor)},
+                                {"mean_force_N", json_number(b.mean_force)},
+                                {"contact_loss", json_number(b.contact_loss.value)},
+                                {"contact_loss_error", json_number(b.contact_loss.error)},
+                                {"back_flanks", json_number(b.back_flanks)}});
   }
   return json;
 }

@@ -26,6 +26,8 @@ namespace annulus::app {
 
 namespace {
 
+// The coupling is applied beyond this part of the wanted accuracy: what is left out is in no error.
+constexpr double part_of_accuracy = 0.1;
 constexpr int coupling_level = 1;  // the far field converges fast; its error is estimated
 /// Modes up to this multiple of the mesh frequency: the mesh excites little beyond.
 constexpr double highest_mesh_order = 10;
@@ -126,17 +128,17 @@ CouplingChoice coupling_choice(const Scene& scene, const SolvedCoupling& solved)
     case RimCoupling::automatic:
       break;
   }
-  const bool small = share <= scene.accuracy;
+  const double limit = part_of_accuracy * scene.accuracy;
+  const bool small = share <= limit;
   return {small ? RimCoupling::none : RimCoupling::statical,
           fmt::format("another planet's load moves a mesh by at most {} of what its own load moves the planet's path "
-                      "(mesh and bearing): {} than the wanted accuracy of {}",
-                      percent(share), small ? "less" : "more", percent(scene.accuracy))};
+                      "(mesh and bearing): {} than {}, a tenth of the wanted accuracy",
+                      percent(share), small ? "less" : "more", percent(limit))};
 }
 
 bool is_negligible(const Scene& scene, const SolvedCoupling& solved) {
-  constexpr double part_of_accuracy = 0.1;
   return scene.dynamics->rim_coupling == RimCoupling::automatic && solved.coupling.modes.empty() &&
-         solved.largest() <= part_of_accuracy * scene.accuracy * solved.path_compliance;
+         coupling_choice(scene, solved).taken == RimCoupling::none;
 }
 
 std::shared_ptr<const RingCoupling> taken_coupling(const SolvedCoupling& solved, RimCoupling taken) {

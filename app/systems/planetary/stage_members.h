@@ -18,7 +18,8 @@ ANNULUS_MEMBERS(dynamics::PlanetaryStage, sun, ring, carrier, planet, planet_ang
                 rotating_frame);
 
 ANNULUS_MEMBERS(dynamics::LoadSharing, instantaneous, averaged, quasi_static);
-ANNULUS_MEMBERS(dynamics::BranchResult, factor_max, factor_min, mean_force, contact_loss, back_flanks);
+ANNULUS_MEMBERS(dynamics::BranchResult, peak_factor, dynamic_factor, smallest_factor, mean_force, contact_loss,
+                back_flanks);
 ANNULUS_MEMBERS(dynamics::MeshKindResult, load_sharing, branches);
 /// Without its time series.
 template <>
@@ -30,7 +31,7 @@ struct Members<dynamics::DynamicResponse> {
   }
 };
 
-ANNULUS_MEMBERS(app::MeshKindErrors, instantaneous, averaged, quasi_static, dynamic_factor_max);
+ANNULUS_MEMBERS(app::MeshKindErrors, instantaneous, averaged, quasi_static, peak_factor, dynamic_factor);
 ANNULUS_MEMBERS(app::ResponseErrors, sun_planet, ring_planet);
 ANNULUS_MEMBERS(app::StageModes::Mode, frequency, frequency_error, error_parts, kind, damped_frequency, damping_ratio,
                 strain, kinetic);
@@ -38,7 +39,7 @@ ANNULUS_MEMBERS(app::StageModes, groups, bodies, list, shapes, campbell, critica
 ANNULUS_MEMBERS(app::StageMotion, pin_force_max, pin_force_mean, sun_support, ring_support, carrier_support,
                 ring_torque, orbit_extent, orbit_largest, section, section_period, section_clusters, bearing_forces,
                 sun_orbit, poincare);
-ANNULUS_MEMBERS(app::StageResponse, figures, errors, modes, motion, load_sharing, dynamic_factor, waveform,
+ANNULUS_MEMBERS(app::StageResponse, figures, errors, modes, motion, load_sharing, force_factors, waveform,
                 sharing_waveform, spectrum, time_series, reused);
 ANNULUS_MEMBERS(app::CouplingEffect::Row, model, averaged, instantaneous, quasi_static, sun_factor, ring_factor);
 ANNULUS_MEMBERS(app::CouplingEffect, rows, cycles);

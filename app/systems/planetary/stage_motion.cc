@@ -53,7 +53,7 @@ StageMotion tabulated_motion(const dynamics::PlanetaryStage& stage, const dynami
   motion.sun_orbit_extent = path.extent;
   motion.sun_orbit_largest = path.largest;
   motion.sun_orbit.columns = {"mesh_cycle", "x_m", "y_m", "housing_x_m", "housing_y_m"};
-  const auto samples_per_cycle = static_cast<double>(path.x.size() / response.window_cycles);
+  const auto samples_per_cycle = static_cast<double>(path.x.size()) / response.window_cycles;
   const int stride = written_stride(response.window_cycles);
   for (Eigen::Index i = 0; i < path.x.size(); i += stride)
     motion.sun_orbit.rows.push_back(

@@ -61,15 +61,16 @@ void tabulate(StageResponse& result, const dynamics::DynamicResponse& response, 
   const Eigen::MatrixXd averaged = sharing(response.cycle_force, planets);
 
   result.load_sharing.columns = columns("mesh_cycle", series.meshes, {"_averaged", "_min", "_max"});
-  result.dynamic_factor.columns = columns("mesh_cycle", series.meshes, {"_min", "_max"});
+  result.force_factors.columns = columns("mesh_cycle", series.meshes, {"_smallest", "_largest", "_dynamic_factor"});
   for (int c = 0; c < cycles; ++c) {
     const auto shares = momentary.middleCols(c * samples, samples);
     const auto factors = factor.middleCols(c * samples, samples);
     auto& sharing_row = result.load_sharing.rows.emplace_back(1, c);
-    auto& factor_row = result.dynamic_factor.rows.emplace_back(1, c);
+    auto& factor_row = result.force_factors.rows.emplace_back(1, c);
     for (Eigen::Index b = 0; b < factor.rows(); ++b) {
       sharing_row.insert(sharing_row.end(), {averaged(b, c), shares.row(b).minCoeff(), shares.row(b).maxCoeff()});
-      factor_row.insert(factor_row.end(), {factors.row(b).minCoeff(), factors.row(b).maxCoeff()});
+      const double largest = factors.row(b).cwiseAbs().maxCoeff(), mean = std::abs(factors.row(b).mean());
+      factor_row.insert(factor_row.end(), {factors.row(b).minCoeff(), largest, mean > 0 ? largest / mean : not_known});
     }
   }
 
@@ -102,7 +103,7 @@ void tabulate(StageResponse& result, const dynamics::DynamicResponse& response, 
 template <class Response, class Visit>
 void for_each_stage_table(Response& r, Visit visit) {
   visit("load_sharing.csv", r.load_sharing);
-  visit("dynamic_factor.csv", r.dynamic_factor);
+  visit("force_factors.csv", r.force_factors);
   visit("waveform.csv", r.waveform);
   visit("load_sharing_waveform.csv", r.sharing_waveform);
   visit("spectrum.csv", r.spectrum);

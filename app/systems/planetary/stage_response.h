@@ -23,8 +23,10 @@ struct StageResponse {
   ResponseErrors errors;              ///< the parts of the errors
   StageModes modes;
   StageMotion motion;
-  Csv load_sharing;         ///< per mesh cycle: N F / sum F of every branch, forces averaged over the cycle
-  Csv dynamic_factor;       ///< per mesh cycle: smallest and largest F / mean mesh force of every branch
+  Csv load_sharing;  ///< per mesh cycle: N F / sum F of every branch, forces averaged over the cycle
+  /// Per mesh cycle and mesh: smallest F and largest |F| over the nominal force, largest |F| over the mean of the
+  /// cycle.
+  Csv force_factors;
   Csv waveform;             ///< F / mean mesh force of every branch over the first mesh cycles of the window
   Csv sharing_waveform;     ///< N F / sum F of every branch over the same time
   Csv spectrum;             ///< force amplitude of every branch over frequency and mesh order

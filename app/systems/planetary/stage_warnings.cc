@@ -46,7 +46,7 @@ std::vector<std::string> stage_warnings(const Scene& scene, const dynamics::Dyna
   if (rigid_unasked(scene))
     list.emplace_back(
         "sun and planets are in rigid bearings, because [supports] does not mention them: nothing but the meshes evens "
-        "out what the planets carry. Load sharing and dynamic factors are those of such a stage; give "
+        "out what the planets carry. Load sharing, dynamic and peak factors are those of such a stage; give "
         "supports.sun_N_per_m (0: floating) and supports.planet_N_per_m");
   for (const auto& [mesh, kind] : {std::pair{"sun mesh", &response.sun_planet}, {"ring mesh", &response.ring_planet}})
     if (auto warning = back_flanks(mesh, kind->branches); !warning.empty()) list.push_back(std::move(warning));

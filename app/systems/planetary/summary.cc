@@ -1,5 +1,7 @@
 #include "app/systems/planetary/planetary_run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -55,19 +57,26 @@ Json sharing_json(const dynamics::LoadSharing& s, const MeshKindErrors& e) {
 
 void add_branches(Json& ring, const std::string& mesh, const dynamics::MeshKindResult& kind,
                   const MeshKindErrors& errors) {
-  // Filled before they are put in: a new key may move all others.
-  auto factor = Json::array(), error = factor, parts = factor, loss = factor, loss_error = factor, back = factor;
+  const auto factors = [&](const char* name, Figure dynamics::BranchResult::*factor,
+                           const std::vector<ErrorParts>& parts_of) {
+    auto value = Json::array(), error = value, parts = value;
+    for (const auto& b : kind.branches) {
+      value.push_back(json_number((b.*factor).value));
+      error.push_back(json_number((b.*factor).error));
+    }
+    for (const auto& e : parts_of) parts.push_back(to_json(e));
+    ring[name][mesh] = std::move(value);
+    ring[fmt::format("{}_error", name)][mesh] = std::move(error);
+    ring[fmt::format("{}_error_parts", name)][mesh] = std::move(parts);
+  };
+  factors("dynamic_factor", &dynamics::BranchResult::dynamic_factor, errors.dynamic_factor);
+  factors("peak_factor", &dynamics::BranchResult::peak_factor, errors.peak_factor);
+  auto loss = Json::array(), loss_error = loss, back = loss;
   for (const auto& b : kind.branches) {
-    factor.push_back(json_number(b.dynamic_factor_max.value));
-    error.push_back(json_number(b.dynamic_factor_max.error));
     loss.push_back(json_number(b.contact_loss.value));
     loss_error.push_back(json_number(b.contact_loss.error));
     back.push_back(json_number(b.back_flanks));
   }
-  for (const auto& e : errors.dynamic_factor_max) parts.push_back(to_json(e));
-  ring["dynamic_factor"][mesh] = std::move(factor);
-  ring["dynamic_factor_error"][mesh] = std::move(error);
-  ring["dynamic_factor_error_parts"][mesh] = std::move(parts);
   ring["contact_loss"][mesh] = std::move(loss);
   ring["contact_loss_error"][mesh] = std::move(loss_error);
   ring["back_flanks"][mesh] = std::move(back);

@@ -16,7 +16,8 @@ ANNULUS_MEMBERS(dynamics::ArcToothMesh, pins, eccentricity, pin_circle_radius, p
                 youngs_modulus, poisson_ratio, clearance, approach);
 ANNULUS_MEMBERS(app::TwoKVModels, at_nominal, moving, arc_clearance);
 
-ANNULUS_MEMBERS(dynamics::BranchResult, factor_max, factor_min, mean_force, contact_loss, back_flanks);
+ANNULUS_MEMBERS(dynamics::BranchResult, peak_factor, dynamic_factor, smallest_factor, mean_force, contact_loss,
+                back_flanks);
 ANNULUS_MEMBERS(dynamics::ArcBearingResult, crank, arc_gear, largest, mean);
 ANNULUS_MEMBERS(app::TwoKVMotion, crank_frequency, sun_frequency, arc_frequency, mean_sun_force, mean_arc_force,
                 crank_turns, total_cycles, steady, steady_difference, torque_balance, largest_multiplier, energy,

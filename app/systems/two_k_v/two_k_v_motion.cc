@@ -20,9 +20,11 @@ constexpr double highest_crank_order = 200;  // several multiples of both mesh o
 Json meshes_json(const std::vector<dynamics::BranchResult>& meshes) {
   auto json = Json::array();
   for (const auto& m : meshes)
-    json.push_back({{"dynamic_factor_max", m.dynamic_factor_max.value},
-                    {"dynamic_factor_max_error", m.dynamic_factor_max.error},
-                    {"dynamic_factor_min", m.dynamic_factor_min},
+    json.push_back({{"peak_factor", m.peak_factor.value},
+                    {"peak_factor_error", m.peak_factor.error},
+                    {"dynamic_factor", json_number(m.dynamic_factor.value)},
+                    {"dynamic_factor_error", json_number(m.dynamic_factor.error)},
+                    {"smallest_factor", m.smallest_factor},
                     {"mean_force_N", m.mean_force},
                     {"contact_loss", m.contact_loss.value}});
   return json;
@@ -125,7 +127,13 @@ TwoKVMotion motion_of(const dynamics::TwoKVStage& stage, const dynamics::TwoKVRe
   return m;
 }
 
-std::string factor_key(const char* mesh, std::size_t n) { return fmt::format("{}{}_dynamic_factor", mesh, n + 1); }
+/// The factors of every mesh by itself.
+constexpr std::pair<const char*, Figure dynamics::BranchResult::*> mesh_factors[] = {
+    {"dynamic_factor", &dynamics::BranchResult::dynamic_factor}, {"peak_factor", &dynamics::BranchResult::peak_factor}};
+
+std::string factor_key(const char* mesh, std::size_t n, const char* factor) {
+  return fmt::format("{}{}_{}", mesh, n + 1, factor);
+}
 
 }  // namespace
 
@@ -133,12 +141,8 @@ bool TwoKVMotion::output_moves() const {
   return dynamics::output_moves(error_peak_to_peak.value, static_error_peak_to_peak, error_mean);
 }
 
-double TwoKVMotion::dynamic_factor(bool arc) const {
-  return dynamics::largest_dynamic_factor(arc ? arc_pins : sun_planet).value;
-}
-
-double TwoKVMotion::contact_loss(bool arc) const {
-  return dynamics::largest_contact_loss(arc ? arc_pins : sun_planet).value;
+double TwoKVMotion::largest(bool arc, Figure dynamics::BranchResult::*result) const {
+  return dynamics::largest(arc ? arc_pins : sun_planet, result).value;
 }
 
 double TwoKVMotion::largest_bearing_force() const {
@@ -149,11 +153,12 @@ double TwoKVMotion::largest_bearing_force() const {
 
 dynamics::Evaluation evaluation_of(const TwoKVModels& models, const dynamics::TwoKVResponse& response) {
   dynamics::Evaluation evaluation{.figures = dynamics::static_figures(models.at_nominal, models.arc_clearance),
-                                  .outcome = response};
+                                  .outcome = static_cast<const dynamics::SteadyOutcome&>(response)};
   evaluation.figures.add(dynamics::figures(models.moving, response));
   const auto add = [&](const char* mesh, const std::vector<dynamics::BranchResult>& list) {
     for (std::size_t n = 0; n < list.size(); ++n)
-      evaluation.figures.set(factor_key(mesh, n), list[n].dynamic_factor_max);
+      for (const auto& [name, factor] : mesh_factors)
+        evaluation.figures.set(factor_key(mesh, n, name), list[n].*factor);
   };
   add("sun_planet", response.sun_planet);
   add("arc_pins", response.arc_pins);
@@ -179,7 +184,8 @@ TwoKVMotion simulate_two_k_v(const Scene& scene, const TwoKVTables& tables,
   motion.error_peak_to_peak.error = motion.results.figure("output_error_peak_to_peak_rad").error;
   for (const auto& [mesh, list] : {std::pair{"sun_planet", &motion.sun_planet}, {"arc_pins", &motion.arc_pins}})
     for (std::size_t n = 0; n < list->size(); ++n)
-      (*list)[n].dynamic_factor_max.error = motion.results.figure(factor_key(mesh, n)).error;
+      for (const auto& [name, factor] : mesh_factors)
+        ((*list)[n].*factor).error = motion.results.figure(factor_key(mesh, n, name)).error;
   for_each_motion_table(motion, [](const char*, Csv& table) { table.round(); });
   motion.time_series = motion_series(response.series).text();
   return motion;

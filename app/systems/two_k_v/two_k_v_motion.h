@@ -39,8 +39,7 @@ struct TwoKVMotion {
   /// Whether the output moves against the input beyond rounding. Constant mesh stiffness moves nothing: the whole load
   /// winds the train up evenly, whatever the crank angle.
   [[nodiscard]] bool output_moves() const;
-  [[nodiscard]] double dynamic_factor(bool arc) const;  ///< largest of all meshes of the kind
-  [[nodiscard]] double contact_loss(bool arc) const;
+  [[nodiscard]] double largest(bool arc, Figure dynamics::BranchResult::*result) const;  ///< of all meshes of the kind
   [[nodiscard]] double largest_bearing_force() const;
 };
 

@@ -64,8 +64,9 @@ Json motion_summary(const TwoKVMotion& m) {
     for (const auto& mesh : arc ? m.arc_pins : m.sun_planet)
       json[arc ? "arc_pins" : "sun_planet"].push_back(
           {{"dynamic_factor",
-            {{"value", mesh.dynamic_factor_max.value}, {"error", json_number(mesh.dynamic_factor_max.error)}}},
-           {"dynamic_factor_min", mesh.dynamic_factor_min},
+            {{"value", json_number(mesh.dynamic_factor.value)}, {"error", json_number(mesh.dynamic_factor.error)}}},
+           {"peak_factor", {{"value", mesh.peak_factor.value}, {"error", json_number(mesh.peak_factor.error)}}},
+           {"smallest_factor", mesh.smallest_factor},
            {"contact_loss", mesh.contact_loss.value}});
   json["largest_arc_bearing_force_N"] = m.largest_bearing_force();
   json["reused"] = m.reused;

@@ -41,10 +41,9 @@ std::vector<FigureSpec> declared() {
                   .unit = "kN",
                   .scale = 1e-3,
                   .definition = "smallest mesh force over time, in the direction of the load"});
-  auto factor = dynamic_factor_figure("dynamic_factor", "Dynamic factor", "largest force / static force",
-                                      "largest mesh force over time / static mesh force T_1 / (r_b1 cos β_b)");
-  factor.spread = factor.ordering = true;
-  list.push_back(factor);
+  auto factors = force_factor_figures("", "the mesh", "T_1 / (r_b1 cos β_b)");
+  factors.back().ordering = true;
+  list.insert(list.end(), factors.begin(), factors.end());
   list.push_back(contact_loss_figure("contact_loss", "Time without contact", "",
                                      "fraction of the time in which no tooth touches"));
   auto largest = length("transmission_error_max_m", "Largest transmission error",
@@ -102,6 +101,7 @@ FigureSet figures(const PairResponse& r) {
   set.set("mesh_force_max_N", force.largest);
   set.set("mesh_force_min_N", force.smallest);
   set.set("dynamic_factor", r.dynamic_factor);
+  set.set("peak_factor", r.peak_factor);
   set.set("contact_loss", r.contact_loss);
   set.set("transmission_error_max_m", te.largest);
   set.set("transmission_error_peak_to_peak_m", te.peak_to_peak);

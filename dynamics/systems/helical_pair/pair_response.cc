@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "dynamics/figures/mesh_results.h"
 #include "dynamics/figures/motion.h"
 #include "dynamics/figures/peaks.h"
 #include "dynamics/statics/static_solver.h"
@@ -190,9 +191,11 @@ PairResponse evaluate_pair(const HelicalPair& pair, const SimulationOptions& opt
   response.force_min.value *= -1;
   response.force_mean = averaging_force(found.best).row(0).mean();
   const double f = response.static_force;
-  response.dynamic_factor = f == 0  ? Figure{not_known, not_known}
-                            : f > 0 ? Figure{response.force_max.value / f, response.force_max.error / f}
-                                    : Figure{response.force_min.value / f, -response.force_min.error / f};
+  const Figure none{not_known, not_known};
+  response.peak_factor = f == 0  ? none
+                         : f > 0 ? Figure{response.force_max.value / f, response.force_max.error / f}
+                                 : Figure{response.force_min.value / f, -response.force_min.error / f};
+  response.dynamic_factor = f == 0 ? none : branch_results(found, 0, 1, std::abs(f)).front().dynamic_factor;
   response.contact_loss = found.best.open[0];
   response.acceleration = {evidence.acceleration(&WindowPeaks::line_of_action),
                            evidence.acceleration(&WindowPeaks::axial), evidence.acceleration(&WindowPeaks::rotation),

@@ -40,7 +40,8 @@ struct PairResponse : SteadyOutcome {
   double static_force = 0;      ///< N, T_1/(r_1 cos b)
   Figure force_max, force_min;  ///< N
   double force_mean = 0;        ///< N
-  Figure dynamic_factor;        ///< largest F / static force; NaN without a torque
+  Figure dynamic_factor;        ///< K_V, see BranchResult
+  Figure peak_factor;           ///< largest F / static force; NaN without a torque
   double contact_loss = 0;      ///< fraction of the time without contact
   PairAccelerations acceleration;
   PairMotions dynamic;

@@ -62,7 +62,7 @@ bool same_motion(const FigureSet& a, const FigureSet& b, double share) {
     return x == y || std::abs(x - y) <= share * std::max(std::abs(x), std::abs(y));
   };
   for (const std::string mesh : {"sun_planet_", "ring_planet_"})
-    if (!close(mesh + "load_sharing_instantaneous") || !close(mesh + "dynamic_factor") ||
+    if (!close(mesh + "load_sharing_instantaneous") || !close(mesh + "peak_factor") ||
         // A fraction of the time, itself counted in samples.
         !(std::abs(a.value(mesh + "contact_loss") - b.value(mesh + "contact_loss")) <= std::max(share, 0.01)))
       return false;

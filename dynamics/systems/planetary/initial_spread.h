@@ -13,7 +13,7 @@ struct InitialSpreadOptions {
   /// of a vibration of that size at mesh frequency.
   double factor = 3;
   std::uint64_t seed = 1;
-  /// Two motions are the same when none of their results (load sharing, dynamic factor, contact loss) differs by more
+  /// Two motions are the same when none of their results (load sharing, peak factor, contact loss) differs by more
   /// than this share; steady windows agree far better.
   double same = 5e-3;
   SimulationOptions simulation{};  ///< always by time integration

@@ -41,13 +41,9 @@ void declare_meshes(std::vector<FigureSpec>& list, const std::string& prefix, co
   list.insert(list.end(),
               {averaged, instantaneous,
                share("quasi_static", "quasi-static", "positions of N |F_n| / Σ|F|, without inertia and damping")});
-  auto factor = dynamic_factor_figure(
-      prefix + "dynamic_factor", "Dynamic factor of the " + meshes, "largest |F| / mean mesh force",
-      "largest over the planets and instants of |F_n| over the nominal mesh force, T_s / (N r_bs); "
-      "it contains the load sharing");
-  factor.spread = true;
-  factor.ordering = sun;
-  list.push_back(factor);
+  auto factors = force_factor_figures(prefix, "the " + meshes, "T_s / (N r_bs)");
+  factors.back().ordering = sun;
+  list.insert(list.end(), factors.begin(), factors.end());
   list.push_back(contact_loss_figure(prefix + "contact_loss", "Time without contact, " + meshes, "worst planet, %",
                                      "largest over the planets of the fraction of the time in which no tooth touches"));
 }
@@ -90,8 +86,9 @@ void add(FigureSet& set, const std::string& prefix, const MeshKindResult& kind) 
   set.set(prefix + "load_sharing_averaged", kind.load_sharing.averaged);
   set.set(prefix + "load_sharing_instantaneous", kind.load_sharing.instantaneous);
   set.set(prefix + "load_sharing_quasi_static", kind.load_sharing.quasi_static);
-  set.set(prefix + "dynamic_factor", largest_dynamic_factor(kind.branches));
-  set.set(prefix + "contact_loss", largest_contact_loss(kind.branches));
+  set.set(prefix + "dynamic_factor", largest(kind.branches, &BranchResult::dynamic_factor));
+  set.set(prefix + "peak_factor", largest(kind.branches, &BranchResult::peak_factor));
+  set.set(prefix + "contact_loss", largest(kind.branches, &BranchResult::contact_loss));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ inline constexpr int planetary_frequencies = 6;
 /// that begin with sun_planet_ and ring_planet_.
 [[nodiscard]] const std::vector<FigureSpec>& planetary_figures();
 
-/// Results of a response with their errors, by the keys above; of the dynamic factor and the loss of contact the
+/// Results of a response with their errors, by the keys above; of the factors and the loss of contact the
 /// largest over the planets.
 [[nodiscard]] FigureSet figures(const DynamicResponse& response);
 

@@ -74,15 +74,20 @@ void declare_motion(std::vector<FigureSpec>& list) {
   still.axis = error.axis;
   still.effort = FigureEffort::motion;
   list.push_back(still);
-  for (const auto& [prefix, meshes] : mesh_kinds)
-    list.push_back(dynamic_factor_figure(std::string(prefix) + "dynamic_factor",
-                                         std::string("Dynamic factor of the ") + meshes, "largest F / mean mesh force",
-                                         "largest over the meshes and instants of F over the nominal mesh force"));
+  const auto first = list.size();
+  for (const auto& [prefix, meshes] : mesh_kinds) {
+    const auto factors =
+        force_factor_figures(prefix, std::string("the ") + meshes, "that of equal shares without motion");
+    list.insert(list.end(), factors.begin(), factors.end());
+  }
   for (const auto& [prefix, meshes] : mesh_kinds)
     list.push_back(contact_loss_figure(
         std::string(prefix) + "contact_loss", std::string("Time without contact, ") + meshes, "worst, %",
         "largest over the meshes of the fraction of the time in which no tooth touches"));
-  for (auto spec = list.end() - 4; spec != list.end(); ++spec) spec->effort = FigureEffort::motion;
+  for (auto i = first; i < list.size(); ++i) {
+    list[i].effort = FigureEffort::motion;
+    list[i].spread = false;  // samples do not simulate the motion
+  }
   list.push_back({.key = "arc_bearing_force_N",
                   .title = "Largest force of an eccentric's bearing",
                   .unit = "N",
@@ -140,8 +145,10 @@ FigureSet figures(const TwoKVStage& stage, const TwoKVResponse& r) {
   const std::vector<BranchResult>* kinds[] = {&r.sun_planet, &r.arc_pins};
   for (std::size_t k = 0; k < std::size(kinds); ++k) {
     const std::string prefix = mesh_kinds[k].first;
-    set.set(prefix + "dynamic_factor", still ? Figure{1, 0} : largest_dynamic_factor(*kinds[k]));
-    set.set(prefix + "contact_loss", largest_contact_loss(*kinds[k]));
+    for (const auto& [key, factor] :
+         {std::pair{"peak_factor", &BranchResult::peak_factor}, {"dynamic_factor", &BranchResult::dynamic_factor}})
+      set.set(prefix + key, still ? Figure{1, 0} : largest(*kinds[k], factor));
+    set.set(prefix + "contact_loss", largest(*kinds[k], &BranchResult::contact_loss));
   }
   double bearing = 0;
   for (const auto& b : r.arc_bearings) bearing = std::max(bearing, b.largest);

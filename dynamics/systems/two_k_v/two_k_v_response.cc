@@ -148,7 +148,8 @@ TwoKVResponse simulate(const TwoKVStage& stage, const SimulationOptions& options
   constexpr int static_positions = 16;  // per sun mesh cycle
   response.quasi_static = quasi_static_error(stage, system, form, static_positions, response.quasi_static_time);
   response.sun_planet = branch_results(steady, 0, stage.cranks, response.mean_sun_force);
-  response.arc_pins = branch_results(steady, stage.cranks, stage.arc_gears, arc_force);
+  response.arc_pins = branch_results(steady, stage.cranks, stage.arc_gears, arc_force,
+                                     stage.sun_mesh_frequency() / stage.arc_mesh_frequency());
   response.arc_bearings = bearing_results(stage, steady.best.force);
   response.torque_balance_relative = torque_balance(stage, system, steady);
   if (steady.window_cycles % stage.planet_teeth == 0)

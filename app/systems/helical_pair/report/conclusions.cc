@@ -200,7 +200,8 @@ Blocks pair_verdict(const PairRunResult& result) {
         "Largest mesh force {} kN{}, largest acceleration of the teeth {} m/s², transmission error {} µm peak to peak "
         "about a mean of {} µm.{}",
         measured(force, 1e-3),
-        std::isfinite(f.dynamic_factor.value) ? fmt::format(" (dynamic factor {})", measured(f.dynamic_factor, 1)) : "",
+        std::isfinite(f.dynamic_factor.value) ? fmt::format(" (dynamic factor K_V {})", measured(f.dynamic_factor, 1))
+                                              : "",
         measured(f.acceleration.tooth, 1), measured(te.peak_to_peak, 1e6), um_text(te.mean),
         f.contact_loss > 0 ? fmt::format(" The teeth lose contact for {:.2g} % of the time.", 100 * f.contact_loss)
                            : std::string(" The teeth never lose contact.")));

@@ -18,7 +18,7 @@ Section coupling_section(const RunResult& result) {
   size.head = {"ring", "another mesh's load moves a mesh by at most, of what its own does",
                "first elastic mode of the ring, Hz (waves)", "coupling applied", "why"};
   for (const auto* head : {"ring", "coupling", "load sharing, averaged", "instantaneous", "quasi-static",
-                           "dynamic factor, sun meshes", "dynamic factor, ring meshes"})
+                           "peak factor, sun meshes", "peak factor, ring meshes"})
     effect.head.emplace_back(head);
   int cycles = 0;
   std::vector<std::string> negligible;

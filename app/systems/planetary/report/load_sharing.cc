@@ -18,7 +18,7 @@ Blocks planets_over_time(const RunResult& result) {
   const std::string cut =
       fmt::format(" Windows longer than {:.0f} mesh cycles are cut here; the files hold them whole.", shown_cycles);
   const Text first_cycles = "The first six mesh cycles of the window, at full resolution.";
-  constexpr const char *share = "N F / Σ|F|", *factor = "F / mean mesh force";
+  constexpr const char *share = "N F / Σ|F|", *factor = "F / nominal force", *cycle_factor = "|F| / mean of the cycle";
   Blocks blocks;
   for (const auto& [mesh, words] : {Shown{sun_planet, "sun meshes"}, {ring_planet, "ring meshes"}})
     blocks += heading(std::string("Load sharing of the ") + words) +
@@ -28,9 +28,15 @@ Blocks planets_over_time(const RunResult& result) {
                                cut) +
               planet_lines(result, {&StageResponse::sharing_waveform, mesh, "", "", "", share, 6}, first_cycles);
   for (const auto& [mesh, words] : {Shown{sun_planet, "sun meshes"}, {ring_planet, "ring meshes"}})
-    blocks += heading(std::string("Dynamic factor of the ") + words) +
-              planet_lines(result, {&StageResponse::dynamic_factor, mesh, "_max", "_min", "_max", factor},
-                           "Line: largest force of each mesh cycle; band: down to the smallest." + cut) +
+    blocks += heading(std::string("Dynamic and peak factor of the ") + words) +
+              planet_lines(result, {&StageResponse::force_factors, mesh, "_dynamic_factor", "", "", cycle_factor},
+                           "Largest force of each mesh cycle over the mean force of that cycle: K_V is the highest "
+                           "point." +
+                               cut) +
+              planet_lines(result, {&StageResponse::force_factors, mesh, "_largest", "_smallest", "_largest", factor},
+                           "Line: largest force of each mesh cycle over the nominal force, whose highest point is the "
+                           "peak factor K_γ K_V; band: down to the smallest force." +
+                               cut) +
               planet_lines(result, {&StageResponse::waveform, mesh, "", "", "", factor, 6}, first_cycles);
   return blocks;
 }
@@ -39,11 +45,13 @@ PageTable factors_table(const RunResult& result) {
   std::vector<TableRow<StageResponse>> rows;
   for (const auto& [kind, words] : {std::pair{&dynamics::DynamicResponse::sun_planet, "sun mesh"},
                                     {&dynamics::DynamicResponse::ring_planet, "ring mesh"}})
-    for (int n = 0; n < result.scene.stage.planets; ++n)
-      rows.push_back(
-          {fmt::format("dynamic factor, {} of planet {}", words, n + 1), [kind = kind, n](const StageResponse& r) {
-             return measured((r.figures.*kind).branches[static_cast<std::size_t>(n)].dynamic_factor_max, 1);
-           }});
+    for (const auto& [name, factor] : {std::pair{"dynamic", &dynamics::BranchResult::dynamic_factor},
+                                       {"peak", &dynamics::BranchResult::peak_factor}})
+      for (int n = 0; n < result.scene.stage.planets; ++n)
+        rows.push_back({fmt::format("{} factor, {} of planet {}", name, words, n + 1),
+                        [kind = kind, factor = factor, n](const StageResponse& r) {
+                          return measured((r.figures.*kind).branches[static_cast<std::size_t>(n)].*factor, 1);
+                        }});
   return side_by_side(responses_of(result), rows);
 }
 
@@ -124,11 +132,11 @@ Pictures planet_lines(const RunResult& result, const PlanetLines& shown, const T
 }
 
 Section dynamics_section(const RunResult& result) {
-  Section section{"dynamics", "Load sharing and dynamic factors", paragraph("Not asked for.")};
+  Section section{"dynamics", "Load sharing, dynamic and peak factors", paragraph("Not asked for.")};
   if (responses_of(result).empty()) return section;
-  section.blocks = planets_over_time(result) + heading("Dynamic factor of every planet") + factors_table(result) +
-                   heading("Spectrum of the mesh forces") + paragraph("Sun mesh") + spectra(result, sun_planet) +
-                   paragraph("Ring mesh") + spectra(result, ring_planet);
+  section.blocks = planets_over_time(result) + heading("Dynamic and peak factor of every planet") +
+                   factors_table(result) + heading("Spectrum of the mesh forces") + paragraph("Sun mesh") +
+                   spectra(result, sun_planet) + paragraph("Ring mesh") + spectra(result, ring_planet);
   return section;
 }
 

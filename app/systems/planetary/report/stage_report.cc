@@ -15,7 +15,7 @@ List loads_beyond(const RunResult& result) {
   const auto add = [&](const std::string& where, const MeshResult& mesh, const dynamics::DynamicResponse& f,
                        const dynamics::MeshKindResult& kind) {
     double factor = 0;
-    for (const auto& branch : kind.branches) factor = std::max(factor, branch.dynamic_factor_max.value);
+    for (const auto& branch : kind.branches) factor = std::max(factor, branch.peak_factor.value);
     const double largest = factor * f.mean_mesh_force, tabulated = mesh.table.loads().back();
     if (mesh.table.loads().size() > 1 && largest > tabulated)
       list.items.emplace_back(fmt::format(
