@@ -156,13 +156,16 @@ void declare(CLI::App& app, Arguments& arguments) {
            "  annulus new planetary > my.toml\n"
            "  annulus new --rexs gearbox.rexs > my.toml");
 
-  auto* explain_key = app.add_subcommand("explain", "The keys of a scene file: meaning, unit, range, default, source");
-  explain_key->add_option("key", arguments.key, "Key, key path or table; absent: all");
-  explain_key->add_flag("--markdown", arguments.markdown, "The scene reference as Markdown");
+  auto* explain_key = app.add_subcommand("explain", "Keys of a scene file, results, and the words they use");
+  explain_key->add_option("key", arguments.key,
+                          "Key or table of a scene, key of a result, or a word such as K_V; absent: all keys");
+  auto* markdown = explain_key->add_flag("--markdown", arguments.markdown, "The scene reference as Markdown");
+  explain_key->add_flag("--definitions", arguments.definitions, "All definitions as Markdown")->excludes(markdown);
   add_common(*explain_key, arguments);
   examples(explain_key,
            "  annulus explain module_mm\n"
-           "  annulus explain supports");
+           "  annulus explain supports\n"
+           "  annulus explain K_V");
 
   auto* cached = app.add_subcommand("cache", "Cached results: what there is, or remove it");
   cached->add_option("folder", arguments.cache, "Folder of the cache; default the one that runs use");

@@ -16,6 +16,7 @@
 #include "app/plan/plan.h"
 #include "app/process/held_limits.h"
 #include "app/report/page.h"
+#include "app/results/definitions.h"
 #include "app/results/figure_table.h"
 #include "app/results/result_folder.h"
 #include "app/results/user_cache.h"
@@ -224,6 +225,10 @@ void explain_command(const Arguments& arguments) {
     fmt::print("{}", scene_reference());
     return;
   }
+  if (arguments.definitions) {
+    fmt::print("{}", definitions_markdown());
+    return;
+  }
   bool found = false;
   for (const auto& table : schema()) {
     const bool whole_table = arguments.key == table.path && !table.path.empty();
@@ -235,12 +240,17 @@ void explain_command(const Arguments& arguments) {
   }
   if (arguments.key.empty()) return;
   found = explain_results(arguments.key) || found;
+  if (const auto* definition = find_definition(arguments.key)) {
+    fmt::print("{}{}", found ? "\n" : "", explain(*definition));
+    found = true;
+  }
   if (found) return;
   if (const auto now = renamed_key(arguments.key); !now.empty()) throw InputError(arguments.key + ": is now " + now);
   auto names = all_keys();
   for (const auto& kind : system_kinds())
     for (auto& key : figure_keys(kind.figures())) names.push_back(std::move(key));
-  throw InputError(arguments.key + ": there is no such key or result" + did_you_mean(arguments.key, names));
+  for (const auto& definition : definitions()) names.push_back(definition.key);
+  throw InputError(arguments.key + ": there is no such key, result or definition" + did_you_mean(arguments.key, names));
 }
 
 void export_command(const Arguments& arguments) {

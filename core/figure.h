@@ -37,6 +37,7 @@ struct FigureSpec {
   double scale = 1;      ///< from SI to that unit
   std::string axis{};    ///< label of a plot axis: "rms, µm"; empty: the unit
   std::string definition{};  ///< one sentence, with the formula where there is one
+  std::string term{};        ///< key of the word it shows in docs/definitions.md; empty: none
   Better better = Better::neither;
   FigureEffort effort = FigureEffort::forces;
   Guarantee guarantee = Guarantee::none;

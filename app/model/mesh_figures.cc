@@ -31,6 +31,7 @@ std::vector<FigureSpec> mesh_figure_specs(const std::string& mesh, const std::st
        .unit = "N/µm",
        .scale = 1e-6,
        .definition = "mean over the mesh cycles of the secant stiffness F / (LTE - unloaded TE) at the nominal load",
+       .term = "mesh_stiffness",
        .effort = FigureEffort::tables,
        .guarantee = Guarantee::always,
        .quantity = quantity,
@@ -38,6 +39,7 @@ std::vector<FigureSpec> mesh_figure_specs(const std::string& mesh, const std::st
       {.key = mesh + "_stiffness_ripple",
        .title = "Ripple of the stiffness of the " + title,
        .definition = "(largest - smallest) / mean of the secant stiffness over the mesh cycles at the nominal load",
+       .term = "stiffness_ripple",
        .better = Better::smaller,
        .effort = FigureEffort::tables,
        .quantity = "stiffness_ripple",
@@ -48,12 +50,14 @@ std::vector<FigureSpec> mesh_figure_specs(const std::string& mesh, const std::st
        .unit = "µm",
        .scale = 1e6,
        .definition = "mean over the mesh cycles of the transmission error under the nominal load",
+       .term = "transmission_error",
        .effort = FigureEffort::tables},
       {.key = mesh + "_lte_peak_to_peak_m",
        .title = "Transmission error of the " + title + ", peak to peak",
        .unit = "µm",
        .scale = 1e6,
        .definition = "largest less smallest transmission error over the mesh cycles, under the nominal load",
+       .term = "transmission_error",
        .better = Better::smaller,
        .effort = FigureEffort::tables,
        .compared = true}};
@@ -67,15 +71,18 @@ std::vector<FigureSpec> mesh_figure_specs(const std::string& mesh, const std::st
   if (bodies.empty()) return specs;
   auto& ratio = add("contact_ratio", "Contact ratio", "transverse contact ratio of the gears without load");
   ratio.symbol = "ε_α";
+  ratio.term = "contact_ratio";
   ratio.better = Better::neither;
-  add("face_load_factor", "Face load factor",
-      "largest over mean line load (ISO 6336-1), the largest over the mesh cycles at the nominal load")
-      .symbol = "K_Hβ";
+  auto& face = add("face_load_factor", "Face load factor",
+                   "largest over mean line load (ISO 6336-1), the largest over the mesh cycles at the nominal load");
+  face.symbol = "K_Hβ";
+  face.term = "face_load_factor";
   for (const auto& body : bodies)
     for (const auto& [key, name] : stress_names) {
       auto& stress = add(body + "_" + key + "_Pa", std::string(name) + " of the " + body,
                          "largest over the mesh cycles at the nominal load");
       stress.unit = "MPa";
+      stress.term = std::string(key).starts_with("root") ? "root_stress" : "rim_stress";
       stress.scale = 1e-6;
     }
   return specs;

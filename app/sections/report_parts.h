@@ -36,6 +36,8 @@ struct ResultGroup {
 /// All declared results of a run, one column per variant, and what their errors are made of. `conditions`: for which
 /// operating point.
 [[nodiscard]] Section key_results(const SystemRun& run, const std::vector<ResultGroup>& groups, const Text& conditions);
+/// The words that the results of a run use, each with an anchor that `key_results` links to.
+[[nodiscard]] Section definitions_section(const SystemRun& run);
 /// The same as lines of text.
 [[nodiscard]] std::string key_results_text(const SystemRun& run);
 

@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/classification.hpp>
+#include <boost/algorithm/string/split.hpp>
 #include <cmath>
 
 #include "app/model/gear_system.h"
+#include "app/results/definitions.h"
 #include "app/sections/report_parts.h"
 
 namespace annulus::app {
@@ -26,11 +29,26 @@ std::string result_text(const FigureSpec& spec, const VariantFigures& variant) {
   return measured(entry->figure, spec.scale);
 }
 
-/// "Load sharing of the sun meshes K_γ"
+std::string definition_anchor(const std::string& term) { return "definition-" + term; }
+
+/// " K_γ K_V" with the indices below the line; nothing for no symbol.
+Text with_symbol(const std::string& symbol) {
+  Text text;
+  std::vector<std::string> words;
+  boost::algorithm::split(words, symbol, boost::algorithm::is_any_of(" "));
+  for (const auto& word : words) {
+    if (word.empty()) continue;
+    const auto at = word.find('_');
+    text += " " + word.substr(0, at);
+    if (at != std::string::npos) text += subscript(word.substr(at + 1));
+  }
+  return text;
+}
+
+/// "Load sharing of the sun meshes K_γ", linked to its definition.
 Text result_title(const FigureSpec& spec) {
-  Text title = spec.title;
-  if (const auto at = spec.symbol.find('_'); at != std::string::npos)
-    title += " " + spec.symbol.substr(0, at) + subscript(spec.symbol.substr(at + 1));
+  const Text title = (spec.term.empty() ? Text(spec.title) : link(spec.title, definition_anchor(spec.term))) +
+                     with_symbol(spec.symbol);
   return spec.unit.empty() ? title : title + ", " + spec.unit;
 }
 
@@ -72,7 +90,7 @@ Blocks error_parts(const std::vector<const FigureSpec*>& specs, const std::vecto
                                    "formulas for teeth; solid elements (model = \"solid\") need no plane strain. "
                                    "Results of the lumped model: the larger change when all stiffnesses of a mesh, or "
                                    "their ripple, are raised by their error estimate; all meshes together. Table "
-                                   "interpolation: half of the change with every second position of the tables. Time "
+                                   "interpolation: the change with every second position of the tables. Time "
                                    "integration: sampling, steady state and integrator. The error is the sum of its "
                                    "parts, and not known when a part is not. Prescribed stiffness is exact."));
 }
@@ -127,6 +145,19 @@ Section key_results(const SystemRun& run, const std::vector<ResultGroup>& groups
           paragraph(conditions + "± is the estimated numerical error; it does not contain the uncertainty of the "
                                  "inputs.") +
               table + error_parts(specs, variants)};
+}
+
+Section definitions_section(const SystemRun& run) {
+  const auto specs = known_results(run, run.variants());
+  Blocks blocks;
+  for (const auto& d : definitions()) {
+    const bool used = d.key == "nominal_force" || d.key == "error_bar" || d.key == "spread" ||
+                      std::any_of(specs.begin(), specs.end(), [&](const auto* spec) { return spec->term == d.key; });
+    if (!used) continue;
+    blocks += Heading{d.title + with_symbol(d.symbol), definition_anchor(d.key)} + paragraph(code(d.formula)) +
+              paragraph(d.text);
+  }
+  return {"definitions", "Definitions", details("What the words of the results mean", blocks)};
 }
 
 std::string key_results_text(const SystemRun& run) {

@@ -189,7 +189,8 @@ Page run_page(const SystemRun& run, const RunPage& page) {
            study_sections(scene, run.studies),
            {model_section(run.plan),
             inputs_section(run.plan),
-            {"quality", "Checks and cost", mesh_checks(page.meshes) + page.checks + cost_blocks(run)}}})
+            {"quality", "Checks and cost", mesh_checks(page.meshes) + page.checks + cost_blocks(run)},
+            definitions_section(run)}})
     made.sections.insert(made.sections.end(), sections.begin(), sections.end());
   return made;
 }

@@ -14,6 +14,7 @@ FigureSpec steady_figure() {
   return {.key = "steady",
           .title = "Periodic",
           .definition = "1 where a periodic steady state was found, otherwise 0",
+          .term = "error_period",
           .better = Better::larger};
 }
 
@@ -26,6 +27,7 @@ std::vector<FigureSpec> force_factor_figures(const std::string& prefix, const st
            .axis = "largest force / mean of its mesh cycle",
            .definition = "largest over the meshes and instants of |F| over the mean of F in the mesh cycle around that "
                          "instant; without load sharing, as ISO 6336-1 defines K_V",
+           .term = "dynamic_factor",
            .better = Better::smaller,
            .quantity = "dynamic_factor",
            .compared = true,
@@ -38,6 +40,7 @@ std::vector<FigureSpec> force_factor_figures(const std::string& prefix, const st
            .axis = "largest force / nominal force",
            .definition = "largest over the meshes and instants of |F| over the nominal force, " + nominal_force +
                          "; load sharing and dynamics together",
+           .term = "peak_factor",
            .better = Better::smaller,
            .guarantee = Guarantee::while_in_contact,
            .quantity = "peak_factor",
@@ -54,6 +57,7 @@ FigureSpec contact_loss_figure(const std::string& key, const std::string& title,
           .scale = 100,
           .axis = axis,
           .definition = definition,
+          .term = "contact_loss",
           .better = Better::smaller,
           .plotted = true};
 }
@@ -65,6 +69,7 @@ std::vector<FigureSpec> frequency_specs(int count, const std::string& definition
                     .title = fmt::format("Natural frequency {}", i),
                     .unit = "Hz",
                     .definition = definition,
+                    .term = "natural_frequency",
                     .effort = FigureEffort::motion,
                     .guarantee = Guarantee::always,
                     .digits = 5,

@@ -21,6 +21,7 @@ void declare_meshes(std::vector<FigureSpec>& list, const std::string& prefix, co
                       .title = "Load sharing of the " + meshes + ", " + title,
                       .axis = "N |F| / Σ|F|",
                       .definition = "largest over the planets and " + definition,
+                      .term = "load_sharing",
                       .better = Better::smaller,
                       .quantity = "load_sharing",
                       .digits = 5,

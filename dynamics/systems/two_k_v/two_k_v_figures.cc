@@ -37,6 +37,7 @@ void declare_statics(std::vector<FigureSpec>& list) {
                   .unit = "kN m/rad",
                   .scale = 1e-3,
                   .definition = "mean over a crank turn of torque over twist of the output, the input held",
+                  .term = "torsional_stiffness",
                   .better = Better::larger,
                   .digits = 5,
                   .compared = true,
