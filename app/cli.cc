@@ -130,7 +130,10 @@ void declare(CLI::App& app, Arguments& arguments) {
   examples(plan,
            "  annulus plan my.toml\n"
            "  annulus plan my.toml --json | jq .cost");
-  examples(add_command(app, arguments, "check", "Check the scene only"), "  annulus check my.toml");
+  auto* check = add_command(app, arguments, "check", "Check the scene only, and print its warnings");
+  check->add_flag("--strict", arguments.strict, "Fail on warnings; notes are no warnings");
+  check->add_flag("--json", arguments.json, "Warnings as JSON");
+  examples(check, "  annulus check my.toml\n  annulus check my.toml --strict");
 
   auto* send = app.add_subcommand("export", "Results and gear data in the formats of other programs");
   send->add_option("file", arguments.scene, "A table of a run (CSV), or a scene for rexs")->required();

@@ -11,12 +11,12 @@
 #include "app/compare/comparison_page.h"
 #include "app/export/export.h"
 #include "app/export/rexs.h"
+#include "app/model/definitions.h"
 #include "app/model/gear_system.h"
 #include "app/model/run_limits.h"
 #include "app/plan/plan.h"
 #include "app/process/held_limits.h"
 #include "app/report/page.h"
-#include "app/results/definitions.h"
 #include "app/results/figure_table.h"
 #include "app/results/result_folder.h"
 #include "app/results/user_cache.h"
@@ -29,6 +29,7 @@
 #include "app/tradeoff/trade_report.h"
 #include "core/errors.h"
 #include "core/files.h"
+#include "core/json.h"
 #include "core/log.h"
 #include "core/result_store.h"
 
@@ -179,7 +180,15 @@ void check_command(const Arguments& arguments) {
   check_stage(scene);
   check_files(scene);
   check_studies(scene);
-  fmt::print("{}: OK ({})\n", arguments.scene, make_system(scene)->describe());
+  const auto warnings = make_plan(scene, arguments.threads).warnings;
+  if (arguments.json)
+    fmt::print("{}\n", Json{{"scene", arguments.scene}, {"warnings", to_json(warnings)}}.dump(2));
+  else {
+    for (const auto& warning : warnings) fmt::print("{}\n", to_text(warning));
+    fmt::print("{}: OK ({})\n", arguments.scene, make_system(scene)->describe());
+  }
+  if (arguments.strict && any_warning(warnings))
+    throw InputError(arguments.scene + ": has warnings, which --strict refuses");
 }
 
 void tradeoff_command(const Arguments& arguments) {

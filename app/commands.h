@@ -11,7 +11,8 @@ struct Arguments {
   std::string scene, out, cache, key, format, ring, kind, rexs, shell;
   std::vector<std::string> folders;  ///< of compare
   std::optional<std::string> budget, max_memory, max_time;
-  bool json = false, markdown = false, definitions = false, clear = false, quiet = false, verbose = false;
+  bool json = false, strict = false, markdown = false, definitions = false, clear = false, quiet = false,
+       verbose = false;
   int threads = 1;
 };
 

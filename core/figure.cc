@@ -26,8 +26,16 @@ void FigureSet::set(const std::string& key, const Figure& figure, const ErrorPar
     *found = {key, figure, parts};
 }
 
+void FigureSet::set_spread(const std::string& key, const Spread& spread) {
+  for (auto& entry : entries_)
+    if (entry.key == key) entry.spread = spread;
+}
+
 void FigureSet::add(const FigureSet& other) {
-  for (const auto& e : other.entries_) set(e.key, e.figure, e.parts);
+  for (const auto& e : other.entries_) {
+    set(e.key, e.figure, e.parts);
+    if (e.spread) set_spread(e.key, *e.spread);
+  }
 }
 
 const FigureSet::Entry* FigureSet::find(const std::string& key) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,12 @@ namespace annulus {
 struct Figure {
   double value = 0;
   double error = 0;
+};
+
+/// What a result is where inputs are not known, in the unit of the result: quantiles of samples.
+struct Spread {
+  double low = 0, median = 0, high = 0;  ///< 5 %, 50 %, 95 %
+  int samples = 0;
 };
 
 /// Which change of a result an engineer wants.
@@ -65,12 +72,15 @@ class FigureSet {
     std::string key;
     Figure figure;
     ErrorParts parts{};  ///< of the error, where they are known; all zero otherwise
+    std::optional<Spread> spread{};
   };
 
   /// Replaces a result of the same key.
   void set(const std::string& key, const Figure& figure, const ErrorParts& parts = {});
   /// A value whose error is not known.
   void set(const std::string& key, double value) { set(key, {value, not_known}); }
+  /// Of a result that is there.
+  void set_spread(const std::string& key, const Spread& spread);
   /// All results of another set.
   void add(const FigureSet& other);
 

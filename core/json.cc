@@ -44,6 +44,11 @@ Json to_json(const FigureSet& figures) {
     const bool known = std::any_of(error_part_names.begin(), error_part_names.end(),
                                    [&](const auto& name) { return parts.*name.second != 0; });
     if (known) item["error_parts"] = to_json(parts);
+    if (const auto& s = entry.spread)
+      item["spread"] = {{"quantile_05", json_number(s->low)},
+                        {"median", json_number(s->median)},
+                        {"quantile_95", json_number(s->high)},
+                        {"samples", s->samples}};
   }
   return json;
 }
@@ -53,6 +58,9 @@ FigureSet figure_set_of(const Json& json) {
   for (const auto& [key, item] : json.items()) {
     const auto& parts = member(item, "error_parts");
     figures.set(key, figure_of(item), parts.is_null() ? ErrorParts{} : error_parts_of(parts));
+    if (const auto& s = member(item, "spread"); !s.is_null())
+      figures.set_spread(key, {number_of(s.at("quantile_05")), number_of(s.at("median")),
+                               number_of(s.at("quantile_95")), s.at("samples").get<int>()});
   }
   return figures;
 }

@@ -27,7 +27,8 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json to_json(const Figure& figure);
 [[nodiscard]] Figure figure_of(const Json& json);
 
-/// {key: {"value": 1, "error": 0.1, "error_parts": {...}}}; the parts only where one is not zero.
+/// {key: {"value": 1, "error": 0.1, "error_parts": {...}, "spread": {...}}}; the parts only where one is not zero, the
+/// spread where there is one.
 [[nodiscard]] Json to_json(const FigureSet& figures);
 [[nodiscard]] FigureSet figure_set_of(const Json& json);
 

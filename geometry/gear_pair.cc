@@ -111,6 +111,12 @@ double GearPair::back_flank_phase() const {
   return driving.tooth_thickness(radius) / (radius * driving.pitch_angle());
 }
 
+GearPair::TipClearance GearPair::tip_clearance() const {
+  const double side = internal() ? -1 : 1;
+  return {side * (centre_distance_ - side * pinion_.tip_radius() - wheel_.root_radius()),
+          side * (centre_distance_ - side * pinion_.root_radius() - wheel_.tip_radius())};
+}
+
 double GearPair::contact_ratio() const { return (roll_high_ - roll_low_) / pinion_.base_pitch(); }
 
 double GearPair::overlap_ratio() const {

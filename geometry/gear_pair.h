@@ -38,7 +38,12 @@ class GearPair {
   [[nodiscard]] double centre_distance() const { return centre_distance_; }
   [[nodiscard]] double working_pressure_angle() const { return working_pressure_angle_; }  ///< alpha_wt, transverse
   [[nodiscard]] double normal_backlash() const { return normal_backlash_; }  ///< j_bn, m, normal to the flanks
-  [[nodiscard]] double contact_ratio() const;                                ///< epsilon_alpha, transverse
+  /// From a tip circle to the root circle of the mate, m.
+  struct TipClearance {
+    double pinion_tip = 0, wheel_tip = 0;
+  };
+  [[nodiscard]] TipClearance tip_clearance() const;
+  [[nodiscard]] double contact_ratio() const;  ///< epsilon_alpha, transverse
   /// epsilon_beta = b sin|beta| / (pi m_n) with the smaller face width; 0 for spur gears.
   [[nodiscard]] double overlap_ratio() const;
   [[nodiscard]] double total_contact_ratio() const { return contact_ratio() + overlap_ratio(); }  ///< epsilon_gamma

@@ -26,8 +26,12 @@ ComparedQuantity quantity_of(const FigureSpec& spec, const std::vector<const Com
     const bool known = std::isfinite(value);
     const Measured shown{variant->name, value * spec.scale, error * spec.scale};
     compared.cells.push_back(known ? measured(shown.value, shown.error) : "–");
+    const auto* entry = variant->figures.find(spec.key);
+    const auto spread = entry ? entry->spread : std::nullopt;
+    compared.has_spread |= spread.has_value();
+    compared.spreads.push_back(spread ? spread_text(*spread, spec.scale) : "–");
     if (!known) continue;
-    compared.si.rings.push_back({variant->name, value, error});
+    compared.si.rings.push_back({variant->name, value, error, spread});
     compared.shown.rings.push_back(shown);
   }
   const auto& rings = compared.shown.rings;

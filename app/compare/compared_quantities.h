@@ -15,6 +15,8 @@ struct ComparedQuantity {
   RingQuantity si{};                       ///< the variants that have it
   RingQuantity shown{};                    ///< the same in the unit people read it in, which its name states
   std::vector<std::string> cells{};        ///< of all variants, with errors; "–" where one does not have it
+  std::vector<std::string> spreads{};      ///< of all variants; "–" where one has no samples
+  bool has_spread = false;                 ///< of any variant
   std::vector<std::string> differences{};  ///< every other variant against the first one, in words
 };
 

@@ -35,17 +35,22 @@ void add_row(PageTable& table, const Text& name, const std::vector<std::string>&
 
 Section figures_part(const Comparison& comparison) {
   auto table = variant_table(comparison);
-  for (const auto& quantity : comparison.quantities) add_row(table, quantity.shown.name, quantity.cells);
-  return {"figures", "Figures",
+  for (const auto& quantity : comparison.quantities) {
+    if (quantity.has_spread) add_row(table, quantity.shown.name + spread_words, quantity.spreads);
+    add_row(table, quantity.shown.name + (quantity.has_spread ? nominal_words : ""), quantity.cells);
+  }
+  return {"figures", "Results",
           paragraph(
               "± is the estimated numerical error; it does not contain the uncertainty of the inputs. A value without "
-              "one is exact, as given, or its error is not known; the differences tell which.") +
+              "one is exact, as given, or its error is not known; the differences tell which. Where phases of errors "
+              "or other inputs are not known, the spread over samples is the answer, and the nominal value one of "
+              "them.") +
               table};
 }
 
 Section differences_part(const Comparison& comparison) {
   Section section{"differences", "Differences"};
-  PageTable table{.head = {"figure", "difference"}};
+  PageTable table{.head = {"result", "difference"}};
   for (const auto& quantity : comparison.quantities)
     if (const auto& texts = quantity.differences; !texts.empty())
       table.rows.push_back({quantity.shown.name, joined({texts.begin(), texts.end()}, line_break())});
@@ -100,7 +105,7 @@ Section cost_part(const std::vector<ComparedRun>& runs) {
 std::string comparison_text(const std::vector<ComparedRun>& runs) {
   const Comparison comparison(runs);
   const auto& variants = comparison.variants;
-  constexpr std::size_t name_width = 56, least_width = 22;
+  constexpr std::size_t name_width = 64, least_width = 22;
   std::string text;
   const auto add_line = [&](const std::string& name, const std::vector<std::string>& cells) {
     text += column(name, name_width);
@@ -109,7 +114,10 @@ std::string comparison_text(const std::vector<ComparedRun>& runs) {
     text += "\n";
   };
   add_line("", variants);
-  for (const auto& quantity : comparison.quantities) add_line(quantity.shown.name, quantity.cells);
+  for (const auto& quantity : comparison.quantities) {
+    if (quantity.has_spread) add_line(quantity.shown.name + spread_words, quantity.spreads);
+    add_line(quantity.has_spread ? std::string("   ") + nominal_words : quantity.shown.name, quantity.cells);
+  }
   text += "\nAgainst " + variants.front() + "\n";
   for (const auto& quantity : comparison.quantities)
     for (const auto& difference : quantity.differences) text += "  " + quantity.shown.name + ": " + difference + "\n";
@@ -133,7 +141,8 @@ std::string comparison_csv(const std::vector<ComparedRun>& runs) {
   std::string text = fmt::format("# annulus_version: {}\n# kind: {}\n", version(), runs.front().kind);
   for (const auto& run : runs) text += "# run: " + csv_line(run.name + " = " + run.folder.string()) + "\n";
   text += "figure,unit,variant,value,error,difference_to_first,errors_together,against_first\n";
-  for (const auto& [spec, si, shown, cells, differences] : Comparison(runs).quantities) {
+  for (const auto& quantity : Comparison(runs).quantities) {
+    const auto& [spec, shown] = std::tie(quantity.spec, quantity.shown);
     const auto& first = shown.rings.front();
     for (const auto& m : shown.rings) {
       text += fmt::format("{},{},{},{},{},", csv_cell(spec->title), spec->unit, csv_cell(m.ring), csv_cell(m.value),

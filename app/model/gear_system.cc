@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "app/model/plan_studies.h"
+#include "app/model/scene_warnings.h"
 #include "app/plan/plan.h"
 #include "app/scene/input_place.h"
 #include "core/errors.h"
@@ -30,6 +31,9 @@ Plan GearSystem::plan(int threads) const {
   plan.studies = plan_studies(scene_);
   describe(plan);
   plan.cost = cost(threads).at_pace(machine_pace());
+  plan.warnings = scene_warnings();
+  for (auto& warning : common_warnings(scene_, plan)) plan.warnings.push_back(std::move(warning));
+  plan.warnings = by_severity(std::move(plan.warnings));
   return plan;
 }
 

@@ -10,6 +10,7 @@
 #include "app/model/mesh_result.h"
 #include "app/plan/cost_plan.h"
 #include "app/plan/mesh_model.h"
+#include "app/plan/warning.h"
 #include "app/report/section.h"
 #include "app/scene/scene.h"
 #include "app/scene/scene_kind.h"
@@ -86,6 +87,14 @@ class GearSystem {
   /// What the coupling of a computed mesh cost; nothing where it was reused.
   [[nodiscard]] virtual std::optional<CostRun> actual_coupling(CostRun /*size*/, const MeshResult& /*mesh*/) const {
     return std::nullopt;
+  }
+
+  /// What the scene says of itself beyond what those of every kind do (scene_warnings.h).
+  [[nodiscard]] virtual std::vector<Warning> scene_warnings() const { return {}; }
+  /// The same of the response of a variant of run_variants (run_warnings.h).
+  [[nodiscard]] virtual std::vector<Warning> response_warnings(const SystemRun& /*run*/,
+                                                               std::size_t /*variant*/) const {
+    return {};
   }
 
   // The defaults of the following know a lumped model by its results alone (run/plain_run.cc).

@@ -1,14 +1,21 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/figure.h"
+
 namespace annulus::app {
 
-/// A number with its absolute error, of one ring.
+/// A number with its absolute error, of one ring; where inputs are not known with its spread.
 struct Measured {
   std::string ring;
   double value = 0, error = 0;
+  std::optional<Spread> spread{};
+
+  /// What to expect: the median where there is a spread.
+  [[nodiscard]] double likely() const { return spread ? spread->median : value; }
 };
 
 /// A quantity over several rings, of one scene or of several, by the names references use.

@@ -29,8 +29,8 @@ std::string row_text(const Scene& scene, const SweepInput& s) {
 
 std::vector<StudyPlan> plan_studies(const Scene& scene) {
   std::vector<StudyPlan> list;
-  const bool any =
-      !scene.sweeps.empty() || !scene.grids.empty() || scene.monte_carlo || scene.sensitivity || scene.optimise;
+  const auto sampling = sampling_of(scene);
+  const bool any = !scene.sweeps.empty() || !scene.grids.empty() || sampling || scene.sensitivity || scene.optimise;
   if (!any || !scene.dynamics) return list;
   const auto variants = static_cast<long>(make_system(scene)->variants().size());
   const double each = make_system(scene)->response_seconds();
@@ -46,11 +46,14 @@ std::vector<StudyPlan> plan_studies(const Scene& scene) {
   for (std::size_t i = 0; i < scene.grids.size(); ++i)
     add_cases(fmt::format("[[grid]] {}", i + 1),
               row_text(scene, scene.grids[i].x) + "; " + row_text(scene, scene.grids[i].y), grid_cases(scene, i));
-  if (scene.monte_carlo)
+  if (sampling)
     add("[monte_carlo]",
-        fmt::format("{} samples of {} random inputs, seed {}", scene.monte_carlo->samples,
-                    random_variables(scene).size(), scene.monte_carlo->seed),
-        static_cast<std::size_t>(scene.monte_carlo->samples), 0);
+        sampling->by_default
+            ? fmt::format("{} samples, because the phases of {} errors are not stated; samples = 0: none",
+                          sampling->samples, sampling->variables.size())
+            : fmt::format("{} samples of {} random inputs, seed {}", sampling->samples, sampling->variables.size(),
+                          sampling->seed),
+        static_cast<std::size_t>(sampling->samples), 0);
   if (scene.sensitivity) {
     const auto cases = sensitivity_cases(scene);
     add("[sensitivity]",

@@ -30,12 +30,21 @@ bool drawn(const Scene& scene, const std::string& path) {
   return false;
 }
 
-/// Phases that matter: of errors that the scene gives or draws.
-std::vector<std::string> unknown_phases(const Scene& scene) {
+/// Written in the scene, and not as an assumption.
+bool stated(const Scene& scene, const std::string& key) {
+  return std::any_of(scene.inputs.begin(), scene.inputs.end(), [&](const Input& input) {
+    return input.key == key && input.origin == Origin::scene && input.assumed.empty() &&
+           !std::holds_alternative<std::monostate>(input.value);
+  });
+}
+
+/// Phases that matter: of errors that the scene gives or draws, those that it states left out on request.
+std::vector<std::string> unknown_phases(const Scene& scene, bool unstated_only) {
   std::vector<std::string> paths;
   for (const std::string body : error_bodies) {
     if (!find_parameter("errors." + body + "_um")->applies_to(scene.stage.kind)) continue;
     const bool planets = body.starts_with("planet");
+    if (unstated_only && stated(scene, fmt::format("errors.{}_phase_deg", body))) continue;
     for (int n = 1; n <= (planets ? scene.stage.planets : 1); ++n) {
       const std::string index = planets ? fmt::format("[{}]", n) : "";
       const std::string amount = fmt::format("errors.{}_um{}", body, index),
@@ -192,16 +201,23 @@ std::vector<StudyCase> all_cases(const Scene& scene) {
   return all;
 }
 
-std::vector<RandomVariable> random_variables(const Scene& scene) {
-  std::vector<RandomVariable> variables;
-  if (!scene.monte_carlo) return variables;
-  if (scene.monte_carlo->phases == ErrorPhases::unknown) {
-    for (const auto& path : unknown_phases(scene)) variables.push_back({path, {.low = 0, .high = 360}});
-  }
-  for (const auto& random : scene.random_inputs) {
-    for (const auto& path : expand_planets(scene, random.input)) variables.push_back({path, distribution_of(random)});
-  }
-  return variables;
+std::vector<std::string> unstated_phases(const Scene& scene) { return unknown_phases(scene, true); }
+
+std::optional<Sampling> sampling_of(const Scene& scene) {
+  if (!scene.dynamics) return std::nullopt;
+  // The fewest samples among which the 5 % quantile is not the smallest one.
+  constexpr int few = 20;
+  const auto& asked = scene.monte_carlo;
+  Sampling sampling{.samples = few, .seed = 1, .variables = {}, .by_default = !asked};
+  if (asked) sampling.samples = asked->samples, sampling.seed = asked->seed;
+  if (!asked || asked->phases == ErrorPhases::unknown)
+    for (const auto& path : unknown_phases(scene, !asked))
+      sampling.variables.push_back({path, {.low = 0, .high = 360}});
+  for (const auto& random : scene.random_inputs)
+    for (const auto& path : expand_planets(scene, random.input))
+      sampling.variables.push_back({path, distribution_of(random)});
+  if (sampling.samples == 0 || (!asked && sampling.variables.empty())) return std::nullopt;
+  return sampling;
 }
 
 namespace {

@@ -47,8 +47,17 @@ struct RandomVariable {
   std::string input;  ///< key path
   dynamics::Distribution distribution;
 };
-/// The phases of all errors that are there or drawn (unless given), then the inputs of [[monte_carlo.input]].
-[[nodiscard]] std::vector<RandomVariable> random_variables(const Scene& scene);
+/// What is drawn: the phases of errors that are there or drawn themselves, then the inputs of [[monte_carlo.input]].
+struct Sampling {
+  int samples = 0, seed = 0;
+  std::vector<RandomVariable> variables{};
+  bool by_default = false;  ///< nobody asked for it, but errors have phases that nobody stated
+};
+/// Phases of errors that are there, which the scene does not state or states as assumed.
+[[nodiscard]] std::vector<std::string> unstated_phases(const Scene& scene);
+/// As [monte_carlo] asks; without that table a few samples of the phases that the scene does not state, or states as
+/// assumed. Absent: nothing is drawn.
+[[nodiscard]] std::optional<Sampling> sampling_of(const Scene& scene);
 [[nodiscard]] double draw(const RandomVariable& variable, int seed, int sample);
 [[nodiscard]] StudyCase sample_case(const std::vector<RandomVariable>& variables, int seed, int sample);
 

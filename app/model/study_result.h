@@ -62,6 +62,7 @@ struct PairedOrder {
 
 struct MonteCarloResult {
   int samples = 0, seed = 0;
+  bool by_default = false;            ///< see Sampling
   std::vector<std::string> inputs{};  ///< drawn
   std::vector<VariantSamples> variants{};
   std::vector<PairedOrder> orders{};

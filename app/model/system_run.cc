@@ -45,6 +45,23 @@ std::vector<const MeshResult*> SystemRun::tables_of(std::size_t variant) const {
   return list;
 }
 
+namespace {
+
+/// The spreads of results that samples of this variant have; quantiles are worth their name from 20 samples on.
+void add_spreads(FigureSet& figures, const StudyResults& studies, const std::string& variant) {
+  if (!studies.monte_carlo) return;
+  for (std::size_t i = 0; i < studies.variants.size(); ++i) {
+    const auto& samples = studies.monte_carlo->variants[i];
+    if (!studies.variants[i].empty() && studies.variants[i] != variant) continue;
+    for (const auto& spec : studies.figures)
+      if (const auto* s = samples.find(spec.key); s && spec.spread)
+        figures.set_spread(
+            spec.key, {s->q05.value, s->median.value, s->q95.value, studies.monte_carlo->samples - samples.failed});
+  }
+}
+
+}  // namespace
+
 std::vector<VariantFigures> SystemRun::variants() const {
   const auto names = system->run_variants();
   std::vector<VariantFigures> list;
@@ -54,6 +71,7 @@ std::vector<VariantFigures> SystemRun::variants() const {
     for (const auto& spec : system_kind(scene.stage.kind).figures())
       if (const auto* entry = found.find(spec.key)) figures.set(entry->key, entry->figure, entry->parts);
     if (!responses.empty()) figures.add(responses[variant]->figures);
+    add_spreads(figures, studies, names[variant].name);
     list.push_back({names[variant].name, std::move(figures)});
   }
   return list;

@@ -71,13 +71,4 @@ std::vector<Input> resolved_inputs(const Scene& scene, const std::vector<Derived
   return list;
 }
 
-void remark_backlash(std::vector<std::string>& remarks, double half_backlash, const geometry::GearPair& pair,
-                     const std::string& where) {
-  const double half = pair.normal_backlash() / 2;
-  if (half_backlash > half + 1 * units::um)
-    remarks.push_back(fmt::format(
-        "The dynamics uses the prescribed half backlash of {} µm; the geometry leaves {} µm{}.",
-        to_text(half_backlash / units::um, 4), to_text(std::round(1e3 * half / units::um) / 1e3, 3), where));
-}
-
 }  // namespace annulus::app

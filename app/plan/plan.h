@@ -6,6 +6,7 @@
 
 #include "app/plan/cost_plan.h"
 #include "app/plan/mesh_model.h"
+#include "app/plan/warning.h"
 #include "app/scene/scene.h"
 
 namespace annulus::app {
@@ -41,7 +42,8 @@ struct Plan {
   std::vector<DofPlan> dofs;
   std::vector<Decision> motion;      ///< how the motion is found in time
   std::vector<StudyPlan> studies;    ///< sweeps, samples, sensitivity
-  std::vector<std::string> remarks;  ///< simplifications and warnings
+  std::vector<std::string> remarks;  ///< simplifications
+  std::vector<Warning> warnings{};   ///< what the scene says of itself, the severe ones first
   PlanCost cost{};                   ///< predicted; empty when there is nothing to compute
   std::string budget{};              ///< what is chosen for a budget; empty without one
 
@@ -61,10 +63,6 @@ void add_diameters(std::vector<DerivedInput>& list, const std::string& table, co
                    const std::string& ring = "");
 /// The inputs of a scene that have a value, those that are derived among them.
 [[nodiscard]] std::vector<Input> resolved_inputs(const Scene& scene, const std::vector<DerivedInput>& derived);
-
-/// Remarks where the half backlash of the dynamics (m) is larger than half of what the geometry leaves.
-void remark_backlash(std::vector<std::string>& remarks, double half_backlash, const geometry::GearPair& pair,
-                     const std::string& where = "");
 
 [[nodiscard]] std::string to_text(const Plan& plan);
 [[nodiscard]] std::string to_json(const Plan& plan);

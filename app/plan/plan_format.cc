@@ -65,10 +65,6 @@ std::string cost_lines(const Plan& plan) {
       text += fmt::format(
           "   level {}, about {:.0f} thousand unknowns, expected error {}", step.size.level, step.size.unknowns / 1e3,
           std::isfinite(step.expected_error) ? fmt::format("{:.2g} %", 100 * step.expected_error) : "not known");
-    // Known before minutes are spent on a result that is refused in the end.
-    const auto& settings = plan.meshes.front().settings;
-    if (step.kind == CostKind::mesh && !settings.level && step.expected_error > settings.accuracy)
-      text += fmt::format(", more than the {:g} % asked: the run may be refused at the end", 100 * settings.accuracy);
     text += "\n";
     if (step.quadratic)
       text +=
@@ -138,6 +134,8 @@ std::string to_text(const Plan& plan) {
 
   text += "\nRemarks\n";
   for (const auto& remark : plan.remarks) text += "  " + remark + "\n";
+  if (!plan.warnings.empty()) text += "\nWarnings\n";
+  for (const auto& warning : plan.warnings) text += "  " + to_text(warning) + "\n";
   return text + assumed_lines(plan.inputs);
 }
 
@@ -172,6 +170,7 @@ std::string to_json(const Plan& plan) {
   json["degrees_of_freedom"] = plan.dofs;
   if (!plan.studies.empty()) json["studies"] = plan.studies;
   json["remarks"] = plan.remarks;
+  json["warnings"] = to_json(plan.warnings);
   json["contact_problems"] = plan.contact_problems();
   if (plan.cost.empty()) return json.dump(2) + "\n";
   json["threads"] = plan.cost.threads;

@@ -17,15 +17,19 @@ std::string number_cell(double x) { return std::isfinite(x) ? fmt::format("{:.17
 
 std::string figures_csv(const std::vector<FigureSpec>& specs, const std::vector<VariantFigures>& variants) {
   std::string text = fmt::format(
-      "# annulus_version: {}\nvariant,key,symbol,value,error,shown_value,shown_error,unit,title\n", version());
+      "# annulus_version: "
+      "{}\nvariant,key,symbol,value,error,quantile_05,median,quantile_95,shown_value,shown_error,unit,title\n",
+      version());
   for (const auto& variant : variants)
     for (const auto& spec : specs) {
       const auto* entry = variant.figures.find(spec.key);
       if (!entry) continue;
       const auto& f = entry->figure;
-      text += fmt::format("{},{},{},{},{},{},{},{},{}\n", csv_cell(variant.name), spec.key, spec.symbol,
-                          number_cell(f.value), number_cell(f.error), number_cell(spec.scale * f.value),
-                          number_cell(spec.scale * f.error), spec.unit, csv_cell(spec.title));
+      const auto s = entry->spread.value_or(Spread{not_known, not_known, not_known});
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_cell(variant.name), spec.key, spec.symbol,
+                          number_cell(f.value), number_cell(f.error), number_cell(s.low), number_cell(s.median),
+                          number_cell(s.high), number_cell(spec.scale * f.value), number_cell(spec.scale * f.error),
+                          spec.unit, csv_cell(spec.title));
     }
   return text;
 }

@@ -13,8 +13,8 @@ struct VariantFigures {
   FigureSet figures;
 };
 
-/// figures.csv: a line per result and variant with key, symbol, value and error in SI, unit and title for people. In
-/// the order of the declarations, those that a variant does not have left out.
+/// figures.csv: a line per result and variant with key, symbol, value, error and quantiles of samples in SI, unit and
+/// title for people. In the order of the declarations, those that a variant does not have left out.
 [[nodiscard]] std::string figures_csv(const std::vector<FigureSpec>& specs,
                                       const std::vector<VariantFigures>& variants);
 

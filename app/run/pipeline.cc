@@ -6,6 +6,7 @@
 
 #include "app/model/cost_actual.h"
 #include "app/model/gear_system.h"
+#include "app/model/run_warnings.h"
 #include "app/report/page.h"
 #include "app/results/content_id.h"
 #include "app/results/figure_table.h"
@@ -95,6 +96,7 @@ std::string summary_json(const SystemRun& run) {
   json["variants"] = Json::array();
   for (const auto& variant : run.variants())
     json["variants"].push_back({{"name", variant.name}, {"figures", to_json(variant.figures)}});
+  json["warnings"] = to_json(run_warnings(run));
   json.update(studies_json(run.studies));
   json["inputs_id"] = inputs_id(run);
   json["inputs"] = inputs_json(run.plan.inputs);
@@ -106,7 +108,9 @@ std::string summary_json(const SystemRun& run) {
 }
 
 std::string run_text(const SystemRun& run) {
-  std::string text = run.system->text(run) + "\ntime   ";
+  std::string text = run.system->text(run) + "\n";
+  for (const auto& warning : run_warnings(run)) text += to_text(warning) + "\n";
+  text += "\ntime   ";
   for (const auto& [step, seconds] : run.timings) text += fmt::format(" {} {:.2f} s ", step, seconds);
   text += fmt::format("\nmemory  {:.0f} MB at the peak\n", run.peak_memory_MB);
   if (const std::string cost = cost_sentence(run); !cost.empty()) text += "cost    " + cost + "\n";

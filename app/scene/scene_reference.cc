@@ -132,7 +132,8 @@ std::string Parameter::range_text() const {
   text += kind == Kind::reals ? "each value" : "value";
   if (has_high) text += " <= " + to_text(high);
   if (!unit.empty()) text += " " + unit;
-  if (may_be_infinite) text += ", or inf";
+  if (may_be_infinite && words.empty()) text += ", or inf";
+  for (const auto& [word, value] : words) text += fmt::format(", or \"{}\"", word);
   return text;
 }
 

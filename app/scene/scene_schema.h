@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/scene/key_rules.h"
@@ -32,10 +33,11 @@ struct Parameter {
   double low = -rigid, high = rigid;
   bool low_included = true;
   bool may_be_infinite = false;
-  std::size_t longest = longest_list;  ///< values of a list
-  std::string at_least_one{};          ///< what a list consists of that may not be empty: "torque"
-  bool distinct = false;               ///< no value of a list stands twice
-  std::vector<std::string> choices{};  ///< permitted texts; empty: any
+  std::size_t longest = longest_list;                   ///< values of a list
+  std::string at_least_one{};                           ///< what a list consists of that may not be empty: "torque"
+  bool distinct = false;                                ///< no value of a list stands twice
+  std::vector<std::string> choices{};                   ///< permitted texts; empty: any
+  std::vector<std::pair<std::string, double>> words{};  ///< texts for values of a number, in the unit of the file
   std::string meaning{};
   std::vector<std::string> old_names{};  ///< refused with the present name
   std::vector<OldChoice> old_choices{};  ///< the same for texts

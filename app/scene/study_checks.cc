@@ -32,6 +32,8 @@ class StudyChecker : KeyChecks {
     for (std::size_t i = 0; i < scene_.grids.size(); ++i) grid(scene_.grids[i], i);
     for (std::size_t i = 0; i < scene_.random_inputs.size(); ++i) random(scene_.random_inputs[i], i);
     optimise();
+    if (scene_.monte_carlo && scene_.monte_carlo->samples == 1)
+      problem("monte_carlo.samples", "one sample has no spread; give 0 for none, or 2 and more");
     if (scene_.sensitivity) {
       for (const auto& path : scene_.sensitivity->inputs) input("sensitivity.inputs", 0, path);
     }

@@ -64,10 +64,12 @@ Table monte_carlo_table() {
   Declarations monte_carlo(
       "monte_carlo",
       "Random samples of what is not known. Every ring gets the same draws. A draw depends on seed, sample number and "
-      "input alone: not on the number of threads or samples.",
+      "input alone: not on the number of threads or samples. Without this table, 20 samples are drawn where errors "
+      "have "
+      "phases that the scene does not state or lists as assumed.",
       &Scene::monte_carlo);
   monte_carlo.study();
-  monte_carlo.key("samples", &MonteCarloInput::samples, "Number of samples.").required().from(2, 1e6);
+  monte_carlo.key("samples", &MonteCarloInput::samples, "Number of samples; 0: none.").required().from(0, 1e6);
   monte_carlo.key("seed", &MonteCarloInput::seed, "Other seeds give other draws.")
       .fallback(1, "any number will do")
       .from(0, 2147483647);

@@ -16,7 +16,8 @@ const RingQuantity* quantity(const std::vector<RingQuantity>& list, const std::s
 
 std::vector<Measured> sorted(const RingQuantity& q) {
   auto rings = q.rings;
-  std::stable_sort(rings.begin(), rings.end(), [](const Measured& a, const Measured& b) { return a.value > b.value; });
+  std::stable_sort(rings.begin(), rings.end(),
+                   [](const Measured& a, const Measured& b) { return a.likely() > b.likely(); });
   return rings;
 }
 
@@ -36,10 +37,25 @@ Text stiffness_sentence(const RingQuantity& q) {
                 enumerated(others));
 }
 
+/// Of results over samples: what to expect, before what the nominal inputs give.
+Text spread_sentence(const std::vector<Measured>& rings) {
+  std::vector<Text> words;
+  for (const auto& r : rings) {
+    const Text of_ring = rings.size() > 1 ? " with " + bold(r.ring) : Text();
+    words.push_back(r.spread ? phrase("{}{}", spread_text(*r.spread, 1), of_ring)
+                             : measured(r.value, r.error) + of_ring);
+  }
+  std::vector<Text> nominal;
+  for (const auto& r : rings) nominal.emplace_back(measured(r.value, r.error));
+  return phrase("median (5 % to 95 %) {}, because inputs are not known. The nominal inputs give {}.", enumerated(words),
+                enumerated(nominal));
+}
+
 Text sharing_sentence(const RingQuantity& q) {
   const auto rings = sorted(q);
   const auto &low = rings.back(), &high = rings.front();
   const Text head = q.name + ": ";
+  if (high.spread) return head + spread_sentence(rings);
   if (rings.size() == 1) return head + measured(high.value, high.error) + ".";
   return head +
          phrase("the most loaded planet carries {:.1f} % more than its share with {} and {:.1f} % with {}",
@@ -51,6 +67,7 @@ Text sharing_sentence(const RingQuantity& q) {
 
 Text factor_sentence(const RingQuantity& q) {
   const auto rings = sorted(q);
+  if (rings.front().spread) return q.name + ": " + spread_sentence(rings);
   std::vector<Text> words;
   words.reserve(rings.size());
   for (const auto& r : rings)
@@ -70,6 +87,7 @@ Blocks answer_sentences(const std::vector<RingQuantity>& quantities) {
 }
 
 Blocks answer_picture(const std::vector<RingQuantity>& quantities, const std::vector<std::string>& names) {
+  bool sampled = false;
   constexpr double letter = 6;
   double longest = 0;
   for (const auto& name : names) longest = std::max(longest, letter * static_cast<double>(name.size() + 18));
@@ -86,19 +104,28 @@ Blocks answer_picture(const std::vector<RingQuantity>& quantities, const std::ve
     if (q == nullptr) continue;
     for (const auto& m : q->rings) {
       if (!std::isfinite(m.value)) continue;
-      chart.bars.push_back(
-          {.label = std::string(name) + ", " + m.ring,
-           .value = 100 * (m.value - 1),
-           .colour = static_cast<std::size_t>(std::find(names.begin(), names.end(), m.ring) - names.begin()),
-           .note = fmt::format("{:.3g} %", 100 * (m.value - 1)),
-           .error = 100 * m.error});
+      const auto above = [](double x) { return 100 * (x - 1); };
+      auto& bar = chart.bars.emplace_back(BarChart::Bar{
+          .label = std::string(name) + ", " + m.ring,
+          .value = above(m.likely()),
+          .colour = static_cast<std::size_t>(std::find(names.begin(), names.end(), m.ring) - names.begin()),
+          .note = fmt::format("{:.3g} %", above(m.likely())),
+          .error = 100 * m.error});
+      if (!m.spread) continue;
+      bar.spread = Range{above(m.spread->low), above(m.spread->high)};
+      bar.nominal = above(m.value);
+      sampled = true;
     }
   }
   if (chart.bars.empty()) return {};
+  const std::string whiskers =
+      sampled ? "Bars: median over the samples; whiskers: 5 % to 95 %; diamonds: nominal inputs, one of the cases."
+              : "Whiskers: estimated numerical error.";
   return Pictures{{chart},
                   {},
                   "Excess of the most loaded planet over its share, of the largest force over the mean of its mesh "
-                  "cycle, and over the nominal force; whiskers: estimated numerical error."};
+                  "cycle, and over the nominal force. " +
+                      whiskers};
 }
 
 }  // namespace annulus::app

@@ -25,6 +25,10 @@ using NamedMeshes = std::vector<std::pair<std::string, const MeshResult*>>;
 /// "1.364 ± 0.012": as many digits as the error leaves, five when there is no error.
 [[nodiscard]] std::string measured(double value, double error);
 [[nodiscard]] std::string measured(const Figure& figure, double scale);
+/// "1.21 (1.16 to 1.29)": median, and 5 % to 95 % of the samples, to two digits of their distance.
+[[nodiscard]] std::string spread_text(const Spread& spread, double scale);
+/// Behind the name of a result: its spread, and its value as the scene gives the inputs.
+inline constexpr const char *spread_words = ", median (5 % to 95 %)", *nominal_words = ", nominal inputs";
 /// "1.2e-10"; "–" for what is not known.
 [[nodiscard]] std::string small_text(double x);
 /// `text` with a unit behind a comma when there is one.

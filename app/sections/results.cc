@@ -5,8 +5,8 @@
 #include <boost/algorithm/string/split.hpp>
 #include <cmath>
 
+#include "app/model/definitions.h"
 #include "app/model/gear_system.h"
-#include "app/results/definitions.h"
 #include "app/sections/report_parts.h"
 
 namespace annulus::app {
@@ -26,7 +26,22 @@ std::string result_text(const FigureSpec& spec, const VariantFigures& variant) {
   const auto* entry = variant.figures.find(spec.key);
   if (!entry || std::isnan(entry->figure.value)) return "–";
   if (spec.key == "steady") return entry->figure.value != 0 ? "yes" : "no";
-  return measured(entry->figure, spec.scale);
+  // Of the window alone that was evaluated.
+  const bool of_motion = spec.effort != FigureEffort::tables && spec.term != "natural_frequency";
+  const auto* steady = variant.figures.find("steady");
+  return measured(entry->figure, spec.scale) + (of_motion && steady && steady->figure.value == 0 ? " †" : "");
+}
+
+bool has_spread(const FigureSpec& spec, const std::vector<VariantFigures>& variants) {
+  return std::any_of(variants.begin(), variants.end(), [&](const auto& v) {
+    const auto* entry = v.figures.find(spec.key);
+    return entry && entry->spread;
+  });
+}
+
+std::string spread_of(const FigureSpec& spec, const VariantFigures& variant) {
+  const auto* entry = variant.figures.find(spec.key);
+  return entry && entry->spread ? spread_text(*entry->spread, spec.scale) : "–";
 }
 
 std::string definition_anchor(const std::string& term) { return "definition-" + term; }
@@ -116,11 +131,33 @@ std::string measured(const Figure& figure, double scale) {
   return measured(scale * figure.value, scale * figure.error);
 }
 
+std::string spread_text(const Spread& spread, double scale) {
+  const double low = scale * spread.low, median = scale * spread.median, high = scale * spread.high;
+  if (!std::isfinite(low + high)) return "not known";
+  const double size = std::max(std::abs(low), std::abs(high)), distance = high - low;
+  constexpr double rounding = 1e-5;
+  if (!(distance > rounding * size)) return to_text(median, 5);
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(distance))), 0, 9);
+  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", median, decimals, low, decimals, high, decimals);
+}
+
 std::string small_text(double x) { return std::isfinite(x) ? fmt::format("{:.1e}", x) : "–"; }
 
 std::string with_unit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + ", " + unit;
 }
+
+namespace {
+
+std::string sampled_words(const StudyResults& studies) {
+  if (!studies.monte_carlo) return {};
+  const auto& samples = *studies.monte_carlo;
+  return fmt::format("Median and quantiles are those of {} samples{}; the nominal inputs are those of the scene.",
+                     samples.samples,
+                     samples.by_default ? ", drawn because the scene does not state the phases of its errors" : "");
+}
+
+}  // namespace
 
 Section key_results(const SystemRun& run, const std::vector<ResultGroup>& groups, const Text& conditions) {
   const auto variants = run.variants();
@@ -134,16 +171,25 @@ Section key_results(const SystemRun& run, const std::vector<ResultGroup>& groups
     const auto before = table.rows.size();
     for (const auto* spec : specs) {
       if (group_of(*spec) != group) continue;
-      auto& row = table.rows.emplace_back(1, result_title(*spec));
-      for (const auto& variant : variants) row.emplace_back(result_text(*spec, variant));
+      const bool spread = has_spread(*spec, variants);
+      if (spread) {
+        auto& row = table.rows.emplace_back(1, result_title(*spec) + spread_words);
+        for (const auto& variant : variants) row.emplace_back(bold(spread_of(*spec, variant)));
+      }
+      auto& row =
+          table.rows.emplace_back(1, spread ? muted("the same" + std::string(nominal_words)) : result_title(*spec));
+      for (const auto& variant : variants)
+        row.emplace_back(spread ? muted(result_text(*spec, variant)) : Text(result_text(*spec, variant)));
     }
     if (table.rows.size() > before && !group->heading.empty())
       table.rows.insert(table.rows.begin() + static_cast<std::ptrdiff_t>(before), std::vector<Text>{group->heading});
   }
   if (table.rows.empty()) return {"figures", "Key results"};
   return {"figures", "Key results",
-          paragraph(conditions + "± is the estimated numerical error; it does not contain the uncertainty of the "
-                                 "inputs.") +
+          paragraph(conditions +
+                    "± is the estimated numerical error; it does not contain the uncertainty of the "
+                    "inputs. " +
+                    sampled_words(run.studies)) +
               table + error_parts(specs, variants)};
 }
 
@@ -163,8 +209,11 @@ Section definitions_section(const SystemRun& run) {
 std::string key_results_text(const SystemRun& run) {
   const auto variants = run.variants();
   const auto specs = known_results(run, variants);
+  const auto title_of = [&](const FigureSpec& spec) {
+    return with_unit(spec.title, spec.unit) + (has_spread(spec, variants) ? spread_words : "");
+  };
   std::size_t width = 0;
-  for (const auto* spec : specs) width = std::max(width, with_unit(spec->title, spec->unit).size());
+  for (const auto* spec : specs) width = std::max(width, title_of(*spec).size());
   std::string text;
   const auto line = [&](const std::string& title, auto cells) {
     text += fmt::format("{:<{}}", title, width);
@@ -172,8 +221,12 @@ std::string key_results_text(const SystemRun& run) {
     text += "\n";
   };
   if (variants.size() > 1) line("", [names = column_names(variants)](std::size_t i) { return names[i]; });
-  for (const auto* spec : specs)
-    line(with_unit(spec->title, spec->unit), [&](std::size_t i) { return result_text(*spec, variants[i]); });
+  for (const auto* spec : specs) {
+    const bool spread = has_spread(*spec, variants);
+    if (spread) line(title_of(*spec), [&](std::size_t i) { return spread_of(*spec, variants[i]); });
+    line(spread ? std::string("   the same") + nominal_words : title_of(*spec),
+         [&](std::size_t i) { return result_text(*spec, variants[i]); });
+  }
   return text;
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "app/model/cost_actual.h"
+#include "app/model/run_warnings.h"
 #include "app/results/content_id.h"
 #include "app/sections/report_parts.h"
 
@@ -102,6 +103,20 @@ Blocks cost_blocks(const SystemRun& run) {
                    Paragraph::Tone::muted};
 }
 
+Blocks warning_blocks(const SystemRun& run) {
+  const auto warnings = run_warnings(run);
+  if (warnings.empty()) return {};
+  List list;
+  for (const auto& w : warnings) {
+    const auto look = w.severity == Severity::severe    ? Text::Look::disagrees
+                      : w.severity == Severity::warning ? Text::Look::assumed
+                                                        : Text::Look::undecided;
+    list.items.push_back(tag(look, to_text(w.severity)) + " " + (w.where.empty() ? Text() : bold(w.where) + ": ") +
+                         w.text + ".");
+  }
+  return heading("Warnings", "warnings") + list;
+}
+
 Section pictures_section(const NamedMeshes& meshes) {
   Pictures pictures{.layout = Pictures::Layout::meshes};
   for (const auto& [title, mesh] : meshes) {
@@ -181,7 +196,7 @@ Page run_page(const SystemRun& run, const RunPage& page) {
   const auto& scene = run.scene;
   Page made{.title = scene.title,
             .sub = phrase("annulus {} · scene {} · {}", version(), code(scene.file.filename().string()), page.words),
-            .summary = page.answer};
+            .summary = page.answer + warning_blocks(run)};
   for (const auto& sections : std::initializer_list<std::vector<Section>>{
            page.results,
            {pictures_section(page.meshes), fields_section(page.meshes)},

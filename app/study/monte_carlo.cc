@@ -24,11 +24,11 @@ std::vector<std::string> quick_keys(const std::vector<FigureSpec>& figures) {
 }
 
 /// Everything a sample depends on: the scene, the tables, the distributions and the seed; not their number.
-std::string samples_id(const StudySubject& subject, std::size_t variant, const std::vector<RandomVariable>& variables) {
+std::string samples_id(const StudySubject& subject, std::size_t variant, const Sampling& sampling) {
   const auto& scene = subject.scene();
   ContentId id;
   id.add("response", subject.model({.where = "[monte_carlo]"}, variant)->id());
-  id.add("seed", scene.monte_carlo->seed);
+  id.add("seed", sampling.seed);
   for (const auto& input : scene.inputs) {
     if (input.key == "title" || input.key == "reference" || is_study_table(input.key.substr(0, input.key.rfind('.'))))
       continue;
@@ -43,7 +43,7 @@ std::string samples_id(const StudySubject& subject, std::size_t variant, const s
       id.add(name, to_text(input.value));
     }
   }
-  for (const auto& v : variables) {
+  for (const auto& v : sampling.variables) {
     const auto& d = v.distribution;
     id.add("draw", v.input).add("kind", static_cast<int>(d.kind)).add("mean", d.mean).add("deviation", d.deviation);
     id.add("low", d.low).add("high", d.high);
@@ -103,9 +103,8 @@ PairedOrder paired_order(const std::vector<VariantSamples>& variants, std::size_
 
 }  // namespace
 
-MonteCarloResult run_monte_carlo(const StudySubject& subject) {
-  const auto& settings = *subject.scene().monte_carlo;
-  const auto variables = random_variables(subject.scene());
+MonteCarloResult run_monte_carlo(const StudySubject& subject, const Sampling& settings) {
+  const auto& variables = settings.variables;
   const auto& figures = subject.figures();
   const auto names = subject.variants();
   PointColumns columns{.inputs = {"sample"}, .results = quick_keys(figures)};
@@ -113,7 +112,7 @@ MonteCarloResult run_monte_carlo(const StudySubject& subject) {
   const auto& options = subject.options();
   std::deque<PointTable> tables;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto id = samples_id(subject, i, variables);
+    const auto id = samples_id(subject, i, settings);
     columns.header = {{"inputs_id", id}};
     tables.emplace_back(options.store.get(), "samples", id, columns, figures);
   }
@@ -136,7 +135,7 @@ MonteCarloResult run_monte_carlo(const StudySubject& subject) {
     progress.done();
   });
 
-  MonteCarloResult result{.samples = settings.samples, .seed = settings.seed};
+  MonteCarloResult result{.samples = settings.samples, .seed = settings.seed, .by_default = settings.by_default};
   for (const auto& variable : variables) result.inputs.push_back(variable.input);
   int failures = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -21,7 +21,7 @@ std::string place_of(const Scene& scene, const RandomVariable& variable) {
   return scene.file.string();
 }
 
-void check_random_input(const Scene& scene, const RandomVariable& variable) {
+void check_random_input(const Scene& scene, const RandomVariable& variable, const Sampling& sampling) {
   const std::string where = "[[monte_carlo.input]] " + variable.input;
   const auto target = find_input(scene, variable.input);
   const auto place = place_of(scene, variable);
@@ -32,14 +32,13 @@ void check_random_input(const Scene& scene, const RandomVariable& variable) {
   } catch (const InputError& error) {
     refuse(error.what());
   }
-  for (int sample = 0; sample < scene.monte_carlo->samples; ++sample) {
-    const double x = draw(variable, scene.monte_carlo->seed, sample);
+  for (int sample = 0; sample < sampling.samples; ++sample) {
+    const double x = draw(variable, sampling.seed, sample);
     if (!target.parameter->in_range(x))
       refuse(fmt::format("sample {} draws {}, which must be in range: {}; truncate the distribution with low and high",
                          sample + 1, to_text(x, 6), target.parameter->range_text()));
   }
-  const auto changed =
-      change_scene(scene, {{{variable.input, draw(variable, scene.monte_carlo->seed, 0)}}, where, "", place});
+  const auto changed = change_scene(scene, {{{variable.input, draw(variable, sampling.seed, 0)}}, where, "", place});
   const auto tables = tables_to_solve(scene, changed);
   if (!tables.empty())
     refuse(
@@ -53,15 +52,15 @@ void check_random_input(const Scene& scene, const RandomVariable& variable) {
 void check_studies(const Scene& scene) {
   if (!scene.dynamics) return;
   for (const auto& study_case : all_cases(scene)) (void)change_scene(scene, study_case);
-  if (!scene.monte_carlo) return;
-  const auto variables = random_variables(scene);
-  if (variables.empty())
+  const auto sampling = sampling_of(scene);
+  if (!sampling) return;
+  if (sampling->variables.empty())
     throw InputError(place_text(scene, "monte_carlo.samples") +
                      ": [monte_carlo]: nothing is uncertain: there are no errors of unknown phase and no "
                      "[[monte_carlo.input]]");
-  for (const auto& variable : variables) {
+  for (const auto& variable : sampling->variables) {
     const bool phase = variable.input.find("_phase_deg") != std::string::npos;
-    if (!phase) check_random_input(scene, variable);
+    if (!phase) check_random_input(scene, variable, *sampling);
   }
 }
 
@@ -72,7 +71,7 @@ StudyResults run_studies(const StudySubject& subject) {
   if (!scene.dynamics) return results;
   for (std::size_t i = 0; i < scene.sweeps.size(); ++i) results.sweeps.push_back(run_sweep(subject, i));
   for (std::size_t i = 0; i < scene.grids.size(); ++i) results.grids.push_back(run_grid(subject, i));
-  if (scene.monte_carlo) results.monte_carlo = run_monte_carlo(subject);
+  if (const auto sampling = sampling_of(scene)) results.monte_carlo = run_monte_carlo(subject, *sampling);
   if (scene.optimise) results.optimise = run_optimise(subject);
   if (scene.sensitivity) results.sensitivity = run_sensitivity(subject);
   return results;

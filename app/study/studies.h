@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "app/model/study_cases.h"
 #include "app/study/study_subject.h"
 
 /// [[sweep]], [[grid]], [monte_carlo], [sensitivity] and [optimise]: the dynamics of a scene again, for other inputs.
@@ -23,7 +24,7 @@ void check_studies(const Scene& scene);
 // The studies one by one.
 [[nodiscard]] SweepResult run_sweep(const StudySubject& subject, std::size_t sweep);
 [[nodiscard]] GridResult run_grid(const StudySubject& subject, std::size_t grid);
-[[nodiscard]] MonteCarloResult run_monte_carlo(const StudySubject& subject);
+[[nodiscard]] MonteCarloResult run_monte_carlo(const StudySubject& subject, const Sampling& sampling);
 [[nodiscard]] SensitivityResult run_sensitivity(const StudySubject& subject);
 [[nodiscard]] OptimiseResults run_optimise(const StudySubject& subject);
 

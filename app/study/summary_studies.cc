@@ -50,6 +50,7 @@ Json variant_studies_json(const StudyResults& studies, std::size_t variant) {
   if (studies.monte_carlo) {
     const auto& samples = studies.monte_carlo->variants.at(variant);
     Json json = {{"samples", studies.monte_carlo->samples},
+                 {"by_default", studies.monte_carlo->by_default},
                  {"failed", samples.failed},
                  {"not_steady", samples.not_steady},
                  {"seed", studies.monte_carlo->seed},

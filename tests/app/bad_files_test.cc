@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(contradictions) {
   check_refused(with("centre_distance_mm = 201", "centre_distance_mm = 20"), {"scene.toml:"});
   check_refused(with("centre_distance_mm = 201", "centre_distance_mm = 2010"), {"scene.toml:"});
   check_refused(with("profile_shift = 0.7608", "profile_shift = 1.2"), {"scene.toml:"});
-  check_refused(test::replaced(with("planets = 5", "planets = 4"), "planet_eccentricity_um = [15, 36, 17, 38, 19]", ""),
+  check_refused(test::replaced(with("planets = 5", "planets = 4"), test::quick_errors(), ""),
                 {"scene.toml:", "assembly condition"});
   check_refused(with("outside_diameter_mm = 663.6", "outside_diameter_mm = 600"),
                 {"scene.toml:27:", "ring 'held'", "outside_diameter_mm"});
@@ -188,7 +188,7 @@ BOOST_AUTO_TEST_CASE(contradictions) {
 BOOST_AUTO_TEST_CASE(tables_that_are_none) {
   const test::TemporaryFolder folder("bad_tables");
   const auto scene = folder.path() / "scene.toml", table = folder.path() / "ring.csv";
-  const auto place = scene.string() + ":45:1: mesh.ring_planet.file = \"ring.csv\": ";
+  const auto place = scene.string() + ":46:1: mesh.ring_planet.file = \"ring.csv\": ";
   const auto refused = [&](const std::string& text, const std::string& word) {
     write_file(table, text);
     check_refused(table_scene("ring.csv"), {place, word}, scene);
@@ -260,7 +260,7 @@ BOOST_AUTO_TEST_CASE(a_scene_reads_below_its_own_folder_only) {
   for (const auto* bad : {"/etc/passwd", "/dev/zero", "/dev/stdin", ""})
     check_refused(table_scene(bad), {"mesh.ring_planet.file", "relative to the scene"}, scene);
   for (const auto* bad : {"missing.csv", "deeper/missing.csv", "ring.csv/x"})
-    check_refused(table_scene(bad), {scene.string() + ":45:1: mesh.ring_planet.file", "no such file"}, scene);
+    check_refused(table_scene(bad), {scene.string() + ":46:1: mesh.ring_planet.file", "no such file"}, scene);
   for (const auto* bad : {".", "deeper", "deeper/"}) check_refused(table_scene(bad), {"is not a file"}, scene);
   const auto referring = [](const std::string& file) { return "reference = \"" + file + "\"\n" + test::quick_scene(); };
   check_refused(referring("/etc/passwd"), {scene.string() + ":1:1: reference = \"/etc/passwd\"", "relative"}, scene);

@@ -44,13 +44,15 @@ struct TableScene {
     return {mesh, phases, {0.0}, {2e4, 2e5}, entries};
   }
   [[nodiscard]] app::RunResult run(const std::filesystem::path& folder) const {
-    auto text = test::replaced(test::quick_scene(), "planet_eccentricity_um = [15, 36, 17, 38, 19]",
-                               planets == 2 ? "planet_pin_position_error_um = [20, 20]"
-                                            : "planet_pin_position_error_um = [15, 36, 17, 38, 19]");
+    auto text = test::replaced(
+        test::quick_scene(), test::quick_errors(),
+        planets == 2 ? "planet_pin_position_error_um = [20, 20]\nplanet_pin_position_error_phase_deg = [0, 0]\n"
+                     : "planet_pin_position_error_um = [15, 36, 17, 38, 19]\n"
+                       "planet_pin_position_error_phase_deg = [0, 0, 0, 0, 0]\n");
     // Motions are compared to a thousandth of L - 1, which is some thousandths itself.
     text = test::replaced(text, "mesh_cycles = 110\n", "relative_tolerance = 1e-6\n");
     text = test::replaced(text, "planets = 5", "planets = " + std::to_string(planets));
-    if (held) text = test::replaced(text, "sun_N_per_m = 1e7\n", "");
+    if (held) text = test::replaced(text, "sun_N_per_m = 1e7\n", "sun_N_per_m = \"rigid\"\n");
     text = test::replaced(text, "stiffness = \"harmonic\"\nmean_N_per_m = 1.364e9\nripple = 0.2258",
                           "stiffness = \"table\"\nfile = \"sun.csv\"");
     text = test::replaced(text, "stiffness = \"harmonic\"\nmean_N_per_m = 1.87e9\nripple = 0.1294",

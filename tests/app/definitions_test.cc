@@ -1,4 +1,4 @@
-#include "app/results/definitions.h"
+#include "app/model/definitions.h"
 
 #include <boost/algorithm/string/classification.hpp>
 #include <boost/algorithm/string/split.hpp>

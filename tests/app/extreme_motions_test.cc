@@ -60,8 +60,8 @@ Changes at(double rpm, double torque_factor = 1) {
 
 /// `planets` small ones around a large sun.
 std::string many_planets(int planets, double backlash_um = 50) {
-  std::string errors = "[10";
-  for (int n = 1; n < planets; ++n) errors += ", 0";
+  std::string errors = "[10", phases = "[0";
+  for (int n = 1; n < planets; ++n) errors += ", 0", phases += ", 0";
   return changed(quick(), {{"stage.planets", std::to_string(planets)},
                            {"stage.module_mm", "2"},
                            {"stage.pressure_angle_deg", "20"},
@@ -77,7 +77,8 @@ std::string many_planets(int planets, double backlash_um = 50) {
                            {"ring.outside_diameter_mm", "510"},
                            {"ring.tip_diameter_mm", "477"},
                            {"dynamics.half_backlash_um", fmt::format("{}", backlash_um)},
-                           {"errors.planet_eccentricity_um", errors + "]"}});
+                           {"errors.planet_eccentricity_um", errors + "]"},
+                           {"errors.planet_eccentricity_phase_deg", phases + "]"}});
 }
 
 /// Every number is finite; a null is one only where no such value exists, and then has no error.

@@ -24,14 +24,14 @@ class FaultRuns {
  public:
   explicit FaultRuns(const std::string& name) : folder_("motion_" + name), scene_(test::fault_scene(name)) {}
 
-  test::ProgramOutcome run(const std::string& out) {
+  test::ProgramOutcome command(const std::string& arguments) {
     write_file(folder_.path() / "scene.toml", scene_);
-    return test::run_program(folder_.path(), "run scene.toml -o " + out, "ANNULUS_CACHE='cache'");
+    return test::run_program(folder_.path(), arguments, "ANNULUS_CACHE='cache'");
   }
-  /// The one ring in summary.json.
-  json ring(const std::string& out) const {
-    return json::parse(read_file(folder_.path() / out / "summary.json")).at("rings").front();
-  }
+  test::ProgramOutcome run(const std::string& out) { return command("run scene.toml -o " + out); }
+  json summary(const std::string& out) const { return json::parse(read_file(folder_.path() / out / "summary.json")); }
+  /// The one ring in it.
+  json ring(const std::string& out) const { return summary(out).at("rings").front(); }
   json ring_at(const std::string& accuracy) {
     const auto begin = scene_.find("accuracy = ");
     scene_.replace(begin, scene_.find('\n', begin) - begin, "accuracy = " + accuracy);
@@ -102,10 +102,10 @@ BOOST_AUTO_TEST_CASE(back_flanks_that_carry_are_reported) {
   BOOST_TEST(outcome.status == 0, outcome.err);
   const std::string words = "back flanks carry load in the sun mesh of planet 4 (mean force -";
   BOOST_TEST((outcome.out + outcome.err).find("N), for up to 100 % of the time") != std::string::npos, outcome.err);
-  BOOST_TEST((outcome.out + outcome.err).find("warning: 'r0-pinned': " + words) != std::string::npos, outcome.err);
+  BOOST_TEST((outcome.out + outcome.err).find("warning: r0-pinned: " + words) != std::string::npos, outcome.err);
   BOOST_TEST(runs.report("out").find(words) != std::string::npos);
   const auto ring = runs.ring("out");
-  BOOST_TEST(ring.at("warnings").dump().find(words) != std::string::npos);
+  BOOST_TEST(runs.summary("out").at("warnings").dump().find(words) != std::string::npos);
   BOOST_TEST(ring.at("back_flanks").at("sun_planet").at(3).get<double>() == 1.0, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(ring.at("back_flanks").at("sun_planet").at(0).get<double>() == 0.0);
   double sum = 0;
@@ -119,18 +119,25 @@ BOOST_AUTO_TEST_CASE(back_flanks_that_carry_are_reported) {
 }
 
 // Load sharing of 4 planets was 4.00, without a word why.
-BOOST_AUTO_TEST_CASE(bearings_that_are_rigid_unasked_are_reported) {
+BOOST_AUTO_TEST_CASE(supports_that_are_not_mentioned_are_reported) {
   FaultRuns runs("rigid_by_default");
+  const auto refused = runs.run("out");
+  BOOST_TEST(refused.status == 2);
+  for (const auto* word : {"supports.sun_N_per_m: is required by [dynamics]", "shares nothing out"})
+    BOOST_TEST(refused.err.find(word) != std::string::npos, refused.err);
+  runs.add("\n[supports]\nsun_N_per_m = \"rigid\"\n");
+  const std::string words =
+      "rigid, because the scene does not mention supports.planet_N_per_m, supports.carrier_N_per_m";
   const auto outcome = runs.run("out");
   BOOST_TEST(outcome.status == 0, outcome.err);
-  const std::string words = "sun and planets are in rigid bearings, because [supports] does not mention them";
-  BOOST_TEST(outcome.err.find("warning: 'ring': " + words) != std::string::npos, outcome.err);
+  BOOST_TEST(outcome.out.find("warning: " + words) != std::string::npos, outcome.out);
   BOOST_TEST(runs.report("out").find(words) != std::string::npos);
-  BOOST_TEST(runs.ring("out").at("warnings").at(0).get<std::string>().find(words) != std::string::npos);
-  runs.add("\n[supports]\nsun_N_per_m = inf\nplanet_N_per_m = inf\n");
+  BOOST_TEST(runs.summary("out").at("warnings").dump().find(words) != std::string::npos);
+  BOOST_TEST(runs.command("check scene.toml --strict").status == 2);
+  runs.add("planet_N_per_m = \"rigid\"\ncarrier_N_per_m = 1e9\nring_N_per_m = \"rigid\"\n");
   const auto asked = runs.run("out");
   BOOST_TEST(asked.status == 0, asked.err);
-  BOOST_TEST(asked.err.find("rigid bearings") == std::string::npos, asked.err);
+  BOOST_TEST(asked.out.find("does not mention") == std::string::npos, asked.out);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(study_tables_are_checked) {
   refused(sweep("from = -1\nto = 1\ncount = 5\nscale = \"logarithmic\"\n"), {"sweep.from = -1", "0 < value"});
   refused(sweep("from = 1\nto = 2\ncount = 1\n"), {"sweep.count = 1"});
   refused("[[sweep]]\ninput = \"stage.pwer_kW\"\nvalues = [1]\n",
-          {"scene.toml:53:1: sweep.input = stage.pwer_kW: there is no", "did you mean stage.power_kW?"});
+          {"scene.toml:54:1: sweep.input = stage.pwer_kW: there is no", "did you mean stage.power_kW?"});
   refused("[monte_carlo]\nseed = 3\n", {"monte_carlo.samples", "missing"});
   const auto random = [](const std::string& keys) {
     return "[monte_carlo]\nsamples = 5\n[[monte_carlo.input]]\n" + keys;
@@ -187,13 +187,12 @@ BOOST_AUTO_TEST_CASE(every_value_of_a_study_is_checked_first) {
              "low = 0\n"))));
   refused(random("input = \"sun.teeth\"\ndistribution = \"uniform\"\nlow = 40\nhigh = 50\n"), {"whole number"});
   // No errors and no inputs: nothing is uncertain.
-  check_message(message_of([&] {
-                  app::check_studies(app::parse_scene(
-                      test::replaced(test::quick_scene(), "planet_eccentricity_um = [15, 36, 17, 38, 19]\n", "") +
-                          "[monte_carlo]\nsamples = 5\n",
-                      "s"));
-                }),
-                {"nothing is uncertain"});
+  check_message(
+      message_of([&] {
+        app::check_studies(app::parse_scene(
+            test::replaced(test::quick_scene(), test::quick_errors(), "") + "[monte_carlo]\nsamples = 5\n", "s"));
+      }),
+      {"nothing is uncertain"});
   // An input of a computed mesh changes its stiffness table.
   auto text =
       test::replaced(test::quick_scene(),
@@ -211,8 +210,9 @@ BOOST_AUTO_TEST_CASE(every_value_of_a_study_is_checked_first) {
 BOOST_AUTO_TEST_CASE(unknown_phases_are_those_of_errors_that_exist) {
   const auto names = [](const std::string& more) {
     std::vector<std::string> list;
-    for (const auto& v : app::random_variables(quick_with("[monte_carlo]\nsamples = 5\n" + more)))
-      list.push_back(v.input);
+    const auto sampling = app::sampling_of(quick_with("[monte_carlo]\nsamples = 5\n" + more));
+    BOOST_TEST_REQUIRE(sampling.has_value());
+    for (const auto& v : sampling->variables) list.push_back(v.input);
     return list;
   };
   const std::vector<std::string> planets = {
@@ -230,6 +230,21 @@ BOOST_AUTO_TEST_CASE(unknown_phases_are_those_of_errors_that_exist) {
   BOOST_TEST(more[0] == "errors.sun_eccentricity_phase_deg");
   BOOST_TEST(more[1] == "errors.sun_eccentricity_um");
   BOOST_TEST(more[6] == planets[4]);
+}
+
+// Without [monte_carlo], phases that the scene does not state, or states as assumed, are drawn a few times.
+BOOST_AUTO_TEST_CASE(unstated_phases_are_drawn_without_being_asked) {
+  const std::string key = "planet_eccentricity_phase_deg";
+  const auto unstated = test::replaced(test::quick_scene(), key + " = [0, 0, 0, 0, 0]\n", "");
+  const auto sampling_in = [](const std::string& text) {
+    return app::sampling_of(app::parse_scene(text, "scene.toml"));
+  };
+  const auto sampling = sampling_in(unstated);
+  BOOST_TEST_REQUIRE(sampling.has_value());
+  BOOST_TEST((sampling->by_default && sampling->samples == 20 && sampling->variables.size() == 5U));
+  BOOST_TEST(!sampling_in(unstated + "[monte_carlo]\nsamples = 0\n"));
+  BOOST_TEST(!sampling_in(test::quick_scene()));
+  BOOST_TEST(sampling_in(test::quick_scene() + "[assumed]\nerrors." + key + " = \"not printed\"\n").has_value());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

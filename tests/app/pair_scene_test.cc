@@ -179,8 +179,9 @@ BOOST_AUTO_TEST_CASE(closed_form_and_iso_formula_agree) {
 }
 
 BOOST_AUTO_TEST_CASE(phases_of_the_errors_are_what_is_random) {
-  const auto variables = app::random_variables(
-      parsed_pair(test::quick_pair() + "[errors]\nwheel_error_um = 5\n[monte_carlo]\nsamples = 3\n"));
+  const auto sampling =
+      app::sampling_of(parsed_pair(test::quick_pair() + "[errors]\nwheel_error_um = 5\n[monte_carlo]\nsamples = 3\n"));
+  const auto& variables = sampling->variables;
   BOOST_TEST_REQUIRE(variables.size() == 2U);
   BOOST_TEST(variables[0].input == "errors.mesh_error_phase_deg");
   BOOST_TEST(variables[1].input == "errors.wheel_error_phase_deg");

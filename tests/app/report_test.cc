@@ -9,6 +9,7 @@
 #include "app/report/plot/chart.h"
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
+#include "core/files.h"
 #include "tests/app/made_up_solution.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
@@ -213,8 +214,8 @@ BOOST_AUTO_TEST_CASE(summary_has_the_peaks_with_their_position) {
 BOOST_AUTO_TEST_CASE(whole_page) {
   const auto page = app::page_html(app::stage_report(run_of("misaligned_set")));
   check_svg(page.substr(page.find("<main>")));
-  BOOST_TEST(contains(page, "Face load factor, ring mesh K<sub>Hβ</sub>"));
-  BOOST_TEST(contains(page, "Root stress (tension) of the ring, ring mesh, MPa"));
+  BOOST_TEST(contains(page, "<a href=\"#definition-face_load_factor\">Face load factor, ring mesh</a> K<sub>Hβ</sub>"));
+  BOOST_TEST(contains(page, "Root stress (tension) of the ring, ring mesh</a>, MPa"));
   BOOST_TEST(contains(page, "href=\"#contact\""));
 }
 

@@ -44,6 +44,7 @@ mass_kg = 31.25
 inertia_kg_m2 = 2.9606
 [errors]
 planet_eccentricity_um = [15, 36, 17, 38, 19]
+planet_eccentricity_phase_deg = [0, 0, 0, 0, 0]
 [supports]
 sun_N_per_m = 1e7
 planet_N_per_m = 1e9
@@ -61,6 +62,11 @@ mesh_damping_ratio = 0.07
 support_damping_ratio = 0.03
 mesh_cycles = 110
 )";
+}
+
+/// The errors of the quick scene.
+inline std::string quick_errors() {
+  return "planet_eccentricity_um = [15, 36, 17, 38, 19]\nplanet_eccentricity_phase_deg = [0, 0, 0, 0, 0]\n";
 }
 
 /// Four planets between a sun of 24 and a ring of 72 teeth of module 4 mm, 200 kW at 1500 r/min; meshes are computed.

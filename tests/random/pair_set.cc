@@ -39,6 +39,9 @@ GearSet helical_pair_set(Draw& draw, Section section) {
   }
   mesh_keys(set, "pinion_wheel", section);
   set.chances["errors"] = 0.8;
+  // Phases that are stated: no samples are drawn of them.
+  for (const auto* error : {"mesh", "pinion", "wheel"})
+    set.chances[std::string("errors.") + error + "_error_phase_deg"] = 1;
   set.chances["mesh.pinion_wheel"] = 0.4;
   return set;
 }

@@ -56,6 +56,12 @@ void ring_values(Draw& draw, const Rack& rack, double root_mm, Section section, 
     draft.set("ring.rim_thickness_mm", rim);
   else
     draft.set("ring.outside_diameter_mm", rounded(outside, 6));
+  set.chances["supports"] = 1;
+  // Phases that are stated: no samples are drawn of them.
+  for (const auto* body :
+       {"planet_eccentricity", "planet_pin_position_error", "sun_eccentricity", "sun_position_error",
+        "ring_eccentricity", "ring_position_error", "carrier_eccentricity", "carrier_position_error"})
+    set.chances[std::string("errors.") + body + "_phase_deg"] = 1;
   set.chances["ring.rim_thickness_mm"] = set.chances["ring.outside_diameter_mm"] = 0;
   v["ring.root_fillet_factor"] = rounded(draw.uniform(0.2, 0.45), 3);
   v["ring.flange_width_mm"] = rounded(rack.face_width_mm * draw.uniform(0.15, 0.5));
@@ -168,7 +174,7 @@ GearSet planetary_set(Draw& draw, Section section) {
   for (const auto* body : {"sun", "planet", "ring"}) flank_keys(set, body, section);
   for (const auto* mesh : {"sun_planet", "ring_planet"}) mesh_keys(set, mesh, section);
   set.chances["carrier"] = 1;
-  set.chances["errors"] = set.chances["supports"] = 0.8;
+  set.chances["errors"] = 0.8;
   set.chances["mesh.sun_planet"] = set.chances["mesh.ring_planet"] = 0.15;
   const auto coupling = draw.one_of<std::string>({"automatic", "none", "static", "elastic"});
   v["dynamics.rim_coupling"] = coupling;

@@ -94,27 +94,40 @@ Chart::Chart(const BarChart& bars)
   bool negative = bars.two_sided, positive = bars.two_sided, notes = false;
   Panel panel;
   for (const auto& bar : bars.bars) {
-    if (!(bars.reach > 0)) reach = std::max(reach, std::abs(bar.value) + largest_known(bar.error));
+    const double known_error = largest_known(bar.error);
+    const Range ends = bar.spread.value_or(Range{bar.value - known_error, bar.value + known_error});
+    const double nominal = bar.nominal.value_or(bar.value);
+    if (!(bars.reach > 0)) reach = std::max({reach, std::abs(ends.low), std::abs(ends.high), std::abs(nominal)});
     negative = negative || bar.value < 0;
     positive = positive || bar.value > 0;
     notes = notes || !bar.note.empty();
-    const double middle = static_cast<double>(panel.y.names.size()) + 0.5, error = largest_known(bar.error);
+    const double middle = static_cast<double>(panel.y.names.size()) + 0.5;
     panel.y.names.push_back(bar.label);
     panel.marks.push_back(rectangle(palette(bar.colour), 0, bar.value, middle - 0.36, middle + 0.36));
-    if (error > 0) {
-      auto line = whisker(known_colour, middle, bar.value - error, bar.value + error, 0.2);
+    if (ends.high > ends.low) {
+      auto line = whisker(known_colour, middle, ends.low, ends.high, 0.2);
       std::swap(line.x, line.y);
       panel.marks.push_back(line);
     }
+    if (bar.nominal)
+      panel.marks.push_back({.kind = Kind::diamonds,
+                             .label = bar.label + ", nominal inputs",
+                             .colour = known_colour,
+                             .x = {*bar.nominal},
+                             .y = {middle},
+                             .size = 9,
+                             .error = known_error});
     panel.marks.push_back({.kind = Kind::dots,
                            .label = bar.label,
                            .colour = palette(bar.colour),
                            .x = {bar.value},
                            .y = {middle},
                            .size = 0,
-                           .error = error});
+                           .error = bar.spread ? 0 : known_error});
     const double side = bar.value < 0 ? -1 : 1;
-    if (!bar.note.empty()) panel.words.push_back({bar.value + side * error, middle, bar.note, "#333", 4 * side, -4});
+    if (!bar.note.empty())
+      panel.words.push_back({side > 0 ? std::max(ends.high, nominal) : std::min(ends.low, nominal), middle, bar.note,
+                             "#333", 4 * side, -4});
   }
   const auto rows = static_cast<double>(bars.bars.size());
   height = (title.empty() ? 10 : 26) + bars.row_height * rows + below;

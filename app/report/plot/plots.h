@@ -45,9 +45,11 @@ struct BarChart {
   struct Bar {
     std::string label;
     double value = 0;
-    std::size_t colour = 0;  ///< index into the palette
-    std::string note{};      ///< behind the bar; empty: none
-    double error = 0;        ///< drawn as a whisker to either side, when it is above zero and known
+    std::size_t colour = 0;           ///< index into the palette
+    std::string note{};               ///< behind the bar; empty: none
+    double error = 0;                 ///< drawn as a whisker to either side, when it is above zero and known
+    std::optional<Range> spread{};    ///< drawn as a whisker in its place
+    std::optional<double> nominal{};  ///< drawn as a diamond
   };
   std::string title{}, x_label{};
   std::vector<Bar> bars{};

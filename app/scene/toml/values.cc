@@ -63,6 +63,12 @@ std::string read_value(const Parameter& p, const toml::node& node, Value& value)
     const auto wrong = p.kind == Kind::choice ? "" : text_rule(text);
     return wrong.empty() ? choice_rule(p, text) : wrong;
   };
+  if (const auto* text = node.as_string(); text && !p.words.empty()) {
+    const auto word = std::find_if(p.words.begin(), p.words.end(), [&](const auto& w) { return w.first == **text; });
+    if (word == p.words.end()) return "must be " + expected_text(p);
+    value = word->second;
+    return "";
+  }
   if (p.kind != Kind::reals && p.kind != Kind::texts) {
     if (!right_type(node)) return "must be " + expected_text(p);
     if (p.kind == Kind::integer)

@@ -61,7 +61,6 @@ std::vector<std::string> pair_remarks(const Scene& scene, const PairGeometry& ge
       "Stiffness, error and backlash of the lumped model act along the normal of the flanks; a stiffness table holds "
       "the transverse section and is turned by cos² of the base helix angle.");
   if (scene.dynamics) {
-    remark_backlash(list, scene.pinion_wheel.half_backlash.value_or(scene.dynamics->half_backlash), geometry.gears);
     if (!scene.pinion.inertia || !scene.wheel.inertia)
       list.emplace_back("Inertias that are not given are those of solid discs of the given mass.");
     // A gear heavier than its disc has a shaft, a lighter one a web: either makes the disc's inertia a guess.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/model/mesh_figures.h"
+#include "app/model/scene_warnings.h"
 #include "app/plan/plan.h"
 #include "app/results/content_id.h"
 #include "app/systems/helical_pair/pair_lumped_model.h"
@@ -66,6 +67,16 @@ class PairSystem final : public GearSystem {
   [[nodiscard]] std::unique_ptr<RunResponse> respond(const SystemRun& run, std::size_t /*variant*/,
                                                      const RunOptions& options) const override {
     return pair_response(scene(), run.tables.front(), options);
+  }
+
+  [[nodiscard]] std::vector<Warning> scene_warnings() const override {
+    const auto geometry = make_pair_geometry(scene());
+    std::vector<Warning> list;
+    warn_of_clearance(list, geometry.gears, "");
+    if (scene().dynamics)
+      warn_of_backlash(list, scene().pinion_wheel.half_backlash.value_or(scene().dynamics->half_backlash),
+                       geometry.gears, "");
+    return list;
   }
 
   [[nodiscard]] Json summary(const SystemRun& run) const override { return pair_summary(PairRunResult(run)); }

@@ -194,8 +194,9 @@ std::vector<RingQuantity> ring_quantities(const RunResult& result) {
     const auto* spec = find_figure(specs, key);
     RingQuantity quantity{spec->quantity, spec->title, {}, spec->digits};
     for (const auto& variant : variants) {
-      const auto figure = variant.figures.figure(key);
-      if (std::isfinite(figure.value)) quantity.rings.push_back({variant.name, figure.value, figure.error});
+      const auto* entry = variant.figures.find(key);
+      if (entry && std::isfinite(entry->figure.value))
+        quantity.rings.push_back({variant.name, entry->figure.value, entry->figure.error, entry->spread});
     }
     if (!quantity.rings.empty()) list.push_back(std::move(quantity));
   }

@@ -101,9 +101,7 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
   if (computed) {
     list.push_back(
         fmt::format("Only the driving flanks are solved. The backlash that follows from profile shifts and centre "
-                    "distance is {} µm in the sun mesh "
-                    "and {} µm in the ring mesh; where it is smaller than the deflection, the back flanks would touch "
-                    "as well, which is left out.",
+                    "distance is {} µm in the sun mesh and {} µm in the ring mesh.",
                     to_text(geometry.sun_mesh().normal_backlash() / units::um, 2),
                     to_text(ring_mesh.normal_backlash() / units::um, 2)));
     list.emplace_back("Friction is left out; the contact is hard and the sliding small.");
@@ -114,9 +112,6 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
                             "misalignments enter the contact solve."
                           : "The planet errors of the scene enter the dynamics; the contact solve itself is free of "
                             "errors.");
-    if (scene.fidelity == Fidelity::closed_form)
-      list.emplace_back(
-          "The error of the closed-form stiffness is not controlled: the wanted accuracy is not checked.");
     for (const auto& ring : scene.rings) add_single_pin(list, ring);
   }
   if (!scene.dynamics) {
@@ -127,7 +122,6 @@ std::vector<std::string> remarks(const Scene& scene, const GearGeometry& geometr
     list.emplace_back(
         "The lumped model is plane: it has the transverse forces of helical teeth, their axial forces and tilting "
         "moments are left out.");
-  remark_backlash(list, scene.dynamics->half_backlash, ring_mesh, " in the ring mesh");
   return list;
 }
 

@@ -7,7 +7,6 @@
 #include "app/scene/input_place.h"
 #include "app/systems/planetary/rim_coupling.h"
 #include "app/systems/planetary/stage_members.h"
-#include "app/systems/planetary/stage_warnings.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/errors.h"
 #include "core/log.h"
@@ -114,7 +113,6 @@ std::unique_ptr<RingResponse> ring_response(const Scene& scene, const GearGeomet
   response.time_series.clear();
   response.reused = reused;
   log::info(fmt::format("dynamics of '{}': {}", name, reused ? "unchanged, reused" : course_of(response.figures)));
-  for (const auto& warning : stage_warnings(scene, response.figures)) log::warn(fmt::format("'{}': {}", name, warning));
   auto result = std::make_unique<RingResponse>();
   result->figures = response_figures(response);
   result->reused = reused;

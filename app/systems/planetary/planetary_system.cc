@@ -9,6 +9,7 @@
 #include "app/systems/planetary/planetary_run.h"
 #include "app/systems/planetary/planetary_scene.h"
 #include "app/systems/planetary/rim_coupling.h"
+#include "app/systems/planetary/stage_warnings.h"
 #include "app/systems/shared/mesh_names.h"
 #include "dynamics/systems/planetary/planetary_figures.h"
 #include "example_scenes.h"
@@ -64,6 +65,14 @@ class PlanetarySystem final : public GearSystem {
   [[nodiscard]] std::unique_ptr<RunResponse> respond(const SystemRun& run, std::size_t ring,
                                                      const RunOptions& options) const override {
     return ring_response(scene(), geometry(), ring, run.tables.front(), run.tables.at(ring + 1), options);
+  }
+
+  [[nodiscard]] std::vector<Warning> scene_warnings() const override {
+    return stage_scene_warnings(scene(), geometry());
+  }
+  [[nodiscard]] std::vector<Warning> response_warnings(const SystemRun& run, std::size_t ring) const override {
+    const auto& response = static_cast<const RingResponse&>(*run.responses.at(ring));
+    return stage_warnings(response.stage.figures, scene().rings.at(ring).name);
   }
 
   [[nodiscard]] Json summary(const SystemRun& run) const override { return stage_summary(RunResult(run)); }

@@ -113,9 +113,18 @@ Table supports_table() {
     return supports.key(name, member, meaning).fallback(value, why).from(0, 1e15);
   };
   const auto bearing = [&](const char* name, double SupportInput::*member, const char* meaning) {
-    return support(name, member, rigid, "rigid: the degree of freedom is dropped", meaning).infinite();
+    return support(name, member, rigid, "rigid: the degree of freedom is dropped", meaning)
+        .infinite()
+        .word("rigid", rigid);
   };
-  bearing("sun_N_per_m", &SupportInput::sun, "Support of the sun's axis, any direction.");
+  supports.key("sun_N_per_m", &SupportInput::sun, "Support of the sun's axis, any direction; floating: none.")
+      .from(0, 1e15)
+      .infinite()
+      .word("rigid", rigid)
+      .word("floating", 0)
+      .absent("no lumped model, or a single planet: rigid")
+      .required_if(given("[dynamics]") && !is("stage.planets", {"1"}),
+                   "nothing changes load sharing more; a rigid sun shares nothing out");
   bearing("ring_N_per_m", &SupportInput::ring, "Support of the ring's axis, any direction.");
   bearing("carrier_N_per_m", &SupportInput::carrier, "Support of the carrier's axis, any direction.");
   bearing("planet_N_per_m", &SupportInput::planet, "Bearing of each planet on the carrier, radial and tangential.")

@@ -1,9 +1,12 @@
 #include "app/systems/planetary/stage_warnings.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
+
+#include "app/model/scene_warnings.h"
 
 namespace annulus::app {
 
@@ -32,24 +35,41 @@ bool by_default(const Scene& scene, const std::string& key) {
                      [&](const Input& input) { return input.key == key && input.origin == Origin::default_value; });
 }
 
-/// A floating sun or soft planet bearings even out what planets carry; a scene that mentions neither hardly means to
-/// have none of it.
-bool rigid_unasked(const Scene& scene) {
-  return scene.stage.planets > 1 && by_default(scene, "supports.sun_N_per_m") &&
-         by_default(scene, "supports.planet_N_per_m");
+/// Supports that the scene does not mention; those of the sun it must.
+std::vector<std::string> rigid_unasked(const Scene& scene) {
+  std::vector<std::string> keys;
+  for (const auto* key : {"supports.planet_N_per_m", "supports.carrier_N_per_m", "supports.ring_N_per_m"})
+    if (by_default(scene, key)) keys.emplace_back(key);
+  return keys;
 }
 
 }  // namespace
 
-std::vector<std::string> stage_warnings(const Scene& scene, const dynamics::DynamicResponse& response) {
-  std::vector<std::string> list;
-  if (rigid_unasked(scene))
-    list.emplace_back(
-        "sun and planets are in rigid bearings, because [supports] does not mention them: nothing but the meshes evens "
-        "out what the planets carry. Load sharing, dynamic and peak factors are those of such a stage; give "
-        "supports.sun_N_per_m (0: floating) and supports.planet_N_per_m");
+std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry& geometry) {
+  std::vector<Warning> list;
+  if (scene.dynamics && scene.stage.planets > 1)
+    if (const auto keys = rigid_unasked(scene); !keys.empty())
+      list.push_back({"supports_left_out", Severity::warning,
+                      fmt::format("rigid, because the scene does not mention {}. Soft planet bearings, carriers and "
+                                  "rings even out what the planets carry; give a stiffness, or \"rigid\"",
+                                  fmt::join(keys, ", "))});
+  warn_of_clearance(list, geometry.sun_mesh(), "sun mesh");
+  for (const auto& ring : geometry.rings)
+    warn_of_clearance(list, ring.set.ring_mesh(), "ring mesh of '" + ring.name + "'");
+  if (scene.dynamics) {
+    warn_of_backlash(list, scene.sun_planet.half_backlash.value_or(scene.dynamics->half_backlash), geometry.sun_mesh(),
+                     "sun mesh");
+    warn_of_backlash(list, scene.ring_planet.half_backlash.value_or(scene.dynamics->half_backlash),
+                     geometry.rings.front().set.ring_mesh(), "ring mesh");
+  }
+  return list;
+}
+
+std::vector<Warning> stage_warnings(const dynamics::DynamicResponse& response, const std::string& ring) {
+  std::vector<Warning> list;
   for (const auto& [mesh, kind] : {std::pair{"sun mesh", &response.sun_planet}, {"ring mesh", &response.ring_planet}})
-    if (auto warning = back_flanks(mesh, kind->branches); !warning.empty()) list.push_back(std::move(warning));
+    if (auto warning = back_flanks(mesh, kind->branches); !warning.empty())
+      list.push_back({"back_flanks", Severity::warning, std::move(warning), ring});
   return list;
 }
 

@@ -1,15 +1,18 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "app/plan/warning.h"
 #include "app/scene/scene.h"
+#include "app/systems/planetary/planetary_scene.h"
 #include "dynamics/systems/planetary/response.h"
 
 namespace annulus::app {
 
-/// Sentences without which the results of a response are not to be trusted: bearings that are rigid because the scene
-/// says nothing of them, and meshes whose back flanks carry load at times.
-[[nodiscard]] std::vector<std::string> stage_warnings(const Scene& scene, const dynamics::DynamicResponse& response);
+/// Bearings that are rigid because the scene says nothing of them, little clearance at tips, prescribed backlash that
+/// the geometry does not leave.
+[[nodiscard]] std::vector<Warning> stage_scene_warnings(const Scene& scene, const GearGeometry& geometry);
+/// Meshes whose back flanks carry load at times. `ring`: name of the variant.
+[[nodiscard]] std::vector<Warning> stage_warnings(const dynamics::DynamicResponse& response, const std::string& ring);
 
 }  // namespace annulus::app

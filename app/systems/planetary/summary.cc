@@ -7,7 +7,6 @@
 
 #include "app/sections/report_parts.h"
 #include "app/study/summary_studies.h"
-#include "app/systems/planetary/stage_warnings.h"
 #include "app/systems/shared/mesh_names.h"
 #include "core/json.h"
 
@@ -109,7 +108,6 @@ Json ring_json(const Scene& scene, const RingResult& ring, const MeshResult& sun
                                               {"error", json_number(mode.frequency_error)},
                                               {"error_parts", to_json(mode.error_parts)},
                                               {"kind", mode.kind}});
-  json["warnings"] = stage_warnings(scene, f);
   const auto& m = ring.response->motion;
   json["bearing_forces"] = {{"planet_max_N", m.pin_force_max},
                             {"planet_mean_tangential_N", m.pin_force_mean_tangential},

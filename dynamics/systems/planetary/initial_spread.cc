@@ -94,9 +94,9 @@ InitialSpread initial_spread(const PlanetaryStage& stage, const InitialSpreadOpt
       ++spread.unsteady;
     }
     if (i == 0) spread.low = spread.high = start.figures;
-    for (const auto& [key, figure, parts] : start.figures.entries()) {
-      spread.low.set(key, std::min(spread.low.value(key), figure.value));
-      spread.high.set(key, std::max(spread.high.value(key), figure.value));
+    for (const auto& entry : start.figures.entries()) {
+      spread.low.set(entry.key, std::min(spread.low.value(entry.key), entry.figure.value));
+      spread.high.set(entry.key, std::max(spread.high.value(entry.key), entry.figure.value));
     }
     spread.starts.push_back(std::move(start));
   }

@@ -5,7 +5,6 @@
 
 #include "app/systems/planetary/comparison.h"
 #include "app/systems/planetary/report/stage_report_parts.h"
-#include "app/systems/planetary/stage_warnings.h"
 
 namespace annulus::app {
 
@@ -37,20 +36,8 @@ Blocks stage_verdict(const RunResult& result) {
                count(Verdict::Outcome::agrees), count(Verdict::Outcome::disagrees), count(Verdict::Outcome::undecided),
                link("details", "comparison")));
   }
-  std::vector<Text> unsteady;
   std::vector<std::string> names;
-  for (const auto& ring : result.rings) {
-    names.push_back(ring.name);
-    if (ring.response && !ring.response->figures.steady) unsteady.push_back(bold(ring.name));
-  }
-  if (!unsteady.empty())
-    blocks += paragraph(
-        phrase("No periodic steady state was reached with {}; the results hold for the evaluated window only.",
-               enumerated(unsteady)));
-  for (const auto& ring : result.rings)
-    if (ring.response)
-      for (const auto& warning : stage_warnings(result.scene, ring.response->figures))
-        blocks += paragraph(phrase("{}: {}.", bold(ring.name), warning));
+  for (const auto& ring : result.rings) names.push_back(ring.name);
   return verdict_box(blocks) + answer_picture(quantities, names);
 }
 

@@ -9,34 +9,11 @@ namespace annulus::app {
 
 namespace {
 
-/// Forces that the tables do not reach.
-List loads_beyond(const RunResult& result) {
-  List list;
-  const auto add = [&](const std::string& where, const MeshResult& mesh, const dynamics::DynamicResponse& f,
-                       const dynamics::MeshKindResult& kind) {
-    double factor = 0;
-    for (const auto& branch : kind.branches) factor = std::max(factor, branch.peak_factor.value);
-    const double largest = factor * f.mean_mesh_force, tabulated = mesh.table.loads().back();
-    if (mesh.table.loads().size() > 1 && largest > tabulated)
-      list.items.emplace_back(fmt::format(
-          "{}: forces up to {:.4g} kN lie beyond the tabulated {:.4g} kN, where the law continues with its tangent.",
-          where, largest / 1e3, tabulated / 1e3));
-  };
-  for (const auto& ring : result.rings) {
-    if (!ring.response) continue;
-    const auto& f = ring.response->figures;
-    add(ring.name + ", sun meshes", result.sun_mesh, f, f.sun_planet);
-    add(ring.name + ", ring meshes", ring.mesh, f, f.ring_planet);
-  }
-  return list;
-}
-
 Blocks response_checks(const RunResult& result) {
   std::vector<NamedOutcome> outcomes;
   for (const auto& [name, response] : responses_of(result))
     outcomes.push_back({name, &response->figures, response->figures.force_balance_relative});
-  const auto beyond = loads_beyond(result);
-  return beyond.items.empty() ? solution_checks(outcomes) : solution_checks(outcomes) + beyond;
+  return solution_checks(outcomes);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "app/results/definitions.h"
+#include "app/model/definitions.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,98 @@
+#include "app/model/scene_warnings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "app/model/study_cases.h"
+#include "core/units.h"
+
+namespace annulus::app {
+
+namespace {
+
+void warn_of_assumptions(std::vector<Warning>& list, const Plan& plan) {
+  std::vector<std::string> keys;
+  for (const auto& input : plan.inputs)
+    if (!input.assumed.empty() && std::find(keys.begin(), keys.end(), input.key) == keys.end())
+      keys.push_back(input.key);
+  if (keys.empty()) return;
+  list.push_back({"assumed_inputs", Severity::note,
+                  fmt::format("{} inputs are assumed, for the reasons that [assumed] gives: {}. The results depend on "
+                              "them; [sensitivity] shows how much",
+                              keys.size(), fmt::join(keys, ", "))});
+}
+
+void warn_of_phases(std::vector<Warning>& list, const Scene& scene) {
+  const auto phases = unstated_phases(scene);
+  if (phases.empty()) return;
+  const auto sampling = sampling_of(scene);
+  std::set<std::string> keys;
+  for (const auto& phase : phases) keys.insert(phase.substr(0, phase.find('[')));
+  const auto what = fmt::format("the phases of {} errors are not stated ({})", phases.size(), fmt::join(keys, ", "));
+  if (!sampling)
+    list.push_back({"unstated_phases", Severity::warning,
+                    what + ". The results are those of one arbitrary choice; state the phases, or draw samples"});
+  else if (sampling->by_default)
+    list.push_back(
+        {"unstated_phases", Severity::note,
+         what + fmt::format(": {} samples of them are drawn, and their spread is the answer. State the phases "
+                            "if they are known",
+                            sampling->samples)});
+}
+
+void warn_of_accuracy(std::vector<Warning>& list, const Scene& scene, const Plan& plan) {
+  if (scene.fidelity == Fidelity::closed_form)
+    list.push_back({"accuracy_not_controlled", Severity::warning,
+                    "the error of the closed-form stiffness is not controlled, and the wanted accuracy is not checked; "
+                    "model = \"plane\" controls it"});
+  for (const auto& step : plan.cost.steps)
+    if (step.kind == CostKind::mesh && std::isfinite(step.expected_error) && step.expected_error > scene.accuracy)
+      list.push_back(
+          {"accuracy_not_expected", Severity::warning,
+           fmt::format("an error of {:.2g} % is expected, more than the wanted {:g} %; the run may be refused "
+                       "at its end",
+                       100 * step.expected_error, 100 * scene.accuracy),
+           step.label});
+}
+
+}  // namespace
+
+std::vector<Warning> common_warnings(const Scene& scene, const Plan& plan) {
+  std::vector<Warning> list;
+  warn_of_accuracy(list, scene, plan);
+  if (scene.dynamics) warn_of_phases(list, scene);
+  warn_of_assumptions(list, plan);
+  return list;
+}
+
+void warn_of_clearance(std::vector<Warning>& list, const geometry::GearPair& pair, const std::string& mesh) {
+  constexpr double least = 0.1;  // modules
+  const double module = pair.pinion().parameters().module;
+  const auto clearance = pair.tip_clearance();
+  for (const auto& [gear, gap] : {std::pair{"pinion (planet)", clearance.pinion_tip}, {"wheel", clearance.wheel_tip}})
+    if (gap < least * module)
+      list.push_back(
+          {"tip_clearance", Severity::warning,
+           fmt::format("the tip of the {} passes the root of its mate at {:.3g} mm, {:.2g} modules; less than "
+                       "{:g} module leaves no room for lubricant, deflection and tolerances",
+                       gear, gap / units::mm, gap / module, least),
+           mesh});
+}
+
+void warn_of_backlash(std::vector<Warning>& list, double half_backlash, const geometry::GearPair& pair,
+                      const std::string& mesh) {
+  const double half = pair.normal_backlash() / 2;
+  if (half_backlash <= half + 1 * units::um) return;
+  list.push_back(
+      {"backlash_beyond_geometry", Severity::warning,
+       fmt::format("the dynamics uses the prescribed half backlash of {} µm; profile shifts and centre "
+                   "distance leave {} µm. Loss of contact and back flanks depend on it",
+                   to_text(half_backlash / units::um, 4), to_text(std::round(1e3 * half / units::um) / 1e3, 3)),
+       mesh});
+}
+
+}  // namespace annulus::app

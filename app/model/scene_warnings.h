@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/plan/plan.h"
+#include "app/plan/warning.h"
+#include "app/scene/scene.h"
+
+/// What a scene says of itself before anything is computed, the same for every kind of gear system.
+namespace annulus::app {
+
+/// Assumed inputs, phases of errors that nobody stated, and accuracies that are not expected to be reached. `plan`: its
+/// inputs, meshes and cost.
+[[nodiscard]] std::vector<Warning> common_warnings(const Scene& scene, const Plan& plan);
+
+/// A tip that passes the root of its mate nearer than a tenth of a module.
+void warn_of_clearance(std::vector<Warning>& list, const geometry::GearPair& pair, const std::string& mesh);
+/// A half backlash of the dynamics (m) that is larger than half of what the geometry leaves.
+void warn_of_backlash(std::vector<Warning>& list, double half_backlash, const geometry::GearPair& pair,
+                      const std::string& mesh);
+
+}  // namespace annulus::app
